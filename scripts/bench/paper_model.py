@@ -16,12 +16,12 @@ from typing import Any
 import numpy as np
 import torch
 
+from haptoflow_benchmark.codec.representation import CodecRepresentation
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.model_file import ModelFile, write_model_file
 from haptoflow_training.export.onnx_graphs import export_level_model, export_network
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE
 from haptoflow_training.models.haptoflow_model import HaptoFlowModel
-from haptoflow_training.models.representation import CodecRepresentation
 from haptoflow_training.models.velocity_field import parameter_count
 from haptoflow_training.training.config import TrainingConfig, load_config
 from haptoflow_training.training.trainer import build_model

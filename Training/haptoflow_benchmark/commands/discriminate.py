@@ -27,11 +27,11 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
         "discriminate",
         help=summary,
         description=(
-            "Trains a simple classifier (third-octave spectrum and level, judged at the stroke's speed and force) on "
-            "synthetic hand recordings, renders strokes that no training saw through the engine's command line, and "
-            "counts how often the classifier names the label. Recordings of the same strokes are judged beside them: "
-            "no render can be told apart better than those. With --recordings, the classifier learns from what the model "
-            "may have seen of these, and the parts that it did not see are rendered and named."
+            "Trains a simple classifier (third-octave spectrum and level, given the stroke's speed and force) on synthetic "
+            "hand recordings, renders held-out strokes with the engine's command line, and counts how often the "
+            "classifier recognises the label. Recordings of the same strokes are classified too, as an upper bound. "
+            "With --recordings, the classifier is trained on the training part of these recordings, and the held-out "
+            "parts are rendered and classified."
         ),
         epilog="example:\n  haptoflow-benchmark discriminate --engine build/native/haptoflow"
         " --out Training/results/default\n"
@@ -42,10 +42,10 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
         "--engine", type=Path, default=ENGINE, help="the built command line (default: build/native/haptoflow)"
     )
     add_options(parser)
-    parser.add_argument("--model", type=Path, default=_ROOT / SHIPPED_MODEL, help="default: the one shipped")
-    parser.add_argument("--recordings-per-label", type=int, default=16, help="of the classifier (default: 16)")
-    parser.add_argument("--strokes-per-label", type=int, default=4, help="rendered and named (default: 4)")
-    parser.add_argument("--seed", type=int, default=1001, help="of all recordings; the training used others")
+    parser.add_argument("--model", type=Path, default=_ROOT / SHIPPED_MODEL, help="the .haptoflow file (default: the shipped one)")
+    parser.add_argument("--recordings-per-label", type=int, default=16, help="training recordings of the classifier (default: 16)")
+    parser.add_argument("--strokes-per-label", type=int, default=4, help="rendered and classified (default: 4)")
+    parser.add_argument("--seed", type=int, default=1001, help="seed of all recordings; the model's training used others")
     parser.add_argument("--workers", type=int, default=2, help="processes that record (default: 2)")
     parser.add_argument("--out", type=Path, required=True, help="folder of the report (JSON, Markdown, picture)")
     parser.set_defaults(run=run)

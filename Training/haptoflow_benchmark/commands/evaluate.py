@@ -44,17 +44,17 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
         "evaluate",
         help=summary,
         description=(
-            "Measures every row of the plan on recordings that nobody trained on: accuracy in open and closed loop, "
-            "milliseconds per segment through the engine. Trains the models that rows need (about eight minutes of one "
-            "core each), keeps what is measured beside the results, and goes on where it was stopped. A row whose figures "
-            "are kept is measured again only when its configuration or its model has changed. Every timing run is added "
-            "to timing-history.json; the first complete one of the shipped model is the one that is published.\n\n"
-            "With --recordings, one model beside recordings of your own instead: the parts that no training saw are rendered "
-            "by the engine, and level, GFC and LSD of each label are printed; --out writes them down with a picture."
+            "Measures every row of the plan on held-out recordings: accuracy in open and closed loop, and milliseconds for "
+            "a segment in the engine. Trains the models that rows need (about eight minutes of one core each), stores "
+            "measured rows, and resumes after an interruption. A stored row is measured again only if its configuration "
+            "or its model has changed. Every timing run is added to timing-history.json; the first complete one of the "
+            "shipped model is published.\n\n"
+            "With --recordings, compares one model with recordings of your own instead: the held-out parts are rendered "
+            "by the engine, and level, GFC and LSD of each label are printed; --out also writes them, with a picture."
         ),
         epilog=(
             "examples:\n"
-            "  haptoflow-benchmark evaluate --quick        what is there, on a quarter of the recordings\n"
+            "  haptoflow-benchmark evaluate --quick        trained models only, on a quarter of the recordings\n"
             "  haptoflow-benchmark evaluate --rows plain-euler-1 standard\n"
             "  haptoflow-benchmark evaluate --model own.haptoflow --recordings recordings --out out/own/accuracy\n"
         ),
@@ -64,7 +64,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
     parser.add_argument("--rows", nargs="+", metavar="NAME", help="only these rows (default: all)")
     parser.add_argument("--quick", action="store_true", help="only rows marked quick; nothing is trained or published")
     parser.add_argument("--no-train", action="store_true", help="leave out rows whose models are not trained yet")
-    parser.add_argument("--work", type=Path, default=_ROOT / "out" / "evaluate", help="trainings and models")
+    parser.add_argument("--work", type=Path, default=_ROOT / "out" / "evaluate", help="folder for trainings and models")
     parser.add_argument(
         "--store", type=Path, default=_ROOT / "out" / "train" / "default" / "store", help="prepared recordings"
     )
@@ -73,13 +73,15 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
         "--recordings, for own-accuracy.json, .md and .png (default: printed only)",
     )  # fmt: skip
     parser.add_argument(
-        "--model", type=Path, metavar="FILE", help="with --recordings: the model file (default: the one shipped)"
+        "--model", type=Path, metavar="FILE", help="with --recordings: the model file (default: the shipped one)"
     )
     parser.add_argument("--engine", type=Path, default=ENGINE, help="with --recordings: the built command line")
     add_options(parser)
     parser.add_argument("--document", type=Path, default=_ROOT / "Documentation~" / "accuracy-and-time.md")
     parser.add_argument("--lanes", type=int, default=os.cpu_count() or 1, help="trainings at a time (default: cores)")
-    parser.add_argument("--workers", type=int, default=os.cpu_count() or 1, help="processes that record and measure (default: cores)")
+    parser.add_argument(
+        "--workers", type=int, default=os.cpu_count() or 1, help="processes that record and measure (default: cores)"
+    )
     parser.set_defaults(run=run)
 
 

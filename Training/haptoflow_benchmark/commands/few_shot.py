@@ -27,17 +27,17 @@ from haptoflow_benchmark.few_shot.few_shot_study import (
     cells_of,
 )
 from haptoflow_training.export.model_file import read_model_file
-from haptoflow_training.export.whole_file import check_writable, write_whole
 from haptoflow_training.model_stamp import read_measured_page, sha256_of, with_measured_words
 from haptoflow_training.models.file_model import FileModel
+from haptoflow_training.whole_file import check_writable, write_whole
 
 _EXAMPLES = """examples:
   haptoflow-benchmark few-shot --model default.haptoflow --results few-shot.json --chart few-shot.png
   haptoflow-benchmark few-shot --model default.haptoflow --engine build/native/haptoflow --results few-shot.json
   haptoflow-benchmark few-shot --model mine.haptoflow --materials 4 --results mine.json
 
-A study that is stopped goes on where it was when it is started again with the same --work folder. About four minutes
-of one core a material.
+An interrupted study is resumed when it is started again with the same --work folder. It takes about four minutes of one
+core for each material.
 """
 
 
@@ -45,20 +45,20 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
     parser = subparsers.add_parser(
         "few-shot",
         help=summary,
-        description="Fit materials that the model never saw from 3, 10, 30 and 120 s, beside autoregressive models, "
-        "the nearest label and the network moved too, and write figures with intervals.",
+        description="Fit materials unknown to the model to 3, 10, 30 and 120 s of recording, beside autoregressive models, "
+        "the nearest label and a fit of the whole network, and write figures with intervals.",
         epilog=_EXAMPLES,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("--model", required=True, type=Path, help=".haptoflow file trained on the recorder's labels")
     parser.add_argument("--results", required=True, type=Path, help="JSON file to write")
     parser.add_argument("--chart", type=Path, help="PNG file to write")
-    parser.add_argument("--page", type=Path, help="page whose measured part is written anew, with --chart's picture")
-    parser.add_argument("--work", type=Path, default=Path("build/few-shot"), help="folder of what is done already")
+    parser.add_argument("--page", type=Path, help="page whose measured part is replaced, with --chart's picture")
+    parser.add_argument("--work", type=Path, default=Path("build/few-shot"), help="folder for finished cells")
     parser.add_argument("--materials", type=int, default=10, help="how many held-out materials (default 10)")
     parser.add_argument("--seed", type=int, default=2026, help="of materials, recordings and fits (default 2026)")
 
-    parser.add_argument("--engine", type=Path, help="built command line (build/native/haptoflow): 10 s through it, too")
+    parser.add_argument("--engine", type=Path, help="built command line (build/native/haptoflow); measures the fit to 10 s in it, too")
     parser.set_defaults(run=_run)
 
 

@@ -20,7 +20,7 @@ _EXAMPLES = """examples:
   haptoflow-benchmark learn-figures --model default.haptoflow --engine build/native/haptoflow
   haptoflow-benchmark learn-figures --model mine.haptoflow --engine build/native/haptoflow --plain 2 --ruled 1
 
-About a quarter of a minute of one core a material.
+About 15 s of one core for each material.
 """
 
 
@@ -28,8 +28,8 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
     parser = subparsers.add_parser(
         "learn-figures",
         help=summary,
-        description="Learn materials that the model never saw with `haptoflow learn` from ten seconds each, render "
-        "them at six speeds, and print how far level and spectrum are from another piece of the material.",
+        description="Fit materials unknown to the model with `haptoflow learn` to ten seconds each, render them at six "
+        "speeds, and print the errors of level and spectrum against another specimen of the material.",
         epilog=_EXAMPLES,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )

@@ -18,13 +18,13 @@ from haptoflow_benchmark.full_scale.measurement import (
     summarise,
 )
 from haptoflow_benchmark.full_scale.recorded_strokes import read_recorded_strokes
-from haptoflow_training.export.whole_file import check_writable, write_whole
 from haptoflow_training.model_stamp import (
     model_line,
     read_measured_page,
     sha256_of,
     with_measured_words,
 )
+from haptoflow_training.whole_file import check_writable, write_whole
 
 
 def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], summary: str) -> None:
@@ -33,8 +33,8 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
         help=summary,
         description=(
             "Renders recorded strokes on every label of a model through the engine's command line, with each force "
-            "held for the whole stroke, far below the limiter's knee, and reports the smallest full scale that bends less "
-            f"than {ALLOWED_SHARE:.1%} of the samples, with the shares at others."
+            "held for the whole stroke, far below the limiter's knee, and reports the smallest full scale at which less "
+            f"than {ALLOWED_SHARE:.1%} of the samples exceed the knee, with the shares at others."
         ),
         epilog="example:\n  haptoflow-benchmark measure-full-scale --engine build/native/haptoflow \\\n"
         "    --model Packages/com.haptoflow.runtime/Runtime/Models/default.haptoflow \\\n"

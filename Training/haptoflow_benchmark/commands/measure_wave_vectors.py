@@ -9,13 +9,13 @@ from pathlib import Path
 from tqdm import tqdm
 
 from haptoflow_benchmark.few_shot.wave_vector_study import measured, study_surfaces
-from haptoflow_training.export.whole_file import write_whole
+from haptoflow_training.whole_file import write_whole
 
 _EXAMPLES = """examples:
   haptoflow-benchmark measure-wave-vectors --results wave-vectors.json
   haptoflow-benchmark measure-wave-vectors --every 8 --results quick.json
 
-All 68 surfaces take about four minutes of one core, most of it for the recorder.
+All 68 surfaces take about four minutes of one core, mostly for recording.
 """
 
 
@@ -24,12 +24,12 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
         "measure-wave-vectors",
         help=summary,
         description="Estimate the wave vectors of 30 ruled surfaces and of 38 without ribs from 10 and 30 s of strokes, "
-        "and count what is found, what is not and what is wrong.",
+        "and count those found, missed and wrong.",
         epilog=_EXAMPLES,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("--results", required=True, type=Path, help="JSON file to write")
-    parser.add_argument("--every", type=int, default=1, help="of the surfaces, one in so many (default 1: all)")
+    parser.add_argument("--every", type=int, default=1, help="use every Nth surface (default 1: all)")
     parser.set_defaults(run=_run)
 
 

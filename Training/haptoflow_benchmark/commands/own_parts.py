@@ -41,7 +41,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--all", action="store_true", dest="everything",
-        help="the recordings are not those that the model was trained with: compare with all of them",
+        help="compare with all recordings, because the model was not trained on them",
     )  # fmt: skip
 
 
@@ -77,7 +77,7 @@ def own_parts(options: argparse.Namespace, model: Path, folder: Path) -> OwnPart
     if not held_out:
         raise InputError(
             f"{', '.join(map(str, options.recordings))}: nothing is held out of these recordings: they are too short to "
-            "be split by time; record 5 s at least, or compare with all of them (--all) if the model never saw them"
+            "be split by time; record 5 s at least, or compare with all of them (--all) if the model was not trained on them"
         )
     return OwnParts(held_out, [*_parts(store, "train"), *_parts(store, "validation")])
 

@@ -12,9 +12,9 @@ from haptoflow_benchmark.few_shot.few_shot_figures import condition_figures
 from haptoflow_benchmark.few_shot.few_shot_study import MAIN_SECONDS, StudyPlan
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.material_file import SUFFIX
-from haptoflow_training.export.whole_file import write_whole
 from haptoflow_training.fewshot.material_fit import prepared
 from haptoflow_training.recordings.synthetic.materials import Material
+from haptoflow_training.whole_file import write_whole
 
 
 def engine_cells(plan: StudyPlan, engine: Path, surface: Material) -> list[dict[str, float]]:

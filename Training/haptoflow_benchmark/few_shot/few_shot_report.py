@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from haptoflow_benchmark.few_shot.few_shot_figures import summarised
-from haptoflow_training.export.whole_file import write_whole
 from haptoflow_training.model_stamp import model_line, picture_metadata
+from haptoflow_training.whole_file import write_whole
 
 ROWS = {
     "fit": "this fit: embedding, level and tone",

@@ -19,7 +19,6 @@ from haptoflow_benchmark.few_shot.few_shot_cases import SECONDS, FewShotCase, ma
 from haptoflow_benchmark.few_shot.few_shot_figures import condition_figures
 from haptoflow_benchmark.few_shot.few_shot_rivals import fit_autoregressive
 from haptoflow_training.export.material_file import Material, MaterialProvenance, write_material
-from haptoflow_training.export.whole_file import write_whole
 from haptoflow_training.fewshot.embedding_fit import FitOptions
 from haptoflow_training.fewshot.level_law import fit_level
 from haptoflow_training.fewshot.material_fit import FittedMaterial, as_material, fit_material
@@ -28,6 +27,7 @@ from haptoflow_training.fewshot.stroke_recording import Frame, windows_of
 from haptoflow_training.fewshot.voice import Voice, render
 from haptoflow_training.models.file_model import FileModel, FileTier
 from haptoflow_training.recordings.synthetic.materials import Material as Surface
+from haptoflow_training.whole_file import write_whole
 
 # The length of recording at which the other tier, the trained network and the engine are measured too.
 MAIN_SECONDS = 10.0

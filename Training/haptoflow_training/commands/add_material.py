@@ -36,14 +36,14 @@ from haptoflow_training.recordings.material_recording import MaterialRecording, 
 
 _EXAMPLES = """examples:
   haptoflow-training add-material --model default.haptoflow --recording doormat.csv
-      writes doormat.haptomaterial: scenes, the command line and Unity take it beside default.haptoflow
+      writes doormat.haptomaterial: scenes, the command line and Unity use it together with default.haptoflow
   haptoflow-training add-material --model default.haptoflow --recording slow.wav fast.wav --name mat -o mine.haptoflow
       writes a model file with a further label
   haptoflow-training add-material --model default.haptoflow --recording rack.csv --wave-vector 0.8 0 --name rack
       ribs 1.25 mm apart, across the recording's first axis
 
-At least 10 s are recommended: slow and fast slides, 20 to 200 mm/s, light and firm. Ribs are found by themselves; a
-ruled material's first axis is put across its clearest ribs. About half a minute of one core.
+At least 10 s are recommended: slow and fast slides, 20 to 200 mm/s, light and firm. Ribs are estimated; a ruled
+material's first axis is put across its clearest ribs. Takes about half a minute of one core.
 """
 
 

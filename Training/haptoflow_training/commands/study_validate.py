@@ -9,8 +9,8 @@ from pathlib import Path
 from tqdm import tqdm
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.export.whole_file import write_whole
 from haptoflow_training.model_stamp import read_measured_page, with_measured_words
+from haptoflow_training.whole_file import write_whole
 
 _EXAMPLES = """examples:
   haptoflow-training study validate --out Training/results/study-validation.json --page Documentation~/study-analysis.md

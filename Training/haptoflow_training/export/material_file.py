@@ -30,7 +30,7 @@ from haptoflow_training.export.material_sound import (
     ToneTable,
 )
 from haptoflow_training.export.model_file import ModelFile
-from haptoflow_training.export.whole_file import write_whole
+from haptoflow_training.whole_file import write_whole
 
 FORMAT, VERSION = "haptoflow-material", 1
 SUFFIX = ".haptomaterial"

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.export.whole_file import write_whole
+from haptoflow_training.whole_file import write_whole
 
 MAGIC = b"HAPTFLOW"
 VERSION = 1

@@ -21,9 +21,9 @@ from numpy.typing import NDArray
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.material_file import model_space
 from haptoflow_training.export.model_file import ModelFile
-from haptoflow_training.export.whole_file import write_whole
 from haptoflow_training.models.label_embedding import WAVE_NUMBERS
 from haptoflow_training.recordings.synthetic.materials import Material
+from haptoflow_training.whole_file import write_whole
 
 FORMAT, VERSION = "haptoflow-sliders", 1
 LEVEL_DB = 12.0

@@ -8,11 +8,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from haptoflow_training.export.whole_file import write_whole
 from haptoflow_training.model_stamp import model_line, picture_metadata
 from haptoflow_training.studies.bench_figures import BenchFigures, Block
 from haptoflow_training.studies.plans import TURN_OFF, TURN_ON
 from haptoflow_training.studies.simulated_participants import PAPER_CURVES
+from haptoflow_training.whole_file import write_whole
 
 REFRESH_RATES_HZ = (72.0, 90.0, 120.0)
 _MAIN_BLOCK = Block(256)

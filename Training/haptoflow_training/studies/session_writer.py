@@ -9,9 +9,9 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from haptoflow_training.export.whole_file import write_whole
 from haptoflow_training.studies.log_columns import COLUMNS, FORMAT, VERSION
 from haptoflow_training.studies.session_file import Session
+from haptoflow_training.whole_file import write_whole
 
 OWN_COLUMNS = ("participant", "session", "simulated")
 

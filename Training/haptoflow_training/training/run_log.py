@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import csv
 import json
-import os
 import subprocess
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
+
+from haptoflow_training.whole_file import write_whole
 
 
 def write_json(path: Path, content: Mapping[str, Any]) -> None:
@@ -17,10 +18,8 @@ def write_json(path: Path, content: Mapping[str, Any]) -> None:
 
 
 def write_text(path: Path, text: str) -> None:
-    """Write atomically: an interrupted run leaves the old file complete."""
-    temporary = path.with_suffix(path.suffix + ".part")
-    temporary.write_text(text, encoding="utf-8")
-    os.replace(temporary, path)
+    """Write UTF-8 atomically: an interrupted run leaves the old file complete."""
+    write_whole(path, text.encode("utf-8"))
 
 
 def source_commit(folder: Path) -> str:
