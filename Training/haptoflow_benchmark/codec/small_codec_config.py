@@ -17,10 +17,13 @@ Table = TypeVar("Table")
 class SmallCodecConfig:
     """One training run of the small codec.
 
-    output_folder: for checkpoint, log and result. steps: of `batch` segments each. learning_rate: falls by a cosine
-    over the second half. spectral_weight: of the spectral loss beside the time loss. held_out_as: the configuration of
-    a network whose held-out bands the codec excludes too; none if missing. validate_every_steps: also the interval of
-    log and checkpoint. threads: of PyTorch.
+    output_folder: for checkpoint, log and result.
+    steps: of `batch` segments each.
+    learning_rate: falls by a cosine over the second half.
+    spectral_weight: of the spectral loss beside the time loss.
+    held_out_as: the configuration of a network whose held-out bands the codec excludes too; none if missing.
+    validate_every_steps: also the interval of log and checkpoint.
+    threads: of PyTorch.
     """
 
     output_folder: Path

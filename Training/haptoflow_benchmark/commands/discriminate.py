@@ -27,11 +27,11 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
         "discriminate",
         help=summary,
         description=(
-            "Trains a simple classifier (third-octave spectrum and level, given the stroke's speed and force) on synthetic "
-            "hand recordings, renders held-out strokes with the engine's command line, and counts how often the "
-            "classifier recognises the label. Recordings of the same strokes are classified too, as an upper bound. "
-            "With --recordings, the classifier is trained on the training part of these recordings, and the held-out "
-            "parts are rendered and classified."
+            "Trains a simple classifier (third-octave spectrum and level, given the stroke's speed and force) on "
+            "synthetic hand recordings, renders held-out strokes with the engine's command line, and counts how often "
+            "the classifier recognises the label. Recordings of the same strokes are classified too, as an upper "
+            "bound. With --recordings, the classifier is trained on the training part of these recordings, and the "
+            "held-out parts are rendered and classified."
         ),
         epilog="example:\n  haptoflow-benchmark discriminate --engine build/native/haptoflow"
         " --out Training/results/default\n"
@@ -42,10 +42,16 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
         "--engine", type=Path, default=ENGINE, help="the built command line (default: build/native/haptoflow)"
     )
     add_options(parser)
-    parser.add_argument("--model", type=Path, default=_ROOT / SHIPPED_MODEL, help="the .haptoflow file (default: the shipped one)")
-    parser.add_argument("--recordings-per-label", type=int, default=16, help="training recordings of the classifier (default: 16)")
+    parser.add_argument(
+        "--model", type=Path, default=_ROOT / SHIPPED_MODEL, help="the .haptoflow file (default: the shipped one)"
+    )
+    parser.add_argument(
+        "--recordings-per-label", type=int, default=16, help="training recordings of the classifier (default: 16)"
+    )
     parser.add_argument("--strokes-per-label", type=int, default=4, help="rendered and classified (default: 4)")
-    parser.add_argument("--seed", type=int, default=1001, help="seed of all recordings; the model's training used others")
+    parser.add_argument(
+        "--seed", type=int, default=1001, help="seed of all recordings; the model's training used others"
+    )
     parser.add_argument("--workers", type=int, default=2, help="processes that record (default: 2)")
     parser.add_argument("--out", type=Path, required=True, help="folder of the report (JSON, Markdown, picture)")
     parser.set_defaults(run=run)

@@ -44,13 +44,14 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
         "evaluate",
         help=summary,
         description=(
-            "Measures every row of the plan on held-out recordings: accuracy in open and closed loop, and milliseconds for "
-            "a segment in the engine. Trains the models that rows need (about eight minutes of one core each), stores "
-            "measured rows, and resumes after an interruption. A stored row is measured again only if its configuration "
-            "or its model has changed. Every timing run is added to timing-history.json; the first complete one of the "
-            "shipped model is published.\n\n"
-            "With --recordings, compares one model with recordings of your own instead: the held-out parts are rendered "
-            "by the engine, and level, GFC and LSD of each label are printed; --out also writes them, with a picture."
+            "Measures every row of the plan on held-out recordings: accuracy in open and closed loop, and milliseconds"
+            " for a segment in the engine. Trains the models that rows need (about eight minutes of one core each), "
+            "stores measured rows, and resumes after an interruption. A stored row is measured again only if its "
+            "configuration or its model has changed. Every timing run is added to timing-history.json; the first "
+            "complete one of the shipped model is published.\n\n"
+            "With --recordings, compares one model with recordings of your own instead: the held-out parts are "
+            "rendered by the engine, and level, GFC and LSD of each label are printed; --out also writes them, with a "
+            "picture."
         ),
         epilog=(
             "examples:\n"

@@ -45,8 +45,8 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
     parser = subparsers.add_parser(
         "few-shot",
         help=summary,
-        description="Fit materials unknown to the model to 3, 10, 30 and 120 s of recording, beside autoregressive models, "
-        "the nearest label and a fit of the whole network, and write figures with intervals.",
+        description="Fit materials unknown to the model to 3, 10, 30 and 120 s of recording, beside autoregressive "
+        "models, the nearest label and a fit of the whole network, and write figures with intervals.",
         epilog=_EXAMPLES,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
@@ -58,7 +58,9 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
     parser.add_argument("--materials", type=int, default=10, help="how many held-out materials (default 10)")
     parser.add_argument("--seed", type=int, default=2026, help="of materials, recordings and fits (default 2026)")
 
-    parser.add_argument("--engine", type=Path, help="built command line (build/native/haptoflow); measures the fit to 10 s in it, too")
+    parser.add_argument(
+        "--engine", type=Path, help="built command line (build/native/haptoflow); measures the fit to 10 s in it, too"
+    )
     parser.set_defaults(run=_run)
 
 

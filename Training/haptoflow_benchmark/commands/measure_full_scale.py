@@ -33,8 +33,8 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
         help=summary,
         description=(
             "Renders recorded strokes on every label of a model through the engine's command line, with each force "
-            "held for the whole stroke, far below the limiter's knee, and reports the smallest full scale at which less "
-            f"than {ALLOWED_SHARE:.1%} of the samples exceed the knee, with the shares at others."
+            "held for the whole stroke, far below the limiter's knee, and reports the smallest full scale at "
+            f"which less than {ALLOWED_SHARE:.1%} of the samples exceed the knee, with the shares at others."
         ),
         epilog="example:\n  haptoflow-benchmark measure-full-scale --engine build/native/haptoflow \\\n"
         "    --model Packages/com.haptoflow.runtime/Runtime/Models/default.haptoflow \\\n"

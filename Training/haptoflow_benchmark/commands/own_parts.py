@@ -77,7 +77,8 @@ def own_parts(options: argparse.Namespace, model: Path, folder: Path) -> OwnPart
     if not held_out:
         raise InputError(
             f"{', '.join(map(str, options.recordings))}: nothing is held out of these recordings: they are too short to "
-            "be split by time; record 5 s at least, or compare with all of them (--all) if the model was not trained on them"
+            "be split by time; record 5 s at least, or compare with all of them (--all) if the model was not "
+            "trained on them"
         )
     return OwnParts(held_out, [*_parts(store, "train"), *_parts(store, "validation")])
 

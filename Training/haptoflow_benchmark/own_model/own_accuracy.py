@@ -15,7 +15,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from haptoflow_benchmark.engine.engine_render import render_motion
-from haptoflow_benchmark.metrics.waveform_metrics import gfc_recording, level_error_db, log_spectral_distance_db, power_spectrum
+from haptoflow_benchmark.metrics.waveform_metrics import (
+    gfc_recording,
+    level_error_db,
+    log_spectral_distance_db,
+    power_spectrum,
+)
 from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 _Floats = NDArray[np.floating]

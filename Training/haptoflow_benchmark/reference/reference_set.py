@@ -74,7 +74,9 @@ def record_pair(task: tuple[Condition, Material, Material]) -> ReferencePair:
     travelled = _travelled_mm(known_motion)
     # Averaged over the recording, because a single reading is off by up to 0.1 mm.
     start = (prepared[0].position_mm[:length] - travelled).mean(axis=0)
-    return ReferencePair(condition, waves[0][:length], waves[1][:length], known_motion, (float(start[0]), float(start[1])))
+    return ReferencePair(
+        condition, waves[0][:length], waves[1][:length], known_motion, (float(start[0]), float(start[1]))
+    )
 
 
 def _travelled_mm(motion: _Floats) -> NDArray[np.float64]:

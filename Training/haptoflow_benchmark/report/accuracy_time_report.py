@@ -252,8 +252,8 @@ def _seed_table(rows: Sequence[_Row]) -> list[str]:
         "## Spread between trainings",
         "",
         f"Rows whose training was repeated with other seeds, each measured on the same {' or '.join(map(str, counts))} "
-        "recordings (of every label another quarter of its conditions), so that the first seed's figures differ from those "
-        "above.",
+        "recordings (of every label another quarter of its conditions), so that the first seed's figures differ "
+        "from those above.",
         "",
         "| row | seeds | level dB | level p90 dB | GFC | LSD dB | told apart % | crest dB | kurtosis, ln "
         "| modulation dB |",

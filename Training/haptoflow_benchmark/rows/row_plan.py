@@ -22,16 +22,24 @@ DEFAULT_AGAINST = "standard"
 
 @dataclass(frozen=True)
 class PlannedRow:
-    """block: `ours`, `as-published` (a rival in its published form), `given-the-same` (a rival with our inputs and
-    budget), `ablation` or `reference`. rival: the rival's name; rows of one network at several numbers of steps are
-    one rival and have the same name (default: the row's own). family: the colour group of the chart. against: the
-    row that this one is judged against, which was trained for the same time. model: a .haptoflow file, relative to
-    the repository's root, or the name of a training in the plan's folder (its TOML file without the ending); empty
-    for a reference row. seeds: of the training; those after the first are measured on every fourth recording, to
-    estimate the spread between trainings. seeds_model: the training of the further seeds, if `model` is a file.
-    quick: measured by --quick too. extended: the long measurements too (ten minutes of drift, speeds by update
-    rates, level across speed). every_fourth: measured on every fourth recording, as further seeds are, and judged
-    against such a row. time_only: random weights of the real size; no accuracy is measured."""
+    """One row of the plan.
+
+    block: `ours`, `as-published` (a rival in its published form), `given-the-same` (a rival with our inputs and
+    budget), `ablation` or `reference`.
+    rival: the rival's name; rows of one network at several numbers of steps are one rival and have the same name
+    (default: the row's own).
+    family: the colour group of the chart.
+    against: the row that this one is judged against, which was trained for the same time.
+    model: a .haptoflow file, relative to the repository's root, or the name of a training in the plan's folder (its
+    TOML file without the ending); empty for a reference row.
+    seeds: of the training; those after the first are measured on every fourth recording, to estimate the spread between
+    trainings.
+    seeds_model: the training of the further seeds, if `model` is a file.
+    quick: measured by --quick too.
+    extended: the long measurements too (ten minutes of drift, speeds by update rates, level across speed).
+    every_fourth: measured on every fourth recording, as further seeds are, and judged against such a row.
+    time_only: random weights of the real size; no accuracy is measured.
+    """
 
     name: str
     block: str

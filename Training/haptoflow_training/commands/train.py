@@ -52,7 +52,8 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
         help="the run's TOML file, for example Training/configs/cluster.toml (default: Training/configs/own.toml)",
     )
     parser.add_argument(
-        "--out", type=Path, required=True, help="folder of the run; created if absent, otherwise the run in it is resumed"
+        "--out", type=Path, required=True,
+        help="folder of the run; created if absent, otherwise the run in it is resumed",
     )
     parser.add_argument(
         "--store", type=Path, help="folder of the prepared recordings (default: `store` beside the run's folder)"

@@ -62,7 +62,8 @@ def fit_level(windows: Windows, prior: LabelPrior) -> LevelLaw:
         moving = speed > MINIMUM_SPEED_MPS
     if not moving.any():
         raise InputError(
-            f"no tenth of a second of the recording moves faster than {1000.0 * MINIMUM_SPEED_MPS:g} mm/s; a texture is felt "
+            f"no tenth of a second of the recording moves faster than {1000.0 * MINIMUM_SPEED_MPS:g} mm/s; a "
+            "texture is felt "
             "while the tip slides: check the unit of the speed"
         )
     power = np.square(windows.waves[moving], dtype=np.float64).mean(axis=1) + LEVEL_FLOOR_MPS2**2

@@ -76,7 +76,8 @@ def prepared(
     seconds = sum(len(each.vibration_mps2) for each in usable) / 2000.0
     if seconds < MINIMUM_SECONDS:
         raise InputError(
-            f"{seconds:.1f} s of recording are left in stretches of {_LONG_ENOUGH_SAMPLES / SAMPLE_RATE_HZ:g} s or more; a "
+            f"{seconds:.1f} s of recording are left in stretches of {_LONG_ENOUGH_SAMPLES / SAMPLE_RATE_HZ:g} s "
+            "or more; a "
             f"material needs {MINIMUM_SECONDS:g} s at least, {RECOMMENDED_SECONDS:g} s are recommended"
         )
     turned = tuple(StrokeRecording.of(each, frame) for each in usable)

@@ -34,7 +34,9 @@ class SimilarityResult:
 def analyse_similarity(sessions: Sequence[Session]) -> SimilarityResult:
     """Analyse the sessions; practice trials are left out. InputError names a rating that is missing or duplicate."""
     if len(sessions) < _MINIMUM_PARTICIPANTS:
-        raise InputError(f"{len(sessions)} participants of the similarity study; its tests need {_MINIMUM_PARTICIPANTS}")
+        raise InputError(
+            f"{len(sessions)} participants of the similarity study; its tests need {_MINIMUM_PARTICIPANTS}"
+        )
     materials, methods = _names(sessions, "material"), _names(sessions, "method")
     if not 2 <= len(methods) <= _MAXIMUM_METHODS:
         raise InputError(f"{len(methods)} methods in the similarity study; it can compare 2 to {_MAXIMUM_METHODS}")

@@ -22,10 +22,11 @@ REGRESSING = ("transformer", "dstn", "spsi")
 class DataConfig:
     """Where the recordings come from. In a TOML file, `folders` and `labels_file` are relative to that file.
 
-    source: `synthetic` (the synthetic recorder) or `folders` (data set roots listed in `folders`). labels_file: assigns
-    textures to labels, for `folders`; empty for configs/labels-cluster.toml. labels: use only these; empty for all.
-    machine_* and hand_*: how many synthetic recordings of each protocol; hand_guided_share: the share of hand
-    recordings in which speed and direction are held for a while.
+    source: `synthetic` (the synthetic recorder) or `folders` (data set roots listed in `folders`).
+    labels_file: assigns textures to labels, for `folders`; empty for configs/labels-cluster.toml.
+    labels: use only these; empty for all.
+    machine_* and hand_*: how many synthetic recordings of each protocol;
+    hand_guided_share: the share of hand recordings in which speed and direction are held for a while.
     """
 
     source: str = "synthetic"
@@ -46,10 +47,12 @@ class DataConfig:
 class ModelConfig:
     """The model. architecture: `unet` (the velocity field, with `width` to `levels`) or the name of a rival.
 
-    ribs: the field has a rib comb, and a rival adds rib lines (raw samples only). impulses: rare events come from the
-    tails of the noise (raw samples only). sampled: a rival that predicts the mean as published (transformer, dstn,
-    spsi) draws its segment. representation: table for `build_representation`. hears_previous: false removes the
-    previous waveform's effect; level: `law` or `constant` (one level for everything); both are ablations.
+    ribs: the field has a rib comb, and a rival adds rib lines (raw samples only).
+    impulses: rare events come from the tails of the noise (raw samples only).
+    sampled: a rival that predicts the mean as published (transformer, dstn, spsi) draws its segment.
+    representation: table for `build_representation`.
+    hears_previous: false removes the previous waveform's effect;
+    level: `law` or `constant` (one level for everything); both are ablations.
     """
 
     architecture: str = "unet"
@@ -91,14 +94,17 @@ class BatchConfig:
     """How training pairs are drawn.
 
     held_out_speed_mps, held_out_force_newtons, held_out_direction_degrees: [from, to]; windows with a sample in the
-    band are used neither for training nor for levels, seeds and exponents; empty for none. Directions are
-    counter-clockwise from the surface's first axis. hop_samples: the condition of a pair is the mean motion over this
-    many leading samples of the segment, drawn from [min, max] (the hops of updates at 120 Hz to 30 Hz).
-    silence_probability: previous waveform zeroed, as at touch-down. machine_share: share of pairs from machine
-    recordings where both protocols exist. switch_probability: previous waveform taken from another recording, as at a
-    change of label. chain_hops: how many hops a chain of the self-forcing phase renders. chain_silence_probability:
-    share of chains that begin in silence. emphasised_labels: drawn `emphasis` times as often as other labels, because a
-    label with a pitch is harder to learn than noise.
+    band are used neither for training nor for levels, seeds and exponents; empty for none. Directions are counter-
+    clockwise from the surface's first axis.
+    hop_samples: the condition of a pair is the mean motion over this many leading samples of the segment, drawn from
+    [min, max] (the hops of updates at 120 Hz to 30 Hz).
+    silence_probability: previous waveform zeroed, as at touch-down.
+    machine_share: share of pairs from machine recordings where both protocols exist.
+    switch_probability: previous waveform taken from another recording, as at a change of label.
+    chain_hops: how many hops a chain of the self-forcing phase renders.
+    chain_silence_probability: share of chains that begin in silence.
+    emphasised_labels: drawn `emphasis` times as often as other labels, because a label with a pitch is harder to learn
+    than noise.
     """
 
     hop_samples: tuple[int, int] = (16, 66)
@@ -119,8 +125,9 @@ class RecipeConfig:
     """The training recipe, phase after phase; a phase of 0 steps is left out.
 
     objective: of the first phase (`optimiser.steps`): `flow` (conditional flow matching) or `average-velocity`
-    (MeanFlow). reflow_steps: straightens a flow on `reflow_pairs` pairs of noise and segment that the network itself
-    made. energy_steps: one-step fine-tuning by a spectral energy distance; afterwards the network is a `direct` tier.
+    (MeanFlow).
+    reflow_steps: straightens a flow on `reflow_pairs` pairs of noise and segment that the network itself made.
+    energy_steps: one-step fine-tuning by a spectral energy distance; afterwards the network is a `direct` tier.
     self_forcing_steps: the objective of the phase before, on the network's own output as previous waveform.
     shares_base: keep the embedding and level model of another run (`--base`), as further tiers of a file do.
     calibrate_level: `train --export` subtracts the closed-loop level error of each label, as train-tiers does for the
