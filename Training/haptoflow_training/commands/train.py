@@ -54,7 +54,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
     parser.add_argument(
         "--out", type=Path, required=True,
         help="folder of the run; created if absent, otherwise the run in it is resumed",
-    )
+    )  # fmt: skip
     parser.add_argument(
         "--store", type=Path, help="folder of the prepared recordings (default: `store` beside the run's folder)"
     )
