@@ -20,7 +20,7 @@ test('every language has the same default full scale as the C header', () => {
   const homes = {
     'C++': numberIn(['NativePlugin', 'src', 'dsp', 'limiter.hpp'], 'defaultFullScaleMps2 = ([\\d.]+)F;'),
     'C#': numberIn([...runtime, 'Core', 'Native', 'HapticEngine.cs'], 'DefaultFullScaleMps2 = ([\\d.]+);'),
-    Python: numberIn(['Training', 'haptoflow_training', 'evaluation', 'engine_render.py'], '\\nFULL_SCALE_MPS2 = ([\\d.]+)'),
+    Python: numberIn(['Training', 'haptoflow_benchmark', 'engine', 'engine_render.py'], '\\nFULL_SCALE_MPS2 = ([\\d.]+)'),
     JavaScript: fullScaleMps2,
     "the command line's help": numberIn(['NativePlugin', 'cli', 'render_command.cpp'], '\\+-1 in the WAV is (\\d+) m/s'),
   };
@@ -29,7 +29,7 @@ test('every language has the same default full scale as the C header', () => {
 
 test('the measurement of full scale uses the engine\'s knee', () => {
   const engine = numberIn(['NativePlugin', 'src', 'dsp', 'limiter.hpp'], ' knee = ([\\d.]+)F;');
-  assert.equal(numberIn(['Training', 'haptoflow_training', 'evaluation', 'full_scale.py'], '\\nKNEE = ([\\d.]+)'), engine);
+  assert.equal(numberIn(['Training', 'haptoflow_benchmark', 'full_scale', 'measurement.py'], '\\nKNEE = ([\\d.]+)'), engine);
   assert.equal(measured.knee, engine);
 });
 
@@ -46,7 +46,7 @@ test('every page that states the default full scale states the current one', () 
 
 test("people's strokes were measured with the default full scale, and on every label they leave less than twice the allowed samples in the knee", () => {
   const now = measured.full_scales.find((entry) => entry.full_scale_mps2 === fullScaleMps2);
-  assert.ok(now, `Training/results/default/full-scale.json does not report ${fullScaleMps2} m/s^2: run haptoflow-training measure-full-scale`);
+  assert.ok(now, `Training/results/default/full-scale.json does not report ${fullScaleMps2} m/s^2: run haptoflow-benchmark measure-full-scale`);
   const shares = Object.entries(now.share_in_knee_by_label);
   assert.ok(shares.length > 0);
   // The full scale was chosen with an earlier model, whose peaks were lower, and it stays: a new value would change the

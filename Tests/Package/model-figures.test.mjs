@@ -13,19 +13,19 @@ const sha = (digit) => digit.repeat(64);
 /** Pages with measured figures, and the command that measures them. */
 const pages = {
   'Documentation~/accuracy-and-time.md': 'npm run evaluate',
-  'Documentation~/actuator-wiring.md': 'haptoflow-training measure-full-scale --page',
+  'Documentation~/actuator-wiring.md': 'haptoflow-benchmark measure-full-scale --page',
   'Documentation~/benchmarks.md': 'npm run bench -- --publish',
   'Documentation~/delay-budget.md': 'haptoflow-training study budget --page',
-  'Documentation~/own-materials.md': 'haptoflow-training few-shot --page',
+  'Documentation~/own-materials.md': 'haptoflow-benchmark few-shot --page',
   'Documentation~/stability.md': 'npm run test:soak -- --publish',
-  'Training/results/default/README.md': 'npm run evaluate, haptoflow-training discriminate, and the words by hand',
+  'Training/results/default/README.md': 'npm run evaluate, haptoflow-benchmark discriminate, and the words by hand',
 };
 
 const results = {
   'Training/results/accuracy-time.json': 'npm run evaluate',
-  'Training/results/few-shot.json': 'haptoflow-training few-shot',
-  'Training/results/default/full-scale.json': 'haptoflow-training measure-full-scale',
-  'Training/results/default/label-discrimination.json': 'haptoflow-training discriminate',
+  'Training/results/few-shot.json': 'haptoflow-benchmark few-shot',
+  'Training/results/default/full-scale.json': 'haptoflow-benchmark measure-full-scale',
+  'Training/results/default/label-discrimination.json': 'haptoflow-benchmark discriminate',
 };
 
 /** Pictures that do not depend on a model: those of the recorder. */

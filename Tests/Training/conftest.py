@@ -1,4 +1,4 @@
-"""Tests import the package from the tree and their own helpers from this folder."""
+"""Makes the packages of the tree and the helpers of this folder importable."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Small recordings for the data set tests: plain physics, exact layout."""
+"""Small recordings for the data set tests."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Recordings of one's own in every form, made from a stroke whose vibration is known."""
+"""Own recordings in every form, made from a stroke whose vibration is known."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def stroke(
     speeds_mps: tuple[float, float] = (0.05, 0.2),
     seed: int = 0,
 ) -> Stroke:
-    """Back and forth at a speed that rises and falls; noise about `hertz` of RMS 20 v^exponent m/s^2 at 1 N."""
+    """A stroke back and forth with varying speed; noise about `hertz` with RMS 20 v^exponent m/s^2 at 1 N."""
     generator = np.random.default_rng(seed)
     time = np.arange(int(seconds * rate_hz)) / rate_hz
     slow, fast = np.log(speeds_mps)
@@ -64,7 +64,7 @@ def with_sidecar(path: Path, sidecar: dict[str, Any] | None) -> Path:
 
 
 def three_axes(acceleration: NDArray[np.floating], unit: float = 1.0) -> list[NDArray[np.floating]]:
-    """In one direction of space, with gravity on Z."""
+    """The vibration along one direction in space, with gravity on Z."""
     return [0.6 * acceleration / unit, 0.0 * acceleration + 1e-4, (0.8 * acceleration - 9.80665) / unit]
 
 
@@ -94,7 +94,7 @@ def csv_three_axes(folder: Path, name: str, label: str, made: Stroke, **sidecar:
 
 
 def wav_with_motion(folder: Path, name: str, label: str, made: Stroke, **sidecar: Any) -> Path:
-    """16 bits, +-1 = 50 m/s^2; the motion at 100 readings a second on a clock of its own."""
+    """16 bits, +-1 = 50 m/s^2; the motion at 100 readings a second with its own clock."""
     folder.mkdir(parents=True, exist_ok=True)
     path = folder / f"{name}.wav"
     wavfile.write(path, RATE_HZ, np.round(made.acceleration_mps2 / 50.0 * 32767.0).astype(np.int16))

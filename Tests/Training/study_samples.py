@@ -1,4 +1,4 @@
-"""Simulated studies for tests, and ways to break their files."""
+"""Simulated studies for tests, and functions that damage their files."""
 
 from __future__ import annotations
 
@@ -29,13 +29,13 @@ def log_of(folder: Path, participant: int, study: str = "latency") -> Path:
 
 
 def change_lines(path: Path, change: Callable[[list[str]], list[str]]) -> None:
-    """The file's lines without their line breaks, the header first."""
+    """The file's lines without line breaks, the header first."""
     lines = path.read_text(encoding="utf-8").split("\n")[:-1]
     path.write_text("\n".join(change(lines)) + "\n", encoding="utf-8")
 
 
 def change_field(path: Path, row: int, column: str, value: str) -> None:
-    """row: as a spreadsheet counts."""
+    """row: as in a spreadsheet."""
 
     def changed(lines: list[str]) -> list[str]:
         place = lines[0].split(",").index(column)

@@ -1,4 +1,4 @@
-"""From reference rows to accuracy-time.json, its document and its pictures."""
+"""From reference rows to accuracy-time.json, its page and its pictures."""
 
 from __future__ import annotations
 
@@ -10,18 +10,18 @@ from typing import Any
 import numpy as np
 import pytest
 
-from haptoflow_training.evaluation import accuracy
-from haptoflow_training.evaluation.accuracy_time import table, timed_rows, with_times
-from haptoflow_training.evaluation.accuracy_time_chart import draw_chart
-from haptoflow_training.evaluation.accuracy_time_report import write_document
-from haptoflow_training.evaluation.label_spectra import draw_spectra
-from haptoflow_training.evaluation.model_stamp import SHIPPED_MODEL
-from haptoflow_training.evaluation.reference_rows import REFERENCE_ROWS, reference_waves
-from haptoflow_training.evaluation.reference_conditions import Condition, conditions
-from haptoflow_training.evaluation.reference_set import ReferencePair
-from haptoflow_training.evaluation.row_plan import PlannedRow
-from haptoflow_training.evaluation.row_summary import summary
+from haptoflow_benchmark.reference.reference_conditions import Condition, conditions
+from haptoflow_benchmark.reference.reference_rows import REFERENCE_ROWS, reference_waves
+from haptoflow_benchmark.reference.reference_set import ReferencePair
+from haptoflow_benchmark.report.accuracy_time import table, timed_rows, with_times
+from haptoflow_benchmark.report.accuracy_time_chart import draw_chart
+from haptoflow_benchmark.report.accuracy_time_report import write_document
+from haptoflow_benchmark.report.label_spectra import draw_spectra
+from haptoflow_benchmark.rows import accuracy
+from haptoflow_benchmark.rows.row_plan import PlannedRow
+from haptoflow_benchmark.rows.row_summary import summary
 from haptoflow_training.export.model_file import read_model_file
+from haptoflow_training.model_stamp import SHIPPED_MODEL
 from haptoflow_training.recordings.synthetic import load_materials
 
 ROOT = Path(__file__).parents[2]
@@ -55,7 +55,7 @@ def _figures(pairs: list[ReferencePair], name: str, gain: float = 1.0) -> dict[s
     }  # fmt: skip
 
 
-def test_the_reference_rows_stand_where_theory_puts_them(pairs: list[ReferencePair]) -> None:
+def test_the_reference_rows_have_the_figures_that_theory_predicts(pairs: list[ReferencePair]) -> None:
     found = {name: _figures(pairs, name) for name in REFERENCE_ROWS}
     draw, mean, white, silence = (summary(found[name]["conditions"]) for name in REFERENCE_ROWS)
     assert abs(draw["level_error_db"]) < 0.3 and draw["gfc_recording"] > 0.99 and draw["lsd_db"] < 1.0  # type: ignore[index]
@@ -83,14 +83,14 @@ FIGURES = (
 )  # fmt: skip
 
 
-def test_the_table_keeps_the_plan_s_order_and_leaves_out_what_was_not_measured(pairs: list[ReferencePair]) -> None:
+def test_the_table_keeps_the_plan_s_order_and_leaves_out_unmeasured_rows(pairs: list[ReferencePair]) -> None:
     result = table(PLAN, _measured(pairs))
     assert [row["name"] for row in result["rows"]] == ["standard", "rival", "size", "independent-draw"]
     assert [row["seeds"] for row in result["rows"]] == [2, 1, 1, 1] and "by_seed" not in result["rows"][1]
     assert result["not_measured"] == ["missing"] and timed_rows(result) == {"standard", "rival", "size"}
 
 
-def test_a_rival_is_judged_against_the_row_that_it_names_and_not_at_all_where_that_was_not_measured(
+def test_a_rival_is_judged_against_its_named_row_and_not_judged_if_that_row_is_unmeasured(
     pairs: list[ReferencePair],
 ) -> None:
     measured = _measured(pairs)
@@ -106,7 +106,7 @@ def test_a_rival_is_judged_against_the_row_that_it_names_and_not_at_all_where_th
     assert "verdict" not in {row["name"]: row for row in table(plan, measured)["rows"]}["rival"]
 
 
-def test_every_row_has_median_ninetieth_percentile_and_worst_of_what_time_says_and_a_verdict(
+def test_every_row_has_spreads_of_the_temporal_figures_and_a_verdict(
     pairs: list[ReferencePair],
 ) -> None:
     rows = {row["name"]: row for row in table(PLAN, _measured(pairs))["rows"]}
@@ -116,7 +116,7 @@ def test_every_row_has_median_ninetieth_percentile_and_worst_of_what_time_says_a
             assert set(values) == {"median", "p90", "worst"} and values["median"] <= values["p90"] <= values["worst"]
             low, high = rows[name][f"{figure}_interval"]
             assert low <= values["median"] <= high
-        # Neither label has ribs: the figures are there, and empty.
+        # Neither label has ribs: the keys are present, with no value.
         assert rows[name]["rib_modulation_error_db"] is None and rows[name]["rib_coherence"] is None
     assert rows["rival"]["verdict"]["lsd_db"] == "ahead" and rows["rival"]["verdict"]["gfc_recording"] == "ahead"
     assert set(rows["independent-draw"]["verdict"].values()) == {"even"} and "verdict" not in rows["standard"]
@@ -124,7 +124,7 @@ def test_every_row_has_median_ninetieth_percentile_and_worst_of_what_time_says_a
     json.dumps(rows)
 
 
-def test_a_page_is_written_of_what_is_there_and_says_at_its_top_who_is_ahead(
+def test_the_page_covers_the_measured_rows_and_starts_with_who_is_ahead(
     pairs: list[ReferencePair], tmp_path: Path
 ) -> None:
     times = {"p50": 0.2, "p99": 0.3}
@@ -150,7 +150,7 @@ def test_a_page_is_written_of_what_is_there_and_says_at_its_top_who_is_ahead(
     assert all((images / name).stat().st_size > 5000 for name in ("accuracy-time.png", "label-spectra.png"))
 
 
-def test_a_page_is_written_before_anything_is_timed_or_measured(tmp_path: Path) -> None:
+def test_the_page_can_be_written_before_anything_is_timed_or_measured(tmp_path: Path) -> None:
     result = with_times({"model_sha256": "0" * 64, **table(PLAN, {})}, None)
     (tmp_path / "images").mkdir()
     draw_chart(result, tmp_path / "images" / "accuracy-time.png")
@@ -160,7 +160,7 @@ def test_a_page_is_written_before_anything_is_timed_or_measured(tmp_path: Path) 
 
 
 def test_seeds_are_compared_on_the_recordings_that_all_of_them_were_measured_on() -> None:
-    # GFC 0.9 everywhere but at the one speed that the second seed was not measured at.
+    # GFC 0.9 everywhere except at the speed at which the second seed was not measured.
     def cell(label: str, speed: float, gfc: float) -> dict[str, object]:
         figures = dict.fromkeys(("level_error_db", "gfc_segment", "rmse", "lsd_db", "continuity"), 0.5)
         motion = {"label": label, "kind": "constant", "speed_mps": speed, "force_newtons": 1.0, "direction_degrees": 0.0}
@@ -191,7 +191,7 @@ def test_every_fourth_recording_is_a_quarter_of_each_label_and_another_quarter_o
 
 
 @pytest.mark.parametrize("tier", ["draft", "standard"])
-def test_the_kept_row_of_each_shipped_tier_was_measured_with_the_graphs_that_are_shipped(tier: str) -> None:
+def test_the_stored_row_of_each_shipped_tier_was_measured_with_the_shipped_graphs(tier: str) -> None:
     graphs = read_model_file(ROOT / SHIPPED_MODEL).graphs
     row = json.loads((ROOT / "Training" / "results" / "rows" / f"{tier}-1.json").read_text(encoding="utf-8"))
     assert row["made_from"]["graphs_crc32"] == f"{zlib.crc32(b''.join(graphs.values())):08x}"

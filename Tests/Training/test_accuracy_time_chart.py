@@ -1,4 +1,4 @@
-"""The picture of accuracy over time: linear axes, bars, a legend, and few names."""
+"""The chart of accuracy over time: linear axes, bars, a legend, and few names."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ import matplotlib
 import numpy as np
 import pytest
 
-from haptoflow_training.evaluation.accuracy_time_chart import PANELS, chart_lines, chart_points, draw_chart, draw_panel
-from haptoflow_training.evaluation.judged_figures import BY_KEY
-from haptoflow_training.evaluation.row_store import read_row
-from haptoflow_training.evaluation.row_summary import median_interval, with_interval
+from haptoflow_benchmark.metrics.judged_figures import BY_KEY
+from haptoflow_benchmark.report.accuracy_time_chart import PANELS, chart_lines, chart_points, draw_chart, draw_panel
+from haptoflow_benchmark.rows.row_store import read_row
+from haptoflow_benchmark.rows.row_summary import median_interval, with_interval
 
 matplotlib.use("Agg")
 from matplotlib import pyplot
@@ -63,7 +63,7 @@ def test_errors_are_drawn_on_a_linear_axis(axes: Any, panel: Any) -> None:
     assert axes.get_yscale() == "linear" and axes.get_ylim() == panel.limits
 
 
-def test_ablations_and_references_are_left_to_the_table() -> None:
+def test_ablations_and_references_are_not_drawn() -> None:
     assert {point.row for point in chart_points(ROWS, "told_apart_percent")} == {
         "standard", "plain-euler-1", "plain-euler-4", "transformer", "ar-ribs",
     }  # fmt: skip
@@ -76,14 +76,14 @@ def test_each_point_inside_the_scale_has_a_bar_from_end_to_end_of_its_interval(a
     assert found == [(0.8, 1.2), (1.2, 1.6), (3.7, 4.1), (8.7, 9.1)]
 
 
-def test_what_is_beyond_the_scale_stands_at_its_edge_with_its_value_in_words(axes: Any) -> None:
+def test_values_beyond_the_scale_are_drawn_at_its_edge_and_written_out(axes: Any) -> None:
     draw_panel(axes, PANELS[1], ROWS)
     texts = {text.get_text(): text for text in axes.texts}
     assert texts["Transformer: 40 dB"].xy == (0.5, 16.0)
     assert not any("Transformer" in text and "40" not in text for text in texts)
 
 
-def test_only_the_points_that_carry_the_message_are_named(axes: Any) -> None:
+def test_only_the_most_important_points_are_named(axes: Any) -> None:
     draw_panel(axes, PANELS[1], ROWS)
     assert {text.get_text() for text in axes.texts} == {
         "standard", "1 Euler step", "AR with ribs", "Transformer: 40 dB", "the paper's sizes: 12 ms (time only)",
@@ -91,7 +91,7 @@ def test_only_the_points_that_carry_the_message_are_named(axes: Any) -> None:
     }  # fmt: skip
 
 
-def test_the_median_label_is_what_is_drawn_of_told_apart_and_a_table_without_times_has_no_points() -> None:
+def test_told_apart_is_drawn_as_its_median_and_a_table_without_times_has_no_points() -> None:
     points = {point.row: point for point in chart_points(ROWS, "told_apart_percent")}
     ours = points["standard"]
     assert (ours.value, ours.low, ours.high) == pytest.approx((61.1, 59.1, 62.1))
@@ -105,7 +105,7 @@ def test_rivals_as_published_are_hollow_and_rivals_given_the_same_are_filled(axe
     assert faces[(0.6, 4.0)] == "white" and faces[(0.4, 1.5)] == "#2f7d57"
 
 
-def test_the_steps_of_one_network_are_joined_from_fast_to_slow() -> None:
+def test_the_step_counts_of_one_network_are_joined_by_a_line_from_fast_to_slow() -> None:
     lines = chart_lines(chart_points(ROWS, "lsd_db"))
     assert [[point.row for point in line] for line in lines] == [["plain-euler-1", "plain-euler-4"]]
 
@@ -123,7 +123,7 @@ def test_the_legend_explains_every_colour_and_the_bars(monkeypatch: pytest.Monke
 
 
 @pytest.mark.parametrize("name", ["standard", "draft"])
-def test_the_bars_are_the_bootstrap_over_the_recordings_that_are_kept_of_the_row(name: str) -> None:
+def test_the_bars_are_bootstrap_intervals_over_the_stored_recordings_of_the_row(name: str) -> None:
     kept = read_row(ROOT / "Training" / "results" / "rows" / f"{name}-1.json")["conditions"]
     assert len(kept) == next(row for row in SHIPPED["rows"] if row["name"] == name)["recordings"]
     for panel in PANELS:
@@ -136,7 +136,7 @@ def test_the_bars_are_the_bootstrap_over_the_recordings_that_are_kept_of_the_row
 
 
 @pytest.mark.parametrize("panel", PANELS, ids=lambda panel: panel.key)
-def test_no_name_of_the_shipped_picture_covers_another_one(axes: Any, panel: Any) -> None:
+def test_no_two_names_in_the_shipped_picture_overlap(axes: Any, panel: Any) -> None:
     axes.figure.set_size_inches(6.0, 5.3)
     draw_panel(axes, panel, SHIPPED["rows"])
     axes.figure.canvas.draw()
@@ -146,6 +146,6 @@ def test_no_name_of_the_shipped_picture_covers_another_one(axes: Any, panel: Any
         for index, first in enumerate(axes.texts) for other, second in enumerate(axes.texts)
         if index < other and boxes[index].overlaps(boxes[other])
     ]  # fmt: skip
-    # Our tiers, the ruler and the paper's time at the least.
+    # At least our tiers, the reference and the paper's time.
     assert len(boxes) >= 4 and np.all([box.width > 0 for box in boxes])
     assert covered == []

@@ -1,4 +1,4 @@
-"""`haptoflow-training add-material`: a material from recordings, beside a model file or inside, and what is refused."""
+"""`haptoflow-training add-material`: material files, further labels, and refused input."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from own_samples import csv_one_axis, stroke
 
+from haptoflow_benchmark.engine.engine_render import read_wav, render_motion
 from haptoflow_training.cli import main
 from haptoflow_training.errors import InputError
-from haptoflow_training.evaluation.engine_render import read_wav, render_motion
 from haptoflow_training.export.material_file import model_space, read_material
 from haptoflow_training.export.model_file import ModelFile, read_model_file
 from haptoflow_training.fewshot.add_label import with_label
@@ -43,7 +43,7 @@ def extended(recording: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return out
 
 
-def test_a_material_file_says_what_was_recorded(
+def test_a_material_file_states_what_was_recorded(
     recording: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
@@ -68,7 +68,7 @@ def test_a_material_file_says_what_was_recorded(
     assert 1 <= len(material.seeds) <= 8
 
 
-def test_a_further_label_leaves_every_other_as_it_was(extended: Path) -> None:
+def test_a_further_label_leaves_all_other_labels_unchanged(extended: Path) -> None:
     before, after = read_model_file(DEFAULT), read_model_file(extended)
     count = len(before.header["labels"])
     assert after.header["labels"][:count] == before.header["labels"]
@@ -95,7 +95,9 @@ def test_a_further_label_has_its_level_tone_seeds_and_licence(extended: Path) ->
     assert np.sqrt(np.square(model.tensors["seeds"][own]).mean(axis=1)) == pytest.approx(np.ones(len(own)), abs=1e-3)
 
 
-def test_both_homes_hold_the_same_material(recording: Path, extended: Path, tmp_path: Path) -> None:
+def test_a_material_file_and_a_model_file_hold_the_same_material(
+    recording: Path, extended: Path, tmp_path: Path
+) -> None:
     out = tmp_path / "doormat.haptomaterial"
     assert add("--recording", recording, "-o", out) == 0
     material, label = read_material(out), read_model_file(extended).header["labels"][-1]
@@ -140,7 +142,7 @@ def test_recordings_of_two_labels_are_refused_unless_a_name_is_given(
         (["--wave-vector", "1", "0", "--wave-vector", "0", "1", "--wave-vector", "1", "1"], "two at most"),
     ],
 )
-def test_what_cannot_be_meant_is_refused(
+def test_contradictory_options_are_refused(
     words: list[str], message: str, recording: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:  # fmt: skip
@@ -150,7 +152,9 @@ def test_what_cannot_be_meant_is_refused(
     assert not list(tmp_path.iterdir())
 
 
-def test_too_little_and_too_slow_a_recording_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_recording_that_is_too_short_or_too_slow_is_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     short = csv_one_axis(tmp_path / "short", "a", "a", stroke(2.0))
     assert add("--recording", short, "-o", tmp_path / "x.haptomaterial") == 3
     assert "2 s at least, 10 s are recommended" in capsys.readouterr().err
@@ -160,7 +164,7 @@ def test_too_little_and_too_slow_a_recording_is_refused(tmp_path: Path, capsys: 
     assert not (tmp_path / "x.haptomaterial").exists()
 
 
-def test_wave_vectors_that_are_given_are_used(
+def test_given_wave_vectors_are_used(
     recording: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     out = tmp_path / "rack.haptomaterial"
@@ -174,7 +178,7 @@ def test_wave_vectors_that_are_given_are_used(
     assert all(seed.rib_phase is not None for seed in material.seeds)
 
 
-def test_a_label_that_is_no_file_name_does_not_lead_out_of_the_folder(
+def test_a_label_with_path_separators_cannot_write_outside_the_folder(
     recording: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     inner = tmp_path / "inner"
@@ -203,7 +207,7 @@ def test_a_material_of_another_space_does_not_become_a_label() -> None:
 
 
 def render_wav(folder: Path, label: str, *options: str | Path) -> bytes:
-    """Bytes of a WAV of half a second on a plane of the label."""
+    """The bytes of a WAV file of half a second on a plane of the label."""
     folder.mkdir()
     motion = np.tile(np.array([0.08, 0.02, 1.0]), (1000, 1))
     made = render_motion(ENGINE, label, motion, folder, options=("--quiet", *map(str, options)))
@@ -211,13 +215,13 @@ def render_wav(folder: Path, label: str, *options: str | Path) -> bytes:
     return (folder / "out.wav").read_bytes()
 
 
-def test_the_engine_plays_the_other_labels_byte_for_byte_as_before(extended: Path, tmp_path: Path) -> None:
+def test_the_engine_renders_the_other_labels_byte_for_byte_as_before(extended: Path, tmp_path: Path) -> None:
     for label in ("wood", "corduroy"):
         before = render_wav(tmp_path / f"{label}-before", label, "--model", DEFAULT)
         assert render_wav(tmp_path / f"{label}-after", label, "--model", extended) == before
 
 
-def test_the_engine_plays_the_further_label_and_the_material_file_alike(
+def test_the_engine_renders_the_further_label_and_the_material_file_alike(
     recording: Path, extended: Path, tmp_path: Path
 ) -> None:
     material = tmp_path / "doormat.haptomaterial"

@@ -1,4 +1,4 @@
-"""Training pairs: aligned, inside their split, with the condition of the segment's beginning."""
+"""Training pairs: aligned, inside their split, conditioned on the motion at the segment's beginning."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ PLAIN = BatchConfig(silence_probability=0.0, switch_probability=0.0)
 
 
 def _positions(store_wave: np.ndarray, segment: torch.Tensor) -> int:
-    """Where in the store the segment lies."""
+    """The position of each segment in the store."""
     wave = (segment.numpy() / 10.0).astype(np.float32)
     matches = np.flatnonzero(np.isclose(store_wave[: -len(wave)], wave[0], rtol=1e-5))
     for start in matches:
@@ -34,7 +34,7 @@ def test_the_previous_waveform_is_what_was_recorded_just_before_the_segment() ->
 
 
 @pytest.mark.parametrize("split", ["train", "validation", "test"])
-def test_no_pair_leaves_its_split(split: str) -> None:
+def test_no_training_pair_crosses_a_split(split: str) -> None:
     store = make_store()
     batch = SegmentBatches(store, split, PLAIN, 2).draw(32)
     for row in range(32):
@@ -54,7 +54,7 @@ def test_the_condition_is_the_mean_motion_of_the_leading_samples() -> None:
         )
 
 
-def test_emphasised_labels_are_drawn_that_many_times_as_often() -> None:
+def test_emphasised_labels_are_drawn_emphasis_times_as_often() -> None:
     store = make_store()
     config = BatchConfig(emphasised_labels=(store.labels[1],), emphasis=4.0)
     drawn = SegmentBatches(store, "train", config, 8).draw(3000).label

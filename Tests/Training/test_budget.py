@@ -1,4 +1,4 @@
-"""A budget of time: phases lengthened or shortened by one factor, ended by the clock, gone on with after a stop."""
+"""Time budgets: phases scaled by one factor, ended by the clock, continued after an interruption."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ SECONDS_PER_STEP = {"level": 1.0, "field": 4.0, "polish": 1.0}
 
 
 class _Clock:
-    """Computing time that passes with training steps alone."""
+    """Computing time that passes only with training steps."""
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.now = 0.0
@@ -51,7 +51,7 @@ def _phases(folder: Path) -> dict[str, dict[str, float]]:
     return {phase["name"]: phase for phase in run["phases"]}
 
 
-def test_a_budget_keeps_what_is_kept_and_scales_every_other_phase_by_the_same_factor() -> None:
+def test_a_budget_keeps_the_level_phases_and_scales_all_others_by_one_factor() -> None:
     kept = [True, False, False, True]
     budget = Budget.shared_out(210.0, [20, 30, 15, 10], [1.0, 4.0, 4.0, 1.0], kept=kept)
     assert budget.allotted_seconds == pytest.approx([20.0, 120.0, 60.0, 10.0])
@@ -61,7 +61,7 @@ def test_a_budget_keeps_what_is_kept_and_scales_every_other_phase_by_the_same_fa
     assert alone.allotted_seconds == pytest.approx([40.0, 20.0])
 
 
-def test_the_share_of_planned_steps_that_are_done_is_the_share_of_time_that_is_over(
+def test_the_share_of_steps_done_equals_the_share_of_time_passed(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     budget = Budget([100.0], [25.0])
@@ -71,7 +71,7 @@ def test_the_share_of_planned_steps_that_are_done_is_the_share_of_time_that_is_o
 
 
 @pytest.mark.parametrize("seconds", [75.0, 300.0])
-def test_a_run_makes_as_many_steps_as_its_budget_has_time_for(seconds: float, tmp_path: Path, clock: _Clock) -> None:
+def test_a_run_makes_as_many_steps_as_fit_its_budget(seconds: float, tmp_path: Path, clock: _Clock) -> None:
     Trainer(_budgeted(seconds), make_store(), tmp_path, ALONE).run()
     phases = _phases(tmp_path)
     for name, steps in (("level", 20), ("field", (seconds - 30.0) / 4.0), ("polish", 10)):
@@ -79,7 +79,7 @@ def test_a_run_makes_as_many_steps_as_its_budget_has_time_for(seconds: float, tm
     assert sum(phase["core_seconds"] for phase in phases.values()) == pytest.approx(seconds, abs=6.0)
 
 
-def test_steps_that_become_slower_on_the_way_are_fewer_and_the_phase_ends_in_its_time(
+def test_steps_that_slow_down_become_fewer_and_the_phase_ends_in_time(
     tmp_path: Path, clock: _Clock, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     trainer = Trainer(_budgeted(150.0), make_store(), tmp_path, ALONE)
@@ -96,7 +96,7 @@ def test_steps_that_become_slower_on_the_way_are_fewer_and_the_phase_ends_in_its
     assert phases["field"]["core_seconds"] == pytest.approx(120.0, abs=8.0)
 
 
-def test_the_learning_rate_of_a_budgeted_phase_has_fallen_when_its_time_is_over(tmp_path: Path, clock: _Clock) -> None:
+def test_the_learning_rate_has_decayed_when_a_budgeted_phase_ends(tmp_path: Path, clock: _Clock) -> None:
     trainer = Trainer(_budgeted(300.0), make_store(), tmp_path, ALONE)
     rates: list[float] = []
     learning_rate = trainer._learning_rate
@@ -112,7 +112,7 @@ def test_the_learning_rate_of_a_budgeted_phase_has_fallen_when_its_time_is_over(
     assert field[-1] < 0.1 * 6e-4
 
 
-def test_a_stopped_run_goes_on_with_what_is_left_of_its_budget(tmp_path: Path, clock: _Clock) -> None:
+def test_a_resumed_run_uses_the_rest_of_its_budget(tmp_path: Path, clock: _Clock) -> None:
     stopped = Trainer(_budgeted(300.0), make_store(), tmp_path, ALONE)
     ask_to_stop_after(stopped, 60)
     with pytest.raises(TrainingStopped):

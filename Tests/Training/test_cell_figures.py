@@ -1,4 +1,4 @@
-"""What is measured of one recording: the right figures for its motion, and only those that it can have."""
+"""The figures of one recording: correct values, and only those that apply to its motion."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from haptoflow_training.evaluation import accuracy
-from haptoflow_training.evaluation.cell_figures import measure_cell
-from haptoflow_training.evaluation.closed_loop import run_closed_loop
-from haptoflow_training.evaluation.judged_figures import BY_KEY
-from haptoflow_training.evaluation.reference_conditions import Condition, is_on_other_label
-from haptoflow_training.evaluation.reference_set import ReferencePair
+from haptoflow_benchmark.metrics.cell_figures import measure_cell
+from haptoflow_benchmark.metrics.judged_figures import BY_KEY
+from haptoflow_benchmark.reference.reference_conditions import Condition, is_on_other_label
+from haptoflow_benchmark.reference.reference_set import ReferencePair
+from haptoflow_benchmark.rows import accuracy
+from haptoflow_training.closed_loop.render import run_closed_loop
 
 _SAMPLES = 24000
 _NOTHING = np.zeros(0, dtype=np.float32)
@@ -38,7 +38,7 @@ def _ribbed(depth: float, rate_hz: float, seed: int, drift: float = 0.0) -> NDAr
     return (_noise(seed) * np.sqrt(1.0 + depth * line) + 0.5 * line).astype(np.float32)
 
 
-def test_gaussian_noise_for_impacts_is_short_of_crest_and_kurtosis_and_right_in_level() -> None:
+def test_gaussian_noise_in_place_of_impacts_lacks_crest_and_kurtosis_but_has_the_right_level() -> None:
     recorded = _noise(1)
     recorded[::400] *= 25.0
     made = _noise(2) * recorded.std()
@@ -53,7 +53,7 @@ def test_surfaces_without_ribs_have_no_figures_of_ribs() -> None:
     assert not {"rib_modulation_error_db", "rib_coherence", "f0_error_percent", "harmonic_share"} & set(cell)
 
 
-def test_ribs_that_are_faint_and_drift_are_seen_as_such() -> None:
+def test_faint_and_drifting_ribs_are_detected_as_such() -> None:
     pair = _pair(_ribbed(0.9, 50.0, 3), rib_rates_hz=(50.0,))
     good = measure_cell(pair, _ribbed(0.9, 50.0, 5), _NOTHING, _STARTS)
     faint = measure_cell(pair, _ribbed(0.2, 50.0, 5), _NOTHING, _STARTS)
@@ -63,33 +63,33 @@ def test_ribs_that_are_faint_and_drift_are_seen_as_such() -> None:
     assert drifting["rib_coherence"] < 0.5 and good["f0_error_percent"] < 0.2
 
 
-def test_of_two_families_the_worse_one_is_what_counts() -> None:
+def test_of_two_rib_families_the_worse_one_counts() -> None:
     both = _ribbed(0.8, 50.0, 3) + _ribbed(0.0, 83.0, 4)
     one = _ribbed(0.8, 50.0, 5) + _noise(6)
     cell = measure_cell(_pair(both, rib_rates_hz=(50.0, 83.0)), one, _NOTHING, _STARTS)
     assert cell["rib_coherence"] < 0.7
 
 
-def test_ribs_too_slow_for_a_line_are_judged_by_the_swing_of_the_power() -> None:
+def test_ribs_too_slow_for_a_line_are_judged_by_the_modulation_of_the_power() -> None:
     cell = measure_cell(_pair(_ribbed(0.9, 8.3, 3), rib_rates_hz=(8.3,)), _noise(4), _NOTHING, _STARTS)
     assert cell["rib_modulation_error_db"] < -15.0 and cell["rib_coherence"] < 0.7 and "f0_error_percent" not in cell
 
 
-def test_silence_is_as_wrong_as_can_be_and_no_figure_of_it_is_infinite() -> None:
+def test_silence_has_the_worst_figures_and_all_are_finite() -> None:
     pair = _pair(_ribbed(0.9, 50.0, 3), rib_rates_hz=(50.0,))
     cell = measure_cell(pair, np.zeros(_SAMPLES, np.float32), _NOTHING, _STARTS)
     assert cell["level_error_db"] < -100.0 and cell["modulation_error_db"] > 10.0
     assert all(np.isfinite(cell[key]) for key in BY_KEY if key in cell)
 
 
-def test_a_change_of_label_is_judged_around_the_changes_alone_and_each_way_by_itself() -> None:
+def test_a_change_of_label_is_judged_near_the_changes_only_and_in_each_direction() -> None:
     elsewhere = is_on_other_label(_SAMPLES)
     levels = np.where(elsewhere, 4.0, 1.0).astype(np.float32)
     pair = _pair(_noise(1) * levels, "change", other_label="b", other_index=1)
     right = measure_cell(pair, _noise(2) * levels, _NOTHING, _STARTS)
     assert abs(right["change_level_error_db"]) < 0.7 and abs(right["change_crest_error_db"]) < 0.7
     assert "level_error_db" not in right and "told_apart_percent" not in right
-    # The generator that goes on with the old label for a tenth of a second is heard both ways.
+    # A generator that keeps the old label for 100 ms is detected in both directions.
     late = np.roll(levels, 200)
     assert abs(measure_cell(pair, _noise(2) * late, _NOTHING, _STARTS)["change_level_error_db"]) > 3.0
     away = (np.arange(_SAMPLES) % 1000 > 300) & (np.arange(_SAMPLES) % 1000 < 800)
@@ -104,7 +104,7 @@ class _Echo:
         return (noise * embeddings[:, :1]).astype(np.float32)
 
 
-def test_in_a_change_of_label_each_hop_is_told_the_label_that_is_under_the_tip() -> None:
+def test_in_a_change_of_label_each_hop_is_conditioned_on_the_label_under_the_tip() -> None:
     embeddings = np.zeros((2, 64), dtype=np.float32)
     embeddings[:, 0] = (1.0, 4.0)
     plain = _pair(_noise(1))

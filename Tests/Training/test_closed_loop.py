@@ -1,15 +1,15 @@
-"""The closed loop: hops, conditions, splices and past as the engine has them."""
+"""The closed loop: hops, conditions, splices and previous waveforms as in the engine."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
 
-from haptoflow_training.evaluation.closed_loop import hop_positions, run_closed_loop, spliced
+from haptoflow_training.closed_loop.render import hop_positions, run_closed_loop, spliced
 
 
 class Probe:
-    """Keeps what it is asked and answers with segments that count upwards."""
+    """Records its requests and returns segments that count upwards."""
 
     def __init__(self) -> None:
         self.motions: list[np.ndarray] = []
@@ -46,7 +46,7 @@ def test_each_past_is_the_two_hundred_samples_before_the_segment(rate_hz: float)
         np.testing.assert_array_equal(past, padded[:, start : start + 200])
 
 
-def test_a_segment_is_told_the_motion_before_it_and_not_the_motion_to_come() -> None:
+def test_the_condition_of_a_segment_is_the_motion_before_it_and_not_the_motion_after_it() -> None:
     probe = Probe()
     motions = np.zeros((1, 400, 3), dtype=np.float32)
     motions[0, 200:, 0] = 1.0
@@ -55,25 +55,25 @@ def test_a_segment_is_told_the_motion_before_it_and_not_the_motion_to_come() -> 
     np.testing.assert_array_equal(told, (run.hop_starts > 200).astype(np.float32))
 
 
-def test_a_segment_that_goes_on_as_the_old_one_did_passes_unchanged() -> None:
+def test_a_segment_that_continues_the_old_one_passes_the_splice_unchanged() -> None:
     wave = np.random.default_rng(1).standard_normal((3, 200)).astype(np.float32)
     np.testing.assert_allclose(spliced(wave, wave), wave, rtol=1e-5)
 
 
-def test_the_level_holds_across_a_splice_of_strangers() -> None:
+def test_the_level_is_constant_across_a_splice_of_uncorrelated_segments() -> None:
     generator = np.random.default_rng(2)
     old, new = (generator.standard_normal((20000, 200)).astype(np.float32) for _ in range(2))
     power = np.square(spliced(old, new)).mean(axis=0)
-    # The correlation is estimated from 32 samples and never negative: a bias of a few per cent.
+    # The correlation is estimated from 32 samples and never negative, which biases it by a few per cent.
     np.testing.assert_allclose(power[:8], 1.0, atol=0.1)
 
 
 @pytest.mark.parametrize("rate_hz", [30.0, 72.0, 120.0])
-def test_the_rib_phase_is_what_the_told_motions_have_travelled_along_each_wave_vector_wrapped(rate_hz: float) -> None:
+def test_the_rib_phase_is_the_travelled_distance_along_each_wave_vector_modulo_one(rate_hz: float) -> None:
     probe = Probe()
     embeddings = np.zeros((2, 64), np.float32)
     embeddings[0, -4:], embeddings[1, -4:] = (0.4, 0.0, 0.0, 0.8), (-1.1, 0.3, 0.0, 0.0)
-    # There, and with the same speed back: the phase is to come back to where it began.
+    # There and back at the same speed: the phase must return to its start.
     motions = np.zeros((2, 4000, 3), np.float32)
     motions[:, :2000, 0], motions[:, :2000, 1] = 0.7, -0.2
     motions[:, 2000:, :2] = -motions[:, :2000, :2]

@@ -1,4 +1,4 @@
-"""What a codec alone leaves of a recording."""
+"""Recordings encoded and decoded by a codec."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ import pytest
 import torch
 from torch import Tensor
 
+from haptoflow_benchmark.codec.codec_reconstruction import codec_reconstruction
+from haptoflow_benchmark.codec.small_codec import SmallCodec, SmallCodecShape
 from haptoflow_training.errors import InputError
-from haptoflow_training.models.codec.codec_reconstruction import codec_reconstruction
-from haptoflow_training.models.codec.small_codec import SmallCodec, SmallCodecShape
 
 
 @pytest.fixture
@@ -28,7 +28,7 @@ def _noise(samples: int, level_mps2: float) -> np.ndarray:
 
 
 @pytest.mark.parametrize("samples", [1000, 1013, 28, 7])
-def test_every_hop_is_the_beginning_of_its_own_segment_encoded_and_decoded(checkpoint: Path, samples: int) -> None:
+def test_every_hop_is_the_start_of_its_own_encoded_and_decoded_segment(checkpoint: Path, samples: int) -> None:
     wave = _noise(samples, 3.0)
     made = codec_reconstruction(checkpoint, [wave])[0]
     assert made.shape == wave.shape and made.dtype == np.float32
@@ -43,16 +43,16 @@ def test_every_hop_is_the_beginning_of_its_own_segment_encoded_and_decoded(check
         np.testing.assert_allclose(part, whole[: len(part)] * level, rtol=1e-3, atol=1e-4)
 
 
-def test_a_louder_recording_is_reconstructed_louder_by_as_much(checkpoint: Path) -> None:
+def test_a_louder_recording_is_reconstructed_louder_by_the_same_factor(checkpoint: Path) -> None:
     quiet, loud = codec_reconstruction(checkpoint, [_noise(600, 0.5), _noise(600, 50.0)])
     np.testing.assert_allclose(loud, 100.0 * quiet, rtol=1e-3, atol=1e-2)
 
 
-def test_silence_stays_as_faint_as_what_cannot_be_felt(checkpoint: Path) -> None:
+def test_silence_stays_below_the_threshold_of_feeling(checkpoint: Path) -> None:
     assert np.abs(codec_reconstruction(checkpoint, [np.zeros(500, dtype=np.float32)])[0]).max() < 0.05
 
 
-def test_a_codec_that_changes_nothing_gives_the_recording_back(
+def test_an_identity_codec_returns_the_recording(
     checkpoint: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def same(codec: SmallCodec, value: Tensor) -> Tensor:

@@ -9,15 +9,15 @@ import pytest
 import torch
 from numpy.typing import NDArray
 
-from haptoflow_training.errors import InputError
-from haptoflow_training.models.codec.reconstruction_loss import (
+from haptoflow_benchmark.codec.reconstruction_loss import (
     signal_to_noise_ratio_db,
     spectral_loss,
     time_loss,
 )
-from haptoflow_training.models.codec.small_codec import SmallCodec, SmallCodecShape
-from haptoflow_training.models.codec.small_codec_config import SmallCodecConfig, read_small_codec_config
-from haptoflow_training.training.codec_trainer import SegmentSampler, train_small_codec, validate
+from haptoflow_benchmark.codec.small_codec import SmallCodec, SmallCodecShape
+from haptoflow_benchmark.codec.small_codec_config import SmallCodecConfig, read_small_codec_config
+from haptoflow_benchmark.codec.trainer import SegmentSampler, train_small_codec, validate
+from haptoflow_training.errors import InputError
 from haptoflow_training.training.held_out import HeldOut
 
 CONFIGS = Path(__file__).resolve().parents[2] / "Training" / "configs"
@@ -42,7 +42,7 @@ class Store:
 
 @dataclass
 class StoppingStore:
-    """Fails at the n-th reading, as a killed run would."""
+    """Fails at the n-th reading, like a killed run."""
 
     store: Store
     readings_left: int
@@ -64,7 +64,7 @@ class StoppingStore:
 
 
 def _texture(generator: np.random.Generator, samples: int) -> NDArray[np.float32]:
-    """A tone in low-passed noise, scaled at random: what a material's acceleration looks like."""
+    """A tone in low-passed noise with random gain, similar to a material's acceleration."""
     noise = np.convolve(generator.standard_normal(samples + 7), np.hanning(8), mode="valid")
     time_seconds = np.arange(samples) / 2000.0
     frequency_hz = generator.uniform(40.0, 300.0)
@@ -108,7 +108,7 @@ def test_a_segment_becomes_25_positions_and_200_samples_again() -> None:
     assert codec.decode(latent).shape == (3, 1, 200)
 
 
-def test_training_reaches_ten_decibels_on_recordings_it_has_not_seen(
+def test_training_reaches_ten_decibels_on_held_out_recordings(
     store: Store, trained: tuple[SmallCodec, SmallCodecConfig]
 ) -> None:
     codec, config = trained
@@ -142,7 +142,7 @@ def test_a_resumed_run_equals_the_uninterrupted_one(store: Store, tmp_path: Path
     counting = StoppingStore(store, readings_left=10_000)
     resumed = train_small_codec(counting, _config(tmp_path / "stopped", 10))
 
-    # Two probes, the validation draw, the four steps after the checkpoint of step 6, the statistics' draw.
+    # Two probes, the validation draw, the four steps after the checkpoint of step 6, the draw for the statistics.
     assert 10_000 - counting.readings_left == 3 + 4 + 1
     expected = straight.state_dict()
     assert all(torch.equal(value, expected[name]) for name, value in resumed.state_dict().items())
@@ -186,7 +186,7 @@ def test_segments_stay_inside_recordings_of_their_split() -> None:
     assert segments.std(dim=2).max() < 1e-6
 
 
-def test_segments_have_unit_scale_give_or_take_the_gain_spread(store: Store) -> None:
+def test_segments_have_unit_scale_within_the_gain_spread(store: Store) -> None:
     segments = SegmentSampler(store, "train", HeldOut()).draw(np.random.default_rng(2), 400)
     level_db = 10.0 * torch.log10(segments.square().mean(dim=(1, 2)))
     assert level_db.abs().max() <= 9.001
@@ -207,7 +207,7 @@ def test_a_file_of_another_kind_is_no_small_codec(tmp_path: Path) -> None:
         SmallCodec.load(tmp_path / "other.pt")
 
 
-def test_the_spectral_loss_sees_a_wrong_frequency_and_forgives_a_shift() -> None:
+def test_the_spectral_loss_detects_a_wrong_frequency_and_ignores_a_time_shift() -> None:
     time_seconds = torch.arange(200) / 2000.0
     tone, shifted, higher = (
         torch.sin(2.0 * torch.pi * frequency_hz * time_seconds + phase).reshape(1, 1, -1)

@@ -51,7 +51,7 @@ def csv_in_place_of_parquet(path: Path) -> pandas.DataFrame:
 
 
 def to_hub_release(root: Path) -> Path:
-    """The same columns, one folder a texture; the table reader of these tests reads CSV under that name."""
+    """The same columns, one folder for each texture; the tests' table reader reads CSV under that name."""
     for path in sorted((root / "sensor_data").glob("*/*.csv")):
         folder = path.parent / path.stem.split("_")[0]
         folder.mkdir(exist_ok=True)
@@ -64,7 +64,7 @@ def sensor_file(root: Path, kind: str, name: str = NAMES[1]) -> Path:
 
 
 def only_problem(dataset: ClusterDataset) -> DatasetFileError:
-    """The one problem that loading every recording meets."""
+    """The single problem that occurs when every recording is loaded."""
     found = []
     for entry in dataset:
         try:
@@ -75,7 +75,7 @@ def only_problem(dataset: ClusterDataset) -> DatasetFileError:
     return found[0]
 
 
-def test_the_writer_lays_files_and_headers_out_as_the_file_release_does(file_release: Path) -> None:
+def test_the_writer_uses_the_file_release_s_layout_and_headers(file_release: Path) -> None:
     headers = {"accel": "time,X,Y,Z", "force": "time,force", "position": "time,X,Y"}
     for kind, header in headers.items():
         for name in NAMES:
@@ -111,7 +111,7 @@ def test_parquet_without_an_engine_names_the_remedy(
         entry.load()
 
 
-def test_values_that_are_not_quantised_lose_nothing_that_a_sensor_could_tell(tmp_path: Path) -> None:
+def test_unquantised_values_lose_less_than_a_sensor_resolves(tmp_path: Path) -> None:
     recording = small_recording(seconds=0.5)
     exact = recording.acceleration_g * np.pi
     write_recording(tmp_path, Recording(**{**recording.__dict__, "acceleration_g": exact}))
@@ -126,7 +126,7 @@ def test_a_recording_that_is_not_finite_is_not_written(tmp_path: Path) -> None:
     assert not list(tmp_path.rglob("*position*/*"))
 
 
-def test_a_file_appears_by_renaming_a_whole_one(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_file_is_written_atomically(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     renamed: list[str] = []
     replace = os.replace
 
@@ -234,7 +234,7 @@ def test_recordings_come_sorted_and_are_read_one_at_a_time(file_release: Path) -
     assert loaded == ["66_90_60_1000_1.csv"] * 3
 
 
-def test_recording_files_travel_to_another_process_and_so_do_their_errors(file_release: Path) -> None:
+def test_recording_files_and_their_errors_can_be_passed_to_another_process(file_release: Path) -> None:
     entry = open_dataset(file_release).recordings[0]
     assert pickle.loads(pickle.dumps(entry)) == entry
     error = DatasetFileError(Path("a.csv"), "empty file", "columns")
@@ -269,7 +269,7 @@ def test_a_texture_list_is_understood_with_other_headings(
     assert list(found[48].friction_coefficients.values()) == [0.5]
 
 
-def test_the_published_names_serve_where_the_texture_list_shows_that_it_is_the_published_one(file_release: Path) -> None:
+def test_the_published_names_are_used_if_the_texture_list_is_the_published_one(file_release: Path) -> None:
     write_texture_list(file_release, [TextureEntry(0, "nyatoh", {})])
     assert open_dataset(file_release).textures == {0: "nyatoh", 66: "Steel"}
     known = {38: "Granite", 48: "Concrete", 49: "HDPE", 64: "Carbon fiber", 73: "Titanium", 81: "Sandpaper"}
@@ -286,7 +286,7 @@ def test_ids_of_other_recordings_are_not_the_published_ones(file_release: Path) 
     assert (dataset.provenance["source"], dataset.provenance["licence"]) == ("unknown", "unknown")
 
 
-def test_a_damaged_texture_list_is_a_problem_and_not_the_end(file_release: Path) -> None:
+def test_a_damaged_texture_list_is_a_problem_but_not_fatal(file_release: Path) -> None:
     (file_release / "texture_list.xlsx").write_bytes(b"not a workbook")
     dataset = open_dataset(file_release)
     assert [problem.path.name for problem in dataset.problems] == ["texture_list.xlsx"]
@@ -310,7 +310,7 @@ def test_labels_are_found_by_id_and_by_the_name_in_the_texture_list(tmp_path: Pa
     assert [entry.identity.texture_id for entry in dataset.unlabelled] == [1]
 
 
-def test_a_synthetic_folder_finds_its_labels_by_name_because_its_ids_are_its_own(tmp_path: Path) -> None:
+def test_labels_of_a_synthetic_folder_are_found_by_name(tmp_path: Path) -> None:
     for name in ("0_0_20_500_0", "38_0_20_500_0"):
         write_recording(tmp_path, small_recording(name, seconds=0.5))
     write_texture_list(tmp_path, [TextureEntry(0, "stone", {}), TextureEntry(38, "carpet", {})])
@@ -367,12 +367,6 @@ def test_a_wrong_labels_file_is_refused_by_entry_and_key(tmp_path: Path, text: s
     path.write_text(text)
     with pytest.raises(InputError, match=words):
         load_labels(path)
-
-
-def test_a_selection_of_labels_keeps_the_order_asked_for() -> None:
-    assert load_labels().select(["metal", "wood"]).names == ["metal", "wood"]
-    with pytest.raises(InputError, match="label 'cheese' is not defined"):
-        load_labels().select(["cheese"])
 
 
 def test_an_unreadable_file_is_a_named_problem(file_release: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -6,9 +6,9 @@ from pathlib import Path
 import pytest
 import torch
 
+from haptoflow_benchmark.codec.causal_layers import CausalConvolution, fold_weight_norm
+from haptoflow_benchmark.codec.encodec import EnCodec
 from haptoflow_training.errors import InputError
-from haptoflow_training.models.codec.causal_layers import CausalConvolution, fold_weight_norm
-from haptoflow_training.models.codec.encodec import EnCodec
 
 # A sample of the published checkpoint's names and shapes, written out by hand.
 PUBLISHED = {
@@ -72,7 +72,7 @@ def test_2400_samples_become_eight_frames_of_128_values_and_2400_samples_again(c
 
 
 @torch.no_grad()
-def test_changing_the_future_leaves_earlier_frames_of_the_encoder_alone(codec: EnCodec) -> None:
+def test_future_samples_do_not_change_earlier_frames_of_the_encoder(codec: EnCodec) -> None:
     waveform = torch.randn(1, 1, 20 * 320)
     changed = waveform.clone()
     changed[..., 12 * 320 :] += 1.0
@@ -82,7 +82,7 @@ def test_changing_the_future_leaves_earlier_frames_of_the_encoder_alone(codec: E
 
 
 @torch.no_grad()
-def test_changing_the_future_leaves_earlier_samples_of_the_decoder_alone(codec: EnCodec) -> None:
+def test_future_frames_do_not_change_earlier_samples_of_the_decoder(codec: EnCodec) -> None:
     latent = torch.randn(1, 128, 20)
     changed = latent.clone()
     changed[..., 12:] += 1.0

@@ -1,4 +1,4 @@
-"""The native library through ctypes: what the evaluation measures is what the engine makes."""
+"""The native library through ctypes: the evaluation measures what the engine generates."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from haptoflow_benchmark.engine.engine_library import EngineGenerator, EngineLibrary, default_engine
+from haptoflow_benchmark.engine.timing import TimedSource, time_sources
 from haptoflow_training.errors import InputError
-from haptoflow_training.evaluation.engine_library import EngineGenerator, EngineLibrary, default_engine
-from haptoflow_training.evaluation.timing import TimedSource, time_sources
 
 ROOT = Path(__file__).parents[2]
 GOLDEN = ROOT / "Tests" / "Golden" / "model"
@@ -27,7 +27,7 @@ def _golden_cases() -> list[dict[str, object]]:
     return cases
 
 
-def test_segments_of_a_batch_are_those_that_python_made_of_the_same_weights(engine: EngineLibrary) -> None:
+def test_the_engine_s_segments_equal_those_of_pytorch(engine: EngineLibrary) -> None:
     model = ROOT / "Packages" / "com.haptoflow.runtime" / "Runtime" / "Models" / "default.haptoflow"
     for case in _golden_cases():
         with EngineGenerator(engine, model, str(case["tier"]), str(case["solver"]), int(str(case["steps"]))) as generator:
@@ -41,7 +41,7 @@ def test_segments_of_a_batch_are_those_that_python_made_of_the_same_weights(engi
         np.testing.assert_allclose(made[1], made[0], atol=1e-6)
 
 
-def test_a_refused_model_says_why(engine: EngineLibrary, tmp_path: Path) -> None:
+def test_a_refused_model_is_reported_with_the_reason(engine: EngineLibrary, tmp_path: Path) -> None:
     damaged = bytearray((GOLDEN / "tiny.haptoflow").read_bytes())
     damaged[-1] ^= 1
     (tmp_path / "damaged.haptoflow").write_bytes(bytes(damaged))
@@ -54,7 +54,7 @@ def test_a_library_that_is_not_built_names_the_command_that_builds_it(tmp_path: 
         default_engine(tmp_path)
 
 
-def test_every_source_is_timed_as_often_as_asked_whatever_the_order() -> None:
+def test_every_source_is_timed_as_often_as_requested() -> None:
     class Counting:
         runs = 0
 

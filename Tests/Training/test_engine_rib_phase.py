@@ -1,4 +1,4 @@
-"""The rib phase on its way from Python through the C interface into a graph."""
+"""The rib phase from Python through the C interface into a graph."""
 
 from __future__ import annotations
 
@@ -7,13 +7,14 @@ from pathlib import Path
 
 import numpy as np
 
-from haptoflow_training.evaluation.engine_library import EngineGenerator, default_engine
+from haptoflow_benchmark.engine.engine_library import EngineGenerator, default_engine
 
 ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT / "Tests" / "Golden" / "model"))
 
 import make_tiny_model  # noqa: E402
 import tiny_graphs  # noqa: E402
+
 from haptoflow_writer import write_model  # noqa: E402
 
 WEIGHTS = np.array([[0.5], [-0.25]], dtype=np.float32)
@@ -27,7 +28,7 @@ def _rib_graph() -> bytes:
     return graph.finish({"rib_phase": ["B", 2]}, {"segment": ["B", 1, tiny_graphs.SAMPLES]})
 
 
-def test_each_request_of_a_batch_brings_its_own_rib_phase_and_none_means_zero(tmp_path: Path) -> None:
+def test_each_row_of_a_batch_has_its_own_rib_phase_and_none_means_zero(tmp_path: Path) -> None:
     model = tmp_path / "ribs.haptoflow"
     write_model(model, make_tiny_model.header(), {**make_tiny_model.blobs(), "direct_field": _rib_graph()})
     random = np.random.default_rng(1)

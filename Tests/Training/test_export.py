@@ -12,14 +12,14 @@ import pytest
 from test_trainer import ALONE, _config
 from training_fixtures import FakeStore, make_store
 
+from haptoflow_benchmark.codec.small_codec import SmallCodec, SmallCodecShape
+from haptoflow_benchmark.report.annotation import annotate_model
 from haptoflow_training.errors import InputError
-from haptoflow_training.export.annotation import annotate_model
 from haptoflow_training.export.exponents import fit_exponents
 from haptoflow_training.export.exporter import Provenance, export_run
 from haptoflow_training.export.label_info import LabelInfo
 from haptoflow_training.export.model_file import ModelFile, read_model_file
 from haptoflow_training.export.seed_bank import build_seed_bank
-from haptoflow_training.models.codec.small_codec import SmallCodec, SmallCodecShape
 from haptoflow_training.recordings.landing import Landing, LandingMode
 from haptoflow_training.training.config import ModelConfig
 from haptoflow_training.training.held_out import HeldOut
@@ -52,7 +52,7 @@ def test_the_header_says_origin_labels_range_and_tier(exported: tuple[Path, Mode
     assert header["measurements"]["steps"] == 60
 
 
-def test_a_label_s_answer_to_a_landing_is_in_the_header_where_one_is_known(
+def test_the_header_holds_a_label_s_touch_down_vibration_if_it_is_known(
     exported: tuple[Path, ModelFile, FakeStore]
 ) -> None:
     known, unknown = exported[1].header["labels"]
@@ -94,7 +94,7 @@ def test_seeds_are_recordings_of_unit_level_with_their_conditions(exported: tupl
     assert (spectra.argmax(axis=1) == 30).all(), "150 Hz is bin 30 of 400 samples at 2 kHz"
 
 
-def test_a_seed_of_a_ruled_label_says_at_which_rib_phase_it_begins_to_sound_and_another_does_not() -> None:
+def test_only_seeds_of_ruled_labels_state_their_rib_phase() -> None:
     store = make_store()
     wave_numbers = np.array([[0.0, 0.0, 0.0, 0.0], [0.4, 0.1, 0.0, 0.8]], np.float32)
     bank = build_seed_bank(store, wave_numbers, seed=1, held_out=HeldOut(), candidates=200)
@@ -173,7 +173,7 @@ def test_a_run_in_latents_is_exported_with_its_encoder_and_decoder(tmp_path: Pat
     assert [size.dim_value for size in field.graph.input[0].type.tensor_type.shape.dim[1:]] == latent
 
 
-def test_a_baseline_becomes_a_direct_tier_with_the_inputs_that_it_reads(tmp_path: Path) -> None:
+def test_a_rival_becomes_a_direct_tier_with_the_inputs_that_it_reads(tmp_path: Path) -> None:
     store = make_store(seconds=6.0, recordings_per_split=4)
     config = dataclasses.replace(_config(steps=4), model=ModelConfig(architecture="spsi"))
     Trainer(config, store, tmp_path / "run", ALONE).run()

@@ -1,4 +1,4 @@
-"""A material from seconds: level, tone, frame, seeds and embedding follow what was recorded."""
+"""A material fitted to seconds: level, tone, frame, seeds and embedding match the recording."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
+from haptoflow_benchmark.few_shot.few_shot_rivals import fit_autoregressive
+from haptoflow_benchmark.metrics.waveform_metrics import power_spectrum
 from haptoflow_training.errors import InputError
-from haptoflow_training.evaluation.few_shot_rivals import fit_autoregressive
-from haptoflow_training.evaluation.metrics import power_spectrum
 from haptoflow_training.export.material_sound import LevelTable, ToneTable
 from haptoflow_training.export.model_file import ModelFile, read_model_file
 from haptoflow_training.fewshot.embedding_fit import FitOptions
@@ -69,7 +69,7 @@ def test_the_level_follows_a_step_that_breaks_any_power_law(prior: LabelPrior) -
     assert levels_db(law, speeds) == pytest.approx([float(wanted(v)) for v in speeds], abs=2.0)
 
 
-def test_beyond_the_recorded_speeds_the_level_goes_on_by_the_recorded_exponent(prior: LabelPrior) -> None:
+def test_beyond_the_recorded_speeds_the_level_continues_with_the_recorded_exponent(prior: LabelPrior) -> None:
     speed = swept(20.0, 0.03, 0.15)
     wave = np.random.default_rng(2).standard_normal(len(speed)) * (speed / 0.1) ** 0.6
     law = fit_level(windows_of([stroke(wave, motion_of(speed))], 200, 100), prior)
@@ -87,7 +87,7 @@ def test_a_recording_at_one_force_takes_the_labels_force_exponent_and_one_at_man
     assert pressed.force_exponent == pytest.approx(0.9, abs=0.1)
 
 
-def test_blows_count_by_their_power(prior: LabelPrior) -> None:
+def test_impacts_count_by_their_power(prior: LabelPrior) -> None:
     speed, rng = swept(20.0), np.random.default_rng(4)
     wave = rng.standard_normal(len(speed)) * np.where(rng.random(len(speed)) < 0.01, 10.0, 0.5)
     law = fit_level(windows_of([stroke(wave, motion_of(speed))], 200, 100), prior)
@@ -105,7 +105,7 @@ def toned_bands(wave: np.ndarray, motion: np.ndarray) -> tuple[np.ndarray, np.nd
     return *band_powers(windows.waves), windows.speed_mps
 
 
-def test_a_tone_that_was_put_on_is_found_again_at_every_speed() -> None:
+def test_an_applied_tone_is_recovered_at_every_speed() -> None:
     speed, rng = swept(40.0, period=8.0), np.random.default_rng(5)
     gains = (8.0, 2.0, -6.0, 0.0, 4.0), (-6.0, 4.0, 0.0, 6.0, -4.0)
     true = ToneTable((0.03, 0.15), (20.0, 80.0, 200.0, 500.0, 900.0), gains)
@@ -119,7 +119,7 @@ def test_a_tone_that_was_put_on_is_found_again_at_every_speed() -> None:
         assert found.gain_db(at, frequencies) == pytest.approx(true.gain_db(at, frequencies), abs=2.0)
 
 
-def test_where_nothing_differs_the_tone_is_nearly_none_even_from_three_seconds() -> None:
+def test_without_a_difference_the_fitted_tone_is_nearly_flat_even_from_three_seconds() -> None:
     speed, rng = swept(3.0), np.random.default_rng(6)
     motion = motion_of(speed)
     recorded, centres, counts, heard = toned_bands(rng.standard_normal(len(speed)), motion)
@@ -139,7 +139,7 @@ def test_a_ruled_material_lies_across_its_clearest_ribs() -> None:
     assert not Frame.of([]).is_ruled
 
 
-def test_seeds_through_the_tone_are_what_was_recorded() -> None:
+def test_seeds_filtered_by_the_tone_equal_the_recording() -> None:
     speed, rng = swept(8.0, period=4.0), np.random.default_rng(7)
     wave = lfilter([1.0], [1.0, -0.8], rng.standard_normal(len(speed)))
     recording = stroke(wave, motion_of(speed))
@@ -154,14 +154,14 @@ def test_seeds_through_the_tone_are_what_was_recorded() -> None:
         assert match.max() > 0.97
 
 
-def test_the_pitch_of_a_surface_that_does_not_change_hardly_follows_the_speed() -> None:
+def test_a_constant_spectrum_gives_a_frequency_exponent_near_zero() -> None:
     speed, rng = swept(10.0), np.random.default_rng(8)
     windows = windows_of([stroke(rng.standard_normal(len(speed)), motion_of(speed))], 400, 200)
     assert frequency_exponent(windows) < 0.12
 
 
-def test_a_label_that_is_recorded_from_the_model_is_found_and_fitted(model: FileModel) -> None:
-    """What the model itself makes of paper, at another level and through a tone, comes back as paper at that level."""
+def test_a_label_rendered_by_the_model_is_recognised_and_fitted(model: FileModel) -> None:
+    """The model's own rendering of paper, at another level and through a tone, is fitted as paper at that level."""
     names = [label["name"] for label in model.labels]
     speed = np.concatenate([swept(5.0, 0.02, 0.1), swept(5.0, 0.05, 0.2)])
     motion = motion_of(speed)
@@ -212,7 +212,7 @@ def test_a_model_of_one_label_and_another_solver_is_fitted_to_as_well() -> None:
     assert fitted.fit.nearest == 0
 
 
-def test_the_autoregressive_rival_has_the_spectrum_of_an_autoregressive_truth() -> None:
+def test_the_autoregressive_rival_recovers_an_autoregressive_spectrum() -> None:
     rng = np.random.default_rng(12)
     speed = swept(10.0)
     wave = lfilter([1.0], [1.0, -1.6, 0.9], rng.standard_normal(len(speed)))
@@ -225,7 +225,7 @@ def test_the_autoregressive_rival_has_the_spectrum_of_an_autoregressive_truth() 
     assert np.sqrt(np.mean(ratio**2)) < 1.0
 
 
-def test_a_tier_whose_network_moves_leaves_the_models_own_alone(model: FileModel) -> None:
+def test_training_a_copied_tier_leaves_the_model_s_own_tier_unchanged(model: FileModel) -> None:
     speed = swept(3.0)
     motion = motion_of(speed)
     wave = np.random.default_rng(13).standard_normal(len(speed)).astype(np.float32)

@@ -1,4 +1,4 @@
-"""The commands of "A new material from ten seconds, in Python" run as they stand there."""
+"""Runs the commands of "A new material from ten seconds, in Python" as printed on the page."""
 
 from __future__ import annotations
 
@@ -10,19 +10,23 @@ import pytest
 from own_samples import csv_one_axis, stroke
 from test_few_shot_study import cell, stored
 
-from haptoflow_training.cli import main
+from haptoflow_benchmark import cli as benchmark
+from haptoflow_training import cli as training
 
 ROOT = Path(__file__).parents[2]
 DEFAULT = ROOT / "Packages" / "com.haptoflow.runtime" / "Runtime" / "Models" / "default.haptoflow"
 PAGE = ROOT / "Documentation~" / "own-materials.md"
 HEADING = "## A new material from ten seconds, in Python"
 
+PROGRAMS = {"haptoflow-benchmark": benchmark.main, "haptoflow-training": training.main}
+
 
 def commands() -> list[list[str]]:
+    """The words of each command on the page, its program first."""
     section = PAGE.read_text(encoding="utf-8").split(HEADING, 1)[1].split("\n## ", 1)[0]
     blocks = re.findall(r"^```\n(.*?)^```", section, re.DOTALL | re.MULTILINE)
     lines = [line.split() for block in blocks for line in block.splitlines()]
-    return [words[1:] for words in lines if words[:1] == ["haptoflow-training"]]
+    return [words for words in lines if words[:1] and words[0] in PROGRAMS]
 
 
 def test_every_command_of_the_page_runs_and_writes_what_it_names(
@@ -36,15 +40,15 @@ def test_every_command_of_the_page_runs_and_writes_what_it_names(
     (work / "unseen-01.json").write_text(json.dumps(stored("unseen-01", False)), encoding="utf-8")
     (work / "unseen-01.engine.json").write_text(json.dumps([cell(1.0)]), encoding="utf-8")
     ran = set()
-    for words in commands():
+    for program, *words in commands():
         quick = {
             "add-material": ["--steps", "2"],
             "sliders": [],
             "measure-wave-vectors": ["--every", "60"],
-            # What takes minutes is stored already.
+            # The slow cells are stored already.
             "few-shot": ["--materials", "1", "--work", str(work)],
         }[words[0]]
-        assert main([*words, *quick]) == 0, words
+        assert PROGRAMS[program]([*words, *quick]) == 0, words
         ran.add(words[0])
         for before, named in zip(words[:-1], words[1:], strict=True):
             if before in ("-o", "--results", "--chart"):

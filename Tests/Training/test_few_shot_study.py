@@ -1,4 +1,4 @@
-"""The few-shot study: its materials are unseen, its figures mean what they say, and it goes on where it was stopped."""
+"""The few-shot study: unseen materials, correct figures, resumption after an interruption."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from haptoflow_training.cli import main
-from haptoflow_training.evaluation.few_shot_cases import SECONDS, FewShotCase, make_case, study_materials
-from haptoflow_training.evaluation.few_shot_figures import condition_figures, summarised
-from haptoflow_training.evaluation.few_shot_report import (
+from haptoflow_benchmark.cli import main
+from haptoflow_benchmark.few_shot.few_shot_cases import SECONDS, FewShotCase, make_case, study_materials
+from haptoflow_benchmark.few_shot.few_shot_figures import condition_figures, summarised
+from haptoflow_benchmark.few_shot.few_shot_report import (
     OTHER_DRAW,
     ROWS,
     assembled,
@@ -22,9 +22,9 @@ from haptoflow_training.evaluation.few_shot_report import (
     write_chart,
     write_results,
 )
-from haptoflow_training.evaluation.few_shot_study import StudyPlan, cells_of
-from haptoflow_training.evaluation.model_stamp import with_measured_words
+from haptoflow_benchmark.few_shot.few_shot_study import StudyPlan, cells_of
 from haptoflow_training.export.model_file import read_model_file
+from haptoflow_training.model_stamp import with_measured_words
 from haptoflow_training.models.file_model import FileModel
 from haptoflow_training.recordings.synthetic import load_materials
 
@@ -40,7 +40,7 @@ def case() -> FewShotCase:
     return make_case(study_materials(3, 2026)[2], 2026, 10.0)
 
 
-def test_unseen_materials_are_between_labels_and_like_none() -> None:
+def test_unseen_materials_lie_between_labels_and_equal_none() -> None:
     known = load_materials()
     unseen = study_materials(12, 2026)
     assert len({material.label for material in unseen}) == 12
@@ -64,7 +64,7 @@ def test_shorter_recordings_are_the_beginnings_of_longer_ones_and_as_long_as_the
     assert SECONDS == (3.0, 10.0, 30.0, 120.0)
 
 
-def test_what_is_measured_is_another_piece_than_what_is_learnt_from(case: FewShotCase) -> None:
+def test_the_measured_specimen_is_not_one_that_was_fitted(case: FewShotCase) -> None:
     for condition in case.conditions:
         speed = np.hypot(*condition.motion[:, :2].T)
         assert speed.mean() == pytest.approx(condition.speed_mps, rel=0.1)
@@ -74,7 +74,7 @@ def test_what_is_measured_is_another_piece_than_what_is_learnt_from(case: FewSho
     assert any(condition.rib_rates_hz for condition in case.conditions)
 
 
-def test_the_recording_itself_has_no_error_and_twice_of_it_has_six_decibels(case: FewShotCase) -> None:
+def test_the_recording_itself_has_no_error_and_twice_its_amplitude_has_six_decibels(case: FewShotCase) -> None:
     condition = case.conditions[3]
     same = condition_figures(condition, condition.recorded, np.array([0, 500, 1000]))
     assert same["level_error_db"] == pytest.approx(0.0, abs=1e-6)
@@ -87,7 +87,7 @@ def test_the_recording_itself_has_no_error_and_twice_of_it_has_six_decibels(case
     assert "seam_jump" not in twice
 
 
-def test_the_distance_of_spectra_is_deaf_beyond_450_hz(case: FewShotCase) -> None:
+def test_the_spectral_distance_ignores_frequencies_above_450_hz(case: FewShotCase) -> None:
     condition = case.conditions[3]
     loud = 3.0 * float(np.std(condition.recorded))
     beyond = condition.recorded + loud * np.sin(2.0 * np.pi * 800.0 * np.arange(len(condition.recorded)) / 2000.0)
@@ -101,7 +101,7 @@ def cell(level: float, gfc: float = 0.99, lsd: float = 1.0) -> dict[str, float]:
     }  # fmt: skip
 
 
-def test_levels_count_by_size_and_intervals_come_from_materials() -> None:
+def test_level_errors_count_by_magnitude_and_intervals_come_from_materials() -> None:
     summary = summarised([[cell(-2.0), cell(2.0)], [cell(1.0), cell(-1.0)], [cell(3.0), cell(-3.0)]])
     assert summary["level_error_median_db"]["value"] == 2.0
     low, high = summary["level_error_median_db"]["interval"]
@@ -121,7 +121,7 @@ def stored(material: str, ruled: bool) -> dict[str, object]:
     }  # fmt: skip
 
 
-def test_a_study_goes_on_with_what_is_stored(tmp_path: Path) -> None:
+def test_an_interrupted_study_resumes_from_stored_cells(tmp_path: Path) -> None:
     plan = StudyPlan(DEFAULT, tmp_path, 1)
     material = study_materials(1, 1)[0]
     (tmp_path / f"{material.label}.json").write_text(json.dumps(stored(material.label, False)), encoding="utf-8")
@@ -170,7 +170,7 @@ def test_a_whole_study_of_one_material_measures_every_row(tmp_path: Path) -> Non
         ("--chart", "plain.md/few-shot.png", "few-shot.png: cannot be written (File exists)"),
     ],
 )
-def test_a_place_that_cannot_be_written_is_said_in_one_line_before_anything_is_fitted(
+def test_an_unwritable_place_is_reported_in_one_line_before_anything_is_fitted(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], option: str, name: str, said: str
 ) -> None:
     (tmp_path / "plain.md").write_text("# Page\n", encoding="utf-8")

@@ -1,4 +1,4 @@
-"""Flow matching and its solvers against fields whose integral is known."""
+"""Flow matching and its solvers, compared with fields whose integral is known."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ import torch
 from haptoflow_training.training.flow_matching import flow_matching_loss, interpolate, solve
 
 
-def test_the_path_starts_at_the_noise_and_ends_at_the_target() -> None:
+def test_the_interpolation_starts_at_the_noise_and_ends_at_the_target() -> None:
     noise, target = torch.randn(3, 1, 200), torch.randn(3, 1, 200)
     torch.testing.assert_close(interpolate(noise, target, torch.zeros(3, 1)), noise)
     torch.testing.assert_close(interpolate(noise, target, torch.ones(3, 1)), target)
 
 
-def test_the_loss_is_zero_for_the_field_that_knows_noise_and_target() -> None:
+def test_the_loss_is_zero_for_the_true_velocity() -> None:
     target = torch.full((8, 1, 200), 2.0)
 
     def field(state: torch.Tensor, time: torch.Tensor) -> torch.Tensor:
@@ -25,7 +25,7 @@ def test_the_loss_is_zero_for_the_field_that_knows_noise_and_target() -> None:
     assert flow_matching_loss(field, target, torch.Generator().manual_seed(0)).item() < 1e-6
 
 
-def test_the_loss_of_a_silent_field_is_the_power_of_target_and_noise() -> None:
+def test_the_loss_of_a_zero_field_is_the_power_of_target_and_noise() -> None:
     target = torch.full((512, 1, 200), 3.0)
     loss = flow_matching_loss(lambda state, time: torch.zeros_like(state), target, torch.Generator().manual_seed(0))
     assert loss.item() == pytest.approx(10.0, rel=0.02)

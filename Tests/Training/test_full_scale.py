@@ -1,4 +1,4 @@
-"""The default full scale: at most two samples in a thousand of people's strokes lie above the limiter's knee."""
+"""The default full scale: at most two samples in a thousand of recorded strokes lie above the limiter's knee."""
 
 from __future__ import annotations
 
@@ -11,11 +11,10 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from haptoflow_training.cli import main
-from haptoflow_training.commands import measure_full_scale
-from haptoflow_training.errors import InputError
-from haptoflow_training.evaluation.engine_render import FULL_SCALE_MPS2, write_scene
-from haptoflow_training.evaluation.full_scale import (
+from haptoflow_benchmark.cli import main
+from haptoflow_benchmark.commands import measure_full_scale
+from haptoflow_benchmark.engine.engine_render import FULL_SCALE_MPS2, write_scene
+from haptoflow_benchmark.full_scale.measurement import (
     ALLOWED_SHARE,
     KNEE,
     StrokeLevel,
@@ -25,7 +24,8 @@ from haptoflow_training.evaluation.full_scale import (
     smallest_full_scale,
     summarise,
 )
-from haptoflow_training.strokes.recorded_strokes import onto_table, read_recorded_strokes
+from haptoflow_benchmark.full_scale.recorded_strokes import onto_table, read_recorded_strokes
+from haptoflow_training.errors import InputError
 
 ROOT = Path(__file__).parents[2]
 STROKES = ROOT.parent / "shared" / "strokes" / "vr-pen-on-surface" / "strokes.csv"
@@ -42,7 +42,7 @@ def test_a_sample_is_in_the_knee_above_seven_tenths_of_full_scale_and_not_at_it(
     assert share_in_knee([], 100.0) == 0.0
 
 
-def test_the_smallest_full_scale_bends_fewer_samples_than_allowed_and_the_step_below_does_not() -> None:
+def test_the_smallest_full_scale_keeps_the_allowed_share_and_the_step_below_does_not() -> None:
     generator = np.random.default_rng(3)
     for scale in (0.5, 12.0, 60.0):
         levels = [_level("loud", np.abs(generator.normal(size=20000)) * scale) for _ in range(3)]
@@ -56,7 +56,7 @@ def test_exactly_the_allowed_share_is_too_much() -> None:
     assert smallest_full_scale([_level("tap", magnitudes)]) == 60.0
 
 
-def test_the_loudest_label_has_its_own_figure_beside_the_one_over_all() -> None:
+def test_the_loudest_label_has_a_figure_of_its_own() -> None:
     quiet, loud = _level("quiet", np.full(100000, 1.0)), _level("loud", np.full(50, 140.0))
     report = summarise([quiet, loud], [60.0])
     assert report["smallest_full_scale_mps2"] == 10.0
@@ -65,7 +65,7 @@ def test_the_loudest_label_has_its_own_figure_beside_the_one_over_all() -> None:
     assert report["full_scales"][0]["renders_with_a_sample_in_knee"] == 1
 
 
-def test_a_stroke_on_a_tilted_table_lies_on_its_plane_and_what_was_lifted_stays_above() -> None:
+def test_a_stroke_on_a_tilted_table_is_mapped_onto_its_plane_and_lifts_stay_above() -> None:
     generator = np.random.default_rng(4)
     plane = generator.uniform(-0.3, 0.3, size=(300, 2))
     height = 0.02 + 0.05 * plane[:, 0] - 0.03 * plane[:, 1]
@@ -82,7 +82,7 @@ def test_a_stroke_on_a_tilted_table_lies_on_its_plane_and_what_was_lifted_stays_
     [("stroke_id,t_s,x_m,y_m,z_m\na,0,0,oops,0\n", ":2: expected"), ("stroke_id,t_s,x_m,y_m\na,0,0,0\n", ":2: expected"),
      ("stroke_id,t_s,x_m,y_m,z_m\n", "holds no stroke")],
 )  # fmt: skip
-def test_a_damaged_file_of_strokes_is_refused_by_its_line(tmp_path: Path, text: str, message: str) -> None:
+def test_a_damaged_stroke_file_is_refused_with_the_line_named(tmp_path: Path, text: str, message: str) -> None:
     path = tmp_path / "strokes.csv"
     path.write_text(text, encoding="utf-8")
     with pytest.raises(InputError, match=message):
@@ -109,13 +109,13 @@ def test_the_loudest_labels_leave_less_than_two_samples_in_a_thousand_in_the_kne
     assert len(levels) == 18 and all(len(level.magnitudes_mps2) > 10000 for level in levels)
     for label in _LOUDEST:
         own = [level for level in levels if level.label == label]
-        # Full scale was chosen with a model that did not strike: of the loudest label's blows a few more are bent.
+        # Full scale was chosen with a model without impacts; the loudest label exceeds the knee a little more often.
         assert share_in_knee(own, FULL_SCALE_MPS2) < 2.0 * ALLOWED_SHARE, label
-        # The default before this one: the measurement tells the two apart.
+        # The previous default: the measurement distinguishes the two.
         assert share_in_knee(own, 60.0) > 10.0 * ALLOWED_SHARE, label
 
 
-def test_the_limiter_of_the_engine_bends_as_many_samples_as_are_counted_here(tmp_path: Path) -> None:
+def test_the_engine_s_limiter_changes_as_many_samples_as_counted_here(tmp_path: Path) -> None:
     if not STROKES.is_file():
         pytest.skip(f"the recorded strokes are not beside this checkout ({STROKES.relative_to(ROOT.parent)})")
     stroke = read_recorded_strokes(STROKES)[_FEW[0]]
@@ -134,7 +134,7 @@ def test_the_limiter_of_the_engine_bends_as_many_samples_as_are_counted_here(tmp
 
 
 @pytest.mark.parametrize("option", ["--page", "--out"])
-def test_a_place_that_cannot_be_written_is_said_before_anything_is_rendered(
+def test_an_unwritable_place_is_reported_before_anything_is_rendered(
     tmp_path: Path, option: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def rendered(*_: object, **__: object) -> None:

@@ -1,4 +1,4 @@
-"""The goals of the default tier, judged from accuracy-time.json: neither met by chance nor missed in silence."""
+"""The goals of the default tier, judged from accuracy-time.json."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from haptoflow_training.evaluation.goals import Goal, judge
+from haptoflow_benchmark.report.goals import Goal, judge
 
 _FAST = {"level_error_db": -0.5, "gfc_recording": 0.986, "lsd_db": 2.0}
 
@@ -56,7 +56,7 @@ def _named(goals: list[Goal], beginning: str) -> Goal:
     return found[0]
 
 
-def test_a_table_that_reaches_everything_holds_everywhere() -> None:
+def test_a_table_that_reaches_every_goal_meets_all_of_them() -> None:
     goals = judge(_table())
     assert len(goals) == 32 and all(goal.holds for goal in goals), [goal for goal in goals if not goal.holds]
 
@@ -88,7 +88,7 @@ def test_a_table_that_reaches_everything_holds_everywhere() -> None:
         ("", "fast", [_FAST, {**_FAST, "lsd_db": 2.5}], "LSD, 500"),
     ],
 )
-def test_a_figure_beyond_its_goal_is_a_goal_missed(part: str, figure: str, value: Any, beginning: str) -> None:
+def test_a_figure_beyond_its_limit_misses_its_goal(part: str, figure: str, value: Any, beginning: str) -> None:
     table = _table()
     standard = table["rows"][0]
     (standard[part] if part else standard)[figure] = value
@@ -98,7 +98,7 @@ def test_a_figure_beyond_its_goal_is_a_goal_missed(part: str, figure: str, value
 
 
 @pytest.mark.parametrize("part", ["cells", "special"])
-def test_a_figure_that_no_cell_has_is_not_measured_and_neither_held_nor_missed(part: str) -> None:
+def test_a_figure_without_cells_is_neither_met_nor_missed(part: str) -> None:
     table = _table()
     standard = table["rows"][0]
     standard[part] = dict.fromkeys(standard[part])
@@ -106,7 +106,7 @@ def test_a_figure_that_no_cell_has_is_not_measured_and_neither_held_nor_missed(p
     assert len(unjudged) >= 5 and all(goal.holds is None for goal in unjudged)
 
 
-def test_a_rival_that_is_better_in_one_figure_is_named_with_it() -> None:
+def test_a_rival_that_wins_in_one_figure_is_named_with_that_figure() -> None:
     table = _table()
     table["rows"][5]["verdict"] = {"level_error_db": "behind", "lsd_db": "ahead"}
     goal = _named(judge(table), "behind a rival, given the same")
@@ -114,7 +114,7 @@ def test_a_rival_that_is_better_in_one_figure_is_named_with_it() -> None:
     assert _named(judge(table), "behind a rival, as published").holds is True
 
 
-def test_a_tier_that_takes_more_time_and_is_behind_in_a_figure_is_a_goal_missed() -> None:
+def test_a_slower_tier_that_is_behind_in_a_figure_misses_its_goal() -> None:
     table = _table()
     table["rows"][1]["verdict"] = {"lsd_db": "behind"}
     table["rows"][2]["verdict"] = {"crest_error_db": "ahead"}
@@ -132,11 +132,11 @@ def test_goals_of_time_are_ratios_in_one_run_hot_and_at_live_pace() -> None:
     assert _named(judge(table), "times faster than the paper's sizes, hot: standard").holds is True
 
 
-def test_a_file_above_twelve_mebibytes_is_a_goal_missed() -> None:
+def test_a_file_above_twelve_mebibytes_misses_its_goal() -> None:
     assert _named(judge({**_table(), "model_bytes": 13 * 2**20}), "size of the model file").holds is False
 
 
-def test_rows_that_are_missing_leave_their_goals_unjudged() -> None:
+def test_missing_rows_leave_their_goals_unjudged() -> None:
     alone = judge({"rows": [row for row in _table()["rows"] if row["name"] == "standard"]})
     for beginning in (
         "standard behind draft", "GFC below our", "LSD above it", "behind a rival, as", "behind a rival, given",

@@ -1,5 +1,4 @@
-"""A model file's graphs in PyTorch answer as the golden vectors say, and their gradients are those of what they
-answer."""
+"""A model file's graphs in PyTorch reproduce the golden vectors, with correct gradients."""
 
 from __future__ import annotations
 
@@ -50,7 +49,7 @@ def test_level_and_every_tier_of_the_default_model_agree_with_the_golden_vectors
         assert torch.allclose(made * gain, tensor(case, "segment", 1, 1, 200), atol=1e-4)
 
 
-def test_a_batch_answers_as_its_rows_do_whatever_size_came_before(default: FileModel) -> None:
+def test_a_batch_gives_the_results_of_its_rows_whatever_batch_size_came_before(default: FileModel) -> None:
     tier, generator = default.tier("draft"), torch.Generator().manual_seed(1)
     waves = torch.randn(2, 5, 1, 200, generator=generator)
     embedding, motion = default.label_embeddings[:5], torch.rand(5, 3, generator=generator)
@@ -62,7 +61,7 @@ def test_a_batch_answers_as_its_rows_do_whatever_size_came_before(default: FileM
 
 
 @pytest.mark.parametrize("name", ["draft", "standard"])
-def test_the_gradient_by_the_embedding_is_that_of_differences(default: FileModel, name: str) -> None:
+def test_the_gradient_with_respect_to_the_embedding_equals_finite_differences(default: FileModel, name: str) -> None:
     tier, generator = default.tier(name), torch.Generator().manual_seed(2)
     waves = torch.randn(2, 1, 1, 200, generator=generator)
     motion, phase = torch.tensor([[0.08, 0.02, 1.0]]), torch.tensor([[0.3, 0.7]])
@@ -81,7 +80,7 @@ def test_the_gradient_by_the_embedding_is_that_of_differences(default: FileModel
 
 
 @pytest.mark.parametrize("kind", ["flow", "average-velocity", "direct"])
-def test_every_kind_of_tier_that_is_exported_answers_as_its_network(kind: str) -> None:
+def test_every_exported_kind_of_tier_computes_what_its_network_computes(kind: str) -> None:
     config = load_config(ROOT / "Training" / "configs" / "default" / "standard.toml")
     if kind == "average-velocity":
         config = dataclasses.replace(config, recipe=dataclasses.replace(config.recipe, objective=kind))
@@ -103,7 +102,7 @@ def test_every_kind_of_tier_that_is_exported_answers_as_its_network(kind: str) -
     assert torch.allclose(made, expected, atol=1e-4)
 
 
-def test_an_operator_that_is_not_known_is_named() -> None:
+def test_an_unknown_operator_is_named() -> None:
     node = helper.make_node("LSTM", ["noisy", "w", "r"], ["velocity"])
     value = helper.make_tensor_value_info("noisy", TensorProto.FLOAT, [1, 1, 200])
     weights = [helper.make_tensor(name, TensorProto.FLOAT, [1], [0.0]) for name in ("w", "r")]
@@ -112,7 +111,7 @@ def test_an_operator_that_is_not_known_is_named() -> None:
         GraphModule(graph, "tier 'x'")
 
 
-def test_a_tier_that_is_not_there_and_a_latent_one_are_refused() -> None:
+def test_a_missing_tier_and_a_latent_tier_are_refused() -> None:
     file = read_model_file(GOLDEN / "tiny.haptoflow")
     graphs = {name: graph for name, graph in file.graphs.items() if "field" in name}
     model = FileModel(ModelFile(file.header, file.tensors, graphs))
@@ -122,8 +121,8 @@ def test_a_tier_that_is_not_there_and_a_latent_one_are_refused() -> None:
         model.tier("latent")
 
 
-def test_every_solver_agrees_with_what_the_engine_must_answer() -> None:
-    """tiny.expected.json holds what the tiny model's tiers answer, worked out by hand."""
+def test_every_solver_gives_the_engine_s_expected_results() -> None:
+    """tiny.expected.json holds the results of the tiny model's tiers, computed by hand."""
     file = read_model_file(GOLDEN / "tiny.haptoflow")
     usable = {name: graph for name, graph in file.graphs.items() if not name.startswith(("wrong", "not_finite"))}
     document = json.loads((GOLDEN / "tiny.expected.json").read_text(encoding="utf-8"))

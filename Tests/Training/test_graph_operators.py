@@ -1,4 +1,4 @@
-"""Whatever the training exports, the reader of model files takes: opset 16, no other domain, operators of the list."""
+"""Every exported graph can be read by the engine: opset 16, no other domain, listed operators only."""
 
 from __future__ import annotations
 
@@ -10,10 +10,11 @@ import onnx
 import pytest
 import torch
 
+from haptoflow_benchmark.codec.representation import CodecRepresentation
+from haptoflow_benchmark.codec.small_codec import SmallCodec, SmallCodecShape
+from haptoflow_benchmark.rivals import ARCHITECTURES
 from haptoflow_training.export.onnx_graphs import export_level_model, export_network
-from haptoflow_training.models.baselines import ARCHITECTURES
-from haptoflow_training.models.codec.small_codec import SmallCodec, SmallCodecShape
-from haptoflow_training.models.representation import CodecRepresentation, build_representation
+from haptoflow_training.models.representation import build_representation
 from haptoflow_training.training.config import TrainingConfig, load_config
 from haptoflow_training.training.trainer import build_model
 
@@ -39,7 +40,7 @@ def _check(graph: bytes) -> None:
 
 
 @pytest.mark.parametrize("kind", ["flow", "average-velocity", "direct"])
-def test_every_kind_of_tier_of_the_shipped_sizes_uses_operators_of_the_list(kind: str) -> None:
+def test_every_kind_of_tier_in_shipped_sizes_uses_only_listed_operators(kind: str) -> None:
     for size in ("draft", "standard"):
         model = build_model(load_config(CONFIGS / "default" / f"{size}.toml"), NO_RIBS)
         _check(export_network(model, kind))
@@ -47,13 +48,13 @@ def test_every_kind_of_tier_of_the_shipped_sizes_uses_operators_of_the_list(kind
 
 
 @pytest.mark.parametrize("architecture", ARCHITECTURES)
-def test_every_rival_uses_operators_of_the_list(architecture: str) -> None:
+def test_every_rival_uses_only_listed_operators(architecture: str) -> None:
     base = load_config(CONFIGS / "evaluation" / "plain.toml")
     config: TrainingConfig = dataclasses.replace(base, model=dataclasses.replace(base.model, architecture=architecture))
     _check(export_network(build_model(config, NO_RIBS), "direct"))
 
 
-def test_every_codec_uses_operators_of_the_list(tmp_path: Path) -> None:
+def test_every_codec_uses_only_listed_operators(tmp_path: Path) -> None:
     codec = SmallCodec(SmallCodecShape(latent_channels=12, width=8))
     codec.normaliser.fit(codec.encoder(torch.randn(64, 1, 200)).detach())
     codec.save(tmp_path / "small.pt")

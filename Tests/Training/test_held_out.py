@@ -1,4 +1,4 @@
-"""What the evaluation asks about is not learnt from: counted, sample by sample, on a store that is full of it."""
+"""Held-out motion is never used for training: checked sample by sample on a store that is full of it."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ import torch
 from numpy.typing import NDArray
 from training_fixtures import FakeRecording, FakeStore, travelled_mm
 
-from haptoflow_training.evaluation.level_calibration import level_offsets_db
-from haptoflow_training.evaluation.reference_conditions import conditions
+from haptoflow_benchmark.codec.small_codec_config import read_small_codec_config
+from haptoflow_benchmark.codec.trainer import SegmentSampler
+from haptoflow_benchmark.reference.reference_conditions import conditions
+from haptoflow_training.closed_loop.level_calibration import level_offsets_db
 from haptoflow_training.export.exponents import fit_exponents
 from haptoflow_training.export.recorded_windows import draw_windows
 from haptoflow_training.export.seed_bank import build_seed_bank
 from haptoflow_training.preprocessing.pipeline import preprocess_recording
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.recordings.synthetic import load_materials, machine_conditions, record_machine_condition
-from haptoflow_training.models.codec.small_codec_config import read_small_codec_config
 from haptoflow_training.training.batches import SegmentBatches
-from haptoflow_training.training.codec_trainer import SegmentSampler
 from haptoflow_training.training.config import BatchConfig, load_config
 from haptoflow_training.training.held_out import HeldOut, clear_spans
 
@@ -43,8 +43,8 @@ def _wandering(
 
 
 def _store(seconds: float = 60.0) -> FakeStore:
-    """Two labels, hand and machine, whose strokes wander through all bands. The wave tells the place: each sample's
-    value is its index, so that whatever is drawn says where it was taken from."""
+    """Two labels, hand and machine, whose strokes cross all bands. Each sample's value is its index, so that drawn
+    samples reveal their place."""
     generator = np.random.default_rng(4)
     count = int(2000 * seconds)
     motions, recordings = [], []
@@ -69,7 +69,7 @@ def _count_held(places: NDArray[np.floating]) -> int:
     return int(HELD_OUT.holds(STORE.motion[places.reshape(-1).astype(np.int64)]).sum())
 
 
-def test_the_store_of_these_tests_is_full_of_what_is_held_out() -> None:
+def test_the_store_of_these_tests_contains_much_held_out_motion() -> None:
     held = HELD_OUT.holds(STORE.motion)
     assert 0.1 < held.mean() < 0.5
     direction = np.degrees(np.arctan2(STORE.motion[:, 1], STORE.motion[:, 0])) % 360.0
@@ -104,7 +104,7 @@ def test_no_sample_of_a_codec_s_segment_lies_in_a_held_out_band() -> None:
     assert torch.all(kept.amax(dim=2) < 1.01 * kept.amin(dim=2)) and torch.any(free.amax(dim=2) > 2.0 * free.amin(dim=2))
 
 
-def test_the_codec_holds_out_what_networks_do() -> None:
+def test_the_codec_holds_out_the_same_bands_as_networks() -> None:
     config = read_small_codec_config(ROOT / "Training" / "configs" / "codec-small.toml")
     network = load_config(ROOT / "Training" / "configs" / "default" / "standard.toml")
     assert config.held_out_as is not None
@@ -112,7 +112,7 @@ def test_the_codec_holds_out_what_networks_do() -> None:
     assert bands == HeldOut.of(network.batch) != HeldOut()
 
 
-def test_without_bands_the_same_store_gives_away_what_would_be_held_out() -> None:
+def test_without_bands_the_held_out_motion_of_the_same_store_is_drawn() -> None:
     free = dataclasses.replace(
         BATCH, held_out_speed_mps=(), held_out_force_newtons=(), held_out_direction_degrees=()
     )
@@ -120,7 +120,7 @@ def test_without_bands_the_same_store_gives_away_what_would_be_held_out() -> Non
     assert _count_held(batch.segment.numpy()) > 1000
 
 
-def test_seeds_and_exponents_are_read_outside_the_bands_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_seeds_and_exponents_use_only_windows_outside_the_bands(monkeypatch: pytest.MonkeyPatch) -> None:
     read: list[NDArray[np.float32]] = []
 
     def spy(*arguments: Any, **named: Any) -> Any:
@@ -136,8 +136,8 @@ def test_seeds_and_exponents_are_read_outside_the_bands_alone(monkeypatch: pytes
     assert [_count_held(waves) for waves in read] == [0, 0, 0]
 
 
-def test_the_level_is_calibrated_on_windows_outside_the_bands_alone() -> None:
-    # Inside the bands the recording is a thousand times louder: one such window would be heard.
+def test_the_level_is_calibrated_only_on_windows_outside_the_bands() -> None:
+    # Inside the bands the recording is a thousand times louder, so a single such window would be detected.
     motion = STORE.motion
     held = HELD_OUT.holds(motion)
     level = np.where(held, 1000.0, 1.0).astype(np.float32)
@@ -153,7 +153,7 @@ def test_the_level_is_calibrated_on_windows_outside_the_bands_alone() -> None:
     assert max(level_offsets_db(Right(), embeddings, store, HeldOut())) < -20.0
 
 
-def test_a_band_of_directions_may_lie_across_zero_and_a_tip_at_rest_has_none() -> None:
+def test_a_direction_band_may_include_zero_and_a_resting_tip_has_no_direction() -> None:
     held_out = HeldOut(direction_degrees=(-10.0, 10.0))
     angles = np.radians([355.0, 0.0, 9.0, 11.0, 180.0])
     motion = np.stack([np.cos(angles), np.sin(angles), np.ones(5)], axis=1)
@@ -161,7 +161,7 @@ def test_a_band_of_directions_may_lie_across_zero_and_a_tip_at_rest_has_none() -
     assert not held_out.holds(np.array([[1e-4, 0.0, 1.0]])).any()
 
 
-def test_clear_spans_are_what_is_left_of_each_recording_and_nothing_across_two() -> None:
+def test_clear_spans_are_the_rest_of_each_recording_and_never_span_two() -> None:
     speed = np.array([0.1, 0.27, 0.1, 0.1, 0.1, 0.27, 0.27, 0.1], dtype=np.float32)
     motion = np.stack([speed, np.zeros(8), np.ones(8)], axis=1).astype(np.float32)
     spans = clear_spans(motion, np.array([0, 4]), np.array([4, 4]), HeldOut(speed_mps=(0.25, 0.3)))
@@ -169,7 +169,7 @@ def test_clear_spans_are_what_is_left_of_each_recording_and_nothing_across_two()
     assert spans.owners.tolist() == [0, 0, 1, 1]
 
 
-def test_a_split_that_lies_wholly_in_a_band_is_named_and_never_drawn_from() -> None:
+def test_a_split_entirely_inside_a_band_is_named_and_never_drawn() -> None:
     everything = dataclasses.replace(BATCH, held_out_force_newtons=(0.0, 9.0))
     with pytest.raises(ValueError, match="'train'.*held-out"):
         SegmentBatches(STORE, "train", everything, 1)
@@ -187,7 +187,7 @@ def _default_passes() -> Sequence[tuple[int, NDArray[np.float32]]]:
     return found
 
 
-def test_of_the_default_s_machine_passes_none_goes_the_held_out_way_and_the_bands_are_the_evaluation_s() -> None:
+def test_no_default_machine_pass_has_the_held_out_direction_and_the_evaluation_uses_the_same_bands() -> None:
     config = load_config(ROOT / "Training" / "configs" / "default" / "base.toml").batch
     direction = HeldOut(direction_degrees=config.held_out_direction_degrees)
     for named, motion in _default_passes():

@@ -45,10 +45,10 @@ def test_inspect_finds_rates_and_irregularity_from_the_time_stamps(root: Path) -
     assert clocks["position"].irregularity == pytest.approx(0.0, abs=1e-6)
 
 
-def test_inspect_prints_ranges_in_which_a_wrong_unit_shows(root: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_inspect_prints_ranges_that_reveal_a_wrong_unit(root: Path, capsys: pytest.CaptureFixture[str]) -> None:
     ranges = inspect_dataset(open_dataset(root)).ranges
     assert (ranges["force"].low, ranges["force"].high) == pytest.approx((0.49, 1.51), abs=0.02)
-    # At rest before and after, then as fast as the names say, the hand's 400 mm/s included.
+    # At rest before and after, otherwise at the speeds in the names, including the hand's 400 mm/s.
     assert ranges["speed"].low == pytest.approx(0.0, abs=1.0)
     assert ranges["speed"].high == pytest.approx(400.0, rel=0.02)
     assert 0.01 < ranges["vibration"].middle < 0.2
@@ -114,7 +114,7 @@ def test_inspect_exits_3_for_a_folder_that_is_no_data_set(
     assert "expected the folder that holds sensor_data" in capsys.readouterr().err
 
 
-def test_inspect_help_teaches_with_examples(capsys: pytest.CaptureFixture[str]) -> None:
+def test_inspect_help_has_examples(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as stop:
         main(["inspect", "--help"])
     assert stop.value.code == 0

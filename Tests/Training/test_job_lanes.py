@@ -1,4 +1,4 @@
-"""Trainings side by side: never more than asked for, none left behind, failures named."""
+"""Parallel trainings: at most the given number, none left behind, failures named."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from haptoflow_training.errors import InputError
 from haptoflow_training.training.job_lanes import Job, run_jobs
 
 _PYTHON = (sys.executable, "-c")
-# Writes that it began, waits, writes its product; asked to stop, it writes that it heard so.
+# Writes that it began, waits, writes its product; when terminated, it writes that too.
 _CAREFUL = """
 import pathlib, signal, sys, time
 folder, name, seconds = pathlib.Path(sys.argv[1]), sys.argv[2], float(sys.argv[3])
@@ -38,18 +38,18 @@ def test_no_more_jobs_run_at_a_time_than_there_are_lanes_and_progress_counts_the
     jobs = [_careful(tmp_path, f"job{number}", 0.3) for number in range(5)]
     most, heard = 0, []
 
-    def watch(finished: int) -> None:
+    def progress(finished: int) -> None:
         nonlocal most
         heard.append(finished)
         most = max(most, len(list(tmp_path.glob("*.began"))) - finished)
 
-    run_jobs(jobs, 2, watch)
+    run_jobs(jobs, 2, progress)
     assert most <= 2 and heard == sorted(heard) and heard[-1] == 5
     assert all(job.product.exists() for job in jobs)
 
 
 @pytest.mark.parametrize("program", ["raise SystemExit(3)", "print('ended well, made nothing')"])
-def test_a_failing_job_is_named_with_its_log_and_the_others_are_asked_to_stop(tmp_path: Path, program: str) -> None:
+def test_a_failing_job_is_named_with_its_log_and_the_others_are_terminated(tmp_path: Path, program: str) -> None:
     waits = f"import pathlib, time\nwhile not pathlib.Path({str(tmp_path / 'long.began')!r}).exists(): time.sleep(0.05)\n"
     failing = Job("failing", (waits + program,), tmp_path / "logs" / "failing.log", tmp_path / "never", program=_PYTHON)
     with pytest.raises(InputError, match=r"failing: .*failing\.log says why"):
@@ -57,7 +57,7 @@ def test_a_failing_job_is_named_with_its_log_and_the_others_are_asked_to_stop(tm
     assert (tmp_path / "long.stopped").exists()
 
 
-def test_a_parent_that_is_terminated_takes_its_jobs_along(tmp_path: Path) -> None:
+def test_terminating_the_parent_terminates_its_jobs(tmp_path: Path) -> None:
     parent = (
         "import sys\nfrom pathlib import Path\nfrom haptoflow_training.training.job_lanes import Job, run_jobs\n"
         f"folder = Path({str(tmp_path)!r})\n"

@@ -1,4 +1,4 @@
-"""Mean spectra and moments by label and speed: what the loss sees, and where it leads."""
+"""The loss on mean spectra and moments by label and speed: its value, and what it trains."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _MOMENTS = slice(101 + PARTIALS + 8, None)
 
 
 def _features(wave: torch.Tensor, ribs_hz: tuple[float, float] = (0.0, 0.0)) -> LabelFeatures:
-    """Of waves [B, 400]."""
+    """Features of waveforms [B, 400]."""
     nothing = torch.zeros(len(wave), 2, PARTIALS)
     ribs = torch.tensor([ribs_hz] * len(wave))
     heard = spectra(wave[:, :200], wave[:, 200:])
@@ -25,7 +25,7 @@ def _features(wave: torch.Tensor, ribs_hz: tuple[float, float] = (0.0, 0.0)) -> 
 
 
 def _noise(generator: torch.Generator, shape: torch.Tensor) -> torch.Tensor:
-    """Rows of noise, [B, 400], of the magnitudes [B, 201]."""
+    """Rows of noise, [B, 400], with magnitudes [B, 201]."""
     return torch.fft.irfft(torch.fft.rfft(torch.randn(len(shape), 400, generator=generator)) * shape, 400)
 
 
@@ -57,7 +57,7 @@ def test_a_network_with_a_gain_for_each_label_and_frequency_learns_the_recording
     assert smooth.abs().max().item() < 1.5
 
 
-def test_what_is_stated_is_half_the_squared_error_of_the_averages_and_its_slope_is_the_batch_s_share() -> None:
+def test_the_balance_loss_is_half_the_squared_log_error_and_its_gradient_is_the_batch_s_share() -> None:
     balance, generator = LabelBalance(1), torch.Generator().manual_seed(2)
     label, flat = torch.zeros(ROWS, dtype=torch.long), torch.ones(ROWS, 201)
     gain = torch.tensor(1.25, requires_grad=True)
@@ -65,14 +65,14 @@ def test_what_is_stated_is_half_the_squared_error_of_the_averages_and_its_slope_
     for _ in range(20):
         waves = [_noise(generator, flat) for _ in range(3)]
         loss = _heard(balance, label, 0.2, waves[0], gain * waves[1], gain * waves[2])
-    # No line and no ribs: of four kinds of features there are two; half of the moments grow with the gain, half with
-    # its third power.
+    # No lines and no ribs: two of four kinds of features apply; half of the moments grow with the gain, half with its
+    # third power.
     assert loss.item() == pytest.approx(0.5 * math.log(1.25) ** 2 * (1.0 + 0.5 * (1.0 + 9.0)), rel=0.15)
     (slope,) = torch.autograd.grad(loss, gain)
     assert slope.item() == pytest.approx(math.log(1.25) / 1.25 * (1.0 + 0.5 * (1.0 + 9.0)), rel=0.15)
 
 
-def test_labels_and_speeds_are_averaged_apart_and_one_that_was_hardly_heard_says_nothing() -> None:
+def test_labels_and_speeds_are_averaged_separately_and_too_few_segments_give_no_loss() -> None:
     balance, generator = LabelBalance(2), torch.Generator().manual_seed(3)
     label, flat = torch.zeros(ROWS, dtype=torch.long), torch.ones(ROWS, 201)
 
@@ -88,7 +88,7 @@ def test_labels_and_speeds_are_averaged_apart_and_one_that_was_hardly_heard_says
     assert loss(label[:4], 0.9, 2.0) == 0.0
 
 
-def test_noise_between_the_lines_of_a_ruled_surface_is_heard_apart_from_the_lines() -> None:
+def test_noise_between_the_lines_of_a_ruled_surface_is_measured_separately() -> None:
     generator = torch.Generator().manual_seed(4)
     time = torch.arange(400) / 2000.0
     lines = sum(torch.sin(2.0 * math.pi * 100.0 * order * time) for order in range(1, 9)).expand(64, 400)
@@ -106,11 +106,11 @@ def test_noise_between_the_lines_of_a_ruled_surface_is_heard_apart_from_the_line
     assert _features(noise, (30.0, 0.0)).counted[:, _BANDS].max() == 0.0, "lines too close for the window"
 
 
-def test_blows_as_loud_as_even_noise_differ_from_it_in_their_moments_and_a_scale_learns_how_rare_they_are() -> None:
+def test_rare_impacts_differ_from_noise_of_equal_power_in_their_moments_and_their_rate_can_be_learnt() -> None:
     generator = torch.Generator().manual_seed(5)
 
     def blows(share: torch.Tensor) -> torch.Tensor:
-        """Even noise and rare blows by share of power, [32, 400]."""
+        """Even noise and rare impacts by share of power, [32, 400]."""
         rare = torch.randn(ROWS, 400, generator=generator)
         rare = rare * (torch.rand(ROWS, 400, generator=generator) < 0.02) / 0.02**0.5
         return share.sqrt() * rare + (1.0 - share).sqrt() * torch.randn(ROWS, 400, generator=generator)
@@ -129,7 +129,7 @@ def test_blows_as_loud_as_even_noise_differ_from_it_in_their_moments_and_a_scale
     assert share.item() == pytest.approx(0.6, abs=0.12)
 
 
-def test_a_balance_that_is_restored_goes_on_where_the_other_stood() -> None:
+def test_a_restored_balance_continues_from_the_saved_state() -> None:
     label, flat = torch.zeros(ROWS, dtype=torch.long), torch.ones(ROWS, 201)
     balances = LabelBalance(1), LabelBalance(1)
     waves = [_noise(torch.Generator().manual_seed(seed), flat) for seed in range(3)]

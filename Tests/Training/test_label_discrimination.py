@@ -1,4 +1,4 @@
-"""Materials are told apart: the classifier on known spectra, then the shipped model through the engine."""
+"""Discrimination of materials: the classifier on known spectra, then the shipped model through the engine."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from haptoflow_training.evaluation.engine_render import write_stroke
-from haptoflow_training.evaluation.label_classifier import LabelClassifier, concatenate, window_features
-from haptoflow_training.evaluation.label_discrimination import (
+from haptoflow_benchmark.engine.engine_render import write_stroke
+from haptoflow_benchmark.metrics.label_classifier import LabelClassifier, concatenate, window_features
+from haptoflow_benchmark.own_model.label_discrimination import (
     DiscriminationReport,
     StrokeOutcome,
     discriminate,
@@ -46,7 +46,7 @@ def _features(generator: np.random.Generator, centre_hz: float, gain: float, rec
     return parts
 
 
-def test_spectra_that_differ_are_told_apart_at_any_speed() -> None:
+def test_different_spectra_are_distinguished_at_any_speed() -> None:
     generator = np.random.default_rng(1)
     kinds = {"dull": (90.0, 5.0), "bright": (220.0, 5.0), "loud": (90.0, 15.0)}
     classifier = LabelClassifier({name: concatenate(_features(generator, *kind, 12)) for name, kind in kinds.items()})
@@ -94,7 +94,9 @@ def test_the_report_counts_names_levels_and_order(tmp_path: Path) -> None:
     assert "| b | 1 | 0 | 1 | a |" in (tmp_path / "label-discrimination.md").read_text(encoding="utf-8")
 
 
-def test_the_shipped_model_s_renders_of_unseen_strokes_are_named_right_and_in_order_of_level(tmp_path: Path) -> None:
+def test_the_shipped_model_s_renders_of_unseen_strokes_are_classified_correctly_and_ordered_by_level(
+    tmp_path: Path
+) -> None:
     assert ENGINE.is_file(), f"{ENGINE} is missing: build it with `npm run build`"
     materials = load_materials()
     classifier = train_classifier(materials, 10, 1001, lambda count: None, workers=2)

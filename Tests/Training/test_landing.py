@@ -1,4 +1,4 @@
-"""What a landing on each material sounds like: harder is higher and springs back more, and files can hold it."""
+"""The touch-down vibration of each material: stiffer is higher and bounces more, within the format's limits."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def test_rubber_wood_and_stone_ring_in_the_order_of_their_stiffness() -> None:
 
 
 @pytest.mark.parametrize("material", load_materials(), ids=lambda material: material.label)
-def test_every_landing_is_within_what_a_model_file_may_say(material: Material) -> None:
+def test_every_touch_down_vibration_is_within_the_model_format_s_limits(material: Material) -> None:
     landing = landing_of(material)
     assert 1 <= len(landing.modes) <= 2 and 0.0 <= landing.restitution <= 0.9
     for mode in landing.modes:
@@ -32,14 +32,14 @@ def test_every_landing_is_within_what_a_model_file_may_say(material: Material) -
 
 
 def test_a_tip_on_an_undamped_spring_would_start_with_its_speed_times_the_angular_frequency() -> None:
-    # The hand leaves 15 percent of v sqrt(k / m).
+    # The coupling to the hand leaves 15 per cent of v sqrt(k / m).
     landing = landing_of(dataclasses.replace(MATERIALS["wood"], stiffness_newtons_per_metre=2500.0))
     mode = landing.modes[0]
     assert mode.gain_per_second == pytest.approx(0.15 * 2.0 * math.pi * mode.frequency_hz)
     assert mode.frequency_hz == pytest.approx(250.0)
 
 
-def test_a_damped_contact_dies_sooner_and_a_specimen_that_swallows_a_band_rings_with_one_mode() -> None:
+def test_a_damped_contact_decays_sooner_and_a_specimen_without_resonance_has_one_mode() -> None:
     wood = MATERIALS["wood"]
     damped = landing_of(dataclasses.replace(wood, contact_damping=2.0 * wood.contact_damping))
     assert damped.modes[0].decay_per_second == pytest.approx(2.0 * landing_of(wood).modes[0].decay_per_second)

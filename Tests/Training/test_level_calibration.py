@@ -1,4 +1,4 @@
-"""The level that a network makes in closed loop is measured and taken back, label by label."""
+"""The closed-loop level of a network is measured and corrected, label by label."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from test_export import INFOS, PROVENANCE
 from test_trainer import ALONE, _config
 from training_fixtures import make_store
 
-from haptoflow_training.evaluation.level_calibration import TierSource, hops, level_offsets_db
+from haptoflow_training.closed_loop.level_calibration import TierSource, hops, level_offsets_db
 from haptoflow_training.export.exporter import export_run
 from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.export.trained_tier import load_tiers
@@ -24,7 +24,8 @@ _Floats = NDArray[np.float32]
 
 
 class _KnownSource:
-    """Noise at the store's own law of level, louder by `gain_db` of each label; the embedding's first value names it."""
+    """Noise at the store's own level, multiplied by `gain_db` of each label; the embedding's first value identifies
+    it."""
 
     def __init__(self, gain_db: tuple[float, float]) -> None:
         self._gain = 10.0 ** (np.array(gain_db) / 20.0)
@@ -39,7 +40,7 @@ class _KnownSource:
         return (noise * level[:, None]).astype(np.float32)
 
 
-def test_what_is_too_loud_or_too_quiet_of_a_label_is_measured_in_closed_loop() -> None:
+def test_the_level_error_of_a_label_is_measured_in_closed_loop() -> None:
     store = make_store(seconds=10.0, recordings_per_split=6)
     embeddings = np.zeros((2, 64), dtype=np.float32)
     embeddings[1, 0] = 1.0
@@ -49,12 +50,12 @@ def test_what_is_too_loud_or_too_quiet_of_a_label_is_measured_in_closed_loop() -
     assert sum(counted) == hops(store)
 
 
-def test_a_recording_of_less_than_a_window_says_nothing_and_breaks_nothing() -> None:
+def test_a_recording_shorter_than_a_window_is_ignored() -> None:
     store = make_store(seconds=0.09, recordings_per_split=1)
     assert level_offsets_db(_KnownSource((2.0, -1.0)), np.zeros((2, 64), dtype=np.float32), store, HeldOut()) == [0.0, 0.0]
 
 
-def test_a_shift_of_the_level_is_the_label_s_own_and_the_same_at_every_motion() -> None:
+def test_a_level_shift_affects_its_label_only_and_is_the_same_at_every_motion() -> None:
     torch.manual_seed(2)
     level, embedding = LevelModel(), torch.randn(20, 64)
     shift = torch.linspace(-0.3, 0.5, 20)
@@ -65,7 +66,7 @@ def test_a_shift_of_the_level_is_the_label_s_own_and_the_same_at_every_motion() 
     assert torch.allclose(after - before, shift.expand(3, 20), atol=1e-4)
 
 
-def test_a_level_shifted_in_the_file_scales_the_closed_loop_by_just_that(tmp_path: Path) -> None:
+def test_a_level_shift_in_the_file_scales_the_closed_loop_by_the_same_factor(tmp_path: Path) -> None:
     store = make_store(seconds=6.0, recordings_per_split=4)
     Trainer(_config(), store, tmp_path / "run", ALONE).run()
     export_run(tmp_path / "run", store, INFOS, PROVENANCE, tmp_path / "plain.haptoflow")

@@ -1,4 +1,4 @@
-"""A level that breaks a power law gets a table; one that follows it gets none."""
+"""A label whose level departs from a power law gets a table; others get none."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from training_fixtures import RATE_HZ, FakeRecording, FakeStore, travelled_mm
 
-from haptoflow_training.evaluation.level_calibration import ClosedLoopLevels, TierSource, closed_loop_levels
-from haptoflow_training.evaluation.level_following import level_tables
+from haptoflow_training.closed_loop.level_calibration import ClosedLoopLevels, TierSource, closed_loop_levels
+from haptoflow_training.closed_loop.level_following import level_tables
 from haptoflow_training.export.exponents import LabelExponents, fit_exponents
 from haptoflow_training.export.exporter import _label_entry
 from haptoflow_training.export.label_info import LabelInfo
@@ -48,7 +48,7 @@ def brick_and_wood() -> FakeStore:
 
 
 class LawOrTables:
-    """A perfect network under a level model that knows power laws only, or under tables: noise of that level."""
+    """A perfect network whose level model has power laws only, or tables: noise of that level."""
 
     LAWS = ((2.6, 1.0), (3.0, 1.0))
 
@@ -83,7 +83,7 @@ def followed() -> tuple[dict[int, LevelTable], FakeStore]:
     return level_tables(measure({}), exponents, measure), store
 
 
-def test_a_rise_of_14_db_between_60_and_80_mm_s_is_followed_within_the_recordings_and_the_law_goes_on_beyond(
+def test_a_table_follows_a_rise_of_14_db_within_the_recorded_speeds_and_the_law_continues_beyond(
     followed: tuple[dict[int, LevelTable], FakeStore],
 ) -> None:
     tables, _ = followed
@@ -107,7 +107,7 @@ def test_a_label_that_follows_the_level_model_gets_no_table(
     assert set(followed[0]) == {0}
 
 
-def test_what_is_written_keeps_the_bounds_of_the_model_format(
+def test_a_written_table_keeps_the_limits_of_the_model_format(
     followed: tuple[dict[int, LevelTable], FakeStore],
 ) -> None:
     written = followed[0][0].to_json()
@@ -116,7 +116,7 @@ def test_what_is_written_keeps_the_bounds_of_the_model_format(
     assert 0.01 <= written["force_newtons"] <= 100.0 and -4.0 <= written["force_exponent"] <= 4.0
 
 
-def test_the_table_stands_in_its_label_and_in_no_other(followed: tuple[dict[int, LevelTable], FakeStore]) -> None:
+def test_a_level_table_is_written_to_its_own_label_only(followed: tuple[dict[int, LevelTable], FakeStore]) -> None:
     tables, store = followed
     brick, wood = (
         _label_entry(store, row, LabelInfo(name, "stone", 900.0, 0.5), 1, HeldOut(), tables.get(row))
@@ -126,7 +126,7 @@ def test_the_table_stands_in_its_label_and_in_no_other(followed: tuple[dict[int,
     assert "level" not in wood
 
 
-def test_a_tier_that_is_measured_with_a_table_scales_that_label_by_it_and_no_other() -> None:
+def test_a_level_table_scales_only_its_own_label_in_the_closed_loop() -> None:
     config = TrainingConfig(model=ModelConfig(width=16, previous_width=8))
     tier = TrainedTier(config, ["brick", "wood"], build_model(config, [(), ()]).eval().requires_grad_(False))
     table = LevelTable((0.05, 0.5), (1.0, 2.0), 1.0, 0.5, 1.0)

@@ -1,4 +1,4 @@
-"""Material files: what is written is read again, and what is not a material is refused by key."""
+"""Material files: written files are read again, and invalid ones are refused with the key named."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def golden(name: str) -> Material:
 
 
 def patched(document: Any, patch: list[dict[str, Any]]) -> Any:
-    """JSON Patch, as far as the golden file uses it."""
+    """The part of JSON Patch that the golden file uses."""
     changed = copy.deepcopy(document)
     for change in patch:
         *parents, last = [int(part) if part.isdigit() else part for part in change["path"][1:].split("/")]
@@ -66,7 +66,7 @@ def test_a_golden_material_gives_the_golden_levels_and_kernels(name: str) -> Non
 
 
 @pytest.mark.parametrize("case", INVALID["cases"], ids=lambda case: case["name"])
-def test_what_is_not_a_material_is_refused_by_file_and_key(case: dict[str, Any]) -> None:
+def test_an_invalid_material_is_refused_with_file_and_key_named(case: dict[str, Any]) -> None:
     document = json.loads((GOLDEN / INVALID["of"]).read_text(encoding="utf-8"))
     with pytest.raises(InputError) as refusal:
         parse_material(json.dumps(patched(document, case["patch"])), "somewhere.haptomaterial")
@@ -75,12 +75,12 @@ def test_what_is_not_a_material_is_refused_by_file_and_key(case: dict[str, Any])
 
 
 @pytest.mark.parametrize("text", ["", "[]", "{", "3", '{"format": "haptoflow-material"}', "[" * 100_000])
-def test_text_that_is_no_material_at_all_is_refused(text: str) -> None:
+def test_text_that_is_not_a_material_file_is_refused(text: str) -> None:
     with pytest.raises(InputError, match="expected"):
         parse_material(text, "x.haptomaterial")
 
 
-def test_numbers_that_json_does_not_know_are_refused() -> None:
+def test_numbers_outside_json_are_refused() -> None:
     text = (GOLDEN / "ribbed.haptomaterial").read_text(encoding="utf-8")
     for word in ("NaN", "Infinity", "1e999", "1" + "0" * 400):
         with pytest.raises(InputError, match="friction_coefficient"):
@@ -103,12 +103,12 @@ def test_unknown_keys_are_ignored() -> None:
     assert encode_material(parse_material(json.dumps(document), "x")) == encode_material(golden("ribbed"))
 
 
-def test_a_material_of_another_models_space_is_refused_with_the_remedy() -> None:
+def test_a_material_of_another_space_is_refused_with_a_remedy() -> None:
     with pytest.raises(InputError, match="another model.*from its recording"):
         read_material(GOLDEN / "ribbed.haptomaterial", space="00000000")
 
 
-def test_a_file_that_is_too_long_or_no_text_is_refused(tmp_path: Path) -> None:
+def test_a_file_that_is_too_long_or_not_text_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "long.haptomaterial"
     path.write_text(" " * ((1 << 20) + 1), encoding="utf-8")
     with pytest.raises(InputError, match="1048576"):
@@ -132,7 +132,7 @@ def test_the_space_follows_the_networks_and_neither_labels_nor_embedding() -> No
     assert model_space(model) != EXPECTED["spaces"]["tiny"]
 
 
-def test_a_tone_of_nothing_is_an_impulse() -> None:
+def test_a_flat_tone_is_an_impulse() -> None:
     taps = minimum_phase(np.zeros(129))
     assert taps[0] == pytest.approx(1.0)
     assert np.abs(taps[1:]).max() < 1e-12
@@ -146,7 +146,7 @@ def test_a_kernel_has_the_gains_of_its_table() -> None:
             assert 20.0 * math.log10(response[round(hertz)]) == pytest.approx(gain, abs=0.6)
 
 
-def test_a_kernel_puts_its_energy_first() -> None:
+def test_a_kernel_has_minimum_phase() -> None:
     energy = np.square(golden("ribbed").tone.kernel(0.3))
     assert energy[:16].sum() > 0.95 * energy.sum()
 
@@ -159,7 +159,7 @@ def test_a_level_table_is_continued_by_the_exponent_and_stays_finite_at_rest() -
     assert table.log_level(0.05, 4.0, 0.8) - table.log_level(0.05, 1.0, 0.8) == pytest.approx(0.5 * math.log(4.0))
 
 
-def test_a_material_that_breaks_its_own_rules_is_not_written(tmp_path: Path) -> None:
+def test_an_inconsistent_material_is_not_written(tmp_path: Path) -> None:
     loud = replace(golden("ribbed"), tone=ToneTable((0.1,), (20.0, 900.0), ((0.0, 45.0),)))
     with pytest.raises(InputError, match="tone.gains_db"):
         write_material(tmp_path / "loud.haptomaterial", loud)

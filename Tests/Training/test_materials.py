@@ -39,7 +39,7 @@ def test_targets_lie_between_the_5th_and_95th_published_percentile():
         assert -14.2 <= targets.slope_db_per_octave <= -2.4, material.label
 
 
-def test_any_two_materials_differ_by_more_than_a_difference_one_cannot_feel():
+def test_any_two_materials_differ_by_more_than_the_perception_threshold():
     materials = load_materials()
     for first in range(20):
         for second in range(first):

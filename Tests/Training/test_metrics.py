@@ -1,11 +1,11 @@
-"""Metrics of the evaluation on waves whose figures are known."""
+"""Metrics of the evaluation on waveforms whose figures are known."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
 
-from haptoflow_training.evaluation import metrics
+from haptoflow_benchmark.metrics import waveform_metrics as metrics
 
 RATE_HZ = 2000
 
@@ -18,7 +18,7 @@ def _tone(frequency_hz: float, seconds: float) -> np.ndarray:
     return np.sqrt(2.0) * np.sin(2.0 * np.pi * frequency_hz * np.arange(int(seconds * RATE_HZ)) / RATE_HZ)
 
 
-def test_a_wave_scores_perfectly_against_itself() -> None:
+def test_a_waveform_has_perfect_figures_against_itself() -> None:
     wave = _noise(4.0, 1)
     assert metrics.gfc_recording(wave, wave) == pytest.approx(1.0)
     assert metrics.gfc_segment(wave, wave) == pytest.approx(1.0)
@@ -28,7 +28,7 @@ def test_a_wave_scores_perfectly_against_itself() -> None:
     assert np.abs(metrics.critical_band_errors_db(wave, wave)).max() == 0.0
 
 
-def test_half_the_amplitude_is_minus_six_decibels_and_costs_gfc_nothing() -> None:
+def test_half_the_amplitude_is_minus_six_decibels_and_leaves_gfc_unchanged() -> None:
     wave = _noise(4.0, 1)
     assert metrics.level_error_db(0.5 * wave, wave) == pytest.approx(-6.02, abs=0.01)
     assert metrics.log_spectral_distance_db(0.5 * wave, wave) == pytest.approx(6.02, abs=0.01)
@@ -36,7 +36,7 @@ def test_half_the_amplitude_is_minus_six_decibels_and_costs_gfc_nothing() -> Non
     assert metrics.gfc_recording(0.5 * wave, wave) == pytest.approx(1.0)
 
 
-def test_the_two_traps_silence_beats_an_independent_draw_in_rmse_and_segments_punish_correct_randomness() -> None:
+def test_rmse_favours_silence_over_an_independent_draw_and_segment_gfc_penalises_correct_randomness() -> None:
     wave, draw = _noise(8.0, 1), _noise(8.0, 2)
     assert metrics.relative_rmse(np.zeros_like(wave), wave) == pytest.approx(1.0, abs=0.01)
     assert metrics.relative_rmse(draw, wave) == pytest.approx(np.sqrt(2.0), abs=0.03)

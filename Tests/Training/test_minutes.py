@@ -1,4 +1,4 @@
-"""`train --minutes`: the time is shared out by what steps were measured to take, and a whole model comes out."""
+"""`train --minutes`: time is divided according to measured steps, and the model is complete at the end."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ SECONDS_PER_STEP = {"level": 1.0, "field": 4.0, "polish": 1.0}
 
 @pytest.fixture
 def wall(monkeypatch: pytest.MonkeyPatch) -> list[float]:
-    """A clock on the wall that moves with training steps alone."""
+    """A wall clock that advances only with training steps."""
     now = [0.0]
     monkeypatch.setattr(trainer_module.time, "monotonic", lambda: now[0])
     train_step = Trainer._train_step
@@ -40,7 +40,7 @@ def limited(folder: Path, limit: TimeLimit) -> Trainer:
 
 
 @pytest.mark.parametrize("seconds", [200.0, 400.0])
-def test_trying_steps_and_training_together_take_the_time_that_was_given_and_end_whole(
+def test_timed_steps_and_training_together_take_the_given_time_and_finish(
     tmp_path: Path, wall: list[float], seconds: float
 ) -> None:
     limited(tmp_path, TimeLimit(seconds)).run()
@@ -49,7 +49,7 @@ def test_trying_steps_and_training_together_take_the_time_that_was_given_and_end
     assert labels == ["tone", "noise"]
 
 
-def test_the_level_comes_first_where_the_time_is_short(tmp_path: Path, wall: list[float]) -> None:
+def test_with_little_time_the_level_phase_comes_first(tmp_path: Path, wall: list[float]) -> None:
     trainer = limited(tmp_path, TimeLimit(60.0))
     trainer.run()
     steps = {phase.name: phase.steps for phase in trainer._phases}
@@ -57,7 +57,7 @@ def test_the_level_comes_first_where_the_time_is_short(tmp_path: Path, wall: lis
     assert all(count >= 1 for count in steps.values())
 
 
-def test_the_bar_shows_what_is_left_of_training_and_of_what_comes_after_it(
+def test_the_bar_shows_the_time_left_including_what_follows_training(
     tmp_path: Path, wall: list[float], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     shown = io.StringIO()
@@ -69,7 +69,7 @@ def test_the_bar_shows_what_is_left_of_training_and_of_what_comes_after_it(
     assert left == sorted(left, reverse=True)
 
 
-def test_an_interrupted_run_goes_on_with_what_is_left_of_its_time(tmp_path: Path, wall: list[float]) -> None:
+def test_a_resumed_run_uses_the_rest_of_its_time(tmp_path: Path, wall: list[float]) -> None:
     first = limited(tmp_path, TimeLimit(300.0))
     first._stop = True
     with pytest.raises(trainer_module.TrainingStopped):
@@ -80,7 +80,7 @@ def test_an_interrupted_run_goes_on_with_what_is_left_of_its_time(tmp_path: Path
     assert wall[0] - 5000.0 == pytest.approx(300.0, abs=10.0) and used < 100.0
 
 
-def test_a_budget_counts_by_the_clock_that_it_is_given() -> None:
+def test_a_budget_uses_the_given_clock() -> None:
     now = [10.0]
     budget = Budget([30.0, 50.0], clock=lambda: now[0])
     now[0] = 22.0

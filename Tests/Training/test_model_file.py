@@ -29,7 +29,7 @@ def test_what_is_written_is_read_back(tmp_path: Path) -> None:
     np.testing.assert_array_equal(read.tensors["embedding"], MODEL.tensors["embedding"])
 
 
-def test_the_preamble_says_magic_version_lengths_and_checksums() -> None:
+def test_the_preamble_holds_magic_version_lengths_and_checksums() -> None:
     content = encode_model_file(MODEL)
     magic, version, header_length, total, header_crc, own_crc = struct.unpack_from("<8sIIQII", content)
     assert (magic, version, total) == (b"HAPTFLOW", 1, len(content))

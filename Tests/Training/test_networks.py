@@ -9,8 +9,7 @@ import torch
 
 from haptoflow_training.models.band_limit import BandLimit
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE, MotionFeatures
-from haptoflow_training.models.unit_scale import unit_scale
-from haptoflow_training.models.level_model import LevelModel, level_loss
+from haptoflow_training.models.level_model import LevelModel, level_loss, unit_scale
 from haptoflow_training.models.velocity_field import FilmBlock, VelocityField, parameter_count
 
 
@@ -26,7 +25,7 @@ def _inputs(batch: int, channels: int = 1, positions: int = 200) -> dict[str, to
 
 
 def _trained_like(field: VelocityField) -> VelocityField:
-    """Layers that start at zero get weights, so that every input can reach the output."""
+    """Gives weights to layers that start at zero, so that every input can affect the output."""
     torch.manual_seed(1)
     for module in field.modules():
         if isinstance(module, torch.nn.Conv2d | torch.nn.ConvTranspose2d):
@@ -44,7 +43,7 @@ def test_the_field_returns_the_shape_of_its_noisy_input(channels: int, positions
 
 
 @pytest.mark.parametrize("levels", [1, 2])
-def test_every_input_reaches_the_velocity_field_s_output(levels: int) -> None:
+def test_every_input_affects_the_velocity_field_s_output(levels: int) -> None:
     field = _trained_like(VelocityField(width=32, levels=levels))
     inputs = _inputs(2)
     before = field(**inputs)
@@ -54,7 +53,7 @@ def test_every_input_reaches_the_velocity_field_s_output(levels: int) -> None:
 
 
 @pytest.mark.parametrize("levels", [1, 2])
-def test_the_last_sample_of_the_past_reaches_the_whole_segment(levels: int) -> None:
+def test_the_last_previous_sample_affects_the_whole_segment(levels: int) -> None:
     field = _trained_like(VelocityField(width=32, levels=levels))
     inputs = _inputs(1)
     moved = inputs["previous"].clone()
@@ -63,7 +62,7 @@ def test_the_last_sample_of_the_past_reaches_the_whole_segment(levels: int) -> N
     assert (change.reshape(25, 8).amax(dim=1) > 1e-6).all()
 
 
-def test_rows_of_a_batch_do_not_touch_each_other() -> None:
+def test_rows_of_a_batch_are_independent() -> None:
     field = _trained_like(VelocityField(width=32))
     inputs = _inputs(4)
     alone = field(**{name: value[2:3] for name, value in inputs.items()})
@@ -99,7 +98,7 @@ def test_motion_features_are_finite_from_rest_to_twenty_metres_a_second() -> Non
     assert torch.isfinite(features).all()
 
 
-def test_the_level_loss_is_least_at_the_true_level() -> None:
+def test_the_level_loss_is_minimal_at_the_true_level() -> None:
     mean_square = torch.full((1, 1), 4.0)
     at_truth = level_loss(torch.full((1, 1), math.log(2.0)), mean_square)
     for offset in (-0.2, 0.2):
@@ -130,7 +129,7 @@ def test_unit_scale_divides_by_the_level() -> None:
     torch.testing.assert_close(unit_scale(wave, torch.tensor([[math.log(3.0)]])), torch.full((1, 1, 200), 2.0))
 
 
-def test_the_band_limit_keeps_what_recordings_have_and_takes_the_noise_above_it() -> None:
+def test_the_band_limit_keeps_the_recordings_band_and_removes_noise_above_it() -> None:
     band_limit = BandLimit()
     noise = torch.randn(400, 1, 400, generator=torch.Generator().manual_seed(1))
     limited = band_limit(noise[:, :, :200], noise[:, :, 200:])
@@ -152,7 +151,7 @@ def test_the_band_limit_is_the_convolution_of_past_segment_and_mirrored_segment_
     )
 
 
-def test_the_band_limit_hears_the_past_so_that_a_tone_crosses_the_seam_whole() -> None:
+def test_the_band_limit_reads_the_past_so_that_a_tone_crosses_the_seam_unchanged() -> None:
     tone = torch.sin(0.3 * torch.arange(400.0)).reshape(1, 1, 400)
     limited = BandLimit()(tone[:, :, :200], tone[:, :, 200:])
     torch.testing.assert_close(limited[:, :, :130], tone[:, :, 200:330], atol=0.01, rtol=0.0)

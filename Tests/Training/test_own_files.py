@@ -1,4 +1,4 @@
-"""A recording of one's own in every form reads as the same stroke; what is wrong is named with its remedy."""
+"""Own recordings in every form read as the same stroke; errors are named with a remedy."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def read(path: Path) -> MaterialRecording:
 
 
 def assert_is_the_stroke(recording: MaterialRecording, made: Stroke, moving: bool = True) -> None:
-    """The stroke at 2 kHz, without the 0.3 s that are trimmed at each end."""
+    """Assert the stroke at 2 kHz, without the 0.3 s trimmed at each end."""
     count = len(recording.vibration_mps2)
     assert count == pytest.approx(2000 * (made.time_seconds[-1] - 0.6), abs=25)
     at = made.time_seconds[0] + 0.3 + np.arange(count) / 2000.0
@@ -64,7 +64,7 @@ def test_every_form_reads_as_the_same_stroke(tmp_path: Path, form: object) -> No
     assert (recording.licence, recording.source) == ("CC0 1.0", "a jacket")
 
 
-def test_what_is_constant_stands_in_the_sidecar_or_in_the_folder_s_recordings_json(tmp_path: Path) -> None:
+def test_constants_are_read_from_the_sidecar_or_the_folder_s_recordings_json(tmp_path: Path) -> None:
     path = tmp_path / "plain.wav"
     wavfile.write(path, RATE_HZ, (MADE.acceleration_mps2 / 50.0).astype(np.float32))
     (tmp_path / "recordings.json").write_text(json.dumps({"full_scale_mps2": 50, "speed_mps": 0.08, "force_newtons": 2}))
@@ -119,7 +119,7 @@ def test_three_channels_of_a_wav_are_one_axis_with_their_common_energy(tmp_path:
     assert_is_the_stroke(read(path), MADE, moving=False)
 
 
-def test_positions_that_a_slow_tracker_holds_are_no_jumps(tmp_path: Path) -> None:
+def test_positions_held_by_a_slow_tracker_do_not_count_as_jumps(tmp_path: Path) -> None:
     held = np.repeat(MADE.position_mm[:: RATE_HZ // 50], RATE_HZ // 50, axis=0)[: len(MADE.time_seconds)]
     columns = {
         "time_s": MADE.time_seconds, "acceleration_mps2": MADE.acceleration_mps2,
@@ -129,7 +129,7 @@ def test_positions_that_a_slow_tracker_holds_are_no_jumps(tmp_path: Path) -> Non
     assert mean_speed(recording) == pytest.approx(4.0 * TRIMMED_SPEED, rel=0.02)
 
 
-def test_a_value_that_is_missing_costs_its_neighbourhood(tmp_path: Path) -> None:
+def test_a_missing_value_drops_only_samples_near_it(tmp_path: Path) -> None:
     made = stroke(4.0)
     path = csv_one_axis(tmp_path, "a", "denim", made)
     lines = path.read_text().splitlines()
@@ -276,7 +276,7 @@ def test_parquet_is_read_where_pandas_has_an_engine_and_refused_with_the_remedy_
         assert_is_the_stroke(read(path), MADE, moving=False)
 
 
-def test_a_folder_says_what_each_file_is_and_takes_motion_files_for_no_recordings(tmp_path: Path) -> None:
+def test_motion_files_in_a_folder_are_not_recordings(tmp_path: Path) -> None:
     wav_with_motion(tmp_path / "felt", "slow", "felt", MADE, licence="CC0 1.0", source="a hat")
     csv_one_axis(tmp_path / "denim", "slow", "denim", MADE)
     csv_one_axis(tmp_path, "nameless", "", MADE)

@@ -1,4 +1,4 @@
-"""The commands of two headings of own-materials.md, as they stand there, on recordings of every form."""
+"""Runs the commands of two sections of own-materials.md as printed, on recordings of every form."""
 
 from __future__ import annotations
 
@@ -12,7 +12,8 @@ import numpy as np
 import pytest
 from own_samples import csv_one_axis, csv_three_axes, stroke, wav_with_motion
 
-from haptoflow_training.cli import main
+from haptoflow_benchmark import cli as benchmark
+from haptoflow_training import cli as training
 from haptoflow_training.commands import train
 from haptoflow_training.export.model_file import read_model_file
 
@@ -24,7 +25,7 @@ LABELS = (
     '[[label]]\nname = "{name}"\ncategory = "own"\nstiffness_newtons_per_metre = 400.0\nfriction_coefficient = 0.4\n'
     "wave_vectors_per_mm = []\n"
 )
-# In place of Training/configs/own.toml: the same phases in miniature.
+# In place of Training/configs/own.toml: the same phases with few steps.
 SMALL = """
 name = "own"
 threads = 1
@@ -47,25 +48,31 @@ self_forcing_steps = 2
 calibrate_level = true
 """
 
+PROGRAMS = {"haptoflow_benchmark": benchmark.main, "haptoflow_training": training.main}
+
 
 def commands(heading: str) -> list[list[str]]:
-    """The words of each command of haptoflow-training in the blocks without a language below a heading."""
+    """The words of each command, its program first, in the blocks without a language below a heading."""
     section = PAGE.read_text(encoding="utf-8").split(f"\n## {heading}\n")[1].split("\n## ")[0]
     # Every second part lies inside a block; one with a language begins with its name.
     blocks = [part for part in section.split("\n```")[1::2] if part.startswith("\n")]
     lines = [line for block in blocks for line in block.strip().splitlines()]
     found = []
     for line in lines:
-        python = re.fullmatch(r"PYTHONPATH=Training python3 -m haptoflow_training (.*)", line)
+        python = re.fullmatch(r"PYTHONPATH=Training python3 -m haptoflow_(?:training|benchmark) .*", line)
         npm = re.fullmatch(r"npm run (train|evaluate) -- (.*)", line)
         assert python or npm, f"not a command of this page: {line}"
-        found.append(shlex.split(python[1]) if python else [npm[1], *shlex.split(npm[2])])  # type: ignore[index]
+        if npm:
+            program = {"train": "haptoflow_training", "evaluate": "haptoflow_benchmark"}[npm[1]]
+            found.append([program, npm[1], *shlex.split(npm[2])])
+        else:
+            found.append(shlex.split(line)[3:])
     return found
 
 
 @pytest.fixture(scope="module")
 def standing(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A folder with recordings of every form, a label each, one recording a label."""
+    """A folder with recordings of every form, one label and one recording each."""
     folder = tmp_path_factory.mktemp("own")
     made = folder / "recordings"
     csv_one_axis(made, "denim", "denim", stroke(11.0, hertz=90, seed=1), licence="CC0 1.0", source="a jacket")
@@ -83,9 +90,9 @@ def test_every_command_of_the_page_runs_where_the_recordings_are(
     monkeypatch.setattr(train, "OWN_CONFIGURATION", standing / "small.toml")
     ran = []
     for heading in HEADINGS:
-        for words in commands(heading):
+        for program, *words in commands(heading):
             shortened = ["0.1" if before == "--minutes" else word for before, word in zip(["", *words], words)]
-            assert main(shortened) == 0, (words, capsys.readouterr().err)
+            assert PROGRAMS[program](shortened) == 0, (words, capsys.readouterr().err)
             ran.append(words[0])
     assert ran == ["inspect", "inspect", "train", "evaluate", "discriminate"]
     header = read_model_file(standing / "own.haptoflow").header
@@ -97,7 +104,7 @@ def test_every_command_of_the_page_runs_where_the_recordings_are(
     assert {one["label"] for one in accuracy["labels"]} == {"denim", "tile", "felt"}
     for one in accuracy["labels"]:
         assert one["seconds"] >= 1.0 and np.isfinite(one["level_error_median_db"]) and 0.0 <= one["gfc"] <= 1.0
-        # What is left of a wrong level after it was taken back, even of a network that has hardly been trained.
+        # The remaining level error after calibration, even for a barely trained network.
         assert abs(one["level_error_median_db"]) < 12.0
     assert (standing / "out" / "own" / "accuracy" / "own-accuracy.png").stat().st_size > 5000
     discrimination = json.loads((standing / "out" / "own" / "discrimination" / "label-discrimination.json").read_text())
@@ -109,15 +116,15 @@ def test_the_template_can_be_inspected_and_prepared_as_it_is(
 ) -> None:
     shutil.copytree(TEMPLATE, tmp_path / "own")
     monkeypatch.chdir(tmp_path / "own")
-    assert main(["inspect", "recordings", "--labels", "labels.toml", "--json"]) == 0
+    assert training.main(["inspect", "recordings", "--labels", "labels.toml", "--json"]) == 0
     report = json.loads(capsys.readouterr().out)
     assert report["counts"]["material"] == {"denim": 1, "felt": 1}
     assert report["problems"] == [] and report["notes"] == []
     assert report["provenance"]["licence"] == "MIT"
-    assert main(["prepare", "--recordings", "recordings", "--labels", "labels.toml", "--out", "store"]) == 0
+    assert training.main(["prepare", "--recordings", "recordings", "--labels", "labels.toml", "--out", "store"]) == 0
 
 
-def test_every_column_and_key_of_the_page_is_one_that_is_read_and_none_is_missing() -> None:
+def test_the_page_lists_exactly_the_columns_and_keys_that_are_read() -> None:
     from haptoflow_training.recordings import own_sidecar, own_table
 
     section = PAGE.read_text(encoding="utf-8").split(f"\n## {HEADINGS[0]}\n")[1].split("\n## ")[0]
@@ -141,17 +148,17 @@ def test_every_column_and_key_of_the_page_is_one_that_is_read_and_none_is_missin
         (["evaluate", "--recordings", "recordings", "--engine", "gone"], "run `npm run build`"),
     ],
 )
-def test_what_is_missing_is_said_in_one_line(
+def test_missing_input_is_reported_in_one_line(
     standing: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], words: list[str], said: str
 ) -> None:
     monkeypatch.chdir(standing)
-    assert main(words) == 3
+    assert training.main(words) == 3
     error = capsys.readouterr().err.strip().splitlines()[-1]
     assert re.search(said, error), error
 
 
-def test_minutes_that_are_no_minutes_are_refused(capsys: pytest.CaptureFixture[str]) -> None:
+def test_invalid_minutes_are_refused(capsys: pytest.CaptureFixture[str]) -> None:
     for wrong in ("0", "ten", "nan"):
         with pytest.raises(SystemExit):
-            main(["train", "--recordings", "r", "--out", "o", "--minutes", wrong])
+            training.main(["train", "--recordings", "r", "--out", "o", "--minutes", wrong])
         assert "expected minutes, 0.1 at least" in capsys.readouterr().err

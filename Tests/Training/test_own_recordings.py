@@ -1,4 +1,4 @@
-"""Recordings that are nobody's published data set: nothing is claimed of them, and no label is guessed."""
+"""Recordings of unknown origin: no origin is claimed for them, and no label is guessed."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ NAMES = (*FEW, "0_45_30_500_1", *GRID)
 
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
-    """Denim and felt, under the ids that wood and steel have in the Cluster's data set."""
+    """Denim and felt, under the ids of wood and steel in the Cluster data set."""
     return recorded(tmp_path / "recordings", NAMES)
 
 
@@ -65,7 +65,7 @@ def test_the_ids_of_other_recordings_are_not_matched_against_the_cluster_s_label
     assert not (tmp_path / "store").exists()
 
 
-def test_a_labels_file_names_them_and_the_model_says_that_their_origin_is_unknown(folder: Path, tmp_path: Path) -> None:
+def test_a_labels_file_names_the_textures_and_the_model_states_an_unknown_origin(folder: Path, tmp_path: Path) -> None:
     source = opened(folder, labels_file(tmp_path / "labels.toml", "denim", "felt"), tmp_path / "store")
     assert [info.name for info in source.labels] == ["denim", "felt"]
     assert source.provenance.statement == "trained on recordings of unknown origin"
@@ -108,7 +108,7 @@ def test_recordings_that_are_left_out_are_listed_with_the_reason(
     assert re.search(r"force/0_45_30_500_1\.csv: force is 500.*expected newtons", capsys.readouterr().out)
 
 
-def test_a_row_without_a_number_costs_itself_and_a_lost_stretch_its_neighbourhood(tmp_path: Path) -> None:
+def test_a_row_without_a_number_is_dropped_and_a_gap_drops_only_samples_near_it(tmp_path: Path) -> None:
     recording = small_recording(HAND, label="denim", seconds=4.0)
     whole = prepare_store([recording], ["denim"], tmp_path / "whole", progress=False)
     write_recording(tmp_path / "data", recording)
@@ -129,7 +129,7 @@ def test_a_row_without_a_number_costs_itself_and_a_lost_stretch_its_neighbourhoo
     assert len({one.split for one in store.recordings}) == 1
 
 
-def test_what_provenance_json_says_stands_in_the_model(folder: Path, tmp_path: Path) -> None:
+def test_the_model_states_the_origin_given_in_provenance_json(folder: Path, tmp_path: Path) -> None:
     write_provenance(folder, source="the tailor's shop", licence="CC0 1.0", synthetic=False)
     source = opened(folder, labels_file(tmp_path / "labels.toml", "denim", "felt"), tmp_path / "store")
     assert source.provenance.statement == "trained on the tailor's shop"
@@ -144,7 +144,7 @@ def test_the_published_data_set_keeps_its_name_licence_and_labels(folder: Path, 
     assert source.provenance.licence == "CC BY 4.0"
 
 
-def test_a_store_is_made_anew_where_recordings_or_labels_have_changed_and_only_there(
+def test_a_store_is_prepared_again_only_if_recordings_or_labels_have_changed(
     folder: Path, tmp_path: Path
 ) -> None:
     labels = labels_file(tmp_path / "labels.toml", "denim", "felt")
@@ -169,7 +169,7 @@ def test_a_store_is_made_anew_where_recordings_or_labels_have_changed_and_only_t
     assert opened(folder, labels, store).store.labels == ["denim"]
 
 
-def test_paths_are_relative_to_where_one_stands_and_those_of_a_configuration_to_its_file(
+def test_paths_are_relative_to_the_current_folder_and_those_of_a_configuration_to_its_file(
     folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     labels_file(tmp_path / "labels.toml", "denim", "felt")

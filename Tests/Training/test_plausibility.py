@@ -1,4 +1,4 @@
-"""Wrong units, glitches and dead sensors are told from recordings, before anybody trains on them."""
+"""Wrong units, glitches and dead sensors are detected before training."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ BAD = {
 
 
 @pytest.mark.parametrize("kind", BAD)
-def test_what_cannot_be_is_refused_by_its_name_with_what_was_expected(kind: str) -> None:
+def test_an_implausible_recording_is_refused_with_name_and_expectation(kind: str) -> None:
     name, changes, words = BAD[kind]
     recording = changed(name, **changes)
     with pytest.raises(InputError, match=f"recording {name}: .*{re.escape(words)}"):
@@ -86,7 +86,7 @@ def test_a_high_passed_accelerometer_without_gravity_is_fine() -> None:
     assert list(implausible(recording)) == []
 
 
-def test_no_recording_of_the_recorder_is_refused_from_the_slowest_to_the_fastest() -> None:
+def test_no_synthetic_recording_is_refused_at_any_speed() -> None:
     for material in load_materials()[::3]:
         machine = machine_conditions(
             material, directions=(0, 45), speeds_mmps=(10, 60), forces_millinewtons=(200, 1000), repeats=1

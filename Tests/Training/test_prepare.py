@@ -55,7 +55,7 @@ def test_prepare_takes_a_published_folder_with_the_default_labels(
     assert "3 recordings" in printed and "1 recordings are left out: no label names their texture" in printed
 
 
-def test_prepare_takes_other_recordings_with_their_own_names_and_claims_no_licence(tmp_path: Path) -> None:
+def test_prepare_keeps_the_names_of_other_recordings_and_states_no_licence(tmp_path: Path) -> None:
     out = tmp_path / "store"
     assert main(["prepare", "--recordings", str(own(tmp_path / "data")), "--out", str(out)]) == 0
     store = SegmentStore.open(out)
@@ -107,7 +107,7 @@ def test_prepare_refuses_two_folders_with_the_same_names(
     assert not (tmp_path / "store").exists()
 
 
-def test_prepare_help_teaches_with_examples(capsys: pytest.CaptureFixture[str]) -> None:
+def test_prepare_help_has_examples(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as stop:
         main(["prepare", "--help"])
     assert stop.value.code == 0

@@ -35,7 +35,7 @@ def test_a_tone_keeps_its_frequency_and_amplitude_in_metres_per_second_squared(h
     assert residual[0] / np.sum(prepared.waveform_mps2**2) < 1e-3
 
 
-def test_the_waveform_stands_in_step_with_the_true_time_stamps() -> None:
+def test_the_waveform_is_aligned_with_the_true_time_stamps() -> None:
     recording = tone_recording(100.0)
     prepared = preprocess_recording(recording, SETTINGS)
     start = max(recording.acceleration_time_seconds[0], 0.0) + 0.3
@@ -44,7 +44,7 @@ def test_the_waveform_stands_in_step_with_the_true_time_stamps() -> None:
     assert np.abs(prepared.waveform_mps2 - expected)[100:-100].max() < 0.05 * expected.max()
 
 
-def test_a_constant_acceleration_such_as_gravity_leaves_nothing() -> None:
+def test_a_constant_acceleration_such_as_gravity_is_removed() -> None:
     prepared = preprocess_recording(tone_recording(50.0, amplitude_g=1e-9), SETTINGS)
     assert np.abs(prepared.waveform_mps2).max() < 1e-6
 

@@ -1,4 +1,4 @@
-"""Random fields that never repeat: their statistics, and that no stretch of a stroke meets the same waves again."""
+"""Random fields that never repeat: their statistics, and strokes that never meet the same heights again."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from haptoflow_training.recordings.synthetic.surface import OCTAVE_WAVELENGTHS_M
 
 MATERIALS = {material.label: material for material in load_materials()}
 STROKE_MM = 30_000.0
-# An octave is silent where it is met faster than this: half a minute meets no more waves of it.
-MOST_WAVES = 30 * 2000
+# An octave is silent above a certain rate, so half a minute meets at most this many wavelengths.
+MAXIMUM_WAVES = 30 * 2000
 
 
 def _line(count: int, step_mm: float, degrees: float) -> np.ndarray:
@@ -37,15 +37,15 @@ def _autocorrelation(values: np.ndarray) -> np.ndarray:
 def test_no_octave_repeats_along_thirty_metres_or_half_a_minute_of_straight_stroke(octave: int, degrees: float) -> None:
     wavelength = OCTAVE_WAVELENGTHS_MM[octave]
     step = wavelength / 4.0
-    count = 4 * min(int(STROKE_MM / wavelength), MOST_WAVES)
+    count = 4 * min(int(STROKE_MM / wavelength), MAXIMUM_WAVES)
     seen = _autocorrelation(RandomField(1003, 0, octave, wavelength).at(_line(count, step, degrees)))
-    # Chance alone: six standard deviations of a correlation over as many independent waves as the stroke has.
+    # Six standard deviations of a correlation over as many independent wavelengths as the stroke has.
     chance = 6.0 / np.sqrt(0.5 * count * step / wavelength)
     beyond_the_main_lobe = np.abs(seen[4 * 6 :])
     assert beyond_the_main_lobe.max() < chance, np.argmax(beyond_the_main_lobe) * step
 
 
-def test_asperities_do_not_repeat_along_thirty_metres_of_straight_stroke_and_keep_no_beat() -> None:
+def test_asperities_neither_repeat_nor_keep_a_beat_along_thirty_metres_of_straight_stroke() -> None:
     rate = 8000.0
     velocity = np.tile([1000.0, 0.0], (int(30 * rate), 1))
     path = TipPath(np.cumsum(velocity, axis=0) / rate, velocity)
@@ -55,7 +55,7 @@ def test_asperities_do_not_repeat_along_thirty_metres_of_straight_stroke_and_kee
         assert 0.7 < np.sum(struck) * MATERIALS[label].impact_spacing_mm / (
             STROKE_MM * MATERIALS[label].impact_density
         ) < 1.1
-        # Both what strikes and when: a repeated table shows in the first, a regular grid in the second.
+        # Both strength and time: a repeated table shows in the first, a regular grid in the second.
         assert np.abs(_autocorrelation(impulses)[1:]).max() < 0.06, label
         assert np.abs(_autocorrelation(struck.astype(float))[8:]).max() < 0.06, label
 
@@ -103,7 +103,8 @@ def test_places_are_hashed_evenly_on_both_sides_of_zero() -> None:
 
 @pytest.mark.parametrize("label", ["wood", "sandpaper"])
 def test_the_fine_structure_of_two_straight_recordings_of_one_condition_is_uncorrelated(label: str) -> None:
-    """A repeated surface has the same lines, every few hertz, wherever one starts: 0.9 with periodic tiles."""
+    """A repeated surface would have the same lines, every few hertz, at any start: a correlation of 0.9 with
+    periodic tiles."""
     lines = []
     for seed in (1, 2):
         recording = record_condition(
@@ -111,6 +112,6 @@ def test_the_fine_structure_of_two_straight_recordings_of_one_condition_is_uncor
         )
         wave = preprocess_recording(recording, PreprocessingSettings()).waveform_mps2[:48_000]
         spectrum = np.log(np.abs(np.fft.rfft(wave * np.hanning(len(wave))))[24 * 40 : 24 * 500] + 1e-9)
-        # What is left of the spectrum once its shape is taken out.
+        # The fine structure that remains once the spectrum's shape is removed.
         lines.append(detrend(spectrum, bp=np.arange(0, len(spectrum), 480)))
     assert abs(np.corrcoef(lines)[0, 1]) < 0.05

@@ -1,4 +1,5 @@
-"""Beyond the recorded range: a level taught at 20-60 mm/s, continued by its label's exponents, against recordings."""
+"""Beyond the recorded range: a level fitted at 20-60 mm/s, extrapolated by its label's exponents, against
+recordings."""
 
 from __future__ import annotations
 
@@ -9,7 +10,7 @@ import pytest
 import torch
 from training_fixtures import FakeRecording, FakeStore, travelled_mm
 
-from haptoflow_training.evaluation.metrics import fundamental_hz
+from haptoflow_benchmark.metrics.waveform_metrics import fundamental_hz
 from haptoflow_training.export.exponents import LabelExponents, fit_exponents
 from haptoflow_training.models.level_model import LevelModel, level_loss
 from haptoflow_training.preprocessing.pipeline import preprocess_recording
@@ -24,7 +25,7 @@ FAST_MPS = (0.15, 0.5, 1.5)
 
 @dataclass(frozen=True)
 class Taught:
-    """A level model and exponents that have seen nothing faster than 60 mm/s."""
+    """A level model and exponents fitted to nothing faster than 60 mm/s."""
 
     level: LevelModel
     embedding: torch.Tensor
@@ -89,7 +90,7 @@ def _recorded(label: str, speed_mps: float, seed: int) -> np.ndarray:
 
 
 def _level_errors_db(taught: Taught, speed_mps: float) -> tuple[np.ndarray, np.ndarray]:
-    """(with the law, clamped at the edge): size of the error of each label's level, dB."""
+    """(with the law, clamped at the edge): magnitude of the error of each label's level, dB."""
     law, clamped = [], []
     for row, label in enumerate(LABELS):
         wave = _recorded(label, speed_mps, 78)
@@ -102,13 +103,15 @@ def _level_errors_db(taught: Taught, speed_mps: float) -> tuple[np.ndarray, np.n
 
 
 @pytest.mark.parametrize("speed_mps", FAST_MPS)
-def test_the_level_law_comes_nearer_to_fast_recordings_than_clamping(taught: Taught, speed_mps: float) -> None:
+def test_extrapolating_the_level_law_is_closer_to_fast_recordings_than_clamping(
+    taught: Taught, speed_mps: float
+) -> None:
     law, clamped = _level_errors_db(taught, speed_mps)
     assert np.median(law) < 0.6 * np.median(clamped), (law.round(1), clamped.round(1))
 
 
 @pytest.mark.parametrize("speed_mps", [0.15, 0.5])
-def test_reading_the_edge_s_wave_faster_puts_the_fundamental_where_recordings_have_it(
+def test_faster_playback_beyond_the_range_gives_the_recorded_fundamental(
     taught: Taught, speed_mps: float
 ) -> None:
     for label, wavelength_metres in (("metal mesh", 1.2e-3), ("corduroy", 2.5e-3)):

@@ -1,4 +1,4 @@
-"""Real pen strokes, recorded by people, through the shipped engine and model: nothing breaks, clicks or clips."""
+"""Recorded pen strokes through the shipped engine and model: no errors, clicks or clipping."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from haptoflow_training.evaluation.engine_render import read_wav
-from haptoflow_training.strokes.recorded_strokes import onto_table, read_recorded_strokes
+from haptoflow_benchmark.engine.engine_render import read_wav
+from haptoflow_benchmark.full_scale.recorded_strokes import onto_table, read_recorded_strokes
 
 ROOT = Path(__file__).parents[2]
 STROKES = ROOT.parent / "shared" / "strokes" / "vr-pen-on-surface" / "strokes.csv"
 ENGINE = Path(os.environ.get("HAPTOFLOW_ENGINE", ROOT / "build" / "native" / "haptoflow"))
 UPDATE_RATE_HZ = 72.0
 
-# Left to right under every stroke: hard, periodic, soft and rough surfaces side by side.
+# From left to right under every stroke: hard, periodic, soft and rough surfaces side by side.
 MATERIALS = ("wood", "metal mesh", "rubber", "sandpaper", "corduroy", "glass")
 
 
@@ -78,7 +78,7 @@ def renders(tmp_path_factory: pytest.TempPathFactory) -> dict[str, tuple[dict[st
 Renders = dict[str, tuple[dict[str, object], NDArray[np.float32]]]
 
 
-def test_every_stroke_touches_and_sounds(renders: Renders) -> None:
+def test_every_stroke_touches_and_vibrates(renders: Renders) -> None:
     assert len(renders) == 20
     for name, (report, samples) in renders.items():
         assert report["segments"], name
@@ -92,7 +92,7 @@ def test_no_sample_is_non_finite_or_clipped(renders: Renders) -> None:
         assert report["nonfinite"] == 0 and report["failures"] == 0 and report["underruns"] == 0, name
 
 
-def test_hop_boundaries_hide_in_the_wave_around_them(renders: Renders) -> None:
+def test_hop_boundaries_do_not_stand_out_from_the_waveform(renders: Renders) -> None:
     seams = [report["seams"] for report, _ in renders.values()]
     counts = np.array([seam["count"] for seam in seams], dtype=float)  # type: ignore[index]
     shares = np.array([seam["outlier_share"] for seam in seams])  # type: ignore[index]

@@ -1,4 +1,4 @@
-"""The training recipes: each one's loss is least where it should be, and each phase leaves a network that runs."""
+"""The training recipes: each loss is minimal where it should be, and each phase leaves a network that runs."""
 
 from __future__ import annotations
 
@@ -12,6 +12,8 @@ import torch
 from test_trainer import ALONE, _config
 from training_fixtures import make_store
 
+from haptoflow_benchmark.objectives.mean_flow import mean_flow_loss
+from haptoflow_benchmark.objectives.reflow import ReflowPairs, reflow_loss
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.trained_tier import TrainedTier, load_tiers
 from haptoflow_training.models.rib_comb import PARTIALS
@@ -25,8 +27,6 @@ from haptoflow_training.training.energy_distance import (
     spectra,
 )
 from haptoflow_training.training.losses import Losses
-from haptoflow_training.training.mean_flow import mean_flow_loss
-from haptoflow_training.training.reflow import ReflowPairs, reflow_loss
 from haptoflow_training.training.trainer import Trainer, build_model, load_trained, planned_steps
 
 
@@ -65,7 +65,7 @@ def test_the_energy_distance_prefers_the_true_process_to_its_mean_to_a_copy_of_o
         assert true < _energy(lambda seed: gain * _noise(256, 200, seed)) - 0.005, f"level times {gain}"
 
 
-def test_the_energy_distance_prefers_a_tone_that_goes_on_to_one_that_starts_anew() -> None:
+def test_the_energy_distance_prefers_a_continued_tone_to_a_restarted_one() -> None:
     phase = 2.0 * math.pi * torch.rand(64, 1, generator=torch.Generator().manual_seed(1))
     time = torch.arange(400)
     tone = math.sqrt(2.0) * torch.sin(2.0 * math.pi * 0.07 * time + phase)
@@ -91,7 +91,7 @@ def test_the_average_velocity_of_a_straight_flow_has_no_mean_flow_loss() -> None
     assert mean_flow_loss(straight, target, generator, torch.ones(16)).item() < 1e-3
 
 
-def test_a_mean_flow_learnt_from_two_points_jumps_to_them_in_one_step() -> None:
+def test_a_mean_flow_trained_on_two_points_reaches_them_in_one_step() -> None:
     torch.manual_seed(0)
     layers = torch.nn.Sequential(torch.nn.Linear(3, 64), torch.nn.SiLU(), torch.nn.Linear(64, 64), torch.nn.SiLU(),
                                  torch.nn.Linear(64, 1))  # fmt: skip
@@ -121,7 +121,7 @@ def _blows(seed: int, rate: float) -> torch.Tensor:
 
 
 @pytest.mark.parametrize("rate", [0.01, 0.1, 0.4])
-def test_the_energy_distance_prefers_blows_as_rare_as_recorded_to_even_noise_of_the_same_power_and_to_rarer_ones(
+def test_the_energy_distance_prefers_impacts_at_the_recorded_rate(
     rate: float,
 ) -> None:
     recorded, past = _blows(1, rate), torch.zeros(256, 200)
@@ -133,7 +133,7 @@ def test_the_energy_distance_prefers_blows_as_rare_as_recorded_to_even_noise_of_
     assert loss(rate) < loss(0.3 * rate) - 0.02
 
 
-def test_the_energy_distance_hears_a_modulation_that_the_spectrum_does_not() -> None:
+def test_the_energy_distance_detects_a_modulation_that_the_spectrum_does_not_show() -> None:
     time = torch.arange(400) / 2000.0
     swing = (1.0 + torch.sin(2.0 * math.pi * 40.0 * time + 6.28 * torch.rand(256, 1))).expand(256, 400)
 
@@ -146,7 +146,7 @@ def test_the_energy_distance_hears_a_modulation_that_the_spectrum_does_not() -> 
     assert swung < _loss(swinging(1), past, (even[0], even[1]), own=True) - 0.02
 
 
-def test_reflow_is_least_for_the_field_that_joins_each_pair_straight() -> None:
+def test_the_reflow_loss_is_minimal_for_the_straight_path_of_each_pair() -> None:
     noise, target = _noise(32, 8, 1).unsqueeze(1), _noise(32, 8, 2).unsqueeze(1)
     pairs = ReflowPairs(noise, target, noise, torch.zeros(32, dtype=torch.long), torch.zeros(32, 3), torch.zeros(32, 2))
     generator = torch.Generator().manual_seed(0)
@@ -173,14 +173,14 @@ def test_a_chain_of_recorded_segments_would_end_in_the_recorded_previous_wavefor
         assert any(abs(store.waveform[place - lead_in - 1] - start[-1]) < 1e-7 for place in found)
 
 
-def test_living_through_a_chain_appends_each_hop_of_what_was_generated() -> None:
+def test_rendering_a_chain_appends_each_generated_hop() -> None:
     store = make_store()
     model = build_model(_config(), [(), ()]).eval()
     losses = Losses(model, SolverConfig("euler", 1))
     chain = SegmentBatches(store, "train", BatchConfig(chain_hops=(2, 2)), 4).draw_chains(3).chain
     assert chain is not None
     label = torch.tensor([0, 1, 0])
-    lived = losses.live_through(chain, label, "flow", torch.Generator().manual_seed(1))
+    lived = losses.render_chain(chain, label, "flow", torch.Generator().manual_seed(1))
     generator = torch.Generator().manual_seed(1)
 
     def hop(number: int, previous: torch.Tensor) -> torch.Tensor:
@@ -202,7 +202,7 @@ RECIPES = {
 
 
 @pytest.mark.parametrize("name", RECIPES)
-def test_a_recipe_runs_through_its_phases_and_says_how_its_network_is_to_be_run(name: str, tmp_path: Path) -> None:
+def test_a_recipe_runs_through_its_phases_and_states_its_tier_kind(name: str, tmp_path: Path) -> None:
     recipe, kind = RECIPES[name]
     config = dataclasses.replace(_config(steps=10), recipe=recipe)
     Trainer(config, make_store(), tmp_path, ALONE).run()
@@ -234,7 +234,7 @@ def test_tiers_that_share_no_level_are_refused(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("shares_base", [True, False])
-def test_a_base_and_the_wish_to_share_it_go_together(shares_base: bool, tmp_path: Path) -> None:
+def test_a_base_and_shares_base_must_be_given_together(shares_base: bool, tmp_path: Path) -> None:
     config = dataclasses.replace(_config(), recipe=RecipeConfig(shares_base=shares_base))
     with pytest.raises(InputError, match="go together"):
         Trainer(config, make_store(), tmp_path, ALONE, None if shares_base else tmp_path / "base")
@@ -258,7 +258,7 @@ def test_a_further_round_begins_with_the_averaged_weights_of_the_run_it_goes_on_
         assert all(torch.equal(value, first[name]) for name, value in weights.items())
 
 
-def test_a_layer_that_grew_keeps_the_outputs_it_had_and_begins_the_others_as_built(tmp_path: Path) -> None:
+def test_a_layer_with_more_outputs_keeps_the_old_ones_and_initialises_the_new_ones(tmp_path: Path) -> None:
     store = make_store()
     Trainer(_config(steps=5), store, tmp_path / "first", ALONE).run()
     content = torch.load(tmp_path / "first" / "checkpoint.pt")
@@ -273,7 +273,7 @@ def test_a_layer_that_grew_keeps_the_outputs_it_had_and_begins_the_others_as_bui
     assert torch.equal(begun["field.film.bias"][10:], built[10:])
 
 
-def test_a_further_round_refuses_a_run_of_another_shape_by_the_layer_s_name_and_one_of_other_labels(
+def test_a_further_round_refuses_runs_with_other_shapes_or_labels(
     tmp_path: Path,
 ) -> None:
     store = make_store()
@@ -290,7 +290,7 @@ def test_a_further_round_refuses_a_run_of_another_shape_by_the_layer_s_name_and_
 
 
 @pytest.mark.parametrize(("energy_steps", "chains"), [(4, 3), (0, 6)])
-def test_self_forcing_leaves_one_step_networks_every_second_recorded_past_and_flows_none(
+def test_self_forcing_uses_every_second_batch_for_one_step_networks_and_every_batch_for_flows(
     energy_steps: int, chains: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     drawn: list[int] = []

@@ -25,7 +25,7 @@ from haptoflow_training.recordings.synthetic.measurement import (
 )
 
 MATERIALS = {material.label: material for material in load_materials()}
-# From 20 mm/s as the report: ribs that are met at less than 20 Hz there bend the level law of a ruled label.
+# From 20 mm/s like the report: at lower speeds ribs are met at less than 20 Hz, which bends a ruled label's level law.
 SMALL = Design(
     speeds_mmps=(20.0, 80.0, 200.0),
     forces_newtons=(0.5, 1.0, 2.0),
@@ -75,7 +75,7 @@ def test_a_material_measured_afresh_meets_its_targets(label):
     assert deviation.passes(), deviation
 
 
-def test_the_centroid_pooled_over_labels_grows_with_speed_as_published_textures_do_and_goes_on_growing_beyond():
+def test_the_pooled_centroid_grows_with_speed_as_in_published_textures_and_beyond():
     """About v^0.15 in the published statistics; with a fixed contact it is v^0.005 beyond 200 mm/s."""
     design = Design(
         speeds_mmps=(20.0, 200.0),
@@ -100,7 +100,7 @@ def test_the_contact_stiffens_with_force_and_speed_and_not_beyond_its_range():
     assert np.all(resonance_steps(speeds, 2.0 * force) > steps)
 
 
-def test_calibration_mends_a_material_that_was_put_out_of_tune():
+def test_calibration_restores_a_detuned_material():
     ceramic = MATERIALS["ceramic"]
     wrong = ceramic.with_calibrated(
         height_micrometres=3.0 * ceramic.calibrated.height_micrometres,

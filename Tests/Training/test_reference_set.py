@@ -1,4 +1,4 @@
-"""The recordings that everything is held against: what two of a pair share is the process, not the spot."""
+"""The reference recordings: the two of a pair share the process, not the place."""
 
 from __future__ import annotations
 
@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from haptoflow_training.evaluation.reference_conditions import (
+from haptoflow_benchmark.reference import reference_set as subject
+from haptoflow_benchmark.reference.reference_conditions import (
     CONSTANT_SPEEDS_MPS,
     Condition,
     conditions,
@@ -18,8 +19,7 @@ from haptoflow_training.evaluation.reference_conditions import (
     motion_of,
     rib_rates_hz,
 )
-from haptoflow_training.evaluation import reference_set as subject
-from haptoflow_training.evaluation.reference_set import record_pair, rib_phases
+from haptoflow_benchmark.reference.reference_set import record_pair, rib_phases
 from haptoflow_training.recordings.synthetic import HELD_OUT_SPECIMEN, Material, load_materials
 
 MATERIALS = load_materials()
@@ -38,7 +38,7 @@ def _first(label: str, kind: str, **wanted: object) -> Condition:
     raise AssertionError((label, kind, wanted))
 
 
-def test_the_grid_reaches_from_a_crawl_to_a_flick_and_from_a_touch_to_a_push_on_every_label() -> None:
+def test_the_grid_covers_slow_to_fast_and_light_to_firm_on_every_label() -> None:
     assert min(CONSTANT_SPEEDS_MPS) == 0.01 and max(CONSTANT_SPEEDS_MPS) == 1.5
     for material in MATERIALS:
         own = [entry for entry in CHOSEN if entry.label == material.label]
@@ -48,7 +48,7 @@ def test_the_grid_reaches_from_a_crawl_to_a_flick_and_from_a_touch_to_a_push_on_
         assert min(forces) == 0.2 and max(forces) == 3.0
 
 
-def test_the_grid_holds_what_training_leaves_out_speed_force_and_direction() -> None:
+def test_the_grid_contains_the_held_out_speed_force_and_direction() -> None:
     assert any(0.25 <= entry.speed_mps < 0.3 for entry in CHOSEN)
     assert any(1.2 <= entry.force_newtons < 1.5 for entry in CHOSEN)
     assert any(entry.direction_degrees == 225.0 for entry in CHOSEN)
@@ -79,7 +79,7 @@ def test_labels_with_a_nap_are_stroked_along_and_against_it_at_the_same_speeds()
         assert along == against and len(along) >= 2
 
 
-def test_recordings_last_longer_where_blows_are_rare_and_all_of_them_take_less_than_two_hours() -> None:
+def test_recordings_are_longer_where_impacts_are_rare_and_last_less_than_two_hours_in_all() -> None:
     assert _first("concrete", "constant", speed_mps=0.03).seconds > _first("glass", "constant", speed_mps=0.03).seconds
     assert sum(entry.seconds for entry in CHOSEN) < 7200.0
 
@@ -90,7 +90,7 @@ def test_no_two_recordings_share_a_seed_within_a_label() -> None:
         assert len(seeds) == len(set(seeds))
 
 
-def test_the_motion_that_networks_are_told_is_the_one_that_was_recorded() -> None:
+def test_the_condition_of_networks_is_the_recorded_motion() -> None:
     condition = dataclasses.replace(_first("stone", "constant", speed_mps=0.5), seconds=2.0)
     pair = record_pair((condition, _material("stone"), _material("glass")))
     recorded, independent, motion = pair.recorded, pair.independent, pair.motion
@@ -101,7 +101,7 @@ def test_the_motion_that_networks_are_told_is_the_one_that_was_recorded() -> Non
     assert abs(np.corrcoef(recorded, independent)[0, 1]) < 0.2
 
 
-def test_a_stroke_that_turns_back_slides_at_full_speed_all_the_time_but_for_the_turn() -> None:
+def test_a_reversing_stroke_moves_at_full_speed_except_at_the_turns() -> None:
     condition = _first("wood", "reversal", speed_mps=0.4)
     motion = motion_of(condition, _material("wood"), 0.3)
     speed = np.hypot(motion[:, 0], motion[:, 1])
@@ -117,7 +117,7 @@ def test_starts_and_stops_rest_a_third_of_the_time_and_keep_their_force() -> Non
     assert np.all(motion[:, 2] == 1.0)
 
 
-def test_a_hand_s_motion_is_finite_and_never_pulls() -> None:
+def test_a_hand_s_motion_is_finite_with_non_negative_force() -> None:
     motion = motion_of(_first("fur", "varying"), _material("fur"), 0.3)
     assert np.all(np.isfinite(motion)) and motion[:, 2].min() >= 0.0
     assert np.hypot(motion[:, 0], motion[:, 1]).max() <= 1.6
@@ -134,7 +134,7 @@ def test_a_change_of_label_is_made_of_the_two_labels_recordings_turn_by_turn() -
     assert not np.array_equal(mixed[elsewhere], plain[elsewhere]) and elsewhere.mean() == pytest.approx(0.5, abs=0.02)
 
 
-def test_both_of_a_pair_are_recorded_on_the_specimen_that_training_never_sees(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_both_recordings_of_a_pair_are_of_the_held_out_specimen(monkeypatch: pytest.MonkeyPatch) -> None:
     specimens: list[int] = []
 
     def spy(*arguments: Any, **named: Any) -> Any:
@@ -149,7 +149,7 @@ def test_both_of_a_pair_are_recorded_on_the_specimen_that_training_never_sees(mo
 
 
 def test_the_phase_of_the_ribs_is_that_of_the_place_on_the_surface_where_the_recording_is() -> None:
-    # Ribs as high as corduroy's: the recorded power swings with the phase that the place gives, at its start and later.
+    # Ribs of corduroy's height: the recorded power is modulated with the phase of the place, at its start and later.
     condition = dataclasses.replace(_first("corduroy", "constant", speed_mps=0.03), seconds=6.0)
     pair = record_pair((condition, _material("corduroy"), _material("glass")))
     ruling = _material("corduroy").dominant_ruling

@@ -8,13 +8,14 @@ import pytest
 import torch
 from torch import nn
 
+from haptoflow_benchmark.codec.encodec import EnCodec
+from haptoflow_benchmark.codec.latent_normaliser import LatentNormaliser
+from haptoflow_benchmark.codec.polyphase_resampler import PolyphaseResampler
+from haptoflow_benchmark.codec.representation import CodecRepresentation
+from haptoflow_benchmark.codec.resampled_encodec import ResampledEnCodec
+from haptoflow_benchmark.codec.small_codec import SmallCodec, SmallCodecShape
 from haptoflow_training.errors import InputError
-from haptoflow_training.models.codec.encodec import EnCodec
-from haptoflow_training.models.codec.latent_normaliser import LatentNormaliser
-from haptoflow_training.models.codec.polyphase_resampler import PolyphaseResampler
-from haptoflow_training.models.codec.resampled_encodec import ResampledEnCodec
-from haptoflow_training.models.codec.small_codec import SmallCodec, SmallCodecShape
-from haptoflow_training.models.representation import CodecRepresentation, Representation, build_representation
+from haptoflow_training.models.representation import Representation, build_representation
 
 
 @pytest.fixture(scope="module")
@@ -78,7 +79,7 @@ def test_a_codec_stays_frozen_inside_a_network_that_trains(name: str, request: p
     assert network["field"].training
     assert not any(module.training for module in representation.modules())
     assert not any(parameter.requires_grad for parameter in representation.parameters())
-    # Weight normalisation left in would work out every weight anew in each call.
+    # Weight normalisation would recompute every weight in each call.
     assert not any(name.endswith("weight_g") for name in representation.state_dict())
 
 
@@ -140,7 +141,7 @@ def test_upsampling_keeps_the_samples_and_adds_no_delay() -> None:
     raised = resampler.upsample(tones)
     assert raised.shape == (3, 1, 2400)
     torch.testing.assert_close(raised[..., ::12], tones, atol=5e-4, rtol=0.0)
-    # Between the samples the tone goes on as a tone.
+    # Between the samples the tone must continue as a tone.
     fine_seconds = torch.arange(2400, dtype=torch.float64) / 24000.0
     expected = torch.sin(2.0 * torch.pi * 437.0 * fine_seconds + 0.7).float()
     torch.testing.assert_close(raised[1, 0, 400:2000], expected[400:2000], atol=2e-3, rtol=0.0)
@@ -154,7 +155,7 @@ def test_downsampling_removes_what_would_alias() -> None:
 
 
 class _Recorder(nn.Module):
-    """Stands where EnCodec stands, keeps the 24 kHz waveform and gives it back."""
+    """Replaces EnCodec: stores the 24 kHz waveform and returns it."""
 
     def encode(self, waveform: torch.Tensor) -> torch.Tensor:
         self.heard = waveform
@@ -164,7 +165,7 @@ class _Recorder(nn.Module):
         return self.heard[..., :samples]
 
 
-def test_the_scale_at_which_encodec_hears_a_segment_is_taken_back_afterwards() -> None:
+def test_the_input_scale_of_encodec_is_undone_in_its_output() -> None:
     recorder = _Recorder()
     codec = ResampledEnCodec(recorder, waveform_scale=0.2)  # type: ignore[arg-type]
     tone = _tones((100.0,))
@@ -173,7 +174,7 @@ def test_the_scale_at_which_encodec_hears_a_segment_is_taken_back_afterwards() -
     torch.testing.assert_close(restored, tone, atol=0.02, rtol=0.0)
 
 
-def test_encodec_needs_weights_or_a_word_that_random_ones_are_meant() -> None:
+def test_encodec_needs_weights_or_an_explicit_request_for_random_ones() -> None:
     with pytest.raises(InputError, match="expected either checkpoint"):
         build_representation({"kind": "encodec"})
     with pytest.raises(InputError, match="expected either checkpoint"):
@@ -181,7 +182,7 @@ def test_encodec_needs_weights_or_a_word_that_random_ones_are_meant() -> None:
 
 
 @torch.no_grad()
-def test_encodec_from_a_checkpoint_with_latent_statistics_codes_as_its_parts_do(tmp_path: Path) -> None:
+def test_encodec_from_a_checkpoint_with_latent_statistics_equals_its_parts(tmp_path: Path) -> None:
     torch.manual_seed(6)
     codec = ResampledEnCodec(EnCodec().eval(), waveform_scale=0.2)
     waveforms = torch.randn(8, 1, 200)
@@ -202,7 +203,7 @@ def test_encodec_from_a_checkpoint_with_latent_statistics_codes_as_its_parts_do(
     torch.testing.assert_close(built.decode(latent), codec.decode(latent), atol=1e-4, rtol=1e-4)
 
 
-def test_the_normaliser_and_its_inverse_cancel_and_an_unused_channel_is_not_blown_up() -> None:
+def test_the_normaliser_and_its_inverse_cancel_and_an_unused_channel_is_not_amplified() -> None:
     latents = torch.randn(64, 3, 25) * torch.tensor([2.0, 0.5, 0.0]).reshape(1, 3, 1) + 4.0
     normaliser = LatentNormaliser(3)
     normaliser.fit(latents)

@@ -1,4 +1,4 @@
-"""Ruled surfaces: their wave vectors, the comb that carries their pitch, and strokes steady enough to learn it from."""
+"""Ruled surfaces: their wave vectors, the rib comb, and strokes that are steady enough to learn a pitch."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from training_fixtures import make_store
 from haptoflow_training.models.label_embedding import LabelEmbedding, rib_frequencies_hz, rib_phase
 from haptoflow_training.models.rib_comb import GAINS, PARTIALS, RibComb, spread_gains
 from haptoflow_training.models.velocity_field import VelocityField
-from haptoflow_training.recordings.synthetic.carriers import FASTEST_MMPS, guided_ride
+from haptoflow_training.recordings.synthetic.carriers import MAXIMUM_SPEED_MMPS, guided_ride
 from haptoflow_training.recordings.synthetic.contact import SIMULATION_RATE_HZ
 from haptoflow_training.training.config import ModelConfig, RecipeConfig
 from haptoflow_training.training.energy_distance import energy_distance_loss, envelopes, spectra
@@ -36,7 +36,7 @@ def test_a_label_s_last_four_numbers_are_its_wave_vectors_and_zero_without_ribs(
     )
 
 
-def test_ribs_sound_at_speed_across_them_over_their_wavelength() -> None:
+def test_the_rib_frequency_is_the_speed_across_the_ribs_over_their_wavelength() -> None:
     angle = math.radians(60.0)
     motion = torch.tensor([[0.2 * math.cos(angle), 0.2 * math.sin(angle), 1.0]])
     mesh = EMBEDDING(torch.tensor([1]))
@@ -51,7 +51,7 @@ def _comb(
     gains: torch.Tensor | None = None,
     turns: tuple[float, float] = (0.0, 0.0),
 ) -> torch.Tensor:
-    """[B, 5, 200]: past carried on by both families of ribs, pulses of both, lines."""
+    """[B, 5, 200]: the past continued by both families of ribs, pulses of both, lines."""
     count = len(past)
     motion = torch.tensor([[speed_mps, 0.0, 1.0]] * count)
     embedding = EMBEDDING(torch.tensor([label] * count))
@@ -61,7 +61,7 @@ def _comb(
 
 
 @pytest.mark.parametrize("speed_mps", [0.1, 0.237, 0.9])
-def test_the_comb_carries_a_tone_and_its_overtone_on_with_their_phases(speed_mps: float) -> None:
+def test_the_comb_continues_a_tone_and_its_overtone_with_their_phases(speed_mps: float) -> None:
     fundamental = 400.0 * speed_mps
     tones = [f for f in (fundamental, 2.0 * fundamental) if f < 960.0]
     combed = _comb(_wave(tones, -200, 0), 0, speed_mps)
@@ -77,7 +77,7 @@ def _only(kind: int, partial: int) -> torch.Tensor:
     return gains
 
 
-def test_lines_are_the_past_s_and_the_surface_s_partial_by_partial_by_their_gains() -> None:
+def test_lines_are_the_gain_weighted_partials_of_past_and_surface() -> None:
     fundamental = 200.0
     past = _wave([fundamental, 2.0 * fundamental], -200, 0)
     time = torch.arange(200) / 2000.0
@@ -100,17 +100,17 @@ def test_lines_are_the_past_s_and_the_surface_s_partial_by_partial_by_their_gain
     torch.testing.assert_close(every[:, 4], every[:, 0])
 
 
-def test_a_stroke_that_turns_back_meets_the_same_ribs_backwards() -> None:
+def test_a_reversed_stroke_meets_the_same_ribs_in_reverse() -> None:
     gains = torch.randn(1, GAINS, generator=torch.Generator().manual_seed(4))
     gains[:, : 2 * PARTIALS] = gains[:, 4 * PARTIALS :] = 0.0
     against = gains.clone()
-    # Seen from the other side, what lagged behind is ahead.
+    # Seen from the other side, a phase lag becomes a lead.
     against[:, 3 * PARTIALS : 4 * PARTIALS] *= -1.0
     silence = torch.zeros(1, 1, 200)
     position_mm = 7.31
     turn = rib_phase(EMBEDDING(torch.tensor([0])), torch.tensor([[position_mm, 0.0]]))[0, 0].item()
     there = _comb(silence, 0, 0.2, gains, (turn, 0.0))[0, 4]
-    # The way back begins where the way there has come to with its last sample.
+    # The way back starts where the way there ended with its last sample.
     end = (turn + 0.4 * 200.0 * 199.0 / 2000.0) % 1.0
     back = _comb(silence, 0, -0.2, against, (end, 0.0))[0, 4]
     torch.testing.assert_close(back, torch.flip(there, [0]), rtol=0.0, atol=2e-3)
@@ -118,14 +118,14 @@ def test_a_stroke_that_turns_back_meets_the_same_ribs_backwards() -> None:
 
 
 @pytest.mark.parametrize("wandered_turns", [0.0, 0.12, -0.2])
-def test_a_profile_that_has_wandered_from_the_rib_phase_goes_on_whole_from_where_the_past_shows_it(
+def test_a_wandering_profile_continues_from_its_offset_in_the_past(
     wandered_turns: float,
 ) -> None:
     fundamental, turns = 40.0, 0.37
     gains = torch.zeros(1, GAINS)
     profile = gains[0, 4 * PARTIALS : 6 * PARTIALS].view(2, PARTIALS)
     profile[0, :4], profile[1, :4] = torch.tensor([0.5, -0.4, 0.3, 0.3]), torch.tensor([0.2, 0.3, -0.4, 0.2])
-    # Sharp: what is asked about is the offset.
+    # Sharp, because this test is about the offset.
     gains[0, 6 * PARTIALS : 6 * PARTIALS + 2] = 3.0
 
     def wave(start: int, stop: int) -> torch.Tensor:
@@ -168,7 +168,7 @@ def test_the_comb_s_waves_are_cosines_and_sines_of_every_harmonic_counted_from_t
         torch.testing.assert_close(waves[0, 2 * order - 2 : 2 * order], both, rtol=0.0, atol=1e-4)
 
 
-def test_a_network_taught_nothing_adds_no_lines_and_one_with_unit_gains_carries_the_past_on() -> None:
+def test_an_untrained_network_adds_no_lines_and_unit_gains_continue_the_past() -> None:
     field = VelocityField(width=16, previous_width=8, ribs=True)
     motion = torch.tensor([[0.5, 0.0, 1.0]])
     past = _wave([200.0], -200, 0)
@@ -181,25 +181,25 @@ def test_a_network_taught_nothing_adds_no_lines_and_one_with_unit_gains_carries_
     torch.testing.assert_close(field(*arguments), _wave([200.0], 0, 200), rtol=0.0, atol=0.05)
 
 
-def test_a_line_that_has_grown_beyond_all_power_there_is_is_carried_on_no_larger_than_that() -> None:
+def test_a_line_above_unit_power_is_continued_at_the_limit() -> None:
     lines = _comb(5.0 * _wave([200.0], -200, 0), 0, 0.5, _only(0, 0))[:, 4]
     assert lines.abs().max().item() == pytest.approx(1.5, abs=0.02)
 
 
 @pytest.mark.parametrize("size", [0.05, 1.0, 3.0])
-def test_a_held_line_goes_on_in_phase_at_its_own_amplitude_however_loud_the_past_was(size: float) -> None:
+def test_a_unit_amplitude_line_continues_in_phase_whatever_the_past_s_level(size: float) -> None:
     lines = _comb(size * _wave([200.0], -200, 0), 0, 0.5, 0.4 * _only(1, 0))[:, 4]
     torch.testing.assert_close(lines, 0.4 * _wave([200.0], 0, 200)[:, 0], rtol=0.0, atol=0.02)
 
 
-def test_pulses_pass_as_often_as_ribs_do_and_silence_before_leaves_nothing_to_carry_on() -> None:
+def test_pulses_occur_at_the_rib_rate_and_a_silent_past_gives_no_continuation() -> None:
     combed = _comb(torch.zeros(1, 1, 200), 0, 0.1, turns=(0.5, 0.0))
     peaks = [
         place
         for place in range(2, 198)
         if combed[0, 2, place] > 2.0 and combed[0, 2, place] == combed[0, 2, place - 2 : place + 3].max()
     ]
-    # 0.4 ribs a millimetre at 100 mm/s: every 50 samples one, the first half a rib away.
+    # 0.4 ribs a millimetre at 100 mm/s: one every 50 samples, the first half a rib away.
     assert peaks == [25, 75, 125, 175]
     assert combed[:, 0].abs().max().item() == 0.0
     assert combed[:, 3].abs().max().item() == 0.0, "a second family of ribs that is not there"
@@ -208,24 +208,24 @@ def test_pulses_pass_as_often_as_ribs_do_and_silence_before_leaves_nothing_to_ca
 @pytest.mark.parametrize(
     ("label", "speed_mps"), [(2, 0.5), (0, 0.0), (0, 20.0)], ids=["no ribs", "rest", "too fast"]
 )
-def test_where_no_rib_can_sound_the_comb_is_silent_and_finite(label: int, speed_mps: float) -> None:
+def test_without_audible_ribs_the_comb_is_zero_and_finite(label: int, speed_mps: float) -> None:
     combed = _comb(torch.randn(1, 1, 200), label, speed_mps, torch.ones(1, GAINS))
     assert combed.abs().max().item() == 0.0
 
 
-def test_a_segment_s_partials_are_told_as_the_surface_sees_them_wherever_the_tip_is() -> None:
+def test_a_segment_s_partials_relative_to_the_surface_do_not_depend_on_the_place() -> None:
     comb, embedding, motion = RibComb(), EMBEDDING(torch.tensor([0])), torch.tensor([[0.5, 0.0, 1.0]])
     for turns in (0.0, 0.21, 0.8):
         phase = 2.0 * math.pi * (turns + 200.0 * torch.arange(200) / 2000.0)
         segments = torch.stack([phase.cos(), phase.sin(), (2.0 * phase).cos()]).unsqueeze(0)
-        seen, told_apart = comb.profile(embedding, motion, torch.tensor([[turns, 0.0]]), segments)
+        seen, resolved = comb.profile(embedding, motion, torch.tensor([[turns, 0.0]]), segments)
         expected = torch.zeros(3, 2, PARTIALS)
         expected[0, 0, 0] = expected[1, 1, 0] = expected[2, 0, 1] = 1.0
         torch.testing.assert_close(seen[0], expected, rtol=0.0, atol=0.02)
-        assert told_apart[0].nonzero().flatten().tolist() == [0, 1, 2, 3]
+        assert resolved[0].nonzero().flatten().tolist() == [0, 1, 2, 3]
 
 
-def test_the_energy_distance_prefers_draws_that_hold_the_recording_s_phase_over_draws_that_do_not() -> None:
+def test_the_energy_distance_prefers_draws_with_the_recording_s_rib_phase() -> None:
     torch.manual_seed(1)
     past, recorded = (0.1 * torch.randn(2, 64, 200)).unbind()
     holds = torch.zeros(64, 2, PARTIALS)
@@ -249,7 +249,7 @@ def test_the_energy_distance_prefers_draws_that_hold_the_recording_s_phase_over_
         assert loss(turned[0], turned[1], own_past=own_past) > loss(holds, holds, own_past=own_past) + 0.5
 
 
-def test_training_leaves_wave_vectors_as_they_are_and_a_saved_run_has_them(tmp_path: Path) -> None:
+def test_training_does_not_change_wave_vectors_and_a_saved_run_has_them(tmp_path: Path) -> None:
     config = dataclasses.replace(
         _config(steps=6), model=ModelConfig(width=16, previous_width=8, ribs=True), recipe=RecipeConfig(energy_steps=3)
     )
@@ -269,12 +269,14 @@ def test_a_guided_stroke_holds_its_velocity_for_most_tenths_of_a_second_and_chan
     spread = np.hypot(*np.ptp(tenths, axis=1).T) / np.hypot(*tenths.mean(axis=1).T)
     assert np.mean(spread < 0.03) > 0.7
     assert len(np.unique(np.round(np.log(np.hypot(*tenths.mean(axis=1).T)), 1))) >= 4
-    assert np.hypot(*ride.path.velocity_mmps.T).max() <= FASTEST_MMPS + 1.0
+    assert np.hypot(*ride.path.velocity_mmps.T).max() <= MAXIMUM_SPEED_MMPS + 1.0
     assert np.hypot(*ride.path.velocity_mmps[[0, -1]].T).max() < 1.0
     assert ride.force_newtons.min() > 0.0
 
 
-def test_a_quarter_of_a_guided_stroke_is_so_steady_that_fast_ribs_keep_their_phase_and_half_of_that_is_along_a_scan() -> None:
+def test_a_quarter_of_a_guided_stroke_is_so_steady_that_fast_ribs_keep_their_phase_and_half_of_that_is_along_a_scan(
+    
+) -> None:
     """0.6 mm ribs at up to 1.5 m/s: how far the position is, in the middle of a tenth, from a straight line's."""
     step = int(SIMULATION_RATE_HZ) // 10
     bends, turns = [], []

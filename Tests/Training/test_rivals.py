@@ -1,4 +1,4 @@
-"""Rivals that are given the same: each new form learns what it is for, keeps its phases, and becomes a model file."""
+"""Rivals given the same: each form learns its task, keeps phases, and becomes a model file."""
 
 from __future__ import annotations
 
@@ -18,17 +18,17 @@ from test_trainer import ALONE
 from torch import Tensor
 from training_fixtures import make_store
 
+from haptoflow_benchmark.rivals import build_rival
+from haptoflow_benchmark.rivals.autoregressive import AutoregressiveRival
+from haptoflow_benchmark.rivals.rival import Rival
+from haptoflow_benchmark.rivals.spsi import SpsiRival
+from haptoflow_benchmark.rows.row_plan import PlannedRow, load_plan
+from haptoflow_training.closed_loop.measured_levels import MeasuredLevels
 from haptoflow_training.commands import train
-from haptoflow_training.commands.level_offsets import MeasuredLevels
 from haptoflow_training.errors import InputError
-from haptoflow_training.evaluation.row_plan import PlannedRow, load_plan
 from haptoflow_training.export.exporter import export_run
 from haptoflow_training.export.label_info import LabelInfo
 from haptoflow_training.export.model_file import read_model_file
-from haptoflow_training.models.baselines import build_baseline
-from haptoflow_training.models.baselines.autoregressive import AutoregressiveBaseline
-from haptoflow_training.models.baselines.baseline import Baseline
-from haptoflow_training.models.baselines.spsi import SpsiBaseline
 from haptoflow_training.training.batches import SegmentBatches
 from haptoflow_training.training.config import BatchConfig, ModelConfig, TrainingConfig, load_config
 from haptoflow_training.training.losses import Losses
@@ -44,7 +44,7 @@ WAVE_VECTORS = [[(0.5, 0.0)], []]
 
 
 def _shortened(name: str) -> TrainingConfig:
-    """The shipped configuration, a few steps a phase."""
+    """The shipped configuration with a few steps a phase."""
     config = load_config(CONFIGS / f"{name}.toml")
     few = {
         key: min(4, getattr(config.recipe, key)) for key in ("reflow_steps", "energy_steps", "self_forcing_steps")
@@ -61,7 +61,7 @@ def _shortened(name: str) -> TrainingConfig:
 
 
 @pytest.mark.parametrize("name", GIVEN_THE_SAME)
-def test_a_rival_of_the_second_block_has_what_our_network_has(name: str) -> None:
+def test_a_rival_given_the_same_has_our_network_s_inputs(name: str) -> None:
     ours, rival = load_config(CONFIGS.parent / "default" / "standard.toml"), load_config(CONFIGS / f"{name}.toml")
     again = load_config(CONFIGS / "standard.toml")
     assert rival.model.ribs and rival.model.level == "law" and rival.recipe.calibrate_level
@@ -76,7 +76,7 @@ def test_a_rival_of_the_second_block_has_what_our_network_has(name: str) -> None
         "standard", "one-step-deaf", "one-step-no-ribs", "one-step-no-impulses", "one-step-recorded-past",
     ],
 )  # fmt: skip
-def test_an_ablation_follows_the_default_recipe_but_for_what_it_leaves_out(name: str) -> None:
+def test_an_ablation_differs_from_the_default_recipe_only_in_what_it_removes(name: str) -> None:
     ours, ablation = load_config(CONFIGS.parent / "default" / "standard.toml"), load_config(CONFIGS / f"{name}.toml")
     assert (ablation.data, ablation.batch) == (ours.data, ours.batch)
     assert (ablation.optimiser.steps, ablation.recipe.energy_steps) == (ours.optimiser.steps, ours.recipe.energy_steps)
@@ -89,13 +89,13 @@ def test_an_ablation_follows_the_default_recipe_but_for_what_it_leaves_out(name:
 
 
 @pytest.mark.parametrize("row", [row for row in load_plan(CONFIGS / "rows.toml") if row.block == "as-published"])
-def test_a_rival_as_published_has_neither_ribs_nor_impulses_which_are_ours(row: PlannedRow) -> None:
+def test_a_rival_as_published_has_neither_ribs_nor_impulses(row: PlannedRow) -> None:
     model = load_config(CONFIGS / f"{row.model}.toml").model
     assert not model.ribs and not model.impulses
 
 
 @pytest.mark.parametrize("name", GIVEN_THE_SAME)
-def test_a_rival_of_the_second_block_goes_through_its_phases_and_becomes_a_model_file(
+def test_a_rival_given_the_same_trains_through_its_phases_and_becomes_a_model_file(
     name: str, tmp_path: Path
 ) -> None:
     config, store = _shortened(name), make_store(seconds=6.0, recordings_per_split=4)
@@ -111,7 +111,7 @@ def test_a_rival_of_the_second_block_goes_through_its_phases_and_becomes_a_model
 
 
 @pytest.mark.parametrize("name", ["transformer", "dstn", "spsi"])
-def test_a_baseline_that_regresses_cannot_be_taught_by_a_distance_of_draws(name: str, tmp_path: Path) -> None:
+def test_a_regressing_rival_cannot_be_trained_by_the_energy_distance(name: str, tmp_path: Path) -> None:
     text = f'[model]\narchitecture = "{name}"\n[recipe]\nenergy_steps = 5\n'
     (tmp_path / "run.toml").write_text(text, encoding="utf-8")
     with pytest.raises(InputError, match="energy_steps.*model.sampled"):
@@ -130,16 +130,16 @@ def test_a_baseline_that_regresses_cannot_be_taught_by_a_distance_of_draws(name:
         ("[optimiser]\nbudget_seconds = -1\n", "optimiser.budget_seconds"),
     ],
 )
-def test_what_a_form_cannot_do_is_refused_by_its_key(text: str, key: str, tmp_path: Path) -> None:
+def test_an_unsupported_option_of_a_rival_is_refused_with_its_key_named(text: str, key: str, tmp_path: Path) -> None:
     (tmp_path / "run.toml").write_text(text, encoding="utf-8")
     with pytest.raises(InputError, match=f"key '{key}'"):
         load_config(tmp_path / "run.toml")
 
 
-def test_a_rival_without_ribs_has_no_lines_and_one_with_them_is_silent_there_until_taught() -> None:
+def test_a_rival_without_ribs_has_no_lines_and_untrained_rib_lines_are_zero() -> None:
     torch.manual_seed(2)
-    with_ribs = build_baseline("autoregressive", ribs=True)
-    assert build_baseline("autoregressive").comb is None and with_ribs.comb is not None
+    with_ribs = build_rival("autoregressive", ribs=True)
+    assert build_rival("autoregressive").comb is None and with_ribs.comb is not None
     assert with_ribs.lines is not None
     past = torch.randn(4, 1, 200)
     lines, rest = with_ribs.lines(past, *_condition(4, speed_mps=0.4))
@@ -148,7 +148,7 @@ def test_a_rival_without_ribs_has_no_lines_and_one_with_them_is_silent_there_unt
 
 
 def _condition(count: int, speed_mps: float) -> tuple[Tensor, Tensor, Tensor]:
-    """Embedding with ribs of 2 mm along x, motion across them, rib phase from the count."""
+    """An embedding with ribs of 2 mm along x, motion across them, and the counted rib phase."""
     embedding = torch.full((1, 64), 0.3)
     embedding[:, -4:] = torch.tensor([0.5, 0.0, 0.0, 0.0])
     motion = torch.tensor([[speed_mps, 0.0, 1.0]])
@@ -162,8 +162,8 @@ _LINE = 0.8
 
 
 def _ribbed_texture(count: int, seed: int) -> tuple[Tensor, Tensor, tuple[Tensor, Tensor, Tensor]]:
-    """Previous and segment [count, 1, 200] of an autoregressive texture under ribs that pass at 100 Hz, in the phase that
-    the surface has, and their conditions."""
+    """Previous and segment [count, 1, 200] of an autoregressive texture with ribs that pass at 100 Hz in the
+    surface's phase, and their conditions."""
     generator = np.random.default_rng(seed)
     noise = scipy.signal.lfilter([_DRIVE], _RINGING, generator.standard_normal((count, 900)))[:, 500:]
     embedding, motion, phase = _condition(count, 0.2)
@@ -173,7 +173,7 @@ def _ribbed_texture(count: int, seed: int) -> tuple[Tensor, Tensor, tuple[Tensor
     return wave[:, None, :200], wave[:, None, 200:], (embedding, motion, phase)
 
 
-def _learn(baseline: Baseline, steps: int) -> None:
+def _learn(baseline: Rival, steps: int) -> None:
     optimiser, generator = torch.optim.Adam(baseline.parameters(), lr=5e-3), torch.Generator().manual_seed(1)
     for step in range(steps):
         previous, segment, condition = _ribbed_texture(24, step)
@@ -189,29 +189,29 @@ def _line_of(wave: Tensor, phase: Tensor) -> Tensor:
     return 2.0 * (wave[:, 0] * torch.cos(2.0 * math.pi * turns)).mean(dim=1)
 
 
-def _learned_autoregressive(seed: int) -> AutoregressiveBaseline:
+def _learned_autoregressive(seed: int) -> AutoregressiveRival:
     """Autoregressive filters with ribs that have learned the ribbed texture."""
     torch.manual_seed(seed)
-    baseline = AutoregressiveBaseline(ribs=True)
+    baseline = AutoregressiveRival(ribs=True)
     _learn(baseline, 250)
     return baseline
 
 
-def test_autoregressive_noise_is_the_rest_of_what_the_ribs_make() -> None:
+def test_autoregressive_noise_models_the_rest_beside_the_rib_lines() -> None:
     baseline = _learned_autoregressive(seed=3)
     previous, _, condition = _ribbed_texture(256, 10_000)
     with torch.no_grad():
         made = baseline(torch.randn(256, 1, 200), previous, *condition)
         coefficients, log_gain = baseline.process(*condition[:2])
     assert _line_of(made, condition[2]).mean().item() == pytest.approx(_LINE, rel=0.1)
-    # Without the lines, the prediction error would hold what the filter cannot foresee of them.
+    # Without the lines, the prediction error would include their unpredictable part.
     assert log_gain.exp().mean().item() == pytest.approx(_DRIVE, rel=0.1)
     learned = np.concatenate([[1.0], coefficients[0].double().numpy()])
     response = [np.abs(scipy.signal.freqz([1.0], a, worN=128)[1]) for a in (_RINGING, learned)]
     assert np.abs(20.0 * np.log10(response[1] / response[0])).mean() < 1.5
 
 
-def test_an_autoregressive_segment_goes_on_where_its_past_ended_with_lines_as_without() -> None:
+def test_an_autoregressive_segment_continues_its_past_with_and_without_lines() -> None:
     baseline = _learned_autoregressive(seed=4)
     previous, segment, condition = _ribbed_texture(512, 20_000)
     with torch.no_grad():
@@ -220,9 +220,9 @@ def test_an_autoregressive_segment_goes_on_where_its_past_ended_with_lines_as_wi
     assert jumps[1] == pytest.approx(jumps[0], rel=0.15)
 
 
-def test_a_distance_between_draws_teaches_the_lines_and_leaves_the_filter_to_its_likelihood() -> None:
+def test_the_energy_distance_trains_the_lines_and_only_the_likelihood_trains_the_filter() -> None:
     torch.manual_seed(7)
-    baseline = AutoregressiveBaseline(ribs=True)
+    baseline = AutoregressiveRival(ribs=True)
     previous, segment, condition = _ribbed_texture(4, 1)
     made = baseline(torch.randn(4, 1, 200), previous, *condition)
     (made - segment).square().mean().backward()
@@ -231,9 +231,9 @@ def test_a_distance_between_draws_teaches_the_lines_and_leaves_the_filter_to_its
     assert all(parameter.grad is None for parameter in baseline.perceptron.parameters())
 
 
-def test_spsi_that_draws_states_the_mean_power_and_not_the_geometric_mean() -> None:
+def test_sampled_spsi_predicts_the_mean_power_and_not_the_geometric_mean() -> None:
     torch.manual_seed(5)
-    baseline, generator = SpsiBaseline(sampled=True), torch.Generator().manual_seed(1)
+    baseline, generator = SpsiRival(sampled=True), torch.Generator().manual_seed(1)
     optimiser = torch.optim.Adam(baseline.parameters(), lr=3e-3)
     condition = _condition(64, 0.2)
     for step in range(120):
@@ -244,21 +244,21 @@ def test_spsi_that_draws_states_the_mean_power_and_not_the_geometric_mean() -> N
         optimiser.step()
     with torch.no_grad():
         made = baseline(torch.randn(64, 1, 200), torch.zeros(64, 1, 200), *condition)
-    # A published one would stay 2.5 dB below.
+    # The published form would stay 2.5 dB below.
     assert 20.0 * math.log10(made.square().mean().sqrt().item() / 2.0) == pytest.approx(0.0, abs=0.4)
 
 
 @pytest.mark.parametrize("architecture", ["transformer", "dstn"])
-def test_a_network_given_noise_draws_another_segment_for_another_noise(architecture: str) -> None:
+def test_a_sampled_rival_draws_another_segment_for_other_noise(architecture: str) -> None:
     torch.manual_seed(6)
-    baseline, condition = build_baseline(architecture, sampled=True), _condition(2, 0.2)
+    baseline, condition = build_rival(architecture, sampled=True), _condition(2, 0.2)
     previous = torch.randn(1, 1, 200).expand(2, -1, -1)
     same = tuple(part[:1].expand(2, -1) for part in condition)
     made = baseline(torch.randn(2, 1, 200), previous, *same)
     assert (made[0] - made[1]).abs().max().item() > 1e-3
 
 
-def test_the_level_that_a_trained_row_makes_too_loud_is_taken_back_at_its_export(
+def test_the_level_error_of_a_trained_row_is_corrected_at_its_export(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     store = make_store(seconds=6.0, recordings_per_split=4)
@@ -290,7 +290,7 @@ def test_the_level_that_a_trained_row_makes_too_loud_is_taken_back_at_its_export
 
 
 def _train(words: list[str]) -> int:
-    from haptoflow_training.cli import main
+    from haptoflow_benchmark.cli import main
 
     return main(["train", *words])
 
@@ -310,6 +310,6 @@ def test_a_likelihood_counts_a_burst_like_any_other_segment_and_a_squared_error_
     assert alike or field.item() < 0.01
 
 
-def test_the_lines_of_a_form_are_told_apart_by_the_energy_distance_as_our_network_s_are() -> None:
+def test_the_energy_distance_compares_a_rival_s_rib_lines_as_our_network_s() -> None:
     model = build_model(_shortened("ar-ribs"), WAVE_VECTORS)
     assert model.field.comb is not None

@@ -1,4 +1,4 @@
-"""Rows measured by several processes: the same figures as one process finds, kept as they come."""
+"""Rows measured by several processes: the same figures as with one process, stored as they are finished."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from haptoflow_benchmark.reference.reference_conditions import Condition
+from haptoflow_benchmark.reference.reference_set import ReferencePair
+from haptoflow_benchmark.rows.accuracy import Yardstick, make_yardstick
+from haptoflow_benchmark.rows.row_plan import PlannedRow
+from haptoflow_benchmark.rows.row_runner import made_from, measure_rows
+from haptoflow_benchmark.rows.row_store import stored_row
+from haptoflow_benchmark.rows.workplace import Workplace
 from haptoflow_training.errors import InputError
-from haptoflow_training.evaluation.accuracy import Yardstick, make_yardstick
-from haptoflow_training.evaluation.reference_conditions import Condition
-from haptoflow_training.evaluation.reference_set import ReferencePair
-from haptoflow_training.evaluation.row_plan import PlannedRow
-from haptoflow_training.evaluation.row_runner import made_from, measure_rows
-from haptoflow_training.evaluation.row_store import stored_row
-from haptoflow_training.evaluation.workplace import Workplace
 
 _ROWS = [PlannedRow(name, "reference") for name in ("silence", "white-noise", "mean-spectrum")]
 
@@ -39,7 +39,7 @@ def _place(folder: Path) -> Workplace:
     return Workplace(folder, folder / "rows.toml", folder / "work", folder / "store", folder / "results")
 
 
-def test_two_processes_find_what_one_does_and_leave_every_row_s_file(tmp_path: Path, yardstick: Yardstick) -> None:
+def test_two_processes_give_the_same_figures_as_one_and_store_every_row(tmp_path: Path, yardstick: Yardstick) -> None:
     wanted = [(row, 1) for row in _ROWS]
     done: list[int] = []
     together = measure_rows(_place(tmp_path / "two"), yardstick, wanted, 2, done.append)
@@ -57,11 +57,11 @@ def test_a_row_on_every_fourth_recording_has_a_quarter_of_the_cells_and_another_
     whole = next(row for row in _ROWS if row.name == "white-noise")
     quarter = dataclasses.replace(whole, every_fourth=True)
     assert len(measure_rows(place, yardstick, [(whole, 1)], 1)["white-noise", 1]["conditions"]) == 12
-    # What was measured on all is not taken for it.
+    # The row measured on all recordings is not used for it.
     assert len(measure_rows(place, yardstick, [(quarter, 1)], 1)["white-noise", 1]["conditions"]) == 3
 
 
-def test_what_one_row_cannot_be_measured_with_is_told_and_the_others_are_kept(
+def test_a_row_that_cannot_be_measured_is_reported_and_the_others_are_stored(
     tmp_path: Path, yardstick: Yardstick
 ) -> None:
     place = _place(tmp_path)

@@ -1,4 +1,4 @@
-"""Measured rows as files: read as written, and taken only where nothing they were measured from has changed."""
+"""Measured rows as files: read as written, and used only if nothing they depend on has changed."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from typing import Any
 
 import pytest
 
-from haptoflow_training.evaluation.row_plan import PlannedRow
-from haptoflow_training.evaluation.row_store import read_row, stored_row, write_row
-from haptoflow_training.evaluation.workplace import Workplace
+from haptoflow_benchmark.rows.row_plan import PlannedRow
+from haptoflow_benchmark.rows.row_store import read_row, stored_row, write_row
+from haptoflow_benchmark.rows.workplace import Workplace
 
 _ORIGIN = {"configuration_crc32": "1", "graphs_crc32": "2", "recordings_crc32": "3", "reduced": False}
 _CONDITION: dict[str, Any] = {
@@ -31,7 +31,7 @@ def place(tmp_path: Path) -> Workplace:
     return place
 
 
-def test_a_row_is_read_as_it_was_written_to_four_digits_a_line_for_each_recording(place: Workplace) -> None:
+def test_a_stored_row_has_four_digits_and_a_line_for_each_recording(place: Workplace) -> None:
     kept = {**_CONDITION, "level_error_db": -0.1235, "gfc_recording": 0.9876}
     read = read_row(place.row_file(_ROW, 1))
     assert read == {**_RESULT, "conditions": [kept, {**kept, "speed_mps": 1.5}]}
@@ -39,18 +39,18 @@ def test_a_row_is_read_as_it_was_written_to_four_digits_a_line_for_each_recordin
     assert sum("glass" in line for line in lines) == 2
 
 
-def test_a_row_without_recordings_such_as_one_for_its_time_alone_is_read_as_it_was_written(tmp_path: Path) -> None:
+def test_a_row_without_recordings_is_read_as_it_was_written(tmp_path: Path) -> None:
     timed = {"made_from": _ORIGIN, "name": "size", "seed": 1, "discrimination": None}
     write_row(tmp_path / "size.json", timed)
     assert read_row(tmp_path / "size.json") == {**timed, "conditions": []}
 
 
-def test_a_stored_row_is_taken_where_it_was_measured_from_the_same(place: Workplace) -> None:
+def test_a_stored_row_is_used_if_it_was_measured_from_the_same(place: Workplace) -> None:
     assert stored_row(place, _ROW, 1, _ORIGIN) is not None
     assert stored_row(place, _ROW, 2, _ORIGIN) is None
 
 
-def test_a_model_that_is_not_there_any_more_is_no_reason_to_measure_again(place: Workplace) -> None:
+def test_a_missing_model_is_no_reason_to_measure_again(place: Workplace) -> None:
     assert stored_row(place, _ROW, 1, {**_ORIGIN, "graphs_crc32": None}) is not None
 
 

@@ -1,4 +1,4 @@
-"""Which trainings the evaluation's rows start, and which they take as done."""
+"""Which trainings the evaluation's rows start, and which count as done."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from pathlib import Path
 
 import pytest
 
-from haptoflow_training.commands.evaluate import _can_be_measured
-from haptoflow_training.evaluation import row_training
-from haptoflow_training.evaluation.accuracy import make_yardstick
-from haptoflow_training.evaluation.row_plan import PlannedRow
-from haptoflow_training.evaluation.row_runner import made_from
-from haptoflow_training.evaluation.row_training import train_models
-from haptoflow_training.evaluation.workplace import Workplace
-from haptoflow_training.models.codec.small_codec import SmallCodec, SmallCodecShape
+from haptoflow_benchmark.codec.small_codec import SmallCodec, SmallCodecShape
+from haptoflow_benchmark.commands.evaluate import _can_be_measured
+from haptoflow_benchmark.rows import row_training
+from haptoflow_benchmark.rows.accuracy import make_yardstick
+from haptoflow_benchmark.rows.row_plan import PlannedRow
+from haptoflow_benchmark.rows.row_runner import made_from
+from haptoflow_benchmark.rows.row_training import train_models
+from haptoflow_benchmark.rows.workplace import Workplace
 from haptoflow_training.training.config import load_config
 from haptoflow_training.training.job_lanes import Job
 
@@ -27,7 +27,7 @@ def started(monkeypatch: pytest.MonkeyPatch) -> list[Job]:
     """The jobs that would be run."""
     jobs: list[Job] = []
 
-    def remember(given: Sequence[Job], lanes: int, watch: object) -> None:
+    def remember(given: Sequence[Job], lanes: int, progress: object) -> None:
         jobs.extend(given)
 
     monkeypatch.setattr(row_training, "run_jobs", remember)
@@ -58,7 +58,7 @@ def test_rows_of_the_same_model_share_one_training_for_each_seed(place: Workplac
     assert started[1].product == place.model_file(_ROW, 2) and "--seed 2" in " ".join(started[1].words)
 
 
-def test_a_model_trained_as_its_configuration_says_today_is_taken_as_it_is(
+def test_a_model_trained_with_its_present_configuration_is_not_trained_again(
     place: Workplace, started: list[Job]
 ) -> None:
     _leave_as_trained(place, seed=1)
@@ -74,14 +74,14 @@ def test_a_model_whose_configuration_has_changed_since_is_trained_again(place: W
     assert [job.name for job in started] == ["small, seed 1"]
 
 
-def test_a_row_in_a_codec_s_latents_brings_the_codec_s_training_once(place: Workplace, started: list[Job]) -> None:
+def test_rows_in_a_codec_s_latents_train_the_codec_once(place: Workplace, started: list[Job]) -> None:
     latent = '\n[model]\npatch = 5\n[model.representation]\nkind = "small-codec"\ncheckpoint = "codec/small-codec.pt"\n'
     for name in ("one", "two"):
         text = f'name = "{name}"\n[data]\nsource = "synthetic"\n{latent}'
         (place.root / f"{name}.toml").write_text(text, encoding="utf-8")
     train_models(place, [(PlannedRow(name, "as-published", model=name), 1) for name in ("one", "two")], 1)
     assert [job.name for job in started] == ["the small codec", "one, seed 1", "two, seed 1"]
-    # The checkpoint's path is relative to the repository, wherever the evaluation is started from.
+    # The checkpoint's path is relative to the repository, whatever the current folder.
     assert {job.folder for job in started} == {place.root}
 
 
@@ -93,13 +93,13 @@ def test_further_seeds_of_the_shipped_model_are_trainings_of_its_recipe(place: W
     assert [job.name for job in started] == ["small, seed 2"]
 
 
-def test_seeds_of_a_training_that_nobody_describes_are_left_out_and_the_shipped_file_is_not(place: Workplace) -> None:
+def test_seeds_without_a_training_configuration_are_left_out_but_not_the_shipped_file(place: Workplace) -> None:
     shipped = PlannedRow("standard", "ours", model="a/default.haptoflow", seeds=(1, 2), seeds_model="nowhere")
     assert place.seeds_of(shipped) == [1] and place.seeds_of(PlannedRow("r", "as-published", model="nowhere")) == []
     assert place.seeds_of(_ROW) == [1] and place.seeds_of(PlannedRow("silence", "reference")) == [1]
 
 
-def test_what_the_codec_alone_leaves_is_a_ruler_without_a_model_and_needs_the_codec(place: Workplace) -> None:
+def test_the_codec_reconstruction_row_needs_the_codec_but_no_model(place: Workplace) -> None:
     text = '[model]\npatch = 5\n[model.representation]\nkind = "small-codec"\ncheckpoint = "codec/small-codec.pt"\n'
     (place.root / "paper-codec.toml").write_text(text, encoding="utf-8")
     row = PlannedRow("small-codec-reconstruction", "reference")

@@ -1,4 +1,4 @@
-"""Rare events from Gaussian noise: how rare, how loud, with what ring, and that a field can learn them."""
+"""Rare events from Gaussian noise: rate, strength, ringing, and whether a field can learn them."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ def _only(rung: int, atom: int) -> torch.Tensor:
 
 
 @pytest.mark.parametrize("rung", range(len(RUNGS)))
-def test_a_rung_passes_the_tails_of_the_noise_alone_with_power_one(rung: int) -> None:
+def test_a_rung_passes_only_the_tails_of_the_noise_with_power_one(rung: int) -> None:
     noise = torch.randn(16000, 1, 200, generator=torch.Generator().manual_seed(rung))
     struck = RungImpulses()(noise, _only(rung, 0).expand(len(noise), GAINS))
     assert ((struck != 0.0) == (noise.abs() > RUNGS[rung])).all()
@@ -24,7 +24,7 @@ def test_a_rung_passes_the_tails_of_the_noise_alone_with_power_one(rung: int) ->
     assert struck.mean().item() == pytest.approx(0.0, abs=0.01)
 
 
-def test_each_event_rings_as_its_kernel_says_and_only_after_it_struck() -> None:
+def test_each_event_rings_with_its_kernel_and_only_after_its_start() -> None:
     impulses = RungImpulses()
     for place in (0, 24, 25, 130, 199):
         noise = torch.zeros(1, 1, 200)
@@ -38,7 +38,7 @@ def test_each_event_rings_as_its_kernel_says_and_only_after_it_struck() -> None:
         torch.testing.assert_close(impulses(noise, gains)[0, 0], expected, rtol=1e-4, atol=1e-4)
 
 
-def test_rows_strike_with_their_own_gains_and_without_gains_nothing_comes() -> None:
+def test_rows_have_their_own_impulse_gains_and_zero_gains_give_zero() -> None:
     noise = torch.randn(3, 1, 200, generator=torch.Generator().manual_seed(1))
     gains = torch.cat([_only(0, 3), torch.zeros(1, GAINS), _only(1, 5)])
     together = RungImpulses()(noise, gains)
@@ -47,7 +47,7 @@ def test_rows_strike_with_their_own_gains_and_without_gains_nothing_comes() -> N
     torch.testing.assert_close(together[2:], alone)
 
 
-def test_a_field_begins_without_impulses_and_strikes_what_its_condition_asks_for() -> None:
+def test_a_field_starts_without_impulses_and_learns_those_of_its_condition() -> None:
     field = VelocityField(width=16, previous_width=8, impulses=True)
     noise = torch.randn(1, 1, 200, generator=torch.Generator().manual_seed(2))
     arguments = (noise, torch.zeros(1, 1), torch.zeros(1, 1, 200), torch.zeros(1, 64), torch.zeros(1, 3))

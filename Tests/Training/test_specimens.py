@@ -1,4 +1,4 @@
-"""Several specimens of a label: other random surfaces, the same label; one that no training recording touches."""
+"""Several specimens of a label: different random surfaces, the same label; one is held out of training."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ def test_specimens_have_their_ribs_at_the_same_places_but_for_the_jitter() -> No
 
 
 def test_the_phase_of_ribs_is_the_wave_vector_times_the_recorded_position_on_every_specimen() -> None:
-    """The first harmonic of what is felt has one phase against the position, wherever a stroke begins."""
+    """The first harmonic of the vibration has one phase relative to the position, wherever a stroke begins."""
     turns = []
     for seed, specimen in enumerate((0, 0, 3, 3, HELD_OUT_SPECIMEN, HELD_OUT_SPECIMEN)):
         recording = record_condition(
@@ -111,7 +111,7 @@ def test_no_recording_of_the_default_training_is_of_the_held_out_specimen(monkey
     assert max(counted.values()) < 1.3 * min(counted.values())
 
 
-def test_recordings_say_their_specimen_and_the_protocols_record_the_one_that_the_identity_gives() -> None:
+def test_recordings_state_their_specimen_which_follows_from_their_identity() -> None:
     materials = list(MATERIALS.values())
     hand = list(record_hand(materials, seed=1, labels=["glass"], recordings_per_label=5, duration_seconds=2.0))
     machine = list(record_machine(materials, seed=1, labels=["glass"], speeds_mmps=[60], forces_millinewtons=[500]))

@@ -45,7 +45,7 @@ def test_a_few_hand_strokes_of_a_texture_reach_all_three_splits(texture_id: int)
     assert found["test"] == pytest.approx(5, abs=3)
 
 
-def test_hand_strokes_that_nobody_numbered_are_spread_too() -> None:
+def test_unnumbered_hand_strokes_are_spread_too() -> None:
     identities = [RecordingIdentity(3, None, speed, 500, 0) for speed in range(20, 1020)]
     found = Counter(split_of(identity, SETTINGS, 7) for identity in identities)
     assert found["train"] == pytest.approx(700, abs=50)

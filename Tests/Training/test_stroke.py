@@ -7,7 +7,7 @@ import pytest
 
 from haptoflow_training.cli import main
 from haptoflow_training.strokes.hand_stroke import (
-    FASTEST_SPEED_MPS,
+    MAXIMUM_SPEED_MPS,
     force_profile,
     random_planar_stroke,
     scripted_stroke,
@@ -25,7 +25,7 @@ def test_a_submovements_speed_integrates_to_its_distance():
     assert submovement.progress(np.array([0.8]))[0] == pytest.approx(0.9998, abs=5e-5)
 
 
-def test_a_submovements_speed_is_one_skewed_bell():
+def test_a_submovement_s_speed_has_one_skewed_peak():
     submovement = Submovement.lasting(0.0, 0.6, 0.08)
     time = np.linspace(0.0, 1.0, 2001)
     speed = submovement.speed(time)
@@ -63,7 +63,7 @@ def test_a_random_stroke_has_the_median_speed_asked_for_and_stays_within_what_ha
     )
     speed = stroke.speed_mps
     assert np.median(speed[speed > 0.05 * median]) == pytest.approx(median, rel=0.1)
-    assert speed.max() <= FASTEST_SPEED_MPS
+    assert speed.max() <= MAXIMUM_SPEED_MPS
     assert speed[0] == 0.0 and speed[-1] == 0.0
     assert np.percentile(speed, 95) > 1.4 * median
     assert np.ptp(stroke.position_metres, axis=0).max() < 1.0
@@ -81,7 +81,7 @@ def test_a_random_strokes_velocity_is_the_derivative_of_its_position():
     assert np.allclose(difference, stroke.velocity_mps[:-1], atol=1e-9)
 
 
-def test_a_random_stroke_is_no_sine():
+def test_a_random_stroke_is_not_sinusoidal():
     stroke = random_planar_stroke(
         np.random.default_rng(6),
         duration_seconds=16.0,

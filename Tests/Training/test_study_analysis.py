@@ -1,4 +1,4 @@
-"""Logs in, report out: what is found, what is said in place of a number, and that simulated studies are called so."""
+"""From logs to a report: what is found, the reasons in place of numbers, and the mark of simulated studies."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def make_real(folder: Path) -> None:
         change_sidecar(path, lambda sidecar: sidecar | {"simulated": False})
 
 
-def test_one_command_makes_a_report_of_both_studies_that_is_called_simulated_everywhere(tmp_path: Path) -> None:
+def test_one_command_reports_both_studies_and_marks_them_as_simulated_everywhere(tmp_path: Path) -> None:
     logs = similarity_study(latency_study(tmp_path / "logs", 8), 8)
     page, results = analysed(logs, tmp_path)
     assert "<title>SIMULATED: no person took part" in page
@@ -51,11 +51,11 @@ def test_one_command_makes_a_report_of_both_studies_that_is_called_simulated_eve
     assert not re.search(r"(src|href)=\"(?!data:)", page)
 
 
-def test_a_report_of_real_participants_is_not_called_simulated(tmp_path: Path) -> None:
+def test_a_report_of_real_participants_is_not_marked_as_simulated(tmp_path: Path) -> None:
     logs = similarity_study(latency_study(tmp_path / "logs", 6), 6)
     make_real(logs)
     page, results = analysed(logs, tmp_path)
-    # The names of the simulated headset and program stay in what was analysed.
+    # The names of the simulated headset and program are reported too.
     shown = re.sub(r"none: simulated", "", page)
     assert "SIMULATED" not in shown and results["simulated"] is False
     assert all("SIMULATED" not in picture and "simulated" not in picture for picture in pictures_of(page))
@@ -102,13 +102,13 @@ def test_practice_is_left_out_and_delivered_delays_are_fitted_not_planned_ones(t
     assert shifted.points["turn-on"][0].level_ms == 50.0 and shifted.points["turn-on"][0].delivered_ms == 57.0
 
 
-def test_answers_keep_their_participant(tmp_path: Path) -> None:
+def test_answers_stay_with_their_participant(tmp_path: Path) -> None:
     answers, levels = answers_of(read_faultless(latency_study(tmp_path / "logs", 3)).of(LATENCY), "turn-off")
     assert list(np.bincount(answers.participant)) == [11, 11, 11]
     assert sorted(levels[answers.participant == 1]) == list(range(50, 251, 20))
 
 
-def test_a_study_in_which_everyone_says_yes_is_reported_in_words(tmp_path: Path) -> None:
+def test_a_study_with_only_yes_answers_is_reported_without_a_threshold(tmp_path: Path) -> None:
     logs = latency_study(tmp_path / "logs", 6)
     for path in logs.glob("*.csv"):
         change_lines(path, lambda lines: [lines[0], *(line.replace(",no,", ",yes,") for line in lines[1:])])
@@ -131,7 +131,7 @@ def test_a_planted_difference_is_found_on_its_materials_and_drawn_with_a_star(tm
     assert picture.count(">*</text>") == 3 and ">≈</text>" in picture
 
 
-def test_ratings_stand_with_their_own_material_method_and_participant(tmp_path: Path) -> None:
+def test_ratings_stay_with_their_material_method_and_participant(tmp_path: Path) -> None:
     logs = similarity_study(tmp_path / "logs", 4)
     result = analyse_similarity(read_faultless(logs).of(SIMILARITY))
     drawn = SMALL.ratings(np.random.default_rng((1, 1)), 4)
@@ -158,7 +158,7 @@ def test_materials_and_methods_stand_in_the_order_of_the_settings_else_by_name(t
         assert names() == (["jute", "wood"], ["dstn", "ours"])
 
 
-def test_names_that_are_markup_stay_text_in_the_report(tmp_path: Path) -> None:
+def test_names_with_markup_are_escaped_in_the_report(tmp_path: Path) -> None:
     model = RatingModel(materials=("<script>alert(1)</script>", "ジュート"), methods=("<b>", "it's", "$\\frac$ 1$"))
     page, _ = analysed(similarity_study(tmp_path / "logs", 6, 1, model), tmp_path)
     assert "<script>" not in page and "&lt;script&gt;alert(1)&lt;/script&gt;" in page and "<b>" not in page
@@ -175,7 +175,7 @@ def test_two_to_six_methods_are_compared_pair_by_pair(tmp_path: Path, methods: i
     assert len(pictures_of(page)) == 1
 
 
-def test_a_rating_that_one_participant_lacks_is_named(tmp_path: Path) -> None:
+def test_a_missing_rating_is_named(tmp_path: Path) -> None:
     logs = similarity_study(tmp_path / "logs", 3)
     path = log_of(logs, 2, "similarity")
     last = path.read_text(encoding="utf-8").splitlines()[-1].split(",")
@@ -185,7 +185,7 @@ def test_a_rating_that_one_participant_lacks_is_named(tmp_path: Path) -> None:
         analyse_similarity(read_faultless(logs).of(SIMILARITY))
 
 
-def test_a_rating_that_stands_twice_is_named(tmp_path: Path) -> None:
+def test_a_duplicate_rating_is_named(tmp_path: Path) -> None:
     logs = similarity_study(tmp_path / "logs", 3)
     path = log_of(logs, 1, "similarity")
 
@@ -221,7 +221,7 @@ def test_results_are_not_written_among_the_logs(tmp_path: Path, capsys: pytest.C
     assert "lies in the folder of the logs" in capsys.readouterr().err
 
 
-def test_brackets_never_cross_each_other_and_carry_the_sign_of_their_p_value() -> None:
+def test_brackets_never_cross_and_have_the_sign_of_their_p_value() -> None:
     def pair(first: int, second: int, p: float | None, equivalent: float) -> Pair:
         return Pair(first, second, 0.0, p, p, 0.0, 0.0, 1.0, equivalent)
 

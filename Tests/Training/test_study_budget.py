@@ -1,4 +1,4 @@
-"""The delay budget: what it reads of the benchmark, what it adds up, and what it refuses."""
+"""The delay budget: what it reads from the benchmark, its sums, and refused input."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ def test_a_budget_is_the_sum_of_its_parts_and_leaves_the_rest_of_the_threshold()
     assert budget.left_ms("turn-on") == pytest.approx(88.25) and budget.left_ms("turn-off") == pytest.approx(65.74)
 
 
-def test_a_device_that_nobody_measured_is_called_so_and_a_measured_one_is_counted() -> None:
+def test_an_unmeasured_device_is_reported_as_such_and_a_measured_one_is_added() -> None:
     bench = read_bench(PUBLISHED)
     without, with_device = page_words(bench, "c.png"), page_words(bench, "c.png", 25.0)
     assert "not measured here" in without and "together, without device" in without
@@ -72,13 +72,13 @@ def test_a_device_that_nobody_measured_is_called_so_and_a_measured_one_is_counte
         ("page.md", PUBLISHED.read_text(encoding="utf-8").split("\nstop, ms")[0]),
     ],
 )
-def test_a_benchmark_that_is_not_whole_is_refused_by_name(tmp_path: Path, name: str, text: str) -> None:
+def test_an_incomplete_benchmark_is_refused_by_name(tmp_path: Path, name: str, text: str) -> None:
     (tmp_path / name).write_text(text, encoding="utf-8")
     with pytest.raises(InputError, match=f"{name}: not a whole report of the benchmark"):
         read_bench(tmp_path / name)
 
 
-def test_missing_files_and_delays_that_are_none_are_said_in_one_line(
+def test_missing_files_and_invalid_delays_are_reported_in_one_line(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["study", "budget", "--bench", str(tmp_path / "gone.json")]) == 3

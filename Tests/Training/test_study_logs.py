@@ -1,4 +1,4 @@
-"""Logs of studies: what is read, what is refused and how the place of the fault is named, and the merged tables."""
+"""Study logs: accepted and refused files, the named places of errors, and the merged tables."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def problems(folder: Path) -> list[str]:
     return [str(problem) for problem in read_folder(folder).problems]
 
 
-def test_a_study_as_it_was_written_has_no_problem_and_every_trial(logs: Path) -> None:
+def test_a_study_as_written_has_no_problem_and_every_trial(logs: Path) -> None:
     read = read_folder(logs)
     assert read.problems == []
     assert [session.participant for session in read.of("latency")] == [1, 2, 3]
@@ -93,7 +93,7 @@ def test_ratings_outside_one_to_seven_and_halves_are_refused(logs: Path) -> None
         assert any("row 4, column rating" in line and said in line for line in problems(logs))
 
 
-def test_what_does_not_apply_may_stay_empty(logs: Path) -> None:
+def test_fields_that_do_not_apply_may_be_empty(logs: Path) -> None:
     for column in ("contact_seconds", "mean_force_newtons", "underruns", "starts"):
         change_field(log_of(logs, 1), 4, column, "")
     assert problems(logs) == []
@@ -116,7 +116,7 @@ def test_what_does_not_apply_may_stay_empty(logs: Path) -> None:
         (lambda lines: [*lines[:5], 'a "b" ' + lines[5], '"never closed'], "row 7: not CSV"),
     ],
 )
-def test_missing_double_and_mixed_up_rows_are_named(
+def test_missing_duplicate_and_misordered_rows_are_named(
     logs: Path, change: Callable[[list[str]], list[str]], said: str
 ) -> None:
     path = log_of(logs, 2)
@@ -125,7 +125,7 @@ def test_missing_double_and_mixed_up_rows_are_named(
     assert any(line.startswith(str(path)) and said in line for line in found), found
 
 
-def test_a_row_that_a_crash_cut_off_is_named_and_the_session_is_unfinished(logs: Path) -> None:
+def test_a_row_cut_off_by_a_crash_is_named_and_the_session_is_unfinished(logs: Path) -> None:
     path = log_of(logs, 2)
     content = path.read_bytes()
     path.write_bytes(content[: content.rindex(b",")])
@@ -139,7 +139,7 @@ def test_a_row_that_a_crash_cut_off_is_named_and_the_session_is_unfinished(logs:
 
 
 @pytest.mark.parametrize("content", [b"", b"\xff\xfe\x00", b"\x00\x00\x00\n", b"\n\n\n", b'"' * 400_000 + b"\n"])
-def test_bytes_that_are_no_table_are_a_problem_and_no_crash(logs: Path, content: bytes) -> None:
+def test_bytes_that_are_not_a_table_are_reported_as_a_problem(logs: Path, content: bytes) -> None:
     path = log_of(logs, 1)
     path.write_bytes(content)
     assert any(line.startswith(str(path)) for line in problems(logs))
@@ -158,7 +158,7 @@ def test_bytes_that_are_no_table_are_a_problem_and_no_crash(logs: Path, content:
         ('{"format": "haptoflow-study", "format": "x"}', "key 'format' stands twice"),
     ],
 )
-def test_a_sidecar_that_is_none_is_named(logs: Path, text: str, said: str) -> None:
+def test_an_invalid_sidecar_is_named(logs: Path, text: str, said: str) -> None:
     path = log_of(logs, 1).with_suffix(".json")
     path.write_text(text, encoding="utf-8")
     assert any(line.startswith(str(path)) and said in line for line in problems(logs)), problems(logs)
@@ -193,7 +193,7 @@ def test_a_sidecar_that_contradicts_its_log_is_named(logs: Path, change: dict[st
     assert any(said in line for line in problems(logs)), problems(logs)
 
 
-def test_keys_that_a_later_program_adds_are_no_problem(logs: Path) -> None:
+def test_unknown_keys_of_a_later_program_are_allowed(logs: Path) -> None:
     change_sidecar(log_of(logs, 1), lambda sidecar: sidecar | {"resumed_at_trials": [4], "room": "quiet"})
     assert problems(logs) == []
 
@@ -208,7 +208,7 @@ def test_one_file_without_the_other_is_named(logs: Path) -> None:
     ]
 
 
-def test_a_copy_under_a_name_of_its_own_is_no_second_session(logs: Path) -> None:
+def test_a_copy_under_another_name_is_not_a_second_session(logs: Path) -> None:
     path = log_of(logs, 1)
     copy = path.with_name(f"{path.stem} (1).csv")
     shutil.copy(path, copy)
@@ -232,7 +232,7 @@ def test_two_sessions_of_one_participant_are_refused(logs: Path, tmp_path: Path)
     assert len(found) == 1 and "a second session of participant 1 in the latency study, beside latency-P01-" in found[0]
 
 
-def test_a_participant_who_did_both_studies_is_no_duplicate(logs: Path) -> None:
+def test_a_participant_of_both_studies_is_not_a_duplicate(logs: Path) -> None:
     assert {session.participant for session in read_folder(logs).of("similarity")} == {1, 2, 3}
     assert problems(logs) == []
 
@@ -246,7 +246,7 @@ def test_simulated_and_real_logs_are_never_read_together(logs: Path) -> None:
     assert all("-P01-" in line.split(": ")[0] and "simulated, beside the real" in line for line in found)
 
 
-def test_what_differs_between_sessions_is_noted_and_no_problem(logs: Path) -> None:
+def test_differences_between_sessions_are_noted_but_no_problem(logs: Path) -> None:
     change_sidecar(log_of(logs, 2), lambda sidecar: sidecar | {"seed": 8, "models": [{"method": "a"}]})
     read = read_folder(logs)
     assert read.problems == []
@@ -255,7 +255,7 @@ def test_what_differs_between_sessions_is_noted_and_no_problem(logs: Path) -> No
     assert any("the device delay of 3 of 3 sessions is an estimate" in note for note in read.notes)
 
 
-def test_the_hand_that_holds_the_pen_is_a_participants_own_and_not_noted(logs: Path) -> None:
+def test_handedness_is_not_noted_as_a_difference(logs: Path) -> None:
     for participant, hand in ((1, "left"), (2, "right"), (3, "right")):
         change_sidecar(
             log_of(logs, participant),
@@ -284,7 +284,7 @@ def test_check_ends_with_zero_for_good_logs_and_three_for_bad_ones(
     assert "1 problem\n" in capsys.readouterr().out
 
 
-def test_a_folder_that_is_none_or_empty_is_said_in_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_missing_or_empty_folder_is_reported_in_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     for folder, said in ((tmp_path / "gone", "no folder"), (tmp_path, "no log of a study in it")):
         assert main(["study", "check", str(folder)]) == 3
         assert said in capsys.readouterr().err
@@ -327,14 +327,14 @@ def test_simulated_logs_are_not_written_among_others(logs: Path, capsys: pytest.
         (["--difference", "nan"], "--difference nan: expected 0 to 5"),
     ],
 )
-def test_numbers_that_make_no_study_are_refused(
+def test_numbers_that_are_invalid_for_a_study_are_refused(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], words: list[str], said: str
 ) -> None:
     assert main(["study", "simulate", "--study", "similarity", "--out", str(tmp_path / "x"), *words]) == 3
     assert said in capsys.readouterr().err and not (tmp_path / "x").exists()
 
 
-def test_a_place_that_cannot_be_written_is_said_in_one_line(
+def test_an_unwritable_place_is_reported_in_one_line(
     logs: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "file").write_text("")

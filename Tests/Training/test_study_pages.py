@@ -1,4 +1,4 @@
-"""The commands of the studies' pages, as they stand there, and the pages' figures, keys and columns."""
+"""Runs the commands of the studies' pages as printed, and checks the pages' figures, keys and columns."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from haptoflow_training.cli import main
-from haptoflow_training.evaluation.model_stamp import with_measured_words
+from haptoflow_training.model_stamp import with_measured_words
 from haptoflow_training.studies.bench_figures import read_bench
 from haptoflow_training.studies.delay_budget import page_words as budget_words
 from haptoflow_training.studies.log_columns import COLUMNS
@@ -24,7 +24,7 @@ from haptoflow_training.studies.validation_words import page_words as validation
 ROOT = Path(__file__).parents[2]
 PAGES = ROOT / "Documentation~"
 LOGS, ANALYSIS, BUDGET = (PAGES / f"{name}.md" for name in ("study-logs", "study-analysis", "delay-budget"))
-# What a command gets behind its own words, so that a test does not take minutes.
+# Options added to a command, so that a test does not take minutes.
 SHORTER = {
     "power": ["--simulations", "10"],
     "validate": ["--studies", "2", "--simulations", "2"],
@@ -80,7 +80,7 @@ def test_every_column_and_key_of_the_logs_is_explained() -> None:
         assert key in named, key
 
 
-def test_what_the_page_says_of_counterbalancing_is_what_the_plans_give() -> None:
+def test_the_page_states_the_counterbalancing_of_the_plans() -> None:
     text = " ".join(LOGS.read_text(encoding="utf-8").split())
     materials: Counter[tuple[str, int]] = Counter()
     methods: Counter[tuple[str, str, int]] = Counter()
@@ -117,7 +117,7 @@ def test_the_analysis_page_shows_the_committed_validation_and_the_factors() -> N
         assert ", ".join(map(str, factors(methods))) in text
 
 
-def test_the_committed_validation_is_as_the_issue_demands() -> None:
+def test_the_committed_validation_meets_its_criteria() -> None:
     found = json.loads((ROOT / "Training" / "results" / "study-validation.json").read_text(encoding="utf-8"))
     assert found["participants"] == 24
     for condition, truth in (("turn-on", 130.25), ("turn-off", 107.74)):
@@ -125,7 +125,7 @@ def test_the_committed_validation_is_as_the_issue_demands() -> None:
         assert one["truth_ms"] == truth and one["covered"]["of"] == 200
         assert one["covered"]["low"] <= 0.95 <= one["covered"]["high"]
     for name, rate in found["false_positives"].items():
-        # Equivalence is judged against a bound that is itself estimated; the page says so and gives its rate.
+        # Equivalence is judged against a bound that is itself estimated; the page states this and the rate.
         if name != "equivalence_at_the_bound":
             assert rate["low"] <= 0.05, name
     for name in ("friedman", "pair", "pair_alone"):

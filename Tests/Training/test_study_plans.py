@@ -30,7 +30,7 @@ def test_a_seed_beyond_64_bits_wraps_as_an_unsigned_integer_does() -> None:
 
 
 @pytest.mark.parametrize("count", range(1, 13))
-def test_in_a_williams_design_each_treatment_stands_everywhere_and_follows_each_other_equally_often(count: int) -> None:
+def test_in_a_williams_design_each_treatment_has_each_place_and_follows_each_other_equally_often(count: int) -> None:
     rows = williams_design(count)
     assert len(rows) == (1 if count == 1 else count if count % 2 == 0 else 2 * count)
     for place in range(count):

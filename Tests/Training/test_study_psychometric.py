@@ -1,4 +1,4 @@
-"""The psychometric fit: the maximum of the likelihood, honest intervals, and words where no number means anything."""
+"""The psychometric fit: maximum likelihood, correct intervals, and reasons where there is no number."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy import optimize, special
 
-from haptoflow_training.studies.bootstrap import expanded_interval, jackknife_error, participant_weights
+from haptoflow_training.studies.intervals import expanded_interval, jackknife_error, participant_weights
 from haptoflow_training.studies.psychometric import (
     Answers, Curve, degenerate_statement, fit, fit_curve, percent_yes, threshold_difference,
 )  # fmt: skip
@@ -28,7 +28,7 @@ def drawn(seed: int, k: float = 0.0214, x0: float = 130.25, participants: int = 
 
 
 @pytest.mark.parametrize("seed", range(5))
-def test_the_curve_is_where_a_general_optimiser_finds_the_largest_likelihood(seed: int) -> None:
+def test_the_curve_is_the_maximum_likelihood_found_by_a_general_optimiser(seed: int) -> None:
     answers = drawn(seed)
 
     def loss(parameters: np.ndarray) -> float:
@@ -43,7 +43,7 @@ def test_the_curve_is_where_a_general_optimiser_finds_the_largest_likelihood(see
     assert curve.x0 == pytest.approx(best.x[1] * 100.0, rel=1e-6)
 
 
-def test_very_many_answers_give_back_the_curve_that_they_were_drawn_from() -> None:
+def test_very_many_answers_recover_the_curve_they_were_drawn_from() -> None:
     curve = fit_curve(drawn(1, participants=20000))
     assert curve is not None
     assert curve.k == pytest.approx(0.0214, rel=0.02)
@@ -70,20 +70,20 @@ def test_delays_of_any_values_are_fitted_not_only_the_planned_levels() -> None:
         (np.vstack([np.tile(LEVELS < 120.0, (20, 1)), np.ones((2, 11))]), "does not become more frequent"),
     ],
 )
-def test_degenerate_answers_get_words_and_no_number(yes: np.ndarray, said: str) -> None:
+def test_degenerate_answers_get_a_reason_and_no_number(yes: np.ndarray, said: str) -> None:
     result = fit(answers_of(yes))
     assert result.curve is None and result.threshold_interval is None and result.threshold_error is None
     assert said in result.statement
 
 
-def test_no_answers_and_one_single_delay_get_words_too() -> None:
+def test_no_answers_and_a_single_delay_get_a_reason_too() -> None:
     nothing = Answers(np.zeros(0), np.zeros(0, dtype=int), np.zeros(0, dtype=int))
     assert degenerate_statement(nothing) == "there is no answer"
     one = Answers(np.full(4, 90.0), np.array([0, 1, 0, 1]), np.arange(4))
     assert "every trial had the same delay, 90 ms" in degenerate_statement(one)
 
 
-def test_a_single_participant_has_a_curve_without_an_interval_and_it_is_said_why() -> None:
+def test_a_single_participant_has_a_curve_without_an_interval_and_a_reason() -> None:
     yes = np.zeros((1, 11))
     yes[0, [3, 5, 6, 7, 8, 9, 10]] = 1
     result = fit(answers_of(yes))

@@ -1,4 +1,4 @@
-"""Tests and effect sizes of ratings with ties, zeros and nothing to test at all."""
+"""Tests and effect sizes of ratings with ties, with zeros and without differences."""
 
 from __future__ import annotations
 
@@ -38,12 +38,12 @@ def test_five_differences_of_one_sign_are_not_significant_as_the_normal_approxim
     assert signed_rank_p(np.array([1.0, 1.0, 2.0, 1.0, 3.0])) == pytest.approx(0.0625)
 
 
-def test_a_single_difference_proves_nothing() -> None:
+def test_a_single_difference_is_never_significant() -> None:
     one = np.array([0.0, 0.0, 2.0, 0.0])
     assert signed_rank_p(one) == 1.0 and signed_rank_p(one, "greater") == 0.5 and signed_rank_p(one, "less") == 1.0
 
 
-def test_many_differences_keep_their_zeros_among_the_ranks_and_correct_the_variance_for_ties() -> None:
+def test_many_differences_rank_their_zeros_and_correct_the_variance_for_ties() -> None:
     differences = np.array([1.0] * 8 + [2.0] * 5 + [-1.0] * 4 + [0.0] * 7)
     ranks = stats.rankdata(np.abs(differences))[differences != 0.0]
     z = (ranks[differences[differences != 0.0] > 0.0].sum() - ranks.sum() / 2.0) / np.sqrt(np.sum(ranks**2) / 4.0)
@@ -85,7 +85,7 @@ def test_kendalls_w_is_one_for_full_agreement_and_follows_from_friedmans_chi_squ
     assert found.kendall_w == pytest.approx(found.chi_square / (24 * 3))
 
 
-def test_ratings_that_are_all_equal_get_words_in_place_of_tests() -> None:
+def test_ratings_that_are_all_equal_get_a_reason_in_place_of_tests() -> None:
     result = analysed(np.full((24, 4), 4.0))
     assert result.friedman is None and result.friedman_statement == "every participant rated all methods alike"
     assert all(pair.p is None and pair.p_shaffer is None and pair.p_equivalence is None for pair in result.pairs)
@@ -131,7 +131,7 @@ def test_a_method_that_everyone_rates_alike_can_still_be_compared_with_one_that_
     assert result.pairs[0].p is not None and result.pairs[0].p < 0.001
 
 
-def test_normality_of_ratings_is_rejected_for_piled_up_ones_and_not_asked_of_two() -> None:
+def test_normality_is_rejected_for_clustered_ratings_and_not_tested_for_two() -> None:
     piled = normality(np.array([7.0] * 20 + [1.0, 2.0, 6.0, 6.0]))
     assert piled.p is not None and piled.p < 0.001
     assert normality(np.array([1.0, 2.0])).p is None

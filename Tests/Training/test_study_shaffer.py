@@ -1,4 +1,4 @@
-"""Shaffer's static correction against published factors and against every way in which methods can be equal."""
+"""Shaffer's static correction, compared with published factors and with every possible set of equal methods."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The analysis on studies whose truth is known, in a short form; `study validate` is the long one."""
+"""The analysis on studies with known truth, in a short form of `study validate`."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ import pytest
 from scipy import stats
 
 from haptoflow_training.cli import main
+from haptoflow_training.studies.intervals import share
 from haptoflow_training.studies.plans import CONDITIONS
 from haptoflow_training.studies.power import latency_power, planned_signed_rank_power, rating_power
 from haptoflow_training.studies.rating_tests import analysed
-from haptoflow_training.studies.shares import share
 from haptoflow_training.studies.simulated_participants import PAPER_CURVES, AnswerModel, RatingModel
 from haptoflow_training.studies.validation import bca_interval, recovered_differences, recovered_thresholds
 
@@ -22,7 +22,7 @@ RESULTS = ROOT / "Training" / "results" / "study-validation.json"
 
 
 @pytest.mark.parametrize("between", [0.0, 0.3, 0.9])
-def test_simulated_answers_follow_the_curve_however_alike_a_participants_answers_are(between: float) -> None:
+def test_simulated_answers_follow_the_curve_whatever_their_correlation(between: float) -> None:
     model = AnswerModel(between=between)
     random = np.random.default_rng(3)
     own = random.standard_normal((40000, 1))
@@ -38,7 +38,7 @@ def test_thresholds_of_24_simulated_participants_are_recovered_from_their_logs()
     for condition in CONDITIONS:
         one = found[condition]
         assert one["mean_ms"] == pytest.approx(PAPER_CURVES[condition].x0, abs=6.0)
-        # At 95 %, 12 or fewer of 16 would come up less than once in a hundred times.
+        # At 95 %, 12 or fewer of 16 would occur less than once in a hundred times.
         assert one["covered"]["rate"] * 16 >= 12.5
         assert one["mean_standard_error_ms"] == pytest.approx(one["spread_ms"], rel=0.5)
 
@@ -53,14 +53,14 @@ def test_intervals_hold_the_thresholds_at_their_nominal_rate_over_200_studies() 
     assert narrow.differ.rate > found.differ.rate
 
 
-def test_no_test_of_ratings_finds_what_is_not_there_more_often_than_its_level() -> None:
+def test_no_test_of_ratings_exceeds_its_false_positive_rate() -> None:
     random = np.random.default_rng(5)
     results = [analysed(RatingModel(["m"]).ratings(random, 24)[0]) for _ in range(300)]
     friedman = sum(one.friedman is not None and one.friedman.p < 0.05 for one in results)
     any_pair = sum(any(pair.p_shaffer is not None and pair.p_shaffer < 0.05 for pair in one.pairs) for one in results)
     alone = sum(one.pairs[0].p is not None and one.pairs[0].p < 0.05 for one in results)
     for count in (friedman, any_pair, alone):
-        # More than 25 of 300 would come up less than once in a hundred times at 5 %.
+        # More than 25 of 300 would occur less than once in a hundred times at 5 %.
         assert count <= 25
     assert min(friedman, alone) >= 5
 
@@ -83,7 +83,7 @@ def test_the_planned_power_of_one_pair_is_that_of_wilcoxons_test_on_normal_diffe
     assert share(found, 1000).covers(planned_signed_rank_power(24, 0.67))
 
 
-def test_more_participants_find_more_and_no_difference_is_found_at_the_level() -> None:
+def test_power_grows_with_participants_and_equals_the_level_without_a_difference() -> None:
     few, many = (rating_power(count, 3, 0.67, simulations=80, seed=4) for count in (10, 40))
     assert many.pair.rate > few.pair.rate and many.equivalence is not None and few.equivalence is not None
     assert many.equivalence.rate > few.equivalence.rate

@@ -1,6 +1,4 @@
-"""The synthetic recorder's physics and protocols: each trait that a believable recorder has, and
-determinism.
-"""
+"""The synthetic recorder's physics and protocols, and its determinism."""
 
 from __future__ import annotations
 
@@ -74,7 +72,7 @@ def test_two_materials_have_different_surfaces():
     assert abs(np.corrcoef(np.diff(one), np.diff(other))[0, 1]) < 0.2
 
 
-def test_a_resting_tip_is_silent_on_every_material():
+def test_a_resting_tip_does_not_vibrate_on_any_material():
     for label in MATERIALS:
         vibration, _ = _vibration(label, velocity=(0.0, 0.0), seconds=0.5)
         assert _rms(vibration) < 1e-9, label
@@ -98,7 +96,7 @@ def test_level_grows_with_speed_and_everything_stays_within_the_sensors_range(la
     assert levels[-1] < 80.0
 
 
-def test_the_rough_bounce_level_off_at_high_speed_where_the_faint_still_grow():
+def test_levels_of_rough_materials_saturate_at_high_speed_while_faint_ones_grow():
     def growth(label):
         fast, slow = (_rms(_vibration(label, velocity=(speed, 0.0))[0]) for speed in (1.5, 0.75))
         return fast / slow
@@ -109,7 +107,7 @@ def test_the_rough_bounce_level_off_at_high_speed_where_the_faint_still_grow():
 
 @pytest.mark.parametrize(("label", "wavelength_mm"), [("corduroy", 2.5), ("metal mesh", 1.2)])
 @pytest.mark.parametrize("speed", [0.1, 0.2])
-def test_a_ruled_surface_sings_at_speed_over_wavelength(label, wavelength_mm, speed):
+def test_a_ruled_surface_vibrates_at_speed_over_wavelength(label, wavelength_mm, speed):
     _, recording = _vibration(label, velocity=(speed, 0.01 * speed), seconds=2.0)
     frequency, power = _uniform_spectrum(recording)
     expected = 1e3 * speed / wavelength_mm
@@ -118,7 +116,7 @@ def test_a_ruled_surface_sings_at_speed_over_wavelength(label, wavelength_mm, sp
     assert power[near].max() > 20 * np.median(power[near])
 
 
-def test_corduroy_does_not_sing_along_its_ribs():
+def test_corduroy_has_no_line_along_its_ribs():
     across = _rms(_vibration("corduroy", velocity=(0.1, 0.0))[0])
     along = _rms(_vibration("corduroy", velocity=(0.0, 0.1))[0])
     assert along < 0.75 * across
@@ -148,7 +146,7 @@ def test_impacts_give_concrete_heavier_tails_than_the_same_surface_without_them(
     assert kurtosis(replace(concrete, impact_strength=0.0)) < 3.7
 
 
-def test_stick_slip_vibrates_along_the_movement_and_dies_at_speed():
+def test_stick_slip_vibrates_along_the_movement_and_vanishes_at_speed():
     rubber = MATERIALS["rubber"]
     calm = replace(rubber, stick_slip_strength=0.0)
 
@@ -207,7 +205,7 @@ def test_a_machine_pass_rests_at_both_ends_and_moves_as_its_name_says():
     assert recording.force_newtons.mean() == pytest.approx(0.5, abs=0.1)
 
 
-def test_the_machines_frame_is_heard_at_rest_and_louder_in_motion():
+def test_the_frame_s_vibration_is_present_at_rest_and_stronger_in_motion():
     recording = record_machine_condition(MATERIALS["glass"], RecordingIdentity(6, 0, 60, 500, 0), seed=5)
     time = recording.acceleration_time_seconds
     still, moving = (

@@ -1,4 +1,4 @@
-"""The first thing that anybody tries: a tap. Rendered by the shipped model through the command line."""
+"""Taps, the first thing that users try, rendered by the shipped model through the command line."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.signal import welch
 
-from haptoflow_training.evaluation.engine_render import FULL_SCALE_MPS2, read_wav, write_scene
+from haptoflow_benchmark.engine.engine_render import FULL_SCALE_MPS2, read_wav, write_scene
 
 ROOT = Path(__file__).parents[2]
 ENGINE = ROOT / "build" / "native" / "haptoflow"
@@ -19,15 +19,16 @@ RATE_HZ = 8000
 GRAVITY_MPS2 = 9.81
 PERIOD_SECONDS = 0.7
 TAP_SECONDS = 0.25
-# What a finger is high, give or take.
+# About the heights from which a finger falls.
 HEIGHTS_METRES = np.linspace(0.02, 0.09, 16)
 
 
 def _drops(path: Path) -> NDArray[np.float64]:
-    """Strokes that fall freely from each height onto the plane y = 0, rest and are lifted; returns the landing times."""
+    """Strokes that fall freely from each height onto the plane y = 0, rest and are lifted; returns the landing
+    times."""
     rows, landings = [], []
     for number, height in enumerate(HEIGHTS_METRES):
-        # At another phase of the frames each time.
+        # Each begins at another phase of the frames.
         begin = number * PERIOD_SECONDS + 0.0013 * number
         fall = np.sqrt(2.0 * height / GRAVITY_MPS2)
         for time in np.arange(0.0, PERIOD_SECONDS, 0.002):
@@ -67,7 +68,7 @@ def taps(tmp_path_factory: pytest.TempPathFactory) -> dict[str, NDArray[np.float
 
 
 def _spectrum(tap: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Level of third octaves from 22 Hz to 900 Hz in dB, over their mean: what kind of a tap, not how strong."""
+    """Level of third octaves from 22 Hz to 900 Hz in dB, over their mean, so that strength does not matter."""
     frequency, power = welch(tap, RATE_HZ, nperseg=1024, noverlap=768)
     bands = np.digitize(frequency, 22.4 * 2.0 ** (np.arange(17) / 3.0))
     levels = 10.0 * np.log10(np.array([power[bands == band].sum() for band in range(1, 17)]) + 1e-10)
@@ -75,14 +76,14 @@ def _spectrum(tap: NDArray[np.float64]) -> NDArray[np.float64]:
     return spectrum
 
 
-def test_every_drop_is_felt_once_and_the_harder_the_higher(taps: dict[str, NDArray[np.float64]]) -> None:
+def test_every_drop_gives_one_impact_and_higher_drops_give_stronger_ones(taps: dict[str, NDArray[np.float64]]) -> None:
     for label, waves in taps.items():
         peaks = np.abs(waves).max(axis=1)
         assert peaks.min() > 1.0, label
         assert np.corrcoef(peaks, np.sqrt(HEIGHTS_METRES))[0, 1] > 0.9, label
 
 
-def test_a_classifier_tells_rubber_wood_and_stone_apart_by_the_spectrum_of_taps_it_never_heard(
+def test_a_classifier_distinguishes_unseen_taps_on_rubber_wood_and_stone_by_spectrum(
     taps: dict[str, NDArray[np.float64]]
 ) -> None:
     spectra = {label: np.stack([_spectrum(tap) for tap in waves]) for label, waves in taps.items()}

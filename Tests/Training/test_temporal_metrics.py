@@ -1,11 +1,11 @@
-"""Metrics of time on waves whose figures are known by theory."""
+"""Temporal metrics on waveforms whose figures are known from theory."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
 
-from haptoflow_training.evaluation import temporal_metrics as metrics
+from haptoflow_benchmark.metrics import temporal_metrics as metrics
 
 RATE_HZ = 2000
 
@@ -37,7 +37,7 @@ def test_one_impulse_in_a_hundred_samples_has_kurtosis_one_hundred_and_crest_ten
     assert metrics.crest_factor(wave) == pytest.approx(10.0, rel=0.01)
 
 
-def test_silence_has_no_kurtosis_no_crest_and_breaks_nothing() -> None:
+def test_silence_has_neither_kurtosis_nor_crest_factor() -> None:
     wave = np.zeros(8000)
     assert metrics.kurtosis(wave) == 0.0 and metrics.crest_factor(wave) == 0.0
     assert metrics.rib_modulation_depth(wave, 20.0) == 0.0 and metrics.rib_coherence(wave, 20.0) == 0.0
@@ -55,7 +55,7 @@ def test_the_envelope_of_white_noise_varies_by_a_fifth_as_a_chi_distribution_of_
     assert metrics.variation(metrics.envelope(_noise(60.0, 2))) == pytest.approx(0.226, abs=0.01)
 
 
-def test_a_swing_of_the_envelope_shows_in_its_band_with_its_power_and_in_no_other() -> None:
+def test_a_modulation_of_the_envelope_shows_only_in_its_band_with_its_power() -> None:
     time = _time(20.0)
     carrier = np.where(np.arange(len(time)) % 2 == 0, 1.0, -1.0)
     bands = metrics.modulation_spectrum_db(carrier * (1.0 + 0.5 * np.sin(2.0 * np.pi * 20.0 * time)))
@@ -65,13 +65,13 @@ def test_a_swing_of_the_envelope_shows_in_its_band_with_its_power_and_in_no_othe
     assert np.delete(bands, at).max() < bands[at] - 25.0
 
 
-def test_the_modulation_spectrum_knows_nothing_of_level_and_two_draws_of_noise_agree_within_a_decibel() -> None:
+def test_the_modulation_spectrum_is_independent_of_level_and_two_draws_of_noise_agree_within_a_decibel() -> None:
     first, second = _noise(24.0, 3), _noise(24.0, 4)
     np.testing.assert_allclose(metrics.modulation_spectrum_db(7.0 * first), metrics.modulation_spectrum_db(first))
     assert metrics.modulation_error_db(first, second) < 1.0
 
 
-def test_noise_that_swings_is_decibels_from_noise_that_does_not_and_both_ways_alike() -> None:
+def test_modulated_noise_is_decibels_from_unmodulated_noise_in_both_directions() -> None:
     time = _time(24.0)
     swinging = _noise(24.0, 5) * (1.0 + 0.9 * np.sin(2.0 * np.pi * 5.0 * time))
     there = metrics.modulation_error_db(swinging, _noise(24.0, 6))
@@ -79,13 +79,13 @@ def test_noise_that_swings_is_decibels_from_noise_that_does_not_and_both_ways_al
 
 
 @pytest.mark.parametrize("rate_hz", [8.3, 25.0, 125.0, 417.0])
-def test_noise_whose_power_swings_with_the_ribs_has_that_depth_of_modulation(rate_hz: float) -> None:
+def test_noise_modulated_at_the_rib_rate_has_that_modulation_depth(rate_hz: float) -> None:
     depth = 0.8
     swing = np.sqrt(1.0 + depth * np.cos(2.0 * np.pi * rate_hz * _time(16.0) + 1.0))
     assert metrics.rib_modulation_depth(_noise(16.0, 7) * swing, rate_hz) == pytest.approx(depth, rel=0.1)
 
 
-def test_noise_without_ribs_has_nearly_no_depth_and_is_far_too_little_against_ribs() -> None:
+def test_noise_without_ribs_has_nearly_no_modulation_depth() -> None:
     plain = _noise(16.0, 8)
     swinging = _noise(16.0, 9) * np.sqrt(1.0 + np.cos(2.0 * np.pi * 25.0 * _time(16.0)))
     assert metrics.rib_modulation_depth(plain, 25.0) < 0.06
@@ -105,7 +105,7 @@ def test_ribs_that_keep_their_rate_are_coherent_and_noise_is_not(rate_hz: float)
     assert metrics.rib_coherence(noise, rate_hz) < 0.6
 
 
-def test_a_line_that_turns_half_a_turn_at_random_within_half_a_second_loses_its_coherence() -> None:
+def test_a_line_with_random_phase_drift_loses_its_coherence() -> None:
     generator = np.random.default_rng(11)
     drift = np.cumsum(generator.standard_normal(64000)) * np.sqrt(2.0 * np.log(2.0) / 1000.0)
     # Phase variance 2 ln 2 over half a second: exp(-variance / 2) = 0.5 for instants; the window adds its own.
@@ -113,14 +113,14 @@ def test_a_line_that_turns_half_a_turn_at_random_within_half_a_second_loses_its_
     assert 0.2 < metrics.rib_coherence(drifting, 125.0) < 0.7
 
 
-def test_a_line_off_by_a_little_still_keeps_step_since_a_steady_turn_is_no_loss() -> None:
+def test_a_line_slightly_off_frequency_keeps_its_coherence() -> None:
     assert metrics.rib_coherence(np.cos(2.0 * np.pi * 125.3 * _time(16.0)), 125.0) > 0.98
 
 
-def test_a_wave_too_short_to_follow_is_refused() -> None:
+def test_a_waveform_that_is_too_short_is_refused() -> None:
     with pytest.raises(ValueError, match="second and a half"):
         metrics.rib_coherence(_noise(0.9, 1), 50.0)
 
 
-def test_a_share_that_is_too_sharp_counts_as_one_that_is_too_dull() -> None:
+def test_too_high_a_ratio_counts_like_too_low_a_ratio() -> None:
     assert metrics.folded(1.25) == pytest.approx(0.8) and metrics.folded(0.8) == 0.8 and metrics.folded(0.0) == 0.0

@@ -26,9 +26,9 @@ from haptoflow_training.training.config import DataConfig
 from haptoflow_training.training.recordings_source import open_source
 
 SETTINGS = PreprocessingSettings()
-# Of the same store's waveform: its RMS, and the sum of every 500th sample's size.
+# Of the same store's waveform: its RMS, and the sum of every 500th sample's magnitude.
 WAVEFORM_RMS, WAVEFORM_SUM = 0.0990999, 2.916954
-# Name, split, start, length, silence before and after, as stores had them before short recordings were trimmed less.
+# Name, split, start, length, silence before and after, as in stores before short recordings were trimmed less.
 BEFORE = [
     ("0_0_60_500_0", "train", 0, 3759, 400, 0),
     ("0_45_60_500_0", "validation", 3759, 4359, 400, 600),
@@ -53,7 +53,7 @@ def test_every_split_gets_its_share_and_no_sample_is_near_another_split_s(second
     assert share["train"] > 0.3 and share["validation"] > 0.05 and share["test"] > 0.08
     if seconds > 9.0:
         assert 0.66 < share["train"] < 0.71 and sum(share.values()) > 0.95
-    # A long recording is heard by every split from its beginning to its end.
+    # Every split covers a long recording from its beginning to its end.
     assert len(parts) == 3 * max(1, round(seconds / 10.0))
 
 
@@ -95,7 +95,7 @@ def test_labels_with_recordings_enough_for_every_split_are_split_by_their_names(
     assert {one.split for one in store.recordings} == set(SPLITS)
 
 
-def test_a_short_recording_keeps_most_of_itself(tmp_path: Path) -> None:
+def test_trimming_keeps_most_of_a_short_recording(tmp_path: Path) -> None:
     csv_one_axis(tmp_path / "data", "denim", "denim", stroke(1.0, seed=1))
     store = prepare_store(list(open_own_dataset(tmp_path / "data")), ["denim"], tmp_path / "store", progress=False)
     (one,) = store.recordings
@@ -103,7 +103,7 @@ def test_a_short_recording_keeps_most_of_itself(tmp_path: Path) -> None:
     assert max(one.padding_before, one.padding_after) <= 0.34 * 0.6 * 2000
 
 
-def test_recordings_as_long_as_the_published_ones_give_the_same_store_as_ever(tmp_path: Path) -> None:
+def test_recordings_of_published_length_give_the_same_store_as_before(tmp_path: Path) -> None:
     materials = load_materials()
     chosen = (materials[0], materials[13])
     recordings = []

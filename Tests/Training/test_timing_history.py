@@ -6,8 +6,8 @@ import json
 from pathlib import Path
 from typing import Any
 
-from haptoflow_training.evaluation.timing import Milliseconds
-from haptoflow_training.evaluation.timing_history import append_run, published_run, read_history, timing_run
+from haptoflow_benchmark.engine.timing import Milliseconds
+from haptoflow_benchmark.engine.timing_history import append_run, published_run, read_history, timing_run
 
 _WANTED = {"standard", "draft"}
 
@@ -32,21 +32,21 @@ def test_a_run_that_lacks_a_row_of_the_table_is_kept_and_not_published() -> None
     assert published_run(runs, "a", _WANTED) is runs[1]
 
 
-def test_as_long_as_no_run_holds_every_row_the_first_one_that_left_none_out_by_request_is_shown() -> None:
+def test_without_a_run_of_every_row_the_first_one_that_skipped_none_by_request_is_shown() -> None:
     runs = [_run("a", 1.0, "standard"), *(_run("a", time, "standard", complete=True) for time in (3.0, 2.0))]
     assert published_run(runs, "a", _WANTED) is runs[1]
     runs.append(_run("a", 9.0, *_WANTED, complete=True))
     assert published_run(runs, "a", _WANTED) is runs[3]
 
 
-def test_another_model_has_times_of_its_own_and_old_ones_do_not_speak_for_it() -> None:
+def test_times_of_another_model_are_not_used() -> None:
     runs = [_run("a", 1.0, *_WANTED)]
     assert published_run(runs, "b", _WANTED) is None
     runs.append(_run("b", 5.0, *_WANTED))
     assert published_run(runs, "b", _WANTED) is runs[1] and published_run(runs, "a", _WANTED) is runs[0]
 
 
-def test_runs_are_appended_with_their_load_and_what_stands_there_stays_as_it_is(tmp_path: Path) -> None:
+def test_runs_are_appended_with_their_load_and_existing_ones_stay_unchanged(tmp_path: Path) -> None:
     path = tmp_path / "timing-history.json"
     assert read_history(path) == []
     append_run(path, _run("a", 1.0, "standard"))

@@ -1,4 +1,4 @@
-"""Renders and recordings told apart as a hand would: by chance alone where they are draws of one process."""
+"""Classification of renders and recordings: at chance level for draws of one process."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from haptoflow_training.evaluation.reference_conditions import Condition
-from haptoflow_training.evaluation.reference_set import ReferencePair
-from haptoflow_training.evaluation.told_apart import features, logistic_regression, told_apart_percent
+from haptoflow_benchmark.metrics.told_apart import features, logistic_regression, told_apart_percent
+from haptoflow_benchmark.reference.reference_conditions import Condition
+from haptoflow_benchmark.reference.reference_set import ReferencePair
 
 _SAMPLES = 24400
 
@@ -34,7 +34,7 @@ def _mean(values: list[float | None]) -> float:
     return float(np.mean([value for value in values if value is not None]))
 
 
-def test_another_draw_of_the_same_process_is_told_apart_by_chance_alone() -> None:
+def test_another_draw_of_the_same_process_is_told_apart_only_by_chance() -> None:
     pairs = _pairs("stone", impacts=30.0)
     found = told_apart_percent(pairs, [pair.independent for pair in pairs])
     assert len(found) == 12 and 35.0 < _mean(found) < 62.0
@@ -49,14 +49,14 @@ def test_gaussian_noise_of_the_right_spectrum_is_told_from_rare_impacts() -> Non
     assert _mean(told_apart_percent(pairs, made)) > 85.0
 
 
-def test_a_label_that_is_right_is_not_blamed_for_another_that_is_wrong() -> None:
+def test_a_correct_label_is_not_affected_by_a_wrong_one() -> None:
     right, wrong = _pairs("wood"), _pairs("stone")
     made = [pair.independent for pair in right] + [4.0 * pair.independent for pair in wrong]
     found = told_apart_percent([*right, *wrong], made)
     assert _mean(found[:12]) < 62.0 and _mean(found[12:]) > 75.0
 
 
-def test_what_lies_below_what_a_hand_feels_tells_nothing() -> None:
+def test_vibration_below_the_feeling_threshold_is_not_used() -> None:
     pairs = _pairs("glass")
     faint = [
         ReferencePair(pair.condition, 1e-4 * pair.recorded, pair.independent, pair.motion) for pair in pairs
@@ -67,13 +67,13 @@ def test_what_lies_below_what_a_hand_feels_tells_nothing() -> None:
     np.testing.assert_allclose(features(silence[0])[:, :9], -40.0)
 
 
-def test_changes_of_label_are_not_asked_about() -> None:
+def test_changes_of_label_are_not_classified() -> None:
     pairs = _pairs("wood", kind="change")
     assert told_apart_percent(pairs, [pair.independent for pair in pairs]) == [None] * 12
 
 
-def test_a_motion_is_never_learnt_from_and_asked_about() -> None:
-    # Every motion has its own pitch. Learnt by heart, each would name its render; from other motions, none does.
+def test_no_motion_is_used_for_both_fitting_and_testing() -> None:
+    # Every motion has its own pitch. Memorised, each would identify its render; from other motions, none does.
     generator = np.random.default_rng(3)
     time = np.arange(_SAMPLES) / 2000.0
     motion = np.zeros((_SAMPLES, 3), dtype=np.float32)
@@ -87,7 +87,7 @@ def test_a_motion_is_never_learnt_from_and_asked_about() -> None:
     assert _mean(told_apart_percent(pairs, made)) < 75.0
 
 
-def test_the_regression_finds_the_weights_that_made_the_sides() -> None:
+def test_the_regression_recovers_the_weights_that_made_the_classes() -> None:
     generator = np.random.default_rng(5)
     given = generator.standard_normal((40000, 3))
     truth = np.array([1.0, -2.0, 0.0])

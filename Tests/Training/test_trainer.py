@@ -1,4 +1,4 @@
-"""The loop: it learns, it resumes to the same weights, it shares a batch between processes."""
+"""The training loop: it learns, it resumes to the same weights, it shares a batch between processes."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def _config(steps: int = 30) -> TrainingConfig:
 
 
 def ask_to_stop_after(trainer: Trainer, step: int) -> None:
-    """Ask the trainer to stop as soon as it has made this many steps, as a signal would."""
+    """Ask the trainer to stop after this many steps, as a signal would."""
     train_step = trainer._train_step
 
     def stop_in_the_middle(*arguments: object) -> object:
@@ -65,17 +65,17 @@ def test_a_run_leaves_its_configuration_seed_commit_metrics_and_plot(tmp_path: P
     assert (tmp_path / "metrics.png").stat().st_size > 1000
 
 
-def test_a_finished_run_that_is_asked_again_keeps_what_it_said_of_itself(tmp_path: Path) -> None:
+def test_a_finished_run_that_is_started_again_keeps_its_summary(tmp_path: Path) -> None:
     store = make_store()
     Trainer(_config(), store, tmp_path, ALONE).run()
     said = (tmp_path / "run.json").read_text(encoding="utf-8")
-    # The commit of the day on which it is asked again is not the one that trained.
+    # The present commit is not the one that trained.
     (tmp_path / "run.json").write_text(said.replace('"commit": "', '"commit": "older '), encoding="utf-8")
     Trainer(_config(), store, tmp_path, ALONE).run()
     assert "older " in json.loads((tmp_path / "run.json").read_text(encoding="utf-8"))["commit"]
 
 
-def test_a_stopped_run_goes_on_to_the_weights_of_one_that_was_never_stopped(tmp_path: Path) -> None:
+def test_a_resumed_run_ends_with_the_weights_of_an_uninterrupted_one(tmp_path: Path) -> None:
     store = make_store()
     Trainer(_config(), store, tmp_path / "whole", ALONE).run()
 
@@ -83,7 +83,7 @@ def test_a_stopped_run_goes_on_to_the_weights_of_one_that_was_never_stopped(tmp_
     ask_to_stop_after(interrupted, 33)
     with pytest.raises(TrainingStopped, match="step 33 of 60"):
         interrupted.run()
-    # Half of its phases are missing: it would be exported as if it were whole.
+    # Half of its phases are missing, so it must not be exported as finished.
     with pytest.raises(InputError, match="interrupted at step 33 of 60; go on with"):
         load_trained(tmp_path / "halves")
     Trainer(_config(), store, tmp_path / "halves", ALONE).run()
@@ -112,7 +112,7 @@ def test_a_run_that_was_never_trained_cannot_be_loaded(tmp_path: Path) -> None:
         load_trained(tmp_path)
 
 
-# A bare machine's own name resolves to nothing: torchrun must be told the loopback address.
+# A bare machine's own name does not resolve: torchrun needs the loopback address.
 _TORCHRUN_ON_A_NAMELESS_MACHINE = """
 import runpy, socket
 socket.gethostname = lambda: "this-name-does-not-resolve.invalid"
@@ -126,7 +126,7 @@ def _free_port() -> str:
         return str(listener.getsockname()[1])
 
 
-def test_two_processes_under_torchrun_end_with_one_set_of_weights_where_the_machines_name_does_not_resolve(
+def test_two_torchrun_processes_end_with_equal_weights_on_a_machine_whose_name_does_not_resolve(
     tmp_path: Path,
 ) -> None:
     script = Path(__file__).with_name("two_process_training.py")

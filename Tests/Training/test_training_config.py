@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from haptoflow_benchmark.rows.row_plan import load_plan
 from haptoflow_training.errors import InputError
-from haptoflow_training.evaluation.row_plan import load_plan
 from haptoflow_training.training.config import TrainingConfig, config_from_dict, load_config
 from haptoflow_training.training.trainer import planned_steps
 
@@ -29,7 +29,7 @@ TRAININGS = sorted(
 
 
 @pytest.mark.parametrize("name", TRAININGS)
-def test_the_shipped_configurations_load_and_train_something(name: str) -> None:
+def test_the_shipped_configurations_load_and_plan_steps(name: str) -> None:
     assert sum(planned_steps(load_config(CONFIGURATIONS / name))) > 0
 
 
@@ -70,7 +70,7 @@ def test_every_row_of_the_evaluation_names_a_model_or_a_training_that_is_there()
         ("", "no \\[\\[row"),
     ],
 )
-def test_a_wrong_plan_is_refused_with_its_row_and_key(tmp_path: Path, text: str, complaint: str) -> None:
+def test_a_wrong_plan_is_refused_with_row_and_key_named(tmp_path: Path, text: str, complaint: str) -> None:
     (tmp_path / "rows.toml").write_text(text, encoding="utf-8")
     with pytest.raises(InputError, match=complaint):
         load_plan(tmp_path / "rows.toml")
@@ -107,6 +107,6 @@ def test_a_missing_file_is_named() -> None:
         load_config(Path("nowhere.toml"))
 
 
-def test_a_configuration_survives_the_way_through_a_checkpoint() -> None:
+def test_a_configuration_is_restored_from_a_checkpoint() -> None:
     config = load_config(CONFIGURATIONS / "default" / "standard.toml")
     assert config_from_dict(config.to_dict(), Path("checkpoint.pt")) == config

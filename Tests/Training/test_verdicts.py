@@ -1,4 +1,4 @@
-"""Ahead, even and behind: called only where chance cannot have made the difference, and for a rival as a whole."""
+"""Verdicts: differences count only if chance is excluded, and rivals are judged as a whole."""
 
 from __future__ import annotations
 
@@ -7,15 +7,15 @@ from typing import Any
 import numpy as np
 import pytest
 
-from haptoflow_training.evaluation.judged_figures import BY_KEY, spread
-from haptoflow_training.evaluation.row_summary import special_figures, summary, with_interval, worst_cells
-from haptoflow_training.evaluation.verdicts import rivals, verdict
+from haptoflow_benchmark.metrics.judged_figures import BY_KEY, spread
+from haptoflow_benchmark.report.verdicts import rivals, verdict
+from haptoflow_benchmark.rows.row_summary import special_figures, summary, with_interval, worst_cells
 
 _LABELS = "abcdef"
 
 
 def _cells(seed: int, size: float, noise: float = 0.3, **more: Any) -> list[dict[str, Any]]:
-    """Of each label ten cells, whose level errors have both signs and about this size."""
+    """Ten cells for each label, whose level errors have both signs and about this magnitude."""
     generator = np.random.default_rng(seed)
     return [
         {
@@ -27,25 +27,25 @@ def _cells(seed: int, size: float, noise: float = 0.3, **more: Any) -> list[dict
     ]  # fmt: skip
 
 
-def test_a_rival_whose_errors_cancel_is_not_better_for_it() -> None:
+def test_errors_of_opposite_sign_do_not_cancel_in_a_verdict() -> None:
     found = verdict(_cells(1, 0.5), _cells(2, 2.0))
     assert found == {"level_error_db": "ahead", "lsd_db": "even"}
     assert verdict(_cells(2, 2.0), _cells(1, 0.5))["level_error_db"] == "behind"
 
 
-def test_differences_that_chance_makes_are_even() -> None:
+def test_chance_differences_are_judged_even() -> None:
     outcomes = [verdict(_cells(seed, 1.0, 1.0), _cells(seed + 50, 1.0, 1.0))["level_error_db"] for seed in range(20)]
     assert outcomes.count("even") >= 16
 
 
-def test_only_recordings_that_both_were_measured_on_are_compared() -> None:
-    # The rival was spared the cells that are hard for everybody.
+def test_only_recordings_common_to_both_rows_are_compared() -> None:
+    # The rival was not measured on the cells that are hard for every row.
     hard = [{**cell, "seed": 100 + cell["seed"], "level_error_db": 9.0} for cell in _cells(1, 0.0)]
     assert verdict([*_cells(1, 0.5), *hard], _cells(2, 2.0))["level_error_db"] == "ahead"
     assert "level_error_db" not in verdict(_cells(1, 0.5), hard)
 
 
-def test_too_sharp_a_share_is_no_advantage_and_a_coherence_above_the_recording_s_is_none_either() -> None:
+def test_a_ratio_above_one_and_a_coherence_above_the_recording_s_are_no_advantage() -> None:
     ours, theirs = _cells(1, 0.5, rib_coherence=1.0), _cells(1, 0.5, rib_coherence=1.2)
     assert verdict(ours, theirs)["rib_coherence"] == "even"
 
@@ -70,16 +70,16 @@ def test_solver_variants_of_one_network_are_one_rival_by_its_best_row_in_each_fi
     assert ar.figures("behind") == ["lsd_db"] and rivals(rows, ("given-the-same",)) == []
 
 
-def test_a_variant_measured_on_easier_recordings_is_no_better_for_it() -> None:
+def test_a_variant_measured_on_easier_recordings_gains_no_advantage() -> None:
     full, quarter = _row("ours", "", 1.0, 1.0, "", ""), _row("ours-quarter", "", 0.2, 1.0, "", "")
-    # Half as much again as ours on the same recordings, and three times as much.
+    # 1.5 times our error on the same recordings, and 3 times.
     one = {**_row("one", "plain", 1.5, 2.0, "behind", "ahead"), "against": "ours"}
     two = {**_row("two", "plain", 0.9, 2.5, "ahead", "ahead"), "against": "ours-quarter"}
     found = rivals([{**full, "block": "ours"}, {**quarter, "block": "ours"}, one, two], ("as-published",))
     assert [(entry.rival, entry.variants["level_error_db"]) for entry in found] == [("plain", "one")]
 
 
-def test_a_spread_is_of_sizes_and_of_a_share_its_bad_side() -> None:
+def test_a_spread_is_over_magnitudes_and_uses_the_low_side_of_a_share() -> None:
     values = {-4.0: 1.0, 1.0: 0.9, 2.0: 0.8, -3.0: 0.7, 0.0: 0.6}
     cells = [{"label": "a", "crest_error_db": crest, "rib_coherence": share} for crest, share in values.items()]
     assert spread(cells, BY_KEY["crest_error_db"]) == pytest.approx({"median": 2.0, "p90": 3.6, "worst": 4.0})
@@ -93,7 +93,7 @@ def test_told_apart_is_spread_over_labels_and_not_over_cells() -> None:
     assert spread(cells, BY_KEY["told_apart_percent"]) == pytest.approx({"median": 72.5, "p90": 90.5, "worst": 95.0})
 
 
-def test_the_worst_cells_are_named_by_what_is_furthest_beyond_its_limit() -> None:
+def test_the_worst_cells_are_named_with_the_figure_furthest_beyond_its_limit() -> None:
     cells = _cells(1, 0.5)
     cells[7] |= {"level_error_db": -22.0}
     cells[31] |= {"crest_error_db": 7.5, "speed_mps": 0.03}

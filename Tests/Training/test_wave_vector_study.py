@@ -1,4 +1,4 @@
-"""The count of ribs found, missed and made up, and the page that states it."""
+"""The counts of found, missed and wrong ribs, and the page that states them."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ from pathlib import Path
 
 import pytest
 
-from haptoflow_training.cli import main
-from haptoflow_training.evaluation import wave_vector_study
-from haptoflow_training.evaluation.wave_vector_study import measured, study_surfaces
+from haptoflow_benchmark.cli import main
+from haptoflow_benchmark.few_shot import wave_vector_study
+from haptoflow_benchmark.few_shot.wave_vector_study import measured, study_surfaces
 
 ROOT = Path(__file__).parents[2]
 
 
-def test_found_missed_and_wrong_vectors_are_counted_apart(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_found_missed_and_wrong_vectors_are_counted_separately(monkeypatch: pytest.MonkeyPatch) -> None:
     surfaces = list(study_surfaces())
     corduroy = next(each for each in surfaces if each.name == "corduroy")
     mesh = next(each for each in surfaces if each.name == "metal mesh")

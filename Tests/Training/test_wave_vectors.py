@@ -1,4 +1,4 @@
-"""Ribs are found from recordings: within 2 % where there are some, none where there are none."""
+"""Ribs are found in recordings: within 2 % where there are some, none where there are none."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def recorded(material: Material, seed: int, velocity: np.ndarray) -> MaterialRec
 @pytest.mark.parametrize("material", MATERIALS, ids=lambda material: material.label)
 def test_every_family_of_ribs_is_found_within_2_percent_and_none_on_a_surface_without(material: Material) -> None:
     seed = 100 + material.texture_id
-    # Threads that are not even have another spacing at every place: their mean is told from several.
+    # Uneven threads have another spacing at every place; their mean is estimated from several.
     places = 4 if any(ruling.jitter > 0.05 for ruling in material.rulings) else 1
     strokes = [recorded(material, seed + place, straight_strokes(12.0, seed + place)) for place in range(places)]
     found = estimate_wave_vectors(strokes)
@@ -70,25 +70,25 @@ def test_ribs_of_any_direction_are_found() -> None:
     assert np.linalg.norm(np.array(found) - vector) < 0.02 * np.linalg.norm(vector)
 
 
-def test_a_resonance_that_does_not_follow_the_speed_is_no_rib() -> None:
+def test_a_resonance_that_does_not_follow_the_speed_is_not_a_rib() -> None:
     velocity = straight_strokes(12.0, 4)
     time = np.arange(len(velocity)) / RATE_HZ
     assert estimate_wave_vectors([lined(velocity, np.sin(2.0 * np.pi * 140.0 * time))]) == ()
 
 
-def test_one_speed_in_one_direction_shows_nothing() -> None:
+def test_one_speed_in_one_direction_gives_no_wave_vector() -> None:
     velocity = np.tile([0.15, 0.0], (12 * RATE_HZ, 1))
     assert estimate_wave_vectors([lined(velocity, np.sin(2.0 * np.pi * place_mm(velocity) @ [0.8, 0.0]))]) == ()
 
 
-def test_one_direction_at_several_speeds_shows_the_ribs_along_it() -> None:
+def test_one_direction_at_several_speeds_gives_the_ribs_along_it() -> None:
     speed = np.repeat(np.tile([0.06, 0.11, 0.2, 0.33], 5), round(0.6 * RATE_HZ))
     velocity = np.column_stack([speed, 0.0 * speed])
     (found,) = estimate_wave_vectors([lined(velocity, np.sin(2.0 * np.pi * place_mm(velocity) @ [0.8, 0.3]))])
     assert abs(found[0]) == pytest.approx(0.8, rel=0.02)
 
 
-def test_a_short_path_shows_nothing_and_does_not_fail() -> None:
+def test_a_short_path_gives_no_wave_vector_and_no_error() -> None:
     assert estimate_wave_vectors([]) == ()
     velocity = straight_strokes(1.0, 5)
     assert estimate_wave_vectors([lined(velocity, np.zeros(len(velocity)))]) == ()
@@ -96,7 +96,7 @@ def test_a_short_path_shows_nothing_and_does_not_fail() -> None:
 
 
 @pytest.mark.parametrize(("name", "count"), [("corduroy", 1), ("jute", 2), ("sandpaper", 0)])
-def test_the_golden_recordings_have_the_wave_vectors_that_their_files_say(name: str, count: int) -> None:
+def test_the_golden_recordings_have_the_wave_vectors_stated_in_their_files(name: str, count: int) -> None:
     golden = json.loads((GOLDEN / f"{name}.json").read_text(encoding="utf-8"))
     velocity = np.concatenate([np.tile(each["velocity_mps"], (each["samples"], 1)) for each in golden["strokes"]])
     wave = np.float32(golden["scale_mps2"]) * np.array(golden["wave"], dtype=np.float32)

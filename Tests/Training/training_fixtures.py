@@ -1,4 +1,4 @@
-"""A small store in memory: two labels whose waves and levels are known, so that tests need no recordings."""
+"""A small in-memory store: two labels with known waveforms and levels, so that tests need no recordings."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class FakeStore:
 
 
 def travelled_mm(motion: NDArray[np.floating]) -> NDArray[np.float32]:
-    """Where a tip that starts at 0 is, [n, 2], from its motion [n, 3] in m/s."""
+    """The position of a tip that starts at 0, [n, 2], from its motion [n, 3] in m/s."""
     return (1000.0 / RATE_HZ * np.cumsum(motion[:, :2], axis=0, dtype=np.float64)).astype(np.float32)
 
 

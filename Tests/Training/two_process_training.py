@@ -1,4 +1,4 @@
-"""Started by torchrun from test_trainer: trains in step with the other process and leaves its weights."""
+"""Started by torchrun in test_trainer: trains in step with the other process and saves its weights."""
 
 from __future__ import annotations
 

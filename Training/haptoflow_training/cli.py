@@ -1,4 +1,4 @@
-"""`haptoflow-training`: one entry, one subcommand a module, imported only when it is asked for.
+"""`haptoflow-training`: one program, one subcommand a module; a subcommand's module is imported only when it is used.
 
 Exit codes: 0 done, 2 wrong usage, 3 bad input, 4 internal error.
 """
@@ -8,59 +8,79 @@ from __future__ import annotations
 import argparse
 import importlib
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 from haptoflow_training.errors import InputError
 
-_COMMANDS: dict[str, str] = {
-    "record": "record synthetic recordings in the published data set's layout",
-    "report-recorder": "compare the synthetic recorder with its published targets, per material",
-    "inspect": "count and validate the recordings of a data set folder",
-    "prepare": "turn recordings into memory-mapped 2 kHz training arrays",
-    "train": "train the level model and the network from one TOML file, resumable",
-    "train-tiers": "train a model file with several tiers over one embedding and level",
-    "train-codec": "train the small codec behind latent tiers",
-    "export": "write a trained run into a .haptoflow model file",
-    "add-material": "add a material to a model, or write a material file, from ten seconds of recording",
-    "few-shot": "measure what ten seconds of a material give, beside rivals",
-    "learn-figures": "measure what `haptoflow learn` makes of ten seconds of a material",
-    "sliders": "find a designer's sliders in a model's embedding space",
-    "stroke": "write a hand-like stroke as CSV for `haptoflow render`",
-    "evaluate": "accuracy over time: every row of the plan, measured through the engine",
-    "discriminate": "check that a classifier trained on recordings names what the engine renders",
-    "measure-wave-vectors": "count the ribs that are found, missed and made up from seconds of strokes",
-    "study": "the two user studies: simulate, check, merge and analyse their logs",
-    "measure-full-scale": "which acceleration should be +-1, from recorded strokes on every label",
+
+@dataclass(frozen=True)
+class Command:
+    """summary: its line in the list of commands. module: has `register(subparsers, summary)`, which adds a parser whose
+    default `run` takes the options and returns the exit code."""
+
+    summary: str
+    module: str
+
+
+def _command(summary: str, name: str) -> Command:
+    return Command(summary, f"haptoflow_training.commands.{name}")
+
+
+_COMMANDS = {
+    "record": _command("record synthetic recordings in the published data set's layout", "record"),
+    "report-recorder": _command(
+        "compare the synthetic recorder with its published targets, material by material", "report_recorder"
+    ),
+    "inspect": _command("count and validate the recordings of a data set folder", "inspect"),
+    "prepare": _command("turn recordings into memory-mapped 2 kHz training arrays", "prepare"),
+    "train": _command("train the level model and the network from one TOML file; resumable", "train"),
+    "train-tiers": _command("train a model file with several tiers over one embedding and level model", "train_tiers"),
+    "export": _command("write a trained run into a .haptoflow model file", "export"),
+    "add-material": _command(
+        "add a material to a model, or write a material file, from ten seconds of recording", "add_material"
+    ),
+    "sliders": _command("find a designer's sliders in a model's embedding space", "sliders"),
+    "stroke": _command("write a hand-like stroke as CSV for `haptoflow render`", "stroke"),
+    "study": _command("the two user studies: simulate, check, merge and analyse their logs", "study"),
 }
+_DESCRIPTION = """Turns recordings into a .haptoflow model file: reads or synthesises recordings, prepares them, trains the
+networks and exports them; adds materials from seconds of recording; analyses the user studies.
+The measurements behind the published tables are commands of `haptoflow-benchmark`.
+"""
 
 
-def _parser(chosen: str | None) -> argparse.ArgumentParser:
+def run_program(
+    name: str, description: str, commands: Mapping[str, Command], arguments: Sequence[str] | None = None
+) -> int:
+    """Run the subcommand that `arguments` (default: those of this process) name; returns the exit code."""
+    words = list(sys.argv[1:] if arguments is None else arguments)
+    chosen = next((word for word in words if word in commands), None)
     parser = argparse.ArgumentParser(
-        prog="haptoflow-training",
-        description="Recordings in, a .haptoflow model file out.",
-        epilog="`haptoflow-training COMMAND --help` explains one command with examples.",
+        prog=name,
+        description=description,
+        epilog=f"`{name} COMMAND --help` explains one command with examples.",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     subparsers = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
-    for name, summary in _COMMANDS.items():
-        if name == chosen:
-            module = importlib.import_module(f"haptoflow_training.commands.{name.replace('-', '_')}")
-            module.register(subparsers, summary)
+    for key, command in commands.items():
+        if key == chosen:
+            importlib.import_module(command.module).register(subparsers, command.summary)
         else:
-            subparsers.add_parser(name, help=summary, add_help=False)
-    return parser
-
-
-def main(arguments: Sequence[str] | None = None) -> int:
-    words = list(sys.argv[1:] if arguments is None else arguments)
-    chosen = next((word for word in words if word in _COMMANDS), None)
-    options = _parser(chosen).parse_args(words)
+            subparsers.add_parser(key, help=command.summary, add_help=False)
+    options = parser.parse_args(words)
     try:
         return int(options.run(options))
     except InputError as error:
-        print(f"haptoflow-training: {error}", file=sys.stderr)
+        print(f"{name}: {error}", file=sys.stderr)
         return 3
     except BrokenPipeError:
         return 0
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """`haptoflow-training`; returns the exit code."""
+    return run_program("haptoflow-training", _DESCRIPTION, _COMMANDS, arguments)
 
 
 if __name__ == "__main__":

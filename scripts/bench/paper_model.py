@@ -1,9 +1,9 @@
-"""The paper's architecture in its own size with random weights, as a model file: for its time alone.
+"""Writes a model file with the paper's architecture in its published size and random weights, to measure its time.
 
 The sizes are those of Training/configs/evaluation/paper-codec-size.toml: EnCodec at 24 kHz and a U-Net of 128 and 256
-channels. A weight's value does not change what a multiplication costs, so nothing is trained and no recording is read.
+channels. The values of weights do not affect the time, so nothing is trained and no recording is read.
 
-    PYTHONPATH=Training python3 scripts/bench/paper_model.py CONFIG.toml OUT.haptoflow
+PYTHONPATH=Training python3 scripts/bench/paper_model.py CONFIG.toml OUT.haptoflow
 """
 
 from __future__ import annotations
@@ -16,12 +16,12 @@ from typing import Any
 import numpy as np
 import torch
 
+from haptoflow_benchmark.codec.representation import CodecRepresentation
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.model_file import ModelFile, write_model_file
 from haptoflow_training.export.onnx_graphs import export_level_model, export_network
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE
 from haptoflow_training.models.haptoflow_model import HaptoFlowModel
-from haptoflow_training.models.representation import CodecRepresentation
 from haptoflow_training.models.velocity_field import parameter_count
 from haptoflow_training.training.config import TrainingConfig, load_config
 from haptoflow_training.training.trainer import build_model
@@ -102,7 +102,7 @@ def _header(config: TrainingConfig, model: HaptoFlowModel, codec: CodecRepresent
 
 
 def make_paper_model(config_path: Path, out: Path) -> int:
-    """Write the model file; returns its CRC-32. InputError where the configuration is none of a latent U-Net."""
+    """Write the model file; returns its CRC-32. InputError if the configuration is not a latent U-Net."""
     config = load_config(config_path)
     torch.manual_seed(config.seed)
     model = build_model(config, [()]).eval()

@@ -31,25 +31,25 @@ from sample_pictures import MODEL, ROOT, save
 from scipy.io import wavfile
 from scipy.signal import welch
 
-from haptoflow_training.evaluation.engine_library import default_engine
-from haptoflow_training.evaluation.model_stamp import model_line, sha256_of, with_measured_words
+from haptoflow_benchmark.engine.engine_library import default_engine
+from haptoflow_training.model_stamp import model_line, sha256_of, with_measured_words
 
 ENGINE = ROOT / "build/native/haptoflow"
 IMAGES = ROOT / "Documentation~/images"
 PAGE = ROOT / "Documentation~/effects-and-outputs.md"
-# Of the intensity's error, and how each is printed.
+# Statistics of the intensity error, and how each is printed.
 FIGURES = (("mean", "+"), ("mean_magnitude", ""), ("p95", ""))
-# Far above every blow that is drawn: nothing was bent by the limiter.
+# Far above every impact that is drawn, so that the limiter changes nothing.
 FULL_SCALE_MPS2 = 1000.0
 RATE_HZ = 48000
 DEEP_METRES = 0.0005
-# Slower than what counts as a landing, 30 mm/s.
+# Slower than what counts as a touch-down, 30 mm/s.
 SINKING_MPS = 0.02
 COLOURS = {"rubber": "#5d5566", "wood": "#b9793f", "stone": "#7d8590"}
 
 
 class Folder:
-    """Scenes and strokes become vibrations in m/s^2."""
+    """Renders scenes and strokes to vibrations in m/s^2."""
 
     def __init__(self, path: Path) -> None:
         self._path = path
@@ -63,7 +63,7 @@ class Folder:
             return wavfile.read(wav)[1].astype(np.float64) * FULL_SCALE_MPS2
 
     def intensity_errors(self, surfaces: list[dict], stroke: np.ndarray) -> dict[str, dict[str, float]]:
-        """Of the frames and of a motor, in dB: see `haptoflow render -o x.json`."""
+        """Intensity errors of the frames and of a motor, in dB: see `haptoflow render -o x.json`."""
         frames = self._path / "out.json"
         self._run(surfaces, stroke, frames)
         return json.loads(frames.read_text(encoding="utf-8"))["intensity_error_db"]
@@ -83,7 +83,7 @@ def plane(label: str) -> dict:
 
 
 def box(name: str, label: str, left: float, top: float) -> dict:
-    """Half a metre long, its left end and its top where they are said to be."""
+    """A box half a metre long with the given left end and top."""
     return {"name": name, "shape": {"box": {"size": [0.5, 0.1, 0.5]}}, "position": [left + 0.25, top - 0.05, 0.0],
             "material": label}
 
@@ -96,7 +96,7 @@ def stroke_of(
 
 
 def drop(speed_mps: float) -> np.ndarray:
-    """Straight down onto y = 0, landing after 0.1 s, then at rest."""
+    """Straight down onto y = 0, touching down after 0.1 s, then at rest."""
     times = np.arange(0.0, 0.4, 0.002)
     height = np.maximum(speed_mps * (0.1 - times), -DEEP_METRES)
     return stroke_of(times, 0.0, height)
@@ -248,7 +248,7 @@ def controller_picture(_: Folder) -> plt.Figure:
 
 
 def label_table(folder: Folder) -> str:
-    """What is lost on each label: the actuator's spectrum, with and without compensation, and the intensity of frames."""
+    """The losses of each label: the actuator's spectrum, with and without compensation, and the intensity of frames."""
     shown = subprocess.run([ENGINE, "actuator", "show", "voice-coil", "--labels"], capture_output=True, text=True, check=True)
     rows = re.findall(r"^  ([a-z ]+?) +([0-9.]+) +([0-9.]+)$", shown.stdout.split("Log-spectral distance")[1], re.MULTILINE)
     lines = [

@@ -1,5 +1,5 @@
-"""What the pictures need of the built library beyond the training package's `EngineLibrary`: a voice that slides through
-the exposure guard, and the features of a wave."""
+"""Parts of the C interface that the pictures need beyond `EngineLibrary`: a voice with its exposure guard, and the
+features of a waveform."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import numpy as np
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "Training"))
 
-from haptoflow_training.evaluation.engine_library import EngineLibrary, options_of  # noqa: E402
+from haptoflow_benchmark.engine.engine_library import EngineLibrary, options_of  # noqa: E402
 
 RATE_HZ = 8000
 BLOCK_FRAMES = 111
@@ -56,7 +56,7 @@ def wave_frames(
     minimum_hz: float,
     maximum_hz: float,
 ) -> np.ndarray:
-    """Frames of a wave [N] in m/s^2, with a column of seconds at which each begins; rate_hz: a multiple of 2000."""
+    """Frames of a waveform [N] in m/s^2, with a column of seconds at which each begins; rate_hz: a multiple of 2000."""
     options = options_of(
         _FeatureOptions, sample_rate_hz=rate_hz, frame_seconds=frame_seconds, minimum_frequency_hz=minimum_hz,
         maximum_frequency_hz=maximum_hz,
@@ -72,7 +72,7 @@ def wave_frames(
     result = np.zeros(len(frames), dtype=[*((name, "f8") for name in _FRAME.names), ("seconds", "f8")])
     for name in _FRAME.names:
         result[name] = frames[name]
-    # The low-pass in front of the features delays by 1.5 ms.
+    # The low-pass before the features delays by 1.5 ms.
     result["seconds"] = frames["first_sample"] / 2000.0 - 0.0015
     return result
 
@@ -87,7 +87,7 @@ def exposure(
     actuator_gain: float,
     seconds: float,
 ) -> np.ndarray:
-    """What the exposure guard reports during a stroke without end, ten rows a second. The engine has no thread of its own:
+    """The exposure guard's reports during an endless stroke, ten rows a second. The engine has no thread of its own:
     this function steps it, faster than real time."""
     model, handle, voice = engine.open_model(model_file), c_void_p(), c_uint64()
     options = options_of(

@@ -41,7 +41,7 @@ from scene_view import Camera, draw_solids, facets
 ROOT = Path(__file__).resolve().parents[2]
 SAMPLES = ROOT / "Samples~"
 MODEL = ROOT / "Packages/com.haptoflow.runtime/Runtime/Models/default.haptoflow"
-# Far above every texture: nothing that is drawn was bent by the limiter.
+# Far above every texture, so that the limiter changes nothing.
 FULL_SCALE_MPS2 = 1000.0
 TOP_HZ = 1000.0
 COLOURS = {
@@ -52,7 +52,7 @@ COLOURS = {
 
 @dataclass(frozen=True)
 class Render:
-    """A vibration in m/s^2 [N] at `rate_hz`, and what the tip did: columns of `haptoflow contact`."""
+    """A vibration in m/s^2 [N] at `rate_hz`, and the tip's contact: columns of `haptoflow contact`."""
 
     rate_hz: int
     acceleration_mps2: np.ndarray
@@ -71,7 +71,7 @@ def render(engine: Path, scene: Path, stroke: Path, folder: Path) -> Render:
     wav = folder / "felt.wav"
     run(engine, "render", scene, "--stroke", stroke, "-o", wav, "--full-scale", FULL_SCALE_MPS2, "--quiet")
     with warnings.catch_warnings():
-        # The file says with what it was rendered in a chunk that SciPy does not read.
+        # SciPy does not know the chunk in which the engine stores its settings.
         warnings.simplefilter("ignore", wavfile.WavFileWarning)
         rate_hz, samples = wavfile.read(wav)
     contacts = list(csv.DictReader(run(engine, "contact", scene, "--stroke", stroke).splitlines()))
@@ -79,7 +79,7 @@ def render(engine: Path, scene: Path, stroke: Path, folder: Path) -> Render:
 
 
 def draw_spectrogram(axes: plt.Axes, felt: Render, top_db: float | None = None, range_db: float = 60.0) -> None:
-    """Decibels up to top_db of power density; without it, up to the loudest bin."""
+    """Decibels up to top_db of power density; without top_db, up to the loudest bin."""
     window = int(0.064 * felt.rate_hz)
     frequencies, times, power = spectrogram(
         felt.acceleration_mps2, felt.rate_hz, nperseg=window, noverlap=window * 7 // 8
@@ -94,7 +94,7 @@ def draw_spectrogram(axes: plt.Axes, felt: Render, top_db: float | None = None, 
 
 
 def save(figure: plt.Figure, file: Path) -> None:
-    """With a palette: a quarter of the bytes, and nobody sees the difference."""
+    """Save with a palette, at a quarter of the size and without visible difference."""
     pixels = io.BytesIO()
     figure.savefig(pixels, dpi=100)
     plt.close(figure)
@@ -104,11 +104,11 @@ def save(figure: plt.Figure, file: Path) -> None:
 
 
 def draw_scene(axes: plt.Axes, scene: dict, felt: Render, stroke: np.ndarray) -> None:
-    """The sample's camera's view of table, objects, stroke and pen."""
+    """The view of the sample's camera of table, objects, stroke and pen."""
     camera = camera_of(SAMPLES / "StylusTracing/StylusTracing.unity")
     table, *objects = scene["surfaces"]
     far_first = sorted(objects, key=lambda surface: -facets(surface)[..., 2].mean())
-    # The table hides what is below it.
+    # The table hides everything below it.
     shown = [(np.maximum(facets(surface), [-np.inf, 0.0, -np.inf]), surface["material"]) for surface in far_first]
     draw_solids(axes, camera, [(faces, COLOURS[label]) for faces, label in ((facets(table), table["material"]), *shown)])
     times = [float(row["t"]) for row in felt.contacts]
@@ -134,7 +134,7 @@ def draw_scene(axes: plt.Axes, scene: dict, felt: Render, stroke: np.ndarray) ->
 
 
 def camera_of(unity_scene: Path) -> Camera:
-    """Where a scene's main camera stands, from Unity's own file."""
+    """The pose of a scene's main camera, from Unity's own file."""
     text = unity_scene.read_text(encoding="utf-8").split("m_Name: Main Camera")[1]
     turn, place = (
         tuple(map(float, re.findall(r"[xyzw]: ([-\d.e]+)", re.search(rf"{key}: (\{{.*\}})", text)[1])))
@@ -210,7 +210,7 @@ def gallery_picture(engine: Path, folder: Path, file: Path) -> None:
     felt = [tile_render(engine, label, stroke, folder) for label in labels]
     reach = np.ceil(max(np.abs(one.acceleration_mps2).max() for one in felt) / 10.0) * 10.0
     top_db = max(10.0 * np.log10(spectrogram(one.acceleration_mps2, one.rate_hz)[2].max()) for one in felt)
-    # As Wall.cs hangs them.
+    # The same layout as in Wall.cs.
     columns = int(np.ceil(np.sqrt(1.25 * len(labels))))
     rows = -(-len(labels) // columns)
     figure, grid = plt.subplots(
@@ -257,7 +257,7 @@ def draw_tile(
     axes.set_xlim(0, len(felt.acceleration_mps2))
 
 
-# As GardenBed.cs paints it: corner and size in metres, layers with their labels and colours.
+# The same as in GardenBed.cs: corner and size in metres, layers with their labels and colours.
 GARDEN_CORNER = np.array([-0.45, 0.001, -0.02])
 GARDEN_SIZE = np.array([0.42, 0.012, 0.26])
 GARDEN_LABELS = ("concrete", "carpet", "sandpaper")
@@ -273,7 +273,7 @@ def garden_weights(along: np.ndarray) -> np.ndarray:
 
 
 def draw_workshop(axes: plt.Axes) -> None:
-    """The bench of the sample Workshop from its camera: each thing with what it feels like."""
+    """The bench of the sample Workshop from its camera: each object with its label."""
     camera = camera_of(SAMPLES / "Workshop/Workshop.unity")
     solids = [(box_facets([0, -0.01, 0], [1, 0.02, 0.6]), "#ba7840")]
     edges = np.linspace(0.0, 1.0, GARDEN_STRIPS + 1)

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Writes the recording that the sample Workshop learns a material from: Samples~/Workshop/Recordings/doormat.*.
+"""Writes the recording from which the sample Workshop learns a material: Samples~/Workshop/Recordings/doormat.*.
 
-Ten and a half seconds of a stylus on a material that no training protocol records, by the synthetic recorder: strokes back and
-forth whose speed and force change as a hand's do. A WAV file of three axes (its name ends in .bytes, so that Unity
-imports it as it is and not as sound), its sidecar, and a table of motion and force. From the repository root:
+Ten and a half seconds of a stylus on a material unknown to every model, by the synthetic recorder: strokes back and
+forth with varying speed and force. A WAV file of three axes (its name ends in .bytes, so that Unity does not import it
+as sound), its sidecar, and a table of motion and force. From the repository root:
 
-    PYTHONPATH=Training python3 scripts/pack/sample_recording.py
+PYTHONPATH=Training python3 scripts/pack/sample_recording.py
 """
 
 from __future__ import annotations
@@ -21,16 +21,16 @@ from scipy.io import wavfile
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "Training"))
 
+from haptoflow_benchmark.few_shot.unseen import unseen_materials  # noqa: E402
 from haptoflow_training.recordings.recording import STANDARD_GRAVITY_MPS2, Recording  # noqa: E402
 from haptoflow_training.recordings.synthetic.materials import load_materials  # noqa: E402
 from haptoflow_training.recordings.synthetic.recorder import record_condition  # noqa: E402
-from haptoflow_training.recordings.synthetic.unseen import unseen_materials  # noqa: E402
 
 FOLDER = ROOT / "Samples~" / "Workshop" / "Recordings"
 NAME = "doormat"
 SECONDS, RATE_HZ, MOTION_HZ = 10.5, 2000, 100
 SEED = 17
-# Of the materials that are drawn, the one that lies between carpet and another label.
+# Index of the unseen material that lies between carpet and another label.
 CARPET = 12
 SIMULATION_STEPS = 2000
 

@@ -1,4 +1,4 @@
-"""A scene file as a camera sees it: solids as shaded facets, far ones first, for pictures that no engine has drawn."""
+"""Draws a scene file as a camera sees it: solids as shaded facets, the farthest first."""
 
 from __future__ import annotations
 
@@ -10,7 +10,8 @@ from matplotlib.collections import PolyCollection
 from matplotlib.colors import to_rgb
 from scipy.spatial.transform import Rotation
 
-# Unity's frame: y up, left-handed, a camera looks along its own z. Towards the light, as in the samples' scenes.
+# Unity's frame: y up, left-handed, a camera looks along its own z. The direction towards the light, as in the samples'
+# scenes.
 _LIGHT = -Rotation.from_quat([0.40821789, -0.23456972, 0.10938165, 0.8754261]).apply([0.0, 0.0, 1.0])
 _AMBIENT = 0.55
 
@@ -30,7 +31,7 @@ class Camera:
 
 
 def facets(surface: dict) -> np.ndarray:
-    """[N, 4, 3] quadrilaterals in metres, in the scene's frame, where the surface rests."""
+    """[N, 4, 3] quadrilaterals in metres, in the scene's frame, at the surface's rest pose."""
     rest = surface.get("motion", {}).get("keyframes", [surface])[0]
     turn = Rotation.from_quat(rest.get("rotation", surface.get("rotation", [0.0, 0.0, 0.0, 1.0])))
     shape = surface["shape"]
@@ -78,7 +79,7 @@ def _ball(radius: float, reach: float) -> np.ndarray:
 
 
 def draw_solids(axes: plt.Axes, camera: Camera, solids: list[tuple[np.ndarray, str]]) -> None:
-    """Facets [N, 4, 3] of each solid in its colour; the facets that face the camera alone, far solids first."""
+    """Facets [N, 4, 3] of each solid in its colour: only those that face the camera, the farthest solids first."""
     for faces, colour in solids:
         normals = np.cross(faces[:, 1] - faces[:, 0], faces[:, 3] - faces[:, 0]) + np.cross(
             faces[:, 3] - faces[:, 2], faces[:, 1] - faces[:, 2]
@@ -87,7 +88,7 @@ def draw_solids(axes: plt.Axes, camera: Camera, solids: list[tuple[np.ndarray, s
         kept = lengths[:, 0] > 1e-12
         faces, normals = faces[kept], normals[kept] / lengths[kept]
         middles = faces.mean(axis=1)
-        # Outwards from the solid's own middle: all of them are convex.
+        # Outwards from the solid's centre, because all of them are convex.
         normals *= np.where(np.sum(normals * (middles - middles.mean(axis=0)), axis=1, keepdims=True) < 0.0, -1.0, 1.0)
         facing = np.sum(normals * (np.array(camera.position) - middles), axis=1) > 0.0
         seen = camera.seen(faces[facing])

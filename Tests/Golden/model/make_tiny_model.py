@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 import tiny_graphs as graphs
+
 from haptoflow_writer import write_model
 from reference_noise import latent_noise, philox, standard_normal
 

@@ -25,7 +25,7 @@ STROKE_SAMPLES = 1200
 STROKES = 17
 # Seeds of which every step of the estimator counts: see README.md.
 CASES = (("corduroy", 1), ("jute", 3), ("sandpaper", 1))
-LARGEST = 999
+MAXIMUM = 999
 
 
 def strokes(seed: int) -> NDArray[np.float64]:
@@ -46,7 +46,7 @@ def case(material: Material, seed: int) -> dict[str, object]:
     wave = preprocess_recording(recorded, settings).waveform_mps2
     trimmed = round(settings.trim_seconds * RATE_HZ)
     velocity = velocity[trimmed : trimmed + len(wave)]
-    scale = float(np.float32(np.abs(wave).max() / LARGEST))
+    scale = float(np.float32(np.abs(wave).max() / MAXIMUM))
     whole = np.round(wave / scale).astype(int)
     changes = np.flatnonzero(np.any(velocity[1:] != velocity[:-1], axis=1)) + 1
     begins = np.concatenate([[0], changes])

@@ -1,1 +1,1 @@
-"""The subcommands of `haptoflow-training`: each module has `register(subparsers)`."""
+"""The subcommands of `haptoflow-training`: each module has `register(subparsers, summary)`."""

@@ -1,4 +1,5 @@
-"""`haptoflow-training add-material`: a new material from seconds of recording, beside or inside a model file."""
+"""`haptoflow-training add-material`: fit a new material to seconds of recording, as a file of its own or as a
+further label."""
 
 from __future__ import annotations
 
@@ -35,14 +36,14 @@ from haptoflow_training.recordings.material_recording import MaterialRecording, 
 
 _EXAMPLES = """examples:
   haptoflow-training add-material --model default.haptoflow --recording doormat.csv
-      writes doormat.haptomaterial: scenes, the command line and Unity take it beside default.haptoflow
+      writes doormat.haptomaterial: scenes, the command line and Unity use it together with default.haptoflow
   haptoflow-training add-material --model default.haptoflow --recording slow.wav fast.wav --name mat -o mine.haptoflow
       writes a model file with a further label
   haptoflow-training add-material --model default.haptoflow --recording rack.csv --wave-vector 0.8 0 --name rack
       ribs 1.25 mm apart, across the recording's first axis
 
-At least 10 s are recommended: slow and fast slides, 20 to 200 mm/s, light and firm. Ribs are found by themselves; a
-ruled material's first axis is put across its clearest ribs. About half a minute of one core.
+At least 10 s are recommended: slow and fast slides, 20 to 200 mm/s, light and firm. Ribs are estimated; a ruled
+material's first axis is put across its clearest ribs. Takes about half a minute of one core.
 """
 
 
@@ -126,7 +127,8 @@ def _name(options: argparse.Namespace, recordings: Sequence[MaterialRecording]) 
 
 
 def _file_name(name: str) -> str:
-    """Letters and digits of any script, dots and dashes: a label may say anything, a file in this folder may not."""
+    """A file name for the material: letters and digits of any script, dots and dashes; everything else becomes a
+    dash."""
     return re.sub(r"[^\w.-]+", "-", name).strip("-.") or "material"
 
 
@@ -168,6 +170,6 @@ def _report(out: Path, model: FileModel, material: Material, fitted: FittedMater
     for tier in fitted.far_tiers:
         fitted_for = next(iter(fitted.distances_db))
         print(f"  tier {tier} is further off by more than 0.3 dB: the tone was fitted for {fitted_for}")
-    # The ends of a recording are trimmed.
+    # Recordings are trimmed at both ends, so a little less than the recommended time is accepted.
     if fitted.seconds < RECOMMENDED_SECONDS - 1.0:
         print(f"  {fitted.seconds:.1f} s is little; {RECOMMENDED_SECONDS:g} s of slow and fast slides are recommended")

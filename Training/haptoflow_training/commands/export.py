@@ -1,11 +1,11 @@
-"""`haptoflow-training export`: a finished run becomes a `.haptoflow` file, without training again."""
+"""`haptoflow-training export`: write a finished run as a `.haptoflow` file without training again."""
 
 from __future__ import annotations
 
 import argparse
 from pathlib import Path
 
-from haptoflow_training.commands.level_offsets import MeasuredLevels, calibrates, measured_levels
+from haptoflow_training.closed_loop.measured_levels import MeasuredLevels, calibrates, measured_levels
 from haptoflow_training.export.exporter import export_run
 from haptoflow_training.training.recordings_source import open_source
 from haptoflow_training.training.trainer import load_trained
@@ -35,7 +35,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
 
 
 def announce(out: Path, checksum: int) -> None:
-    """Say what was written."""
+    """Print the name and checksum of the model file."""
     print(f"{out}: {out.stat().st_size / 2**20:.2f} MiB, CRC-32 {checksum:08x}")
 
 

@@ -1,4 +1,4 @@
-"""`haptoflow-training inspect`: what is in a data set folder, and what is wrong with it."""
+"""`haptoflow-training inspect`: report the contents and the problems of a data set folder."""
 
 from __future__ import annotations
 

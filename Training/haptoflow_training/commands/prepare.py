@@ -1,4 +1,4 @@
-"""`haptoflow-training prepare`: recordings in, a memory-mapped store of 2 kHz training arrays out."""
+"""`haptoflow-training prepare`: turn recordings into a memory-mapped store of 2 kHz training arrays."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ def run(options: argparse.Namespace) -> int:
         held_out_speeds_mmps=tuple(options.hold_out_speed),
     )
     begun = time.perf_counter()
-    # What the recorder made is split by its names alone.
+    # Synthetic recordings are split by their names alone.
     prepare = prepare_store if all(dataset.synthetic for dataset in datasets) else prepare_cut_where_needed
     store = prepare(
         entries,
@@ -94,7 +94,7 @@ def _open(folder: Path, labels_path: Path | None) -> Dataset:
 
 
 def _labels(datasets: list[Dataset], labels_path: Path | None) -> list[str]:
-    """In the order of the labels file; labels without a recording get no index."""
+    """The labels in the order of the labels file; labels without a recording get no index."""
     present = list(dict.fromkeys(label for dataset in datasets for label in dataset.labels))
     if labels_path is None and not all(dataset.published for dataset in datasets):
         return present

@@ -1,4 +1,4 @@
-"""`record`: synthetic recordings in the published data set's layout, resumable, seeded by identity."""
+"""`record`: write synthetic recordings in the published data set's layout; resumable, each seeded by its identity."""
 
 from __future__ import annotations
 
@@ -125,7 +125,7 @@ def _complete(root: Path, identity: RecordingIdentity) -> bool:
 
 
 def _record(task: tuple[Path, int, float, Material, RecordingIdentity]) -> None:
-    # One recording a core: threads inside a process would only contend.
+    # One process a core: numeric libraries that start threads of their own would only compete.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     root, seed, duration_seconds, material, identity = task
     if identity.protocol == "hand":

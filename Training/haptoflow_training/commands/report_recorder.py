@@ -1,6 +1,5 @@
-"""`report-recorder`: measure every material against its published targets; `--calibrate` first makes them
-meet.
-"""
+"""`report-recorder`: compare every material with its published targets; `--calibrate` first adjusts the materials to
+them."""
 
 from __future__ import annotations
 
@@ -31,7 +30,7 @@ from haptoflow_training.recordings.synthetic.measurement import (
     pooled_exponent,
 )
 
-# The report measures another specimen than the calibration used: a fit to one draw would show.
+# The report measures another specimen than the calibration used, so that a fit to one random draw would show.
 _CALIBRATION_SEED, _REPORT_SEED = 7, 2029
 _TABLE_HEAD = (
     "| label | k m/s² | p | q | centroid Hz | slope dB/oct | crest | level error dB "
@@ -42,7 +41,7 @@ _TABLE_HEAD = (
 
 @dataclass(frozen=True)
 class Row:
-    """One material's line of the report."""
+    """One material's row of the report."""
 
     material: Material
     measured: Measurement
@@ -76,7 +75,7 @@ def run(options: argparse.Namespace) -> int:
             fitted = processes.map(_calibrate, materials)
             materials = tuple(tqdm(fitted, total=len(materials), unit="material fitted", disable=None))
             write_calibrated(options.materials, {each.label: each.calibrated for each in materials})
-            # What the file says, with its digits, is what is reported.
+            # Report the values as stored in the file, with the digits stored there.
             materials = select_materials(load_materials(options.materials), labels)
         measured = list(
             tqdm(processes.map(_measure, materials), total=len(materials), unit="material", disable=None)
@@ -105,9 +104,8 @@ def _measure(material: Material) -> Measurement:
 
 
 def simulated_seconds_per_second(material: Material) -> float:
-    """Recorded seconds per processor second of hand recordings at the slowest to fastest speeds, sensors
-    included.
-    """
+    """Recorded seconds per processor second, for hand recordings from the slowest to the fastest speeds, with
+    sensors."""
     identities = hand_conditions(material, seed=3, recordings=4)
     record_hand_condition(material, identities[0], seed=3)
     start = time.process_time()
@@ -116,7 +114,7 @@ def simulated_seconds_per_second(material: Material) -> float:
 
 
 def write_report(out: Path, rows: list[Row], speed: float) -> None:
-    """Markdown, JSON and the picture into `out`."""
+    """Write Markdown, JSON and the picture into `out`."""
     (out / "images").mkdir(parents=True, exist_ok=True)
     numbers = json.dumps(_document(rows, speed), indent=2) + "\n"
     (out / "recorder-report.json").write_text(numbers, encoding="utf-8")
@@ -202,7 +200,7 @@ def _list(values: tuple[float, ...]) -> str:
 
 
 def draw_spectra(path: Path, rows: list[Row]) -> None:
-    """Small multiples: the density of each material at 100 mm/s and 1 N over that of all the others."""
+    """Small multiples: each material's density at 100 mm/s and 1 N, with those of all other materials behind it."""
     import matplotlib
 
     matplotlib.use("Agg")

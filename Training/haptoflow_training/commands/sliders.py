@@ -1,4 +1,4 @@
-"""`haptoflow-training sliders`: directions in a model's embedding space that a designer can move along."""
+"""`haptoflow-training sliders`: find directions in a model's embedding space that a designer can move along."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`stroke`: a hand-like movement through way-points, as the CSV that `haptoflow render` reads."""
+"""`stroke`: write a hand-like movement through way-points as the CSV file that `haptoflow render` reads."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def stroke_from_script(path: Path, *, seed: int | None = None) -> SpatialStroke:
-    """InputError names the file, the key and what was expected."""
+    """The stroke of a TOML script. InputError names the file, the key and what was expected."""
     try:
         script = tomllib.loads(path.read_text(encoding="utf-8"))
     except OSError as error:
@@ -62,9 +62,8 @@ def stroke_from_script(path: Path, *, seed: int | None = None) -> SpatialStroke:
 
 
 def write_stroke(path: Path, stroke: SpatialStroke) -> None:
-    """Header `t,x,y,z[,force]`; seconds to the microsecond, metres to the nanometre. Appears whole or not at
-    all.
-    """
+    """Write columns `t,x,y,z[,force]`, seconds to the microsecond and metres to the nanometre. The file is written
+    atomically."""
     lines = ["t,x,y,z" if stroke.force_newtons is None else "t,x,y,z,force"]
     for index, time in enumerate(stroke.time_seconds):
         row = f"{time:.6f}," + ",".join(f"{value:.9f}" for value in stroke.position_metres[index])

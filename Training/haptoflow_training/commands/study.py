@@ -16,12 +16,12 @@ from haptoflow_training.commands import (
 )
 
 _STEPS = {
-    "simulate": (study_simulate, "write the logs of participants that do not exist"),
-    "check": (study_check, "name what is broken, missing or there twice in a folder of logs"),
+    "simulate": (study_simulate, "write the logs of simulated participants"),
+    "check": (study_check, "list broken, missing and duplicate logs of a folder"),
     "merge": (study_merge, "write all sessions of a study as one table"),
     "analyse": (study_analyse, "write the report of a folder of logs"),
-    "power": (study_power, "count what a planned number of participants would find"),
-    "validate": (study_validate, "analyse studies whose truth is known"),
+    "power": (study_power, "estimate the power of a planned number of participants"),
+    "validate": (study_validate, "analyse simulated studies with known results"),
     "budget": (study_budget, "add up the parts of the delay beside the thresholds of the paper"),
     "golden": (study_golden, "write the plans that the Unity package must agree with"),
 }

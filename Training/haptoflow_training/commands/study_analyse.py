@@ -1,4 +1,4 @@
-"""`haptoflow-training study analyse`: logs in, a report out."""
+"""`haptoflow-training study analyse`: write the report of a folder of logs."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ import json
 from pathlib import Path
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.export.whole_file import write_whole
 from haptoflow_training.studies.log_columns import LATENCY, SIMILARITY
 from haptoflow_training.studies.study_folder import read_faultless
+from haptoflow_training.whole_file import write_whole
 
 _EXAMPLES = """examples:
   haptoflow-training study analyse logs --out report.html

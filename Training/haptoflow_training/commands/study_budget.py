@@ -1,4 +1,4 @@
-"""`haptoflow-training study budget`: the delay budget from the benchmark's figures."""
+"""`haptoflow-training study budget`: compute the delay budget from the benchmark's figures."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ import os
 from pathlib import Path
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.evaluation.model_stamp import read_measured_page, with_measured_words
-from haptoflow_training.export.whole_file import write_whole
+from haptoflow_training.model_stamp import read_measured_page, with_measured_words
+from haptoflow_training.whole_file import write_whole
 
 _PUBLISHED = Path("Documentation~") / "benchmarks.md"
 _EXAMPLES = """examples:

@@ -1,4 +1,4 @@
-"""`haptoflow-training study check`: what is wrong with a folder of logs."""
+"""`haptoflow-training study check`: list the problems of a folder of logs."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Every problem is a line that names file, row and column. The exit code is 0 with
 
 
 def register(parser: argparse.ArgumentParser) -> None:
-    parser.description = "Read every session below a folder and name what is broken, missing or there twice."
+    parser.description = "Read every session below a folder and list what is broken, missing or duplicate."
     parser.epilog = _EXAMPLES
     parser.add_argument("folder", type=Path, help="with the logs, in folders of their own or not")
     parser.set_defaults(run=_run)

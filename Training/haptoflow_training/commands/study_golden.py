@@ -1,12 +1,12 @@
-"""`haptoflow-training study golden`: the test vectors of plans."""
+"""`haptoflow-training study golden`: write the test vectors of the study plans."""
 
 from __future__ import annotations
 
 import argparse
 from pathlib import Path
 
-from haptoflow_training.export.whole_file import write_whole
 from haptoflow_training.studies.golden import golden_text
+from haptoflow_training.whole_file import write_whole
 
 _EXAMPLES = """examples:
   haptoflow-training study golden --out Tests/Golden/studies/plans.json

@@ -1,4 +1,4 @@
-"""`haptoflow-training study merge`: one table for each study."""
+"""`haptoflow-training study merge`: write one table for each study."""
 
 from __future__ import annotations
 
@@ -6,10 +6,10 @@ import argparse
 from pathlib import Path
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.export.whole_file import write_whole
 from haptoflow_training.studies.log_columns import STUDIES
-from haptoflow_training.studies.merge import merged_csv
+from haptoflow_training.studies.session_writer import merged_csv
 from haptoflow_training.studies.study_folder import read_faultless
+from haptoflow_training.whole_file import write_whole
 
 _EXAMPLES = """examples:
   haptoflow-training study merge logs --out tables

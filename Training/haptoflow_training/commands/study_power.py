@@ -1,4 +1,4 @@
-"""`haptoflow-training study power`: what a planned number of participants would find."""
+"""`haptoflow-training study power`: estimate the power of a study with a planned number of participants."""
 
 from __future__ import annotations
 

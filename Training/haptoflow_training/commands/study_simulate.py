@@ -1,4 +1,4 @@
-"""`haptoflow-training study simulate`: the logs of participants that do not exist."""
+"""`haptoflow-training study simulate`: write the logs of simulated participants."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`haptoflow-training study validate`: the analysis on studies whose truth is known."""
+"""`haptoflow-training study validate`: check the analysis on simulated studies with known results."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from pathlib import Path
 from tqdm import tqdm
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.evaluation.model_stamp import read_measured_page, with_measured_words
-from haptoflow_training.export.whole_file import write_whole
+from haptoflow_training.model_stamp import read_measured_page, with_measured_words
+from haptoflow_training.whole_file import write_whole
 
 _EXAMPLES = """examples:
   haptoflow-training study validate --out Training/results/study-validation.json --page Documentation~/study-analysis.md

@@ -1,4 +1,4 @@
-"""`haptoflow-training train`: recordings to a trained run to a model file, in one go."""
+"""`haptoflow-training train`: train on recordings, write the run and, on request, its model file."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ import sys
 import time
 from pathlib import Path
 
+from haptoflow_training.closed_loop.level_calibration import Extent
+from haptoflow_training.closed_loop.measured_levels import MeasuredLevels, by_label, calibrates, measured_levels
 from haptoflow_training.commands.export import announce
-from haptoflow_training.commands.level_offsets import MeasuredLevels, by_label, calibrates, measured_levels
-from haptoflow_training.commands.minutes import SHORTEST_MINUTES, Minutes, share_out
+from haptoflow_training.commands.minutes import MINIMUM_MINUTES, Minutes, share_out
 from haptoflow_training.errors import InputError
-from haptoflow_training.evaluation.level_calibration import Extent
 from haptoflow_training.export.exporter import export_run
-from haptoflow_training.training.config import TrainingConfig, load_config
+from haptoflow_training.training.config import TrainingConfig, check_available, load_config
 from haptoflow_training.training.processes import join_processes
 from haptoflow_training.training.recordings_source import Source, open_source
 from haptoflow_training.training.run_log import write_json
@@ -30,9 +30,9 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
         help=summary,
         description=(
             "Prepares the recordings that the configuration names (once), trains the level model and the velocity "
-            "field, and writes checkpoint.pt, metrics.csv, metrics.png and run.json into --out. Run it again to go on "
-            "after an interruption: the result is the same. Paths are relative to where you stand; those in a configuration "
-            "file are relative to that file."
+            "field, and writes checkpoint.pt, metrics.csv, metrics.png and run.json into --out. Run it again to resume "
+            "after an interruption: the result is the same. Paths are relative to the current folder; those in a "
+            "configuration file are relative to that file."
         ),
         epilog=(
             "examples:\n"
@@ -51,7 +51,10 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
         default=OWN_CONFIGURATION,
         help="the run's TOML file, for example Training/configs/cluster.toml (default: Training/configs/own.toml)",
     )
-    parser.add_argument("--out", type=Path, required=True, help="folder of the run; made, or gone on with")
+    parser.add_argument(
+        "--out", type=Path, required=True,
+        help="folder of the run; created if absent, otherwise the run in it is resumed",
+    )  # fmt: skip
     parser.add_argument(
         "--store", type=Path, help="folder of the prepared recordings (default: `store` beside the run's folder)"
     )
@@ -86,13 +89,13 @@ def _minutes(text: str) -> float:
         minutes = float(text)
     except ValueError:
         minutes = math.nan
-    if not SHORTEST_MINUTES <= minutes <= 1e5:
-        raise argparse.ArgumentTypeError(f"'{text}'; expected minutes, {SHORTEST_MINUTES} at least")
+    if not MINIMUM_MINUTES <= minutes <= 1e5:
+        raise argparse.ArgumentTypeError(f"'{text}'; expected minutes, {MINIMUM_MINUTES} at least")
     return minutes
 
 
 def configuration(options: argparse.Namespace) -> TrainingConfig:
-    """The configuration file, overridden by the command line's --recordings, --labels, --minutes and --seed."""
+    """The configuration file, with the command line's --recordings, --labels, --minutes and --seed applied."""
     config = load_config(options.config)
     if options.recordings:
         data = dataclasses.replace(
@@ -111,7 +114,7 @@ def configuration(options: argparse.Namespace) -> TrainingConfig:
 
 
 def report_left_out(source: Source) -> None:
-    """Say which recordings are not learnt from, and why."""
+    """Print which recordings are not used for training, and why."""
     for skipped in source.store.skipped:
         print(f"skipped: {skipped}", file=sys.stderr)
     for line in source.left_out:
@@ -125,6 +128,7 @@ def report_left_out(source: Source) -> None:
 def run(options: argparse.Namespace) -> int:
     begun = time.monotonic()
     config = configuration(options)
+    check_available(config)
     store_folder = options.store or options.out.parent / "store"
     with join_processes() as processes:
         if processes.is_first:
@@ -132,7 +136,7 @@ def run(options: argparse.Namespace) -> int:
         processes.wait()
         source = open_source(config.data, store_folder, options.workers)
         if options.minutes is not None and processes.count > 1:
-            raise InputError("--minutes is of one process; leave it out under torchrun")
+            raise InputError("--minutes works with one process only; leave it out under torchrun")
         trainer = Trainer(
             config, source.store, options.out, processes, options.base, source.wave_vectors, options.start
         )

@@ -1,4 +1,4 @@
-"""haptoflow-training train-tiers: a whole model file, several tiers over one embedding and level model."""
+"""haptoflow-training train-tiers: train a whole model file, several tiers over one embedding and level model."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from pathlib import Path
 
 from tqdm import tqdm
 
+from haptoflow_training.closed_loop.measured_levels import MeasuredLevels, by_label, measured_offsets_db
 from haptoflow_training.commands.export import announce
-from haptoflow_training.commands.level_offsets import MeasuredLevels, by_label, measured_offsets_db
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.exporter import export_run
 from haptoflow_training.training.config import load_config
@@ -27,8 +27,8 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
         help=summary,
         description=(
             "Trains what the tiers share (embedding, level model), then the tiers, --lanes of them at a time, each on "
-            "one core, takes back what the default tier makes too loud or too quiet of each label, and writes one model "
-            "file. Run it again to go on after an interruption."
+            "one core, corrects the level error of the default tier for each label, and writes one model "
+            "file. Run it again to resume after an interruption."
         ),
         epilog=(
             "example:\n"
@@ -41,7 +41,9 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
         "--configs", type=Path, default=CONFIGURATIONS, metavar="DIR",
         help="folder with base.toml and one TOML file for each tier (default: %(default)s)",
     )  # fmt: skip
-    parser.add_argument("--out", type=Path, required=True, help="folder of the runs; made, or gone on with")
+    parser.add_argument(
+        "--out", type=Path, required=True, help="folder of the runs; created if absent, otherwise its runs are resumed"
+    )
     parser.add_argument("--lanes", type=int, default=os.cpu_count() or 1, help="trainings at a time (default: cores)")
     parser.add_argument("--workers", type=int, default=2, help="processes that prepare recordings (default: 2)")
     parser.add_argument("--export", type=Path, metavar="FILE", help="write the .haptoflow model file here at the end")
@@ -59,7 +61,7 @@ def run(options: argparse.Namespace) -> int:
     source = open_source(config.data, store, options.workers)
     base = options.out / "base"
     _train_all([base_file], options.out, 1, [])
-    # The longest first, so that the short ones fill the lane beside it.
+    # The longest training first, so that the short ones fill the lane beside it.
     tier_files.sort(key=lambda path: -sum(planned_steps(load_config(path))) * load_config(path).model.width)
     _train_all(tier_files, options.out, options.lanes, ["--base", str(base)])
     if options.export is None:
@@ -84,15 +86,16 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _train_all(files: list[Path], out: Path, lanes: int, more: list[str]) -> None:
-    """Train each file in a process of its own, `lanes` at a time; InputError names the log of one that failed."""
+    """Train each file in a process of its own, `lanes` at a time. InputError names the log of a training that
+    failed."""
     total = sum(sum(planned_steps(load_config(path))) for path in files)
     with tqdm(total=total, unit="step", desc=", ".join(path.stem for path in files)) as bar:
 
-        def watch(finished: int) -> None:
+        def show_progress(finished: int) -> None:
             bar.n = sum(last_step(out / path.stem / "metrics.csv") for path in files)
             bar.refresh()
 
-        run_jobs([_job(path, out, more) for path in files], lanes, watch)
+        run_jobs([_job(path, out, more) for path in files], lanes, show_progress)
 
 
 def _job(path: Path, out: Path, more: list[str]) -> Job:

@@ -1,4 +1,4 @@
-"""Exponents per label for speeds and forces beyond the recordings, fitted to the recordings themselves."""
+"""Level and frequency exponents of each label for speeds and forces beyond the recordings, fitted to the recordings."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import numpy as np
 from haptoflow_training.export.recorded_windows import draw_windows
 from haptoflow_training.training.batches import Store
 from haptoflow_training.training.held_out import HeldOut
+from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 _SLIDING_MPS = 0.008
 
@@ -34,9 +35,9 @@ def _centroid_hz(waves: np.ndarray, rate_hz: float) -> np.ndarray:
 def fit_exponents(
     store: Store, label_index: int, *, periodic: bool, seed: int, held_out: HeldOut
 ) -> LabelExponents:
-    """Least squares of log RMS over log speed and log force in the upper half of the recorded speeds, where the
-    law will be continued; the frequency exponent of a periodic label is 1 (v / wavelength), that of another is
-    the slope of the log spectral centroid."""
+    """Least squares of log RMS over log speed and log force in the upper half of the recorded speeds, because the
+    law is extrapolated from there. The frequency exponent of a periodic label is 1 (frequency = v / wavelength); for
+    other labels it is the slope of the log spectral centroid."""
     windows = draw_windows(store, label_index, samples=400, count=3000, seed=seed, held_out=held_out)
     sliding = (windows.speed_mps > _SLIDING_MPS) & (windows.unsteadiness < 0.35) & (windows.motion[:, 2] > 0.05)
     if sliding.sum() >= 40:
@@ -50,7 +51,7 @@ def fit_exponents(
     if periodic:
         frequency = 1.0
     else:
-        centroid, *_ = np.linalg.lstsq(design, np.log(_centroid_hz(windows.waves[sliding], 2000.0)), rcond=None)
+        centroid, *_ = np.linalg.lstsq(design, np.log(_centroid_hz(windows.waves[sliding], SAMPLE_RATE_HZ)), rcond=None)
         frequency = float(np.clip(centroid[1], 0.0, 1.0))
     return LabelExponents(
         level_speed=float(np.clip(level[1], 0.0, 2.0)),

@@ -1,4 +1,4 @@
-"""A trained run becomes a `.haptoflow` file: header, embeddings, seed bank, graphs."""
+"""Writes a trained run as a `.haptoflow` file: header, embeddings, seed bank, graphs."""
 
 from __future__ import annotations
 
@@ -24,20 +24,20 @@ from haptoflow_training.export.seed_bank import SEED_SAMPLES, build_seed_bank
 from haptoflow_training.export.trained_tier import TrainedTier, load_tiers
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE
 from haptoflow_training.models.level_model import LevelModel, shift_level
-from haptoflow_training.models.representation import CodecRepresentation
 from haptoflow_training.models.velocity_field import parameter_count
 from haptoflow_training.recordings.landing import Landing
-from haptoflow_training.training.batches import SEGMENT_SAMPLES, SegmentBatches, Store
+from haptoflow_training.training.batches import SegmentBatches, Store
 from haptoflow_training.training.config import TrainingConfig
 from haptoflow_training.training.held_out import HeldOut
 from haptoflow_training.training.run_log import source_commit
+from haptoflow_training.waveform import SAMPLE_RATE_HZ, SEGMENT_SAMPLES
 
 _PERCENTILES = (5, 25, 50, 75, 95)
 
 
 @dataclass(frozen=True)
 class Provenance:
-    """Where the recordings come from, in words that stand in the file."""
+    """Where the recordings come from, as stated in the file."""
 
     statement: str
     recordings: str
@@ -54,7 +54,7 @@ def _range(store: Store) -> dict[str, Any]:
         ]
     )
     speed, force = np.hypot(rows[:, 0], rows[:, 1]), rows[:, 2]
-    # The last tenth of a per cent is a handful of samples: too few to have been learnt from.
+    # The last tenth of a per cent is a handful of samples, too few for the network to have learnt from.
     return {
         "speed_mps": [0.0, round(float(np.quantile(speed, 0.999)), 4)],
         "force_newtons": [0.0, round(float(np.quantile(force, 0.999)), 4)],
@@ -130,7 +130,7 @@ def _header(
             "configuration": _described(config),
             "created": provenance.created,
         },
-        "sample_rate_hz": 2000,
+        "sample_rate_hz": SAMPLE_RATE_HZ,
         "segment_samples": SEGMENT_SAMPLES,
         "normalisation": {"unit": "m/s^2", "peak_mps2": float(store.peak_mps2)},
         "range": _range(store),
@@ -147,7 +147,8 @@ def _header(
 
 
 def _described(config: TrainingConfig) -> dict[str, Any]:
-    """The configuration with the last part of each path: where somebody's recordings lie is nobody's business."""
+    """The configuration with only the last part of each path, so that the model file does not reveal folders of this
+    machine."""
     described = config.to_dict()
     data = described["data"]
     data["folders"] = [Path(folder).name for folder in data["folders"]]
@@ -158,7 +159,7 @@ def _described(config: TrainingConfig) -> dict[str, Any]:
 def _graphs(tier: TrainedTier) -> dict[str, bytes]:
     representation = tier.model.representation
     graphs = {f"{tier.name}.field": export_network(tier.model, tier.kind)}
-    if isinstance(representation, CodecRepresentation):
+    if representation.is_latent:
         with tempfile.TemporaryDirectory() as folder:
             for name in ("encoder", "decoder"):
                 path = Path(folder) / f"{name}.onnx"
@@ -167,7 +168,7 @@ def _graphs(tier: TrainedTier) -> dict[str, bytes]:
     return graphs
 
 
-def _take_back(tier: TrainedTier, offsets_db: Sequence[float]) -> None:
+def _subtract_level_error(tier: TrainedTier, offsets_db: Sequence[float]) -> None:
     if not isinstance(tier.model.level, LevelModel):
         raise InputError(f"tier {tier.name}: its level is constant, so there is no label's level to shift")
     shift = torch.tensor(offsets_db) * (-math.log(10.0) / 20.0)
@@ -187,15 +188,15 @@ def export_run(
 ) -> int:
     """Write the finished run in `folder` to `out`, and golden vectors to `parity`; returns the file's CRC-32.
 
-    Golden vectors are of the raw tiers: a latent one starts from noise that only the engine extends. further_tiers:
-    folders of runs trained with `--base folder`, each one more tier of the same file. level_offsets_db: what the level
-    gives too much of each label (evaluation/level_calibration.py), to be taken back. level_tables: by index, of labels
-    whose level has a table of its own.
+    Golden vectors cover the raw tiers only: a latent tier starts from noise of another shape, which only the engine
+    draws. further_tiers: folders of runs trained with `--base folder`, each one more tier of the same file.
+    level_offsets_db: the level error of each label (closed_loop/level_calibration.py), which is subtracted.
+    level_tables: by label index, for labels whose level has a table.
     """
     tiers = load_tiers([folder, *further_tiers])
     if level_offsets_db is not None:
         for tier in tiers:
-            _take_back(tier, level_offsets_db)
+            _subtract_level_error(tier, level_offsets_db)
     default = next(tier for tier in tiers if tier.folder == folder)
     config, model = default.config, default.model
     if [info.name for info in infos] != default.labels:

@@ -1,4 +1,4 @@
-"""What the engine wants to know of a label beyond its sound: the defaults of its surface."""
+"""What the engine needs to know about a label beyond its vibration: the defaults of its surface."""
 
 from __future__ import annotations
 
@@ -11,8 +11,9 @@ from haptoflow_training.recordings.landing import Landing
 class LabelInfo:
     """Defaults of a material: spring stiffness, kinetic friction, and the wavelength of a ruled or woven surface.
 
-    wave_vectors_per_mm: (x, y) of each family of ribs in cycles per millimetre, across the ribs. landing: the
-    vibration of a tip that lands; None leaves it out of the model file, and the engine answers by the stiffness.
+    wave_vectors_per_mm: (x, y) of each family of ribs in cycles per millimetre, perpendicular to the ribs. landing: the
+    vibration at touch-down; if None, the model file has no such entry and the engine derives the impact from the
+    stiffness.
     """
 
     name: str
@@ -25,7 +26,8 @@ class LabelInfo:
 
     @property
     def known_wave_vectors(self) -> tuple[tuple[float, float], ...]:
-        """Where only a wavelength is known, its ribs are taken to lie across the x axis of the recordings."""
+        """The wave vectors. If only a wavelength is known, the ribs are assumed to be perpendicular to the
+        recordings' x axis."""
         if self.wave_vectors_per_mm or self.wavelength_metres is None:
             return self.wave_vectors_per_mm
         return ((1e-3 / self.wavelength_metres, 0.0),)

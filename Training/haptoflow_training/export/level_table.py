@@ -1,7 +1,7 @@
-"""A label's level that no power law follows: a table over speed, for the `level` key of a label in a model file.
+"""Level tables over speed, for labels whose level follows no power law: the `level` key of a label in a model file.
 
-The level model is a power law with a bounded correction. What a recording does beyond that (a published brick rises by
-14 dB between 60 and 80 mm/s) is told by a table of at most 16 speeds; below and above it, the law goes on.
+The level model is a power law with a bounded correction. Deviations beyond that (a published brick rises by 14 dB
+between 60 and 80 mm/s) are stored in a table of at most 16 speeds; below and above the table, the law continues.
 """
 
 from __future__ import annotations
@@ -24,8 +24,8 @@ _CLOSE_ENOUGH = 0.25 * math.log(10.0) / 20.0
 
 @dataclass(frozen=True)
 class LevelTable:
-    """speeds_mps: [1 to 16], rising. log_levels: natural logarithms of the RMS in m/s^2 at force_newtons. speed_exponent:
-    of the law beyond the table's ends, which is the label's level exponent."""
+    """speeds_mps: 1 to 16 values, ascending. log_levels: natural logarithms of the RMS in m/s^2 at force_newtons.
+    speed_exponent: of the law beyond the table's ends, equal to the label's level exponent."""
 
     speeds_mps: tuple[float, ...]
     log_levels: tuple[float, ...]
@@ -34,7 +34,7 @@ class LevelTable:
     speed_exponent: float
 
     def log_level(self, speed_mps: ArrayLike, force_newtons: ArrayLike) -> _Doubles:
-        """At any speed (m/s, 0 or more) and force (N)."""
+        """The natural log level at any speed (m/s, 0 or more) and force (N)."""
         table = material_sound.LevelTable(self.speeds_mps, self.log_levels, self.force_newtons, self.force_exponent)
         return table.log_level(speed_mps, force_newtons, self.speed_exponent)
 
@@ -48,21 +48,21 @@ class LevelTable:
 
 
 def speed_bins(speeds_mps: _Doubles) -> NDArray[np.int64]:
-    """Of each speed: six bins an octave, counted from 1 m/s; neighbours differ by 12 %."""
+    """The bin of each speed: six bins an octave, counted from 1 m/s; neighbouring bins differ by 12 %."""
     bins: NDArray[np.int64] = np.floor(BINS_PER_OCTAVE * np.log2(np.maximum(speeds_mps, 1e-4)) + 0.5).astype(np.int64)
     return bins
 
 
 def bin_speed_mps(number: int) -> float:
-    """The middle of a bin."""
+    """The centre of a speed bin, in m/s."""
     return float(2.0 ** (number / BINS_PER_OCTAVE))
 
 
 def table_through(
     speeds_mps: _Doubles, log_levels: _Doubles, *, force_newtons: float, force_exponent: float, speed_exponent: float
 ) -> LevelTable:
-    """The table that follows a curve of speeds [n], rising, with the fewest of its points: within a quarter of a decibel,
-    or 16 of them."""
+    """The table through a curve at ascending speeds [n], with as few points as keep it within a quarter of a
+    decibel, at most 16."""
     place = np.log(speeds_mps + REST_SPEED_MPS)
     kept = sorted({0, len(place) - 1})
     while len(kept) < min(material_sound.MAXIMUM_LEVEL_SPEEDS, len(place)):

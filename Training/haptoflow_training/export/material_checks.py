@@ -1,4 +1,4 @@
-"""Reads JSON tables and checks every value; messages name the file, the key and what was expected."""
+"""Reads JSON tables and checks every value; messages name the file, the key and the expected value."""
 
 from __future__ import annotations
 
@@ -110,5 +110,5 @@ class Checked:
 def _is_number(value: Any, low: float, high: float) -> bool:
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         return False
-    # False for what is not a number; whole numbers of any length can be compared.
+    # Anything that is not a number fails; integers of any length can be compared.
     return low <= value <= high

@@ -1,7 +1,7 @@
 """Material files (`NAME.haptomaterial`): one material beside an unchanged model file.
 
 JSON of at most 1 MiB; Documentation~/own-materials.md, "The material file", is the specification. A material is a label
-with its embedding, so it means something only under a model of the same space.
+with its embedding, so it is valid only for models with the same embedding space.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from haptoflow_training.export.material_sound import (
     ToneTable,
 )
 from haptoflow_training.export.model_file import ModelFile
-from haptoflow_training.export.whole_file import write_whole
+from haptoflow_training.whole_file import write_whole
 
 FORMAT, VERSION = "haptoflow-material", 1
 SUFFIX = ".haptomaterial"
@@ -39,7 +39,7 @@ MAXIMUM_SEEDS = 16
 SEED_SAMPLES = 400
 EMBEDDING_SIZE = 64
 UNKNOWN_LICENCE = "unknown"
-# A label's own wave is scaled to RMS 1; rounding to few decimals leaves it within this.
+# A label's own waveform is scaled to RMS 1; rounding to few decimals leaves it within this tolerance.
 _SEED_RMS_TOLERANCE = 0.02
 
 
@@ -78,7 +78,7 @@ class MaterialSeed:
 
 @dataclass(frozen=True)
 class Material:
-    """A material as its file states it. embedding [64]; the other fields as of a label in a model file."""
+    """A material as its file states it. embedding [64]; the other fields as in a label of a model file."""
 
     space: str
     name: str
@@ -105,7 +105,7 @@ class Material:
         return self.wavelength_metres is not None
 
     def label_keys(self) -> dict[str, Any]:
-        """What a label of a model file and a material file say alike, `name` and `category` first."""
+        """The keys that a label of a model file and a material file have in common, `name` and `category` first."""
         return {
             "name": self.name,
             "category": self.category,
@@ -136,7 +136,7 @@ class Material:
 
 
 def model_space(model: ModelFile) -> str:
-    """Eight hex digits that say which networks an embedding is meant for: the CRC-32 of each tier's name and the
+    """Eight hex digits that identify the networks an embedding belongs to: the CRC-32 over each tier's name and the
     CRC-32 of its field graph, in the file's order."""
     text = "".join(
         f"{tier['name']}:{zlib.crc32(model.graphs[tier['field']]):08x};" for tier in model.header["tiers"]
@@ -145,20 +145,20 @@ def model_space(model: ModelFile) -> str:
 
 
 def encode_material(material: Material) -> str:
-    """The file's text, as it was checked; ValueError where a number is not finite."""
+    """The file's text, in the form that was checked; ValueError if a number is not finite."""
     text = json.dumps(material.to_json(), ensure_ascii=False, allow_nan=False, separators=(",", ":"))
     parse_material(text, material.name)
     return text
 
 
 def write_material(path: Path, material: Material) -> None:
-    """Write atomically. A full disk leaves the old file as it was; InputError says what stood in the way."""
+    """Write the file atomically. A full disk leaves the old file unchanged; InputError names the cause."""
     write_whole(path, encode_material(material).encode("utf-8"))
 
 
 def read_material(path: Path, space: str | None = None) -> Material:
-    """The material of a file; InputError names the file, the key and what was expected. space: that of the model under
-    which it is to sound, checked if given."""
+    """Read a material file; InputError names the file, the key and the expected value. space: the space of the model
+    that will render the material, compared if given."""
     try:
         size = path.stat().st_size
         if size > MAXIMUM_BYTES:
@@ -178,7 +178,7 @@ def read_material(path: Path, space: str | None = None) -> Material:
 
 
 def parse_material(text: str, where: str) -> Material:
-    """The material that a file's text states; `where` begins every message."""
+    """Parse the text of a material file; `where` begins every message."""
     if len(text.encode("utf-8")) > MAXIMUM_BYTES:
         raise InputError(f"{where}: is longer than {MAXIMUM_BYTES} bytes; a material file has at most that many")
     try:

@@ -1,6 +1,6 @@
-"""What a material says of its own level and tone: tables over speed, as the engine reads them.
+"""A material's own level and tone: tables over speed, as the engine reads them.
 
-Documentation~/own-materials.md, "The material file", is the specification. Everything is double precision here; the
+Documentation~/own-materials.md, "The material file", is the specification. Computed in double precision here; the
 engine may round to single.
 """
 
@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from haptoflow_training.models.conditioning import REST_FORCE_NEWTONS, REST_SPEED_MPS
+from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
-SAMPLE_RATE_HZ = 2000.0
 KERNEL_SAMPLES = 64
 RESPONSE_SAMPLES = 256
 MAXIMUM_LEVEL_SPEEDS, MAXIMUM_TONE_SPEEDS, MAXIMUM_TONE_FREQUENCIES = 16, 8, 32
@@ -29,7 +29,8 @@ _Doubles = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class LevelTable:
-    """Natural logarithm of the RMS in m/s^2, before tone, at `force_newtons` for each of the rising `speeds_mps`."""
+    """Natural logarithm of the RMS in m/s^2, before tone, at `force_newtons`, for each of the ascending
+    `speeds_mps`."""
 
     speeds_mps: tuple[float, ...]
     log_levels: tuple[float, ...]
@@ -37,7 +38,8 @@ class LevelTable:
     force_exponent: float
 
     def log_level(self, speed_mps: ArrayLike, force_newtons: ArrayLike, speed_exponent: float) -> _Doubles:
-        """At any speed (m/s, 0 or more) and force (N). speed_exponent: the label's, beyond the table's ends."""
+        """The natural log level at any speed (m/s, 0 or more) and force (N). speed_exponent: of the label, used
+        beyond the table's ends."""
         place = np.log(np.asarray(speed_mps, dtype=np.float64) + REST_SPEED_MPS)
         knots = np.log(np.asarray(self.speeds_mps) + REST_SPEED_MPS)
         beyond = place - np.clip(place, knots[0], knots[-1])
@@ -57,15 +59,16 @@ class LevelTable:
 
 @dataclass(frozen=True)
 class ToneTable:
-    """Gains in dB: `gains_db` has a row for each of the rising `speeds_mps`, and in it a value for each of the rising
-    `frequencies_hz`."""
+    """Gains in dB: `gains_db` has a row for each of the ascending `speeds_mps`, with a value for each of the
+    ascending `frequencies_hz`."""
 
     speeds_mps: tuple[float, ...]
     frequencies_hz: tuple[float, ...]
     gains_db: tuple[tuple[float, ...], ...]
 
     def gain_db(self, speed_mps: float, frequency_hz: ArrayLike) -> _Doubles:
-        """At one speed (m/s) for any frequencies (Hz): linear in log speed and in log frequency, held at the ends."""
+        """Gains at one speed (m/s) and any frequencies (Hz): linear in log speed and log frequency, constant beyond
+        the ends."""
         rows = np.asarray(self.gains_db)
         known = np.log(self.speeds_mps)
         place = float(np.clip(math.log(max(speed_mps, 1e-9)), known[0], known[-1]))
@@ -88,10 +91,11 @@ class ToneTable:
 
 
 def minimum_phase(gain_db: _Doubles) -> _Doubles:
-    """The first 64 samples of the minimum-phase impulse response of 129 gains in dB from 0 to 1000 Hz.
+    """The first 64 samples of the minimum-phase impulse response whose gains in dB at 129 frequencies from 0 to 1000 Hz
+    are given.
 
-    By the real cepstrum: folding its negative times onto the positive ones leaves the magnitude and makes the phase
-    the smallest one.
+    Computed by the real cepstrum: folding its negative times onto the positive ones keeps the magnitude and makes the
+    phase minimal. (SciPy's `minimum_phase` takes a filter, not a magnitude response, before version 1.14.)
     """
     logarithm = np.asarray(gain_db, dtype=np.float64) * (math.log(10.0) / 20.0)
     cepstrum = np.fft.irfft(logarithm, RESPONSE_SAMPLES)

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.export.whole_file import write_whole
+from haptoflow_training.whole_file import write_whole
 
 MAGIC = b"HAPTFLOW"
 VERSION = 1
@@ -36,8 +36,8 @@ def _aligned(offset: int) -> int:
 
 
 def _encode_header(header: dict[str, Any], blobs: list[tuple[dict[str, Any], bytes]]) -> tuple[bytes, list[int]]:
-    """The padded header and each blob's offset: the offsets depend on the header's length and stand inside it, so
-    the length is raised until both agree."""
+    """The padded header and each blob's offset. The offsets are part of the header and depend on its length, so the
+    length is raised until both agree."""
     length = 0
     while True:
         offsets, position = [], _PREAMBLE_BYTES + length
@@ -54,7 +54,7 @@ def _encode_header(header: dict[str, Any], blobs: list[tuple[dict[str, Any], byt
 
 
 def encode_model_file(model: ModelFile) -> bytes:
-    """The file's bytes; ValueError where a tensor is not finite float32 or a header value is not JSON."""
+    """The bytes of the file; ValueError if a tensor is not finite float32 or a header value is not JSON."""
     blobs: list[tuple[dict[str, Any], bytes]] = []
     for name, tensor in model.tensors.items():
         if tensor.dtype != np.float32 or not np.isfinite(tensor).all():
@@ -79,15 +79,15 @@ def _blob_entry(name: str, kind: str, shape: list[int], content: bytes) -> dict[
 
 
 def write_model_file(path: Path, model: ModelFile) -> int:
-    """Write atomically; returns the file's CRC-32. A full disk leaves the old file as it was."""
+    """Write the file atomically and return its CRC-32. A full disk leaves the old file unchanged."""
     content = encode_model_file(model)
     write_whole(path, content)
     return zlib.crc32(content)
 
 
 def read_model_file(path: Path) -> ModelFile:
-    """Read a file that this pipeline wrote; InputError names what is damaged. (The engine's reader is the strict
-    one: it trusts no byte.)"""
+    """Read a file that this package wrote; InputError names what is damaged. Only the engine's reader validates
+    untrusted files."""
     try:
         content = path.read_bytes()
     except OSError as error:

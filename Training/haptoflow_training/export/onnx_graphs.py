@@ -9,9 +9,9 @@ import onnx
 import torch
 from torch import Tensor, nn
 
-from haptoflow_training.models.baselines import Baseline, BaselineGraph
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE
 from haptoflow_training.models.haptoflow_model import HaptoFlowModel
+from haptoflow_training.models.segment_network import SegmentNetwork, SegmentNetworkGraph
 
 OPSET = 16
 
@@ -19,8 +19,8 @@ OPSET = 16
 def _export(module: nn.Module, inputs: dict[str, Tensor], output: str) -> bytes:
     buffer = io.BytesIO()
     with warnings.catch_warnings():
-        # Tracing warns about Python integers that are constants of the architecture here, and the exporter about
-        # shapes that it does not infer; the checker below says what matters.
+        # Tracing warns about Python integers that are constants of the architecture, and the exporter about shapes that
+        # it does not infer. The checker below finds the errors that matter.
         warnings.simplefilter("ignore")
         torch.onnx.export(
             module.eval(),
@@ -34,14 +34,15 @@ def _export(module: nn.Module, inputs: dict[str, Tensor], output: str) -> bytes:
         )
     graph = onnx.load_from_string(buffer.getvalue())
     onnx.checker.check_model(graph, full_check=True)
-    # The exporter's notes on source lines would carry paths of the machine that trained.
+    # The exporter stores source locations, which would contain paths of this machine.
     for node in graph.graph.node:
         node.doc_string = ""
     return graph.SerializeToString()
 
 
 class _OneStep(nn.Module):
-    """A network taught to be whole in one step, as a graph: noise in, segment out, flow time folded to a constant."""
+    """A network trained to produce the whole segment in one step, as a graph: noise in, segment out, with the flow
+    time as a constant."""
 
     def __init__(self, model: HaptoFlowModel) -> None:
         super().__init__()
@@ -55,7 +56,7 @@ class _OneStep(nn.Module):
 
 
 class _AverageVelocity(nn.Module):
-    """The average field with its inputs in the order of the format."""
+    """The average velocity field, with its inputs in the order of the model format."""
 
     def __init__(self, field: nn.Module) -> None:
         super().__init__()
@@ -74,8 +75,8 @@ class _AverageVelocity(nn.Module):
         return self.field(noisy, time, previous, embedding, motion, rib_phase, interval)
 
 
-def _export_baseline(baseline: Baseline) -> bytes:
-    """A baseline as a direct tier's graph, with the inputs that it reads."""
+def _export_segment_network(network: SegmentNetwork) -> bytes:
+    """The graph of a direct tier, with the inputs that the network reads."""
     wave = torch.zeros(2, 1, 200)
     examples = {
         "noisy": wave,
@@ -84,17 +85,18 @@ def _export_baseline(baseline: Baseline) -> bytes:
         "motion": torch.full((2, 3), 0.1),
         "rib_phase": torch.full((2, 2), 0.25),
     }
-    return _export(BaselineGraph(baseline), {name: examples[name] for name in baseline.inputs}, "segment")
+    return _export(SegmentNetworkGraph(network), {name: examples[name] for name in network.inputs}, "segment")
 
 
 def export_network(model: HaptoFlowModel, kind: str) -> bytes:
     """The graph of a tier of `kind` "flow", "average-velocity" or "direct" (model-format.md, Graphs).
 
-    A direct tier's graph has no flow time: a field taught by the energy distance is only valid in one step from 0.
+    A direct tier's graph has no flow time: a field trained by the energy distance is valid only for one step from time
+    0.
     """
     batch, field = 2, model.field
-    if isinstance(field, Baseline):
-        return _export_baseline(field)
+    if isinstance(field, SegmentNetwork):
+        return _export_segment_network(field)
     wave = torch.zeros(batch, field.channels, field.positions)
     moment = torch.zeros(batch, 1)
     conditions = {
@@ -118,7 +120,7 @@ def export_network(model: HaptoFlowModel, kind: str) -> bytes:
 
 
 def export_level_model(level: nn.Module) -> bytes:
-    """Inputs embedding, motion; output log_level."""
+    """The graph of the level model: inputs embedding, motion; output log_level."""
     batch = 2
     return _export(
         level, {"embedding": torch.zeros(batch, EMBEDDING_SIZE), "motion": torch.full((batch, 3), 0.1)}, "log_level"

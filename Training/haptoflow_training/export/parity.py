@@ -1,4 +1,4 @@
-"""Golden vectors of the exported model: what PyTorch computes, for the C++ engine to reproduce."""
+"""Golden vectors of the exported model: PyTorch's results, which the C++ engine must reproduce."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import torch
 
 from haptoflow_training.export.trained_tier import TrainedTier
 from haptoflow_training.models.label_embedding import rib_phase
-from haptoflow_training.models.unit_scale import scaled_previous
+from haptoflow_training.models.level_model import scaled_previous
 from haptoflow_training.training.batches import SegmentBatch
 from haptoflow_training.training.run_log import write_json
 
@@ -24,7 +24,8 @@ _SOLVERS = {
 def write_parity(
     path: Path, tiers: list[TrainedTier], batch: SegmentBatch, *, model_crc32: int, seed: int
 ) -> None:
-    """Write one case per row of `batch`, tiers and solvers in turn, previous waveforms from recordings."""
+    """Write one case for each row of `batch`, cycling through tiers and solvers; the previous waveforms are recorded
+    ones."""
     generator = torch.Generator().manual_seed(seed)
     cases: list[dict[str, Any]] = []
     for row in range(batch.label.shape[0]):

@@ -1,4 +1,4 @@
-"""Windows of the training recordings with their condition: what seeds and exponents are taken from."""
+"""Windows of the training recordings with their conditions, from which seeds and exponents are computed."""
 
 from __future__ import annotations
 
@@ -14,7 +14,8 @@ from haptoflow_training.training.held_out import HeldOut, clear_spans
 @dataclass(frozen=True)
 class RecordedWindows:
     """waves [n, samples] in m/s^2; motion [n, 3]: mean vx, vy (m/s) and force (N); unsteadiness [n]: standard
-    deviation of log speed over the window. position_mm [n, 2]: the place on the surface at the window's middle sample."""
+    deviation of log speed over the window; position_mm [n, 2]: the place on the surface at the window's middle
+    sample."""
 
     waves: NDArray[np.float32]
     motion: NDArray[np.float32]
@@ -33,8 +34,8 @@ class RecordedWindows:
 def draw_windows(
     store: Store, label_index: int, *, samples: int, count: int, seed: int, held_out: HeldOut
 ) -> RecordedWindows:
-    """`count` random windows of the label's training recordings, wholly inside one recording each and outside the
-    held-out bands."""
+    """`count` random windows of the label's training recordings, each within one recording and outside the held-out
+    bands."""
     recordings = [
         recording
         for recording in store.recordings

@@ -1,7 +1,7 @@
-"""The seed bank: recorded waves from which the first previous waveform of a touch is retrieved.
+"""The seed bank: recorded waveforms from which the first previous waveform of a touch is retrieved.
 
-HaptoFlow (paper, section 4.1): when the buffer is empty, a waveform with matching conditions is retrieved from
-the training recordings.
+HaptoFlow (paper, section 4.1): when the buffer is empty, a waveform with matching conditions is retrieved from the
+training recordings.
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ _FARTHEST = 0.5
 
 @dataclass(frozen=True)
 class SeedBank:
-    """waves [N, 400], each of RMS 1; entries: label, velocity_mps, force_newtons of each row, and rib_phase of one whose
-    label has ribs: turns along each wave vector at sample 200, the first that sounds."""
+    """waves [N, 400], each of RMS 1. entries: label, velocity_mps and force_newtons of each row, and for labels with
+    ribs rib_phase: turns along each wave vector at sample 200, the first one that is played."""
 
     waves: NDArray[np.float32]
     entries: list[dict[str, object]]
@@ -43,7 +43,7 @@ def build_seed_bank(
 ) -> SeedBank:
     """For every label, the steadiest recorded window nearest to each point of a grid of speeds and forces.
 
-    Grid points that no recording outside the held-out bands comes near are left out; a label keeps at least its steadiest
+    Grid points without a nearby window outside the held-out bands are left out; each label keeps at least its steadiest
     window. wave_numbers [labels, 4]: k1x, k1y, k2x, k2y of each label's ribs in cycles per millimetre, 0 for none.
     """
     waves: list[NDArray[np.float32]] = []
@@ -73,7 +73,7 @@ def build_seed_bank(
             wave_vectors = wave_numbers[index].astype(np.float64).reshape(2, 2)
             if wave_vectors.any():
                 turns = np.mod(wave_vectors @ windows.position_mm[row].astype(np.float64), 1.0)
-                # Rounded up, a phase just below a whole turn would be outside its range.
+                # Rounding could lift a phase just below one turn to 1, which is out of range.
                 entry["rib_phase"] = [round(float(turn), 5) % 1.0 for turn in turns]
             entries.append(entry)
     return SeedBank(np.stack(waves), entries)

@@ -1,4 +1,4 @@
-"""A finished run as a tier of a model file: how its network is to be run."""
+"""A finished run as a tier of a model file, with the solver that runs its network."""
 
 from __future__ import annotations
 
@@ -9,19 +9,19 @@ import torch
 from torch import Tensor
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.models.baselines import Baseline
 from haptoflow_training.models.haptoflow_model import HaptoFlowModel
+from haptoflow_training.models.segment_network import SegmentNetwork
 from haptoflow_training.training.config import TrainingConfig
 from haptoflow_training.training.flow_matching import solve
 from haptoflow_training.training.trainer import load_trained
 
-# The order of a file's tiers: the most accurate comes last.
+# The order of tiers in a file; the most accurate comes last.
 TIER_NAMES = ("draft", "standard", "fine")
 
 
 @dataclass(frozen=True)
 class TrainedTier:
-    """kind, solver and steps as in model-format.md. folder: the run's, where it was read from one."""
+    """kind, solver and steps as in model-format.md. folder: of the run, if it was read from one."""
 
     config: TrainingConfig
     labels: list[str]
@@ -34,7 +34,7 @@ class TrainedTier:
 
     @property
     def kind(self) -> str:
-        if self.config.recipe.energy_steps or isinstance(self.model.field, Baseline):
+        if self.config.recipe.energy_steps or isinstance(self.model.field, SegmentNetwork):
             return "direct"
         return "average-velocity" if self.config.recipe.objective == "average-velocity" else "flow"
 
@@ -56,7 +56,7 @@ class TrainedTier:
         motion: Tensor,
         rib_phase: Tensor,
     ) -> Tensor:
-        """What the exported graph returns: the velocity, or the segment of a direct tier."""
+        """The output of the exported graph: the velocity, or the segment of a direct tier."""
         if self.kind == "direct":
             return self.model.one_step(noisy, previous, embedding, motion, rib_phase)
         return self.model.field(noisy, time, previous, embedding, motion, rib_phase, interval)
@@ -71,7 +71,7 @@ class TrainedTier:
         solver: str,
         steps: int,
     ) -> Tensor:
-        """A segment in unit scale [B, 1, 200] from noise, as the engine makes it."""
+        """A segment in unit scale [B, 1, 200] from noise, computed as in the engine."""
 
         def field(noisy: Tensor, time: Tensor) -> Tensor:
             interval = torch.full_like(time, 1.0 / steps)
@@ -83,7 +83,7 @@ class TrainedTier:
 
 
 def load_tiers(folders: list[Path]) -> list[TrainedTier]:
-    """The finished runs in `folders`, in the file's order; they must share labels, embedding and level."""
+    """The finished runs in `folders`, in the order of the file; they must share labels, embedding and level."""
     tiers = [TrainedTier(*load_trained(folder), folder) for folder in folders]
     first = tiers[0]
     for tier, folder in zip(tiers, folders, strict=True):

@@ -1,1 +1,1 @@
-"""A new material from seconds of recording, under a model file that stays as it is."""
+"""Fits a new material to seconds of recording; the model file stays unchanged."""

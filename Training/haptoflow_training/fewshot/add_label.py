@@ -1,4 +1,4 @@
-"""A material as one more label of a model file: everything that was there stays as it was."""
+"""Adds a material to a model file as one more label; everything else in the file stays unchanged."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from haptoflow_training.export.model_file import ModelFile
 
 
 def with_label(model: ModelFile, material: Material) -> ModelFile:
-    """The model with a further label, last: an embedding row, seeds and a header entry. InputError where the material
-    is of another space, or a label has its name."""
+    """The model with a further label at the end: an embedding row, seeds and a header entry. InputError if the
+    material is of another space or a label has its name."""
     if material.space != model_space(model):
         raise InputError(
             f"material '{material.name}' was learnt for another model (space {material.space}, the model's is "

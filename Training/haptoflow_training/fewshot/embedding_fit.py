@@ -1,7 +1,8 @@
-"""The embedding of a material by gradient through a frozen tier: the energy distance between recording and own output.
+"""Fits the embedding of a material by gradient descent through a frozen tier, on the energy distance between the
+recording and the tier's output.
 
-Half of every batch follows recorded pasts, half lives on the network's own output and walks on along the recording, so
-that what is fitted is what will be heard in closed loop.
+Half of every batch follows recorded previous waveforms. The other half follows the network's own output hop by hop
+along the recording, so that the fit covers what is rendered in closed loop.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from numpy.typing import NDArray
 from torch import Tensor
 
 from haptoflow_training.fewshot.label_prior import LabelPrior
-from haptoflow_training.fewshot.level_law import SLOWEST_MPS, LevelLaw
+from haptoflow_training.fewshot.level_law import MINIMUM_SPEED_MPS, LevelLaw
 from haptoflow_training.fewshot.stroke_recording import StrokeRecording
 from haptoflow_training.models.file_model import FileModel, FileTier
 from haptoflow_training.models.label_embedding import WAVE_NUMBERS, WAVE_VECTORS
@@ -30,22 +31,22 @@ from haptoflow_training.training.energy_distance import (
     spectra,
     spectral_distance,
 )
+from haptoflow_training.waveform import SEGMENT_SAMPLES
 
-SEGMENT_SAMPLES = 200
 HOP_SAMPLES = 28
 _PREVIOUS_LIMIT = 16.0
 _EMPTY_PAST_SHARE = 0.05
 _LINE_WEIGHT = 2.0
-# Slower, sensors and rest are heard more than the surface; less steady, what comes next cannot be known.
-_SLOWEST_MPS, _UNSTEADIEST = 0.01, 0.8
+# Below this speed, sensor noise outweighs the texture; above this unsteadiness, the next samples are unpredictable.
+_MINIMUM_SPEED_MPS, _MAXIMUM_UNSTEADINESS = 0.01, 0.8
 _TRIED_LABELS, _TRIED_OFFSETS, _PLACED_RECORDINGS = 4, 8, 8
 
 
 @dataclass(frozen=True)
 class EmbeddingFit:
-    """embedding [64]; turns: the rib phase [n, 2] of each recording's samples as the networks count it, whose labels'
-    profiles have beginnings of their own; nearest: index of the label that it started from; start_loss and loss: on the
-    same segments."""
+    """embedding [64]; turns: rib phase [n, 2] of each recording's samples as the networks count it (the profiles of
+    the labels begin at places of their own); nearest: index of the label that the fit started from; start_loss and
+    loss: on the same segments."""
 
     embedding: NDArray[np.float32]
     turns: tuple[NDArray[np.float32], ...]
@@ -56,7 +57,8 @@ class EmbeddingFit:
 
 @dataclass(frozen=True)
 class FitOptions:
-    """steps: of the optimiser; rows: segments a step, each drawn twice; pull: weight of the labels' spread."""
+    """steps: of the optimiser; rows: segments a step, each drawn twice; pull: weight of the prior that the labels
+    give."""
 
     steps: int = 80
     rows: int = 24
@@ -65,7 +67,7 @@ class FitOptions:
 
 
 class _Corpus:
-    """The recordings end to end, in unit scale: each sample divided by the level of its own moment."""
+    """The recordings end to end in unit scale: each sample divided by the level at its time."""
 
     def __init__(
         self, recordings: Sequence[StrokeRecording], level: LevelLaw, wave_numbers: NDArray[np.float32], seed: int
@@ -73,7 +75,7 @@ class _Corpus:
         long_enough = [each for each in recordings if len(each) > 2 * SEGMENT_SAMPLES]
         wave = np.concatenate([each.wave_mps2 for each in long_enough])
         self.motion = torch.from_numpy(np.concatenate([each.motion for each in long_enough]))
-        # The level is smooth: at 100 Hz it is known everywhere.
+        # The level changes slowly, so it is computed at 100 Hz and interpolated.
         knots = np.append(np.arange(0, len(wave), 20), len(wave) - 1)
         log_level = np.interp(np.arange(len(wave)), knots, level.log_level(self.motion.numpy()[knots]))
         self.log_level = torch.from_numpy(log_level.astype(np.float32))
@@ -91,12 +93,12 @@ class _Corpus:
         moved = np.log(speed + 0.002)
         unsteadiness = np.abs(moved[starts + SEGMENT_SAMPLES - 1] - moved[starts])
         speed = speed[starts]
-        moving = (speed > _SLOWEST_MPS) & (unsteadiness < _UNSTEADIEST)
+        moving = (speed > _MINIMUM_SPEED_MPS) & (unsteadiness < _MAXIMUM_UNSTEADINESS)
         if moving.sum() < SEGMENT_SAMPLES:
-            moving = speed > SLOWEST_MPS
+            moving = speed > MINIMUM_SPEED_MPS
         self.starts, speed = (starts[moving], speed[moving]) if moving.any() else (starts, speed)
         self._limits = np.sort(ends)
-        # Evenly over classes of log speed, so that where hands linger counts no more than elsewhere.
+        # Classes of log speed are drawn equally often, so that speeds that are recorded often do not dominate.
         classes = np.floor(2.0 * np.log(speed + 1e-4)).astype(int)
         counts = {each: int((classes == each).sum()) for each in np.unique(classes)}
         share = np.array([1.0 / np.sqrt(counts[each]) for each in classes])
@@ -107,7 +109,7 @@ class _Corpus:
         return self._rng.choice(self.starts, size=count, p=self._share)
 
     def fits(self, starts: NDArray[np.int64]) -> NDArray[np.bool_]:
-        """Whether a segment at each start lies in one recording with the segment before it."""
+        """For each start, whether the segment and the segment before it lie in one recording."""
         end = np.searchsorted(self._limits, starts - 1, side="right")
         return starts + SEGMENT_SAMPLES <= self._limits[np.minimum(end, len(self._limits) - 1)]
 
@@ -115,16 +117,16 @@ class _Corpus:
         index = torch.from_numpy(starts)[:, None] + torch.arange(-before, after)[None, :]
         return values[index]
 
-    def told(self, starts: NDArray[np.int64]) -> Tensor:
-        """[B, 3]: the mean motion of the hop before each start, which is all that a tracker can know."""
+    def known_motion(self, starts: NDArray[np.int64]) -> Tensor:
+        """[B, 3]: the mean motion of the hop before each start, which is all that a tracker knows."""
         return self.stretch(self.motion, starts, HOP_SAMPLES, 0).mean(dim=1)
 
 
 def _aligned_turns(
     recordings: Sequence[StrokeRecording], unit: NDArray[np.float32], wave_numbers: NDArray[np.float32]
 ) -> NDArray[np.float32]:
-    """[n, 2]: rib phase of every sample in turns. Where a recording began on the surface nobody knows: each is shifted
-    so that the fundamental of its ribs begins about as in all others."""
+    """[n, 2]: rib phase of every sample in turns. The starting place of a recording on the surface is unknown, so
+    each is shifted until the fundamental of its ribs has about the same phase as in all others."""
     vectors = np.asarray(wave_numbers, dtype=np.float64).reshape(WAVE_VECTORS, 2)
     found, begin = [], 0
     for recording in recordings:
@@ -139,7 +141,7 @@ def _aligned_turns(
 
 
 class _Chains:
-    """Rows that live on the network's own output, hop by hop along the recording; past in m/s^2."""
+    """Rows that continue the network's own output, hop by hop along the recording; past in m/s^2."""
 
     def __init__(self, corpus: _Corpus, rows: int) -> None:
         self._corpus = corpus
@@ -157,7 +159,7 @@ class _Chains:
 
 
 class EmbeddingFitter:
-    """Fits the 60 learnt numbers of one material; the four wave numbers are given."""
+    """Fits the 60 learnt numbers of one material's embedding; the four wave numbers are given."""
 
     def __init__(
         self,
@@ -173,7 +175,7 @@ class EmbeddingFitter:
         weights: Sequence[Tensor] = (),
         weights_learning_rate: float = 5e-4,
     ) -> None:
-        """weights: of a trainable tier, to be moved along with the embedding."""
+        """weights: of a trainable tier, fitted together with the embedding."""
         self._weights, self._weights_learning_rate = list(weights), weights_learning_rate
         self._labels = model.label_embeddings[:, :-WAVE_NUMBERS]
         self._tiers, self._options = tiers, options
@@ -191,7 +193,7 @@ class EmbeddingFitter:
         options, corpus = self._options, self._corpus
         nearest, found_offset, start_loss = self._nearest()
         learnt = self._labels[nearest].clone().requires_grad_()
-        # Where each recording began on the surface is found along with the embedding.
+        # The starting place of each recording on the surface is fitted together with the embedding.
         offset = found_offset.repeat(len(corpus.lengths), 1).requires_grad_()
         groups = [{"params": [learnt, offset], "lr": options.learning_rate}]
         if self._weights:
@@ -216,7 +218,7 @@ class EmbeddingFitter:
             torch.nn.utils.clip_grad_norm_([learnt, *self._weights], 2.0)
             optimiser.step()
             if share > 0.5:
-                # The mean of the second half: single steps are noisy.
+                # Average over the second half of the steps, because single steps are noisy.
                 kept += 1.0
                 average += (learnt.detach() - average) / kept
             advance()
@@ -233,17 +235,18 @@ class EmbeddingFitter:
         )
 
     def _distance(self, learnt: Tensor) -> Tensor:
-        """Squared, in standard deviations along the labels' axes, and in the smallest of them off these."""
+        """Squared distance from the labels: in standard deviations along their principal axes, and in units of the
+        smallest one in all other directions."""
         offset = learnt - self._mean
         along = self._axes @ offset
         rest = offset - self._axes.t() @ along
         if not len(self._spreads):
-            # Of one label alone nobody knows a spread.
+            # A single label has no spread.
             return rest.square().sum()
         return (along / self._spreads).square().sum() + (rest / self._spreads[-1]).square().sum()
 
     def _nearest(self) -> tuple[int, Tensor, float]:
-        """The label with the smallest loss and, of a ruled surface, the beginning of its profile that fits best."""
+        """The label with the smallest loss and, for a ruled surface, the phase offset of its profile that fits best."""
         start = torch.zeros(WAVE_VECTORS)
         losses = [self._held_loss(label, start) for label in self._labels]
         order = np.argsort(losses)[: _TRIED_LABELS if self._families else 1]
@@ -262,7 +265,8 @@ class EmbeddingFitter:
 
     @torch.no_grad()
     def _place(self, learnt: Tensor, offset: Tensor) -> None:
-        """Each recording's beginning on the surface, by trying: a gradient goes no further than half a rib."""
+        """The starting place of each recording on the surface, by trial: a gradient finds an offset only within half
+        a rib."""
         for index in range(min(len(offset), _PLACED_RECORDINGS)):
             for family in self._families:
                 tried = []
@@ -274,7 +278,7 @@ class EmbeddingFitter:
 
     @torch.no_grad()
     def _held_loss(self, learnt: Tensor, offset: Tensor, recording: int | None = None) -> float:
-        """On segments and noise that are the same for every embedding; of one recording, if it is given."""
+        """The loss on segments and noise that are the same for every embedding; of one recording if it is given."""
         rng = np.random.default_rng(5)
         starts = self._corpus.starts
         if recording is not None:
@@ -290,10 +294,10 @@ class EmbeddingFitter:
         self, tier: FileTier, learnt: Tensor, offset: Tensor, starts: NDArray[np.int64], chain: _Chains | None
     ) -> Tensor:
         corpus, rows = self._corpus, len(starts)
-        motion = corpus.told(starts)
+        motion = corpus.known_motion(starts)
         embedding = torch.cat([learnt, self._wave_numbers]).expand(rows, -1)
         begun = torch.from_numpy(starts)
-        # One offset for all, or one for each recording.
+        # One offset for all recordings, or one for each.
         phase = corpus.turns[begun] + (offset if offset.dim() == 1 else offset[corpus.owner[begun]])
         segment = corpus.stretch(corpus.unit, starts, 0, SEGMENT_SAMPLES)
         log_level = corpus.log_level[torch.from_numpy(starts)].unsqueeze(1)
@@ -313,14 +317,14 @@ class EmbeddingFitter:
             with torch.no_grad():
                 chain.advance(drawn[rows - own : rows] * torch.exp(log_level[-own:]))
         first, second = drawn.chunk(2)
-        heard = [spectra(recorded, segment), *halves_of(spectra(torch.cat([past, past]), drawn))]
+        all_spectra = [spectra(recorded, segment), *halves_of(spectra(torch.cat([past, past]), drawn))]
         own_shapes = [part.chunk(2) for part in envelopes(torch.cat([past, past]), drawn)]
         shapes = [envelopes(recorded, segment), *zip(*own_shapes, strict=True)]
-        loss = energy_score(heard[0], (heard[1], heard[2]), spectral_distance)
+        loss = energy_score(all_spectra[0], (all_spectra[1], all_spectra[2]), spectral_distance)
         loss = loss + energy_score(shapes[0], (list(shapes[1]), list(shapes[2])), envelope_distance)
         followed = energy_score(segment, (first, second), sample_distance)
         if own:
-            # Rows that follow a past of their own have no samples to agree in.
+            # Rows that continue their own past have no recorded samples to agree with.
             followed = torch.cat([followed[:-own], torch.zeros(own)])
         if self._comb is not None:
             partials, _ = self._comb.profile(embedding, motion, phase, torch.stack([segment, first, second], dim=1))

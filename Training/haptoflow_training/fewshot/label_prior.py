@@ -1,4 +1,4 @@
-"""What is known of a material before its recording is heard: that it is a material like the labels of the model."""
+"""The prior for a material: it resembles the labels of the model."""
 
 from __future__ import annotations
 
@@ -10,16 +10,17 @@ from numpy.typing import NDArray
 from haptoflow_training.export.model_file import ModelFile
 from haptoflow_training.models.label_embedding import WAVE_NUMBERS
 
-_FEWEST_LABELS = 4
-# Of a model with few labels nothing is known of the spread of exponents: these are of the published textures.
+_MINIMUM_LABELS = 4
+# With few labels the spread of the exponents is unknown; these values are those of the published textures.
 _FORCE_EXPONENT, _SPEED_EXPONENT = (0.25, 0.2), (0.95, 0.25)
-_LEAST_SPREAD = 0.1
+_MINIMUM_SPREAD = 0.1
 
 
 @dataclass(frozen=True)
 class LabelPrior:
-    """embedding_mean [n]; axes [k, n]: orthonormal principal axes of the labels' learnt numbers; spreads [k]: standard
-    deviations along them, falling. force_exponent and speed_exponent of the level: mean and standard deviation."""
+    """embedding_mean [n]; axes [k, n]: orthonormal principal axes of the labels' learnt numbers; spreads [k]:
+    standard deviations along them, descending. force_exponent and speed_exponent of the level: mean and standard
+    deviation."""
 
     embedding_mean: NDArray[np.float64]
     axes: NDArray[np.float64]
@@ -39,9 +40,9 @@ class LabelPrior:
 
         def spread_of(key: str, known: tuple[float, float]) -> tuple[float, float]:
             values = [label["level_exponents"][key] for label in labels]
-            if len(values) < _FEWEST_LABELS:
+            if len(values) < _MINIMUM_LABELS:
                 return known
-            return float(np.mean(values)), max(_LEAST_SPREAD, float(np.std(values)))
+            return float(np.mean(values)), max(_MINIMUM_SPREAD, float(np.std(values)))
 
         return cls(
             mean,

@@ -1,8 +1,7 @@
-"""The level of a material from its recording: a table over speed that follows what was recorded, a force exponent.
+"""Fits the level of a material to its recording: a table over speed and a force exponent.
 
-Penalised least squares of the log level, solved as a generalised linear model of the mean square (Gamma with
-logarithmic link): so the table meets the power that was recorded, and not the mean of its logarithm, which blows pull
-apart.
+A penalised generalised linear model of the mean square (Gamma distribution, logarithmic link). Unlike least squares of
+the log level, it matches the recorded power even where single impacts make the logarithms uneven.
 """
 
 from __future__ import annotations
@@ -22,9 +21,10 @@ from haptoflow_training.models.level_model import LEVEL_FLOOR_MPS2
 
 _Doubles = NDArray[np.float64]
 
-SLOWEST_MPS = 0.004
+MINIMUM_SPEED_MPS = 0.004
 _KNOTS_PER_E_FOLD = 2.2
-# Of a tenth of a second's log level about the law, and of the law's slope between two knots about a straight one.
+# Standard deviations: of the log level of a tenth of a second about the law, and of the change of slope between two
+# knots.
 _WINDOW_SPREAD, _BEND_SPREAD = 0.2, 0.35
 _ROUNDS = 25
 
@@ -41,12 +41,12 @@ class LevelLaw:
         return self.table.force_exponent
 
     def log_level(self, motion: NDArray[np.floating]) -> _Doubles:
-        """Of motion [..., 3]."""
+        """The natural log level for motion [..., 3]."""
         speed = np.hypot(motion[..., 0], motion[..., 1])
         return self.table.log_level(speed, motion[..., 2], self.speed_exponent)
 
     def shifted(self, speeds_mps: _Doubles, shift: _Doubles) -> LevelLaw:
-        """With `shift` [n], given at rising speeds, added to its log levels."""
+        """The law with `shift` [n], given at ascending speeds, added to its log levels."""
         places = np.log(np.asarray(self.table.speeds_mps) + REST_SPEED_MPS)
         added = np.interp(places, np.log(speeds_mps + REST_SPEED_MPS), shift)
         levels = tuple(round(float(value), 4) for value in np.asarray(self.table.log_levels) + added)
@@ -55,14 +55,15 @@ class LevelLaw:
 
 
 def fit_level(windows: Windows, prior: LabelPrior) -> LevelLaw:
-    """From windows of about 100 ms, half overlapped. InputError where no window moves."""
+    """Fit the law to windows of about 100 ms that overlap by half. InputError if no window moves."""
     speed, force = windows.speed_mps.astype(np.float64), windows.force_newtons.astype(np.float64)
-    moving = (speed > SLOWEST_MPS) & (windows.unsteadiness < 0.6)
+    moving = (speed > MINIMUM_SPEED_MPS) & (windows.unsteadiness < 0.6)
     if moving.sum() < 8:
-        moving = speed > SLOWEST_MPS
+        moving = speed > MINIMUM_SPEED_MPS
     if not moving.any():
         raise InputError(
-            f"no tenth of a second of the recording moves faster than {1000.0 * SLOWEST_MPS:g} mm/s; a texture is felt "
+            f"no tenth of a second of the recording moves faster than {1000.0 * MINIMUM_SPEED_MPS:g} mm/s; a "
+            "texture is felt "
             "while the tip slides: check the unit of the speed"
         )
     power = np.square(windows.waves[moving], dtype=np.float64).mean(axis=1) + LEVEL_FLOOR_MPS2**2
@@ -73,13 +74,13 @@ def fit_level(windows: Windows, prior: LabelPrior) -> LevelLaw:
     basis = np.stack([np.interp(place, knots, row) for row in np.eye(len(knots))], axis=1)
     pressed = np.log(force / middle)
     design = np.column_stack([basis, pressed])
-    # Neighbours share half of their samples, so each counts half.
+    # Neighbouring windows share half of their samples, so each counts half.
     weight = 0.5 / _WINDOW_SPREAD**2
     penalty, target = _penalty(knots, prior)
     found = np.append(np.interp(knots, *_sorted_means(place, 0.5 * np.log(power))), prior.force_exponent[0])
     for _ in range(_ROUNDS):
         log_level = design @ found
-        # Limited, so that a blow in one window cannot throw the first rounds off.
+        # Limited, so that a single impact cannot destabilise the first iterations.
         step = np.clip(0.5 * (power * np.exp(-2.0 * log_level) - 1.0), -1.0, 2.0)
         wanted = log_level + step
         matrix = weight * design.T @ design + penalty.T @ penalty
@@ -103,15 +104,15 @@ def _knots(place: _Doubles) -> _Doubles:
 
 
 def _sorted_means(place: _Doubles, values: _Doubles) -> tuple[_Doubles, _Doubles]:
-    """A first guess of the curve: means of neighbouring values, by place."""
+    """A first guess of the curve: means of neighbouring values, by speed."""
     order = np.argsort(place)
     parts = np.array_split(order, max(1, min(8, len(order) // 4)))
     return np.array([place[part].mean() for part in parts]), np.array([values[part].mean() for part in parts])
 
 
 def _penalty(knots: _Doubles, prior: LabelPrior) -> tuple[_Doubles, _Doubles]:
-    """Rows and targets: slopes about those of the labels, changes of slope about none, the force exponent about the
-    labels'."""
+    """Rows and targets of the penalty: slopes about those of the labels, changes of slope about 0, the force
+    exponent about that of the labels."""
     rows, targets = [], []
     steps = np.diff(knots)
     for index, step in enumerate(steps):
@@ -123,7 +124,7 @@ def _penalty(knots: _Doubles, prior: LabelPrior) -> tuple[_Doubles, _Doubles]:
         row = np.zeros(len(knots) + 1)
         row[index : index + 3] += np.array([1.0, -1.0, 0.0]) / steps[index]
         row[index : index + 3] += np.array([0.0, -1.0, 1.0]) / steps[index + 1]
-        # The slope of a random walk: finer knots bend less at each.
+        # The slope follows a random walk: with finer knots it changes less at each.
         rows.append(row / (_BEND_SPREAD * math.sqrt(2.0 * steps[index])))
         targets.append(0.0)
     last = np.zeros(len(knots) + 1)
@@ -134,7 +135,8 @@ def _penalty(knots: _Doubles, prior: LabelPrior) -> tuple[_Doubles, _Doubles]:
 
 
 def _slope(place: _Doubles, log_level: _Doubles, prior: LabelPrior) -> float:
-    """Of the upper half of the recorded speeds, where the law will be continued; the labels' where little is known."""
+    """The slope in the upper half of the recorded speeds, from which the law is extrapolated; that of the labels
+    where data is scarce."""
     upper = place >= np.median(place)
     x, y = place[upper], log_level[upper]
     mean, spread = prior.speed_exponent

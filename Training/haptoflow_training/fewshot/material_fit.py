@@ -1,4 +1,4 @@
-"""From recordings of one material to the material: frame, level, embedding, tone, exponents, seeds."""
+"""Fits a material to its recordings: frame, level, embedding, tone, exponents, seeds."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from haptoflow_training.export.material_file import Material, MaterialProvenance
 from haptoflow_training.fewshot.embedding_fit import EmbeddingFit, EmbeddingFitter, FitOptions
 from haptoflow_training.fewshot.exponents import frequency_exponent
 from haptoflow_training.fewshot.label_prior import LabelPrior
-from haptoflow_training.fewshot.level_law import SLOWEST_MPS, LevelLaw, fit_level
+from haptoflow_training.fewshot.level_law import MINIMUM_SPEED_MPS, LevelLaw, fit_level
 from haptoflow_training.fewshot.seeds import choose_seeds
 from haptoflow_training.fewshot.sound_fit import (
     LEVEL_HOP_SAMPLES,
@@ -30,22 +30,24 @@ from haptoflow_training.fewshot.voice import Voice
 from haptoflow_training.models.file_model import FileModel, FileTier
 from haptoflow_training.preprocessing.wave_vectors import estimate_wave_vectors
 from haptoflow_training.recordings.material_recording import MaterialRecording
+from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
-# Lines of ribs move with the speed, a tone does not: it may only say the broad of it.
+# The partials of ribs move with the speed, but a tone does not, so a ruled material's tone may only shape the broad
+# spectrum.
 RULED_TONE = ToneOptions(size=0.5, step=0.15, bend=0.1, speed_step=0.12)
-LEAST_SECONDS = 2.0
+MINIMUM_SECONDS = 2.0
 RECOMMENDED_SECONDS = 10.0
 _LONG_ENOUGH_SAMPLES = 1000
 _CHUNKS = 24
-# A tier that is further off by this does not share the material well.
+# A tier whose spectra are further off than the default tier's by this much is reported.
 TIER_TOLERANCE_DB = 0.3
 
 
 @dataclass(frozen=True)
 class FittedMaterial:
-    """frame: how the material lies to its recording. plain: the voice without tone. nearest: index of the label it
-    began from. distances_db: of the spectra of recording and closed-loop output in narrow bands, by tier, on the
-    recording."""
+    """frame: the material's orientation in its recording. plain: the voice without tone. nearest: index of the label
+    the fit began from. distances_db: by tier, the distance in narrow bands between the spectra of the recording and
+    of closed-loop output."""
 
     voice: Voice
     plain: Voice
@@ -59,7 +61,7 @@ class FittedMaterial:
 
     @property
     def far_tiers(self) -> list[str]:
-        """Tiers that are further off than the first, for which the tone was fitted."""
+        """Tiers with a larger distance than the first tier, for which the tone was fitted."""
         first, *others = self.distances_db
         return [name for name in others if self.distances_db[name] > self.distances_db[first] + TIER_TOLERANCE_DB]
 
@@ -67,15 +69,16 @@ class FittedMaterial:
 def prepared(
     recordings: Sequence[MaterialRecording], wave_vectors_per_mm: Sequence[tuple[float, float]] | None
 ) -> tuple[Frame, tuple[StrokeRecording, ...]]:
-    """The material's frame and its recordings in it. wave_vectors_per_mm: None estimates them."""
+    """The material's frame and its recordings in that frame. wave_vectors_per_mm: None estimates them."""
     vectors = estimate_wave_vectors(recordings) if wave_vectors_per_mm is None else tuple(wave_vectors_per_mm)
     frame = Frame.of(vectors)
     usable = [each for each in recordings if len(each.vibration_mps2) >= _LONG_ENOUGH_SAMPLES]
     seconds = sum(len(each.vibration_mps2) for each in usable) / 2000.0
-    if seconds < LEAST_SECONDS:
+    if seconds < MINIMUM_SECONDS:
         raise InputError(
-            f"{seconds:.1f} s of recording are left in stretches of {_LONG_ENOUGH_SAMPLES / 2000.0:g} s or more; a "
-            f"material needs {LEAST_SECONDS:g} s at least, {RECOMMENDED_SECONDS:g} s are recommended"
+            f"{seconds:.1f} s of recording are left in stretches of {_LONG_ENOUGH_SAMPLES / SAMPLE_RATE_HZ:g} s "
+            "or more; a "
+            f"material needs {MINIMUM_SECONDS:g} s at least, {RECOMMENDED_SECONDS:g} s are recommended"
         )
     turned = tuple(StrokeRecording.of(each, frame) for each in usable)
     return frame, turned
@@ -93,8 +96,8 @@ def fit_material(
     compare_tiers: bool = True,
     advance: Callable[[], None] = lambda: None,
 ) -> FittedMaterial:
-    """advance is called once for each of ``steps_of(model, options)` times. tier: the default one; a trainable one
-    moves its weights, too, with weights_learning_rate."""
+    """Fit a material. advance is called `steps_of(model, options)` times. tier: the default one; a trainable tier's
+    weights are fitted too, with weights_learning_rate."""
     frame, strokes = prepared(recordings, wave_vectors_per_mm)
     prior = LabelPrior.of(model.file)
     level = fit_level(windows_of(strokes, LEVEL_WINDOW_SAMPLES, LEVEL_HOP_SAMPLES), prior)
@@ -136,12 +139,12 @@ def as_material(
     description: str,
     provenance: MaterialProvenance,
 ) -> Material:
-    """The fitted material as a file states it; what no recording of a slide tells (stiffness, friction, how it answers
-    a landing) is the nearest label's."""
+    """The fitted material as a file states it. What a recording of slides does not contain (stiffness, friction,
+    impact) is taken from the nearest label."""
     nearest = model.labels[fitted.fit.nearest]
     windows = windows_of(fitted.recordings, 400, 200)
     speed, force = windows.speed_mps, windows.force_newtons
-    moving = speed > SLOWEST_MPS
+    moving = speed > MINIMUM_SPEED_MPS
     if not moving.any():
         moving = np.ones_like(moving)
     ruled = fitted.frame.is_ruled

@@ -1,4 +1,4 @@
-"""Seeds of a material: steady stretches of its recording, as they are before tone."""
+"""Seeds of a material: steady stretches of its recording, before tone."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ import numpy as np
 
 from haptoflow_training.export.material_file import SEED_SAMPLES, MaterialSeed
 from haptoflow_training.export.material_sound import KERNEL_SAMPLES, ToneTable
-from haptoflow_training.fewshot.level_law import SLOWEST_MPS
+from haptoflow_training.fewshot.level_law import MINIMUM_SPEED_MPS
 from haptoflow_training.fewshot.stroke_recording import StrokeRecording, windows_of
 from haptoflow_training.fewshot.voice import apply_tone
 
-MOST_SEEDS = 8
+MAXIMUM_SEEDS = 8
 _HOP_SAMPLES = 100
 
 
@@ -24,7 +24,7 @@ def choose_seeds(
     *,
     ruled: bool,
 ) -> tuple[MaterialSeed, ...]:
-    """At most eight, spread evenly over the log of the recorded speeds, the steadiest of each neighbourhood. turns: rib
+    """At most eight seeds, spread evenly over the log of the recorded speeds, the steadiest near each. turns: rib
     phase [n, 2] of each recording's samples."""
     undone = tone
     if tone is not None:
@@ -37,12 +37,12 @@ def choose_seeds(
         for start in range(0, len(recording) - SEED_SAMPLES - KERNEL_SAMPLES + 1, _HOP_SAMPLES)
     ]
     speed = windows.speed_mps
-    moving = np.flatnonzero(speed > SLOWEST_MPS)
+    moving = np.flatnonzero(speed > MINIMUM_SPEED_MPS)
     if not len(moving):
         return ()
     low, high = np.quantile(speed[moving], [0.05, 0.95])
     chosen: dict[int, None] = {}
-    for wanted in np.geomspace(low, high, MOST_SEEDS):
+    for wanted in np.geomspace(low, high, MAXIMUM_SEEDS):
         distance = np.abs(np.log(speed[moving] / wanted)) + 2.0 * windows.unsteadiness[moving]
         chosen[int(moving[int(np.argmin(distance))])] = None
     seeds = []

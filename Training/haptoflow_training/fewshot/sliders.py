@@ -1,8 +1,9 @@
-"""Sliders for designers: directions in the space of embeddings, found from what the recorder knows of its labels.
+"""Sliders for designers: directions in the embedding space, found from the synthetic recorder's parameters of the
+labels.
 
 Ridge regression from standardised parameters of the recorder's materials to the labels' embeddings: each slider moves
-what its own parameter explains beside the others. A slid embedding stays inside the spread of the labels, along their
-principal axes, because nothing is known of the network beyond it.
+the embedding by what its own parameter explains beyond the others. The result stays inside the spread of the labels
+along their principal axes, because the network was trained on nothing beyond it.
 """
 
 from __future__ import annotations
@@ -20,16 +21,16 @@ from numpy.typing import NDArray
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.material_file import model_space
 from haptoflow_training.export.model_file import ModelFile
-from haptoflow_training.export.whole_file import write_whole
 from haptoflow_training.models.label_embedding import WAVE_NUMBERS
 from haptoflow_training.recordings.synthetic.materials import Material
+from haptoflow_training.whole_file import write_whole
 
 FORMAT, VERSION = "haptoflow-sliders", 1
 LEVEL_DB = 12.0
-_FEWEST_LABELS = 8
-# Of the squared standard deviation of a parameter, summed over the labels.
+_MINIMUM_LABELS = 8
+# Ridge weight, relative to the squared standard deviation of a parameter summed over the labels.
 _RIDGE = 3.0
-# A slider of 1 is this many standard deviations of its parameter among the labels.
+# A slider at 1 is this many standard deviations of its parameter among the labels.
 _REACH = 2.0
 _JITTER_WITHOUT_RIBS = 0.2
 
@@ -37,8 +38,8 @@ _Doubles = NDArray[np.float64]
 
 
 def parameters_of(material: Material) -> dict[str, float]:
-    """What the recorder's parameters say of each slider. Coarseness: size of the grains that the tip feels and how low
-    they sound; regularity: height of ribs that keep their places, less single blows."""
+    """The slider values that the recorder's parameters give. Coarseness: size and low pitch of the surface's grains;
+    regularity: height of ribs that keep their places, less single impacts."""
     ribs = sum(
         ruling.relative_height * max(0.0, 1.0 - ruling.jitter / _JITTER_WITHOUT_RIBS) for ruling in material.rulings
     )
@@ -52,8 +53,8 @@ def parameters_of(material: Material) -> dict[str, float]:
 
 @dataclass(frozen=True)
 class Sliders:
-    """directions: [60] for a slider of 1, by name; mean [60]; axes [k, 60] orthonormal; lowest and highest [k]: of the
-    labels' coordinates along the axes, about the mean."""
+    """directions: [60] for a slider at 1, by name; mean [60]; axes [k, 60] orthonormal; lowest and highest [k]: of
+    the labels' coordinates along the axes, about the mean."""
 
     space: str
     directions: Mapping[str, _Doubles]
@@ -63,7 +64,7 @@ class Sliders:
     highest: _Doubles
 
     def slid(self, base: NDArray[np.floating], values: Mapping[str, float]) -> _Doubles:
-        """The embedding [60] for a base [60] and sliders of -1 to 1 by name; the level slider changes none."""
+        """The embedding [60] for a base [60] and sliders of -1 to 1 by name; the level slider does not change it."""
         moved = np.asarray(base, dtype=np.float64).copy()
         for name, value in values.items():
             if name != "level":
@@ -93,12 +94,12 @@ class Sliders:
 
 
 def find_sliders(model: ModelFile, materials: Sequence[Material]) -> Sliders:
-    """InputError where too few of the model's labels are materials of the recorder to tell directions apart."""
+    """Find the sliders of a model. InputError if too few of its labels are materials of the recorder."""
     known = {material.label: material for material in materials}
     shared = [label for label in model.header["labels"] if label["name"] in known]
-    if len(shared) < _FEWEST_LABELS:
+    if len(shared) < _MINIMUM_LABELS:
         raise InputError(
-            f"the model shares {len(shared)} labels with the recorder's materials; sliders need {_FEWEST_LABELS} at "
+            f"the model shares {len(shared)} labels with the recorder's materials; sliders need {_MINIMUM_LABELS} at "
             "least, because they are found from the recorder's parameters"
         )
     table = model.tensors["embedding"].astype(np.float64)[:, :-WAVE_NUMBERS]
@@ -126,7 +127,7 @@ def find_sliders(model: ModelFile, materials: Sequence[Material]) -> Sliders:
 
 
 def write_sliders(path: Path, sliders: Sliders) -> None:
-    """Write atomically; InputError says what stood in the way."""
+    """Write the file atomically; InputError names the cause of a failure."""
     text = json.dumps(sliders.to_json(), allow_nan=False) + "\n"
     write_whole(path, text.encode("utf-8"))
 

@@ -1,7 +1,7 @@
-"""Tone and level of a fitted embedding, from its own closed-loop output along the recording's motion.
+"""Fits the tone and the level of an embedding from its closed-loop output along the recording's motion.
 
-Neither is heard by the network: the level is divided out of its past and the tone comes after it. So one rendering
-serves all rounds, and both are fitted to it without rendering again.
+Neither affects the network: its previous waveform is divided by the level, and the tone is applied after it. Therefore
+one rendering serves all rounds of the fit.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from haptoflow_training.export.material_sound import LevelTable, ToneTable
 from haptoflow_training.fewshot.label_prior import LabelPrior
-from haptoflow_training.fewshot.level_law import SLOWEST_MPS, LevelLaw, fit_level
+from haptoflow_training.fewshot.level_law import MINIMUM_SPEED_MPS, LevelLaw, fit_level
 from haptoflow_training.fewshot.stroke_recording import StrokeRecording, Windows, windows_of
 from haptoflow_training.fewshot.tone_fit import (
     WINDOW_SAMPLES,
@@ -31,7 +31,7 @@ SETTLING_SAMPLES = 400
 _RENDERED_CHUNKS, _DRAWS = 24, 3
 _ROUNDS = 2
 _AUDIBLE_SHARE = 1e-3
-_SLOWEST_MPS, _UNSTEADIEST, _FEWEST_WINDOWS = 0.01, 0.5, 6
+_MINIMUM_SPEED_MPS, _MAXIMUM_UNSTEADINESS, _MINIMUM_WINDOWS = 0.01, 0.5, 6
 LEVEL_WINDOW_SAMPLES, LEVEL_HOP_SAMPLES = 200, 100
 
 _Floats = NDArray[np.float32]
@@ -39,7 +39,7 @@ _Floats = NDArray[np.float32]
 
 @dataclass(frozen=True)
 class Rendered:
-    """chunks [n] of the recording and what the voice makes of each, without tone: draws [draws][n]."""
+    """chunks [n] of the recording and the voice's output for each, without tone: draws [draws][n]."""
 
     chunks: tuple[StrokeRecording, ...]
     draws: tuple[tuple[StrokeRecording, ...], ...]
@@ -87,13 +87,13 @@ def fit_sound(
     seconds: float,
     options: ToneOptions = ToneOptions(),
 ) -> tuple[ToneTable, LevelLaw]:
-    """The tone, and the level before it with which both together are as loud as recorded."""
+    """The tone, and the level before it with which both together are as loud as the recording."""
     recorded = _settled(rendered.chunks, WINDOW_SAMPLES)
     speed = recorded.speed_mps
-    # A tone is heard while the tip moves; at rest there is none to be known.
-    moving = (speed > _SLOWEST_MPS) & (recorded.unsteadiness < _UNSTEADIEST)
-    if moving.sum() < _FEWEST_WINDOWS:
-        moving = speed > SLOWEST_MPS
+    # A tone matters only while the tip moves; at rest it cannot be estimated.
+    moving = (speed > _MINIMUM_SPEED_MPS) & (recorded.unsteadiness < _MAXIMUM_UNSTEADINESS)
+    if moving.sum() < _MINIMUM_WINDOWS:
+        moving = speed > MINIMUM_SPEED_MPS
     if not moving.any():
         moving = np.ones_like(moving)
     knots = speed_knots(speed[moving], seconds)
@@ -121,23 +121,23 @@ def calibrated(
     prior: LabelPrior,
     tone: ToneTable | None,
 ) -> LevelLaw:
-    """The level with which what is rendered is as loud as what was recorded: the same law is fitted to both, and the
-    difference is taken back."""
+    """The level with which the rendering is as loud as the recording: the same law is fitted to both, and the
+    difference is subtracted."""
     made = [chunk for draw in rendered.draws for chunk in _toned(draw, tone)]
-    heard = fit_level(_settled(made, LEVEL_WINDOW_SAMPLES), prior)
+    rendered_law = fit_level(_settled(made, LEVEL_WINDOW_SAMPLES), prior)
     wanted = fit_level(_settled(rendered.chunks, LEVEL_WINDOW_SAMPLES), prior)
     whole = fit_level(windows_of(recordings, LEVEL_WINDOW_SAMPLES, LEVEL_HOP_SAMPLES), prior)
     table = whole.table
     middle = table.force_newtons
     speeds = np.array(table.speeds_mps)
-    shift = wanted.table.log_level(speeds, middle, wanted.speed_exponent) - heard.table.log_level(
-        speeds, middle, heard.speed_exponent
+    shift = wanted.table.log_level(speeds, middle, wanted.speed_exponent) - rendered_law.table.log_level(
+        speeds, middle, rendered_law.speed_exponent
     )
     shift += level.table.log_level(speeds, middle, level.speed_exponent) - whole.table.log_level(
         speeds, middle, whole.speed_exponent
     )
     moved = whole.shifted(speeds, np.clip(shift, -1.5, 1.5))
-    exponent = table.force_exponent + wanted.force_exponent - heard.force_exponent
+    exponent = table.force_exponent + wanted.force_exponent - rendered_law.force_exponent
     exponent += level.force_exponent - whole.force_exponent
     exponent = round(float(np.clip(exponent, -4.0, 4.0)), 4)
     return LevelLaw(
@@ -146,14 +146,14 @@ def calibrated(
 
 
 def band_distance_db(rendered: Rendered, tone: ToneTable | None) -> float:
-    """RMS over narrow bands and speeds of the difference in dB between what was recorded and what is made, the level
-    left out: mean spectra of a third of the recorded speeds each. Below a thousandth of the mean power nothing is
-    compared."""
+    """RMS over narrow bands and speeds of the difference in dB between the mean spectra of recording and rendering,
+    level removed; the recorded speeds are divided into thirds. Bands below a thousandth of the mean power are left
+    out."""
     recorded = _settled(rendered.chunks, WINDOW_SAMPLES)
     order = np.argsort(recorded.speed_mps)
     powers = band_powers(recorded.waves)[0]
-    heard = [_settled(_toned(draw, tone), WINDOW_SAMPLES) for draw in rendered.draws]
-    made = np.mean([band_powers(windows.waves)[0] for windows in heard], axis=0)
+    settled = [_settled(_toned(draw, tone), WINDOW_SAMPLES) for draw in rendered.draws]
+    made = np.mean([band_powers(windows.waves)[0] for windows in settled], axis=0)
     errors = []
     for part in np.array_split(order, 3):
         if len(part):
@@ -169,7 +169,7 @@ def _padded(motion: _Floats, length: int) -> _Floats:
 
 
 def _settled(chunks: Sequence[StrokeRecording], samples: int) -> Windows:
-    """Windows that begin after the loop has swung in."""
+    """Windows that begin after the closed loop has settled."""
     later = [
         StrokeRecording(
             chunk.wave_mps2[SETTLING_SAMPLES:], chunk.motion[SETTLING_SAMPLES:], chunk.position_mm[SETTLING_SAMPLES:]
@@ -192,7 +192,7 @@ def _added(tone: ToneTable, more: ToneTable) -> ToneTable:
 
 
 def _centred(tone: ToneTable) -> ToneTable:
-    """Each row about 0 dB on average, so that a level is a level and a tone a tone."""
+    """Each row with mean 0 dB, so that the tone contains no level."""
     gains = np.array(tone.gains_db)
     gains = np.clip(gains - gains.mean(axis=1, keepdims=True), -30.0, 30.0)
     return replace(tone, gains_db=tuple(tuple(round(float(value), 2) for value in row) for row in gains))

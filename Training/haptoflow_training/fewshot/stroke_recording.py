@@ -1,8 +1,8 @@
-"""A recording of one material as it is fitted to: one axis at 2 kHz with the motion and the place of every sample, in
-the material's own frame.
+"""A recording of one material in the form that is fitted: one axis at 2 kHz with the motion and place of every sample,
+in the material's own frame.
 
-A surface may lie under its recorder at any angle. A ruled material's first axis is put across its clearest ribs, as in
-the labels that the networks know; where there are no ribs, the frame is that of the recording.
+A surface may have any orientation in its recording. The first axis of a ruled material is put across its clearest ribs,
+as in the labels that the networks know; without ribs, the frame is that of the recording.
 """
 
 from __future__ import annotations
@@ -16,27 +16,27 @@ from numpy.typing import NDArray
 
 from haptoflow_training.models.label_embedding import WAVE_NUMBERS, WAVE_VECTORS
 from haptoflow_training.recordings.material_recording import MaterialRecording
+from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
-SAMPLE_RATE_HZ = 2000
 
 _Floats = NDArray[np.float32]
 
 
 @dataclass(frozen=True)
 class Frame:
-    """turn_radians: from the recording's first axis to the material's. wave_numbers [4]: k1x, k1y, k2x, k2y in cycles
-    per millimetre in the material's frame, 0 for none."""
+    """turn_radians: from the recording's first axis to the material's. wave_numbers [4]: k1x, k1y, k2x, k2y in
+    cycles per millimetre in the material's frame, 0 for none."""
 
     turn_radians: float
     wave_numbers: _Floats
 
     @classmethod
     def of(cls, wave_vectors_per_mm: Sequence[tuple[float, float]]) -> Frame:
-        """From up to two wave vectors in the recording's frame, the clearest first."""
+        """The frame of up to two wave vectors in the recording's frame, the clearest first."""
         vectors = np.array(wave_vectors_per_mm[:WAVE_VECTORS], dtype=np.float64).reshape(-1, 2)
         turn = float(np.arctan2(vectors[0, 1], vectors[0, 0])) if len(vectors) else 0.0
         turned = _turned(vectors, turn)
-        # A family of ribs has no sign: the second one's is the labels'.
+        # A wave vector and its negative describe the same ribs; the second one gets the sign that labels use.
         turned[turned[:, 1] < -1e-9] *= -1.0
         turned[np.abs(turned) < 1e-9] = 0.0
         numbers = np.zeros(WAVE_NUMBERS, dtype=np.float32)
@@ -48,11 +48,11 @@ class Frame:
         return bool(self.wave_numbers.any())
 
     def turned(self, vectors: NDArray[np.floating]) -> _Floats:
-        """[n, 2] of the recording in the material's frame."""
+        """Vectors [n, 2] of the recording in the material's frame."""
         return _turned(vectors, self.turn_radians).astype(np.float32)
 
     def turned_motion(self, motion: NDArray[np.floating]) -> _Floats:
-        """The same of motion [n, 3]: the force stays."""
+        """Motion [n, 3] in the material's frame: the force stays as it is."""
         return np.column_stack([self.turned(motion[:, :2]), motion[:, 2]]).astype(np.float32)
 
 
@@ -63,8 +63,8 @@ def _turned(vectors: NDArray[np.floating], radians: float) -> NDArray[np.float64
 
 @dataclass(frozen=True)
 class StrokeRecording:
-    """wave_mps2 [n]; motion [n, 3]: vx, vy in m/s and force in N; position_mm [n, 2], from the recording's own
-    beginning on. All finite."""
+    """wave_mps2 [n]; motion [n, 3]: vx, vy in m/s and force in N; position_mm [n, 2], relative to the recording's
+    first sample. All values are finite."""
 
     wave_mps2: _Floats
     motion: _Floats
@@ -97,7 +97,7 @@ class Windows:
 
     @property
     def speed_mps(self) -> _Floats:
-        """[n]: of the mean velocity's samples, so that a turn is not taken for rest."""
+        """[n]: mean of the samples' speeds, so that a turn does not count as rest."""
         return np.hypot(self.motion[..., 0], self.motion[..., 1]).mean(axis=1)
 
     @property
@@ -112,10 +112,6 @@ class Windows:
 
     def chosen(self, mask: NDArray[np.bool_]) -> Windows:
         return Windows(self.waves[mask], self.motion[mask], self.position_mm[mask])
-
-
-def seconds_of(recordings: Sequence[StrokeRecording]) -> float:
-    return sum(len(recording) for recording in recordings) / SAMPLE_RATE_HZ
 
 
 def windows_of(recordings: Sequence[StrokeRecording], samples: int, hop: int) -> Windows:

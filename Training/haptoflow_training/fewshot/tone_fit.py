@@ -1,8 +1,9 @@
-"""The tone of a material: what its recording has more or less of than the network's own output, by speed and frequency.
+"""Fits the tone of a material: the difference between its recording's spectrum and the network's output, by speed and
+frequency.
 
 Recording and closed-loop output of the same motion are compared window by window. Gains at the knots of a table over
-log speed and log frequency are fitted to the powers of narrow bands as a penalised generalised linear model (Gamma,
-logarithmic link): where data is thin, neighbours and 0 dB decide.
+log speed and log frequency are fitted to the powers of narrow bands as a penalised generalised linear model (Gamma
+distribution, logarithmic link). Where data is scarce, the penalty draws a gain towards its neighbours and towards 0 dB.
 """
 
 from __future__ import annotations
@@ -14,10 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from haptoflow_training.export.material_sound import TONE_LIMIT_DB, ToneTable
+from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 WINDOW_SAMPLES = 512
-_RATE_HZ = 2000.0
-_LOWEST_HZ, _HIGHEST_HZ, _FREQUENCIES = 20.0, 900.0, 24
+_MINIMUM_HZ, _MAXIMUM_HZ, _FREQUENCIES = 20.0, 900.0, 24
 _BAND_EDGES = 56
 _DECIBELS = 20.0 / math.log(10.0)
 
@@ -26,8 +27,8 @@ _Doubles = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class ToneOptions:
-    """Standard deviations, in natural logarithms of the amplitude: of a gain about none, of the step from one frequency
-    to the next and of that of the step, and of the change from one speed to the next."""
+    """Standard deviations in natural logarithms of the amplitude: of a gain (size), of the step from one frequency
+    to the next (step), of the change of that step (bend), and of the change from one speed to the next (speed_step)."""
 
     size: float = 1.0
     step: float = 0.35
@@ -36,10 +37,10 @@ class ToneOptions:
 
 
 def band_powers(waves: NDArray[np.floating]) -> tuple[_Doubles, _Doubles, _Doubles]:
-    """Of waves [n, 512]: powers [n, bands], the bands' centres in Hz and how many bins each has."""
+    """For waves [n, 512]: powers [n, bands], the centres of the bands in Hz, and the number of bins in each."""
     spectrum = np.square(np.abs(np.fft.rfft(np.asarray(waves, dtype=np.float64) * np.hanning(waves.shape[1]), axis=1)))
-    frequency = np.fft.rfftfreq(waves.shape[1], 1.0 / _RATE_HZ)
-    edges = np.geomspace(_LOWEST_HZ * 0.9, 980.0, _BAND_EDGES)
+    frequency = np.fft.rfftfreq(waves.shape[1], 1.0 / SAMPLE_RATE_HZ)
+    edges = np.geomspace(_MINIMUM_HZ * 0.9, 980.0, _BAND_EDGES)
     members = np.digitize(frequency, edges)
     powers, centres, counts = [], [], []
     for band in range(1, len(edges)):
@@ -52,7 +53,7 @@ def band_powers(waves: NDArray[np.floating]) -> tuple[_Doubles, _Doubles, _Doubl
 
 
 def speed_knots(speed_mps: NDArray[np.floating], seconds: float) -> tuple[float, ...]:
-    """One knot for a few seconds, up to six for minutes, over the recorded speeds."""
+    """Knots over the recorded speeds: one for a few seconds of recording, up to six for minutes."""
     low, high = (float(value) for value in np.quantile(speed_mps, [0.05, 0.95]))
     count = int(np.clip(round(1.0 + math.log2(max(seconds, 1.0))), 1, 6))
     if count == 1 or high < 1.2 * low:
@@ -69,16 +70,17 @@ def fit_tone(
     knots_mps: tuple[float, ...],
     options: ToneOptions = ToneOptions(),
 ) -> ToneTable:
-    """recorded and made [windows, bands]: powers of the recording and those that the output is expected to have."""
-    frequencies = np.geomspace(_LOWEST_HZ, _HIGHEST_HZ, _FREQUENCIES)
-    across = _hats(np.log(np.clip(centres_hz, _LOWEST_HZ, _HIGHEST_HZ)), np.log(frequencies))
+    """recorded and made [windows, bands]: powers of the recording, and the expected powers of the output."""
+    frequencies = np.geomspace(_MINIMUM_HZ, _MAXIMUM_HZ, _FREQUENCIES)
+    across = _hats(np.log(np.clip(centres_hz, _MINIMUM_HZ, _MAXIMUM_HZ)), np.log(frequencies))
     known = np.log(np.array(knots_mps))
     along = _hats(np.clip(np.log(np.maximum(speed_mps, 1e-6)), known[0], known[-1]), known)
     floor = 1e-4 * made.mean()
     ratio = (recorded + floor) / (made + floor)
     unknowns = len(knots_mps) * _FREQUENCIES
     penalty = _penalties(len(knots_mps), known, options)
-    # Hann windows, half overlapped, of noise: each bin tells about two thirds of what a free one would.
+    # For Hann windows of noise that overlap by half, a bin carries about two thirds of the information of an
+    # independent one.
     weight = np.broadcast_to(0.6 * counts, ratio.shape)
     gains = np.zeros(unknowns)
     for _ in range(12):
@@ -86,7 +88,7 @@ def fit_tone(
         log_gain = along @ table @ across.T
         step = np.clip(0.5 * (ratio * np.exp(-2.0 * log_gain) - 1.0), -1.0, 1.5)
         wanted = log_gain + step
-        # The design is a product of the two bases, so its normal equations are sums over windows of small products.
+        # The design is a product of two bases, so its normal equations are sums of small products over windows.
         matrix = np.zeros((unknowns, unknowns))
         side = np.zeros(unknowns)
         total = np.einsum("wa,wb,wf->abf", along, along, weight)
@@ -128,7 +130,7 @@ def _penalties(speeds: int, known: _Doubles, options: ToneOptions) -> _Doubles:
                 bend = 1.0 / options.bend
                 row((speed, frequency - 1, bend), (speed, frequency, -2.0 * bend), (speed, frequency + 1, bend))
             if speed + 1 < speeds:
-                # A step over more of log speed may be larger.
+                # A larger step of log speed allows a larger change.
                 size = 1.0 / (options.speed_step * math.sqrt(max(known[speed + 1] - known[speed], 0.05)))
                 row((speed, frequency, -size), (speed + 1, frequency, size))
     stacked = np.array(rows)

@@ -1,4 +1,4 @@
-"""How a material sounds under the model: closed loop with its own level, its tone after it."""
+"""Renders a material: the model in closed loop with the material's own level, followed by its tone."""
 
 from __future__ import annotations
 
@@ -9,12 +9,11 @@ import numpy as np
 import torch
 from numpy.typing import NDArray
 
-from haptoflow_training.evaluation.closed_loop import ClosedLoopRun, run_closed_loop
+from haptoflow_training.closed_loop.render import UPDATE_RATE_HZ, ClosedLoopRun, run_closed_loop
 from haptoflow_training.export.material_sound import ToneTable
 from haptoflow_training.fewshot.level_law import LevelLaw
 from haptoflow_training.models.file_model import FileTier
 
-UPDATE_RATE_HZ = 72.0
 _KERNELS = 24
 _PREVIOUS_LIMIT = 16.0
 
@@ -32,7 +31,7 @@ class Voice:
 
 @dataclass
 class VoiceSource:
-    """The rows of a batch, each by its own voice: what `run_closed_loop` asks for segments."""
+    """A source of segments for `run_closed_loop` in which each row of a batch has a voice of its own."""
 
     tier: FileTier
     voices: Sequence[Voice]
@@ -56,7 +55,7 @@ class VoiceSource:
 
 
 def render(tier: FileTier, voices: Sequence[Voice], motions: _Floats, seed: int) -> ClosedLoopRun:
-    """What each voice makes of motions [n, samples, 3], its tone included; from silence, at 72 Hz."""
+    """The output of each voice for motions [n, samples, 3], tone included; from silence, at 72 Hz."""
     run = run_closed_loop(
         VoiceSource(tier, voices),
         np.stack([voice.embedding for voice in voices]),
@@ -72,7 +71,7 @@ def render(tier: FileTier, voices: Sequence[Voice], motions: _Floats, seed: int)
 
 
 def apply_tone(wave: _Floats, speed_mps: NDArray[np.floating], tone: ToneTable | None) -> _Floats:
-    """wave [n] through the tone's filter at speed_mps [n]: kernels at a grid of log speeds, mixed linearly between."""
+    """wave [n] filtered by the tone at speed_mps [n]: kernels at a grid of log speeds, mixed linearly."""
     if tone is None:
         return wave
     slow, fast = tone.speeds_mps[0], tone.speeds_mps[-1]

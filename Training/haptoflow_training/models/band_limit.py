@@ -1,8 +1,8 @@
-"""The edge of the recordings' band, as a last filter of one-step networks.
+"""The upper edge of the recordings' band, as a last filter of one-step networks.
 
-Recordings fade towards 1 kHz, in the skirt of their decimation; noise does not. A network of patches cannot
-cancel the noise it starts from in the last tenth of an octave; a filter that begins with that skirt and is trained with
-the network can.
+Recordings fade towards 1 kHz, in the skirt of their decimation filter; noise does not. A network of patches cannot
+cancel the noise it starts from in the last tenth of an octave, but a filter that starts with that skirt and is trained
+with the network can.
 """
 
 from __future__ import annotations
@@ -11,21 +11,24 @@ import torch
 from scipy.signal import firwin2
 from torch import Tensor, nn
 
+from haptoflow_training.waveform import SAMPLE_RATE_HZ
+
 TAPS = 129
 _REACH = TAPS // 2
-_SAMPLE_RATE_HZ = 2000.0
-# What the step down to 2 kHz leaves of a flat spectrum: Hz and dB (preprocessing/filters.py).
+# The skirt that decimation to 2 kHz leaves of a flat spectrum: Hz and dB (preprocessing/filters.py).
 _SKIRT_HZ = (0.0, 950.0, 970.0, 985.0, 1000.0)
 _SKIRT_DB = (0.0, 0.0, -0.8, -2.7, -6.0)
 
-# Windows of a segment and taps meet in one product of matrices: half of a convolution's time in ONNX Runtime.
+# The convolution is a product of matrices over windows of the segment, in half the time of a convolution in ONNX
+# Runtime.
 _WINDOWS = 8
 
 
 class BandLimit(nn.Module):
     """previous and segment [B, 1, 200] to the filtered segment [B, 1, 200].
 
-    The past lends its newest samples on the left; on the right, which is rarely played, the segment is mirrored.
+    On the left the filter reads the newest previous samples; on the right, which is rarely played, the mirrored
+    segment.
     """
 
     mirrored: Tensor
@@ -35,11 +38,11 @@ class BandLimit(nn.Module):
     def __init__(self, samples: int = 200) -> None:
         super().__init__()
         gains = [10.0 ** (level / 20.0) for level in _SKIRT_DB]
-        taps = torch.tensor(firwin2(TAPS, _SKIRT_HZ, gains, fs=_SAMPLE_RATE_HZ), dtype=torch.float32)
+        taps = torch.tensor(firwin2(TAPS, _SKIRT_HZ, gains, fs=SAMPLE_RATE_HZ), dtype=torch.float32)
         self.weight = nn.Parameter(taps.reshape(1, 1, TAPS))
-        # A window's samples are made from its own and three windows on each side: of [16 + 3] windows of past, segment
-        # and mirrored segment those that each reads, [8, 7]; and the tap by which each of their samples counts for each
-        # that is made, [175, 25], one beyond the last tap where none does.
+        # The samples of a window are computed from the window itself and three windows on each side. Of the [16 + 3]
+        # windows of past, segment and mirrored segment: those that each window reads, [8, 7]; and the tap that weights
+        # each input sample for each output sample, [175, 25], one index beyond the last tap where none applies.
         self.samples, self.made = samples, samples // _WINDOWS
         self.sides = -(-_REACH // self.made)
         mirrored = torch.arange(samples - 1, samples - 1 - self.sides * self.made, -1)
@@ -58,7 +61,7 @@ class BandLimit(nn.Module):
         return (windows.reshape(-1, _WINDOWS, len(self.tap)) @ taps).reshape(-1, 1, self.samples)
 
     def _neighbours(self, windows: Tensor) -> Tensor:
-        """[B, 8, 7, 25]: a single node of a graph; slices have the quicker gradient."""
+        """[B, 8, 7, 25]: a single node of the graph in place of slices, and a faster gradient."""
         if torch.onnx.is_in_onnx_export():
             return windows[:, self.read]
         first = _WINDOWS - self.sides

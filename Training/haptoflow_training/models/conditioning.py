@@ -1,7 +1,7 @@
-"""What the networks are told: where in time the flow is, which material, how the stylus moves.
+"""The condition inputs of the networks: flow time, material and motion.
 
-HaptoFlow (paper, section 3.1): material embedding, motion and flow time, 64 values each, are concatenated and
-injected into every level through FiLM.
+HaptoFlow (paper, section 3.1): material embedding, motion and flow time, 64 values each, are concatenated and injected
+into every level through FiLM.
 """
 
 from __future__ import annotations
@@ -17,10 +17,10 @@ REFERENCE_SPEED_MPS = 0.06
 REST_SPEED_MPS = 0.0005
 REST_FORCE_NEWTONS = 0.02
 
-# Octaves of log speed resolved by sine and cosine features: a ruled surface's fundamental is speed over
-# wavelength, so the network has to tell speeds a per cent apart.
+# Octaves of log speed covered by sine and cosine features: a ruled surface's fundamental is speed over wavelength, so
+# the network must resolve speeds that differ by 1 %.
 FINE_LOG_SPEED_HARMONICS = (0.5, 1.0, 2.0, 4.0, 8.0)
-# A level changes slowly with speed; finer features would only learn the places that recordings happened to visit.
+# A level changes slowly with speed; finer features would only fit the speeds that happen to be recorded.
 SMOOTH_LOG_SPEED_HARMONICS = (0.5, 1.0)
 
 
@@ -48,9 +48,9 @@ class LogSpeedAndForce(nn.Module):
 
 
 class MotionFeatures(nn.Module):
-    """Physical motion [B, 3] to well-scaled features; normalisation lives here, inside the exported graph.
+    """Physical motion [B, 3] to well-scaled features; the normalisation is part of the exported graph.
 
-    Matrices stand where slices and sums of single values would be easier to read: every node of a graph costs time.
+    Written with matrices in place of slices and sums, because every node of a graph costs time.
     """
 
     harmonics: Tensor
@@ -63,12 +63,12 @@ class MotionFeatures(nn.Module):
         super().__init__()
         self.size = 2 + 4 + 2 * len(log_speed_harmonics) + 2
         self.logarithms = LogSpeedAndForce()
-        # Sine and cosine of each harmonic of log speed, a cosine being a sine that is a quarter turn ahead.
+        # Sine and cosine of each harmonic of log speed; a cosine is a sine a quarter turn ahead.
         harmonics = torch.tensor(log_speed_harmonics).repeat_interleave(2)
         self.register_buffer("harmonics", torch.stack([harmonics, 0.0 * harmonics]), persistent=False)
         phases = torch.tensor([0.0, math.pi / 2.0] * len(log_speed_harmonics)).unsqueeze(0)
         self.register_buffer("phases", phases, persistent=False)
-        # Twice an angle's cosine and sine: x^2 - y^2 = (x + y) (x - y), and 2 x y.
+        # Cosine and sine of twice an angle: x^2 - y^2 = (x + y) (x - y), and 2 x y.
         self.register_buffer("sums", torch.tensor([[1.0, 2.0], [1.0, 0.0]]), persistent=False)
         self.register_buffer("differences", torch.tensor([[1.0, 0.0], [-1.0, 1.0]]), persistent=False)
         self.register_buffer("scale", torch.tensor([[1.0, 0.2]]), persistent=False)
@@ -79,7 +79,7 @@ class MotionFeatures(nn.Module):
         speed_force = torch.cat([speed, motion[:, 2:3]], dim=1)
         logarithms = self.logarithms(speed_force)
         direction = velocity / (speed + 0.002)
-        # Most surfaces feel the same forwards and backwards along their grain.
+        # Most surfaces vibrate alike in both directions along their grain.
         axial = (direction @ self.sums) * (direction @ self.differences)
         waves = torch.sin(logarithms @ self.harmonics + self.phases)
         return torch.cat([logarithms * 0.5, direction, axial, waves, speed_force * self.scale], dim=1)

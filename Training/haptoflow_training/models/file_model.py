@@ -1,4 +1,4 @@
-"""A `.haptoflow` file as a differentiable model: embedding in, segment out, no checkpoint needed."""
+"""A `.haptoflow` file as a differentiable model: embedding in, segment out, without a checkpoint."""
 
 from __future__ import annotations
 
@@ -25,7 +25,8 @@ class FileTier:
         self.field = GraphModule(model.graphs[entry["field"]], f"tier '{self.name}'", trainable=trainable)
 
     def segment(self, noise: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, rib_phase: Tensor) -> Tensor:
-        """[B, 1, 200] of noise and previous [B, 1, 200], embedding [B, 64], motion [B, 3] and rib phase [B, 2]."""
+        """Segment [B, 1, 200] from noise and previous [B, 1, 200], embedding [B, 64], motion [B, 3] and rib phase
+        [B, 2]."""
         given = {"previous": previous, "embedding": embedding, "motion": motion, "rib_phase": rib_phase}
         if self.kind == "direct":
             return self.field({"noisy": noise, "time": noise.new_zeros(len(noise), 1), **given})
@@ -73,12 +74,12 @@ class FileModel:
         return self._opened[wanted]
 
     def trainable_tier(self, name: str | None = None) -> FileTier:
-        """A copy of the tier whose weights may move; the model's own stays as it is."""
+        """A copy of the tier whose weights can be trained; the model's own tier stays unchanged."""
         wanted = self.file.header["default_tier"] if name is None else name
         return FileTier(self.file, self._tiers[wanted], trainable=True)
 
     def log_level(self, embedding: Tensor, motion: Tensor, tier: str | None = None) -> Tensor:
-        """[B, 1]: what the tier's level graph says, natural logarithm of the RMS in m/s^2."""
+        """[B, 1]: the output of the tier's level graph, natural logarithm of the RMS in m/s^2."""
         entry = self._tiers[self.file.header["default_tier"] if tier is None else tier]
         graph = entry["level"]
         if graph not in self._levels:

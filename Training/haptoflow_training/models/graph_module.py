@@ -1,7 +1,8 @@
-"""ONNX graphs of a model file as PyTorch functions, with gradients: a file alone is enough to fit a material.
+"""ONNX graphs of a model file as PyTorch functions with gradients, so that a model file is enough to fit a material.
 
-Only the operators that `haptoflow-training` writes for its own tiers (and what hand-written graphs of the tests use).
-What depends on constants alone is computed once, what depends on the batch's size once for each size.
+Supports the operators that `haptoflow-training` exports for its own tiers, and those of the tests' hand-written graphs.
+Nodes that depend only on constants are computed once; nodes that depend on the batch size, once for each size. (No
+package in Debian converts ONNX graphs to PyTorch.)
 """
 
 from __future__ import annotations
@@ -248,15 +249,15 @@ def _tensor(value: onnx.TensorProto) -> Tensor:
 
 
 def _is_learnt(name: str, values: Tensor) -> bool:
-    """By the exporter's names: layers keep theirs, folded ones are called after the operator that reads them. The
-    comb's matrices are no weights, whatever they are called."""
+    """Whether a constant is a trained weight, by the exporter's naming: layers keep their names, folded weights are
+    named after the operator that reads them. The rib comb's matrices are constants, whatever their names."""
     if not values.is_floating_point() or ".comb." in name:
         return False
     return name.endswith((".weight", ".bias")) or (name.startswith("onnx::") and values.dim() >= 2)
 
 
 class _Node:
-    """An operator with the names of what it reads and makes."""
+    """An operator with the names of its inputs and outputs."""
 
     def __init__(self, node: onnx.NodeProto, where: str) -> None:
         if node.op_type not in _OPERATIONS:
@@ -276,8 +277,8 @@ class _Node:
 
 
 class GraphModule:
-    """One graph. `inputs` and `output` are the names that the file gives them. trainable: its layers' weights take
-    gradients, as `weights`; otherwise none does."""
+    """One graph. `inputs` and `output` are the names in the file. trainable: the layers' weights take gradients, as
+    `weights`; otherwise none does."""
 
     def __init__(self, graph: bytes, where: str = "graph", *, trainable: bool = False) -> None:
         document = onnx.load_from_string(graph).graph
@@ -314,7 +315,7 @@ class GraphModule:
         self._by_size: dict[tuple[tuple[int, ...], ...], dict[str, Any]] = {}
 
     def __call__(self, given: dict[str, Tensor]) -> Tensor:
-        """The output for inputs by name; what the graph does not read may be given, too."""
+        """The output for inputs by name; inputs that the graph does not read are ignored."""
         read = {name: given[name] for name in self.inputs}
         sizes = tuple(tuple(value.shape) for value in read.values())
         if sizes not in self._by_size:
@@ -330,5 +331,5 @@ class GraphModule:
 
     @property
     def operators(self) -> Sequence[str]:
-        """The kinds of operators that run each time, in their order."""
+        """The kinds of operators that run in each call, in order."""
         return [node.kind for node in self._nodes]

@@ -1,4 +1,4 @@
-"""Everything that is trained together: embedding, level model, velocity field."""
+"""The modules that are trained together: embedding, level model, velocity field."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ import torch
 from torch import Tensor, nn
 
 from haptoflow_training.models.band_limit import BandLimit
-from haptoflow_training.models.baselines import Baseline
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE
 from haptoflow_training.models.label_embedding import LabelEmbedding
 from haptoflow_training.models.representation import Representation
+from haptoflow_training.models.segment_network import SegmentNetwork
 from haptoflow_training.models.velocity_field import VelocityField
 
 
@@ -24,7 +24,7 @@ class HaptoFlowModel(nn.Module):
         wave_vectors: Sequence[Sequence[tuple[float, float]]],
         representation: Representation,
         level: nn.Module,
-        field: VelocityField | Baseline,
+        field: VelocityField | SegmentNetwork,
     ) -> None:
         super().__init__()
         self.representation = representation
@@ -36,9 +36,9 @@ class HaptoFlowModel(nn.Module):
     def one_step(
         self, noise: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, rib_phase: Tensor
     ) -> Tensor:
-        """The segment [B, 1, 200] that a network taught to be whole in one step makes; all in unit scale. rib_phase
-        [B, 2] in turns, at the segment's first sample."""
-        if isinstance(self.field, Baseline):
+        """The segment [B, 1, 200] of a network trained to produce it in one step; all waveforms in unit scale.
+        rib_phase [B, 2] in turns, at the segment's first sample."""
+        if isinstance(self.field, SegmentNetwork):
             return self.field(noise, previous, embedding, motion, rib_phase)
         change = self.field(noise, torch.zeros(1, 1), previous, embedding, motion, rib_phase)
         return self.band_limit(previous, noise + change)

@@ -1,8 +1,8 @@
-"""Labels as vectors: what is learnt of a material, and the wave vectors of its ribs or threads, which are known.
+"""Labels as vectors: learnt numbers, and the known wave vectors of their ribs or threads.
 
-The last four of the 64 numbers are two wave vectors (x and y, cycles per millimetre). They are physics, not weights: a
-ruled surface under a stylus at velocity v sounds at |k . v|, whatever a network has learnt. Blending two labels blends
-them too. A label without ribs has zeros there.
+The last four of the 64 numbers are two wave vectors (x and y, cycles per millimetre). They are physical quantities, not
+weights: a ruled surface under a stylus at velocity v vibrates at |k . v|, whatever the network has learnt. Blending two
+labels blends their wave vectors too. A label without ribs has zeros there.
 """
 
 from __future__ import annotations
@@ -40,7 +40,8 @@ class LabelEmbedding(nn.Module):
 
 
 def signed_rib_frequencies_hz(embedding: Tensor, motion: Tensor) -> Tensor:
-    """[B, 2, 1]: k . v of both wave vectors for embedding [B, 64] and motion [B, 3] (m/s); below zero against them."""
+    """[B, 2, 1]: k . v of both wave vectors for embedding [B, 64] and motion [B, 3] (m/s); negative for motion
+    against them."""
     vectors = embedding[:, -WAVE_NUMBERS:].reshape(-1, WAVE_VECTORS, 2)
     velocity_mmps = 1000.0 * motion[:, 0:2].unsqueeze(2)
     return vectors @ velocity_mmps

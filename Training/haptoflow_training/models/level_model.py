@@ -1,7 +1,7 @@
-"""How strong a material vibrates: log RMS from embedding and motion, fitted by Gaussian likelihood.
+"""The level model: log RMS from embedding and motion, fitted by Gaussian likelihood.
 
-The network then only shapes the wave: target and previous waveform are divided by the level, the result is
-multiplied by it, so that quiet materials are learnt as well as loud ones and speed zero stays controllable.
+The network works in unit scale: target and previous waveform are divided by the level, and its output is multiplied by
+it. Quiet materials are therefore learnt as well as loud ones, and the level falls to zero with the speed.
 """
 
 from __future__ import annotations
@@ -17,16 +17,19 @@ from haptoflow_training.models.conditioning import (
 )
 
 _CORRECTION_LIMIT = 0.9
-# Nothing below a hundredth of a metre per second squared can be felt; without a floor, digital silence at rest
-# would pull the law towards minus infinity.
+# Vibration below 0.01 m/s^2 cannot be felt. Without a floor, digital silence at rest would pull the law towards minus
+# infinity.
 LEVEL_FLOOR_MPS2 = 0.01
+# Limit of a previous waveform, so that a burst that the level did not predict cannot drive the network out of its
+# range.
+PREVIOUS_LIMIT = 16.0
 
 
 class LevelModel(nn.Module):
     """log level [B, 1] (natural log of the RMS in m/s^2) from embedding [B, 64] and motion [B, 3].
 
-    A power law of speed and force per material, RMS = k v^p F^q (facts of the published textures), plus a bounded
-    learnt correction. The law's three coefficients are linear in the embedding, so labels can be blended.
+    A power law of speed and force for each material, RMS = k v^p F^q (as measured on the published textures), plus a
+    bounded learnt correction. The law's three coefficients are linear in the embedding, so labels can be blended.
     """
 
     def __init__(self, hidden: int = 96) -> None:
@@ -57,15 +60,16 @@ class LevelModel(nn.Module):
 def shift_level(level: LevelModel, embedding: Tensor, shift: Tensor) -> None:
     """Add shift [L] to the log level of each row of embedding [L, 64], the same at every motion.
 
-    By the smallest change of the power law's factor: still linear in the embedding, so that blends are shifted between.
+    Computed as the smallest change of the power law's factor: it stays linear in the embedding, so blends are shifted
+    in proportion.
     """
-    # In double precision: of labels that resemble each other, small differences carry the whole shift.
+    # In double precision: for labels that resemble each other, small differences carry the whole shift.
     solution = torch.linalg.lstsq(embedding.double(), shift.double().unsqueeze(1), driver="gelsd").solution
     level.power_law.weight[0] += solution.squeeze(1).float()
 
 
 class ConstantLevel(nn.Module):
-    """One level for every label and motion: what is left when nobody models the level (an ablation)."""
+    """One level for every label and motion (an ablation: no level model)."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -80,3 +84,13 @@ def level_loss(log_level: Tensor, mean_square_mps2: Tensor) -> Tensor:
     s + 0.5 meansquare exp(-2 s), both [B, 1]."""
     power = mean_square_mps2 + LEVEL_FLOOR_MPS2**2
     return (log_level + 0.5 * power * torch.exp(-2.0 * log_level)).mean()
+
+
+def unit_scale(wave_mps2: Tensor, log_level: Tensor) -> Tensor:
+    """[B, 1, N] in m/s^2 divided by the level exp(log_level) [B, 1]."""
+    return wave_mps2 * torch.exp(-log_level).unsqueeze(-1)
+
+
+def scaled_previous(previous_mps2: Tensor, log_level: Tensor) -> Tensor:
+    """The previous waveform [B, 1, N] as the network's input: in unit scale, limited."""
+    return unit_scale(previous_mps2, log_level).clamp(-PREVIOUS_LIMIT, PREVIOUS_LIMIT)

@@ -1,8 +1,8 @@
-"""Rare events from Gaussian noise: what lies beyond four rungs of it, each struck into a kernel of its own.
+"""Rare events from Gaussian noise: samples beyond four thresholds (rungs), each passed through a kernel of its own.
 
-A network of smooth layers turns Gaussian noise into something nearly Gaussian. An asperity that strikes the tip a few
-times a second is none: its events are made here, from the tails of the same noise that everything else is made from.
-How often a rung is passed is fixed (4.6, 0.9, 0.2 and 0.05 % of the samples); how hard and with what ring, the condition says.
+A network of smooth layers turns Gaussian noise into something nearly Gaussian, but an asperity that strikes the tip a
+few times a second is not Gaussian. Such events are made here from the tails of the same noise. How often a rung is
+exceeded is fixed (4.6, 0.9, 0.2 and 0.05 % of the samples); their strength and ringing depend on the condition.
 """
 
 from __future__ import annotations
@@ -12,7 +12,8 @@ import math
 import torch
 from torch import Tensor, nn
 
-SAMPLE_RATE_HZ = 2000.0
+from haptoflow_training.waveform import SAMPLE_RATE_HZ
+
 RUNGS = (2.0, 2.6, 3.1, 3.5)
 TAPS = 64
 _RINGS_HZ = (50.0, 90.0, 160.0, 280.0, 500.0, 800.0)
@@ -20,7 +21,7 @@ _RING_DECAY = 0.4
 # A delta, then cosine and sine of each ring.
 ATOMS = 1 + 2 * len(_RINGS_HZ)
 GAINS = len(RUNGS) * ATOMS
-# Convolution as products of matrices, a window of the segment at a time.
+# The convolution is a product of matrices, one window of the segment at a time.
 _WINDOW = 25
 # A kernel of 64 taps reaches into three windows before a window.
 _WINDOWS_BEFORE = 3
@@ -47,7 +48,7 @@ def _atoms() -> Tensor:
 
 
 class RungImpulses(nn.Module):
-    """noise [B, 1, N] and gains [B, 52] to impulses [B, 1, N]; nothing comes out where all gains are zero."""
+    """noise [B, 1, N] and gains [B, 52] to impulses [B, 1, N]; the output is zero where all gains are zero."""
 
     rungs: Tensor
     scales: Tensor
@@ -66,18 +67,19 @@ class RungImpulses(nn.Module):
         windows_read = torch.arange(self.windows).unsqueeze(1) + torch.arange(_WINDOWS_BEFORE + 1)
         self.register_buffer("read", windows_read, persistent=False)
         source = torch.arange(reach + _WINDOW)
-        # How much of each atom every sample of a window has from every sample that it is made from, [13, 100 * 25].
+        # The weight of each atom for each output sample of a window and each input sample that it depends on, [13, 100
+        # * 25].
         tap = torch.arange(_WINDOW) + reach - source.unsqueeze(1)
         shifted = nn.functional.pad(self.atoms, (0, 1))[:, torch.where((tap >= 0) & (tap < TAPS), tap, TAPS)]
         self.register_buffer("struck_atoms", shifted.reshape(ATOMS, -1), persistent=False)
         self.reach, self.sources = reach, len(source)
 
     def forward(self, noise: Tensor, gains: Tensor) -> Tensor:
-        # Gather whole windows, and gather them before the rungs make four signals of one: ONNX Runtime takes as long to
-        # copy a single sample as a window.
+        # Gather whole windows, and do so before the rungs split one signal into four: in ONNX Runtime, copying a single
+        # sample takes as long as copying a window.
         padded = nn.functional.pad(noise, (self.reach, 0)).reshape(-1, self.windows + _WINDOWS_BEFORE, _WINDOW)
-        heard = padded[:, self.read].reshape(-1, self.windows, 1, self.sources)
-        excess = heard - torch.maximum(torch.minimum(heard, self.rungs), -self.rungs)
+        gathered = padded[:, self.read].reshape(-1, self.windows, 1, self.sources)
+        excess = gathered - torch.maximum(torch.minimum(gathered, self.rungs), -self.rungs)
         struck = (excess * self.scales).reshape(-1, self.windows, len(RUNGS) * self.sources)
         kernels = (gains.reshape(-1, ATOMS) @ self.struck_atoms).reshape(-1, len(RUNGS) * self.sources, _WINDOW)
         return (struck @ kernels).reshape(-1, 1, self.samples)

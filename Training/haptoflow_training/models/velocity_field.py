@@ -1,9 +1,9 @@
-"""The velocity field: a two-level U-Net over patches of the segment, FiLM at every level.
+"""The velocity field: a two-level U-Net over patches of the segment, with FiLM at every level.
 
 HaptoFlow (paper, section 3.1): U-Net of two levels; the previous waveform is encoded and concatenated at each
-down-sampling stage; material, motion and time modulate every level. The form is our own, shaped for ONNX Runtime
-on one CPU core: a convolution reads patches of 8 samples, convolutions are two-dimensional with height 1, one linear
-layer makes the FiLM parameters of all blocks, and nodes are few.
+down-sampling stage; material, motion and time modulate every level. The details are ours, chosen for ONNX Runtime on
+one CPU core: convolutions over patches of 8 samples, two-dimensional convolutions of height 1, one linear layer for the
+FiLM parameters of all blocks, and few nodes.
 """
 
 from __future__ import annotations
@@ -20,7 +20,8 @@ _CONDITION_SIZE = 96
 
 
 def _unit_length(features: Tensor) -> Tensor:
-    """Channels [B, C, 1, P] divided by their length: a root mean square norm whose factor is left to what follows."""
+    """Channels [B, C, 1, P] divided by their length: RMS normalisation up to a factor that the following layer
+    absorbs."""
     return features / (features.norm(p=2, dim=1, keepdim=True) + 1e-3)
 
 
@@ -29,7 +30,7 @@ def _convolution(inputs: int, outputs: int, width: int, stride: int = 1) -> nn.C
 
 
 def _silent(outputs: int) -> nn.Linear:
-    """Gains of the condition that begin at zero."""
+    """A layer whose output, gains of the condition, is zero at the start of training."""
     layer = nn.Linear(_CONDITION_SIZE, outputs)
     nn.init.zeros_(layer.weight)
     nn.init.zeros_(layer.bias)
@@ -37,9 +38,9 @@ def _silent(outputs: int) -> nn.Linear:
 
 
 class PositionMixer(nn.Module):
-    """A dense layer across positions, per channel group shared: what the last patch did reaches the whole segment.
+    """A dense layer across positions, shared within each channel group: the last patch can affect the whole segment.
 
-    A ruled surface keeps its phase over a segment; convolutions of width 3 alone would need many layers for it.
+    A ruled surface keeps its phase over a segment; convolutions of width 3 alone would need many layers for that.
     """
 
     def __init__(self, channels: int, positions: int) -> None:
@@ -73,13 +74,13 @@ class FilmBlock(nn.Module):
 class VelocityField(nn.Module):
     """u(x_t, t | previous, embedding, motion) in unit scale.
 
-    noisy and previous: [B, C, N] with C channels of the representation (1 for raw samples) and N its positions
-    (200); time: [B, 1], or [1, 1] for all; embedding: [B, 64]; motion: [B, 3]. Returns [B, C, N]. N must divide by `patch`.
-    Without `hears_previous`, the previous waveform has no effect. With `average`, the field is the average velocity
-    over [t, t + interval] (MeanFlow) and takes interval [B, 1]. With `ribs` (raw samples only), it hears what the ribs
-    of a ruled surface would do next, from the past and from rib_phase [B, 2] in turns. With `impulses` (raw samples
-    only), rare events come from the tails of the noise. levels: 2 for a U-net, whose second level has half the positions; 1 for its first
-    block alone, at less than half the time.
+    noisy and previous: [B, C, N] with C channels of the representation (1 for raw samples) and N positions (200); time:
+    [B, 1], or [1, 1] for all; embedding: [B, 64]; motion: [B, 3]. Returns [B, C, N]. N must be a multiple of `patch`.
+    With `hears_previous` false, the previous waveform has no effect. With `average`, the field is the average velocity
+    over [t, t + interval] (MeanFlow) and takes interval [B, 1]. With `ribs` (raw samples only), the rib comb predicts
+    the partials of a ruled surface from the past and from rib_phase [B, 2] in turns. With `impulses` (raw samples
+    only), rare events come from the tails of the noise. levels: 2 for a U-Net whose second level has half the
+    positions; 1 for its first block alone, in less than half the time.
     """
 
     film_factors: Tensor
@@ -119,8 +120,8 @@ class VelocityField(nn.Module):
         self.motion = MotionEncoder()
         self.comb = RibComb(positions) if ribs else None
         self.impulses = RungImpulses(positions) if impulses else None
-        heard = channels + (COMB_CHANNELS if ribs else 0) + (1 if impulses else 0)
-        self.enter = nn.Conv2d(heard, width, (1, patch), stride=(1, patch))
+        entering = channels + (COMB_CHANNELS if ribs else 0) + (1 if impulses else 0)
+        self.enter = nn.Conv2d(entering, width, (1, patch), stride=(1, patch))
         self.previous_fine = nn.Conv2d(
             channels, previous_width, (1, 3 * patch), stride=(1, patch), padding=(0, patch)
         )
@@ -140,8 +141,9 @@ class VelocityField(nn.Module):
         nn.init.zeros_(self.leave.bias)
 
         self._film_sizes = [size for block in blocks for size in (block.channels, block.channels)]
-        # What is told of the surface and of the flow's moment meet in a sum, so that the moment's share of a graph
-        # of one step is a constant.
+        # The material's and the flow time's contributions are added, so that the flow time's part of a one-step graph
+        # is a constant.
+        # The name `told` is part of checkpoints and exported graphs.
         self.told = nn.Linear(2 * EMBEDDING_SIZE, _CONDITION_SIZE)
         self.moment = nn.Linear(EMBEDDING_SIZE, _CONDITION_SIZE, bias=False)
         self.film = nn.Linear(_CONDITION_SIZE, sum(self._film_sizes))
@@ -167,29 +169,29 @@ class VelocityField(nn.Module):
         moment = self.time(time)
         if self.interval is not None and interval is not None:
             moment = moment + self.interval(interval)
-        told = torch.cat([embedding, self.motion(motion)], dim=1)
-        condition = nn.functional.silu(self._condition(told, moment))
+        given = torch.cat([embedding, self.motion(motion)], dim=1)
+        condition = nn.functional.silu(self._condition(given, moment))
         film, line_gains, impulse_gains = self._modulation(condition)
         film_parts = film.reshape(-1, sum(self._film_sizes), 1, 1).split(self._film_sizes, dim=1)
 
         if not self.hears_previous:
             previous = torch.zeros_like(previous)
-        # Mirrored, so that the newest sample of the past lies beside the first sample of the new segment.
+        # Mirrored, so that the newest previous sample lies beside the first sample of the new segment.
         mirrored = previous[:, :, self.newest_first]
         past = self.previous_fine(mirrored.unsqueeze(2))
 
-        heard, added = [noisy], []
+        entering, added = [noisy], []
         if self.comb is not None:
             if rib_phase is None:
                 raise ValueError("a field with ribs needs the rib phase")
             combed = self.comb(mirrored, embedding, motion, rib_phase, line_gains)
-            heard.append(combed)
+            entering.append(combed)
             added.append(combed[:, -1:])
         if self.impulses is not None:
             struck = self.impulses(noisy, impulse_gains)
-            heard.append(struck)
+            entering.append(struck)
             added.append(struck)
-        entered = self.enter(torch.cat(heard, dim=1).unsqueeze(2))
+        entered = self.enter(torch.cat(entering, dim=1).unsqueeze(2))
         fine = self.fine_down(torch.cat([entered, past], dim=1), film_parts[0], film_parts[1])
         if self.levels == 2:
             past_coarse = self.previous_coarse(nn.functional.silu(past))
@@ -201,8 +203,9 @@ class VelocityField(nn.Module):
         return made
 
     def _modulation(self, condition: Tensor) -> tuple[Tensor, Tensor, Tensor]:
-        """FiLM parameters, gains of lines and gains of impulses (empty for none), by one layer of all their weights."""
-        # On the weights, which a graph has as constants, and not on what they make.
+        """FiLM parameters, gains of lines and gains of impulses (empty if there are none), by one layer with all
+        their weights."""
+        # Applied to the weights, which are constants in a graph, rather than to the layer's output.
         factors = self.film_factors
         weights, biases = [self.film.weight * factors.unsqueeze(1)], [self.film.bias * factors]
         sizes = [len(factors)]
@@ -219,15 +222,16 @@ class VelocityField(nn.Module):
         lines, impulses = (gains.pop(0) if size else film[:, :0] for size in sizes[1:])
         return film, lines, impulses
 
-    def _condition(self, told: Tensor, moment: Tensor) -> Tensor:
-        """A moment that is the same for all counts as a constant of the layer: a node less."""
+    def _condition(self, given: Tensor, moment: Tensor) -> Tensor:
+        """The condition vector. A flow time that is the same for all rows becomes a constant of the layer, which
+        saves a node."""
         if moment.shape[0] > 1:
-            return self.told(told) + self.moment(moment)
-        return nn.functional.linear(told, self.told.weight, self.told.bias + self.moment(moment).squeeze(0))
+            return self.told(given) + self.moment(moment)
+        return nn.functional.linear(given, self.told.weight, self.told.bias + self.moment(moment).squeeze(0))
 
     def _leave(self, features: Tensor) -> Tensor:
-        """What `leave` does, [B, C, N]: patches side by side are one layer for each place in a patch, and then a
-        transposition, at half the time of ONNX Runtime's transposed convolution."""
+        """The transposed convolution `leave`, [B, C, N]: since patches do not overlap, one linear layer for each
+        place in a patch followed by a transposition, in half the time of ONNX Runtime's transposed convolution."""
         width, channels, patch = len(self.leave.weight), self.channels, self.patch
         weight = self.leave.weight.reshape(width, channels * patch).t().reshape(channels * patch, width, 1, 1)
         samples = nn.functional.conv2d(features, weight, self.leave.bias.repeat_interleave(patch))

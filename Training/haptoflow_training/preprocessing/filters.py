@@ -1,4 +1,4 @@
-"""Zero-phase filters of the preprocessing, and the step down to the training rate."""
+"""Zero-phase filters of the preprocessing, and the decimation to the training rate."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ def zero_phase_high_pass(
     values: NDArray[np.floating], cutoff_hz: float, rate_hz: float
 ) -> NDArray[np.float64]:
     """4th-order Butterworth, forward and backward (-6 dB at the cutoff), along the first axis."""
-    # Reflected evenly: an odd reflection of an oscillation is a step, and a step rings through a high-pass.
+    # Even reflection: an odd reflection of an oscillation makes a step, and a step rings through a high-pass filter.
     return _both_ways(values, 4, cutoff_hz, "highpass", rate_hz, "even")
 
 
@@ -25,11 +25,11 @@ def zero_phase_low_pass(
 
 
 def decimate(values: NDArray[np.floating], rate_hz: int, target_rate_hz: int) -> NDArray[np.float64]:
-    """Keep every (rate / target)th sample behind a linear-phase filter; sample 0 stays sample 0.
+    """Keep every (rate / target)th sample after a linear-phase filter; sample 0 stays sample 0.
 
-    Flat to 95 % of the target's Nyquist frequency, -6 dB at Nyquist, 60 dB down 5 % above it: at 2 kHz what folds back
-    lands above 950 Hz, where nothing is felt apart. A skirt that ends below Nyquist would be steeper than hops of 14 ms
-    can reproduce. `rate_hz` is a whole multiple of `target_rate_hz`.
+    Flat to 95 % of the target's Nyquist frequency, -6 dB at Nyquist, -60 dB 5 % above it: at 2 kHz, aliases fall above
+    950 Hz, where they cannot be distinguished by touch. A skirt that ends below Nyquist would have to be steeper than
+    hops of 14 ms can reproduce. `rate_hz` is a whole multiple of `target_rate_hz`.
     """
     factor = rate_hz // target_rate_hz
     padded = np.pad(values, (0, factor), mode="edge")

@@ -10,12 +10,12 @@ from numpy.typing import NDArray
 from haptoflow_training.recordings.recording import Recording
 
 # A cubic spline through the samples needs this many.
-_FEWEST_SAMPLES = 4
+_MINIMUM_SAMPLES = 4
 
 
 def parts_between_gaps(recording: Recording, longest_gap_seconds: float) -> list[Recording]:
-    """The stretches between gaps longer than `longest_gap_seconds`, in order; a stretch with too few samples to
-    interpolate is left out. A recording without such a gap is returned as it is."""
+    """The stretches between gaps longer than `longest_gap_seconds`, in order. Stretches with too few samples to
+    interpolate are left out; a recording without a gap is returned unchanged."""
     time = np.asarray(recording.acceleration_time_seconds)
     gaps = np.flatnonzero(np.diff(time) > longest_gap_seconds) + 1
     if len(gaps) == 0:
@@ -25,12 +25,12 @@ def parts_between_gaps(recording: Recording, longest_gap_seconds: float) -> list
 
 
 def _cut(recording: Recording, first: int, last: int) -> Recording | None:
-    if last - first < _FEWEST_SAMPLES:
+    if last - first < _MINIMUM_SAMPLES:
         return None
     time = recording.acceleration_time_seconds[first:last]
     force = _around(recording.force_time_seconds, float(time[0]), float(time[-1]))
     position = _around(recording.position_time_seconds, float(time[0]), float(time[-1]))
-    if min(force.stop - force.start, position.stop - position.start) < _FEWEST_SAMPLES:
+    if min(force.stop - force.start, position.stop - position.start) < _MINIMUM_SAMPLES:
         return None
     return dataclasses.replace(
         recording,
@@ -45,7 +45,7 @@ def _cut(recording: Recording, first: int, last: int) -> Recording | None:
 
 
 def _around(time: NDArray[np.float64], start: float, stop: float) -> slice:
-    """The samples of another clock from the last one before `start` to the first one after `stop`."""
+    """The samples of another sensor's clock from the last one before `start` to the first one after `stop`."""
     first = max(0, int(np.searchsorted(time, start, side="right")) - 1)
     last = min(len(time), int(np.searchsorted(time, stop, side="left")) + 1)
     return slice(first, last)

@@ -1,4 +1,4 @@
-"""Velocity, position and force on the grid of the waveform, from sensors with clocks of their own."""
+"""Velocity, position and force at the samples of the waveform, from sensors with their own clocks."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ def velocity_mps(
     grid_seconds: NDArray[np.float64],
     window_seconds: float,
 ) -> NDArray[np.float64]:
-    """Positions [k, 2] in mm at `time_seconds` -> velocities [n, 2] in m/s at `grid_seconds` (clamped at the
+    """Positions [k, 2] in mm at `time_seconds` to velocities [n, 2] in m/s at `grid_seconds` (constant beyond the
     ends).
 
-    The slope of a cubic fitted to a window of samples (Savitzky-Golay): constant speed and constant
-    acceleration pass without bias, position steps of 0.1 mm are averaged. Beyond its ends the stylus rests.
+    The slope of a cubic fitted to a window of samples (Savitzky-Golay): constant speed and constant acceleration pass
+    without bias, position steps of 0.1 mm are averaged. Beyond the ends the stylus rests.
     """
     uniform, positions = _uniform(time_seconds, position_mm)
     step = float(uniform[1] - uniform[0])
@@ -42,8 +42,8 @@ def smooth_velocity_mps(
     grid_seconds: NDArray[np.float64],
     window_seconds: float,
 ) -> NDArray[np.float64]:
-    """Velocities [k, 2] in m/s at `time_seconds` -> [n, 2] at `grid_seconds` (clamped at the ends), smoothed by a cubic
-    over a window of samples, as those that are derived from positions are."""
+    """Velocities [k, 2] in m/s at `time_seconds` to [n, 2] at `grid_seconds` (constant beyond the ends), smoothed by
+    a cubic over a window of samples, like velocities derived from positions."""
     uniform, values = _uniform(time_seconds, velocity)
     window = 2 * round(window_seconds / float(uniform[1] - uniform[0]) / 2) + 1
     if 5 <= window <= len(uniform):
@@ -55,8 +55,8 @@ def smooth_velocity_mps(
 def position_mm_on_grid(
     time_seconds: NDArray[np.float64], position_mm: NDArray[np.floating], grid_seconds: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Positions [k, 2] in mm at `time_seconds` -> [n, 2] in mm at `grid_seconds` (clamped at the ends): a cubic spline
-    through what was read."""
+    """Positions [k, 2] in mm at `time_seconds` to [n, 2] in mm at `grid_seconds` (constant beyond the ends), by a
+    cubic spline."""
     uniform, positions = _uniform(time_seconds, position_mm)
     clamped = np.clip(grid_seconds, uniform[0], uniform[-1])
     return np.asarray(CubicSpline(uniform, positions, axis=0)(clamped))
@@ -78,10 +78,10 @@ def force_newtons(
     grid_seconds: NDArray[np.float64],
     low_pass_hz: float,
 ) -> NDArray[np.float64]:
-    """Forces [m] in N at `time_seconds` -> [n] at `grid_seconds`, never negative.
+    """Forces [m] in N at `time_seconds` to [n] at `grid_seconds`, never negative.
 
-    A load cell holds its value between conversions and trembles with the frame; a zero-phase 2nd-order
-    low-pass takes both off without delaying the force of a tap.
+    A load cell holds its value between conversions and picks up vibration of the frame; a zero-phase 2nd-order low-pass
+    removes both without delaying the force of a tap.
     """
     on_grid = np.interp(grid_seconds, time_seconds, force)
     rate_hz = 1.0 / float(grid_seconds[1] - grid_seconds[0])

@@ -1,8 +1,7 @@
-"""Silence put before and after a recording, so that a network learns how nothing sounds.
+"""Adds silence before and after a recording, so that a network learns what happens without vibration.
 
-Three states without vibration: `rest` touches without moving, at the recording's force; `contact` touches
-down or lifts off without moving, its force rising from or falling to zero; `air` has neither velocity nor
-force.
+Three states without vibration: `rest` touches without moving, at the recording's force; `contact` touches down or lifts
+off without moving, its force rising from or falling to zero; `air` has neither velocity nor force.
 """
 
 from __future__ import annotations
@@ -19,8 +18,8 @@ from haptoflow_training.preprocessing.settings import PreprocessingSettings
 
 PaddingState = Literal["rest", "contact", "air"]
 PADDING_STATES: tuple[PaddingState, ...] = ("rest", "contact", "air")
-# Of a recording's length at each end: silence must not outweigh what was recorded.
-_LARGEST_SHARE = 1.0 / 3.0
+# Largest share of a recording's length at each end, so that silence does not outweigh the recording.
+_MAXIMUM_SHARE = 1.0 / 3.0
 
 
 @dataclass(frozen=True)
@@ -35,11 +34,11 @@ class PaddedRecording:
 def pad_recording(
     prepared: PreparedRecording, name: str, settings: PreprocessingSettings, seed: int
 ) -> PaddedRecording:
-    """Each end is padded with `padding_probability`; the draw depends on `seed` and `name` alone, and no end gets more than
-    a third of the recording's length."""
+    """Each end is padded with `padding_probability`; the draw depends on `seed` and `name` only, and the padding at
+    an end is at most a third of the recording's length."""
     digest = hashlib.blake2b(f"padding/{seed}/{name}".encode(), digest_size=8).digest()
     generator = np.random.default_rng(int.from_bytes(digest, "little"))
-    longest = int(_LARGEST_SHARE * len(prepared.waveform_mps2))
+    longest = int(_MAXIMUM_SHARE * len(prepared.waveform_mps2))
     before = _draw(generator, settings, longest)
     after = _draw(generator, settings, longest)
     if before is not None:

@@ -1,4 +1,4 @@
-"""One recording -> one axis of vibration at 2 kHz, with the motion of every sample."""
+"""Turns one recording into one axis of vibration at 2 kHz, with the motion of every sample."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.recordings.recording import STANDARD_GRAVITY_MPS2, Recording
 
 _CONTEXT_SECONDS = 0.2
-# Of a recording shorter than 1.5 s, so that trimming does not take most of it.
-_LARGEST_TRIM_SHARE = 0.2
+# Limit for recordings shorter than 1.5 s, so that trimming does not remove most of them.
+_MAXIMUM_TRIM_SHARE = 0.2
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,7 @@ class PreparedRecording:
 
 
 def preprocess_recording(recording: Recording, settings: PreprocessingSettings) -> PreparedRecording:
-    """InputError names the recording and the sensor where it cannot be prepared."""
+    """Preprocess a recording without gaps. InputError names the recording and the sensor if it cannot be prepared."""
     _require_usable(recording)
     _require_plausible(recording)
     _require_no_gap(recording, settings)
@@ -41,8 +41,8 @@ def preprocess_recording(recording: Recording, settings: PreprocessingSettings) 
 
 
 def preprocess_parts(recording: Recording, settings: PreprocessingSettings) -> list[PreparedRecording]:
-    """As `preprocess_recording`, for each stretch between gaps of the accelerometer, so that a gap costs only its
-    neighbourhood. Stretches that are too short are left out; InputError where none is long enough."""
+    """As `preprocess_recording`, for each stretch between gaps of the accelerometer, so that a gap costs only the
+    samples near it. Stretches that are too short are left out; InputError if none is long enough."""
     _require_usable(recording)
     _require_plausible(recording)
     prepared: list[PreparedRecording] = []
@@ -53,7 +53,7 @@ def preprocess_parts(recording: Recording, settings: PreprocessingSettings) -> l
         except InputError as problem:
             problems.append(problem)
     if not prepared:
-        # Where there are gaps, they are the reason why every part is too short.
+        # If there are gaps, they are the reason why every part is too short; report them.
         _require_no_gap(recording, settings)
         raise problems[0]
     return prepared
@@ -61,8 +61,8 @@ def preprocess_parts(recording: Recording, settings: PreprocessingSettings) -> l
 
 def _prepared(recording: Recording, settings: PreprocessingSettings) -> PreparedRecording:
     start, stop = _common_span(recording)
-    # Filters see a little of what the trim takes away, so that no filter rings where the cut is.
-    trim = min(settings.trim_seconds, _LARGEST_TRIM_SHARE * (stop - start))
+    # The filters run over a little of what is trimmed, so that they do not ring at the cut.
+    trim = min(settings.trim_seconds, _MAXIMUM_TRIM_SHARE * (stop - start))
     context = min(_CONTEXT_SECONDS, trim)
     step = 1.0 / settings.sample_rate_hz
     kept = int((stop - start - 2 * trim) / step)
@@ -109,7 +109,7 @@ def _waveform(
     axes = np.asarray(recording.acceleration_g[first:last], dtype=np.float64)
     axes = (axes - axes.mean(axis=0)) * STANDARD_GRAVITY_MPS2
     clamped = np.minimum(high_grid, time[-1])
-    # The time stamps are irregular, and six times the band: a cubic spline through them is band-limited
+    # The time stamps are irregular, at more than six times the band: a cubic spline through them is band-limited
     # enough.
     uniform = CubicSpline(time[first:last], axes, axis=0)(clamped)
     uniform = filters.zero_phase_high_pass(uniform, settings.high_pass_hz, settings.high_rate_hz)

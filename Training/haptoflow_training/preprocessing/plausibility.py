@@ -1,4 +1,4 @@
-"""Finds recordings that cannot be right: wrong units, glitches, a dead sensor."""
+"""Finds implausible recordings: wrong units, glitches, a dead sensor."""
 
 from __future__ import annotations
 
@@ -10,28 +10,28 @@ from numpy.typing import NDArray
 
 from haptoflow_training.recordings.recording import Recording
 
-# An accelerometer at rest measures 1 g, which is 9.81 m/s^2 or 1000 mg; less when its signal is high-passed.
+# An accelerometer at rest measures 1 g, 9.81 m/s^2 or 1000 mg; less if its signal is high-passed.
 _GRAVITY_IN_MPS2 = (6.0, 14.0)
 _GRAVITY_IN_MG = (500.0, 2000.0)
-# No stroke of a hand or a machine makes a stylus vibrate this strongly.
-_HIGHEST_RMS_G = 40.0
-# A larger ratio of measured to named value means a wrong unit: no protocol misses its condition by that much.
-_LARGEST_RATIO = 4.0
-_STRONGEST_NEWTONS = 100.0
+# No stroke by hand or machine makes a stylus vibrate more strongly.
+_MAXIMUM_RMS_G = 40.0
+# A larger ratio between measured and nominal value means a wrong unit: no protocol misses its condition by that much.
+_MAXIMUM_RATIO = 4.0
+_MAXIMUM_FORCE_NEWTONS = 100.0
 _WEAKEST_NEWTONS = 0.002
-# A hand only roughly follows the speed in its recording's name, and below the second value it may rest.
-_LARGEST_RATIO_OF_A_HAND = 30.0
-_SLOWEST_COMPARED_MMPS = 20.0
-_FASTEST_MPS = 10.0
+# A hand follows the speed in its recording's name only roughly, and below the second value it may rest.
+_MAXIMUM_RATIO_OF_A_HAND = 30.0
+_MINIMUM_COMPARED_SPEED_MMPS = 20.0
+_MAXIMUM_SPEED_MPS = 10.0
 _SPIKE_NEWTONS = 20.0
 _SPIKE_RATIO = 8.0
 _CLIPPED_RUN = 4
-_LARGEST_CLIPPED_SHARE = 0.02
-_LONGEST_FROZEN_SECONDS = 0.2
+_MAXIMUM_CLIPPED_SHARE = 0.02
+_MAXIMUM_FROZEN_SECONDS = 0.2
 
 
 class Implausibility(NamedTuple):
-    """Why a recording cannot be right. sensor: acceleration, force or position."""
+    """Why a recording is implausible. sensor: acceleration, force or position."""
 
     sensor: str
     found: str
@@ -42,7 +42,7 @@ class Implausibility(NamedTuple):
 
 
 def implausible(recording: Recording) -> Iterator[Implausibility]:
-    """Everything that is wrong with a recording. All of its values must be finite."""
+    """Everything implausible about a recording. All of its values must be finite."""
     yield from _acceleration(recording)
     yield from _force(recording)
     yield from _position(recording)
@@ -58,14 +58,14 @@ def _acceleration(recording: Recording) -> Iterator[Implausibility]:
     elif _GRAVITY_IN_MG[0] < rest < _GRAVITY_IN_MG[1]:
         found = f"rests at {rest:.0f}, which looks like mg"
         yield Implausibility("acceleration", found, "g (1 at rest): divide by 1000")
-    elif rms > _HIGHEST_RMS_G:
-        yield Implausibility("acceleration", f"has an RMS of {rms:.0f}", f"g, at most {_HIGHEST_RMS_G:.0f}")
+    elif rms > _MAXIMUM_RMS_G:
+        yield Implausibility("acceleration", f"has an RMS of {rms:.0f}", f"g, at most {_MAXIMUM_RMS_G:.0f}")
     time = recording.acceleration_time_seconds
     frozen = _longest_run(np.all(np.diff(values, axis=0) == 0.0, axis=1), time)
-    if frozen > _LONGEST_FROZEN_SECONDS:
+    if frozen > _MAXIMUM_FROZEN_SECONDS:
         yield Implausibility("acceleration", f"stays the same for {frozen:.2f} s", "a sensor that is never quite still")
     clipped = max(_clipped_share(axis) for axis in values.T)
-    if clipped > _LARGEST_CLIPPED_SHARE:
+    if clipped > _MAXIMUM_CLIPPED_SHARE:
         found = f"is clipped for {100.0 * clipped:.0f} % of the time"
         yield Implausibility("acceleration", found, "a sensor of a larger range")
 
@@ -75,7 +75,7 @@ def _force(recording: Recording) -> Iterator[Implausibility]:
     median, usual = float(np.median(values)), float(np.percentile(values, 95))
     nominal = recording.identity.force_millinewtons / 1000.0 if recording.identity.protocol == "machine" else 0.0
     ratio = median / nominal if nominal > 0.0 else 1.0
-    if median > _STRONGEST_NEWTONS or ratio > _LARGEST_RATIO:
+    if median > _MAXIMUM_FORCE_NEWTONS or ratio > _MAXIMUM_RATIO:
         named = f" where the name says {nominal:g} N" if nominal else ""
         expected = "newtons (a thousandth for mN, times 0.00981 for grams)"
         yield Implausibility("force", f"is {median:.4g}{named}", expected)
@@ -89,22 +89,22 @@ def _force(recording: Recording) -> Iterator[Implausibility]:
 def _position(recording: Recording) -> Iterator[Implausibility]:
     speeds_mmps = recording.speeds_mmps
     nominal = float(recording.identity.speed_mmps)
-    largest = _LARGEST_RATIO if recording.identity.protocol == "machine" else _LARGEST_RATIO_OF_A_HAND
+    largest = _MAXIMUM_RATIO if recording.identity.protocol == "machine" else _MAXIMUM_RATIO_OF_A_HAND
     moving = speeds_mmps[speeds_mmps > 0.2 * np.percentile(speeds_mmps, 95)]
-    if nominal >= _SLOWEST_COMPARED_MMPS and len(moving) > 0:
+    if nominal >= _MINIMUM_COMPARED_SPEED_MMPS and len(moving) > 0:
         median = float(np.median(moving))
         if not nominal / largest < median < nominal * largest:
             found = f"moves with {median:.3g} a second where the name says {nominal:g} mm/s"
             yield Implausibility("position", found, "millimetres")
             return
     fastest = float(speeds_mmps.max()) / 1000.0
-    if fastest > _FASTEST_MPS:
-        expected = f"a tracker without jumps, at most {_FASTEST_MPS:.0f} m/s"
+    if fastest > _MAXIMUM_SPEED_MPS:
+        expected = f"a tracker without jumps, at most {_MAXIMUM_SPEED_MPS:.0f} m/s"
         yield Implausibility("position", f"jumps with {fastest:.0f} m/s", expected)
 
 
 def _runs(holds: NDArray[np.bool_]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Where each run of true values starts, and where it has ended."""
+    """The start and the end of each run of true values."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], holds, [False]]).astype(np.int8)))
     return edges[::2], edges[1::2]
 
@@ -116,7 +116,8 @@ def _longest_run(holds: NDArray[np.bool_], time: NDArray[np.floating]) -> float:
 
 
 def _clipped_share(values: NDArray[np.float64]) -> float:
-    """The share of samples that stand at an end of the range in runs of several; 0 for an axis that nobody recorded."""
+    """The share of samples at an end of the range, counting only runs of several; 0 for an axis that was not
+    recorded."""
     if float(np.ptp(values)) == 0.0:
         return 0.0
     share = 0.0

@@ -1,4 +1,5 @@
-"""Recordings in, a finished store out: one recording in memory at a time, all or nothing on disk."""
+"""Prepares a store from recordings: each worker holds one recording in memory; the store appears complete or not at
+all."""
 
 from __future__ import annotations
 
@@ -31,7 +32,7 @@ _RESCALE_SAMPLES = 1 << 20
 
 
 class LoadableRecording(Protocol):
-    """A recording still on disk: a worker loads it, so that reading is shared out too."""
+    """A recording that is still on disk; it is loaded by a worker, so that reading is parallel too."""
 
     @property
     def identity(self) -> RecordingIdentity: ...
@@ -49,7 +50,7 @@ class _Prepared:
     padded: PaddedRecording | None
     problem: str | None
     peak_mps2: float = 0.0
-    # Of a recording with gaps: which stretch of it. Of one that is cut by time: the split and which of its parts.
+    # The index of a stretch between gaps, or of a part of a recording that is cut by time, with its split.
     part: int = 0
     split: Split | None = None
     piece: int = 0
@@ -72,15 +73,14 @@ def prepare_store(
     workers: int = 1,
     cut_labels: Collection[str] = (),
 ) -> SegmentStore:
-    """Prepare every recording, in order, into the folder `out`; an older store there gives way at the end.
+    """Prepare every recording, in order, into the folder `out`; an older store there is replaced at the end.
 
-    cut_labels: labels whose recordings are cut by time into training, validation and test (time_split.py); one that is
-    too short for that stays whole, in the split that its name gives it.
+    cut_labels: labels whose recordings are cut by time into training, validation and test (time_split.py); a recording
+    that is too short for that stays whole, in the split of its name.
 
     A recording that cannot be prepared is skipped and listed in the store; one with gaps becomes one for each stretch
-    between them. InputError: none was usable, a
-    name came twice, a label is not in `labels`, or the disk is full; `out` is then as it was before. The
-    result is the same for any number of `workers`.
+    between them. InputError: none was usable, a name occurred twice, a label is not in `labels`, or the disk is full;
+    `out` is then unchanged. The result is the same for any number of `workers`.
     """
     settings = settings or PreprocessingSettings()
     out = Path(out).absolute()
@@ -126,8 +126,8 @@ def prepare_cut_where_needed(
     provenance: dict[str, Any] | None = None,
     workers: int = 1,
 ) -> SegmentStore:
-    """As `prepare_store`; recordings of a label of which there are too few for every split are cut by time, also where
-    too few are left because others could not be prepared."""
+    """As `prepare_store`; recordings of labels with too few for every split are cut by time, also if there are too
+    few because others could not be prepared."""
     chosen = settings or PreprocessingSettings()
     cut_labels = labels_to_cut(((item.label, item.identity) for item in recordings), chosen, seed)
     while True:
@@ -187,7 +187,8 @@ def _checked(
 def _prepare_one(
     item: Recording | LoadableRecording, settings: PreprocessingSettings, seed: int, is_cut: bool
 ) -> list[_Prepared]:
-    """One for each stretch between gaps, or for each of its parts, or the one reason why there is none."""
+    """One prepared recording for each stretch between gaps, or for each of its parts, or the reason why there is
+    none."""
     try:
         recording = item if isinstance(item, Recording) else item.load()
         parts = preprocess_parts(recording, settings)
@@ -268,7 +269,7 @@ def _append(file: BinaryIO, values: np.ndarray) -> None:
 
 
 def _peak(stored: list[StoredRecording], skipped: list[SkippedRecording]) -> float:
-    """The 80th percentile of the training recordings' peaks: what is tested has no say in the scale."""
+    """The 80th percentile of the training recordings' peaks; test recordings do not influence the scale."""
     if not stored:
         first = f"; the first problem: {skipped[0].name}: {skipped[0].reason}" if skipped else ""
         raise InputError(f"no recording could be prepared ({len(skipped)} were skipped{first})")

@@ -1,4 +1,4 @@
-"""Every number of the preprocessing in one place; a store keeps the ones it was made with."""
+"""All parameters of the preprocessing; a store keeps those it was made with."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from haptoflow_training.errors import InputError
 
 @dataclass(frozen=True)
 class PreprocessingSettings:
-    """Defaults follow the published system; `Recording`s of both protocols are treated alike."""
+    """The defaults follow the published system; both protocols use the same settings."""
 
     trim_seconds: float = 0.3
     high_rate_hz: int = 8000

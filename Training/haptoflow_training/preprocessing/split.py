@@ -1,9 +1,9 @@
-"""Which split a recording belongs to, from its identity alone: others may come or go, it stays where it is.
+"""Assigns a recording to a split by its identity alone, so that adding or removing others does not move it.
 
-Within one texture and protocol the conditions are spread over [0, 1) by an additive recurrence with
-irrational steps (a low-discrepancy sequence) from a hashed offset, so that even a few recordings come close
-to the shares asked for. Repeats of one machine pass run over the same bumps of the same surface; they share a
-split. Hand strokes are all different; recorders number them through, by repeat.
+Within one texture and protocol the conditions are spread over [0, 1) by an additive recurrence with irrational steps (a
+low-discrepancy sequence) from a hashed offset, so that even a few recordings come close to the requested shares.
+Repeats of one machine pass cross the same bumps of the same surface, so they share a split. Hand strokes all differ;
+they are numbered by repeat.
 """
 
 from __future__ import annotations
@@ -38,14 +38,14 @@ def split_of(identity: RecordingIdentity, settings: PreprocessingSettings, seed:
 def _hashed_offset(identity: RecordingIdentity, seed: int) -> float:
     stratum = f"split/{seed}/{identity.texture_id}/{identity.protocol}"
     if identity.protocol == "hand" and identity.repeat == 0:
-        # Strokes that nobody numbered would all share one place otherwise.
+        # Without a number in their names, all strokes would otherwise fall into the same place.
         stratum = f"split/{seed}/{identity.name}"
     digest = hashlib.blake2b(stratum.encode(), digest_size=8).digest()
     return int.from_bytes(digest, "little") / 2.0**64
 
 
 def _condition_number(identity: RecordingIdentity) -> float:
-    """Consecutive over the published grid of directions, speeds and forces, or over hand strokes."""
+    """A consecutive number over the published grid of directions, speeds and forces, or over hand strokes."""
     if identity.direction_degrees is None:
         return float(identity.repeat)
     direction = identity.direction_degrees / _DIRECTION_DEGREES

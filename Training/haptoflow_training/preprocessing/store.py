@@ -31,7 +31,7 @@ STORED_FLOAT = np.dtype("<f4")
 
 @dataclass(frozen=True)
 class StoredRecording:
-    """Where one recording lies in the arrays: [start, start + length), silence put at its ends included."""
+    """The place of one recording in the arrays: [start, start + length), including the silence added at its ends."""
 
     name: str
     label: str
@@ -55,13 +55,13 @@ class StoredRecording:
 
     @property
     def recorded_samples(self) -> slice:
-        """Without the silence that preparation put before and after."""
+        """The samples without the silence that preparation added before and after."""
         return slice(self.start + self.padding_before, self.start + self.length - self.padding_after)
 
 
 @dataclass(frozen=True)
 class SkippedRecording:
-    """A recording that could not be prepared, and why."""
+    """A recording that could not be prepared, with the reason."""
 
     name: str
     reason: str
@@ -72,9 +72,9 @@ class SkippedRecording:
 
 @dataclass(frozen=True)
 class SegmentStore:
-    """waveform: [total] float32, unit scale (not clipped: a fifth of the recordings peaks above 1).
-    motion: [total, 3] float32: vx, vy in m/s, force in N. position_mm: [total, 2] float32: the place on the surface.
-    All are read-only memory maps, safe to share."""
+    """waveform: [total] float32, unit scale (not clipped: a fifth of the recordings peaks above 1). motion: [total,
+    3] float32: vx, vy in m/s, force in N. position_mm: [total, 2] float32: the place on the surface. All are
+    read-only memory maps, which processes can share."""
 
     path: Path
     waveform: NDArray[np.float32]
@@ -92,25 +92,10 @@ class SegmentStore:
     def split(self, name: Split) -> list[StoredRecording]:
         return [recording for recording in self.recordings if recording.split == name]
 
-    def window_starts(
-        self, split: Split, window_samples: int, hop_samples: int
-    ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-        """(starts [w], recording index [w]) of every window that lies wholly inside one recording of
-        `split`.
-        """
-        starts, owners = [], []
-        for index, recording in enumerate(self.recordings):
-            if recording.split == split:
-                last = recording.start + recording.length - window_samples
-                found = np.arange(recording.start, last + 1, hop_samples, dtype=np.int64)
-                starts.append(found)
-                owners.append(np.full(len(found), index, dtype=np.int64))
-        empty = np.zeros(0, dtype=np.int64)
-        return np.concatenate([empty, *starts]), np.concatenate([empty, *owners])
-
     @classmethod
     def open(cls, path: Path | str) -> SegmentStore:
-        """InputError names file and remedy where the store is missing, unfinished, damaged or newer."""
+        """Open a store. InputError names file and remedy if it is missing, unfinished, damaged or of a newer
+        version."""
         root = Path(path)
         header = _read_header(root)
         try:
@@ -146,7 +131,7 @@ def write_header(
     settings: PreprocessingSettings,
     provenance: dict[str, Any],
 ) -> None:
-    """Declare the store in `root` finished."""
+    """Write the header, which marks the store in `root` as complete."""
     header = {
         "version": STORE_VERSION,
         "sample_rate_hz": settings.sample_rate_hz,

@@ -1,8 +1,8 @@
-"""One recording for training, validation and test: cut by time, with gaps between the parts.
+"""Cuts one recording by time into training, validation and test, with gaps between the parts.
 
-For labels of which there are too few recordings to leave whole ones out. A recording is cut into rounds of about 10 s,
-each of a part for training, one for validation and one for test, so that every split hears the whole of a long recording.
-Between two parts lie as many samples as a training pair's past is long: no sample belongs to two splits.
+For labels with too few recordings to leave whole ones out. A recording is cut into rounds of about 10 s, each with a
+part for training, one for validation and one for test, so that every split covers the whole recording. The gap between
+two parts is as long as the previous waveform of a training pair: no sample belongs to two splits.
 """
 
 from __future__ import annotations
@@ -16,8 +16,8 @@ from haptoflow_training.preprocessing.split import SPLITS, Split, split_of
 from haptoflow_training.recordings.recording import RecordingIdentity
 
 _ROUND_SECONDS = 10.0
-# A training pair is two segments; less is of no use to a split.
-_FEWEST_SEGMENTS = {"train": 4, "validation": 2, "test": 2}
+# A training pair needs two segments; a split cannot use fewer.
+_MINIMUM_SEGMENTS = {"train": 4, "validation": 2, "test": 2}
 
 
 @dataclass(frozen=True)
@@ -30,7 +30,7 @@ class TimePart:
 
 
 def time_parts(samples: int, settings: PreprocessingSettings) -> list[TimePart]:
-    """The parts of a recording of so many samples; empty where it is too short to be cut."""
+    """The parts of a recording with so many samples; empty if it is too short to be cut."""
     guard = settings.segment_samples
     rounds = max(1, round(samples / (_ROUND_SECONDS * settings.sample_rate_hz)))
     shares = (settings.train_share, settings.validation_share, 1.0 - settings.train_share - settings.validation_share)
@@ -40,7 +40,7 @@ def time_parts(samples: int, settings: PreprocessingSettings) -> list[TimePart]:
         wanted = dict(zip(SPLITS, (max(0.0, share) * (last - first) for share in shares), strict=True))
         wanted = {split: length for split, length in wanted.items() if length > 0.0}
         for split, length in wanted.items():
-            # What validation and test need at least is taken from training.
+            # The minimum for validation and test is taken from training.
             wanted[split] = max(length, _fewest(split, settings) + guard)
         wanted["train"] = last - first - sum(length for split, length in wanted.items() if split != "train")
         start = float(first)
@@ -54,11 +54,11 @@ def time_parts(samples: int, settings: PreprocessingSettings) -> list[TimePart]:
 
 
 def _fewest(split: Split, settings: PreprocessingSettings) -> int:
-    return _FEWEST_SEGMENTS[split] * settings.segment_samples + 1
+    return _MINIMUM_SEGMENTS[split] * settings.segment_samples + 1
 
 
 def cut(prepared: PreparedRecording, part: TimePart) -> PreparedRecording:
-    """The part's samples."""
+    """The samples of a part."""
     samples = slice(part.start, part.stop)
     return PreparedRecording(prepared.waveform_mps2[samples], prepared.motion[samples], prepared.position_mm[samples])
 
@@ -66,7 +66,7 @@ def cut(prepared: PreparedRecording, part: TimePart) -> PreparedRecording:
 def labels_without_a_split(
     recordings: Iterable[tuple[str, Split]], settings: PreprocessingSettings
 ) -> list[str]:
-    """Of (label, split) of every recording: the labels that lack a split that the shares ask for, in order."""
+    """From (label, split) of every recording: the labels that lack a split with a share above 0, in order."""
     wanted = {"train"}
     if settings.validation_share > 0.0:
         wanted.add("validation")
@@ -81,6 +81,6 @@ def labels_without_a_split(
 def labels_to_cut(
     identities: Iterable[tuple[str, RecordingIdentity]], settings: PreprocessingSettings, seed: int
 ) -> Collection[str]:
-    """Labels whose recordings' names alone leave a split empty."""
+    """Labels for which the recordings' names alone leave a split empty."""
     splits = ((label, split_of(identity, settings, seed)) for label, identity in identities)
     return labels_without_a_split(splits, settings)

@@ -1,1 +1,1 @@
-"""Recordings of a tool on a surface: published, synthetic, and prepared for training."""
+"""Readers of recordings (published, own, synthetic) of a tool on a surface."""

@@ -1,4 +1,5 @@
-"""The Cluster Haptic Texture Dataset and its likes: an index of the folder now, samples when asked for."""
+"""The Cluster Haptic Texture Dataset and data sets in its layout: an index of the folder; samples are read on
+demand."""
 
 from __future__ import annotations
 
@@ -38,7 +39,7 @@ _ENDINGS = (".csv", ".parquet")
 
 @dataclass(frozen=True)
 class DatasetProblem:
-    """A file that is missing or not as the layout has it; the rest of the data set stays usable."""
+    """A file that is missing or does not follow the layout; the rest of the data set stays usable."""
 
     path: Path
     found: str
@@ -50,7 +51,7 @@ class DatasetProblem:
 
 @dataclass(frozen=True)
 class RecordingFiles:
-    """One recording on disk; `load` reads its three sensor files. Safe to hand to another process."""
+    """One recording on disk; `load` reads its three sensor files. Can be passed to another process."""
 
     identity: RecordingIdentity
     label: str
@@ -65,11 +66,11 @@ class RecordingFiles:
         return self.acceleration_path, self.force_path, self.position_path
 
     def path_of(self, sensor: str) -> Path:
-        """Where acceleration, force or position is read from."""
+        """The file of acceleration, force or position."""
         return dict(zip(("acceleration", "force", "position"), self.paths, strict=True))[sensor]
 
     def load(self) -> Recording:
-        """DatasetFileError (an InputError) names the file that is not as the layout has it."""
+        """Read the recording. DatasetFileError (an InputError) names a file that does not follow the layout."""
         acceleration = read_sensor(self.acceleration_path, ACCELERATION, self.table_reader)
         force = read_sensor(self.force_path, FORCE, self.table_reader)
         position = read_sensor(self.position_path, POSITION, self.table_reader)
@@ -78,9 +79,9 @@ class RecordingFiles:
 
 @dataclass(frozen=True)
 class ClusterDataset:
-    """What lies under `root`. problems: what the folder listing alone shows to be wrong.
+    """The contents of `root`. problems: those visible from the folder listing alone.
 
-    textures: id -> name. unlabelled: complete recordings whose texture no label lists.
+    textures: id to name. unlabelled: complete recordings whose texture no label lists.
     """
 
     root: Path
@@ -97,12 +98,12 @@ class ClusterDataset:
 
     @property
     def published(self) -> bool:
-        """These are recordings of the Cluster Haptic Texture Dataset: its ids mean what its labels file says."""
+        """Whether these are recordings of the Cluster Haptic Texture Dataset, whose ids its labels file uses."""
         return _is_published(self.provenance)
 
     @property
     def left_out(self) -> str:
-        """One line about the recordings whose texture no label names, for people; empty where there are none."""
+        """One printable line about the recordings whose texture no label names; empty if there are none."""
         if not self.unlabelled:
             return ""
         textures = dict.fromkeys(self.textures[entry.identity.texture_id] for entry in self.unlabelled)
@@ -117,12 +118,12 @@ class ClusterDataset:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What was ignored: nothing."""
+        """Notes about ignored content; this layout has none."""
         return ()
 
     @property
     def labels(self) -> list[str]:
-        """The labels that occur, by their lowest texture id."""
+        """The labels that occur, ordered by their lowest texture id."""
         return list(dict.fromkeys(entry.label for entry in self.recordings))
 
     def __iter__(self) -> Iterator[RecordingFiles]:
@@ -135,12 +136,12 @@ class ClusterDataset:
 def open_dataset(
     root: Path | str, labels: LabelMap | None = None, table_reader: TableReader = read_table
 ) -> ClusterDataset:
-    """Index a folder of either release, sorted by identity; reads names and the texture list, no samples.
+    """Index a folder of either release, sorted by identity; reads names and the texture list, but no samples.
 
-    Without `labels` every texture's name is its label. With it, textures that no label lists are
-    `unlabelled`; a synthetic root numbers its textures on its own, so there a label is found by its name.
-    Without provenance.json a folder is the published data set only where its texture list says so.
-    InputError where the folder does not hold `sensor_data/accel`.
+    Without `labels` every texture's name is its label. With it, textures that no label lists are `unlabelled`; a
+    synthetic root has texture ids of its own, so its labels are matched by name. Without provenance.json a folder
+    counts as the published data set only if its texture list says so. InputError if the folder does not hold
+    `sensor_data/accel`.
     """
     root = Path(root)
     sensors = root / SENSOR_FOLDER

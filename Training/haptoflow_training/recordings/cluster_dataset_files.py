@@ -1,4 +1,4 @@
-"""One sensor file of the data set -> time and values, checked; what is wrong is named, never guessed."""
+"""Reads and checks one sensor file of the data set: time and values. Errors name the problem; nothing is guessed."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ TOLERATED_SHARE = 0.01
 
 
 class DatasetFileError(InputError):
-    """A file of the data set is not as the layout has it."""
+    """A file of the data set does not follow the layout."""
 
     def __init__(self, path: Path, found: str, expected: str) -> None:
         super().__init__(f"{path}: {found}; expected {expected}")
@@ -49,7 +49,7 @@ def read_table(path: Path) -> pandas.DataFrame:
 
 
 def open_table(path: Path, expected: str, table_reader: TableReader = read_table) -> pandas.DataFrame:
-    """The table as it is. DatasetFileError, with what was expected, where the file is empty, unreadable or none."""
+    """The table as read. DatasetFileError with the expected content if the file is empty, unreadable or not a table."""
     try:
         if path.stat().st_size == 0:
             raise DatasetFileError(path, "empty file", expected)
@@ -58,17 +58,17 @@ def open_table(path: Path, expected: str, table_reader: TableReader = read_table
         raise
     except OSError as error:
         raise DatasetFileError(path, f"cannot be read ({error.strerror or error})", expected) from error
-    except Exception as error:  # pandas and its Parquet engines raise many kinds for a damaged file
+    except Exception as error:  # pandas and its Parquet engines raise many types for a damaged file
         raise DatasetFileError(path, f"not a table ({str(error).splitlines()[0]})", expected) from error
 
 
 def read_sensor(
     path: Path, kind: SensorKind, table_reader: TableReader = read_table
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """(time [n] in seconds, strictly rising; values [n] or [n, columns - 1]), all finite.
+    """(time [n] in seconds, strictly increasing; values [n] or [n, columns - 1]), all finite.
 
-    DatasetFileError where the file is empty, has other columns, holds text, or its clock runs back. Rows without a
-    number are dropped, up to 1 % of them, and so are time stamps that repeat the one before.
+    DatasetFileError if the file is empty, has other columns, contains text, or its clock runs backwards. Up to 1 % of
+    rows without a number are dropped, and so are repeated time stamps.
     """
     header = f"columns {','.join(kind.columns)}"
     table = open_table(path, header, table_reader)
@@ -93,8 +93,8 @@ def read_sensor(
 
 
 def rising_rows(path: Path, numbers: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Rows [n, 1 + columns] whose first column is their time, without those that repeat the time stamp before; of those,
-    1 % at most. DatasetFileError where the clock runs back."""
+    """Rows [n, 1 + columns] whose first column is their time, without repeated time stamps, of which 1 % are
+    accepted. DatasetFileError if the clock runs backwards."""
     steps = np.diff(numbers[:, 0])
     if (steps < 0).any():
         row = int((steps < 0).argmax()) + 3

@@ -1,4 +1,4 @@
-"""texture_list.xlsx: which texture an id is."""
+"""Reads texture_list.xlsx, which names the texture of an id."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ _SEARCHED_ROWS = 10
 
 
 def read_texture_list(root: Path) -> dict[int, TextureEntry]:
-    """Entries by id; friction coefficients are the numeric columns whose heading speaks of friction or mu.
+    """Entries by id; friction coefficients are the numeric columns whose heading contains friction or mu.
 
-    The headings may stand below a title and be spelled in several ways. Empty where the file is missing.
-    DatasetFileError where it is there and cannot be understood.
+    The headings may stand below a title and be spelled in several ways. Empty if the file is missing; DatasetFileError
+    if it cannot be understood.
     """
     import pandas
 
@@ -29,7 +29,7 @@ def read_texture_list(root: Path) -> dict[int, TextureEntry]:
         return {}
     try:
         sheet = pandas.read_excel(path, header=None, engine="openpyxl")
-    except Exception as error:  # a damaged workbook raises whatever zip, XML and openpyxl raise
+    except Exception as error:  # a damaged workbook raises what zip, XML and openpyxl raise
         raise DatasetFileError(path, f"not a workbook ({error})", _EXPECTED) from error
     for row in range(min(_SEARCHED_ROWS, len(sheet))):
         headings = [str(cell).strip() for cell in sheet.iloc[row]]
@@ -66,7 +66,8 @@ def read_texture_list(root: Path) -> dict[int, TextureEntry]:
 def texture_names(
     texture_ids: set[int], listed: dict[int, TextureEntry], *, published: bool
 ) -> dict[int, str]:
-    """A name for every id: the list's, else the published one (of the published data set), else one made of the id."""
+    """A name for every id: from the list, else the published one (for the published data set), else one derived from
+    the id."""
     return {
         texture_id: listed[texture_id].name
         if texture_id in listed

@@ -1,4 +1,4 @@
-"""What a data set folder holds: counts, clocks, durations, coverage, and every broken file."""
+"""Reports the contents of a data set folder: counts, clocks, durations, coverage, and every broken file."""
 
 from __future__ import annotations
 
@@ -35,7 +35,8 @@ class ClockSummary:
 
 @dataclass(frozen=True)
 class RangeSummary:
-    """Of one quantity over recordings: the lowest 1st percentile, the median of medians, the highest 99th percentile."""
+    """Range of one quantity over the recordings: the lowest 1st percentile, the median of medians, the highest 99th
+    percentile."""
 
     unit: str
     low: float
@@ -45,7 +46,7 @@ class RangeSummary:
 
 @dataclass(frozen=True)
 class Inspection:
-    """Counts are of readable recordings; problems are in the order of the files."""
+    """Counts cover readable recordings; problems are in the order of the files."""
 
     dataset: Dataset
     readable: tuple[RecordingFile, ...]
@@ -55,7 +56,7 @@ class Inspection:
     problems: tuple[DatasetProblem, ...]
 
     def counts(self) -> dict[str, dict[str, int]]:
-        """How many recordings by each part of a name, in ascending order."""
+        """The number of recordings by each part of a name, in ascending order."""
         identities = [entry.identity for entry in self.readable]
         machine = [identity for identity in identities if identity.protocol == "machine"]
         return {
@@ -68,7 +69,7 @@ class Inspection:
         }
 
     def coverage(self) -> list[dict[str, Any]]:
-        """For each material: recordings, and conditions of the machine grid that occur over those that could.
+        """For each material: recordings, and the occurring conditions of the machine grid over the possible ones.
 
         The grid is every direction x speed x force x repeat that any material of this folder has.
         """
@@ -121,7 +122,8 @@ def inspect_dataset(
 ) -> Inspection:
     """Read every recording once, one at a time; `recordings` may wrap `dataset` to show progress.
 
-    A broken file is a problem, and so is what looks like a wrong unit or a glitch; InputError is raised only where no Parquet engine is installed.
+    A broken file is reported as a problem, and so is an apparent wrong unit or glitch; InputError is raised only if no
+    Parquet engine is installed.
     """
     readable: list[RecordingFile] = []
     durations: list[float] = []

@@ -1,7 +1,7 @@
-"""Where the Cluster Haptic Texture Dataset keeps what, in both of its published releases.
+"""The layout of the Cluster Haptic Texture Dataset, in both published releases.
 
-File release: `sensor_data/<kind>/<name>.csv`; hub release: `sensor_data/<kind>/<texture_id>/<name>.parquet`.
-The columns are the same.
+File release: `sensor_data/<kind>/<name>.csv`; hub release: `sensor_data/<kind>/<texture_id>/<name>.parquet`. The
+columns are the same.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ _GROUPS: tuple[tuple[int, int, str], ...] = (
     (102, 117, "cloth"),
 )
 
-# Only groups whose names are known one for each id; the others are known by texture_list.xlsx alone.
+# Only groups whose names are known for each id; the names of the others are in texture_list.xlsx alone.
 _NAMES: dict[int, str] = {
     0: "Nyatoh",
     37: "Cedar",
@@ -84,12 +84,12 @@ def published_group(texture_id: int) -> str | None:
 
 
 def published_name(texture_id: int) -> str:
-    """The published name where it is known, else the group and the id (`cloth 104`)."""
+    """The published name if it is known, else the group and the id (`cloth 104`)."""
     return _NAMES.get(texture_id) or f"{published_group(texture_id) or 'texture'} {texture_id}"
 
 
 def is_published_list(names: Mapping[int, str]) -> bool:
-    """Whether a texture list is that of the published data set: it names at least one texture whose published name is
-    known, and agrees with all of those."""
+    """Whether a texture list is that of the published data set: it names at least one texture whose published name
+    is known, and agrees with all such names."""
     known = {texture_id: name for texture_id, name in _NAMES.items() if texture_id in names}
     return bool(known) and all(plain_name(names[texture_id]) == plain_name(name) for texture_id, name in known.items())

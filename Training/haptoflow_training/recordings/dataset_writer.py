@@ -1,4 +1,4 @@
-"""Write recordings as the data set's file release lays them out, so that one reader serves both."""
+"""Writes recordings in the data set's file release layout, so that one reader serves both."""
 
 from __future__ import annotations
 
@@ -38,10 +38,10 @@ class TextureEntry:
 
 
 def write_recording(root: Path, recording: Recording) -> None:
-    """Write the three sensor files of one recording; each appears whole or not at all.
+    """Write the three sensor files of one recording, each atomically.
 
-    Times keep whole microseconds, values nine significant digits: sensor steps (1 mg, 0.01 N, 0.01 mm) come
-    back exactly. ValueError where a value is not finite. OSError where the disk refuses.
+    Times keep whole microseconds, values nine significant digits: sensor steps (1 mg, 0.01 N, 0.01 mm) are preserved
+    exactly. ValueError if a value is not finite; OSError if the disk refuses.
     """
     sensors: tuple[tuple[SensorKind, NDArray[np.float64], NDArray[np.floating]], ...] = (
         (ACCELERATION, recording.acceleration_time_seconds, recording.acceleration_g),
@@ -71,7 +71,7 @@ def write_texture_list(root: Path, entries: Iterable[TextureEntry]) -> None:
 def write_provenance(
     root: Path, *, source: str, licence: str, synthetic: bool, details: dict[str, Any] | None = None
 ) -> None:
-    """Write provenance.json: where the recordings come from; it travels into stores and model files."""
+    """Write provenance.json, which states where the recordings come from; stores and model files copy it."""
     document = {"source": source, "licence": licence, "synthetic": synthetic, **(details or {})}
     with _replacing(Path(root) / PROVENANCE_FILE) as unfinished:
         unfinished.write_text(json.dumps(document, indent=2) + "\n", encoding="utf-8")

@@ -1,10 +1,9 @@
-"""Labels and the textures behind them, from a TOML file: which recordings teach which material."""
+"""Labels and their textures, from a TOML file: which recordings are used for which material."""
 
 from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -19,10 +18,10 @@ _OPTIONAL = ("textures", "wavelength_metres", "wave_vectors_per_mm")
 
 @dataclass(frozen=True)
 class LabelDefinition:
-    """One label. textures: ids, or names as texture_list.xlsx or the recordings' sidecars have them. stiffness: default
+    """One label. textures: ids, or names as in texture_list.xlsx or the recordings' sidecars. stiffness: default
     spring, N/m. friction_coefficient: kinetic. wavelength_metres: of a ruled or woven surface, else None.
-    wave_vectors_per_mm: (x, y) across its ribs in cycles per millimetre; empty for a surface that has none, None where
-    nobody said."""
+    wave_vectors_per_mm: (x, y) across its ribs in cycles per millimetre; empty for a surface without ribs, None if
+    the file does not state them."""
 
     name: str
     category: str
@@ -44,7 +43,7 @@ class LabelMap:
         return [definition.name for definition in self.definitions]
 
     def label_of(self, texture_id: int, texture_name: str) -> str | None:
-        """The label that lists this texture by id or by name, None where none does."""
+        """The label that lists this texture by id or by name; None if none does."""
         plain = plain_name(texture_name)
         for definition in self.definitions:
             for texture in definition.textures:
@@ -52,23 +51,14 @@ class LabelMap:
                     return definition.name
         return None
 
-    def select(self, names: Iterable[str]) -> LabelMap:
-        """Only these labels, in the order given; InputError for one that is not defined."""
-        by_name = {definition.name: definition for definition in self.definitions}
-        wanted = list(names)
-        for name in wanted:
-            if name not in by_name:
-                raise InputError(f"label '{name}' is not defined; expected one of {', '.join(by_name)}")
-        return LabelMap(tuple(by_name[name] for name in wanted))
-
 
 def plain_name(name: str) -> str:
-    """A texture's name without case, spaces and punctuation: releases spell them differently."""
+    """A texture's name in lower case without spaces and punctuation, because releases spell names differently."""
     return re.sub(r"[^a-z0-9]", "", name.casefold())
 
 
 def load_labels(path: Path | str | None = None) -> LabelMap:
-    """Read a labels file; InputError names the file, the entry, the key and what was expected."""
+    """Read a labels file; InputError names the file, the entry, the key and the expected value."""
     source = DEFAULT_LABELS_PATH if path is None else Path(path)
     try:
         document = tomllib.loads(source.read_text(encoding="utf-8"))

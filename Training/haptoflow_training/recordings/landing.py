@@ -1,10 +1,10 @@
-"""The vibration of a tip that lands on a material: decaying sinusoids, from the material's stiffness, damping and
-resonances in the recorder.
+"""The vibration at touch-down: decaying sinusoids, from the material's stiffness, damping and resonances in the
+recorder.
 
-A tip of mass m that lands with speed v on a spring k answers with v sqrt(k/m) e^(-Bt) sin(sqrt(k/m) t) (Okamura,
+A tip of mass m that lands with speed v on a spring k vibrates as v sqrt(k/m) e^(-Bt) sin(sqrt(k/m) t) (Okamura,
 Cutkosky, Dennerlein 2001, fit the same form to taps on real materials). The spring is that of the virtual surface, so
-that what looks hard sounds hard; a resonance of the specimen rings with it. The mass, the share that the hand leaves and
-the decay were chosen by ear and plot, not measured: rubber, wood and stone come to about 90, 170 and 320 Hz.
+that a stiffer surface also sounds harder; a resonance of the specimen is added. The mass, the restitution and the decay
+were chosen by listening and from plots, not measured: rubber, wood and stone come to about 90, 170 and 320 Hz.
 """
 
 from __future__ import annotations
@@ -14,20 +14,21 @@ from dataclasses import dataclass
 
 from haptoflow_training.recordings.synthetic.materials import Material
 
-# Of a tip as light as 1 g; a stylus's own mass is behind the hand.
+# A tip of about 1 g: the stylus's own mass is coupled to the hand.
 _TIP_KILOGRAMS = 1.0 / (2.0 * math.pi * 5.0) ** 2
-_LOWEST_HZ, _HIGHEST_HZ = 25.0, 450.0
+_MINIMUM_HZ, _MAXIMUM_HZ = 25.0, 450.0
 _SHARE_LEFT_BY_THE_HAND = 0.15
-_SLOWEST_DECAY_PER_SECOND, _DECAY_PER_HERTZ = 60.0, 0.15
+_MINIMUM_DECAY_PER_SECOND, _DECAY_PER_HERTZ = 60.0, 0.15
 _USUAL_DAMPING = 0.4
 _SHARE_OF_A_RESONANCE = 0.3
-# A landing on the softest material does not come back; each tenfold stiffness adds this to the share of its speed.
-_RESTITUTION_PER_DECADE, _SOFTEST_NEWTONS_PER_METRE, _LARGEST_RESTITUTION = 0.2, 200.0, 0.35
+# A tip does not bounce off the softest material; each tenfold stiffness adds this to the share of speed that it keeps.
+_RESTITUTION_PER_DECADE, _SOFTEST_NEWTONS_PER_METRE, _MAXIMUM_RESTITUTION = 0.2, 200.0, 0.35
 
 
 @dataclass(frozen=True)
 class LandingMode:
-    """frequency_hz; decay_per_second: B of e^(-Bt); gain_per_second: m/s^2 for each m/s of the landing."""
+    """frequency_hz; decay_per_second: B of e^(-Bt); gain_per_second: amplitude in m/s^2 for each m/s of landing
+    speed."""
 
     frequency_hz: float
     decay_per_second: float
@@ -36,25 +37,25 @@ class LandingMode:
 
 @dataclass(frozen=True)
 class Landing:
-    """modes: first the tip on the contact's spring, then the specimen's strongest resonance if it has one below 950 Hz.
-    restitution: the share of its speed that the tip keeps when it springs back, 0 to 0.35."""
+    """modes: first the tip on the contact's spring, then the specimen's strongest resonance if it has one below 950
+    Hz. restitution: the share of its speed that the tip keeps when it bounces, 0 to 0.35."""
 
     modes: tuple[LandingMode, ...]
     restitution: float
 
 
 def landing_of(material: Material) -> Landing:
-    """The answer of one material."""
+    """The touch-down vibration of one material."""
     stiffness = material.stiffness_newtons_per_metre
     frequency = math.sqrt(stiffness / _TIP_KILOGRAMS) / (2.0 * math.pi)
-    frequency = min(max(frequency, _LOWEST_HZ), _HIGHEST_HZ)
+    frequency = min(max(frequency, _MINIMUM_HZ), _MAXIMUM_HZ)
     damping = material.contact_damping / _USUAL_DAMPING
     gain = _SHARE_LEFT_BY_THE_HAND * 2.0 * math.pi * frequency
-    modes = [LandingMode(frequency, damping * (_SLOWEST_DECAY_PER_SECOND + _DECAY_PER_HERTZ * frequency), gain)]
+    modes = [LandingMode(frequency, damping * (_MINIMUM_DECAY_PER_SECOND + _DECAY_PER_HERTZ * frequency), gain)]
     ringing = [mode for mode in material.tool_modes if mode[1] > 0.0 and mode[0] < 950.0]
     if ringing:
         ring_hz, gain_db, quality = max(ringing, key=lambda mode: mode[1])
         share = _SHARE_OF_A_RESONANCE * min(1.0, 10.0 ** ((gain_db - 6.0) / 20.0))
-        modes.append(LandingMode(ring_hz, max(_SLOWEST_DECAY_PER_SECOND, math.pi * ring_hz / quality), share * gain))
+        modes.append(LandingMode(ring_hz, max(_MINIMUM_DECAY_PER_SECOND, math.pi * ring_hz / quality), share * gain))
     decades = max(0.0, math.log10(stiffness / _SOFTEST_NEWTONS_PER_METRE))
-    return Landing(tuple(modes), min(_LARGEST_RESTITUTION, _RESTITUTION_PER_DECADE * decades))
+    return Landing(tuple(modes), min(_MAXIMUM_RESTITUTION, _RESTITUTION_PER_DECADE * decades))

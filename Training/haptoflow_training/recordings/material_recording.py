@@ -1,4 +1,4 @@
-"""Recordings as whoever learns one material wants them: 2 kHz, one axis, the motion of every sample."""
+"""Recordings in the form that fits one material: 2 kHz, one axis, the motion of every sample."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ from haptoflow_training.recordings.open_recordings import open_recordings
 class MaterialRecording:
     """One stretch without gaps, filtered and trimmed as for training.
 
-    name: the file's, with its part where gaps cut it. label: empty where nobody said. vibration_mps2: [n] at 2 kHz, m/s^2.
-    velocity_mps: [n, 2]. force_newtons: [n]. licence, source: `unknown` where nobody said.
+    name: of the file, with its part if gaps divide it. label: empty if not stated. vibration_mps2: [n] at 2 kHz, m/s^2.
+    velocity_mps: [n, 2]. force_newtons: [n]. licence, source: `unknown` if not stated.
     """
 
     name: str
@@ -37,10 +37,10 @@ class MaterialRecording:
 
 
 def read_material_recordings(paths: Sequence[Path | str]) -> list[MaterialRecording]:
-    """Every recording in files and folders (files of one's own, or the published data set's layout).
+    """Every recording in files and folders (own files, or the published data set's layout).
 
-    InputError where one cannot be used: it names file, column or key, what was found and what is expected; and where
-    there is none at all.
+    InputError if one cannot be used, naming file, column or key, what was found and what is expected; and if there is
+    none.
     """
     settings = PreprocessingSettings()
     recordings: list[MaterialRecording] = []

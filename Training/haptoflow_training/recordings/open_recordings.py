@@ -1,4 +1,4 @@
-"""Whatever recordings a path holds: the published data set's layout, or files of one's own."""
+"""Opens the recordings of a path: the published data set's layout, or own files."""
 
 from __future__ import annotations
 
@@ -17,7 +17,8 @@ RecordingFile = RecordingFiles | OwnRecordingFile
 def open_recordings(path: Path | str, labels: LabelMap | None = None) -> Dataset:
     """Index a folder that holds sensor_data, a folder of CSV, Parquet or WAV files, or one such file.
 
-    Without `labels` every texture's name is its label, or what its sidecar says. InputError names a path with nothing.
+    Without `labels` every texture's name is its label, or what its sidecar states. InputError if the path holds no
+    recording.
     """
     root = Path(path)
     if (root / SENSOR_FOLDER).is_dir():

@@ -1,4 +1,4 @@
-"""A folder of recordings of one's own as a data set: what it holds, whose label each is, where they come from."""
+"""A folder of a user's own recordings as a data set, with labels and origin."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ from haptoflow_training.recordings.own_table import column_names, unknown_column
 
 @dataclass(frozen=True)
 class OwnDataset:
-    """What lies under `root`, with the members of ClusterDataset. textures: the words that sidecars use for labels.
+    """The contents of `root`, with the members of ClusterDataset. textures: the names that sidecars use as labels.
 
-    notes: what was ignored, a line each. problems: files that cannot be used.
+    notes: a line for each thing that was ignored. problems: unusable files.
     """
 
     root: Path
@@ -33,7 +33,7 @@ class OwnDataset:
 
     @property
     def provenance(self) -> dict[str, Any]:
-        """What the sidecars say, each word once."""
+        """The distinct values that the sidecars state."""
         files = [*self.recordings, *self.unlabelled]
         said = [(file.sidecar.source or UNKNOWN, file.sidecar.licence or UNKNOWN) for file in files]
         sources, licences = (list(dict.fromkeys(words)) for words in zip(*said, strict=True)) if said else ([], [])
@@ -49,7 +49,7 @@ class OwnDataset:
 
     @property
     def left_out(self) -> str:
-        """One line about the recordings that no label names, for people; empty where there are none."""
+        """One printable line about the recordings that no label names; empty if there are none."""
         if not self.unlabelled:
             return ""
         nameless = [entry.identity.name for entry in self.unlabelled if not entry.label]
@@ -70,9 +70,10 @@ class OwnDataset:
 
 
 def open_own_dataset(root: Path, labels: LabelMap | None = None) -> OwnDataset:
-    """Index a folder, subfolders included, or one file; reads sidecars and headings, no samples.
+    """Index a folder with its subfolders, or one file; reads sidecars and headings, but no samples.
 
-    Without `labels` a recording's label is what its sidecar says. InputError where there is no such file at all.
+    Without `labels` a recording's label is the one in its sidecar. InputError if the path does not exist or holds no
+    recording.
     """
     files = _files(root)
     complete: list[OwnRecordingFile] = []

@@ -1,4 +1,4 @@
-"""Recordings of one's own, a file each: CSV or Parquet table, or WAV, with a sidecar for what is constant."""
+"""A user's own recordings, one file each: CSV or Parquet table, or WAV, with a sidecar for constants."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from scipy import signal
 
 from haptoflow_training.recordings.cluster_dataset_files import DatasetFileError
-from haptoflow_training.recordings.own_sidecar import HIGHEST_RATE_HZ, LOWEST_RATE_HZ, Sidecar, read_sidecar
+from haptoflow_training.recordings.own_sidecar import MAXIMUM_RATE_HZ, MINIMUM_RATE_HZ, Sidecar, read_sidecar
 from haptoflow_training.recordings.own_table import (
     FORCE_FORMS,
     POSITION_FORMS,
@@ -31,15 +31,15 @@ from haptoflow_training.recordings.recording import STANDARD_GRAVITY_MPS2, Recor
 TABLE_ENDINGS = (".csv", ".parquet")
 OWN_ENDINGS = (*TABLE_ENDINGS, ".wav")
 _MOTION_MARK = ".motion"
-# Above this rate a recording is filtered before it is resampled, so that nothing folds back into the band.
-_HIGHEST_UNFILTERED_HZ = 8400.0
+# Above this rate a recording is filtered before it is resampled, to prevent aliasing.
+_MAXIMUM_UNFILTERED_HZ = 8400.0
 _KEPT_HZ = 2500.0
 _CONSTANT_STEPS = 64
 
 
 @dataclass(frozen=True)
 class OwnRecordingFile:
-    """One recording on disk. Safe to hand to another process; `load` reads it."""
+    """One recording on disk; `load` reads it. Can be passed to another process."""
 
     path: Path
     identity: RecordingIdentity
@@ -56,27 +56,28 @@ class OwnRecordingFile:
         return (self.path, *(path for path in beside if path is not None and path.is_file()))
 
     def path_of(self, sensor: str) -> Path:
-        """Where acceleration, force or position is read from."""
+        """The file of acceleration, force or position."""
         motion = self.sidecar.motion
         return self.path if sensor == "acceleration" or motion is None else motion
 
     def load(self) -> Recording:
-        """DatasetFileError (an InputError) names file, column or key, what was found and what is expected."""
+        """Read the recording. DatasetFileError (an InputError) names file, column or key, what was found and what is
+        expected."""
         return read_own_recording(self.path, self.identity, self.label)
 
 
 def own_identity(name: str) -> RecordingIdentity:
-    """Of a file of one's own: its name and nothing that names of the published data set say."""
+    """The identity of an own file: its name, without the conditions that published names contain."""
     return RecordingIdentity(0, None, 0, 0, 0, name)
 
 
 def is_motion_file(path: Path) -> bool:
-    """Whether a file's name says that it is the motion of another (NAME.motion.csv)."""
+    """Whether the file's name marks it as the motion of another recording (NAME.motion.csv)."""
     return path.stem.endswith(_MOTION_MARK)
 
 
 def read_own_recording(path: Path, identity: RecordingIdentity, label: str) -> Recording:
-    """Read one recording with what stands beside it; one axis stays one axis.
+    """Read one recording with its sidecar and motion file; a single axis stays a single axis.
 
     DatasetFileError names file, column or key, what was found and what is expected.
     """
@@ -116,7 +117,7 @@ def _one(path: Path, found: Iterable[Series | None], what: str) -> Series | None
 
 def _require_rate(path: Path, acceleration: Series) -> None:
     rate_hz = 1.0 / float(np.median(np.diff(acceleration.time_seconds)))
-    if not 0.99 * LOWEST_RATE_HZ <= rate_hz <= 1.01 * HIGHEST_RATE_HZ:
+    if not 0.99 * MINIMUM_RATE_HZ <= rate_hz <= 1.01 * MAXIMUM_RATE_HZ:
         expected = "1000 to 192000 (time_s is in seconds)"
         raise DatasetFileError(path, f"{rate_hz:.4g} samples a second by time_s", expected)
 
@@ -124,7 +125,7 @@ def _require_rate(path: Path, acceleration: Series) -> None:
 def _motion(
     path: Path, sidecar: Sidecar, motion: Series | None, span: tuple[float, float]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64] | None]:
-    """Times, positions in mm, and the velocities in m/s where those are known without positions."""
+    """Times, positions in mm, and the velocities in m/s if they were recorded."""
     if motion is None:
         if sidecar.velocity_mps is None:
             expected = (
@@ -144,14 +145,14 @@ def _motion(
 
 
 def _read_anew(motion: Series) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Positions where the tracker read them: rows between two readings that repeat the older one are left out, because
-    they would look like rest and jumps."""
+    """Positions at the tracker's readings: rows that repeat the older reading are left out, because they would look
+    like rest and jumps."""
     time, values = motion.time_seconds, motion.values
     changes = np.concatenate([[0], np.flatnonzero(np.any(np.diff(values, axis=0) != 0.0, axis=1)) + 1])
     period = int(np.median(np.diff(changes))) if len(changes) > 8 else 1
     if period < 2:
         return time, values
-    # A tip that rests is read too: longer stretches without a change keep a row for each reading.
+    # A resting tip is read too: a longer stretch without a change keeps a row for each expected reading.
     kept: list[int] = []
     for first, last in zip(changes, [*changes[1:], len(time)], strict=True):
         kept.extend(range(int(first), int(last) - period + 1, period) if last - first >= 2 * period else [int(first)])
@@ -170,11 +171,11 @@ def _force(
 
 
 def _band_limited(acceleration: Series) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Times and values; of a fast recording without what lies above the band, and with fewer samples."""
+    """Times and values; a recording at a high rate is low-passed and decimated."""
     time, values = acceleration.time_seconds, acceleration.values
     step = float(np.median(np.diff(time)))
     stride = int(1.0 / (step * 8000.0))
-    if 1.0 / step <= _HIGHEST_UNFILTERED_HZ or stride < 1 or len(time) < 64:
+    if 1.0 / step <= _MAXIMUM_UNFILTERED_HZ or stride < 1 or len(time) < 64:
         return time, values
     sections = signal.butter(6, _KEPT_HZ, "lowpass", fs=1.0 / step, output="sos")
     filtered = signal.sosfiltfilt(sections, values, axis=0, padlen=min(len(values) - 1, round(30 * 0.0004 / step)))

@@ -1,4 +1,4 @@
-"""What stands beside a recording of one's own: NAME.json, and recordings.json with defaults for its folder."""
+"""The sidecar of an own recording: NAME.json, and recordings.json with defaults for its folder."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ DEFAULTS_FILE = "recordings.json"
 KEYS = (
     "label", "full_scale_mps2", "speed_mps", "velocity_mps", "force_newtons", "motion", "rate_hz", "licence", "source",
 )  # fmt: skip
-_FASTEST_MPS = 10.0
-_STRONGEST_NEWTONS = 100.0
-LOWEST_RATE_HZ, HIGHEST_RATE_HZ = 1000.0, 192_000.0
+_MAXIMUM_SPEED_MPS = 10.0
+_MAXIMUM_FORCE_NEWTONS = 100.0
+MINIMUM_RATE_HZ, MAXIMUM_RATE_HZ = 1000.0, 192_000.0
 
 
 @dataclass(frozen=True)
 class Sidecar:
-    """What the files beside a recording say of it; None or empty for what they leave to its columns.
+    """The contents of the sidecar files; None or empty for what is in the columns instead.
 
-    path: the sidecar's, whether it exists or not. velocity_mps: a speed lies along the first axis. motion: a file of its
-    own clock.
+    path: of the sidecar, whether it exists or not. velocity_mps: a speed lies along the first axis. motion: a file with
+    its own clock.
     """
 
     path: Path
@@ -39,7 +39,7 @@ class Sidecar:
 
 
 def read_sidecar(recording: Path) -> Sidecar:
-    """Of one recording's file; where a key stands in both files, the sidecar's own wins.
+    """Read the sidecar of one recording; its own keys override those of recordings.json.
 
     DatasetFileError names the file, the key, what was found and what is expected.
     """
@@ -61,11 +61,11 @@ def read_sidecar(recording: Path) -> Sidecar:
         full_scale_mps2=_number(values, origins, "full_scale_mps2", 0.01, 1e5, "m/s^2 at +-1, 0.01 to 100000"),
         velocity_mps=_velocity(values, origins),
         force_newtons=_number(
-            values, origins, "force_newtons", 0.0, _STRONGEST_NEWTONS, "newtons, 0 to 100 (a thousandth of mN)"
+            values, origins, "force_newtons", 0.0, _MAXIMUM_FORCE_NEWTONS, "newtons, 0 to 100 (a thousandth of mN)"
         ),
         motion=_motion(values, origins),
         rate_hz=_number(
-            values, origins, "rate_hz", LOWEST_RATE_HZ, HIGHEST_RATE_HZ, "samples a second, 1000 to 192000"
+            values, origins, "rate_hz", MINIMUM_RATE_HZ, MAXIMUM_RATE_HZ, "samples a second, 1000 to 192000"
         ),
         licence=_text(values, origins, "licence"),
         source=_text(values, origins, "source"),
@@ -112,7 +112,7 @@ def _number(
 
 def _velocity(values: dict[str, Any], origins: dict[str, Path]) -> tuple[float, float] | None:
     speed = _number(
-        values, origins, "speed_mps", 0.0, _FASTEST_MPS, "metres a second, 0 to 10 (a thousandth of mm/s)"
+        values, origins, "speed_mps", 0.0, _MAXIMUM_SPEED_MPS, "metres a second, 0 to 10 (a thousandth of mm/s)"
     )
     if speed is not None:
         return speed, 0.0
@@ -120,7 +120,7 @@ def _velocity(values: dict[str, Any], origins: dict[str, Path]) -> tuple[float, 
         return None
     value = values["velocity_mps"]
     pair = isinstance(value, list) and len(value) == 2 and all(_is_number(entry) for entry in value)
-    if not pair or math.hypot(*value) > _FASTEST_MPS:
+    if not pair or math.hypot(*value) > _MAXIMUM_SPEED_MPS:
         expected = "[vx, vy] in metres a second, 10 at most (a thousandth of mm/s)"
         raise DatasetFileError(origins["velocity_mps"], f"key 'velocity_mps' is {value!r}", expected)
     return float(value[0]), float(value[1])

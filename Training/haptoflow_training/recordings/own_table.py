@@ -1,4 +1,4 @@
-"""A table of one's own, CSV or Parquet: columns by name with their unit, in SI units afterwards."""
+"""Reads an own table, CSV or Parquet: columns named with their unit, converted to SI units."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _G = STANDARD_GRAVITY_MPS2
 
 @dataclass(frozen=True)
 class ColumnForm:
-    """Columns that stand together, and what makes SI units of their numbers."""
+    """Columns that belong together, and the factor that converts their numbers to SI units."""
 
     columns: tuple[str, ...]
     factor: float
@@ -52,7 +52,7 @@ _MOTION_FORMS = VELOCITY_FORMS + POSITION_FORMS
 
 @dataclass(frozen=True)
 class Series:
-    """time_seconds: [n], rising. values: [n, columns] in SI units. columns: what they were read from."""
+    """time_seconds: [n], increasing. values: [n, columns] in SI units. columns: the columns they were read from."""
 
     time_seconds: _Doubles
     values: _Doubles
@@ -61,7 +61,7 @@ class Series:
 
 @dataclass(frozen=True)
 class OwnTable:
-    """What a table holds; None for what stands elsewhere. unknown: columns that no form names, which are ignored."""
+    """The contents of a table; None for what it lacks. unknown: columns that no form names, which are ignored."""
 
     path: Path
     acceleration: Series | None = None
@@ -71,12 +71,12 @@ class OwnTable:
 
 
 def names_of(forms: tuple[ColumnForm, ...]) -> str:
-    """For messages: the forms' columns, each form in its order."""
+    """The columns of the forms, for messages."""
     return " | ".join(", ".join(form.columns) for form in forms)
 
 
 def column_names(path: Path) -> list[str]:
-    """Of a CSV's first line, without reading the rest."""
+    """The column names in a CSV file's first line, without reading the rest."""
     try:
         with path.open(encoding="utf-8-sig") as file:
             line = file.readline()
@@ -86,17 +86,17 @@ def column_names(path: Path) -> list[str]:
 
 
 def unknown_columns(names: list[str]) -> tuple[str, ...]:
-    """Those that no form names."""
+    """The columns that no form names."""
     forms = (*ACCELERATION_FORMS, *_MOTION_FORMS, *FORCE_FORMS)
     known = {TIME_COLUMN, *(column for form in forms for column in form.columns)}
     return tuple(name for name in names if name not in known)
 
 
 def read_own_table(path: Path, rate_hz: float | None, *, with_acceleration: bool = True) -> OwnTable:
-    """Read a table; rate_hz is its clock where it has no column time_s. with_acceleration: False for a motion file.
+    """Read a table; rate_hz is its clock if it has no column time_s. with_acceleration: False for a motion file.
 
-    Rows without a number in some column cost only that quantity; of the acceleration, 1 % of the rows at most.
-    DatasetFileError names the file, what was found and what is expected.
+    Rows without a number in some column are dropped for that quantity only; for the acceleration, at most 1 % of the
+    rows. DatasetFileError names the file, what was found and what is expected.
     """
     columns = _read_columns(path)
     names = list(columns)
@@ -179,7 +179,7 @@ def _series(
 
 
 def misread_units(table: OwnTable) -> Iterator[DatasetFileError]:
-    """Columns whose numbers say that their name has another unit."""
+    """Columns whose numbers indicate another unit than their name."""
     if table.acceleration is not None and len(table.acceleration.columns) == 3:
         rest = float(np.linalg.norm(table.acceleration.values.mean(axis=0)))
         raw, is_mps2 = (rest, True) if table.acceleration.columns[0].endswith("mps2") else (rest / _G, False)
@@ -191,7 +191,7 @@ def misread_units(table: OwnTable) -> Iterator[DatasetFileError]:
         yield from _misread_motion(table.path, table.motion)
 
 
-_FASTEST_MPS, _SLOWEST_MPS = 10.0, 0.0005
+_MAXIMUM_SPEED_MPS, _MINIMUM_SPEED_MPS = 10.0, 0.0005
 _OTHER_UNIT = {
     "velocity_x_mps": "m/s (a thousandth of mm/s)",
     "speed_mps": "m/s; name the column speed_mmps where it is in mm/s",
@@ -207,7 +207,7 @@ def _misread_motion(path: Path, motion: Series) -> Iterator[DatasetFileError]:
     if len(moving) == 0:
         return
     median = float(np.median(moving))
-    if not _SLOWEST_MPS < median < _FASTEST_MPS:
+    if not _MINIMUM_SPEED_MPS < median < _MAXIMUM_SPEED_MPS:
         found = f"{motion.columns[0]} gives a speed of {median:.3g} m/s"
         yield DatasetFileError(path, found, _OTHER_UNIT[motion.columns[0]])
 
@@ -217,14 +217,14 @@ def is_position(motion: Series) -> bool:
 
 
 def velocity_of(motion: Series) -> _Doubles:
-    """[n, 2] in m/s of a motion that was given as velocity or speed; a speed lies along the first axis."""
+    """[n, 2] in m/s for motion given as velocity or speed; a speed lies along the first axis."""
     if motion.values.shape[1] == 2:
         return motion.values
     return np.column_stack([np.abs(motion.values[:, 0]), np.zeros(len(motion.values))])
 
 
 def speeds_mps(motion: Series) -> _Doubles:
-    """Of each sample, or between positions; not smoothed but over 50 ms of positions."""
+    """The speed of each sample, or between positions; unsmoothed except over 50 ms of positions."""
     if not is_position(motion):
         return np.asarray(np.linalg.norm(velocity_of(motion), axis=1))
     step = float(np.median(np.diff(motion.time_seconds)))

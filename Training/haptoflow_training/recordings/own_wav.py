@@ -1,4 +1,4 @@
-"""A WAV file of one's own: acceleration of one or three axes, scaled by its sidecar."""
+"""Reads an own WAV file: acceleration of one or three axes, scaled by its sidecar."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from pathlib import Path
 import numpy as np
 
 from haptoflow_training.recordings.cluster_dataset_files import DatasetFileError
-from haptoflow_training.recordings.own_sidecar import HIGHEST_RATE_HZ, LOWEST_RATE_HZ, Sidecar
+from haptoflow_training.recordings.own_sidecar import MAXIMUM_RATE_HZ, MINIMUM_RATE_HZ, Sidecar
 from haptoflow_training.recordings.own_table import Series
 
 _EXPECTED = "a WAV file of 1 or 3 channels, PCM or float"
-# What stands for +1 in each kind of sample; 24 bits are read into the upper part of 32.
+# The value that represents +1 in each sample type; 24-bit samples are read into the upper bits of 32.
 _FULL_SCALE = {"uint8": 2.0**7, "int16": 2.0**15, "int32": 2.0**31, "int64": 2.0**63}
 
 
@@ -26,7 +26,7 @@ def read_own_wav(path: Path, sidecar: Sidecar) -> Series:
             rate_hz, samples = wavfile.read(path)
     except (OSError, ValueError, EOFError) as error:
         raise DatasetFileError(path, f"not read as WAV ({error})", _EXPECTED) from error
-    if not LOWEST_RATE_HZ <= rate_hz <= HIGHEST_RATE_HZ:
+    if not MINIMUM_RATE_HZ <= rate_hz <= MAXIMUM_RATE_HZ:
         raise DatasetFileError(path, f"{rate_hz} samples a second", "1000 to 192000")
     values = samples.reshape(len(samples), -1)
     if values.shape[1] not in (1, 3):

@@ -1,4 +1,4 @@
-"""One recording of a stylus on a surface, as every reader returns it and every recorder makes it."""
+"""One recording of a stylus on a surface, the common form of all readers and recorders."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ _NAME_PATTERN = re.compile(r"^(\d+)_(\d+|hand)_(\d+)_(\d+)_(\d+)$")
 
 @dataclass(frozen=True, order=True)
 class RecordingIdentity:
-    """What the name `<texture_id>_<direction>_<velocity>_<force>_<repeat>` says.
+    """The parts of the name `<texture_id>_<direction>_<velocity>_<force>_<repeat>`.
 
-    `direction_degrees` is clockwise (0, 45 ... 315) for the `machine` protocol and None for `hand`, whose names
-    carry the word `hand` in its place; `speed_mmps` and `force_millinewtons` are then the medians asked for.
-    file_name: of a recording of one's own, whose name says nothing else; empty for names of that form.
+    `direction_degrees` is clockwise (0, 45 ... 315) for the `machine` protocol and None for `hand`, whose names contain
+    the word `hand` instead; `speed_mmps` and `force_millinewtons` are then the requested medians. file_name: of an own
+    recording whose name has no such parts; otherwise empty.
     """
 
     texture_id: int
@@ -59,14 +59,13 @@ class RecordingIdentity:
 
 @dataclass(frozen=True)
 class Recording:
-    """Three sensors with clocks of their own; nothing resampled, nothing filtered.
+    """Three sensors with their own clocks; nothing resampled, nothing filtered.
 
-    acceleration_time_seconds: [n] float64, increasing, irregular. acceleration_g: [n, 3] float, g, gravity on Z; or
-    [n, 1] where one axis was recorded.
-    force_time_seconds: [m] float64. force_newtons: [m] float. position_time_seconds: [k] float64.
-    position_mm: [k, 2] float, millimetres, X and Y of the scan area. specimen: which piece of its material a synthetic
-    recording is of; None where nobody said, as in files. velocity_mps: [k, 2] at position_time_seconds where it was
-    recorded and the position is its integral; None where it is to be derived from the position.
+    acceleration_time_seconds: [n] float64, increasing, irregular. acceleration_g: [n, 3] float, g, gravity on Z; or [n,
+    1] for a single axis. force_time_seconds: [m] float64. force_newtons: [m] float. position_time_seconds: [k] float64.
+    position_mm: [k, 2] float, millimetres, X and Y of the scan area. specimen: the piece of the material that a
+    synthetic recording is of; None for files. velocity_mps: [k, 2] at position_time_seconds if velocity was recorded
+    and the position is its integral; None if it is to be derived from the position.
     """
 
     identity: RecordingIdentity
@@ -82,13 +81,13 @@ class Recording:
 
     @property
     def vibration_g(self) -> NDArray[np.float64]:
-        """[n, axes]: the acceleration without its mean, and so without gravity."""
+        """[n, axes]: the acceleration without its mean, and therefore without gravity."""
         acceleration = np.asarray(self.acceleration_g, dtype=np.float64)
         return acceleration - acceleration.mean(axis=0)
 
     @property
     def speeds_mmps(self) -> NDArray[np.float64]:
-        """[k - 1]: from each position to the next, not smoothed."""
+        """[k - 1]: speed from each position to the next, unsmoothed."""
         steps_mm = np.linalg.norm(np.diff(np.asarray(self.position_mm, dtype=np.float64), axis=0), axis=1)
         speeds: NDArray[np.float64] = steps_mm / np.maximum(np.diff(self.position_time_seconds), 1e-6)
         return speeds

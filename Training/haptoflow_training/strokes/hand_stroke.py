@@ -1,4 +1,4 @@
-"""Strokes as a hand makes them: free planar scribbling for the recorder, scripted way-points for scenes."""
+"""Strokes with hand-like movement: free planar scribbling for the recorder, scripted way-points for scenes."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from scipy.signal import butter, sosfiltfilt
 
 from haptoflow_training.strokes.sigma_lognormal import Submovement, summed_velocity
 
-# Fastest tip that the strokes reach: the 99th percentile of real pen strokes in VR is 1.4 m/s.
-FASTEST_SPEED_MPS = 1.5
+# The largest tip speed of a stroke: the 99th percentile of real pen strokes in VR is 1.4 m/s.
+MAXIMUM_SPEED_MPS = 1.5
 # Root mean square of physiological postural tremor of a supported hand, 8-12 Hz.
 DEFAULT_TREMOR_METRES = 5e-5
 TREMOR_BAND_HZ = (8.0, 12.0)
@@ -53,9 +53,9 @@ def random_planar_stroke(
 ) -> PlanarStroke:
     """Free scribbling: overlapping submovements with curves, reversals, pauses, slow and fast passages.
 
-    The median speed of the moving samples (above 5 % of the median asked for) is `median_speed_mps`; no
-    sample is faster than FASTEST_SPEED_MPS. The tip starts in the middle of a square of side `extent_metres`
-    and heads back when it nears an edge, so that it leaves the square at most by about one submovement.
+    The median speed of the moving samples (above 5 % of the requested median) is `median_speed_mps`; no sample is
+    faster than MAXIMUM_SPEED_MPS. The tip starts in the middle of a square of side `extent_metres` and turns back near
+    an edge, so that it leaves the square by about one submovement at most.
     """
     time = np.arange(int(round(duration_seconds * rate_hz))) / rate_hz
     submovements = _random_submovements(rng, duration_seconds, median_speed_mps, extent_metres)
@@ -105,7 +105,7 @@ def _random_submovements(
 
 
 def _with_median(velocity: NDArray[np.float64], median_speed_mps: float) -> NDArray[np.float64]:
-    """Scale to the median, rounding off the peaks towards FASTEST_SPEED_MPS."""
+    """The stroke scaled to the median, with its peaks rounded off towards MAXIMUM_SPEED_MPS."""
     limited = velocity
     for _ in range(3):
         speed = np.hypot(limited[:, 0], limited[:, 1])
@@ -113,7 +113,7 @@ def _with_median(velocity: NDArray[np.float64], median_speed_mps: float) -> NDAr
         if moving.size:
             velocity = velocity * (median_speed_mps / float(np.median(moving)))
         speed = np.hypot(velocity[:, 0], velocity[:, 1])
-        limited = velocity / ((1.0 + (speed / FASTEST_SPEED_MPS) ** 8) ** 0.125)[:, None]
+        limited = velocity / ((1.0 + (speed / MAXIMUM_SPEED_MPS) ** 8) ** 0.125)[:, None]
     return limited
 
 
@@ -149,9 +149,7 @@ def force_profile(
 def tremor(
     rng: np.random.Generator, count: int, rate_hz: float, rms_metres: float, axes: int
 ) -> NDArray[np.float64]:
-    """Physiological tremor [count, axes] in metres: noise between 8 and 12 Hz of the root mean square asked
-    for.
-    """
+    """Physiological tremor [count, axes] in metres: noise between 8 and 12 Hz with the given root mean square."""
     margin = int(rate_hz)
     noise = rng.standard_normal((count + 2 * margin, axes))
     band = [min(edge, 0.45 * rate_hz) for edge in TREMOR_BAND_HZ]
@@ -170,9 +168,9 @@ def scripted_stroke(
 ) -> SpatialStroke:
     """Sigma-lognormal movement through way-points [[x, y, z], ...], one submovement a leg.
 
-    Legs overlap, so the tip rounds a way-point without stopping; a repeated way-point is a pause.
-    `force_newtons` gives one force for each way-point and changes with the same progress. Deterministic by
-    seed. ValueError where the way-points, times or rates cannot make a stroke.
+    Legs overlap, so the tip rounds a way-point without stopping; a repeated way-point is a pause. `force_newtons` gives
+    one force for each way-point, interpolated with the same progress. Deterministic by seed. ValueError if the
+    way-points, times or rates cannot make a stroke.
     """
     points = np.asarray(waypoints_metres, dtype=np.float64)
     if points.ndim != 2 or points.shape[1] != 3 or len(points) < 2 or not np.all(np.isfinite(points)):
@@ -190,7 +188,7 @@ def scripted_stroke(
     position = np.tile(points[0], (len(time), 1))
     force = None if forces is None else np.full(len(time), forces[0])
     for leg, (begin, end) in enumerate(zip(edges[:-1], edges[1:])):
-        # A lognormal starts slowly: begin early and end late, so that neighbours meet while both still move.
+        # A lognormal starts slowly: begin early and end late, so that neighbouring legs overlap while both move.
         start = max(0.0, begin - 0.5 * legs[leg])
         finish = min(edges[-1], end + 0.5 * legs[leg])
         movement = Submovement.lasting(start, finish - start, 1.0, sigma=float(rng.uniform(0.26, 0.34)))

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import erf
 
-# Log-time standard deviations between t0's scale and what counts as the end: 0.02 % of the distance is left.
+# Log-time standard deviations after which a submovement counts as finished: 0.02 % of its distance is left.
 END_DEVIATIONS = 3.5
 
 
@@ -77,9 +77,8 @@ class Submovement:
 def summed_velocity(
     submovements: Sequence[Submovement], time_seconds: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Vector sum [n, 2] in m/s; `time_seconds` increases. Work grows with the overlap, not with the
-    stroke.
-    """
+    """Vector sum [n, 2] in m/s; `time_seconds` increases. The cost grows with the overlap, not with the stroke's
+    length."""
     velocity = np.zeros((len(time_seconds), 2))
     for submovement in submovements:
         span = [submovement.start_seconds, submovement.end_seconds + 0.05]

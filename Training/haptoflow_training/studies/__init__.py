@@ -1,1 +1,1 @@
-"""User studies: plans, logs, their analysis, and participants that are simulated to test it."""
+"""User studies: plans, logs, their analysis, and simulated participants that test the analysis."""

@@ -1,4 +1,4 @@
-"""What the delay budget needs of the benchmark: from bench.json, or from the page that publishes it."""
+"""The benchmark figures of the delay budget, from bench.json or from the page that publishes it."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class Spread:
 
 @dataclass(frozen=True)
 class Block:
-    """How a sound card asks for samples: `burst` blocks of `frames` at once."""
+    """How a sound card requests samples: `burst` blocks of `frames` at once."""
 
     frames: int
     burst: int = 1
@@ -49,7 +49,7 @@ class BenchFigures:
 
 
 def read_bench(path: Path) -> BenchFigures:
-    """InputError names the file and what is missing in it."""
+    """Read the figures. InputError names the file and what is missing in it."""
     try:
         text = path.read_text(encoding="utf-8")
     except OSError as error:
@@ -106,7 +106,7 @@ def _from_page(text: str) -> BenchFigures:
 
 
 def _table(text: str, title: str) -> list[list[str]]:
-    """The rows below a title and a line of headings, up to one that is no row of figures."""
+    """The rows below a title and a line of headings, up to the first line without figures."""
     lines = text.split(f"\n{title}\n")[1].split("\n")[1:]
     rows = []
     for line in lines:

@@ -1,4 +1,5 @@
-"""What each part of the way from the hand to the hand may take before people notice the delay."""
+"""The delay of each part of the path from hand movement to vibration, and what is left until people notice the
+delay."""
 
 from __future__ import annotations
 
@@ -7,11 +8,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from haptoflow_training.evaluation.model_stamp import model_line, picture_metadata
-from haptoflow_training.export.whole_file import write_whole
+from haptoflow_training.model_stamp import model_line, picture_metadata
 from haptoflow_training.studies.bench_figures import BenchFigures, Block
 from haptoflow_training.studies.plans import TURN_OFF, TURN_ON
 from haptoflow_training.studies.simulated_participants import PAPER_CURVES
+from haptoflow_training.whole_file import write_whole
 
 REFRESH_RATES_HZ = (72.0, 90.0, 120.0)
 _MAIN_BLOCK = Block(256)
@@ -22,7 +23,7 @@ _TITLES = {TURN_ON: "Turn-On", TURN_OFF: "Turn-Off"}
 
 @dataclass(frozen=True)
 class Budget:
-    """In ms. device_ms: from the audio callback to the hand; None where nobody measured it."""
+    """In ms. device_ms: from the audio callback to the hand; None if not measured."""
 
     pose_interval_ms: float
     inference_ms: float
@@ -34,12 +35,12 @@ class Budget:
         return self.pose_interval_ms + self.inference_ms + self.block_ms + (self.device_ms or 0.0)
 
     def left_ms(self, condition: str) -> float:
-        """Until the paper's threshold; below 0 where it is passed."""
+        """The rest until the paper's threshold; negative if it is exceeded."""
         return PAPER_CURVES[condition].x0 - self.known_ms
 
 
 def budgets(bench: BenchFigures, refresh_hz: float, block: Block, device_ms: float | None) -> dict[str, Budget]:
-    """The delay budget of each quality, by its name. It is the worst case: an event waits for a whole pose interval and a
+    """The delay budget of each quality, by name, for the worst case: an event waits for a whole pose interval and a
     whole audio block."""
     return {
         quality: Budget(1000.0 / refresh_hz, spread.p99, block.milliseconds(bench.rate_hz), device_ms)
@@ -117,7 +118,7 @@ def _measured_table(bench: BenchFigures, device_ms: float | None) -> list[str]:
 
 
 def write_chart(path: Path, bench: BenchFigures, device_ms: float | None = None) -> None:
-    """A bar a quality, its parts one after another, and the paper's thresholds; PNG."""
+    """Draw a bar for each quality, its parts one after another, and the paper's thresholds; PNG."""
     import matplotlib
 
     matplotlib.use("Agg")

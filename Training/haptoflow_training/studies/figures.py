@@ -1,4 +1,4 @@
-"""The two studies' figures as SVG, drawn as in the paper. A simulated study says so on every figure."""
+"""The figures of the two studies as SVG, drawn as in the paper. Figures of simulated studies are marked."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _COLUMNS = 3
 
 @dataclass(frozen=True)
 class Bracket:
-    """Between two methods' bars, by column; level: its place above the bars, from 0."""
+    """Connects two methods' bars, by column; level: its height above the bars, from 0."""
 
     first: int
     second: int
@@ -68,7 +68,8 @@ def latency_figure(result: LatencyResult, *, is_simulated: bool) -> str:
 
 
 def similarity_figure(result: SimilarityResult, *, is_simulated: bool) -> str:
-    """A plot a material: mean ratings with standard errors, brackets over pairs that differ or are equivalent."""
+    """A plot for each material: mean ratings with standard errors, brackets over pairs that differ or are
+    equivalent."""
     count, methods = len(result.materials), len(result.methods)
     columns = min(_COLUMNS, count)
     rows = -(-count // columns)
@@ -99,7 +100,8 @@ def similarity_figure(result: SimilarityResult, *, is_simulated: bool) -> str:
 
 
 def brackets_of(pairs: Sequence[Pair]) -> list[Bracket]:
-    """A dagger for p < 0.1 and a star for p < 0.05 after correction, a green sign for equivalence; short ones below."""
+    """A dagger for p < 0.1, a star for p < 0.05 after correction, a green sign for equivalence; short brackets at
+    the bottom."""
     wanted = []
     for pair in pairs:
         if pair.p_shaffer is not None and pair.p_shaffer < TREND:
@@ -148,7 +150,7 @@ def _figure(rows: int, columns: int, width: float, height: float, is_simulated: 
 
 
 def _plain(name: str) -> str:
-    """Dollars are dollars, not the beginning of a formula."""
+    """The text with dollar signs escaped, which matplotlib would read as formulas."""
     return name.replace("$", r"\$")
 
 
@@ -157,7 +159,8 @@ def _svg(figure: Figure) -> str:
     from matplotlib import pyplot
 
     text = io.StringIO()
-    # Texts stay texts, so that the reader's browser finds the letters of any script; matplotlib's own font has few.
+    # Text is stored as text, so that the reader's browser supplies the glyphs of any script; matplotlib's own font has
+    # few.
     with matplotlib.rc_context({"svg.hashsalt": "haptoflow", "svg.fonttype": "none"}), warnings.catch_warnings():
         warnings.filterwarnings("ignore", message="Glyph .* missing from current font")
         figure.savefig(text, format="svg", metadata={"Date": None})

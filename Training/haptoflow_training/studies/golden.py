@@ -1,4 +1,4 @@
-"""Plans as a file of test vectors: what the Unity package's plans must agree with."""
+"""Plans as a file of test vectors, which the Unity package must reproduce."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _DESIGNS = (1, 2, 3, 4, 5, 6, 11)
 
 
 def golden_plans() -> dict[str, list[dict[str, Any]]]:
-    """Every list's entries stand one a line in the file."""
+    """The plans of several participants, seeds and sizes."""
     return {
         "random": [{"seed": seed, "values": _random(seed)} for seed in SEEDS],
         "shuffles": [
@@ -58,7 +58,7 @@ def golden_plans() -> dict[str, list[dict[str, Any]]]:
 
 
 def golden_text() -> str:
-    """JSON with a case a line, so that a change shows which cases it touches."""
+    """JSON with one case a line, so that a diff shows which cases changed."""
     lists = [
         f'  "{name}": [\n' + ",\n".join("    " + json.dumps(entry) for entry in entries) + "\n  ]"
         for name, entries in golden_plans().items()

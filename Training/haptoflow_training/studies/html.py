@@ -1,4 +1,4 @@
-"""The few elements of HTML that a report is made of; every text is escaped."""
+"""The HTML elements of a report; all text is escaped."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ figcaption { font-size: 13px; color: #555 }
 
 
 def page(title: str, banner: str, parts: Sequence[str]) -> str:
-    """banner: shown above everything, and before the title; none where it is empty."""
+    """banner: shown above everything and before the title; none if empty."""
     head = f"{banner} - {title}" if banner else title
     shown = f'<p class="simulated" role="alert">{escape(banner)}</p>\n' if banner else ""
     return (
@@ -49,7 +49,7 @@ def table(headings: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
 
 
 def picture(svg: str, caption: str) -> str:
-    """The figure in the page itself: as an image, because several SVG trees in one page would share their names."""
+    """The figure embedded as an image: several inline SVG trees would share their identifiers."""
     data = base64.b64encode(svg.encode()).decode()
     words = escape(caption, quote=True)
     image = f'<img src="data:image/svg+xml;base64,{data}" alt="{words}">'

@@ -1,4 +1,4 @@
-"""The delay tolerance study: a curve and a threshold for each condition, from the delays as delivered."""
+"""Analysis of the delay tolerance study: a curve and a threshold for each condition, over the delivered delays."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from haptoflow_training.studies.bootstrap import Interval
+from haptoflow_training.studies.intervals import Interval
 from haptoflow_training.studies.plans import CONDITIONS, MAIN
 from haptoflow_training.studies.psychometric import RESAMPLES, Answers, Fit, fit, percent_yes, threshold_difference
 from haptoflow_training.studies.session_file import Session
@@ -15,7 +15,7 @@ from haptoflow_training.studies.session_file import Session
 
 @dataclass(frozen=True)
 class Point:
-    """Of one planned level: the mean delivered delay, percentage of yes, its standard error, answers."""
+    """One planned level: the mean delivered delay, percentage of yes, its standard error, number of answers."""
 
     level_ms: float
     delivered_ms: float
@@ -26,7 +26,7 @@ class Point:
 
 @dataclass(frozen=True)
 class LatencyResult:
-    """difference: of the thresholds, turn-on less turn-off, with its interval, None where either has none."""
+    """difference: turn-on threshold less turn-off threshold, with its interval; None if either has none."""
 
     participants: int
     points: Mapping[str, Sequence[Point]]
@@ -37,7 +37,7 @@ class LatencyResult:
 
 
 def analyse_latency(sessions: Sequence[Session], *, resamples: int = RESAMPLES, seed: int = 0) -> LatencyResult:
-    """Practice is left out."""
+    """Analyse the sessions; practice trials are left out."""
     points, fits, counts = {}, {}, {}
     for condition in CONDITIONS:
         answers, levels = answers_of(sessions, condition)
@@ -53,7 +53,7 @@ def analyse_latency(sessions: Sequence[Session], *, resamples: int = RESAMPLES, 
 
 
 def answers_of(sessions: Sequence[Session], condition: str) -> tuple[Answers, np.ndarray]:
-    """The main trials' answers, and the planned level of each."""
+    """The answers of the main trials, and the planned level of each."""
     rows = [
         (place, row)
         for place, session in enumerate(sessions)

@@ -1,4 +1,4 @@
-"""The columns of a study's log, version 1 (Documentation~/study-logs.md), and what each may hold."""
+"""The columns of a study's log, version 1 (Documentation~/study-logs.md), and their allowed values."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _INTEGER = re.compile(r"[+-]?\d{1,18}")
 
 @dataclass(frozen=True)
 class Column:
-    """words: what may stand there; otherwise a number from `lowest` to `highest`. An empty field is None."""
+    """words: the allowed words; otherwise a number from `lowest` to `highest`. An empty field is None."""
 
     name: str
     words: tuple[str, ...] = ()
@@ -35,7 +35,7 @@ class Column:
     may_be_empty: bool = False
 
     def read(self, text: str) -> Value:
-        """ValueError says what is wrong with the field."""
+        """The value of a field. ValueError states what is wrong with it."""
         if text == "":
             if self.may_be_empty:
                 return None
@@ -89,5 +89,5 @@ COLUMNS: Mapping[str, tuple[Column, ...]] = {
         *_LAST,
     ),
 }
-# What a plan's entry says, beside trial and block.
+# The columns that a plan's entry determines, beside trial and block.
 PLANNED: Mapping[str, tuple[str, ...]] = {LATENCY: ("condition", "delay_ms"), SIMILARITY: ("material", "method")}

@@ -1,4 +1,7 @@
-"""The rows of a session's log, each field read strictly."""
+"""Reads the rows of a session's log and checks each field.
+
+csv and pandas accept files that a crash or a spreadsheet has damaged; this reader reports them by row and column.
+"""
 
 from __future__ import annotations
 
@@ -11,12 +14,12 @@ from haptoflow_training.studies.log_columns import Column, Value
 from haptoflow_training.studies.problems import Problem, shortened, text_of
 
 Row = Mapping[str, Value]
-# Sums of values that were rounded to three decimals by another program.
+# Tolerance for sums of values that another program rounded to three decimals.
 _DELAY_TOLERANCE_MS = 0.002
 
 
 def read_rows(path: Path, columns: Sequence[Column], problems: list[Problem]) -> list[tuple[int, Row]] | None:
-    """Rows without fault, with their numbers; None, with problems more, where there is no table."""
+    """Valid rows with their numbers; None, with problems appended, if there is no table."""
     text = text_of(path, problems)
     if text is None:
         return None

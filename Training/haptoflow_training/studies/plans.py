@@ -1,4 +1,4 @@
-"""The order of a study's trials, from participant and seed: the same in the Unity package's HaptoFlow.Studies."""
+"""The order of a study's trials, from participant and seed; identical to the Unity package's HaptoFlow.Studies."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class SplitMix64:
 
 
 def shuffled(count: int, seed: int) -> list[int]:
-    """0 to count - 1 in the order that the seed gives (Fisher and Yates, from the end)."""
+    """A permutation of 0 to count - 1, determined by the seed (Fisher and Yates, from the end)."""
     random = SplitMix64(seed)
     order = list(range(count))
     for index in range(count - 1, 0, -1):
@@ -39,7 +39,7 @@ def shuffled(count: int, seed: int) -> list[int]:
 
 
 def williams_design(count: int) -> list[list[int]]:
-    """Rows in which each treatment stands once at each place and follows each other treatment equally often.
+    """Rows in which each treatment occurs once at each place and follows each other treatment equally often.
 
     Williams (1949), Experimental designs balanced for the estimation of residual effects of treatments: `count` rows
     for an even count, twice as many for an odd one.
@@ -53,7 +53,7 @@ def williams_design(count: int) -> list[list[int]]:
 
 @dataclass(frozen=True)
 class LatencyTrial:
-    """delay_ms: the planned delay in all, from the hand's movement to the vibration's."""
+    """delay_ms: the planned total delay, from the hand's movement to the vibration's."""
 
     trial: int
     block: str
@@ -72,13 +72,14 @@ class SimilarityTrial:
 def latency_plan(participant: int, seed: int, levels_ms: Sequence[float]) -> list[LatencyTrial]:
     """Four practice trials, then every level under one condition and every level under the other.
 
-    participant: from 1. Participants with an odd number begin with turn-on, the others with turn-off. Each level stands
-    equally often at each place of each condition once every row of the levels' design was used.
+    participant: from 1. Odd participants begin with turn-on, even ones with turn-off. Each level occurs equally often
+    at each place of each condition once every row of the levels' design has been used.
     """
     names = shuffled(len(levels_ms), seed)
     rows = williams_design(len(levels_ms))
     first_row = (participant - 1) % len(rows)
-    # Those who begin with a condition have rows of one parity: an even step leaves the rest of the rows to the others.
+    # Participants who begin with the same condition share a parity, so they take every second row; an even step leaves
+    # the others to the other participants.
     half = len(rows) // 2
     step = half + half % 2
     conditions = CONDITIONS if participant % 2 == 1 else CONDITIONS[::-1]
@@ -96,8 +97,9 @@ def similarity_plan(
 ) -> list[SimilarityTrial]:
     """Each method once on the first material for practice, then each material with all methods one after another.
 
-    participant: from 1. Materials change places with each participant. The rows of methods move on once the participants
-    have used every order of materials, so that each method comes equally often at each place of each material.
+    participant: from 1. The order of materials changes with each participant. The order of methods changes once the
+    participants have used every order of materials, so that each method comes equally often at each place of each
+    material.
     """
     material_rows = williams_design(len(materials))
     method_rows = williams_design(len(methods))

@@ -1,4 +1,4 @@
-"""What a planned sample would find: the whole analysis, run on many simulated studies."""
+"""The power of a planned sample: the whole analysis, run on many simulated studies."""
 
 from __future__ import annotations
 
@@ -10,14 +10,15 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import stats
 
+from haptoflow_training.studies.intervals import Share, share
 from haptoflow_training.studies.plans import CONDITIONS
 from haptoflow_training.studies.psychometric import Answers, fit, threshold_difference
 from haptoflow_training.studies.rating_tests import SIGNIFICANCE, RatingResult, analysed
-from haptoflow_training.studies.shares import Share, share
 from haptoflow_training.studies.simulated_participants import LEVELS_MS, AnswerModel, RatingModel
 
 _RESAMPLES = 1000
-# Of a normal distribution: what a signed-rank test makes of each participant compared with a t test.
+# Asymptotic relative efficiency of a signed-rank test of each participant's difference, against a t test, for normal
+# data.
 _SIGNED_RANK_EFFICIENCY = 3.0 / math.pi
 
 
@@ -57,7 +58,7 @@ def rating_power(
     seed: int,
     advance: Callable[[], object] = int,
 ) -> RatingPower:
-    """participants: 3 at least; methods: 2 at least."""
+    """participants: at least 3; methods: at least 2."""
     names = [f"method {place}" for place in range(1, methods + 1)]
     model = RatingModel(["material"], names, {("material", names[-1]): difference_dz})
     random = np.random.default_rng(seed)
@@ -71,7 +72,7 @@ def rating_power(
 
 
 def _found(result: RatingResult, lowered: int) -> list[str]:
-    """Which of the shares a study counts for; lowered: the method that is rated lower, by column."""
+    """The shares to which a study contributes; lowered: column of the method that is rated lower."""
     found = []
     pairs = {(pair.first, pair.second): pair for pair in result.pairs}
     planted = pairs[0, lowered]
@@ -93,9 +94,10 @@ def _found(result: RatingResult, lowered: int) -> list[str]:
 
 @dataclass(frozen=True)
 class LatencyPower:
-    """widths_ms: median width of the thresholds' intervals by condition; covered: how often they held the truth.
+    """widths_ms: median width of the thresholds' intervals by condition; covered: how often they contained the true
+    threshold.
 
-    differ: the interval of the thresholds' difference leaves out 0. without_interval: studies without one.
+    differ: the interval of the thresholds' difference excludes 0. without_interval: studies without one.
     """
 
     widths_ms: Mapping[str, float]
@@ -112,7 +114,7 @@ def latency_power(
     model: AnswerModel | None = None,
     advance: Callable[[], object] = int,
 ) -> LatencyPower:
-    """participants: 5 at least, because fewer have no interval."""
+    """participants: at least 5, because fewer give no interval."""
     model = model or AnswerModel()
     random = np.random.default_rng(seed)
     widths: dict[str, list[float]] = {condition: [] for condition in CONDITIONS}
@@ -142,7 +144,7 @@ def latency_power(
 
 
 def latency_answers(model: AnswerModel, random: np.random.Generator, participants: int) -> dict[str, Answers]:
-    """Of one simulated study at the paper's levels, by condition."""
+    """The answers of one simulated study at the paper's levels, by condition."""
     delays = np.tile(np.array(LEVELS_MS), (participants, 1))
     own = random.standard_normal((participants, 1))
     who = np.repeat(np.arange(participants), len(LEVELS_MS))

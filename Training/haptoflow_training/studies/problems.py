@@ -1,4 +1,4 @@
-"""What is wrong with a study's file, and where."""
+"""Problems of a study's files: what is wrong, and where."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-_LONGEST_SHOWN = 60
+_MAXIMUM_SHOWN = 60
 
 
 @dataclass(frozen=True)
 class Problem:
-    """row: as a spreadsheet counts, the header being row 1; 0 and an empty column where the fault has none."""
+    """row: as in a spreadsheet, with the header as row 1; 0 and an empty column if the problem has none."""
 
     file: Path
     what: str
@@ -25,16 +25,16 @@ class Problem:
 
 
 def shown(value: object) -> str:
-    """A value as JSON, cut where it is long."""
+    """A value as JSON, truncated if it is long."""
     return shortened(json.dumps(value, ensure_ascii=False, default=str))
 
 
 def shortened(text: str) -> str:
-    return text if len(text) <= _LONGEST_SHOWN else f"{text[:_LONGEST_SHOWN]}..."
+    return text if len(text) <= _MAXIMUM_SHOWN else f"{text[:_MAXIMUM_SHOWN]}..."
 
 
 def ranges(numbers: Sequence[int]) -> str:
-    """1, 4 to 7"""
+    """Numbers as ranges, for example "1, 4 to 7"."""
     runs: list[list[int]] = []
     for number in numbers:
         if runs and number == runs[-1][1] + 1:
@@ -45,7 +45,8 @@ def ranges(numbers: Sequence[int]) -> str:
 
 
 def text_of(path: Path, problems: list[Problem]) -> str | None:
-    """UTF-8, with or without byte order mark; None, with a problem more, where it cannot be read."""
+    """The text of a UTF-8 file, with or without byte order mark; None, with a problem appended, if it cannot be
+    read."""
     try:
         return path.read_bytes().decode("utf-8-sig")
     except FileNotFoundError:

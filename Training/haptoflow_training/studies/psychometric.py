@@ -1,7 +1,8 @@
-"""The psychometric function y = 100 / (1 + exp(-k (x - x0))) by maximum likelihood on single yes or no answers.
+"""Fits the psychometric function y = 100 / (1 + exp(-k (x - x0))) by maximum likelihood to single yes or no answers.
 
-The likelihood is that of a logistic regression of the answer on the delay, with slope k and intercept -k x0. Each
-answer counts alike. Least squares through the percentages would take a level at 2 % for as uncertain as one at 50 %.
+The likelihood is that of a logistic regression of the answer on the delay, with slope k and intercept -k x0; each
+answer counts alike. Least squares through the percentages would treat a level at 2 % as if it were as uncertain as one
+at 50 %. (All resamples are fitted at once by Newton's method; SciPy would fit them one by one.)
 """
 
 from __future__ import annotations
@@ -12,18 +13,19 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import special
 
-from haptoflow_training.studies.bootstrap import Interval, expanded_interval, jackknife_error, participant_weights
+from haptoflow_training.studies.intervals import Interval, expanded_interval, jackknife_error, participant_weights
 
 RESAMPLES = 2000
-FEWEST_PARTICIPANTS = 5
-# Beyond this share of resamples without a curve, an interval over the others would speak of the lucky ones only.
-_LARGEST_SHARE_WITHOUT_CURVE = 0.05
+MINIMUM_PARTICIPANTS = 5
+# With a larger share of resamples without a curve, an interval over the others would be biased.
+_MAXIMUM_SHARE_WITHOUT_CURVE = 0.05
 _NEWTON_STEPS = 60
 
 
 @dataclass(frozen=True)
 class Answers:
-    """Of one condition: one entry an answer. delay_ms: as delivered; yes: 0 or 1; participant: a number from 0."""
+    """The answers under one condition, one entry an answer. delay_ms: as delivered; yes: 0 or 1; participant: a
+    number from 0."""
 
     delay_ms: np.ndarray
     yes: np.ndarray
@@ -47,11 +49,11 @@ class Curve:
 
 @dataclass(frozen=True)
 class Fit:
-    """What one condition's answers say.
+    """The fit of one condition's answers.
 
-    curve: None where there is none; `statement` says why. The intervals (95 %) and standard errors are over
-    participants, None where none can be given; `interval_statement` says why. resampled_x0 has one value a resample,
-    nan where a resample has no curve.
+    curve: None if there is none, with the reason in `statement`. The intervals (95 %) and standard errors are over
+    participants; None if there are none, with the reason in `interval_statement`. resampled_x0 has one value a
+    resample, nan if a resample has no curve.
     """
 
     curve: Curve | None
@@ -67,7 +69,7 @@ class Fit:
 
 @dataclass(frozen=True)
 class _Counts:
-    """Trials and yes of each participant (row) at each delay that occurs (column)."""
+    """Trials and yes answers of each participant (row) at each occurring delay (column)."""
 
     delays_ms: np.ndarray
     trials: np.ndarray
@@ -75,7 +77,7 @@ class _Counts:
 
 
 def degenerate_statement(answers: Answers) -> str:
-    """Why no curve can be fitted, or nothing where one can."""
+    """The reason why no curve can be fitted; empty if one can."""
     delay, yes = answers.delay_ms, answers.yes.astype(bool)
     if len(delay) == 0:
         return "there is no answer"
@@ -99,7 +101,7 @@ def degenerate_statement(answers: Answers) -> str:
 
 
 def fit_curve(answers: Answers) -> Curve | None:
-    """None for degenerate answers, and where yes does not become more frequent with the delay."""
+    """None for degenerate answers, and if yes does not become more frequent with the delay."""
     if degenerate_statement(answers):
         return None
     k, x0 = _curves(_counted(answers), np.ones((1, answers.participants)))
@@ -107,20 +109,20 @@ def fit_curve(answers: Answers) -> Curve | None:
 
 
 def fit(answers: Answers, *, resamples: int = RESAMPLES, seed: int = 0) -> Fit:
-    """Curve, intervals and standard errors; the same seed draws the same participants, in every condition alike."""
+    """Curve, intervals and standard errors. The same seed draws the same participants for every condition."""
     statement = degenerate_statement(answers)
     curve = fit_curve(answers)
     if curve is None:
         return Fit(None, statement or "yes does not become more frequent as the delay grows: there is no threshold")
     notes = _range_notes(answers, curve)
     count = answers.participants
-    if count < FEWEST_PARTICIPANTS:
-        words = f"{count} participants are too few to resample, which takes {FEWEST_PARTICIPANTS}"
+    if count < MINIMUM_PARTICIPANTS:
+        words = f"{count} participants are too few to resample, which takes {MINIMUM_PARTICIPANTS}"
         return Fit(curve, interval_statement=words, notes=notes)
     counted = _counted(answers)
     k, x0 = _curves(counted, participant_weights(count, resamples, seed))
     without = float(np.isnan(k).mean())
-    if without > _LARGEST_SHARE_WITHOUT_CURVE:
+    if without > _MAXIMUM_SHARE_WITHOUT_CURVE:
         words = f"{100 * without:.0f} % of the resamples have no curve, because yes and no hardly overlap"
         return Fit(curve, interval_statement=words, notes=notes)
     threshold_interval = expanded_interval(x0, count)
@@ -143,12 +145,12 @@ def fit(answers: Answers, *, resamples: int = RESAMPLES, seed: int = 0) -> Fit:
 
 
 def leave_one_out(answers: Answers) -> tuple[np.ndarray, np.ndarray]:
-    """k and x0 without each participant in turn; nan where the others have no curve."""
+    """k and x0 without each participant in turn; nan if the others have no curve."""
     return _curves(_counted(answers), 1.0 - np.eye(answers.participants))
 
 
 def threshold_difference(first: Fit, second: Fit, participants: int) -> Interval | None:
-    """Interval of first's threshold less second's, both fitted with one seed to the same participants' answers."""
+    """Interval of the first threshold less the second, both fitted with one seed to the same participants' answers."""
     if first.resampled_x0 is None or second.resampled_x0 is None:
         return None
     return expanded_interval(first.resampled_x0 - second.resampled_x0, participants)
@@ -171,10 +173,10 @@ def _counted(answers: Answers) -> _Counts:
 
 
 def _curves(counted: _Counts, weights: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """k and x0 of each row of weights over the participants; nan without overlap of yes and no, or with k <= 0.
+    """k and x0 for each row of weights over the participants; nan without overlap of yes and no, or with k <= 0.
 
-    Newton's method on the concave log-likelihood, all rows at once, with steps of at most 2 in units of the delays'
-    standard deviation, because a whole step from a flat start can leave the region where it converges.
+    Newton's method on the concave log-likelihood, all rows at once. Steps are limited to 2 in units of the delays'
+    standard deviation, because a whole step from a flat start can leave the region of convergence.
     """
     delays = counted.delays_ms
     centre, scale = delays.mean(), delays.std()
@@ -216,7 +218,7 @@ def _curves(counted: _Counts, weights: np.ndarray) -> tuple[np.ndarray, np.ndarr
 def percent_yes(
     answers: Answers, level_ms: Sequence[float], levels: np.ndarray
 ) -> list[tuple[float, float, float, int]]:
-    """Of each level: mean delivered delay, percentage of yes, its standard error (sd / sqrt(n)), and the count n."""
+    """For each level: mean delivered delay, percentage of yes, its standard error (sd / sqrt(n)), and the count n."""
     rows = []
     for level in level_ms:
         chosen = levels == level

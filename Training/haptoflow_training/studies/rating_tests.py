@@ -1,12 +1,13 @@
-"""Tests and effect sizes on paired ratings: rows are participants, columns methods. SciPy's tests, with what ties need.
+"""Tests and effect sizes for paired ratings (rows are participants, columns methods): SciPy's tests, adapted to ties.
 
-Ratings from 1 to 7 tie often, and two methods often get the same rating. So of Wilcoxon's signed-rank test:
+Ratings from 1 to 7 tie often, and two methods often get the same rating. Therefore Wilcoxon's signed-rank test is
+applied as follows:
 
-- Differences of zero keep their place among the ranks and are then left out (zero_method "pratt"). Without them
-  ("wilcox") a few differences among many equal ratings would look unanimous.
+- Differences of zero take part in the ranking and are then left out (zero_method "pratt"). Without them ("wilcox") a
+  few differences among many equal ratings would look unanimous.
 - The p-value comes from the normal approximation, whose variance SciPy corrects for ties, without continuity
-  correction: SciPy's exact distribution is that of ranks without ties.
-- Up to 12 differences that are not zero, where the approximation is coarse, every pattern of signs is counted instead
+  correction: SciPy's exact distribution assumes ranks without ties.
+- With up to 12 non-zero differences, where the approximation is coarse, every pattern of signs is counted instead
   (scipy.stats.permutation_test).
 """
 
@@ -23,10 +24,10 @@ from haptoflow_training.studies.shaffer import adjusted
 
 SIGNIFICANCE = 0.05
 TREND = 0.1
-# Cohen's d of the smallest difference that counts as a difference: "large" in Cohen's words, as in the paper.
+# Cohen's d of the smallest difference that counts as relevant: "large" in Cohen's terms, as in the paper.
 EQUIVALENCE_BOUND = 0.8
-_MOST_COUNTED_SIGNS = 12
-# Shifts by an equivalence bound leave ties that differ in the last bits.
+_MAXIMUM_COUNTED_SIGNS = 12
+# Rounding restores ties that a shift by an equivalence bound breaks in the last bits.
 _DECIMALS = 9
 
 
@@ -51,10 +52,10 @@ class Friedman:
 class Pair:
     """`first` less `second`, by column.
 
-    p: of Wilcoxon's test, two-sided; p_shaffer: adjusted, None where Friedman's test found nothing to follow up.
-    rank_biserial: the share of the ranks that favours `first` less that for `second`, -1 to 1. cohen_dz: the mean
-    difference in standard deviations of the differences. bound: in points of rating; p_equivalence: the larger of the
-    two one-sided tests' p-values. None where the differences are all zero, or have no spread.
+    p: of Wilcoxon's test, two-sided; p_shaffer: adjusted, None if Friedman's test was not significant. rank_biserial:
+    the share of the ranks that favours `first` less that for `second`, -1 to 1. cohen_dz: the mean difference in
+    standard deviations of the differences. bound: in points of rating; p_equivalence: the larger of the two one-sided
+    tests' p-values. None if the differences are all zero, or have no spread.
     """
 
     first: int
@@ -70,7 +71,8 @@ class Pair:
 
 @dataclass(frozen=True)
 class RatingResult:
-    """Of one material. friedman is None for two methods, whose pair is tested directly, and for ratings all equal."""
+    """The tests of one material. friedman is None for two methods, whose pair is tested directly, and for ratings
+    all equal."""
 
     normality: tuple[Normality, ...]
     friedman: Friedman | None
@@ -79,12 +81,12 @@ class RatingResult:
 
 
 def signed_rank_p(differences: np.ndarray, alternative: str = "two-sided") -> float | None:
-    """Wilcoxon's signed-rank test; None where every difference is zero."""
+    """The p-value of Wilcoxon's signed-rank test; None if every difference is zero."""
     rounded = np.round(np.asarray(differences, dtype=float), _DECIMALS)
     nonzero = int(np.count_nonzero(rounded))
     if nonzero == 0:
         return None
-    if nonzero <= _MOST_COUNTED_SIGNS:
+    if nonzero <= _MAXIMUM_COUNTED_SIGNS:
         return _counted_p(rounded, alternative)
     result = stats.wilcoxon(rounded, zero_method="pratt", correction=False, alternative=alternative, method="approx")
     return float(result.pvalue)
@@ -94,7 +96,7 @@ def _counted_p(differences: np.ndarray, alternative: str) -> float:
     ranks = stats.rankdata(np.abs(differences))[differences != 0.0]
     signed = ranks * np.sign(differences[differences != 0.0])
     if len(signed) == 1:
-        # SciPy wants two observations; a rank of zero changes no sum.
+        # SciPy requires two observations; a rank of zero changes no sum.
         signed = np.append(signed, 0.0)
     # Rounded, because equal sums of half ranks may differ in their last bits.
     test = stats.permutation_test(
@@ -109,10 +111,10 @@ def _counted_p(differences: np.ndarray, alternative: str) -> float:
 
 
 def equivalence(first: np.ndarray, second: np.ndarray) -> tuple[float | None, float | None]:
-    """Bound in points of rating and p-value of two one-sided Wilcoxon tests; None, None where no rating varies.
+    """Bound in points of rating and p-value of two one-sided Wilcoxon tests; None, None if no rating varies.
 
     The bound is 0.8 pooled standard deviations of the two methods' ratings. It is estimated from the same ratings, so
-    that the rate of false equivalence is near the level, not bounded by it.
+    the rate of false equivalence is near the level, but not bounded by it.
     """
     pooled = float(np.sqrt((np.var(first, ddof=1) + np.var(second, ddof=1)) / 2.0))
     if pooled == 0.0 or np.isnan(pooled):
@@ -126,7 +128,7 @@ def equivalence(first: np.ndarray, second: np.ndarray) -> tuple[float | None, fl
 
 
 def rank_biserial(differences: np.ndarray) -> float | None:
-    """Kerby (2014), The simple difference formula, on Pratt's ranks; None where every difference is zero."""
+    """Kerby (2014), The simple difference formula, on Pratt's ranks; None if every difference is zero."""
     rounded = np.round(differences, _DECIMALS)
     ranks = stats.rankdata(np.abs(rounded))
     favourable, unfavourable = float(ranks[rounded > 0.0].sum()), float(ranks[rounded < 0.0].sum())
@@ -135,7 +137,7 @@ def rank_biserial(differences: np.ndarray) -> float | None:
 
 
 def cohen_dz(differences: np.ndarray) -> float | None:
-    """Mean difference in standard deviations of the differences; None where they do not vary."""
+    """Mean difference in standard deviations of the differences; None if they do not vary."""
     spread = float(np.std(differences, ddof=1)) if len(differences) > 1 else 0.0
     return float(np.mean(differences)) / spread if spread > 0.0 else None
 
@@ -148,7 +150,7 @@ def normality(ratings: np.ndarray) -> Normality:
 
 
 def friedman(ratings: np.ndarray) -> Friedman | None:
-    """Of three methods or more; None where every participant rated all methods alike."""
+    """Friedman's test of three methods or more; None if every participant rated all methods alike."""
     participants, methods = ratings.shape
     if np.all(np.ptp(ratings, axis=1) == 0.0):
         return None
@@ -158,7 +160,7 @@ def friedman(ratings: np.ndarray) -> Friedman | None:
 
 
 def analysed(ratings: np.ndarray) -> RatingResult:
-    """ratings: participants by methods, of one material, two methods at least, without gaps."""
+    """All tests of one material. ratings: participants by methods, at least two methods, without gaps."""
     methods = ratings.shape[1]
     found = friedman(ratings) if methods > 2 else None
     statement = ""
@@ -181,7 +183,8 @@ def analysed(ratings: np.ndarray) -> RatingResult:
 
 
 def _corrected(raw: Mapping[tuple[int, int], float | None], methods: int) -> dict[tuple[int, int], float | None]:
-    """Pairs without any difference count as p = 1 in the correction, and stay without a p-value."""
+    """The pairs with corrected p-values. Pairs without any difference count as p = 1 in the correction, and get no
+    p-value."""
     values = adjusted([1.0 if p is None else p for p in raw.values()], methods)
     return {pair: None if raw[pair] is None else value for pair, value in zip(raw, values, strict=True)}
 

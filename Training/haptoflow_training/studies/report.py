@@ -1,4 +1,4 @@
-"""The report of a folder of logs: one HTML file that needs no other."""
+"""The report of a folder of logs: one self-contained HTML file."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from haptoflow_training.studies import report_words as words
-from haptoflow_training.studies.bootstrap import Interval
 from haptoflow_training.studies.figures import SIMULATED_WORDS, latency_figure, similarity_figure
 from haptoflow_training.studies.html import heading, listing, page, paragraph, picture, table
+from haptoflow_training.studies.intervals import Interval
 from haptoflow_training.studies.latency_analysis import LatencyResult
 from haptoflow_training.studies.plans import CONDITIONS
 from haptoflow_training.studies.psychometric import Fit
@@ -22,7 +22,7 @@ _NONE = "-"
 
 @dataclass(frozen=True)
 class Analysed:
-    """What a report is written from; a study without sessions is None."""
+    """The analyses of a report; a study without sessions is None."""
 
     sessions: Sequence[Session]
     notes: Sequence[str]
@@ -35,7 +35,7 @@ class Analysed:
 
 
 def report(analysed: Analysed) -> str:
-    """HTML. It has no date and no machine, so that the same logs give the same report."""
+    """The report as HTML. It contains neither date nor machine, so that the same logs give the same report."""
     simulated = analysed.is_simulated
     parts = [paragraph(words.INTRODUCTION)]
     if simulated:
@@ -51,7 +51,7 @@ def report(analysed: Analysed) -> str:
 
 
 def results(analysed: Analysed) -> dict[str, Any]:
-    """The same figures for programs."""
+    """The same figures as JSON."""
     found: dict[str, Any] = {"format": "haptoflow study results", "version": 1, "simulated": analysed.is_simulated}
     if analysed.latency is not None:
         found["latency"] = _latency_results(analysed.latency)

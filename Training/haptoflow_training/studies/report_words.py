@@ -1,4 +1,4 @@
-"""What a report says of its tests and figures, for readers who were not there."""
+"""The explanations in a report, for readers who did not run the study."""
 
 from __future__ import annotations
 

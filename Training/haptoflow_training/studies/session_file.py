@@ -1,4 +1,4 @@
-"""One session: its log and its sidecar, checked against each other."""
+"""Reads one session: its log and its sidecar, compared with each other."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ NAME = re.compile(r"(latency|similarity)-P(\d{1,9})-([0-9a-f]{8})")
 
 @dataclass(frozen=True)
 class Session:
-    """One participant's session as read; rows in the order of the file."""
+    """One participant's session; rows in the order of the file."""
 
     path: Path
     study: str
@@ -34,7 +34,7 @@ class Session:
 
 
 def read_session(csv_path: Path) -> tuple[Session | None, list[Problem]]:
-    """The session behind STUDY-PARTICIPANT-SESSION.csv and its sidecar; None where either cannot be read at all."""
+    """The session of STUDY-PARTICIPANT-SESSION.csv and its sidecar; None if either cannot be read at all."""
     name = NAME.fullmatch(csv_path.stem)
     if name is None:
         raise ValueError(f"{csv_path.name}: no name of a session")
@@ -55,7 +55,7 @@ def read_session(csv_path: Path) -> tuple[Session | None, list[Problem]]:
 
 
 def _against_plan(path: Path, sidecar: Mapping[str, Any], rows: Sequence[tuple[int, Row]]) -> list[Problem]:
-    """Trials that stand twice, are not planned, come in another order, or are not what the plan says."""
+    """Report trials that are duplicate, not planned, out of order, or different from the plan."""
     problems = []
     plan, study = sidecar["plan"], sidecar["study"]
     seen: dict[int, int] = {}

@@ -1,7 +1,8 @@
 """Shaffer's static correction of the p-values of all pairs of k methods.
 
-Shaffer (1986), Modified sequentially rejective multiple test procedures, J. Am. Stat. Assoc. 81, 826-831. Equalities
-between pairs depend on each other: once one pair of three methods differs, at most one of the other two can be equal.
+Shaffer (1986), Modified sequentially rejective multiple test procedures, J. Am. Stat. Assoc. 81, 826-831. The
+hypotheses depend on each other: once one pair of three methods differs, at most one of the other two can be equal.
+(SciPy has no such correction.)
 """
 
 from __future__ import annotations
@@ -13,9 +14,9 @@ from math import comb
 
 @cache
 def possible_true_counts(methods: int) -> frozenset[int]:
-    """How many of the k (k - 1) / 2 hypotheses of equality can be true at once.
+    """The possible numbers of the k (k - 1) / 2 hypotheses of equality that are true at once.
 
-    Some group of j methods is equal among itself, which makes j (j - 1) / 2 true; the rest divides itself likewise.
+    A group of j equal methods makes j (j - 1) / 2 hypotheses true; the remaining methods divide in the same way.
     """
     if methods < 2:
         return frozenset({0})
@@ -25,16 +26,17 @@ def possible_true_counts(methods: int) -> frozenset[int]:
 
 
 def factors(methods: int) -> list[int]:
-    """By which the smallest p-value is multiplied, the next one, and so on: the most that can be true at that step."""
+    """The factors of the smallest p-value, the next one, and so on: the largest number that can be true at that
+    step."""
     pairs = comb(methods, 2)
     counts = possible_true_counts(methods)
     return [max(count for count in counts if count <= pairs - rejected) for rejected in range(pairs)]
 
 
 def adjusted(p_values: Sequence[float], methods: int) -> list[float]:
-    """Adjusted p-values in the order given: at most 1, and never smaller than that of a smaller p-value.
+    """Adjusted p-values in the given order: at most 1, and monotonic in the p-values.
 
-    ValueError where there are not as many as pairs of methods.
+    ValueError if their number is not that of the pairs.
     """
     by_rank = factors(methods)
     if len(p_values) != len(by_rank):

@@ -1,4 +1,4 @@
-"""A session's sidecar, version 1 (Documentation~/study-logs.md), read strictly."""
+"""Reads and checks a session's sidecar, version 1 (Documentation~/study-logs.md)."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _WORDS = {str: "a text", int: "a whole number", bool: "true or false", dict: "an
 
 
 def read_sidecar(path: Path, problems: list[Problem]) -> Mapping[str, Any] | None:
-    """None, with problems more, where a key is missing or of another kind. Further keys may be there."""
+    """None, with problems appended, if a key is missing or of another type. Further keys are allowed."""
     text = text_of(path, problems)
     if text is None:
         return None

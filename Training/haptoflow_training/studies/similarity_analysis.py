@@ -1,4 +1,4 @@
-"""The similarity study: the ratings of each material, method against method."""
+"""Analysis of the similarity study: the ratings of each material, compared between methods."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from haptoflow_training.studies.plans import MAIN
 from haptoflow_training.studies.rating_tests import RatingResult, analysed
 from haptoflow_training.studies.session_file import Session
 
-_FEWEST_PARTICIPANTS = 3
-_MOST_METHODS = 12
+_MINIMUM_PARTICIPANTS = 3
+_MAXIMUM_METHODS = 12
 
 
 @dataclass(frozen=True)
@@ -32,12 +32,14 @@ class SimilarityResult:
 
 
 def analyse_similarity(sessions: Sequence[Session]) -> SimilarityResult:
-    """Practice is left out. InputError names a rating that is missing or stands twice."""
-    if len(sessions) < _FEWEST_PARTICIPANTS:
-        raise InputError(f"{len(sessions)} participants of the similarity study; its tests need {_FEWEST_PARTICIPANTS}")
+    """Analyse the sessions; practice trials are left out. InputError names a rating that is missing or duplicate."""
+    if len(sessions) < _MINIMUM_PARTICIPANTS:
+        raise InputError(
+            f"{len(sessions)} participants of the similarity study; its tests need {_MINIMUM_PARTICIPANTS}"
+        )
     materials, methods = _names(sessions, "material"), _names(sessions, "method")
-    if not 2 <= len(methods) <= _MOST_METHODS:
-        raise InputError(f"{len(methods)} methods in the similarity study; it can compare 2 to {_MOST_METHODS}")
+    if not 2 <= len(methods) <= _MAXIMUM_METHODS:
+        raise InputError(f"{len(methods)} methods in the similarity study; it can compare 2 to {_MAXIMUM_METHODS}")
     ratings = np.full((len(materials), len(sessions), len(methods)), np.nan)
     for place, session in enumerate(sessions):
         for row in session.rows:
@@ -53,14 +55,14 @@ def analyse_similarity(sessions: Sequence[Session]) -> SimilarityResult:
 
 
 def _names(sessions: Sequence[Session], key: str) -> list[str]:
-    """In the settings' order where the sidecars have it, else by name."""
+    """The names in the order of the settings if the sidecars have them, else sorted."""
     found = {str(row[key]) for session in sessions for row in session.rows if row["block"] == MAIN}
     listed = listed_names(sessions[0].sidecar["settings"], f"{key}s")
     return listed if sorted(listed) == sorted(found) else sorted(found)
 
 
 def listed_names(settings: Mapping[str, Any], key: str) -> list[str]:
-    """Of settings that list names, or objects with a `name`; empty where they do neither."""
+    """The names of settings that list names, or objects with a `name`; empty for anything else."""
     listed = settings.get(key)
     entries = listed if isinstance(listed, list) else []
     names = [entry.get("name") if isinstance(entry, dict) else entry for entry in entries]

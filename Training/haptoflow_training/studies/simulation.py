@@ -1,4 +1,4 @@
-"""Whole simulated studies as logs: every participant's plan, answered by a simulated participant."""
+"""Simulated studies as logs: every participant's plan, answered by a simulated participant."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from haptoflow_training.studies.session_writer import write_session
 from haptoflow_training.studies.simulated_participants import LEVELS_MS, AnswerModel, RatingModel
 
 _WORDS = "simulated: haptoflow-training study simulate"
-# Of a headset with 72 frames a second, blocks of 256 frames at 48 kHz, and a device delay that nobody measured.
+# A headset with 72 frames a second, blocks of 256 frames at 48 kHz, and an assumed device delay.
 _REFRESH_HZ, _OUTPUT_HZ, _BLOCK_FRAMES, _DEVICE_MS = 72.0, 48000, 256, 20.0
 _INFERENCE_MS = {LATENCY: 0.0, SIMILARITY: 15.0}
 _ARTIFICIAL_MS = 10.0
@@ -27,7 +27,8 @@ _ARTIFICIAL_MS = 10.0
 def simulate_latency(
     folder: Path, participants: int, seed: int, model: AnswerModel | None = None, advance: Callable[[], object] = int
 ) -> None:
-    """One session a participant, of the paper's levels. InputError where the folder holds sessions already."""
+    """Write one session for each participant, with the paper's levels. InputError if the folder holds sessions
+    already."""
     model = model or AnswerModel()
     _refuse_sessions(folder, LATENCY)
     random = np.random.default_rng((seed, STUDIES.index(LATENCY)))
@@ -48,7 +49,8 @@ def simulate_latency(
 def simulate_similarity(
     folder: Path, participants: int, seed: int, model: RatingModel | None = None, advance: Callable[[], object] = int
 ) -> None:
-    """One session a participant, of the model's materials and methods. InputError as for the latency study."""
+    """Write one session for each participant, with the model's materials and methods. InputError as for the latency
+    study."""
     model = model or RatingModel()
     _refuse_sessions(folder, SIMILARITY)
     random = np.random.default_rng((seed, STUDIES.index(SIMILARITY)))

@@ -1,4 +1,4 @@
-"""A folder of sessions: what is wrong with each file, and between the files."""
+"""Reads a folder of sessions and finds problems within and between files."""
 
 from __future__ import annotations
 
@@ -14,26 +14,26 @@ from haptoflow_training.studies.log_columns import STUDIES
 from haptoflow_training.studies.problems import Problem
 from haptoflow_training.studies.session_file import NAME, Session, read_session
 
-_MOST_SHOWN = 20
+_MAXIMUM_SHOWN = 20
 _OWN_SETTINGS = ("pen_hand",)
 _NOT_NAMED = "not named as a session, STUDY-PARTICIPANT-SESSION, for example latency-P07-1a2b3c4d; take it out"
 
 
 @dataclass(frozen=True)
 class StudyFolder:
-    """What a folder holds. notes: what is allowed and worth knowing, for example two models in one study."""
+    """The contents of a folder. notes: allowed but notable, for example two models in one study."""
 
     sessions: Sequence[Session]
     problems: Sequence[Problem]
     notes: Sequence[str] = field(default_factory=tuple)
 
     def of(self, study: str) -> list[Session]:
-        """By participant."""
+        """The sessions of a study, by participant."""
         return sorted((one for one in self.sessions if one.study == study), key=lambda one: one.participant)
 
 
 def read_folder(folder: Path) -> StudyFolder:
-    """Every session below the folder. InputError where the folder is missing or holds none."""
+    """Every session below the folder. InputError if the folder is missing or holds none."""
     if not folder.is_dir():
         raise InputError(f"{folder}: no folder; expected one with the logs of a study")
     files = sorted(path for path in folder.rglob("*") if path.suffix.lower() in (".csv", ".json") and path.is_file())
@@ -57,10 +57,10 @@ def read_folder(folder: Path) -> StudyFolder:
 
 
 def read_faultless(folder: Path) -> StudyFolder:
-    """As read_folder; InputError names what is wrong."""
+    """As read_folder; InputError names the problems."""
     read = read_folder(folder)
     if read.problems:
-        shown = [str(problem) for problem in read.problems[:_MOST_SHOWN]]
+        shown = [str(problem) for problem in read.problems[:_MAXIMUM_SHOWN]]
         rest = len(read.problems) - len(shown)
         if rest:
             shown.append(f"and {rest} further problems: `haptoflow-training study check {folder}` names them")
@@ -69,7 +69,7 @@ def read_faultless(folder: Path) -> StudyFolder:
 
 
 def _duplicates(csv_paths: Iterable[Path]) -> list[Problem]:
-    """Logs with the same rows, whatever their names say; those without rows are alike by nature."""
+    """Find logs with identical rows, whatever their names; logs without rows are not compared."""
     problems = []
     first: dict[str, Path] = {}
     for path in sorted(csv_paths):
@@ -106,7 +106,7 @@ def _between(sessions: Sequence[Session]) -> list[Problem]:
 
 
 def _compared(value: object) -> object:
-    """Settings without those that are each participant's own."""
+    """The settings that must agree between participants."""
     return {key: one for key, one in value.items() if key not in _OWN_SETTINGS} if isinstance(value, dict) else value
 
 

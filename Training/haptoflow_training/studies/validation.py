@@ -1,4 +1,4 @@
-"""The analysis on studies whose truth is known: does it find the truth as often as it says?"""
+"""Checks the analysis on simulated studies with known truth: does it find the truth as often as it states?"""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import numpy as np
 import scipy
 from scipy.stats import norm
 
-from haptoflow_training.studies.bootstrap import Interval
+from haptoflow_training.studies.intervals import Interval, Share, share
 from haptoflow_training.studies.latency_analysis import analyse_latency
 from haptoflow_training.studies.log_columns import LATENCY, SIMILARITY
 from haptoflow_training.studies.plans import CONDITIONS
@@ -21,7 +21,6 @@ from haptoflow_training.studies.psychometric import Answers, Fit, fit, leave_one
 from haptoflow_training.studies.rating_tests import (
     EQUIVALENCE_BOUND, SIGNIFICANCE, analysed, equivalence, signed_rank_p,
 )  # fmt: skip
-from haptoflow_training.studies.shares import Share, share
 from haptoflow_training.studies.similarity_analysis import analyse_similarity
 from haptoflow_training.studies.simulated_participants import (
     MATERIALS, METHODS, PAPER_CURVES, PLANNED_DZ, AnswerModel, RatingModel, planted,
@@ -58,7 +57,7 @@ def validated(*, studies: int, simulations: int, seed: int, advance: Advance = i
 
 
 def recovered_thresholds(studies: int, seed: int, advance: Advance = int) -> dict[str, Any]:
-    """Logs of the latency study, one seed a study: how often the reported interval holds the paper's threshold."""
+    """Logs of the latency study, one seed a study: how often the reported interval contains the paper's threshold."""
     covered: Counter[str] = Counter()
     found: dict[str, list[float]] = {condition: [] for condition in CONDITIONS}
     errors: dict[str, list[float]] = {condition: [] for condition in CONDITIONS}
@@ -115,7 +114,8 @@ def recovered_differences(studies: int, seed: int, advance: Advance = int) -> di
 
 
 def _planned_power(simulations: int, seed: int, advance: Advance) -> dict[str, Any]:
-    """What `study power` promises, and G*Power's formula beside Wilcoxon's test on differences that are not rounded."""
+    """The power that `study power` states, and G*Power's formula beside Wilcoxon's test on differences that are not
+    rounded."""
     power = rating_power(
         PARTICIPANTS, len(METHODS), PLANNED_DZ, simulations=simulations, seed=seed + 1_000_000, advance=advance
     )  # fmt: skip
@@ -133,7 +133,8 @@ def _planned_power(simulations: int, seed: int, advance: Advance) -> dict[str, A
 
 
 def compared_intervals(between: float, simulations: int, seed: int, advance: Advance = int) -> dict[str, Any]:
-    """How often percentile, BCa and expanded percentile intervals hold the truth, from the same resamples."""
+    """How often percentile, BCa and expanded percentile intervals contain the true threshold, from the same
+    resamples."""
     model = AnswerModel(between=between)
     random = np.random.default_rng((seed, 3, int(100 * between)))
     covered: Counter[tuple[str, str]] = Counter()
@@ -161,7 +162,7 @@ def compared_intervals(between: float, simulations: int, seed: int, advance: Adv
 
 
 def _intervals(answers: Answers, one: Fit) -> dict[str, Interval]:
-    """Those of a study without an interval count as missed."""
+    """Coverage of the intervals; a study without an interval counts as missed."""
     if one.curve is None or one.threshold_interval is None or one.resampled_x0 is None:
         return {}
     resampled = one.resampled_x0[~np.isnan(one.resampled_x0)]
@@ -185,7 +186,7 @@ def bca_interval(estimate: float, resampled: np.ndarray, without_one: np.ndarray
 
 
 def false_positives(simulations: int, seed: int, advance: Advance = int) -> dict[str, Any]:
-    """Rates of what should happen in 5 % at most, on ratings from 1 to 7 of four methods."""
+    """Rates of false positives, which should be at most 5 %, for ratings from 1 to 7 of four methods."""
     random = np.random.default_rng((seed, 4))
     alike, crowded = RatingModel(["m"]), RatingModel(["m"], mean=6.0, between=0.5, noise=0.6)
     one_lower = RatingModel(["m"], lowered={("m", METHODS[-1]): 1.5})
@@ -222,9 +223,9 @@ def _false_findings(model: RatingModel, random: np.random.Generator) -> Sequence
 
 
 def _equivalence_at_the_bound(simulations: int, random: np.random.Generator, advance: Advance) -> Share:
-    """Two methods whose means are 0.8 standard deviations of the ratings apart, which is just not equivalent.
+    """Two methods whose means are 0.8 standard deviations of the ratings apart, just not equivalent.
 
-    Ratings that are not rounded: rounding would move both the means and the standard deviations off the bound.
+    The ratings are not rounded: rounding would move means and standard deviations off the bound.
     """
     model = RatingModel(["m"])
     apart = EQUIVALENCE_BOUND * float(np.hypot(model.between, model.noise))

@@ -14,15 +14,15 @@ from torch import Tensor
 from haptoflow_training.errors import InputError
 from haptoflow_training.training.config import BatchConfig
 from haptoflow_training.training.held_out import HeldOut, clear_spans
+from haptoflow_training.waveform import SEGMENT_SAMPLES
 
-SEGMENT_SAMPLES = 200
 LEVEL_WINDOW_SAMPLES = 100
-# Where inside a segment its motion is told, for the level to follow: every 10 ms, both ends included.
+# Where inside a segment its motion is stored for the level: every 10 ms, both ends included.
 _KNOTS = np.linspace(0, SEGMENT_SAMPLES - 1, 11).round().astype(np.int64)
 
 
 class StoredRecording(Protocol):
-    """What the batches need to know of a recording in the store."""
+    """The properties of a stored recording that batches need."""
 
     label_index: int
     protocol: str
@@ -44,7 +44,7 @@ class Store(Protocol):
 
 @dataclass(frozen=True)
 class Chain:
-    """What came before a batch's previous waveform, for the network to live through on its own output.
+    """The motion before a batch's previous waveform, over which the network renders its own past.
 
     start [B, 1, 200]: the waveform before the first hop, m/s^2. motion [B, K, 3]: the condition of each hop.
     position_mm [B, K, 2]: where each hop begins. hop_samples: samples that each hop appends.
@@ -77,10 +77,11 @@ class SegmentBatch:
 
 
 class SegmentBatches:
-    """Draws batches: label uniform but for the emphasised, protocol by share, recording uniform, position uniform.
+    """Draws batches: labels uniformly except for the emphasised ones, protocols by share, recordings uniformly,
+    positions uniformly.
 
-    Only windows that lie wholly inside recordings of `split` and outside the held-out bands are drawn, with their
-    chains, so nothing leaks between splits, and what is held out is never seen.
+    Only windows that lie, with their chains, inside one recording of `split` and outside the held-out bands are drawn.
+    Nothing leaks between splits, and held-out motion is never seen.
     """
 
     def __init__(self, store: Store, split: str, config: BatchConfig, seed: int) -> None:
@@ -121,13 +122,13 @@ class SegmentBatches:
         return weights / weights.sum()
 
     def _room(self, samples: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-        """Places at which a window of so many samples fits: of each clear span, and of each recording in all."""
+        """The number of places where a window of so many samples fits: in each clear span, and in each recording."""
         by_span = np.maximum(self._spans.lengths - samples, 0)
         by_recording = np.bincount(self._spans.owners, by_span, len(self._starts)).astype(np.int64)
         return by_span, by_recording
 
     def _draw_recordings(self, count: int, usable: NDArray[np.bool_] | None = None) -> NDArray[np.int64]:
-        """usable: recordings with room for what is wanted. A label without any is left out of the draw."""
+        """usable: recordings with room for the window. A label without any is not drawn."""
         groups = self._groups
         present, shares = self._present, self._shares
         if usable is not None:
@@ -145,12 +146,12 @@ class SegmentBatches:
         return chosen
 
     def _draw_split_points(self, count: int, lead_in: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-        """(recordings, where previous waveform and segment meet): from `lead_in` samples and a segment before the point
-        to a segment after it, everything lies in one recording and outside the held-out bands."""
+        """(recordings, points where previous waveform and segment meet): from `lead_in` samples plus a segment
+        before the point to a segment after it, everything lies in one recording and outside the held-out bands."""
         before = lead_in + SEGMENT_SAMPLES
         by_span, by_recording = self._room(before + SEGMENT_SAMPLES)
         recordings = self._draw_recordings(count, by_recording > 0)
-        # All places of all spans in one row, a recording's side by side.
+        # All places of all spans in one array, those of a recording side by side.
         ends = np.cumsum(by_span)
         first = (np.cumsum(by_recording) - by_recording)[recordings]
         place = first + (self._generator.random(count) * by_recording[recordings]).astype(np.int64)
@@ -158,9 +159,9 @@ class SegmentBatches:
         return recordings, self._spans.starts[span] + before + place - (ends - by_span)[span]
 
     def draw_chains(self, count: int) -> SegmentBatch:
-        """A fresh batch whose previous waveforms can be replaced by what the network makes over several hops.
+        """A new batch whose previous waveforms can be replaced by what the network renders over several hops.
 
-        The hop is one of the live engine's, 30 to 120 Hz, the same for the whole batch; chains begin in silence with
+        The hop is that of a live update rate, 30 to 120 Hz, the same for the whole batch; chains begin in silence with
         `chain_silence_probability`, as at touch-down.
         """
         config, generator = self._config, self._generator
@@ -183,12 +184,12 @@ class SegmentBatches:
         return dataclasses.replace(batch, chain=chain)
 
     def _longest_common_span(self) -> int:
-        """Samples that every label has in one piece."""
+        """The number of consecutive samples that every label has in at least one span."""
         labels = self._labels[self._spans.owners]
         return int(min(self._spans.lengths[labels == label].max() for label in self._present))
 
     def draw(self, count: int) -> SegmentBatch:
-        """A fresh batch of `count` pairs."""
+        """A new batch of `count` pairs."""
         config, generator = self._config, self._generator
         recordings, split_point = self._draw_split_points(count, 0)
         hop = generator.integers(config.hop_samples[0], config.hop_samples[1] + 1, size=count)

@@ -1,4 +1,4 @@
-"""A run's time on one core, shared out among its phases: whoever takes longer for a step makes fewer of them."""
+"""A run's time on one core, divided among its phases: the slower a network's steps, the fewer it takes."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ from collections.abc import Callable, Sequence
 
 
 class Budget:
-    """What each phase may take of a clock's time, in seconds, and what it has taken.
+    """The time that each phase may take and has taken, in seconds of a clock.
 
-    clock: by default this process's computing time, so that what other programs take of the machine is not this run's;
-    time.monotonic for a run that somebody waits for.
+    clock: by default this process's computing time, which excludes what other programs take; time.monotonic for a run
+    with a limit by the wall clock.
     """
 
     def __init__(
@@ -34,8 +34,8 @@ class Budget:
         kept: Sequence[bool],
         clock: Callable[[], float] = time.process_time,
     ) -> Budget:
-        """`seconds` for phases of these steps. Those that are `kept` get the time that their steps take, as long as that
-        is half of all at most; the others share what is left, each lengthened or shortened by the same factor."""
+        """Divide `seconds` among phases of these numbers of steps. Phases that are `kept` get the time their steps
+        take, up to half of everything; the others share the rest, each lengthened or shortened by the same factor."""
         wanted = [count * each for count, each in zip(steps, seconds_per_step, strict=True)]
         fixed = sum(part for part, is_kept in zip(wanted, kept, strict=True) if is_kept)
         scaled = sum(wanted) - fixed
@@ -48,23 +48,23 @@ class Budget:
 
     @property
     def left_seconds(self) -> float:
-        """Of all phases."""
+        """The time left of all phases."""
         phases = zip(self.allotted_seconds, self.used_seconds, strict=True)
         return sum(max(0.0, allotted - used) for allotted, used in phases)
 
     def start(self) -> None:
-        """Leave out of account what the process has done until now."""
+        """Start counting now; earlier computing time of the process is not charged."""
         self._last = self._clock()
 
     def spend(self, phase: int) -> None:
-        """Put to the account of `phase` what the process has done since the last call."""
+        """Charge the time since the last call to `phase`."""
         now = self._clock()
         self.used_seconds[phase] += now - self._last
         self._last = now
 
     def steps(self, phase: int, done: int) -> int:
-        """Steps of the whole phase, as far as can be told after `done` of them: done / steps is the share of its time
-        that is over. At least one; no more than `done` once the time is used."""
+        """The estimated steps of the whole phase after `done` of them: done / steps is the share of its time that
+        has passed. At least one; no more than `done` once the time is used up."""
         used, allotted = self.used_seconds[phase], self.allotted_seconds[phase]
         if used >= allotted:
             return max(1, done)

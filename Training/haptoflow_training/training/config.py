@@ -1,4 +1,4 @@
-"""One TOML file describes one training run; every key is checked, so that a typo is an error and not a default."""
+"""The configuration of a training run, from one TOML file. Every key is checked, so that a misspelt key is an error."""
 
 from __future__ import annotations
 
@@ -9,18 +9,24 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.models.baselines import ARCHITECTURES, REGRESSING
+from haptoflow_training.extensions import extension
+
+
+# Rivals of the velocity field, which other packages provide (extensions.py).
+ARCHITECTURES = ("transformer", "dstn", "spsi", "autoregressive")
+# Those that predict the mean as published; with `sampled` they draw a segment.
+REGRESSING = ("transformer", "dstn", "spsi")
 
 
 @dataclass(frozen=True)
 class DataConfig:
     """Where the recordings come from. In a TOML file, `folders` and `labels_file` are relative to that file.
 
-    source: `synthetic` (the recorder makes them) or `folders` (`folders` lists data set roots).
-    labels_file: which textures teach which label, for `folders`; empty for configs/labels-cluster.toml.
-    labels: only these; empty for all.
-    machine_* and hand_* say how much the synthetic recorder makes of each protocol; hand_guided_share: of the hand's
-    recordings, those in which speed and direction hold for a while.
+    source: `synthetic` (the synthetic recorder) or `folders` (data set roots listed in `folders`).
+    labels_file: assigns textures to labels, for `folders`; empty for configs/labels-cluster.toml.
+    labels: use only these; empty for all.
+    machine_* and hand_*: how many synthetic recordings of each protocol;
+    hand_guided_share: the share of hand recordings in which speed and direction are held for a while.
     """
 
     source: str = "synthetic"
@@ -39,13 +45,14 @@ class DataConfig:
 
 @dataclass(frozen=True)
 class ModelConfig:
-    """What is trained. architecture: `unet` (the velocity field, `width` to `levels`) or one of the baselines.
+    """The model. architecture: `unet` (the velocity field, with `width` to `levels`) or the name of a rival.
 
-    ribs: the field hears what the ribs of ruled surfaces would do next, and a baseline has their lines added (raw samples
-    only). impulses: it strikes rare events from the tails of its noise (raw samples only). sampled: a baseline that
-    regresses by itself (transformer, dstn, spsi) draws its segment.
-    `representation` is handed to `build_representation`. hears_previous: false leaves the previous waveform out; level:
-    `law` or `constant` (one level for everything): both to show what they are worth.
+    ribs: the field has a rib comb, and a rival adds rib lines (raw samples only).
+    impulses: rare events come from the tails of the noise (raw samples only).
+    sampled: a rival that predicts the mean as published (transformer, dstn, spsi) draws its segment.
+    representation: table for `build_representation`.
+    hears_previous: false removes the previous waveform's effect;
+    level: `law` or `constant` (one level for everything); both are ablations.
     """
 
     architecture: str = "unet"
@@ -65,9 +72,9 @@ class ModelConfig:
 class OptimiserConfig:
     """AdamW with warm-up, cosine decay over each phase's second half, gradient clipping and a moving average.
 
-    budget_seconds: what the whole run may take of one core, in seconds of its own computing time, so that a machine that
-    does other work meanwhile takes nothing from it. The level's phases keep about their steps, the network's are
-    lengthened or shortened by one factor, and all end by the clock; 0 for phases of exactly the stated steps.
+    budget_seconds: time of the whole run on one core, counted in the process's own computing time, so that other
+    programs do not shorten the training. The level phases keep about their steps, the network phases are lengthened or
+    shortened by one factor, and the run ends when the time is used up; 0 trains exactly the stated steps.
     """
 
     budget_seconds: float = 0.0
@@ -86,16 +93,18 @@ class OptimiserConfig:
 class BatchConfig:
     """How training pairs are drawn.
 
-    held_out_speed_mps, held_out_force_newtons, held_out_direction_degrees: [from, to]: nothing is drawn, nor read for
-    levels, seeds and exponents, of which a sample lies inside the band; empty for none. Directions are counter-clockwise
-    from the surface's first axis.
-    hop_samples: the condition of a pair is the mean motion over this many leading samples of the segment, drawn
-    from [min, max] (the hops of 120 Hz to 30 Hz updates). silence_probability: previous waveform zeroed, as at
-    touch-down. machine_share: share of pairs from machine recordings where both
-    protocols exist. switch_probability: previous waveform taken from another recording, as at a label switch.
-    chain_hops: how many hops a chain of the self-forcing phase runs on its own output. chain_silence_probability:
-    chains that begin in silence. emphasised_labels: drawn `emphasis` times as often as each other label; a label whose
-    waveform has a pitch has more to learn than one of noise.
+    held_out_speed_mps, held_out_force_newtons, held_out_direction_degrees: [from, to]; windows with a sample in the
+    band are used neither for training nor for levels, seeds and exponents; empty for none. Directions are counter-
+    clockwise from the surface's first axis.
+    hop_samples: the condition of a pair is the mean motion over this many leading samples of the segment, drawn from
+    [min, max] (the hops of updates at 120 Hz to 30 Hz).
+    silence_probability: previous waveform zeroed, as at touch-down.
+    machine_share: share of pairs from machine recordings where both protocols exist.
+    switch_probability: previous waveform taken from another recording, as at a change of label.
+    chain_hops: how many hops a chain of the self-forcing phase renders.
+    chain_silence_probability: share of chains that begin in silence.
+    emphasised_labels: drawn `emphasis` times as often as other labels, because a label with a pitch is harder to learn
+    than noise.
     """
 
     hop_samples: tuple[int, int] = (16, 66)
@@ -113,16 +122,16 @@ class BatchConfig:
 
 @dataclass(frozen=True)
 class RecipeConfig:
-    """How the network is taught, phase after phase; a phase of 0 steps is left out.
+    """The training recipe, phase after phase; a phase of 0 steps is left out.
 
-    objective: what the first phase (`optimiser.steps`) learns: `flow` (conditional flow matching) or
-    `average-velocity` (MeanFlow).
+    objective: of the first phase (`optimiser.steps`): `flow` (conditional flow matching) or `average-velocity`
+    (MeanFlow).
     reflow_steps: straightens a flow on `reflow_pairs` pairs of noise and segment that the network itself made.
     energy_steps: one-step fine-tuning by a spectral energy distance; afterwards the network is a `direct` tier.
     self_forcing_steps: the objective of the phase before, on the network's own output as previous waveform.
-    shares_base: keep the embedding and level model of another run (`--base`), as a further tier of its file does.
-    calibrate_level: `train --export` takes back what the trained network makes too loud or too quiet of each label in
-    closed loop, as train-tiers does for the default model.
+    shares_base: keep the embedding and level model of another run (`--base`), as further tiers of a file do.
+    calibrate_level: `train --export` subtracts the closed-loop level error of each label, as train-tiers does for the
+    default model.
     """
 
     objective: str = "flow"
@@ -148,7 +157,8 @@ class SolverConfig:
 
 @dataclass(frozen=True)
 class TrainingConfig:
-    """A whole run. `name` and `description` end in the model file's header; `tier` names what it trains there."""
+    """A whole run. `name` and `description` are written to the model file's header; `tier` names the trained tier
+    there."""
 
     name: str = "default"
     tier: str = "standard"
@@ -205,7 +215,7 @@ def _read_section(section: type[_Section], table: dict[str, Any], prefix: str, p
 
 
 def load_config(path: Path) -> TrainingConfig:
-    """Read and check a run's TOML file; InputError names file, key and what was expected.
+    """Read and check a run's TOML file; InputError names file, key and the expected value.
 
     `extends = "other.toml"` takes every key that the file does not set from that file beside it.
     """
@@ -231,7 +241,7 @@ def _read_table(path: Path, extended_by: tuple[Path, ...]) -> dict[str, Any]:
 
 
 def _from_the_file(table: dict[str, Any], path: Path) -> None:
-    """Paths of recordings and labels are relative to the file that names them."""
+    """Paths of recordings and labels are relative to the file that contains them."""
     data = table.get("data")
     if not isinstance(data, dict):
         return
@@ -258,6 +268,19 @@ def config_from_dict(table: dict[str, Any], path: Path) -> TrainingConfig:
     config = _read_section(TrainingConfig, table, "", path)
     _check(config, path)
     return config
+
+
+
+def check_available(config: TrainingConfig) -> None:
+    """InputError where the run needs a network, representation or objective that no imported package has registered."""
+    if config.model.architecture != "unet":
+        extension("architecture", config.model.architecture)
+    if config.model.representation.get("kind") != "raw":
+        extension("representation", str(config.model.representation.get("kind")))
+    if config.recipe.objective == "average-velocity":
+        extension("objective", "average-velocity")
+    if config.recipe.reflow_steps:
+        extension("objective", "reflow")
 
 
 def _check(config: TrainingConfig, path: Path) -> None:
@@ -295,7 +318,7 @@ def _check(config: TrainingConfig, path: Path) -> None:
         (
             config.model.architecture in ("unet", *ARCHITECTURES),
             "model.architecture",
-            f"'unet' or a baseline: {', '.join(ARCHITECTURES)}",
+            f"'unet' or a rival: {', '.join(ARCHITECTURES)}",
         ),
         (
             not config.model.sampled or config.model.architecture in REGRESSING,
@@ -306,12 +329,12 @@ def _check(config: TrainingConfig, path: Path) -> None:
             config.model.architecture == "unet"
             or (config.recipe.objective == "flow" and config.recipe.reflow_steps == 0),
             "recipe",
-            "no average velocity and no reflow for a baseline, which has no flow",
+            "no average velocity and no reflow for a rival, which has no flow",
         ),
         (
             config.recipe.energy_steps == 0 or config.model.sampled or config.model.architecture not in REGRESSING,
             "recipe.energy_steps",
-            "0 for a baseline that does not draw: set model.sampled",
+            "0 for a rival that does not draw: set model.sampled",
         ),
         (
             config.recipe.energy_steps == 0 or config.model.ribs or config.model.architecture != "autoregressive",
@@ -323,7 +346,7 @@ def _check(config: TrainingConfig, path: Path) -> None:
             or config.recipe.energy_steps > 0
             or config.model.architecture == "unet",
             "recipe.self_forcing_steps",
-            "0 for a baseline without energy_steps",
+            "0 for a rival without energy_steps",
         ),
         (
             not config.model.ribs or config.model.representation.get("kind", "raw") == "raw",

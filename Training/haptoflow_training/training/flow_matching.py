@@ -21,7 +21,7 @@ def flow_matching_loss(
 ) -> Tensor:
     """E |u(x_t, t) - (x_1 - x_0)|^2 with x_0 ~ N(0, I), t ~ U(0, 1); target [B, C, N] in unit scale, weight [B].
 
-    Times are stratified over the batch: the same expectation, less variance.
+    Times are stratified over the batch: the same expectation with less variance.
     """
     count = target.shape[0]
     noise = torch.randn(target.shape, generator=generator, dtype=target.dtype)
@@ -32,7 +32,7 @@ def flow_matching_loss(
 
 
 def solve(field: Field, noise: Tensor, kind: str, steps: int) -> Tensor:
-    """Carry noise [B, C, N] from time 0 to 1 with `steps` steps of `euler`, `midpoint` or `heun`."""
+    """Integrate noise [B, C, N] from time 0 to 1 with `steps` steps of `euler`, `midpoint` or `heun`."""
     state, width = noise, 1.0 / steps
     for step in range(steps):
         time = torch.full((noise.shape[0], 1), step * width, dtype=noise.dtype)

@@ -1,4 +1,4 @@
-"""Labels whose ribs nobody gave: their wave vectors are estimated from the recordings that train."""
+"""Estimates wave vectors from the training recordings, for labels whose labels file does not state them."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from haptoflow_training.recordings.material_recording import MaterialRecording
 def with_found_wave_vectors(
     store: SegmentStore, infos: list[LabelInfo], asked: Collection[str]
 ) -> tuple[list[LabelInfo], tuple[str, ...]]:
-    """The labels, those in `asked` with the wave vectors that their recordings show; and the names of those that have
-    some. A label's wavelength is that of the clearest."""
+    """The labels, those in `asked` with estimated wave vectors; and the names of those for which ribs were found. A
+    label's wavelength is that of its clearest ribs."""
     changed = (store.path / STORE_FILE).stat().st_mtime_ns
     completed: list[LabelInfo] = []
     found: list[str] = []
@@ -34,12 +34,12 @@ def with_found_wave_vectors(
 
 @lru_cache(maxsize=256)
 def _of_label(path: Path, changed: int, row: int) -> tuple[WaveVector, ...]:
-    """Of one label of the store that was written at `changed`."""
+    """The wave vectors of one label of the store that was written at `changed`."""
     return estimate_wave_vectors(stored_recordings(SegmentStore.open(path), row))
 
 
 def stored_recordings(store: SegmentStore, row: int) -> list[MaterialRecording]:
-    """The recordings of one label that train, without the silence that preparation put at their ends."""
+    """The training recordings of one label, without the silence added by preparation."""
     own = [one for one in store.recordings if one.label_index == row and one.split == "train"]
     return [
         MaterialRecording(

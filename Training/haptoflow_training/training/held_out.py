@@ -1,5 +1,5 @@
-"""Motions that nothing of a model is made from, so that the evaluation can ask about them: bands of speed, force and
-direction. Training batches, level calibration, seed bank and exponents all read recordings through this."""
+"""Bands of speed, force and direction that are held out of training for the evaluation. Training batches, level
+calibration, seed bank and exponents all exclude them through this module."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from numpy.typing import NDArray
 
 from haptoflow_training.training.config import BatchConfig
 
-# Below this a tip rests: its direction is the sensor's noise.
-_SLOWEST_MOVING_MPS = 0.002
+# Below this speed the tip counts as resting: its direction would be sensor noise.
+_MINIMUM_MOVING_SPEED_MPS = 0.002
 
 
 @dataclass(frozen=True)
 class HeldOut:
     """Bands [from, to), empty for none. direction_degrees: counter-clockwise from the surface's first axis, as the
-    velocity (vx, vy) itself; from may be below 0 for a band around 0. A tip that rests has no direction."""
+    velocity (vx, vy) itself; `from` may be negative for a band around 0. A resting tip has no direction."""
 
     speed_mps: tuple[float, ...] = ()
     force_newtons: tuple[float, ...] = ()
@@ -39,14 +39,14 @@ class HeldOut:
         if self.direction_degrees:
             low, high = self.direction_degrees
             direction = np.degrees(np.arctan2(motion[..., 1], motion[..., 0]))
-            held |= (np.mod(direction - low, 360.0) < high - low) & (speed >= _SLOWEST_MOVING_MPS)
+            held |= (np.mod(direction - low, 360.0) < high - low) & (speed >= _MINIMUM_MOVING_SPEED_MPS)
         return held
 
 
 @dataclass(frozen=True)
 class ClearSpans:
-    """Stretches of recordings outside all bands: where they begin in the store, how long they are, and whose they are
-    (places in the list of recordings that was given, ascending)."""
+    """Stretches of recordings outside all bands: their starts in the store, their lengths, and the indices of their
+    recordings in the given list (ascending)."""
 
     starts: NDArray[np.int64]
     lengths: NDArray[np.int64]
@@ -56,7 +56,7 @@ class ClearSpans:
 def clear_spans(
     motion: NDArray[np.float32], starts: NDArray[np.int64], lengths: NDArray[np.int64], held_out: HeldOut
 ) -> ClearSpans:
-    """Of recordings that begin at `starts` in the store's motion [n, 3] and are `lengths` long."""
+    """The clear spans of recordings that begin at `starts` in the store's motion [n, 3] and are `lengths` long."""
     found: list[tuple[NDArray[np.int64], NDArray[np.int64]]] = []
     for start, length in zip(starts, lengths, strict=True):
         held = held_out.holds(motion[start : start + length])

@@ -1,4 +1,7 @@
-"""Several trainings at a time, each a process of its own with a log of its own."""
+"""Runs several trainings at a time, each a process of its own with a log of its own.
+
+concurrent.futures runs functions of this process; trainings are whole commands that must end and resume on their own.
+"""
 
 from __future__ import annotations
 
@@ -18,9 +21,9 @@ _POLL_SECONDS = 0.2
 
 @dataclass(frozen=True, eq=False)
 class Job:
-    """words: arguments of the haptoflow_training command, or a whole command where `program` names another. log: what
-    it prints is added here. product: a file that is there when the job is done. folder: where it runs and relative paths
-    of its configuration begin; this process's own where None."""
+    """words: arguments of `program`. log: the file to which its output is appended. product: a file that exists when
+    the job is done. folder: working directory, to which relative paths of the configuration refer; None for that of
+    this process."""
 
     name: str
     words: Sequence[str]
@@ -30,16 +33,16 @@ class Job:
     program: Sequence[str] = (sys.executable, "-m", "haptoflow_training")
 
 
-def run_jobs(jobs: Sequence[Job], lanes: int, watch: Callable[[int], None] = lambda finished: None) -> None:
-    """Run jobs in their order, `lanes` at a time; `watch` hears every moment how many are finished.
+def run_jobs(jobs: Sequence[Job], lanes: int, progress: Callable[[int], None] = lambda finished: None) -> None:
+    """Run jobs in order, `lanes` at a time; `progress` is called regularly with the number of finished jobs.
 
-    InputError names job and log when one fails or leaves no product; then, and when this process is asked to stop, the
-    others are asked to stop too, and waited for: what resumes is whole.
+    InputError names job and log if one fails or leaves no product. Then, and when this process is terminated, the other
+    jobs are terminated and awaited, so that they can be resumed.
     """
     waiting = list(jobs)
     finished = 0
     running: dict[Job, subprocess.Popen[bytes]] = {}
-    # Without a handler, a terminated parent would leave its trainings running.
+    # Without a handler, terminating this process would leave its trainings running.
     before = signal.signal(signal.SIGTERM, lambda number, frame: sys.exit(128 + number))
     try:
         while waiting or running:
@@ -54,7 +57,7 @@ def run_jobs(jobs: Sequence[Job], lanes: int, watch: Callable[[int], None] = lam
                 if process.returncode != 0 or not job.product.exists():
                     raise InputError(f"{job.name}: training stopped; {job.log} says why; run the command again to go on")
                 finished += 1
-            watch(finished)
+            progress(finished)
     finally:
         for process in running.values():
             process.terminate()

@@ -1,11 +1,11 @@
-"""Mean spectra and tails, label by label: what a network makes a little too much or too little of everywhere.
+"""A loss on mean spectra and moments of each label, for small errors that all segments share.
 
-The energy distance (energy_distance.py) compares single segments, whose spectra scatter by several decibels; that a
-resonance is a decibel too low over all of a label's segments hardly shows in it, but is most of what the averaged
-spectrum of a minute misses. Here magnitudes are averaged over some hundred segments of the same label and speed,
-recorded and drawn, and half the squared difference of the averages' logarithms is the loss. The averages are running
-ones; a batch's gradient is that of its own share in them. Moments of the samples and of 5 ms frames stand beside the
-spectra: how rare and how large a material's blows are shows in no segment, only in hundreds.
+The energy distance (energy_distance.py) compares single segments, whose spectra scatter by several decibels. A
+resonance that is 1 dB too low in all segments of a label hardly shows in it, but dominates the error of the spectrum
+averaged over a minute. Here magnitudes are averaged over some hundred segments of the same label and speed, recorded
+and drawn, and the loss is half the squared difference of the averages' logarithms. The averages are running ones; the
+gradient of a batch is that of its own share in them. Moments of the samples and of 5 ms frames are compared in the same
+way: how rare and how strong a material's impacts are shows only over hundreds of segments.
 """
 
 from __future__ import annotations
@@ -19,43 +19,44 @@ from torch import Tensor
 from haptoflow_training.models.rib_comb import PARTIALS
 from haptoflow_training.training.energy_distance import WINDOW_SAMPLES, Spectra
 
-# Speeds are told apart at these borders: a resonance of the contact rises with speed.
+# Borders between speed classes: a contact resonance rises with speed.
 _SPEED_BORDERS_MPS = (0.03, 0.08, 0.2, 0.5)
 _SPEED_CLASSES = len(_SPEED_BORDERS_MPS) + 1
-# Segments of one label and speed that an average remembers, and those without which it says nothing.
-_MEMORY_SEGMENTS, _FEWEST_SEGMENTS = 80.0, 16.0
-_LARGEST_ERROR = 1.0
+# How many segments of one label and speed class an average remembers, and the number below which it is not used.
+_MEMORY_SEGMENTS, _MINIMUM_SEGMENTS = 80.0, 16.0
+_MAXIMUM_ERROR = 1.0
 _FLOOR = 1e-3
 _BINS = 101
 _BANDS = 8
-# A Hann window of 400 samples tells lines apart that are this far from each other.
-_CLOSEST_LINES_HZ = 40.0
+# A Hann window of 400 samples resolves lines that are this far apart.
+_MINIMUM_LINE_SPACING_HZ = 40.0
 _LONG_BINS_HZ = torch.arange(201) * 5.0
 
 
 @dataclass(frozen=True)
 class LabelFeatures:
-    """values and counted [B, K]: magnitudes by frequency, amplitudes of partials, noise between a ruled surface's lines by
-    band, and moments; counted is 0 where a segment has no such thing."""
+    """values and counted [B, K]: magnitudes by frequency, amplitudes of partials, noise between a ruled surface's
+    lines by band, and moments; counted is 0 where a feature does not apply to the segment."""
 
     values: Tensor
     counted: Tensor
 
 
-# Of the samples' sizes and of the frames' RMS. The fourth would need thousands of segments to be known.
+# Orders of the moments of the samples' magnitudes and of the frames' RMS. The fourth would need thousands of segments.
 _MOMENTS = (1.0, 3.0)
 _FRAME_SAMPLES = 10
-# A blow this many times as large as the level says how large blows are; a larger one would say nothing else for long.
-_LARGEST_SIZE = 16.0
+# Magnitudes are limited to this multiple of the level, so that a single stronger impact does not dominate the average
+# for long.
+_MAXIMUM_SIZE = 16.0
 _KINDS = (_BINS, PARTIALS, _BANDS, 2 * len(_MOMENTS))
 FEATURES = sum(_KINDS)
-# Each kind counts as much as another.
+# All kinds of features weigh the same.
 _SHARES = torch.cat([torch.full((count,), 1.0 / count) for count in _KINDS])
 
 
 def _moments(segment: Tensor) -> list[Tensor]:
     """[B] each, of a segment [B, 200] in unit scale."""
-    sizes = segment.abs().clamp(max=_LARGEST_SIZE)
+    sizes = segment.abs().clamp(max=_MAXIMUM_SIZE)
     frames = (sizes.square().reshape(len(sizes), -1, _FRAME_SAMPLES).mean(dim=2) + 1e-8).sqrt()
     return [values.pow(order).mean(dim=1) for values in (sizes, frames) for order in _MOMENTS]
 
@@ -63,15 +64,16 @@ def _moments(segment: Tensor) -> list[Tensor]:
 def label_features(
     spectra: Spectra, ribs_hz: Tensor, partials: Tensor, audible: Tensor, segment: Tensor
 ) -> LabelFeatures:
-    """Of segments [B, 200] and their pasts. spectra: by window (energy_distance.spectra); ribs_hz [B, 2]: the frequency
-    of each family of ribs; partials [B, 2, 28] of the segment; audible [B, 28]: which of them can sound."""
-    # Of the windows as long as a segment, the first is all past.
+    """Features of segments [B, 200] with their pasts. spectra: by window (energy_distance.spectra); ribs_hz [B, 2]:
+    the frequency of each family of ribs; partials [B, 2, 28] of the segment; audible [B, 28]: mask of partials
+    inside the band."""
+    # Of windows as long as a segment, the first contains only the past.
     magnitudes = spectra.magnitudes
     short, long = magnitudes[WINDOW_SAMPLES.index(200)][:, 1:], magnitudes[WINDOW_SAMPLES.index(400)][:, 0, 1:]
     bins = short.mean(dim=1)
     amplitudes = (partials.square().sum(dim=1) + 1e-8).sqrt()
-    # Of lines at k spacing, sin^4(pi f / spacing) keeps what lies between them.
-    resolved = ribs_hz > _CLOSEST_LINES_HZ
+    # For lines at multiples of a spacing, sin^4(pi f / spacing) keeps what lies between them.
+    resolved = ribs_hz > _MINIMUM_LINE_SPACING_HZ
     spacing = torch.where(resolved, ribs_hz, torch.ones_like(ribs_hz)).unsqueeze(2)
     between = torch.sin(math.pi * _LONG_BINS_HZ / spacing).pow(4)
     between = torch.where(resolved.unsqueeze(2), between, torch.ones_like(between)).prod(dim=1)[:, 1:]
@@ -86,18 +88,19 @@ def label_features(
 
 
 class LabelBalance:
-    """Running averages of features by label and speed, and the loss of a batch against them. Not part of the model."""
+    """Running averages of features by label and speed class, and the loss of a batch against them. Not part of the
+    model."""
 
     def __init__(self, labels: int) -> None:
         groups = labels * _SPEED_CLASSES
         self._sums = {name: torch.zeros(groups, FEATURES) for name in ("recorded", "drawn", "count")}
 
     def state(self) -> dict[str, Tensor]:
-        """What a resumed run goes on from."""
+        """The state that a resumed run continues from."""
         return self._sums
 
     def restore(self, state: dict[str, Tensor]) -> None:
-        """Go on from a state."""
+        """Restore a saved state."""
         self._sums = state
 
     def loss(
@@ -108,9 +111,9 @@ class LabelBalance:
         drawn: tuple[LabelFeatures, LabelFeatures],
         weight: Tensor,
     ) -> Tensor:
-        """Of a batch; label [B], speed [B], weight [B] by which segments count, as in the energy distance.
+        """The loss of a batch; label [B], speed [B], weight [B] of the segments, as in the energy distance.
 
-        Averages are updated with the batch before they are compared.
+        The averages are updated with the batch before they are compared.
         """
         speed_class = torch.bucketize(speed_mps, torch.tensor(_SPEED_BORDERS_MPS))
         group = label * _SPEED_CLASSES + speed_class
@@ -137,8 +140,8 @@ class LabelBalance:
             sums.mul_(kept).index_add_(0, group, new[name])
 
     def _errors(self) -> tuple[Tensor, Tensor]:
-        """(log ratio of drawn to recorded average, 0 where too little was heard; average drawn), [groups, K]."""
+        """(log ratio of drawn to recorded average, 0 where there are too few segments; average drawn), [groups, K]."""
         count = self._sums["count"].clamp(min=1e-6)
         recorded, drawn = (self._sums[name] / count + _FLOOR for name in ("recorded", "drawn"))
-        error = (drawn / recorded).log().clamp(-_LARGEST_ERROR, _LARGEST_ERROR)
-        return torch.where(self._sums["count"] >= _FEWEST_SEGMENTS, error, torch.zeros_like(error)), drawn
+        error = (drawn / recorded).log().clamp(-_MAXIMUM_ERROR, _MAXIMUM_ERROR)
+        return torch.where(self._sums["count"] >= _MINIMUM_SEGMENTS, error, torch.zeros_like(error)), drawn

@@ -1,38 +1,50 @@
-"""What a training step minimises, objective by objective, on one batch."""
+"""The losses of a training step on one batch, by objective."""
 
 from __future__ import annotations
 
-from typing import Literal
+from collections.abc import Callable
+from typing import Literal, Protocol
 
 import torch
 from torch import Tensor, nn
 
+from haptoflow_training.extensions import extension
 from haptoflow_training.models.haptoflow_model import HaptoFlowModel
 from haptoflow_training.models.label_embedding import rib_frequencies_hz, rib_phase
-from haptoflow_training.models.level_model import level_loss
+from haptoflow_training.models.level_model import level_loss, scaled_previous
 from haptoflow_training.models.rib_comb import PARTIALS
-from haptoflow_training.models.unit_scale import scaled_previous
 from haptoflow_training.training.batches import Chain, SegmentBatch
 from haptoflow_training.training.config import SolverConfig
 from haptoflow_training.training.energy_distance import energy_distance_loss, envelopes, halves_of, spectra
 from haptoflow_training.training.flow_matching import flow_matching_loss, solve
-from haptoflow_training.training.mean_flow import AverageField, mean_flow_loss
-from haptoflow_training.training.reflow import ReflowPairs, reflow_loss
 from haptoflow_training.training.label_balance import LabelBalance, label_features
 
-# `own`: what a baseline is trained for by its own form.
+# `own`: a rival's published training loss.
 Objective = Literal["level", "flow", "average-velocity", "reflow", "energy", "own"]
 
 _BALANCE_WEIGHT = 2.0
-# Power of a past in unit scale, and change of the level's logarithm within a segment, beyond which it counts less.
+# Power of a past in unit scale, and change of the log level within a segment, beyond which the segment weighs less.
 _LOUD_PAST, _UNSTEADY_LOG_LEVEL = 4.0, 0.4
+
+
+AverageField = Callable[[Tensor, Tensor, Tensor], Tensor]
+
+
+class TrainingPairs(Protocol):
+    """Pairs of noise and segment that a network made itself, for the reflow objective."""
+
+    def draw(self, count: int, generator: torch.Generator) -> TrainingPairs:
+        """`count` pairs at random."""
+
+    def loss(self, model: HaptoFlowModel, generator: torch.Generator) -> Tensor:
+        """The mean error of the model's velocity over the pairs, a scalar."""
 
 
 class Losses(nn.Module):
     """Level and field loss in one forward pass, so that several processes synchronise all gradients at once.
 
-    train_level False keeps the level as it is: a tier that shares another run's. balance: what the network has made of
-    every label so far; without it, the energy objective is the energy distance alone, as for validation.
+    train_level: False for a tier that shares another run's level. balance: running averages by label; without it, as in
+    validation, the energy objective is the energy distance alone.
     """
 
     def __init__(
@@ -54,7 +66,7 @@ class Losses(nn.Module):
         batch: SegmentBatch,
         objective: Objective,
         generator: torch.Generator,
-        pairs: ReflowPairs | None = None,
+        pairs: TrainingPairs | None = None,
     ) -> tuple[Tensor, Tensor]:
         level = self._level_loss(batch)
         if objective == "level":
@@ -62,7 +74,7 @@ class Losses(nn.Module):
         if objective == "reflow":
             if pairs is None:
                 raise ValueError("the reflow objective needs pairs")
-            return level, self._reflow_loss(pairs, generator)
+            return level, pairs.loss(self.model, generator)
         return level, self._field_loss(batch, objective, generator)
 
     def _level_loss(self, batch: SegmentBatch) -> Tensor:
@@ -70,28 +82,19 @@ class Losses(nn.Module):
             return torch.zeros(())
         return level_loss(self.model.log_level(batch.label, batch.level_motion), batch.level_mean_square_mps2)
 
-    def _reflow_loss(self, pairs: ReflowPairs, generator: torch.Generator) -> Tensor:
-        embedding = self.model.embedding(pairs.label)
-        phase = rib_phase(embedding, pairs.position_mm)
-
-        def field(noisy: Tensor, time: Tensor) -> Tensor:
-            return self.model.field(noisy, time, pairs.previous, embedding, pairs.motion, phase)
-
-        return reflow_loss(field, pairs, generator)
-
     def _field_loss(self, batch: SegmentBatch, objective: Objective, generator: torch.Generator) -> Tensor:
         model = self.model
         embedding = model.embedding(batch.label)
-        # The field sees waves of unit scale; it must not move the level to make its own task easier.
+        # The field works in unit scale; its loss must not move the level to make the task easier.
         log_level = model.log_level(batch.label, batch.motion).detach()
         steady_segment, unsteadiness = self._steady_segment(batch, embedding)
         segment = model.representation.encode(steady_segment)
         recorded_previous = scaled_previous(batch.previous, log_level)
         previous = recorded_previous
         if batch.chain is not None:
-            own_previous = self.live_through(batch.chain, batch.label, objective, generator)
+            own_previous = self.render_chain(batch.chain, batch.label, objective, generator)
             previous = scaled_previous(own_previous, log_level)
-        # A burst that the level cannot foresee (an impact, the first motion after a rest) is learnt, but must not
+        # Bursts that the level cannot predict (an impact, the first motion after a rest) are learnt, but must not
         # outweigh a hundred ordinary segments.
         power = segment.square().mean(dim=(1, 2)).clamp(min=1.0)
         encoded_previous = model.representation.encode(previous)
@@ -110,14 +113,17 @@ class Losses(nn.Module):
 
         if objective == "own":
             own = model.field.loss(segment, encoded_previous, embedding, batch.motion, phase, generator)
-            # A likelihood is of all segments alike: weighted down by what it has to foresee, it would foresee less.
+            # A likelihood weighs all segments alike: weighting down unpredictable ones would bias it towards too little
+            # variance.
             weight = torch.ones_like(power) if model.field.is_sampled else power.reciprocal()
             return (weight * own).sum() / weight.sum()
         if objective == "flow":
             return flow_matching_loss(field, segment, generator, 1.0 / power)
         if objective == "average-velocity":
-            return mean_flow_loss(bound, segment, generator, 1.0 / power)
-        # Both draws in one pass: many small products cost less as few large ones.
+            mean_flow_loss = extension("objective", "average-velocity")
+            average_loss: Tensor = mean_flow_loss(bound, segment, generator, 1.0 / power)
+            return average_loss
+        # Both draws in one pass: few large matrix products are faster than many small ones.
         noise = torch.randn(2 * len(segment), *segment.shape[1:], generator=generator)
         condition = [torch.cat([part, part]) for part in (previous, embedding, batch.motion, phase)]
         first, second = model.one_step(noise, *condition).chunk(2)
@@ -135,18 +141,18 @@ class Losses(nn.Module):
         phase: Tensor,
         weight: Tensor,
     ) -> Tensor:
-        """Of a recording (past and segment) and two draws that follow `past`, [B, 1, 200] each, in unit scale; phase
-        [B, 2]: the rib phase; weight [B] of each segment."""
+        """The energy loss of a recording (past and segment) and two draws that follow `past`, [B, 1, 200] each, in
+        unit scale; phase [B, 2]: the rib phase; weight [B] of each segment."""
         segments = [wave.squeeze(1) for wave in (recorded[1], *drawn)]
         true = recorded[0].squeeze(1), segments[0]
         # Both draws in one pass here, too.
         own = torch.cat([past, past]).squeeze(1), torch.cat(segments[1:])
-        heard = [spectra(*true), *halves_of(spectra(*own))]
+        all_spectra = [spectra(*true), *halves_of(spectra(*own))]
         shapes = [envelopes(*true), *zip(*(shape.chunk(2) for shape in envelopes(*own)), strict=True)]
         partials, audible = self._partials(batch, embedding, (recorded[1], *drawn), phase)
         loss = energy_distance_loss(
-            heard[0],
-            (heard[1], heard[2]),
+            all_spectra[0],
+            (all_spectra[1], all_spectra[2]),
             weight,
             waves=None if batch.chain is not None else tuple(segments),
             lines=tuple(partials),
@@ -157,7 +163,7 @@ class Losses(nn.Module):
         ribs_hz = rib_frequencies_hz(embedding.detach(), batch.motion).squeeze(2)
         features = [
             label_features(spectrum, ribs_hz, partial, audible, segment)
-            for spectrum, partial, segment in zip(heard, partials, segments, strict=True)
+            for spectrum, partial, segment in zip(all_spectra, partials, segments, strict=True)
         ]
         speed_mps = batch.motion[:, 0:2].norm(dim=1)
         balance = self._balance.loss(batch.label, speed_mps, features[0], (features[1], features[2]), weight)
@@ -166,21 +172,21 @@ class Losses(nn.Module):
     def _partials(
         self, batch: SegmentBatch, embedding: Tensor, segments: tuple[Tensor, ...], phase: Tensor
     ) -> tuple[list[Tensor], Tensor]:
-        """For each segment, its partials [B, 2, P] relative to the rib phase; and a mask [B, P] of those that one segment
-        can resolve. Both are zero for a network without ribs."""
+        """For each segment, its partials [B, 2, P] relative to the rib phase; and a mask [B, P] of those that one
+        segment can resolve. Both are zero for a network without ribs."""
         comb = self.model.field.comb
         if comb is None:
             nothing = torch.zeros(len(batch.label), 2, PARTIALS)
             return [nothing] * len(segments), nothing[:, 0]
-        profiles, told_apart = comb.profile(embedding, batch.motion, phase, torch.cat(segments, dim=1))
+        profiles, resolved = comb.profile(embedding, batch.motion, phase, torch.cat(segments, dim=1))
         recorded, *drawn = profiles.unbind(dim=1)
-        return [recorded.detach(), *drawn], told_apart
+        return [recorded.detach(), *drawn], resolved
 
     @torch.no_grad()
-    def live_through(
+    def render_chain(
         self, chain: Chain, label: Tensor, objective: Objective, generator: torch.Generator
     ) -> Tensor:
-        """The previous waveform [B, 1, 200] in m/s^2 that the network itself leaves after the chain's hops."""
+        """The previous waveform [B, 1, 200] in m/s^2 after the chain's hops, rendered by the network itself."""
         model, previous = self.model, chain.start
         for hop in range(chain.motion.shape[1]):
             where = chain.motion[:, hop], chain.position_mm[:, hop]
@@ -199,7 +205,7 @@ class Losses(nn.Module):
         objective: Objective,
         generator: torch.Generator,
     ) -> Tensor:
-        """One segment [B, 1, 200] in m/s^2, made as the objective's tier is run."""
+        """One segment [B, 1, 200] in m/s^2, generated in the way the objective's tier is run."""
         model = self.model
         embedding = model.embedding(label)
         phase = rib_phase(embedding, position_mm)
@@ -223,7 +229,8 @@ class Losses(nn.Module):
     def make_pairs(
         self, batch: SegmentBatch, generator: torch.Generator
     ) -> tuple[Tensor, Tensor, Tensor, SegmentBatch]:
-        """(noise, what the flow makes of it, previous in unit scale, batch): what reflow straightens."""
+        """(noise, the segment that the flow makes of it, previous in unit scale, batch): the pairs that reflow is
+        trained on."""
         model = self.model
         embedding = model.embedding(batch.label)
         previous = scaled_previous(batch.previous, model.level(embedding, batch.motion))
@@ -237,23 +244,24 @@ class Losses(nn.Module):
         return noise, solve(field, noise, "midpoint", 4), previous, batch
 
     def _steady_segment(self, batch: SegmentBatch, embedding: Tensor) -> tuple[Tensor, Tensor]:
-        """The segment in unit scale as if the motion went on as it began: each sample is divided by the level of its
-        own moment, since at run time the hand's next tenth of a second is not known. And how far the logarithm of the
-        level goes from that of the condition, [B]."""
+        """The segment in unit scale, as if the motion continued as it began: each sample is divided by the level at
+        its time, because the next 100 ms of motion are unknown at run time. Also the largest deviation of the log
+        level within the segment from that of the condition, [B]."""
         rows, knots, _ = batch.motion_path.shape
         path = batch.motion_path.reshape(rows * knots, 3)
         with torch.no_grad():
             log_level = self.model.level(embedding.repeat_interleave(knots, dim=0), path).reshape(rows, 1, knots)
-            told = self.model.level(embedding, batch.motion).unsqueeze(1)
-            unsteadiness = (log_level - told).abs().amax(dim=(1, 2))
+            condition_level = self.model.level(embedding, batch.motion).unsqueeze(1)
+            unsteadiness = (log_level - condition_level).abs().amax(dim=(1, 2))
         samples = batch.segment.shape[-1]
         log_level = nn.functional.interpolate(log_level, size=samples, mode="linear", align_corners=True)
         return batch.segment * torch.exp(-log_level), unsteadiness
 
 
 def _steadiness(unsteadiness: Tensor, previous: Tensor) -> Tensor:
-    """[B]: the weight of a segment by what is known before it: near 1 where the level holds within a few decibels and the
-    past [B, 1, 200] is about as loud as it should be. What a stop or a start leaves in unit scale looks like a blow, and
-    is none. A weight that knew the segment itself would ask for fewer blows than were recorded."""
+    """[B]: the weight of a segment, from what is known before it: near 1 where the level changes by less than a few
+    decibels and the past [B, 1, 200] is about as loud as the level predicts. In unit scale, a stop or a start looks
+    like an impact. A weight that depended on the segment itself would bias the network towards fewer impacts than
+    recorded."""
     loudness = (previous.square().mean(dim=(1, 2)) / _LOUD_PAST).clamp(min=1.0)
     return loudness.rsqrt() / (1.0 + (unsteadiness / _UNSTEADY_LOG_LEVEL).pow(4))

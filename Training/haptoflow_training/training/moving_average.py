@@ -1,4 +1,4 @@
-"""Exponential moving average of a module's weights: what is exported is the average, not the last step."""
+"""Exponential moving average of a module's weights. The average is validated and exported, not the last step."""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""One process or several: torchrun's environment decides (start with `torchrun --redirects 1 --tee 1`)."""
+"""One or several training processes, according to torchrun's environment (start with `torchrun --redirects 1 --tee
+1`)."""
 
 from __future__ import annotations
 
@@ -13,7 +14,7 @@ from torch import distributed
 
 @dataclass(frozen=True)
 class Processes:
-    """rank 0 writes files and speaks; count processes share each batch."""
+    """rank 0 writes files and prints; `count` processes share each batch."""
 
     rank: int
     count: int
@@ -31,14 +32,14 @@ class Processes:
         return total / self.count
 
     def wait(self) -> None:
-        """Until every process is here."""
+        """Wait until every process has reached this call."""
         if self.count > 1:
             distributed.barrier()
 
 
 @contextmanager
 def join_processes() -> Iterator[Processes]:
-    """Join torchrun's group when its environment is there; alone otherwise."""
+    """Join the process group of torchrun's environment; without one, a single process."""
     count = int(os.environ.get("WORLD_SIZE", "1"))
     if count == 1:
         yield Processes(rank=0, count=1)

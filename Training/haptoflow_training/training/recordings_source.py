@@ -1,4 +1,4 @@
-"""From a run's [data] section to a prepared store: synthetic recordings, or data set folders."""
+"""Prepares the store of a run's [data] section, from synthetic recordings or data set folders."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ SYNTHETIC_STATEMENT = "trained on synthetic recordings"
 
 @dataclass(frozen=True)
 class SyntheticRecording:
-    """A recording that is made when it is asked for, in the worker that prepares it."""
+    """A synthetic recording that is generated when a worker prepares it."""
 
     material: Material
     identity: RecordingIdentity
@@ -66,9 +66,8 @@ class SyntheticRecording:
 
 @dataclass(frozen=True)
 class Source:
-    """A store with what the model file has to say of its labels and origin. left_out: a line for each file that cannot be
-    used, and for each folder that has recordings which no label names. found: labels whose wave vectors were estimated
-    from the recordings."""
+    """A store with what the model file states about its labels and origin. left_out: a line for each unusable file,
+    and for each folder with recordings that no label names. found: labels whose wave vectors were estimated."""
 
     store: SegmentStore
     labels: list[LabelInfo]
@@ -78,12 +77,12 @@ class Source:
 
     @property
     def wave_vectors(self) -> list[tuple[tuple[float, float], ...]]:
-        """Of each label's ribs, cycles per millimetre."""
+        """The wave vectors of each label's ribs, in cycles per millimetre."""
         return [info.known_wave_vectors for info in self.labels]
 
 
 def synthetic_recordings(data: DataConfig) -> Iterator[SyntheticRecording]:
-    """What `data` asks of the recorder: both protocols, material by material."""
+    """The synthetic recordings of `data`: both protocols, material by material."""
     for material in _materials(data):
         identities = machine_conditions(
             material,
@@ -103,7 +102,7 @@ def _materials(data: DataConfig) -> tuple[Material, ...]:
 
 
 def _fingerprint(data: DataConfig, further: dict[str, Any]) -> dict[str, Any]:
-    """What the store was made from, as JSON gives it back: a store made from something else is made anew."""
+    """A description of what the store was made from, as JSON; a store with another description is prepared again."""
     made_from: dict[str, Any] = {"data": dataclasses.asdict(data), **further}
     if data.source == "synthetic":
         made_from["materials"] = [dataclasses.asdict(material) for material in _materials(data)]
@@ -124,7 +123,7 @@ def _open_or_prepare(
         store = SegmentStore.open(out)
         if store.provenance.get("made_from") == fingerprint:
             return store
-    # What the recorder makes is split by its names alone: stores that exist stay as they are.
+    # Synthetic recordings are split by their names alone, so that existing stores stay valid.
     prepare = prepare_store if data.source == "synthetic" else prepare_cut_where_needed
     return prepare(
         recordings,
@@ -228,17 +227,17 @@ def _open_folders(data: DataConfig, store_folder: Path, workers: int) -> Source:
 
 
 def _left_out(roots: list[Dataset]) -> tuple[str, ...]:
-    """Everything that is not learnt from before it is prepared, a line each."""
+    """A line for each file and recording that is excluded before preparation."""
     lines = [f"skipped: {problem}" for root in roots for problem in root.problems]
     lines += [note for root in roots for note in root.notes]
     return tuple(lines + [root.left_out for root in roots if root.left_out])
 
 
 def _require_splits(store: SegmentStore) -> None:
-    """InputError where a label has nothing to learn from, or nothing is left to validate with: said before training."""
+    """InputError if a label has nothing to train on, or nothing is left for validation; raised before training."""
     counts = {label: dict.fromkeys(SPLITS, 0) for label in store.labels}
     for recording in store.recordings:
-        # Shorter ones have no window for the seed bank.
+        # Shorter recordings contain no window for the seed bank.
         if recording.split != "train" or recording.length > SEED_SAMPLES:
             counts[store.labels[recording.label_index]][recording.split] += 1
     lacking = [
@@ -278,12 +277,12 @@ def _label_map(data: DataConfig, roots: list[Dataset]) -> LabelMap:
 
 
 def _joined(words: Iterable[object]) -> str:
-    """Each once; what does not say is unknown."""
+    """The distinct values joined; "unknown" where none is stated."""
     return ", ".join(dict.fromkeys(str(word) if word else UNKNOWN for word in words))
 
 
 def _files_of(entries: list[RecordingFile]) -> str:
-    """A digest of the recordings' names, sizes and times of change: another file is another store."""
+    """A digest of the recordings' names, sizes and modification times: a changed file means another store."""
     digest = hashlib.sha256()
     for entry in entries:
         for path in entry.paths:

@@ -1,30 +1,29 @@
-"""What a run leaves beside its weights: metrics as CSV, a plot of them, configuration and provenance."""
+"""The files of a run beside its weights: metrics as CSV, their plot, configuration and provenance."""
 
 from __future__ import annotations
 
 import csv
 import json
-import os
 import subprocess
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from haptoflow_training.whole_file import write_whole
+
 
 def write_json(path: Path, content: Mapping[str, Any]) -> None:
-    """Write indented, as `write_text`."""
+    """Write indented JSON, as `write_text`."""
     write_text(path, json.dumps(content, indent=2, ensure_ascii=False) + "\n")
 
 
 def write_text(path: Path, text: str) -> None:
-    """Write atomically: a run that is stopped in the middle leaves the old file whole."""
-    temporary = path.with_suffix(path.suffix + ".part")
-    temporary.write_text(text, encoding="utf-8")
-    os.replace(temporary, path)
+    """Write UTF-8 atomically: an interrupted run leaves the old file complete."""
+    write_whole(path, text.encode("utf-8"))
 
 
 def source_commit(folder: Path) -> str:
-    """The commit of the code that trains, with `+changes` where the tree is not clean; `unknown` outside git."""
+    """The commit of the source tree, with `+changes` if it is not clean; `unknown` outside git."""
     try:
         commit = subprocess.run(
             ["git", "rev-parse", "HEAD"], cwd=folder, capture_output=True, text=True, check=True
@@ -67,7 +66,7 @@ class MetricsLog:
 
 
 def last_step(path: Path) -> int:
-    """The step of the last whole row of a metrics.csv, 0 where there is none yet."""
+    """The step of the last complete row of a metrics.csv; 0 if there is none."""
     try:
         rows = path.read_text(encoding="utf-8").splitlines()[1:]
     except OSError:
@@ -77,7 +76,7 @@ def last_step(path: Path) -> int:
 
 
 def plot_metrics(log: MetricsLog, path: Path) -> None:
-    """Draw every figure of the log over the steps, one panel a figure."""
+    """Plot every figure of the log over the steps, one panel a figure."""
     import matplotlib
 
     matplotlib.use("Agg")

@@ -1,8 +1,8 @@
 """The training loop: level model first, then level and velocity field together, then the level once more.
 
-Resumable: a checkpoint holds weights, moving average, optimiser, generators and position; a run that is started
-again in the same folder goes on from it and ends with the same weights as one that was never stopped. A run with a
-budget of time goes on with what is left of it; how many steps that makes is the machine's matter.
+Resumable: a checkpoint holds weights, moving average, optimiser, random generators and position. A run that is started
+again in the same folder continues and ends with the same weights as one that was never interrupted. A run with a time
+budget continues with the time that is left; its number of steps depends on the machine.
 """
 
 from __future__ import annotations
@@ -24,31 +24,31 @@ from torch.nn.parallel import DistributedDataParallel
 from tqdm import tqdm
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.models.baselines import Baseline, build_baseline
+from haptoflow_training.extensions import extension
 from haptoflow_training.models.haptoflow_model import HaptoFlowModel
 from haptoflow_training.models.level_model import ConstantLevel, LevelModel
 from haptoflow_training.models.representation import build_representation
+from haptoflow_training.models.segment_network import SegmentNetwork
 from haptoflow_training.models.velocity_field import VelocityField
 from haptoflow_training.training.batches import SegmentBatches, Store
 from haptoflow_training.training.budget import Budget
 from haptoflow_training.training.config import TrainingConfig, config_from_dict
-from haptoflow_training.training.losses import Losses, Objective
+from haptoflow_training.training.label_balance import LabelBalance
+from haptoflow_training.training.losses import Losses, Objective, TrainingPairs
 from haptoflow_training.training.moving_average import MovingAverage
 from haptoflow_training.training.processes import Processes
-from haptoflow_training.training.reflow import ReflowPairs, join_pairs
 from haptoflow_training.training.run_log import MetricsLog, plot_metrics, source_commit, write_json
-from haptoflow_training.training.label_balance import LabelBalance
 
 _COLUMNS = ("step", "phase", "field_loss", "level_loss", "validation_field_loss", "validation_level_loss", "seconds")
 _LOG_EVERY = 100
 _CHECKPOINT_EVERY = 1000
 _VALIDATION_BATCH = 512
-# Of each phase, to see what its steps cost before a budget is shared out; the first ones warm up.
+# Steps of each phase that are timed before a budget is divided, after warm-up steps.
 _REHEARSED_STEPS, _WARM_UP_STEPS = 12, 2
-# Of a run that somebody waits for, at most; fewer steps are tried where there is little time.
+# The largest share of a time limit that this timing may use; with little time, fewer steps are timed.
 _REHEARSED_SHARE = 0.08
-_SHORTEST_TRAINING_SECONDS = 1.0
-# The unit is where the time left is shown: what the bar itself would guess takes all steps for equally long.
+_MINIMUM_TRAINING_SECONDS = 1.0
+# The time left is shown as the bar's unit: the bar's own estimate assumes that all steps take equally long.
 _LIMITED_BAR = "{desc}: {percentage:3.0f}%|{bar}| {unit} [{elapsed}{postfix}]"
 _SECONDS_BETWEEN_BARS = 0.5
 _REHEARSED_PAIRS = 500
@@ -60,7 +60,8 @@ class TrainingStopped(Exception):
 
 @dataclass(frozen=True)
 class TimeLimit:
-    """What a run may take by the clock on the wall. seconds_after: what follows training and is shown as left too."""
+    """The wall-clock time of a run. seconds_after: the time of what follows training, included in the time shown as
+    left."""
 
     training_seconds: float
     seconds_after: float = 0.0
@@ -70,11 +71,11 @@ WaveVectors = Sequence[Sequence[tuple[float, float]]]
 
 
 def build_model(config: TrainingConfig, wave_vectors: WaveVectors) -> HaptoFlowModel:
-    """The untrained model that `config` describes. wave_vectors: of each label's ribs, empty for none."""
+    """The untrained model of `config`. wave_vectors: of each label's ribs, empty for none."""
     shape = config.model
     representation = build_representation(shape.representation)
     channels, positions = representation.shape
-    field: VelocityField | Baseline
+    field: VelocityField | SegmentNetwork
     if shape.architecture == "unet":
         field = VelocityField(
             channels=channels,
@@ -89,14 +90,15 @@ def build_model(config: TrainingConfig, wave_vectors: WaveVectors) -> HaptoFlowM
             levels=shape.levels,
         )
     else:
-        field = build_baseline(shape.architecture, ribs=shape.ribs, sampled=shape.sampled)
+        build = extension("architecture", shape.architecture)
+        field = build(shape.architecture, ribs=shape.ribs, sampled=shape.sampled)
     level = LevelModel() if shape.level == "law" else ConstantLevel()
     return HaptoFlowModel(wave_vectors=wave_vectors, representation=representation, level=level, field=field)
 
 
 @dataclass(frozen=True)
 class _Phase:
-    """steps of one objective. own_previous_every: every so many steps on chains of the network's own output
+    """Steps of one objective. own_previous_every: every so many steps use chains of the network's own output
     (self-forcing); 0 for never."""
 
     name: str
@@ -118,11 +120,11 @@ def _phases(config: TrainingConfig) -> tuple[_Phase, ...]:
     if config.model.architecture != "unet":
         flow = "own"
     last: Objective = "energy" if recipe.energy_steps else "reflow" if recipe.reflow_steps else flow
-    # A tier that shares another run's level has nothing to fit there.
+    # A tier that shares another run's level has no level to fit.
     level_steps, polish_steps = (0, 0) if recipe.shares_base else (optimiser.level_steps, optimiser.level_polish_steps)
     batch, energy_batch = optimiser.batch_size, recipe.energy_batch_size
     forced_batch = energy_batch if last == "energy" else batch
-    # What a recorded past has to be followed by is forgotten when all pasts are the network's own.
+    # If all pasts were the network's own, it would forget how to continue a recorded one.
     forced_every = 2 if last == "energy" else 1
     planned: list[tuple[str, Objective, int, float, int, int]] = [
         ("level", "level", level_steps, optimiser.learning_rate, 8 * batch, 0),
@@ -141,7 +143,7 @@ def _phases(config: TrainingConfig) -> tuple[_Phase, ...]:
 
 
 def planned_steps(config: TrainingConfig) -> list[int]:
-    """Steps of each phase that a run of `config` goes through."""
+    """The steps of each phase of a run of `config`."""
     return [phase.steps for phase in _phases(config)]
 
 
@@ -170,7 +172,7 @@ class Trainer:
         torch.manual_seed(config.seed)
         self.model = build_model(config, wave_vectors or [()] * len(store.labels))
         if optimiser.budget_seconds and processes.count > 1:
-            raise InputError("optimiser.budget_seconds is of one process; leave it out under torchrun")
+            raise InputError("optimiser.budget_seconds works with one process only; leave it out under torchrun")
         if config.recipe.shares_base != (base is not None):
             raise InputError(
                 "--base FOLDER and recipe.shares_base = true go together: the one names the run whose level is kept, "
@@ -184,7 +186,7 @@ class Trainer:
         self._losses = Losses(
             self.model, config.solver, train_level=not config.recipe.shares_base, balance=self._balance
         )
-        self._pairs: ReflowPairs | None = None
+        self._pairs: TrainingPairs | None = None
         self._average = MovingAverage(self.model, optimiser.average_decay)
         self._optimiser = torch.optim.AdamW(
             self.model.parameters(), lr=optimiser.learning_rate, weight_decay=optimiser.weight_decay, foreach=True
@@ -198,13 +200,13 @@ class Trainer:
         self._stop = False
 
     def limit_time(self, limit: TimeLimit) -> None:
-        """Before `run`, for somebody who waits: in place of the configuration's budget and steps. One process only."""
+        """Call before `run`: a wall-clock limit in place of the configuration's budget and steps. One process only."""
         self._limit = limit
         self._clock = time.monotonic
 
     @property
     def averaged_model(self) -> HaptoFlowModel:
-        """The moving average: what is validated and exported."""
+        """The moving average of the model, which is validated and exported."""
         return self._average.module  # type: ignore[return-value]
 
     @property
@@ -216,14 +218,14 @@ class Trainer:
         return self._phases[-1].end
 
     def run(self) -> None:
-        """Train to the end, or until SIGINT or SIGTERM: then write a checkpoint and raise TrainingStopped. A finished run
-        stays as it is: its summary tells the commit that trained it."""
+        """Train to the end, or until SIGINT or SIGTERM: then write a checkpoint and raise TrainingStopped. A
+        finished run is left unchanged, with the commit that trained it in its summary."""
         self._folder.mkdir(parents=True, exist_ok=True)
         if self.checkpoint_path.exists():
             self._load()
             if self._step == self._total and (self._folder / "run.json").exists():
                 return
-        # Of the code that trains, which is that of now, whatever the tree holds when the run ends.
+        # The commit at the start of training; the tree may change while the run goes on.
         commit = source_commit(Path(__file__).parent)
         log = MetricsLog(self._folder / "metrics.csv", _COLUMNS, self._step) if self._processes.is_first else None
         previous_handlers = {
@@ -277,7 +279,7 @@ class Trainer:
         bar.close()
 
     def _show_progress(self, bar: tqdm) -> None:
-        """Steps; of a run with a limit, its time: that of the phases as it was measured, and what comes after training."""
+        """Show steps; with a time limit, show the estimated time left, including what follows training."""
         if self._limit is None or self._budget is None:
             bar.total = self._total
             bar.update()
@@ -292,7 +294,7 @@ class Trainer:
             bar.refresh()
 
     def _paced(self, index: int) -> _Phase:
-        """The phase that runs, as long as its share of the budget lets it be by now."""
+        """The running phase, with its length adjusted to its share of the budget."""
         if self._budget is not None:
             self._budget.spend(index)
             done = self._step - self._phases[index].first_step
@@ -310,7 +312,8 @@ class Trainer:
             first += count
 
     def _shared_out_budget(self) -> Budget:
-        """Of a run that is about to begin: what steps cost is tried on a network that is thrown away."""
+        """The budget of a run that is about to begin: the cost of steps is measured on a network that is then
+        discarded."""
         config = self._config
         seconds = config.optimiser.budget_seconds
         begun = self._clock()
@@ -326,7 +329,7 @@ class Trainer:
         longest = math.inf if self._limit is None else _REHEARSED_SHARE * self._limit.training_seconds
         seconds_per_step = [tried._seconds_per_step(phase, longest / len(tried._phases)) for phase in tried._phases]
         if self._limit is not None:
-            seconds = max(self._limit.training_seconds - (self._clock() - begun), _SHORTEST_TRAINING_SECONDS)
+            seconds = max(self._limit.training_seconds - (self._clock() - begun), _MINIMUM_TRAINING_SECONDS)
         budget = Budget.shared_out(
             seconds,
             self._planned_steps,
@@ -354,25 +357,26 @@ class Trainer:
 
     def _enter(self, phase: _Phase) -> None:
         if self._step == phase.first_step and phase.name in ("reflow", "energy", "polish"):
-            # These phases refine what would be exported; the last noisy step is not where they should begin.
+            # These phases refine the exported average, so they start from it rather than from the last noisy step.
             self.model.load_state_dict(self.averaged_model.state_dict())
         if phase.objective == "reflow":
             self._pairs = self._make_pairs()
         if phase.name == "polish":
-            # The level is fitted anew to the averaged embedding, which is the one that will be exported.
+            # The level is fitted again to the averaged embedding, which is the one that is exported.
             for parameter in (*self.model.field.parameters(), *self.model.embedding.parameters()):
                 parameter.requires_grad_(False)
 
-    def _make_pairs(self) -> ReflowPairs:
-        """Noise and what the flow makes of it; the same set whenever a run is resumed would need the flow's old
-        weights, so a resumed run draws its pairs from the network as it is."""
+    def _make_pairs(self) -> TrainingPairs:
+        """Noise and the segments that the flow makes of it. A resumed run draws new pairs with its present weights,
+        because the earlier weights are gone."""
         generator = torch.Generator().manual_seed(self._config.seed + 17)
         size, count = 500, self._config.recipe.reflow_pairs // self._processes.count
         teacher = Losses(self.averaged_model, self._config.solver)
         parts = []
         for _ in tqdm(range(0, count, size), desc="pairs", unit="batch", disable=not self._processes.is_first):
             parts.append(teacher.make_pairs(self._batches.draw(size), generator))
-        return join_pairs(parts)
+        pairs: TrainingPairs = extension("objective", "reflow").joined(parts)
+        return pairs
 
     def _train_step(self, losses: nn.Module, phase: _Phase) -> tuple[Tensor, Tensor]:
         for group in self._optimiser.param_groups:
@@ -427,7 +431,7 @@ class Trainer:
         bar.set_postfix(phase=phase.name, field=f"{field.item():.4f}", level=f"{level.item():.3f}")
 
     def _save(self) -> None:
-        # Every process has its own generators, and has heard its own batches; weights are the same everywhere.
+        # Each process has its own generators and running averages; the weights are the same everywhere.
         own = {
             "noise": self._noise.get_state(),
             "batches": self._batches.state(),
@@ -505,18 +509,18 @@ def _save_atomically(content: dict[str, object], path: Path) -> None:
 
 
 def adopt_base(model: HaptoFlowModel, folder: Path, labels: list[str]) -> None:
-    """Give `model` the embedding and level of the finished run in `folder`, and hold them still."""
+    """Copy the embedding and level of the finished run in `folder` into `model`, and freeze them."""
     weights = _averaged_weights(folder, labels, "--base")
     for name, part in (("embedding", model.embedding), ("level", model.level)):
-        # The base's own network, if it has one, is of no concern here.
+        # The base's own network, if it has one, is ignored.
         prefix = f"{name}."
         part.load_state_dict({key[len(prefix) :]: value for key, value in weights.items() if key.startswith(prefix)})
         part.requires_grad_(False)
 
 
 def adopt_start(model: HaptoFlowModel, folder: Path, labels: list[str]) -> None:
-    """Begin with the averaged weights of the run in `folder`, of the same labels. A layer that has more outputs than it
-    had there keeps those it had; InputError names a layer that has another shape."""
+    """Start from the averaged weights of the run in `folder`, of the same labels. A layer with more outputs than in
+    that run keeps its initial weights for the new ones; InputError names a layer with another shape."""
     own = model.state_dict()
     for name, weights in _averaged_weights(folder, labels, "--from").items():
         if name not in own or weights.shape[1:] != own[name].shape[1:] or weights.shape[:1] > own[name].shape[:1]:

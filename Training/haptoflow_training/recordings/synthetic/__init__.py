@@ -1,4 +1,4 @@
-"""The synthetic recorder: a stylus dragged over a height profile, and the sensors that ride on it."""
+"""The synthetic recorder: a stylus dragged over a height profile, and the sensors mounted on it."""
 
 from haptoflow_training.recordings.synthetic.materials import Material, load_materials
 from haptoflow_training.recordings.synthetic.protocols import (

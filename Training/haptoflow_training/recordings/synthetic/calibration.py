@@ -1,4 +1,4 @@
-"""Find the physical parameters with which a material meets its targets."""
+"""Finds the physical parameters with which a material meets its targets."""
 
 from __future__ import annotations
 
@@ -31,11 +31,11 @@ _HEIGHT_EXPONENT = (1.3, 4.5)
 def calibrate(
     material: Material, *, seed: int, design: Design = Design(), rounds: int = 6
 ) -> tuple[Material, Measurement]:
-    """Measure the training specimens, correct, measure again: the round that came nearest to the targets, with its
-    measurement.
+    """Measure the training specimens, correct, and measure again; returns the round that came nearest to the targets,
+    with its measurement.
 
-    Level and force exponent answer one to one, the speed exponent by half of the height exponent; resonance
-    and absorption are solved for together on the measured spectrum, reweighted by the new filters.
+    Level and force exponent respond one to one, the speed exponent by half of the height exponent; resonance and
+    absorption are solved for together on the measured spectrum, reweighted by the new filters.
     """
     design = replace(design, fast_speeds_mmps=())
     best: tuple[float, Material, Measurement] | None = None
@@ -52,7 +52,7 @@ def calibrate(
 
 
 def _distance(deviation: Deviation) -> float:
-    """The worst deviation as a share of what is allowed."""
+    """The worst deviation as a share of its tolerance."""
     return max(abs(value) / limit for value, limit in zip(astuple(deviation), astuple(TOLERANCE)))
 
 
@@ -82,7 +82,7 @@ def _spectral_fit(material: Material, measured: Measurement) -> tuple[float, flo
             (centroid_hz(measured.frequency_hz, spectrum) / targets.centroid_hz - 1.0) / TOLERANCE.centroid,
             (slope_db_per_octave(measured.frequency_hz, spectrum) - targets.slope_db_per_octave)
             / TOLERANCE.slope_db_per_octave,
-            # Where both are met by many pairs, stay near.
+            # Many pairs meet both targets; stay near the present one.
             0.02 * (unknown[0] - np.log(now.contact_resonance_hz)),
             0.005 * (unknown[1] - now.absorption_db_per_octave),
         ]

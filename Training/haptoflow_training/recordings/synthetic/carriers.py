@@ -1,4 +1,5 @@
-"""Who moves the stylus: the printer frame in straight passes, or a hand; path, force and own vibration."""
+"""The carrier that moves the stylus: the printer frame in straight passes, or a hand; path, force and its own
+vibration."""
 
 from __future__ import annotations
 
@@ -18,13 +19,13 @@ SCAN_CENTRE_MM = 45.0
 PASS_LENGTH_MM = 90.0
 REST_SECONDS = 0.35
 _RAMP_SECONDS = 0.1
-# A sample is not put back on the very same line: a repeat reads a neighbouring track.
+# A sample is never put back on exactly the same line: a repeat follows a neighbouring track.
 _TRACK_SPREAD_MM = 8.0
 _HAND_EXTENT_METRES = 0.3
 _HAND_TREMOR_METRES = 3e-6
 _FULL_STEP_MM = 0.2
 _CHANGE_SECONDS = 0.06
-FASTEST_MMPS, HEAVIEST_NEWTONS = 1500.0, 5.0
+MAXIMUM_SPEED_MMPS, HEAVIEST_NEWTONS = 1500.0, 5.0
 # Hz and damping of the printer frame.
 _FRAME_RESONANCE = (90.0, 0.25)
 
@@ -76,8 +77,8 @@ def hand_ride(
 ) -> Ride:
     """A free stroke with rests at both ends.
 
-    The hand's own acceleration (up to tens of m/s^2 below 20 Hz) is left out, its tremor is kept faint: a
-    texture learnt from it would push the hand that feels it a second time.
+    The hand's own acceleration (up to tens of m/s^2 below 20 Hz) is left out, and its tremor is kept faint: a texture
+    learnt from them would add them to the hand that feels it.
     """
     stroke_rate = 1000.0
     free = duration_seconds - 2.0 * REST_SECONDS
@@ -114,29 +115,30 @@ def guided_ride(
     median_speed_mmps: float,
     median_force_newtons: float,
 ) -> Ride:
-    """A hand that rests on a moving surface, as on a turntable: speed, direction and force hold for half a second to
-    one and a half, then go over to others, the speed 0.6 to 3.3 times `median_speed_mmps`.
+    """A hand that rests on a moving surface, such as a turntable: speed, direction and force are held for 0.5 to 1.5 s,
+    then change, with speeds of 0.6 to 3.3 times `median_speed_mmps`.
 
-    Free strokes never hold still for a tenth of a second, and nobody can learn the pitch of ribs from them. Fast ribs
-    ask for more: at 1 m/s a drift of 3 % a second blurs ribs of 0.6 mm within a tenth of one. So every second hold is
-    steady, half of these along one of the eight directions in which the machine scans.
+    In free strokes the motion is never constant for 100 ms, so the pitch of ribs cannot be learnt from them. Fast ribs
+    need even more: at 1 m/s, a drift of 3 % a second blurs ribs of 0.6 mm within 100 ms. Therefore every second hold is
+    steady, half of these along one of the eight directions of the machine protocol.
     """
     count = int(duration_seconds * SIMULATION_RATE_HZ)
     time = np.arange(count) / SIMULATION_RATE_HZ
     changes = np.cumsum(rng.uniform(0.5, 1.5, size=int(duration_seconds / 0.5) + 2))
     hold = np.searchsorted(changes, time)
     holds = int(hold[-1]) + 1
-    # Within a hold everything still drifts a little, as a turntable does.
+    # Within a hold, everything still drifts a little, as on a turntable.
     within = time - np.concatenate([[0.0], changes])[hold]
     is_steady = rng.random(holds) < 0.5
     drift = np.where(is_steady, 0.05, 1.0)
     scanned = 0.25 * math.pi * rng.integers(0, 8, holds) + rng.normal(0.0, 0.03, holds)
     heading = np.where(is_steady & (rng.random(holds) < 0.5), scanned, rng.uniform(0.0, 2.0 * math.pi, holds))
-    # Upwards more than downwards: real pens spend nine tenths of their time above 60 mm/s, and fast pitches are many.
+    # More fast than slow: real pens spend nine tenths of their time above 60 mm/s, and high speeds have more pitches to
+    # learn.
     log_speed = rng.uniform(-0.5, 1.2, holds)[hold] + (drift * rng.normal(0.0, 0.03, holds))[hold] * within
     angle = heading[hold] + (drift * rng.normal(0.0, 0.1, holds))[hold] * within
     press = np.exp(rng.normal(0.0, 0.3, holds))[hold]
-    speed = np.minimum(median_speed_mmps * np.exp(log_speed), FASTEST_MMPS)
+    speed = np.minimum(median_speed_mmps * np.exp(log_speed), MAXIMUM_SPEED_MMPS)
     ramp = np.clip(np.minimum(time, duration_seconds - time) / REST_SECONDS - 1.0, 0.0, 1.0)
     moving = 0.5 - 0.5 * np.cos(math.pi * ramp)
     velocity = (speed * moving)[:, None] * np.stack([np.cos(angle), np.sin(angle)], axis=1)
@@ -151,7 +153,7 @@ def guided_ride(
 
 
 def _inertia(velocity_mmps: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The sensor rides on the carrier: its own acceleration in the plane."""
+    """The acceleration of the carrier itself in the plane, which the sensor measures too."""
     planar = np.gradient(velocity_mmps, 1.0 / SIMULATION_RATE_HZ, axis=0) * 1e-3
     return np.column_stack([planar, np.zeros(len(planar))])
 

@@ -1,4 +1,4 @@
-"""From the surface under a moving tip to the acceleration of the tool, on the simulation's uniform clock."""
+"""From the surface under a moving tip to the acceleration of the tool, at the simulation's uniform rate."""
 
 from __future__ import annotations
 
@@ -18,22 +18,23 @@ from haptoflow_training.recordings.synthetic.materials import Material
 from haptoflow_training.recordings.synthetic.surface import TipPath, random_height
 
 SIMULATION_RATE_HZ = 8000.0
-# A Hertzian contact's stiffness grows as F^(1/3), its resonance as the root of that.
+# A Hertzian contact's stiffness grows as F^(1/3), and its resonance as the root of the stiffness.
 _HERTZ_EXPONENT = 1.0 / 6.0
 _FORCE_RANGE_NEWTONS = (0.3, 3.0)
-# Deformed faster, the contact is stiffer too: about as v^0.24, its resonance as the root of that.
+# The contact is also stiffer when deformed faster: about as v^0.24, with the resonance as the root of that.
 _RESONANCE_SPEED_EXPONENT = 0.12
 _SPEED_RANGE_MMPS = (5.0, 1500.0)
 _REFERENCE_SPEED_MMPS = 100.0
-# The contact is filtered at resonances this far apart, blended between: less than the narrowest peak is wide.
+# Resonances at which the contact is filtered are this factor apart, with blending between them: closer than the width
+# of the narrowest peak.
 _RESONANCE_STEP = 1.2
-# Relative resonance and damping of the tool along the surface: it leans on the grip there.
+# Relative resonance and damping of the tool along the surface, where it rests against the grip.
 _TANGENTIAL_RESONANCE, _TANGENTIAL_DAMPING = 0.8, 1.2
 _LATERAL_SHARE = 0.5
-# Level at which a tip pressed with 1 N spends most of its time in the air.
+# The level at which a tip pressed with 1 N loses contact most of the time.
 _BOUNCE_MPS2 = 50.0
 _EFFECTIVE_MASS_KG = 0.02
-# Below this force the tip leaves the surface: level goes to zero whatever the force exponent.
+# Below this force the tip leaves the surface: the level goes to zero whatever the force exponent.
 _TOUCH_NEWTONS = 0.02
 
 
@@ -42,7 +43,7 @@ def tool_acceleration(
 ) -> NDArray[np.float64]:
     """Acceleration [n, 3] in m/s^2 (X, Y in the surface, Z along its normal), without gravity or noise.
 
-    path and force_newtons [n] are on a clock of SIMULATION_RATE_HZ. Silent where the tip rests.
+    path and force_newtons [n] are at SIMULATION_RATE_HZ. Zero where the tip rests.
     """
     rate = SIMULATION_RATE_HZ
     height, tilt = random_height(material, path, specimen=specimen)
@@ -91,11 +92,11 @@ def resonance_steps(
 ) -> NDArray[np.float64]:
     """By how many factors of _RESONANCE_STEP the contact's resonance exceeds that at 100 mm/s and 1 N.
 
-    The contact is Hertzian: pressed harder, it is stiffer. Surface, grip and skin are viscoelastic: deformed faster,
-    they are stiffer as well. Together with the finite tip, which at low speed averages away what is met at high
-    frequency, this moves the spectral centroid with speed as the published field statistics of tool-held textures
-    have it, about as v^0.15 pooled over textures; the exponent of the speed was chosen for that. On a power-law
-    surface a fixed resonance would make of each label one filter whose level alone depends on speed.
+    The contact is Hertzian: it is stiffer when pressed harder. Surface, grip and skin are viscoelastic: they are
+    stiffer when deformed faster. Together with the finite tip, which at low speed averages short wavelengths away, this
+    makes the spectral centroid rise with speed as in the published statistics of tool-held textures, about as v^0.15
+    pooled over textures; the speed exponent was chosen for that. With a fixed resonance, a power-law surface would give
+    each label one spectrum whose level alone depends on speed.
     """
     force = np.clip(force_newtons, *_FORCE_RANGE_NEWTONS)
     speed = np.clip(speed_mmps, *_SPEED_RANGE_MMPS) / _REFERENCE_SPEED_MMPS
@@ -112,7 +113,7 @@ def _through_contact(
     relative_damping: float,
     tail: NDArray[np.float64],
 ) -> NDArray[np.float64]:
-    """The contact at resonances of whole numbers of steps, blended sample by sample to `stiffening` steps."""
+    """The contact filtered at resonances of whole numbers of steps, blended sample by sample to `stiffening` steps."""
     rate, damping = SIMULATION_RATE_HZ, material.contact_damping * relative_damping
     struck = bool(np.any(acceleration))
     blended = np.zeros(len(height_metres))
@@ -130,7 +131,7 @@ def _through_contact(
 def _bounce_gain(
     material: Material, speed_mmps: NDArray[np.float64], force_newtons: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Below 1 where the level that full contact would give throws the tip off: level saturates with speed."""
+    """Below 1 where the level at full contact would throw the tip off: the level saturates with speed."""
     targets = material.targets
     force = np.maximum(force_newtons, 0.05)
     level = targets.k * (speed_mmps / 100.0) ** targets.p * force**targets.q
@@ -138,7 +139,7 @@ def _bounce_gain(
 
 
 def _pressed(normal: NDArray[np.float64], force_newtons: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Off the surface only force and weight accelerate the tip: downward it stops at F / mass + g."""
+    """Off the surface, only force and weight accelerate the tip: downwards it is limited to F / mass + g."""
     floor = np.maximum(force_newtons, 0.0) / _EFFECTIVE_MASS_KG + 9.81
     falling = np.minimum(normal, 0.0) / floor
     return np.maximum(normal, 0.0) + floor * falling / (1.0 + falling**4) ** 0.25

@@ -1,4 +1,4 @@
-"""Features of a surface that are no random field: ribs, threads, striking asperities, slipping friction."""
+"""Surface features that are not random fields: ribs, threads, asperities that strike, friction that slips."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from haptoflow_training.recordings.synthetic.materials import Material, Ruling
 from haptoflow_training.recordings.synthetic.random_field import RandomField, field_key, place_fractions
 from haptoflow_training.recordings.synthetic.surface import TipPath, octave_height, upper_weight
 
-# The numbers under which features have random fields of their own, beside the octaves' 0 to 13.
+# Numbers of the features' random fields, beyond the octaves' 0 to 13.
 _RULING_JITTER, _SLIP_WANDER, _ASPERITY_SIZE, _ASPERITY_PLACE = 100, 200, 300, 301
 _RULING_HARMONICS = 14
 _SLIP_HARMONICS = 6
@@ -22,9 +22,9 @@ def ruling_height(
 ) -> NDArray[np.float64]:
     """Heights [n] in micrometres of one family of ribs.
 
-    Harmonics fall as n^(-a/2), the random field's own law, and leave before their frequency
-    n |v . direction| / wavelength nears the simulation's limit. Phases are fixed, so every rib looks alike, and
-    belong to the label: but for the jitter, every specimen has its ribs at the same places.
+    Harmonics fall as n^(-a/2), as in the random field, and are faded out before their frequency n |v . direction| /
+    wavelength reaches the simulation's limit. Phases are fixed and belong to the label, so all ribs look alike: apart
+    from jitter, every specimen has its ribs in the same places.
     """
     angle = math.radians(ruling.direction_degrees)
     direction = np.array([math.cos(angle), math.sin(angle)])
@@ -52,11 +52,11 @@ def ruling_height(
 def impact_acceleration(
     material: Material, path: TipPath, rate_hz: float, *, specimen: int
 ) -> NDArray[np.float64]:
-    """Impulses [n] in m/s^2: one wherever the tip meets the asperity of a cell of the surface that holds one.
+    """Impulses [n] in m/s^2, one where the tip meets the asperity of a cell of the surface that holds one.
 
-    Their rate is proportional to speed; the velocity each one lends the tip grows so that, together, the
-    level follows the random field's law. Sizes are exponential: the tails are heavy. An asperity lies anywhere
-    in its cell, so that impacts keep no beat.
+    Their rate is proportional to speed; the velocity that each gives the tip grows so that the overall level follows
+    the random field's law. Sizes are exponentially distributed: the tails are heavy. An asperity lies anywhere in its
+    cell, so that impacts have no regular beat.
     """
     impulses = np.zeros(len(path.position_mm))
     if material.impact_strength <= 0.0 or material.impact_density <= 0.0:

@@ -1,4 +1,4 @@
-"""What `configs/materials.toml` says of each label: published targets, physics calibrated to them."""
+"""The materials of `configs/materials.toml`: published targets, and the physics calibrated to them."""
 
 from __future__ import annotations
 
@@ -28,13 +28,12 @@ class Targets:
 
 @dataclass(frozen=True)
 class Calibrated:
-    """Found by `report-recorder --calibrate`.
+    """Values found by `report-recorder --calibrate`.
 
-    height_micrometres: RMS height of the octave at 1 mm wavelength, the gain of everything the tip feels.
-    height_exponent: a of the height spectrum's k^-a; level grows about as v^((a - 1) / 2).
-    force_exponent: level grows as F^this.
-    contact_resonance_hz: the tip on its contact spring at 1 N.
-    absorption_db_per_octave: tilt of what tool and grip pass on.
+    height_micrometres: RMS height of the octave at 1 mm wavelength, a gain on everything. height_exponent: a of the
+    height spectrum's k^-a; the level grows about as v^((a - 1) / 2). force_exponent: the level grows as F^this.
+    contact_resonance_hz: of the tip on its contact spring at 1 N. absorption_db_per_octave: spectral tilt of tool and
+    grip.
     """
 
     height_micrometres: float
@@ -46,10 +45,10 @@ class Calibrated:
 
 @dataclass(frozen=True)
 class Ruling:
-    """A family of parallel ribs or threads: across them the profile repeats every `wavelength_mm`.
+    """A family of parallel ribs or threads whose profile repeats every `wavelength_mm` across them.
 
-    relative_height: RMS height of the fundamental over the random octave at the same wavelength.
-    jitter: RMS displacement of the ribs in wavelengths (0 for machined, 0.1 or more for hand-woven).
+    relative_height: RMS height of the fundamental over the random octave at the same wavelength. jitter: RMS
+    displacement of the ribs in wavelengths (0 for machined, 0.1 or more for hand-woven).
     """
 
     direction_degrees: float
@@ -60,7 +59,7 @@ class Ruling:
 
 @dataclass(frozen=True)
 class Material:
-    """One label's surface, contact and friction; `configs/materials.toml` says what each value means."""
+    """One label's surface, contact and friction; `configs/materials.toml` explains each value."""
 
     label: str
     texture_id: int
@@ -124,7 +123,7 @@ def load_materials(path: Path | str | None = None) -> tuple[Material, ...]:
 
 
 def select_materials(materials: Sequence[Material], labels: Sequence[str] | None) -> tuple[Material, ...]:
-    """The materials of these labels, in the file's order; None is all. InputError names an unknown label."""
+    """The materials of these labels, in the file's order; None selects all. InputError names an unknown label."""
     if labels is None:
         return tuple(materials)
     known = {material.label for material in materials}
@@ -180,7 +179,7 @@ def _table(where: str, kind: type, values: Any, name: str) -> Any:
 
 
 def write_calibrated(path: Path | str, calibrated: Mapping[str, Calibrated]) -> None:
-    """Rewrite the `calibrated = {...}` line of each label given; every other byte of the file stays."""
+    """Rewrite the `calibrated = {...}` line of each given label; the rest of the file stays unchanged."""
     target = Path(path)
     label, lines = "", []
     for line in target.read_text(encoding="utf-8").splitlines(keepends=True):

@@ -1,4 +1,4 @@
-"""Measure a material as the published field statistics were: a sweep of speed and force, its laws."""
+"""Measures a material as the published field statistics were measured: laws fitted to a sweep of speed and force."""
 
 from __future__ import annotations
 
@@ -25,9 +25,8 @@ _SPECTRUM_FLOOR = 1e-12
 
 @dataclass(frozen=True)
 class Design:
-    """Which conditions are measured; powers are averaged over the directions. fast_speeds_mmps: at 1 N only, for the
-    centroid's exponent up to there; none leaves it out.
-    """
+    """The conditions that are measured; powers are averaged over the directions. fast_speeds_mmps: at 1 N only, for
+    the centroid's exponent up to there; empty for none."""
 
     speeds_mmps: tuple[float, ...] = (20.0, 50.0, 100.0, 150.0, 200.0)
     forces_newtons: tuple[float, ...] = (0.3, 1.0, 2.0)
@@ -39,11 +38,11 @@ class Design:
 
 @dataclass(frozen=True)
 class Measurement:
-    """What came out, in the terms of `Targets`, with the spectrum at the reference condition.
+    """The result in the terms of `Targets`, with the spectrum at the reference condition.
 
-    frequency_hz [n]; spectrum [n] in (m/s^2)^2/Hz; crest: the 99.9th percentile of |a| over its RMS.
-    centroid_exponent: the centroid grows as speed^this over the design's speeds; fast_centroid_exponent: from the
-    fastest of these to the fastest at all, None where the design has no fast speeds.
+    frequency_hz [n]; spectrum [n] in (m/s^2)^2/Hz; crest: the 99.9th percentile of |a| over its RMS. centroid_exponent:
+    the centroid grows as speed^this over the design's speeds; fast_centroid_exponent: from the fastest of these to the
+    fastest of all, None without fast speeds.
     """
 
     k: float
@@ -85,19 +84,19 @@ class Deviation:
         return all(abs(getattr(self, name)) <= limit for name, limit in asdict(TOLERANCE).items())
 
 
-# How far a calibrated material may be from its published targets.
+# The largest accepted deviation of a calibrated material from its published targets.
 TOLERANCE = Deviation(1.5, 0.15, 0.15, 0.15, 2.0)
 
 
 def measure(
     material: Material, *, seed: int, design: Design = Design(), specimens: Sequence[int] = (HELD_OUT_SPECIMEN,)
 ) -> Measurement:
-    """Record the design's conditions, prepare them as training does, and fit RMS = k (v/100)^p F^q.
+    """Record the design's conditions, prepare the recordings as training does, and fit RMS = k (v/100)^p F^q.
 
-    The directions go round `specimens`.
+    Directions alternate between `specimens`.
 
-    The sensor's own noise, measured at rest, is subtracted as power. p and q are a least-squares fit of log
-    RMS over all conditions; k, centroid, slope are those of the reference condition, 100 mm/s and 1 N.
+    The sensor's own noise, measured at rest, is subtracted as power. p and q are a least-squares fit of log RMS over
+    all conditions; k, centroid, slope are those of the reference condition, 100 mm/s and 1 N.
     """
     record = partial(_waveforms, material, design, specimens)
     resting = _spectrum(record(0.0, 1.0, seed, 1))
@@ -124,7 +123,8 @@ def measure(
 
 
 def pooled_exponent(exponents: Iterable[float]) -> float:
-    """Of one line through the logarithms of all labels, each with a level of its own; the labels share a design."""
+    """The slope of one line through the logarithms of all labels, each with an offset of its own; the labels share a
+    design."""
     return float(np.mean(list(exponents)))
 
 
@@ -157,9 +157,9 @@ def centroid_hz(frequency_hz: NDArray[np.float64], spectrum: NDArray[np.float64]
 
 
 def slope_db_per_octave(frequency_hz: NDArray[np.float64], spectrum: NDArray[np.float64]) -> float:
-    """Straight line through third-octave means of the density in dB, 60-450 Hz.
+    """Slope of a straight line through third-octave means of the density in dB, 60-450 Hz.
 
-    Third octaves weigh every octave alike and give a ruled surface's comb the slope of its envelope.
+    Third octaves weigh all octaves alike, and give the comb of a ruled surface the slope of its envelope.
     """
     edges = _SLOPE_BAND_HZ[0] * (_SLOPE_BAND_HZ[1] / _SLOPE_BAND_HZ[0]) ** np.linspace(0.0, 1.0, 10)
     means = [

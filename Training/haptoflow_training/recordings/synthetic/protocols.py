@@ -1,7 +1,7 @@
 """The two protocols: the published data set's machine design, and free hand strokes.
 
-Every recording is seeded by (seed, its identity): order, subset and parallelism change nothing. The identity also says
-which of the training specimens is recorded.
+Every recording is seeded by (seed, its identity), so order, subset and parallelism have no effect. The identity also
+determines which training specimen is recorded.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ MACHINE_DIRECTIONS_DEGREES = tuple(range(0, 360, 45))
 MACHINE_SPEEDS_MMPS = (20, 30, 40, 50, 60)
 MACHINE_FORCES_MILLINEWTONS = (500, 1000)
 MACHINE_REPEATS = 2
-SLOWEST_HAND_MMPS, FASTEST_HAND_MMPS = 6.0, 900.0
+MINIMUM_HAND_SPEED_MMPS, MAXIMUM_HAND_SPEED_MMPS = 6.0, 900.0
 LIGHTEST_HAND_NEWTONS, HEAVIEST_HAND_NEWTONS = 0.15, 3.5
 
 
@@ -45,7 +45,7 @@ def machine_conditions(
 def hand_conditions(material: Material, *, seed: int, recordings: int) -> list[RecordingIdentity]:
     """The identities of one material's hand recordings: speeds and forces spread evenly on a log scale.
 
-    The first n of a longer list are not the list of n: speeds are stratified over `recordings`.
+    Speeds are stratified over `recordings`, so a shorter list is not the beginning of a longer one.
     """
     rng = np.random.default_rng([seed, material.texture_id, 2])
     order = rng.permutation(recordings)
@@ -53,7 +53,7 @@ def hand_conditions(material: Material, *, seed: int, recordings: int) -> list[R
     for repeat in range(recordings):
         share = (repeat + rng.random()) / recordings
         press = (order[repeat] + rng.random()) / recordings
-        speed = SLOWEST_HAND_MMPS * (FASTEST_HAND_MMPS / SLOWEST_HAND_MMPS) ** share
+        speed = MINIMUM_HAND_SPEED_MMPS * (MAXIMUM_HAND_SPEED_MMPS / MINIMUM_HAND_SPEED_MMPS) ** share
         force = LIGHTEST_HAND_NEWTONS * (HEAVIEST_HAND_NEWTONS / LIGHTEST_HAND_NEWTONS) ** press
         identities.append(
             RecordingIdentity(material.texture_id, None, round(speed), round(1e3 * force), repeat)
@@ -64,7 +64,7 @@ def hand_conditions(material: Material, *, seed: int, recordings: int) -> list[R
 def record_machine_condition(
     material: Material, identity: RecordingIdentity, *, seed: int, specimen: int | None = None
 ) -> Recording:
-    """One machine pass. specimen: None is the one that the training protocol records under this identity."""
+    """One machine pass. specimen: None selects the one that the training protocol records under this identity."""
     if identity.direction_degrees is None:
         raise ValueError(f"{identity.name} is not a machine recording")
     rng = _generator(seed, identity)
@@ -87,9 +87,9 @@ def record_hand_condition(
     guided_share: float = 0.0,
     specimen: int | None = None,
 ) -> Recording:
-    """One hand stroke: free, or guided for `guided_share` of all, spread evenly over the repeats.
+    """One hand stroke: free, or guided for a `guided_share` of all, spread evenly over the repeats.
 
-    specimen: None is the one that the training protocol records under this identity.
+    specimen: None selects the one that the training protocol records under this identity.
     """
     rng = _generator(seed, identity)
     guided = int((identity.repeat + 1) * guided_share) > int(identity.repeat * guided_share)

@@ -1,8 +1,8 @@
 """Random fields on the unbounded plane that never repeat: patches of one tile, each chosen by a hash of its place.
 
-The plane is cut into squares. A hash of the square's place says where in the tile, and turned how far, its content is
-read; squares overlap by cross-fades that keep the power. A field is therefore stationary and isotropic, costs one or
-two reads of a point, and no stretch of it comes again after a fixed distance, however long a stroke is.
+The plane is cut into squares. A hash of the square's place determines from which place of the tile, and at which
+rotation, its content is read; overlapping squares are cross-faded at constant power. The field is stationary and
+isotropic, costs one or two reads for each point, and does not repeat however long a stroke is.
 """
 
 from __future__ import annotations
@@ -27,9 +27,8 @@ _Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class RandomField:
-    """One field of a specimen, told from the others by `number`: RMS 1, wavelengths within about 0.65 octaves of
-    `wavelength_mm`.
-    """
+    """One field of a specimen, identified by `number`: RMS 1, wavelengths within about 0.65 octaves of
+    `wavelength_mm`."""
 
     surface_seed: int
     specimen: int
@@ -37,22 +36,22 @@ class RandomField:
     wavelength_mm: float
 
     def at(self, position_mm: _Floats) -> _Floats:
-        """The field at each position [n, 2] in millimetres; the same spot always gives the same value."""
+        """The field at each position [n, 2] in millimetres; the same position always gives the same value."""
         x, y = (_squares(place) for place in self._cells(position_mm))
         total = x.own_weight * y.own_weight * self._patch(x.cells, y.cells, x.own, y.own)
         beside, above = np.flatnonzero(x.faded), np.flatnonzero(y.faded)
         corner = beside[y.faded[beside]]
-        for heard, i, j, weight in (
+        for rows, i, j, weight in (
             (beside, x.neighbour, y.own, x.neighbour_weight[beside] * y.own_weight[beside]),
             (above, x.own, y.neighbour, x.own_weight[above] * y.neighbour_weight[above]),
             (corner, x.neighbour, y.neighbour, x.neighbour_weight[corner] * y.neighbour_weight[corner]),
         ):
-            if heard.size:
-                total[heard] += weight * self._patch(x.cells[heard], y.cells[heard], i[heard], j[heard])
+            if rows.size:
+                total[rows] += weight * self._patch(x.cells[rows], y.cells[rows], i[rows], j[rows])
         return total
 
     def _cells(self, position_mm: _Floats) -> tuple[_Floats, _Floats]:
-        """Positions in cells of the tile, turned and shifted by a hash, so that squares of two fields do not align."""
+        """Positions in cells of the tile, rotated and shifted by a hash, so that squares of two fields do not align."""
         here = np.zeros(1, np.int64)
         turn, shift_x, shift_y, _ = (float(each[0]) for each in place_fractions(self._key, here, here))
         scale = CELLS_PER_WAVELENGTH / self.wavelength_mm
@@ -65,13 +64,13 @@ class RandomField:
         return field_key(self.surface_seed, self.specimen, self.number)
 
     def _patch(self, x: _Floats, y: _Floats, i: NDArray[np.int64], j: NDArray[np.int64]) -> _Floats:
-        """The content that the squares (i, j) [n] have at the cells (x, y) [n]; runs of one square are hashed once."""
+        """The content of the squares (i, j) [n] at the cells (x, y) [n]; a run of one square is hashed once."""
         starts = np.flatnonzero(np.concatenate([[True], (i[1:] != i[:-1]) | (j[1:] != j[:-1])]))
         lengths = np.diff(np.append(starts, len(i)))
         turns, offset_x, offset_y, _ = place_fractions(self._key, i[starts], j[starts])
         cosine, sine = np.cos(2.0 * math.pi * turns), np.sin(2.0 * math.pi * turns)
         centre_x, centre_y = _PATCH_CELLS * (i[starts] + 0.5), _PATCH_CELLS * (j[starts] + 0.5)
-        # Tile coordinates = turn (cells - centre) + offset, with what is constant along a run taken together.
+        # Tile coordinates = rotation (cells - centre) + offset, with the terms that are constant along a run combined.
         constant_x = TILE_CELLS * offset_x - cosine * centre_x + sine * centre_y
         constant_y = TILE_CELLS * offset_y - sine * centre_x - cosine * centre_y
         cosine, sine, constant_x, constant_y = (
@@ -86,7 +85,8 @@ class RandomField:
 
 @dataclass(frozen=True)
 class _Squares:
-    """Along one axis, for each cell coordinate [n]: its square and, where `faded`, the neighbour that fades over."""
+    """Along one axis, for each cell coordinate [n]: its square and, where `faded`, the neighbour it is cross-faded
+    with."""
 
     cells: _Floats
     own: NDArray[np.int64]
@@ -101,7 +101,7 @@ def _squares(cells: _Floats) -> _Squares:
     own = np.floor(squares)
     off_edge = squares - np.rint(squares)
     faded = np.abs(off_edge) < 0.5 * _FADE_CELLS / _PATCH_CELLS
-    # From 0 on the edge to 1 half a fade away from it: powers of own and neighbour add up to 1.
+    # From 0 on the edge to 1 half a fade away from it: the powers of a square and its neighbour add up to 1.
     reach = np.abs(off_edge[faded]) * (2.0 * _PATCH_CELLS / _FADE_CELLS)
     turn = 0.25 * math.pi * (1.0 + reach * (15.0 - 10.0 * reach**2 + 3.0 * reach**4) / 8.0)
     own_weight, neighbour_weight = np.ones(len(cells)), np.zeros(len(cells))
@@ -111,12 +111,12 @@ def _squares(cells: _Floats) -> _Squares:
 
 
 def field_key(surface_seed: int, specimen: int, number: int) -> int:
-    """Names one field of one specimen of one surface in the hashes of places."""
+    """The key that identifies one field of one specimen of one surface in the hashes."""
     return (surface_seed * 1_000_003 + specimen) * 1_009 + number
 
 
 def place_fractions(key: int, i: NDArray[np.int64], j: NDArray[np.int64]) -> tuple[_Floats, _Floats, _Floats, _Floats]:
-    """Four independent numbers in [0, 1) for each place (i, j) [n] of the lattice of `key`: a hash, with no period."""
+    """Four independent numbers in [0, 1) for each place (i, j) [n] of the lattice of `key`: a hash without period."""
     place = _mixed(_mixed(_mixed(np.full(1, key, np.uint64)) + i.astype(np.uint64)) + j.astype(np.uint64))
     second = _mixed(place)
     low = np.uint64(0xFFFFFFFF)
@@ -135,7 +135,7 @@ def _mixed(values: _Integers) -> _Integers:
 
 @lru_cache(maxsize=1)
 def _ring() -> tuple[_Floats, _Floats]:
-    """Spectral amplitude of a tile in rfft2's layout, and the cubic B-spline's own response to be divided out."""
+    """Spectral amplitude of a tile in rfft2's layout, divided by the cubic B-spline's response."""
     rows, columns = np.fft.fftfreq(TILE_CELLS), np.fft.rfftfreq(TILE_CELLS)
     radius = np.maximum(np.hypot(rows[:, None], columns[None, :]), 1e-9)
     octaves_off = np.abs(np.log2(radius * CELLS_PER_WAVELENGTH))
@@ -145,7 +145,7 @@ def _ring() -> tuple[_Floats, _Floats]:
 
 @lru_cache(maxsize=_TILES_KEPT)
 def _tile(surface_seed: int, specimen: int) -> NDArray[np.float32]:
-    """Cubic B-spline coefficients of a periodic field of RMS 1, CELLS_PER_WAVELENGTH cells to its wavelength."""
+    """Cubic B-spline coefficients of a periodic field of RMS 1, with CELLS_PER_WAVELENGTH cells to its wavelength."""
     rng = np.random.default_rng([surface_seed, specimen, 60])
     ring, spline = _ring()
     spectrum = np.fft.rfft2(rng.standard_normal((TILE_CELLS, TILE_CELLS))) * ring

@@ -1,4 +1,4 @@
-"""One recording at a prescribed condition: the entry for evaluation and for the protocols."""
+"""One recording at a prescribed condition; used by the evaluation and by the protocols."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def record_ride(
     specimen: int,
     noise: bool = True,
 ) -> Recording:
-    """What the sensors say of one ride over one specimen of a material."""
+    """The sensors' readings of one ride over one specimen of a material."""
     texture = tool_acceleration(material, ride.path, ride.force_newtons, specimen=specimen)
     return sense(
         identity,
@@ -47,12 +47,12 @@ def record_condition(
     specimen: int = HELD_OUT_SPECIMEN,
     noise: bool = True,
 ) -> Recording:
-    """A recording along a prescribed trajectory, with no carrier's noise: the truth to evaluate against.
+    """A recording along a prescribed trajectory, without carrier noise: the reference of an evaluation.
 
-    velocity_mps: (vx, vy), each a number or an array spread evenly over the duration, m/s, up to 1.5 in all.
-    force_newtons: a number or such an array, 0-5 N. seed: place on the surface and sensor noise. specimen: which piece
-    of the material, 0 or more; by default the one that no training protocol records. `noise` False leaves out sensor
-    noise and steps. Deterministic by its arguments.
+    velocity_mps: (vx, vy), each a number or an array spread evenly over the duration, m/s, up to 1.5 in magnitude.
+    force_newtons: a number or such an array, 0-5 N. seed: of the place on the surface and the sensor noise. specimen:
+    the piece of the material, 0 or more; by default the one that no training protocol records. `noise` False leaves out
+    sensor noise and quantisation. Deterministic by its arguments.
     """
     count = int(round(duration_seconds * SIMULATION_RATE_HZ))
     velocity_mmps = 1e3 * np.stack([_spread(component, count) for component in velocity_mps], axis=1)

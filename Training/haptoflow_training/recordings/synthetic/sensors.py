@@ -1,8 +1,7 @@
-"""The sensors: what an accelerometer, a load cell and a position read-out make of the simulated truth.
+"""The sensors: accelerometer, load cell and position read-out of the simulated motion.
 
-Accelerometer: +-16 g, 75 ug/sqrt(Hz), 1 mg steps, gravity of -1 g on Z, time stamps 130-210 us apart.
-Load cell: 6 kHz clock, a new value 80 times a second, 10 mN steps, within +-0.05 N.
-Position: 100 Hz, 0.01 mm steps.
+Accelerometer: +-16 g, 75 ug/sqrt(Hz), 1 mg steps, gravity of -1 g on Z, time stamps 130-210 us apart. Load cell: 6 kHz
+clock, a new value 80 times a second, 10 mN steps, within +-0.05 N. Position: 100 Hz, 0.01 mm steps.
 """
 
 from __future__ import annotations
@@ -20,7 +19,7 @@ from haptoflow_training.recordings.synthetic import filters
 _FULL_SCALE_G = 16.0
 _STEP_G = 1e-3
 _NOISE_G_PER_ROOT_HZ = 75e-6
-_SHORTEST_STEP_SECONDS, _LONGEST_STEP_SECONDS = 130e-6, 210e-6
+_MINIMUM_STEP_SECONDS, _MAXIMUM_STEP_SECONDS = 130e-6, 210e-6
 _MOUNT_RESONANCE = (1400.0, 4.0, 2.0)
 _LOAD_CELL_HZ, _LOAD_CELL_UPDATES_HZ, _LOAD_CELL_STEP_NEWTONS = 6000.0, 80.0, 0.01
 _LOAD_CELL_ACCURACY_NEWTONS = 0.05
@@ -39,9 +38,9 @@ def sense(
     noise: bool = True,
     specimen: int | None = None,
 ) -> Recording:
-    """A Recording from truth on a uniform clock: acceleration [n, 3], force [n], position [n, 2].
+    """A Recording of the simulated quantities on a uniform clock: acceleration [n, 3], force [n], position [n, 2].
 
-    Without `noise` the clocks and ranges stay, noise, steps and offsets go.
+    Without `noise`, noise, quantisation and offsets are left out; clocks and ranges stay.
     """
     duration = len(force_newtons) / rate_hz
     stamps = _irregular_stamps(rng, duration - 2.0 / rate_hz)
@@ -68,15 +67,15 @@ def sense(
 
 
 def soft_limit(values: NDArray[np.float64], limit: float) -> NDArray[np.float64]:
-    """Values that approach +-limit smoothly and are within 1 % of themselves up to 0.6 of it."""
+    """Values that approach +-limit smoothly; up to 0.6 of it they change by less than 1 %."""
     ratio = (values / limit) ** 2
     return values / (1.0 + ratio**4) ** 0.125
 
 
 def _irregular_stamps(rng: np.random.Generator, duration_seconds: float) -> NDArray[np.float64]:
-    count = int(duration_seconds / _SHORTEST_STEP_SECONDS) + 1
+    count = int(duration_seconds / _MINIMUM_STEP_SECONDS) + 1
     spread = rng.beta(1.2, 2.5, size=count)
-    steps = _SHORTEST_STEP_SECONDS + (_LONGEST_STEP_SECONDS - _SHORTEST_STEP_SECONDS) * spread
+    steps = _MINIMUM_STEP_SECONDS + (_MAXIMUM_STEP_SECONDS - _MINIMUM_STEP_SECONDS) * spread
     stamps = np.round(np.concatenate([[0.0], np.cumsum(steps)]), 6)
     return stamps[: np.searchsorted(stamps, duration_seconds)]
 

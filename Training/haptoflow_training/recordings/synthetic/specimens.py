@@ -1,8 +1,8 @@
-"""Specimens of a material: pieces of it that differ in everything random and share everything that is the label's.
+"""Specimens of a material: pieces with the same label that differ in everything random.
 
-Another specimen is another random surface, other asperities, another jitter of the ribs; statistics, calibrated values
-and ribs (wavelength, direction, profile, place) are the same. One specimen is held out entirely: no training protocol
-records it, evaluation does.
+Another specimen has another random surface, other asperities and another jitter of the ribs; statistics, calibrated
+values and ribs (wavelength, direction, profile, place) are the same. One specimen is held out: no training protocol
+records it, only the evaluation does.
 """
 
 from __future__ import annotations
@@ -17,9 +17,9 @@ _DEGREES_BETWEEN_DIRECTIONS = 45
 def training_specimen(identity: RecordingIdentity) -> int:
     """The specimen that the training protocols record under this identity, one of TRAINING_SPECIMENS.
 
-    Hand recordings go round the specimens by repeat, machine recordings by direction. Each round begins one later than
-    the round before, so that what recurs every second or fourth time meets all specimens. Repeats of a machine pass
-    are on two specimens.
+    Hand recordings cycle through the specimens by repeat, machine recordings by direction. Each cycle begins one later
+    than the cycle before, so that conditions that recur every second or fourth time meet all specimens. Repeats of a
+    machine pass are on two specimens.
     """
     count = len(TRAINING_SPECIMENS)
     if identity.direction_degrees is None:

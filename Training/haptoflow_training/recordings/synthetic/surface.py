@@ -1,7 +1,8 @@
-"""The height profile h(x, y): a self-affine random field, one field that never repeats for each octave of wavelength.
+"""The height profile h(x, y): a self-affine random field, the sum of one non-repeating field for each octave of
+wavelength.
 
-The same spot of a specimen always gives the same height. Each octave is band-limited and faded out before the
-frequency v / wavelength at which the tip meets it nears the simulation's limit: nothing aliases at any speed.
+The same place on a specimen always has the same height. Each octave is band-limited and faded out before the frequency
+v / wavelength at which the tip meets it reaches the simulation's limit, so that nothing aliases at any speed.
 """
 
 from __future__ import annotations
@@ -15,24 +16,23 @@ from numpy.typing import NDArray
 from haptoflow_training.recordings.synthetic.materials import Material
 from haptoflow_training.recordings.synthetic.random_field import RandomField
 
-# Centre wavelengths of the octaves in millimetres: 0.0075, 0.015 ... 61. At 10 mm/s the finest is met at 1.3 kHz.
+# Centre wavelengths of the octaves in millimetres: 0.0075, 0.015 ... 61. At 10 mm/s the finest corresponds to 1.3 kHz.
 OCTAVE_WAVELENGTHS_MM = tuple(0.0075 * 2.0**index for index in range(14))
-# An octave is silent below and above these rates, whole between them; the sensors' band of interest is
-# 20-1000 Hz.
+# An octave is faded out beyond these rates; the sensors' band of interest is 20-1000 Hz.
 _FADE_IN_HZ = (4.0, 8.0)
 _FADE_OUT_HZ = (1250.0, 2000.0)
 
 
 @dataclass(frozen=True)
 class TipPath:
-    """What the tip does on the surface: position_mm [n, 2], velocity_mmps [n, 2], on a uniform clock."""
+    """The tip's path on the surface: position_mm [n, 2], velocity_mmps [n, 2], on a uniform clock."""
 
     position_mm: NDArray[np.float64]
     velocity_mmps: NDArray[np.float64]
 
 
 def band_weight(rate_hz: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Gain of a component met at `rate_hz`: 1 in the band that is simulated, smoothly 0 outside it."""
+    """Gain of a component met at `rate_hz`: 1 in the simulated band, smoothly falling to 0 outside it."""
     return _rise(rate_hz, *_FADE_IN_HZ) * (1.0 - _rise(rate_hz, *_FADE_OUT_HZ))
 
 
@@ -49,10 +49,10 @@ def _rise(values: NDArray[np.float64], low: float, high: float) -> NDArray[np.fl
 def random_height(
     material: Material, path: TipPath, *, specimen: int
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Heights [n] in micrometres under the tip, and the sideways tilt that neighbouring octaves give it.
+    """Heights [n] in micrometres under the tip, and the lateral tilt that neighbouring octaves give it.
 
-    Along the grain the field is stretched by the material's anisotropy. The tip's finite contact patch passes
-    wavelengths below it less and less.
+    Along the grain the field is stretched by the material's anisotropy. The tip's finite contact patch attenuates
+    wavelengths shorter than itself.
     """
     calibrated = material.calibrated
     position = _grain_frame(material, path.position_mm)
@@ -61,18 +61,19 @@ def random_height(
     tilt = np.zeros(len(position))
     for octave, wavelength in enumerate(OCTAVE_WAVELENGTHS_MM):
         weight = band_weight(speed / wavelength)
-        felt = np.flatnonzero(weight)
-        if felt.size == 0:
+        audible = np.flatnonzero(weight)
+        if audible.size == 0:
             continue
         field = RandomField(material.surface_seed, specimen, octave, wavelength)
-        part = octave_height(material, wavelength) * weight[felt] * field.at(position[felt])
-        height[felt] += part
-        tilt[felt] += part if octave % 2 else -part
+        part = octave_height(material, wavelength) * weight[audible] * field.at(position[audible])
+        height[audible] += part
+        tilt[audible] += part if octave % 2 else -part
     return calibrated.height_micrometres * height, calibrated.height_micrometres * tilt
 
 
 def octave_height(material: Material, wavelength_mm: float) -> float:
-    """RMS height of the octave around a wavelength, over that at 1 mm, as the tip's patch feels it."""
+    """RMS height of the octave around a wavelength, relative to that at 1 mm, as averaged by the tip's contact
+    patch."""
     patch = 1.0 / (1.0 + (material.tip_patch_mm / wavelength_mm) ** 2)
     return patch * wavelength_mm ** (0.5 * (material.calibrated.height_exponent - 1.0))
 

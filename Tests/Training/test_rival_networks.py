@@ -1,0 +1,325 @@
+"""The rivals' networks: shapes, independence, learning, stability, and their graphs."""
+
+from __future__ import annotations
+
+import io
+import math
+import warnings
+from collections.abc import Callable
+
+import numpy as np
+import onnx
+import pytest
+import scipy.signal
+import torch
+from torch import Tensor
+
+from haptoflow_benchmark.rivals import ARCHITECTURES, Rival, build_rival
+from haptoflow_benchmark.rivals.autoregressive import (
+    ORDER,
+    AllPoleFilter,
+    AutoregressiveRival,
+    step_up,
+)
+from haptoflow_benchmark.rivals.spsi import SinglePassInversion, SpsiRival, magnitude_spectrum
+from haptoflow_training.models.conditioning import EMBEDDING_SIZE
+from haptoflow_training.models.level_model import PREVIOUS_LIMIT
+from haptoflow_training.models.segment_network import INPUTS, SegmentNetworkGraph
+from haptoflow_training.models.velocity_field import parameter_count
+
+DETERMINISTIC = ("transformer", "dstn")
+RANDOM = ("spsi", "autoregressive")
+SAMPLED = ("transformer", "dstn", "spsi")
+# In the forms as published and given the same.
+FORMS = {
+    **{architecture: {"architecture": architecture} for architecture in ARCHITECTURES},
+    "autoregressive with ribs": {"architecture": "autoregressive", "ribs": True},
+    **{
+        f"{architecture}, sampled with ribs": {"architecture": architecture, "ribs": True, "sampled": True}
+        for architecture in SAMPLED
+    },
+}
+
+Batch = Callable[[int], tuple[Tensor, Tensor]]
+
+
+def _inputs(batch: int) -> dict[str, Tensor]:
+    generator = torch.Generator().manual_seed(5)
+    return {
+        "noisy": torch.randn(batch, 1, 200, generator=generator),
+        "previous": torch.randn(batch, 1, 200, generator=generator),
+        "embedding": torch.randn(batch, EMBEDDING_SIZE, generator=generator),
+        "motion": 0.2 * torch.rand(batch, 3, generator=generator),
+        "rib_phase": torch.rand(batch, 2, generator=generator),
+    }
+
+
+def _built(form: str) -> Rival:
+    torch.manual_seed(1)
+    baseline = build_rival(**FORMS[form]).eval()
+    if baseline.lines is not None:
+        # Lines are zero until trained.
+        torch.nn.init.normal_(baseline.lines.gains.layers[-1].bias, std=0.2)
+    return baseline
+
+
+def _one_condition(batch: int) -> tuple[Tensor, Tensor, Tensor]:
+    """Embedding, motion and rib phase."""
+    motion = torch.tensor([[0.06, 0.0, 1.0]]).expand(batch, -1)
+    return torch.full((batch, EMBEDDING_SIZE), 0.3), motion, torch.zeros(batch, 2)
+
+
+def _train(baseline: Rival, draw: Batch, steps: int, rate: float) -> list[float]:
+    """Losses of every step on batches of (previous, segment) from `draw`, all of one condition."""
+    optimiser = torch.optim.Adam(baseline.parameters(), lr=rate)
+    generator, losses = torch.Generator().manual_seed(0), []
+    for step in range(steps):
+        previous, segment = draw(step)
+        loss = baseline.loss(segment, previous, *_one_condition(len(segment)), generator).mean()
+        optimiser.zero_grad()
+        loss.backward()
+        optimiser.step()
+        losses.append(loss.item())
+    return losses
+
+
+def _sinusoids(step: int) -> tuple[Tensor, Tensor]:
+    phase = 2.0 * math.pi * torch.rand(16, 1, generator=torch.Generator().manual_seed(step))
+    wave = math.sqrt(2.0) * torch.sin(2.0 * math.pi * 0.043 * torch.arange(400) + phase)
+    return wave[:, None, :200], wave[:, None, 200:]
+
+
+def _answer_always(module: AutoregressiveRival, raw: Tensor) -> None:
+    """Makes the perceptron return raw [17] for every input."""
+    last = module.perceptron.layers[-1]
+    with torch.no_grad():
+        last.weight.zero_()
+        last.bias.copy_(raw)
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_a_rival_returns_a_finite_segment_for_every_row(form: str) -> None:
+    segment = _built(form)(**_inputs(3))
+    assert segment.shape == (3, 1, 200)
+    assert torch.isfinite(segment).all()
+    assert segment.std() > 0.0
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_a_rival_s_loss_is_one_number_for_every_row(form: str) -> None:
+    inputs = _inputs(3)
+    segment, generator = inputs.pop("noisy"), torch.Generator().manual_seed(0)
+    baseline = _built(form)
+    loss = baseline.loss(segment, **inputs, generator=generator)
+    row = {name: value[1:2] for name, value in inputs.items()}
+    alone = baseline.loss(segment[1:2], **row, generator=generator)
+    assert loss.shape == (3,)
+    if "noisy" not in baseline.inputs or baseline.lines is None:
+        torch.testing.assert_close(loss[1:2], alone, rtol=1e-4, atol=1e-5)
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_rows_of_a_rival_s_batch_are_independent(form: str) -> None:
+    baseline, inputs = _built(form), _inputs(4)
+    alone = baseline(**{name: value[2:3] for name, value in inputs.items()})
+    torch.testing.assert_close(baseline(**inputs)[2:3], alone, rtol=1e-4, atol=1e-5)
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_exactly_the_named_inputs_affect_a_rival_s_output(form: str) -> None:
+    baseline, inputs = _built(form), _inputs(2)
+    before = baseline(**inputs)
+    for name in INPUTS:
+        after = baseline(**dict(inputs, **{name: inputs[name] + 0.1}))
+        assert torch.equal(before, after) == (name not in baseline.inputs), name
+
+
+def test_deterministic_rivals_ignore_the_noise_and_sampled_ones_read_it() -> None:
+    assert sorted(DETERMINISTIC + RANDOM) == sorted(ARCHITECTURES)
+    assert all("noisy" not in _built(architecture).inputs for architecture in DETERMINISTIC)
+    assert all("noisy" in _built(architecture).inputs for architecture in RANDOM)
+
+
+def test_an_unknown_rival_is_refused_with_the_known_names() -> None:
+    with pytest.raises(ValueError, match="'gan'.*transformer, dstn, spsi, autoregressive"):
+        build_rival("gan")
+
+
+def test_rivals_have_the_stated_numbers_of_parameters() -> None:
+    counts = {architecture: parameter_count(build_rival(architecture)) for architecture in ARCHITECTURES}
+    assert counts == {"transformer": 714_698, "dstn": 350_474, "spsi": 112_997, "autoregressive": 91_409}
+
+
+@pytest.mark.parametrize(("architecture", "steps", "rate"), [("transformer", 40, 1e-3), ("dstn", 50, 4e-3)])
+def test_deterministic_rivals_learn_to_continue_a_sinusoid(
+    architecture: str, steps: int, rate: float
+) -> None:
+    baseline = _built(architecture)
+    losses = _train(baseline, _sinusoids, steps, rate)
+    assert losses[0] > 0.8
+    previous, segment = _sinusoids(1000)
+    with torch.no_grad():
+        continued = baseline(torch.zeros(16, 1, 200), previous, *_one_condition(16))
+    assert (continued - segment).square().mean() < 0.2
+
+
+def test_spsi_learns_a_spectrum_and_renders_at_the_stated_level() -> None:
+    frequencies = torch.linspace(0.0, 1.0, 101)
+    shape = (-((frequencies - 0.3) / 0.1).square()).exp() + 0.05
+
+    def draw(step: int) -> tuple[Tensor, Tensor]:
+        noise = torch.randn(32, 1, 200, generator=torch.Generator().manual_seed(step))
+        return torch.zeros_like(noise), torch.fft.irfft(torch.fft.rfft(noise) * shape)
+
+    baseline = SpsiRival()
+    losses = _train(baseline, draw, 80, 3e-3)
+    with torch.no_grad():
+        conditions = _one_condition(64)
+        stated = baseline.log_magnitudes(*conditions[:2])[0]
+        noise = torch.randn(64, 1, 200, generator=torch.Generator().manual_seed(2))
+        made = baseline(noise, torch.zeros_like(noise), *conditions)
+    # The geometric mean of a Gaussian texture's magnitudes lies a factor exp(-0.289) below their RMS.
+    expected = (shape * math.sqrt(75.0)).log() - 0.289
+    assert losses[-1] < 0.3 * losses[0]
+    assert (stated - expected)[5:95].abs().mean() < 0.15
+    power = (stated.exp().square() * 2.0).sum() / (200.0 * 75.0)
+    assert made.square().mean().sqrt().item() == pytest.approx(power.sqrt().item(), rel=0.05)
+
+
+def test_spsi_makes_white_noise_of_rms_one_from_a_white_spectrum() -> None:
+    turns = torch.rand(32, 101, generator=torch.Generator().manual_seed(3))
+    wave = SinglePassInversion()(torch.full((32, 101), math.sqrt(75.0)), turns)
+    assert wave.square().mean().sqrt().item() == pytest.approx(1.0, rel=0.1)
+    assert (wave[0] - wave[1]).square().mean() > 0.5
+
+
+@pytest.mark.parametrize("cycles", [7.25, 20.3, 20.5, 47.8, 80.4], ids=str)
+def test_spsi_makes_a_sinusoid_of_a_single_peak_at_its_interpolated_place(cycles: float) -> None:
+    inversion, samples = SinglePassInversion(), torch.arange(200)
+    tone = math.sqrt(2.0) * torch.cos(2.0 * math.pi * cycles * samples / 200.0).reshape(1, 1, 200)
+    magnitudes = magnitude_spectrum(tone)
+    below, at, above = magnitudes[0, (peak := int(magnitudes.argmax())) - 1 : peak + 2].tolist()
+    place = peak + 0.5 * (below - above) / (below - 2.0 * at + above)
+    wave = inversion(magnitudes, torch.full((1, 101), 0.37))[0, 0].double().numpy()
+
+    angles = 2.0 * math.pi * place * samples.numpy() / 200.0
+    basis = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    fitted = basis @ np.linalg.lstsq(basis, wave, rcond=None)[0]
+    assert np.sqrt(np.mean((wave - fitted) ** 2)) < 0.01
+    assert place == pytest.approx(cycles, rel=0.01)
+    assert np.sqrt(np.mean(wave**2)) == pytest.approx(1.0, rel=0.01)
+
+
+def test_spsi_gives_every_bin_to_the_peak_whose_slope_it_lies_on() -> None:
+    bins = torch.arange(101)
+    magnitudes = torch.maximum(30.0 - (bins - 20).abs(), 30.5 - (bins - 80).abs()).unsqueeze(0)
+    peaks = SinglePassInversion().peak_bins(magnitudes)[0]
+    assert torch.equal(peaks, torch.where(bins < 50, 20, 80))
+
+
+@pytest.mark.parametrize("magnitude", [0.0, 1e-9, 3000.0], ids=str)
+def test_spsi_is_finite_for_silent_and_for_loud_spectra(magnitude: float) -> None:
+    wave = SinglePassInversion()(torch.full((2, 101), magnitude), torch.zeros(2, 101))
+    assert torch.isfinite(wave).all()
+
+
+def test_spsi_has_a_gradient_where_a_valley_is_as_deep_as_its_floor_and_one_high() -> None:
+    # The bin of magnitude 1 has a curvature of 4 - 2 + 0 = 2 = 1 + 1, which an earlier form subtracted from itself and
+    # divided by. The result was masked, but its infinite gradient became NaN.
+    magnitudes = torch.full((1, 101), 2.0)
+    magnitudes[0, 49:52] = torch.tensor([4.0, 1.0, 0.0])
+    magnitudes.requires_grad_()
+    SinglePassInversion()(magnitudes, torch.zeros(1, 101)).square().sum().backward()
+    assert torch.isfinite(magnitudes.grad).all()
+
+
+def test_the_block_filter_agrees_with_a_sample_by_sample_filter() -> None:
+    generator = torch.Generator().manual_seed(7)
+    coefficients = step_up(0.8 * torch.tanh(torch.randn(5, ORDER, generator=generator)))
+    drive, past = torch.randn(5, 200, generator=generator), torch.randn(5, ORDER, generator=generator)
+    wave = AllPoleFilter()(drive, coefficients, past)
+    for row in range(5):
+        denominator = np.concatenate([[1.0], coefficients[row].double().numpy()])
+        state = scipy.signal.lfiltic([1.0], denominator, past[row].flip(0).double().numpy())
+        expected = scipy.signal.lfilter([1.0], denominator, drive[row].double().numpy(), zi=state)[0]
+        assert np.abs(wave[row].numpy() - expected).max() < 1e-4 * max(1.0, np.abs(expected).max())
+
+
+def test_step_up_puts_every_pole_inside_the_unit_circle() -> None:
+    generator = torch.Generator().manual_seed(8)
+    reflection = torch.tanh(torch.randn(20, ORDER, generator=generator, dtype=torch.float64))
+    for coefficients in step_up(reflection).numpy():
+        assert np.abs(np.roots(np.concatenate([[1.0], coefficients]))).max() < 1.0
+
+
+@pytest.mark.parametrize("seed", [None, 0, 1, 2, 3], ids=str)
+@pytest.mark.parametrize("sign", [1.0, -1.0], ids=["plus", "minus"])
+def test_extreme_filters_stay_bounded_and_forget_a_foreign_past(seed: int | None, sign: float) -> None:
+    raw = torch.full((ORDER + 1,), 50.0 * sign)
+    if seed is not None:
+        raw = 20.0 * sign * torch.randn(ORDER + 1, generator=torch.Generator().manual_seed(seed))
+    raw[ORDER] = -0.5
+    baseline, generator = AutoregressiveRival().eval(), torch.Generator().manual_seed(9)
+    _answer_always(baseline, raw)
+    level = (2.0 * torch.tanh(raw[ORDER] / 2.0)).exp()
+    wave, conditions = torch.randn(4, 1, 200, generator=generator), _one_condition(4)
+    with torch.no_grad():
+        for _ in range(30):
+            wave = baseline(torch.randn(4, 1, 200, generator=generator), wave, *conditions)
+            assert torch.isfinite(wave).all()
+            assert wave.abs().max() <= PREVIOUS_LIMIT
+    assert wave.square().mean().sqrt() < 1.5 * level
+
+
+def test_the_autoregressive_rival_learns_the_poles_and_level_of_a_process() -> None:
+    radius, angle = 0.95, 2.0 * math.pi * 0.08
+    truth = np.array([1.0, -2.0 * radius * math.cos(angle), radius**2])
+    gain = 0.2
+    source = np.random.default_rng(4)
+
+    def draw(_step: int) -> tuple[Tensor, Tensor]:
+        wave = scipy.signal.lfilter([gain], truth, source.standard_normal((16, 800)))[:, 400:]
+        both = torch.from_numpy(wave).float().unsqueeze(1)
+        return both[:, :, :200], both[:, :, 200:]
+
+    baseline = AutoregressiveRival()
+    losses = _train(baseline, draw, 150, 3e-3)
+    with torch.no_grad():
+        coefficients, log_gain = baseline.process(*_one_condition(1)[:2])
+    learned = np.concatenate([[1.0], coefficients[0].double().numpy()])
+    least = math.log(gain) + 0.5
+    assert losses[-1] - least < 0.1 < losses[0] - least
+    assert math.exp(log_gain.item()) == pytest.approx(gain, rel=0.1)
+    response = [np.abs(scipy.signal.freqz([1.0], a, worN=128)[1]) for a in (truth, learned)]
+    assert np.abs(20.0 * np.log10(response[1] / response[0])).mean() < 1.5
+    assert abs(int(response[1].argmax()) - int(response[0].argmax())) <= 1
+
+
+def _exported(baseline: Rival, batch: int) -> onnx.ModelProto:
+    given = {name: _inputs(batch)[name] for name in baseline.inputs}
+    buffer = io.BytesIO()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        torch.onnx.export(
+            SegmentNetworkGraph(baseline),
+            tuple(given.values()),
+            buffer,
+            opset_version=16,
+            input_names=list(given),
+            output_names=["segment"],
+            dynamic_axes={name: {0: "batch"} for name in (*given, "segment")},
+        )
+    return onnx.load_from_string(buffer.getvalue())
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_a_rival_exports_as_one_graph_for_every_batch_size(form: str) -> None:
+    baseline = _built(form)
+    model = _exported(baseline, 2)
+    onnx.checker.check_model(model, full_check=True)
+    assert [value.name for value in model.graph.input] == list(baseline.inputs)
+    for value in (*model.graph.input, *model.graph.output):
+        assert value.type.tensor_type.shape.dim[0].dim_param == "batch"
+    assert not {"Loop", "Scan", "If"} & {node.op_type for node in model.graph.node}
+    # Differs if tracing has made the batch size a constant.
+    assert model.graph.SerializeToString() == _exported(baseline, 3).graph.SerializeToString()

@@ -1,0 +1,5 @@
+import sys
+
+from haptoflow_benchmark.cli import main
+
+sys.exit(main())

@@ -1,0 +1,1 @@
+"""The subcommands of `haptoflow-benchmark`: each module has `register(subparsers, summary)`."""

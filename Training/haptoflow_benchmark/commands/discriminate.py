@@ -1,0 +1,102 @@
+"""`haptoflow-benchmark discriminate`: check that a classifier trained on recordings recognises rendered labels."""
+
+from __future__ import annotations
+
+import argparse
+import tempfile
+from pathlib import Path
+
+from tqdm import tqdm
+
+from haptoflow_benchmark.commands.own_parts import ENGINE, add_options, own_parts, require_engine
+from haptoflow_benchmark.own_model.label_discrimination import (
+    DiscriminationReport,
+    discriminate,
+    discriminate_parts,
+    train_classifier,
+    write_report,
+)
+from haptoflow_training.model_stamp import SHIPPED_MODEL, sha256_of
+from haptoflow_training.recordings.synthetic import load_materials
+
+_ROOT = Path(__file__).resolve().parents[3]
+
+
+def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], summary: str) -> None:
+    parser = subparsers.add_parser(
+        "discriminate",
+        help=summary,
+        description=(
+            "Trains a simple classifier (third-octave spectrum and level, given the stroke's speed and force) on "
+            "synthetic hand recordings, renders held-out strokes with the engine's command line, and counts how often "
+            "the classifier recognises the label. Recordings of the same strokes are classified too, as an upper "
+            "bound. With --recordings, the classifier is trained on the training part of these recordings, and the "
+            "held-out parts are rendered and classified."
+        ),
+        epilog="example:\n  haptoflow-benchmark discriminate --engine build/native/haptoflow"
+        " --out Training/results/default\n"
+        "  haptoflow-benchmark discriminate --model own.haptoflow --recordings recordings --out out/own/discrimination",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument(
+        "--engine", type=Path, default=ENGINE, help="the built command line (default: build/native/haptoflow)"
+    )
+    add_options(parser)
+    parser.add_argument(
+        "--model", type=Path, default=_ROOT / SHIPPED_MODEL, help="the .haptoflow file (default: the shipped one)"
+    )
+    parser.add_argument(
+        "--recordings-per-label", type=int, default=16, help="training recordings of the classifier (default: 16)"
+    )
+    parser.add_argument("--strokes-per-label", type=int, default=4, help="rendered and classified (default: 4)")
+    parser.add_argument(
+        "--seed", type=int, default=1001, help="seed of all recordings; the model's training used others"
+    )
+    parser.add_argument("--workers", type=int, default=2, help="processes that record (default: 2)")
+    parser.add_argument("--out", type=Path, required=True, help="folder of the report (JSON, Markdown, picture)")
+    parser.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    require_engine(options.engine)
+    if options.recordings:
+        return _run_own(options)
+    materials = load_materials()
+    bar = tqdm(total=len(materials) * (options.recordings_per_label + options.strokes_per_label), unit="recording")
+    classifier = train_classifier(materials, options.recordings_per_label, options.seed, bar.update, options.workers)
+    with tempfile.TemporaryDirectory() as folder:
+        report: DiscriminationReport = discriminate(
+            classifier,
+            materials,
+            engine=options.engine,
+            model=options.model,
+            strokes_per_label=options.strokes_per_label,
+            seed=options.seed + 1,
+            folder=Path(folder),
+            advance=bar.update,
+        )
+    bar.close()
+    return _report(options, report)
+
+
+def _run_own(options: argparse.Namespace) -> int:
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = Path(temporary)
+        parts = own_parts(options, options.model, folder)
+        with tqdm(total=len(parts.held_out), unit="part", desc="render") as bar:
+            report = discriminate_parts(
+                parts.seen, parts.held_out, engine=options.engine, model=options.model, seed=options.seed, folder=folder,
+                advance=bar.update,
+            )  # fmt: skip
+    return _report(options, report)
+
+
+def _report(options: argparse.Namespace, report: DiscriminationReport) -> int:
+    write_report(report, options.out, sha256_of(options.model))
+    print(
+        f"named right: {report.render_accuracy:.1%} of {len(report.outcomes)} renders, "
+        f"{report.recording_accuracy:.1%} of the recordings of the same strokes; "
+        f"level order of the labels: Spearman {report.level_order_spearman:.3f}; "
+        f"level error: median {report.level_error_median_db:+.2f} dB, 90 % within {report.level_error_p90_db:.2f} dB"
+    )
+    return 0

@@ -1,0 +1,120 @@
+"""Recordings for `evaluate` and `discriminate` of a model, prepared as for its training, so that the split is the
+same."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from haptoflow_benchmark.own_model.own_accuracy import HeldOutPart
+from haptoflow_training.errors import InputError
+from haptoflow_training.export.model_file import read_model_file
+from haptoflow_training.preprocessing.preparation import prepare_cut_where_needed, prepare_store
+from haptoflow_training.preprocessing.split import Split
+from haptoflow_training.preprocessing.store import SegmentStore, StoredRecording
+from haptoflow_training.recordings.labels import load_labels
+from haptoflow_training.recordings.open_recordings import Dataset, RecordingFile, open_recordings
+
+ROOT = Path(__file__).resolve().parents[3]
+ENGINE = ROOT / "build" / "native" / "haptoflow"
+
+
+@dataclass(frozen=True)
+class OwnParts:
+    """held_out: recordings outside the model's training. seen: recordings of its training, or possibly of it."""
+
+    held_out: list[HeldOutPart]
+    seen: list[HeldOutPart]
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Add --recordings, --labels and --all, which mean the same in both commands."""
+    parser.add_argument(
+        "--recordings", type=Path, nargs="+", metavar="PATH",
+        help="folders of recordings, or files, to compare a model with",
+    )  # fmt: skip
+    parser.add_argument(
+        "--labels", type=Path, metavar="FILE", help="TOML file of labels and their textures, as for `train`"
+    )
+    parser.add_argument(
+        "--all", action="store_true", dest="everything",
+        help="compare with all recordings, because the model was not trained on them",
+    )  # fmt: skip
+
+
+def require_engine(engine: Path) -> None:
+    """InputError if the command line is not built."""
+    if not engine.is_file():
+        raise InputError(f"{engine} does not exist: run `npm run build`, or name the command line with --engine")
+
+
+def own_parts(options: argparse.Namespace, model: Path, folder: Path) -> OwnParts:
+    """Prepare the recordings into `folder`; prints which are left out, and why. InputError if nothing can be
+    compared."""
+    if not options.recordings:
+        raise InputError("--recordings is missing: name the folder of recordings to compare the model with")
+    header = read_model_file(model).header
+    known = [label["name"] for label in header["labels"]]
+    datasets = [_open(path, options.labels) for path in options.recordings]
+    entries = [entry for dataset in datasets for entry in dataset if entry.label in known]
+    _say_what_is_left_out(datasets, known, model)
+    if not entries:
+        found = dict.fromkeys(entry.label for dataset in datasets for entry in (*dataset, *dataset.unlabelled))
+        raise InputError(
+            f"{', '.join(map(str, options.recordings))}: no recording of a label of {model.name}; found "
+            f"{', '.join(label or 'files without a label' for label in found) or 'nothing'}, expected "
+            f"{', '.join(known)} (--labels FILE maps textures to labels)"
+        )
+    store = _prepared(entries, known, header, folder / "store", options.everything)
+    for skipped in store.skipped:
+        print(f"skipped: {skipped}", file=sys.stderr)
+    if options.everything:
+        return OwnParts(_parts(store, None), [])
+    held_out = _parts(store, "test")
+    if not held_out:
+        raise InputError(
+            f"{', '.join(map(str, options.recordings))}: nothing is held out of these recordings: they are too short to "
+            "be split by time; record 5 s at least, or compare with all of them (--all) if the model was not "
+            "trained on them"
+        )
+    return OwnParts(held_out, [*_parts(store, "train"), *_parts(store, "validation")])
+
+
+def _open(path: Path, labels: Path | None) -> Dataset:
+    dataset = open_recordings(path, load_labels(labels) if labels else None)
+    return open_recordings(path, load_labels()) if labels is None and dataset.published else dataset
+
+
+def _say_what_is_left_out(datasets: list[Dataset], known: list[str], model: Path) -> None:
+    for dataset in datasets:
+        lines = [f"skipped: {problem}" for problem in dataset.problems]
+        lines += [dataset.left_out] if dataset.left_out else []
+        foreign = dict.fromkeys(entry.label for entry in dataset if entry.label not in known)
+        lines += [f"{dataset.root}: left out: {model.name} has no label {', '.join(foreign)}"] if foreign else []
+        for line in lines:
+            print(line, file=sys.stderr)
+
+
+def _prepared(
+    entries: list[RecordingFile], known: list[str], header: dict[str, Any], out: Path, everything: bool
+) -> SegmentStore:
+    """The recordings, split as for the model's training."""
+    found = {entry.label for entry in entries}
+    labels = [name for name in known if name in found]
+    data = header.get("provenance", {}).get("configuration", {}).get("data", {})
+    seed = int(data.get("recordings_seed", 1))
+    if everything:
+        return prepare_store(entries, labels, out, seed=seed)
+    return prepare_cut_where_needed(entries, labels, out, seed=seed)
+
+
+def _parts(store: SegmentStore, split: Split | None) -> list[HeldOutPart]:
+    return [_part(store, one) for one in store.recordings if split is None or one.split == split]
+
+
+def _part(store: SegmentStore, one: StoredRecording) -> HeldOutPart:
+    samples = one.recorded_samples
+    return HeldOutPart(one.name, one.label, store.waveform[samples] * store.peak_mps2, store.motion[samples])

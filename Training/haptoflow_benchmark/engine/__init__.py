@@ -1,0 +1,1 @@
+"""The native engine from Python: its C interface, whole renders, and timing."""

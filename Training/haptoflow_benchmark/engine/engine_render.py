@@ -1,0 +1,103 @@
+"""Renders a prescribed motion on one label with the engine's command line, the shipped path from end to end."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import warnings
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.io import wavfile
+from scipy.signal import resample_poly
+
+from haptoflow_training.closed_loop.render import UPDATE_RATE_HZ
+from haptoflow_training.errors import InputError
+from haptoflow_training.waveform import SAMPLE_RATE_HZ
+
+# The default full scale, as in the C header (a test compares all languages).
+FULL_SCALE_MPS2 = 200.0
+_RENDER_RATE_HZ = 8000
+_STROKE_STEP = 16
+
+
+@dataclass(frozen=True)
+class EngineRender:
+    """waveform_mps2: [n] at 2 kHz, resampled from the WAV. report: what `--report` wrote."""
+
+    waveform_mps2: NDArray[np.float64]
+    report: dict[str, Any]
+
+
+def write_scene(path: Path, label: str, update_rate_hz: float, tip_radius_metres: float = 0.001) -> None:
+    """Write a scene with a plane of the label whose grain lies along the first axis of motion."""
+    scene = {
+        "surfaces": [
+            {
+                "name": "plane",
+                "shape": {"plane": {}},
+                "position": [0.0, 0.0, 0.0],
+                "rotation": [0.0, 0.0, 0.0, 1.0],
+                "material": label,
+            }
+        ],
+        "stylus": {"tip_radius": tip_radius_metres},
+        "update_rate": update_rate_hz,
+    }
+    path.write_text(json.dumps(scene), encoding="utf-8")
+
+
+def write_stroke(path: Path, motion: NDArray[np.floating]) -> None:
+    """Write a stroke on the plane y = 0 with the motion [n, 3] (vx, vy in m/s, force in N at 2 kHz), sampled at 125 Hz.
+
+    The surface's second tangent axis is Unity's -z (axis 1 x axis 2 = normal in the left-handed frame).
+    """
+    step_seconds = 1.0 / 2000.0
+    position = np.cumsum(motion[:, :2], axis=0) * step_seconds
+    rows = np.arange(0, len(motion), _STROKE_STEP)
+    columns = np.stack(
+        [rows * step_seconds, position[rows, 0], np.full(len(rows), 0.0005), -position[rows, 1], motion[rows, 2]],
+        axis=1,
+    )
+    np.savetxt(path, columns, fmt="%.7f", delimiter=",", header="t,x,y,z,force", comments="")
+
+
+def read_wav(path: Path) -> NDArray[np.float32]:
+    """Samples of a WAV file that the engine wrote, +-1 = FULL_SCALE_MPS2."""
+    with warnings.catch_warnings():
+        # SciPy warns of the engine's padding chunk, which is valid.
+        warnings.simplefilter("ignore", wavfile.WavFileWarning)
+        samples: NDArray[np.float32] = wavfile.read(path)[1]
+    return samples
+
+
+def render_motion(
+    engine: Path,
+    label: str,
+    motion: NDArray[np.floating],
+    folder: Path,
+    *,
+    model: Path | None = None,
+    seed: int = 1,
+    update_rate_hz: float = UPDATE_RATE_HZ,
+    options: tuple[str, ...] = (),
+) -> EngineRender:
+    """Run `haptoflow render`; InputError carries the command's own message if it fails."""
+    scene, stroke, wav, report = (folder / name for name in ("scene.json", "stroke.csv", "out.wav", "report.json"))
+    write_scene(scene, label, update_rate_hz)
+    write_stroke(stroke, motion)
+    command = [str(engine), "render", str(scene), "--stroke", str(stroke), "-o", str(wav)]
+    command += ["--report", str(report), "--rate", str(_RENDER_RATE_HZ), "--seed", str(seed), *options]
+    if model is not None:
+        command += ["--model", str(model)]
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+    except OSError as error:
+        raise InputError(f"{engine}: cannot be run ({error.strerror}); build it with `npm run build`") from error
+    if done.returncode != 0:
+        raise InputError(f"{engine} render failed: {done.stderr.strip()}")
+    waveform = resample_poly(read_wav(wav).astype(np.float64), 1, _RENDER_RATE_HZ // SAMPLE_RATE_HZ) * FULL_SCALE_MPS2
+    return EngineRender(waveform[: len(motion)], json.loads(report.read_text(encoding="utf-8")))

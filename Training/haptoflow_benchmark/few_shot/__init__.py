@@ -1,0 +1,1 @@
+"""Materials fitted to seconds of recording: cases, rivals, figures, report."""

@@ -1,0 +1,152 @@
+"""Held-out materials of the few-shot study: recordings to fit, and reference recordings of other motions."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from haptoflow_benchmark.few_shot.unseen import unseen_materials
+from haptoflow_benchmark.reference.reference_conditions import rib_rates_hz
+from haptoflow_training.preprocessing.pipeline import PreparedRecording, preprocess_recording
+from haptoflow_training.preprocessing.settings import PreprocessingSettings
+from haptoflow_training.recordings.material_recording import MaterialRecording
+from haptoflow_training.recordings.recording import RecordingIdentity
+from haptoflow_training.recordings.synthetic import Material, load_materials, record_condition, record_hand_condition
+from haptoflow_training.recordings.synthetic.specimens import HELD_OUT_SPECIMEN, TRAINING_SPECIMENS
+from haptoflow_training.waveform import SAMPLE_RATE_HZ
+
+SECONDS = (3.0, 10.0, 30.0, 120.0)
+# Median speed (mm/s) and force (mN) of each ride in turn, so that even few seconds hold slow and fast motion.
+_RIDES = ((35, 800), (100, 1200), (22, 1400), (70, 600), (150, 1000), (48, 900))
+RIDE_SECONDS = 5.0
+_MINIMUM_RIDE_SECONDS = 1.5
+# Speeds between those of every protocol; forces and directions cover their ranges.
+_CONDITIONS = ((0.02, 0.5, 20.0), (0.034, 1.35, 110.0), (0.056, 0.9, 200.0), (0.085, 0.6, 300.0), (0.13, 1.8, 65.0),
+               (0.18, 1.1, 160.0))  # fmt: skip
+_CONDITION_SECONDS = 6.0
+_RULED_STEP_DEGREES = 35.0
+
+
+@dataclass(frozen=True)
+class FewShotCondition:
+    """motion [n, 3] in the recorder's frame; recorded and other_draw [n] in m/s^2: of the held-out specimen, and of
+    a specimen that was fitted."""
+
+    speed_mps: float
+    force_newtons: float
+    direction_degrees: float
+    rib_rates_hz: tuple[float, ...]
+    motion: NDArray[np.float32]
+    recorded: NDArray[np.float32]
+    other_draw: NDArray[np.float32]
+
+
+@dataclass(frozen=True)
+class FewShotCase:
+    """rides: 5 s each, used in order."""
+
+    material: Material
+    rides: tuple[MaterialRecording, ...]
+    conditions: tuple[FewShotCondition, ...]
+
+    def recordings(self, seconds: float) -> list[MaterialRecording]:
+        """The first seconds: whole rides, or a part of each of the first two."""
+        if seconds < 2.0 * RIDE_SECONDS:
+            return [_cut(ride, max(_MINIMUM_RIDE_SECONDS, seconds / 2.0)) for ride in self.rides[:2]]
+        return [_cut(ride, RIDE_SECONDS) for ride in self.rides[: round(seconds / RIDE_SECONDS)]]
+
+
+def study_materials(count: int, seed: int) -> tuple[Material, ...]:
+    return unseen_materials(load_materials(), count, seed)
+
+
+def make_case(material: Material, seed: int, longest_seconds: float = SECONDS[-1]) -> FewShotCase:
+    """The case of a material; deterministic by material and seed."""
+    rides = make_rides(material, seed, max(2, round(longest_seconds / RIDE_SECONDS)))
+    settings = PreprocessingSettings()
+    return FewShotCase(
+        material,
+        rides,
+        tuple(_condition(material, number, seed, settings) for number in range(len(_CONDITIONS))),
+    )
+
+
+def make_rides(
+    material: Material, seed: int, count: int, *, guided_share: float = 1.0
+) -> tuple[MaterialRecording, ...]:
+    """`count` rides of 5 s in the recorder's frame, alternately slow and fast, light and firm."""
+    settings = PreprocessingSettings()
+    rides = []
+    for number in range(count):
+        speed, force = _RIDES[number % len(_RIDES)]
+        ride = record_hand_condition(
+            material,
+            RecordingIdentity(material.texture_id, None, speed, force, number),
+            seed=seed,
+            duration_seconds=RIDE_SECONDS + 2.0 * settings.trim_seconds + 0.05,
+            guided_share=guided_share,
+            specimen=TRAINING_SPECIMENS[number % len(TRAINING_SPECIMENS)],
+        )
+        rides.append(_as_recording(f"ride-{number + 1}", material.label, preprocess_recording(ride, settings)))
+    return tuple(rides)
+
+
+def _condition(material: Material, number: int, seed: int, settings: PreprocessingSettings) -> FewShotCondition:
+    speed, force, direction = _CONDITIONS[number]
+    if material.rulings:
+        # Across the ribs, at most 35 degrees off.
+        across = max(material.rulings, key=lambda ruling: ruling.relative_height).direction_degrees
+        direction = across + _RULED_STEP_DEGREES * (number % 3 - 1) + 180.0 * (number % 2)
+    angle = math.radians(direction)
+    velocity = speed * math.cos(angle), speed * math.sin(angle)
+    pieces = [
+        preprocess_recording(
+            record_condition(
+                material,
+                velocity_mps=velocity,
+                force_newtons=force,
+                duration_seconds=_CONDITION_SECONDS + 2.0 * settings.trim_seconds,
+                seed=seed + 900 + number,
+                specimen=specimen,
+            ),
+            settings,
+        )
+        for specimen in (HELD_OUT_SPECIMEN, TRAINING_SPECIMENS[0])
+    ]
+    return FewShotCondition(
+        speed,
+        force,
+        direction % 360.0,
+        rib_rates_hz(material, speed, direction),
+        pieces[0].motion,
+        pieces[0].waveform_mps2,
+        pieces[1].waveform_mps2,
+    )
+
+
+def _as_recording(name: str, label: str, prepared: PreparedRecording) -> MaterialRecording:
+    return MaterialRecording(
+        name,
+        label,
+        prepared.waveform_mps2,
+        prepared.motion[:, :2].copy(),
+        prepared.motion[:, 2].copy(),
+        "MIT",
+        "synthetic recorder",
+    )
+
+
+def _cut(recording: MaterialRecording, seconds: float) -> MaterialRecording:
+    count = round(SAMPLE_RATE_HZ * seconds)
+    return MaterialRecording(
+        recording.name,
+        recording.label,
+        recording.vibration_mps2[:count],
+        recording.velocity_mps[:count],
+        recording.force_newtons[:count],
+        recording.licence,
+        recording.source,
+    )

@@ -1,0 +1,1 @@
+"""Which acceleration should be full scale, from recorded strokes."""

@@ -1,0 +1,1 @@
+"""Measures of a generated waveform beside a recorded one."""

@@ -1,0 +1,1 @@
+"""Training objectives of rows: mean flow and reflow."""

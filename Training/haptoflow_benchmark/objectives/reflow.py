@@ -1,0 +1,69 @@
+"""Reflow, the second round of rectified flow (Liu et al. 2023): straightens a flow on pairs the network made itself."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import torch
+from torch import Tensor
+
+from haptoflow_training.models.haptoflow_model import HaptoFlowModel
+from haptoflow_training.models.label_embedding import rib_phase
+from haptoflow_training.training.batches import SegmentBatch
+from haptoflow_training.training.flow_matching import Field, interpolate
+
+
+@dataclass(frozen=True)
+class ReflowPairs:
+    """Noise [n, C, N] and the segments [n, C, N] that the teacher made of it, with their conditions; previous
+    waveform in unit scale."""
+
+    noise: Tensor
+    target: Tensor
+    previous: Tensor
+    label: Tensor
+    motion: Tensor
+    position_mm: Tensor
+
+    def draw(self, count: int, generator: torch.Generator) -> ReflowPairs:
+        """`count` pairs at random."""
+        rows = torch.randint(self.noise.shape[0], (count,), generator=generator)
+        return ReflowPairs(
+            self.noise[rows],
+            self.target[rows],
+            self.previous[rows],
+            self.label[rows],
+            self.motion[rows],
+            self.position_mm[rows],
+        )
+
+    def loss(self, model: HaptoFlowModel, generator: torch.Generator) -> Tensor:
+        """`reflow_loss` of the model's velocity field."""
+        embedding = model.embedding(self.label)
+        phase = rib_phase(embedding, self.position_mm)
+
+        def field(noisy: Tensor, time: Tensor) -> Tensor:
+            return model.field(noisy, time, self.previous, embedding, self.motion, phase)
+
+        return reflow_loss(field, self, generator)
+
+    @staticmethod
+    def joined(parts: list[tuple[Tensor, Tensor, Tensor, SegmentBatch]]) -> ReflowPairs:
+        """Parts of (noise, target, previous in unit scale, batch) as one set."""
+        return ReflowPairs(
+            torch.cat([part[0] for part in parts]),
+            torch.cat([part[1] for part in parts]),
+            torch.cat([part[2] for part in parts]),
+            torch.cat([part[3].label for part in parts]),
+            torch.cat([part[3].motion for part in parts]),
+            torch.cat([part[3].position_mm for part in parts]),
+        )
+
+
+def reflow_loss(field: Field, pairs: ReflowPairs, generator: torch.Generator) -> Tensor:
+    """The mean of |u(x_t, t) - (x_1 - x_0)|^2 over the pairs; for half of them t is 0, where the one step starts."""
+    count = pairs.noise.shape[0]
+    time = torch.rand(count, 1, generator=generator)
+    time[: count // 2] = 0.0
+    state = interpolate(pairs.noise, pairs.target, time)
+    return (field(state, time) - (pairs.target - pairs.noise)).square().mean()

@@ -1,0 +1,1 @@
+"""How well a user's own model renders the user's own recordings."""

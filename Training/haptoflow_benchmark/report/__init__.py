@@ -1,0 +1,1 @@
+"""The page, table and charts that the measured rows become."""

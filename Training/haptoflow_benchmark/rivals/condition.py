@@ -1,0 +1,38 @@
+"""The condition inputs of rivals: material and motion."""
+
+from __future__ import annotations
+
+import torch
+from torch import Tensor, nn
+
+from haptoflow_training.models.conditioning import EMBEDDING_SIZE, MotionEncoder, MotionFeatures
+
+
+class ConditionEncoder(nn.Module):
+    """Embedding [B, 64] and motion [B, 3] to one vector [B, size]."""
+
+    def __init__(self, size: int) -> None:
+        super().__init__()
+        self.motion = MotionEncoder()
+        self.project = nn.Linear(2 * EMBEDDING_SIZE, size)
+
+    def forward(self, embedding: Tensor, motion: Tensor) -> Tensor:
+        return self.project(torch.cat([embedding, self.motion(motion)], dim=1))
+
+
+class ConditionPerceptron(nn.Module):
+    """Embedding [B, 64] and motion features through two hidden layers to [B, outputs]."""
+
+    def __init__(self, outputs: int, hidden: int = 256) -> None:
+        super().__init__()
+        self.features = MotionFeatures()
+        self.layers = nn.Sequential(
+            nn.Linear(EMBEDDING_SIZE + self.features.size, hidden),
+            nn.SiLU(),
+            nn.Linear(hidden, hidden),
+            nn.SiLU(),
+            nn.Linear(hidden, outputs),
+        )
+
+    def forward(self, embedding: Tensor, motion: Tensor) -> Tensor:
+        return self.layers(torch.cat([embedding, self.features(motion)], dim=1))

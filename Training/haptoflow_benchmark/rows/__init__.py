@@ -1,0 +1,1 @@
+"""The rows of the accuracy table: planned, trained, measured, stored."""

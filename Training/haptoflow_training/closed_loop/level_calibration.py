@@ -1,0 +1,188 @@
+"""The level error of a finished network for each label, in closed loop.
+
+The level model is fitted to recordings, the network to the shape of their waveforms. Together, in closed loop, they
+miss the recorded level by a tenth or two of a decibel, differently for each label. The error is measured here so that
+the exported level model can be shifted by it. A shift of the level scales the closed loop's output and changes nothing
+else, because the previous waveform is divided by the level.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import torch
+from numpy.typing import NDArray
+
+from haptoflow_training.closed_loop.render import UPDATE_RATE_HZ, SegmentSource, hop_positions, run_closed_loop
+from haptoflow_training.export.level_table import LevelTable
+from haptoflow_training.export.trained_tier import TrainedTier
+from haptoflow_training.models.level_model import scaled_previous
+from haptoflow_training.training.batches import Store, StoredRecording
+from haptoflow_training.training.held_out import HeldOut
+
+_Floats = NDArray[np.float32]
+
+_RECORDINGS_PER_LABEL = 24
+_SEED = 17
+_WINDOW_SAMPLES = 200
+# The loop starts from silence, while a recording may start in the middle of a stroke.
+_SETTLING_WINDOWS = 2
+_SPEED_BORDERS_MPS = (0.02, 0.05, 0.1, 0.2, 0.4, 0.8, 1.6)
+_MINIMUM_WINDOWS = 10
+
+
+@dataclass(frozen=True)
+class Extent:
+    """How much is compared: recordings of each label, and the samples of each recording from its beginning (None for
+    all)."""
+
+    recordings_per_label: int = _RECORDINGS_PER_LABEL
+    longest_samples: int | None = None
+
+
+@dataclass(frozen=True)
+class ClosedLoopLevels:
+    """Windows of 0.1 s. powers [n, 2]: generated and recorded mean square, (m/s^2)^2; speeds_mps, forces_newtons
+    [n]; owners [n]: label indices."""
+
+    powers: NDArray[np.float64]
+    speeds_mps: NDArray[np.float64]
+    forces_newtons: NDArray[np.float64]
+    owners: NDArray[np.int64]
+
+
+def hops(store: Store, extent: Extent = Extent()) -> int:
+    """The number of hops that `level_offsets_db` renders, for a progress bar."""
+    longest = max(_length(recording, extent) for recording in _chosen(store, extent))
+    return len(hop_positions(longest, UPDATE_RATE_HZ))
+
+
+def level_offsets_db(
+    source: SegmentSource,
+    embeddings: _Floats,
+    store: Store,
+    held_out: HeldOut,
+    advance: Callable[[int], None] = lambda count: None,
+) -> list[float]:
+    """For each label, the generated level over the recorded level in dB, in closed loop at 72 Hz; 0 where too little
+    was recorded. It is the mean over classes of speed (borders from 20 mm/s to 1.6 m/s), so that a speed that is
+    recorded often does not weigh more than another.
+
+    embeddings [labels, 64]. Recordings of the test split are not used, and windows with a sample in a held-out band are
+    not compared.
+    """
+    return offsets_db(closed_loop_levels(source, embeddings, store, held_out, advance), len(store.labels))
+
+
+def offsets_db(levels: ClosedLoopLevels, labels: int) -> list[float]:
+    """As `level_offsets_db`, from levels that are already measured."""
+    classes = np.digitize(levels.speeds_mps, _SPEED_BORDERS_MPS)
+    owned = [levels.owners == label for label in range(labels)]
+    return [_offset_db(levels.powers[own], classes[own]) for own in owned]
+
+
+def closed_loop_levels(
+    source: SegmentSource,
+    embeddings: _Floats,
+    store: Store,
+    held_out: HeldOut,
+    advance: Callable[[int], None] = lambda count: None,
+    extent: Extent = Extent(),
+    labels_wanted: frozenset[int] | None = None,
+) -> ClosedLoopLevels:
+    """The levels that `source` generates for the motion of training recordings, with the recorded ones.
+    labels_wanted: only these label indices; None for all."""
+    chosen = [one for one in _chosen(store, extent) if labels_wanted is None or one.label_index in labels_wanted]
+    longest = max(_length(recording, extent) for recording in chosen)
+    motions = np.stack([_padded(store.motion[_span(recording, extent)], longest) for recording in chosen])
+    labels = np.array([recording.label_index for recording in chosen])
+    run = run_closed_loop(
+        source, embeddings[labels], motions, update_rate_hz=UPDATE_RATE_HZ, seed=_SEED, advance=advance
+    )
+    made, recorded_powers, speeds, forces, owners = [], [], [], [], []
+    for recording, wave in zip(chosen, run.waves, strict=True):
+        recorded = store.waveform[_span(recording, extent)] * store.peak_mps2
+        motion = store.motion[_span(recording, extent)]
+        count = len(motion) // _WINDOW_SAMPLES
+        held = held_out.holds(motion[: count * _WINDOW_SAMPLES]).reshape(count, _WINDOW_SAMPLES).any(axis=1)
+        compared = np.flatnonzero(~held[_SETTLING_WINDOWS:]) + _SETTLING_WINDOWS
+        for values, into in ((wave, made), (recorded, recorded_powers)):
+            windows = values[: count * _WINDOW_SAMPLES].reshape(count, _WINDOW_SAMPLES)
+            into.append(np.square(windows, dtype=np.float64).mean(axis=1)[compared])
+        speed = np.hypot(motion[:, 0], motion[:, 1])[: count * _WINDOW_SAMPLES].reshape(count, _WINDOW_SAMPLES)
+        speeds.append(speed.mean(axis=1)[compared])
+        forces.append(motion[: count * _WINDOW_SAMPLES, 2].reshape(count, _WINDOW_SAMPLES).mean(axis=1)[compared])
+        owners.append(np.full(len(speeds[-1]), recording.label_index))
+    return ClosedLoopLevels(
+        np.stack([np.concatenate(made), np.concatenate(recorded_powers)], axis=1),
+        np.concatenate(speeds),
+        np.concatenate(forces),
+        np.concatenate(owners),
+    )
+
+
+def _offset_db(powers: NDArray[np.float64], classes: NDArray[np.int64]) -> float:
+    """The mean level difference in dB. powers [n, 2]: generated and recorded, one row for each window."""
+    ratios = []
+    for speed_class in range(1, len(_SPEED_BORDERS_MPS)):
+        inside = powers[classes == speed_class]
+        if len(inside) >= _MINIMUM_WINDOWS and inside[:, 1].sum() > 0.0:
+            generated, recorded = inside.sum(axis=0)
+            ratios.append(10.0 * np.log10((generated + 1e-12) / recorded))
+    return float(np.mean(ratios)) if ratios else 0.0
+
+
+def _chosen(store: Store, extent: Extent) -> list[StoredRecording]:
+    """The same number of recordings for each label, spread evenly over what there is."""
+    chosen = []
+    for label in range(len(store.labels)):
+        own = [entry for entry in store.recordings if entry.label_index == label and entry.split != "test"]
+        places = np.linspace(0, len(own) - 1, min(len(own), extent.recordings_per_label)).round().astype(int)
+        chosen += [own[place] for place in places]
+    return chosen
+
+
+def _length(recording: StoredRecording, extent: Extent) -> int:
+    return recording.length if extent.longest_samples is None else min(recording.length, extent.longest_samples)
+
+
+def _span(recording: StoredRecording, extent: Extent) -> slice:
+    return slice(recording.start, recording.start + _length(recording, extent))
+
+
+def _padded(motion: _Floats, samples: int) -> _Floats:
+    return np.pad(motion, ((0, samples - len(motion)), (0, 0)), mode="edge")
+
+
+class TierSource:
+    """A trained tier as a source of segments, without the engine: calibration runs before the model file exists.
+    tables: level tables by label index."""
+
+    def __init__(self, tier: TrainedTier, tables: Mapping[int, LevelTable] | None = None) -> None:
+        self._tier = tier
+        self.embeddings: _Floats = tier.model.embedding.weight.detach().numpy()
+        self._tables = {self.embeddings[label].tobytes(): table for label, table in (tables or {}).items()}
+
+    @torch.no_grad()
+    def generate(
+        self, embeddings: _Floats, motions: _Floats, previous_mps2: _Floats, noise: _Floats, rib_phase: _Floats
+    ) -> _Floats:
+        """Segments [n, 200] in m/s^2, as SegmentSource."""
+        model, tier = self._tier.model, self._tier
+        embedding, motion = torch.from_numpy(embeddings), torch.from_numpy(motions)
+        log_level = model.level(embedding, motion)
+        for row, own in enumerate(embeddings if self._tables else ()):
+            table = self._tables.get(np.ascontiguousarray(own).tobytes())
+            if table is not None:
+                speed = float(np.hypot(motions[row, 0], motions[row, 1]))
+                log_level[row, 0] = float(table.log_level(speed, motions[row, 2]))
+        previous = model.representation.encode(scaled_previous(torch.from_numpy(previous_mps2).unsqueeze(1), log_level))
+        # A latent has another shape than a waveform, so its noise is drawn here.
+        drawn = torch.randn(previous.shape) if model.representation.is_latent else torch.from_numpy(noise).unsqueeze(1)
+        made = tier.generate(
+            drawn, previous, embedding, motion, torch.from_numpy(rib_phase), tier.solver, tier.steps
+        )
+        segments: _Floats = (model.representation.decode(made) * log_level.exp().unsqueeze(-1)).squeeze(1).numpy()
+        return segments

@@ -1,1 +1,0 @@
-"""Whether what the engine renders is what was recorded."""
