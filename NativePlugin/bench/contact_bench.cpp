@@ -1,7 +1,7 @@
 #include "bench/contact_bench.hpp"
 
 #include "bench/distribution.hpp"
-#include "contact/contact_tracker.hpp"
+#include "headless/contact_tracker.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,23 +17,23 @@ constexpr double spacingMetres = 0.05;
 constexpr double topMetres = 0.02;
 constexpr std::size_t turnsOfEach = 20;
 
-contact::Shape shapeOf(std::size_t index) {
+headless::Shape shapeOf(std::size_t index) {
     switch (index % 3) {
         case 0:
-            return contact::Box{.sizeMetres = {0.04, 2.0 * topMetres, 0.04}};
+            return headless::Box{.sizeMetres = {0.04, 2.0 * topMetres, 0.04}};
         case 1:
-            return contact::Sphere{.radiusMetres = topMetres};
+            return headless::Sphere{.radiusMetres = topMetres};
         default:
-            return contact::Capsule{.radiusMetres = 0.01, .heightMetres = 2.0 * topMetres};
+            return headless::Capsule{.radiusMetres = 0.01, .heightMetres = 2.0 * topMetres};
     }
 }
 
 /// A square carpet of surfaces whose tops are level.
-contact::Scene carpet(std::size_t surfaces) {
+headless::Scene carpet(std::size_t surfaces) {
     const auto columns = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(surfaces))));
-    contact::Scene scene;
+    headless::Scene scene;
     for (std::size_t index = 0; index < surfaces; ++index) {
-        contact::Surface surface;
+        headless::Surface surface;
         surface.name = "surface " + std::to_string(index);
         surface.shape = shapeOf(index);
         const std::size_t row = index / columns;
@@ -56,7 +56,7 @@ public:
     void stroll(std::size_t updates) {
         for (std::size_t update = 0; update < updates; ++update) {
             advance();
-            contact::TipSample sample;
+            headless::TipSample sample;
             sample.timeSeconds = seconds_;
             sample.positionMetres = tip_;
             microseconds_.push_back(microseconds * secondsOf([&] { touching_ += tracker_.update(sample).touching; }));
@@ -90,7 +90,7 @@ private:
 
     double extentMetres_;
     std::mt19937_64 random_;
-    contact::ContactTracker tracker_;
+    headless::ContactTracker tracker_;
     glm::dvec3 tip_{0.0, topMetres + 0.0005, 0.0};
     glm::dvec3 direction_{0.0};
     double leftMetres_ = 0.0;

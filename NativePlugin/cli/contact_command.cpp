@@ -31,7 +31,7 @@ struct ContactOptions {
     std::string modelPath;
     std::vector<std::string> materials;
     std::optional<double> defaultStiffnessNewtonsPerMetre;
-    contact::ContactSettings settings;
+    headless::ContactSettings settings;
 };
 
 /// Twelve significant digits, with a point whatever the locale; never "-0".
@@ -54,18 +54,18 @@ void writeName(std::ostream& output, const std::string& name) {
     output << '"';
 }
 
-bool asksForStiffness(const contact::Scene& scene) {
+bool asksForStiffness(const headless::Scene& scene) {
     return std::ranges::any_of(
-        scene.surfaces, [](const contact::Surface& surface) { return !surface.stiffnessNewtonsPerMetre.has_value(); });
+        scene.surfaces, [](const headless::Surface& surface) { return !surface.stiffnessNewtonsPerMetre.has_value(); });
 }
 
 void runContact(const ContactOptions& options) {
     requireApart(std::array{NamedPath{"-o", options.outputPath}},
                  std::array{NamedPath{"the scene", options.scenePath}, NamedPath{"the stroke", options.strokePath},
                             NamedPath{"the model", options.modelPath}});
-    const contact::Scene scene = readSceneFile(options.scenePath);
+    const headless::Scene scene = readSceneFile(options.scenePath);
     const Stroke stroke = readStrokeFile(options.strokePath);
-    contact::ContactSettings settings = options.settings;
+    headless::ContactSettings settings = options.settings;
     std::optional<model::ModelFile> model;
     std::optional<SceneMaterials> materials;
     if (options.defaultStiffnessNewtonsPerMetre) {
@@ -94,13 +94,13 @@ void runContact(const ContactOptions& options) {
 
 }  // namespace
 
-void writeContactStates(std::ostream& output, const contact::Scene& scene, const Stroke& stroke,
-                        const std::string& strokeName, const contact::ContactSettings& settings) {
+void writeContactStates(std::ostream& output, const headless::Scene& scene, const Stroke& stroke,
+                        const std::string& strokeName, const headless::ContactSettings& settings) {
     StrokePlayer player(scene, stroke, strokeName, settings);
     output << "t,surface,touching,touch_counter,px,py,pz,nx,ny,nz,penetration_m,vx_mps,vy_mps,approach_mps,force_n,"
               "landing_counter,edge_counter,edge_height_m\n";
-    while (const std::optional<contact::ContactReading> played = player.next()) {
-        const contact::ContactReading& reading = *played;
+    while (const std::optional<headless::ContactReading> played = player.next()) {
+        const headless::ContactReading& reading = *played;
         writeNumber(output, reading.timeSeconds);
         output << ',';
         if (reading.touching) {

@@ -140,10 +140,10 @@ inference::SolverSettings chooseSolver(const model::Tier& tier, const std::strin
 }
 
 /// What each surface feels like, in the scene's order.
-std::vector<SurfaceFeel> feelsOf(const contact::Scene& scene, const SceneMaterials& materials,
+std::vector<SurfaceFeel> feelsOf(const headless::Scene& scene, const SceneMaterials& materials,
                                  const std::string& scenePath) {
     std::vector<SurfaceFeel> feels;
-    for (const contact::Surface& surface : scene.surfaces) {
+    for (const headless::Surface& surface : scene.surfaces) {
         if (surface.material.size() > engine::MaterialBlend::capacity) {
             throw InputError(scenePath + ": surface '" + surface.name + "' blends " +
                              std::to_string(surface.material.size()) + " labels; expected at most " +
@@ -162,7 +162,7 @@ std::vector<SurfaceFeel> feelsOf(const contact::Scene& scene, const SceneMateria
     return feels;
 }
 
-engine::ContactState stateOf(const contact::ContactReading& reading, std::span<const SurfaceFeel> feels,
+engine::ContactState stateOf(const headless::ContactReading& reading, std::span<const SurfaceFeel> feels,
                              effects::EffectMask effects) {
     engine::ContactState state;
     state.effects = effects;
@@ -185,9 +185,9 @@ engine::ContactState stateOf(const contact::ContactReading& reading, std::span<c
     return state;
 }
 
-std::vector<std::string> labelsIn(const contact::Scene& scene) {
+std::vector<std::string> labelsIn(const headless::Scene& scene) {
     std::vector<std::string> labels;
-    for (const contact::Surface& surface : scene.surfaces) {
+    for (const headless::Surface& surface : scene.surfaces) {
         for (const auto& [name, weight] : surface.material) {
             if (std::ranges::find(labels, name) == labels.end()) {
                 labels.push_back(name);
@@ -303,7 +303,7 @@ void requireSoundOptions(const RenderOptions& options) {
 }
 
 /// A WAV file's sizes are 32-bit numbers: said before hours of rendering, not after.
-void requireRoom(const contact::Scene& scene, const StrokePlayer& player, const RenderOptions& options) {
+void requireRoom(const headless::Scene& scene, const StrokePlayer& player, const RenderOptions& options) {
     const double seconds = static_cast<double>(player.frames() - 1) / scene.updateRateHz + options.engine.tailSeconds;
     const double mostSeconds = static_cast<double>(mostWavSamples) / options.engine.outputRateHz;
     if (seconds > mostSeconds) {
@@ -335,7 +335,7 @@ void explainSilence(const RenderOptions& options, const engine::OfflineFigures& 
 
 void runRender(const RenderOptions& options) {
     requireSoundOptions(options);
-    const contact::Scene scene = readSceneFile(options.scenePath);
+    const headless::Scene scene = readSceneFile(options.scenePath);
     const Stroke stroke = readStrokeFile(options.strokePath);
     const std::filesystem::path modelPath = findModel(options.modelPath);
     const model::ModelFile model = readModel(modelPath);
@@ -345,7 +345,7 @@ void runRender(const RenderOptions& options) {
     std::ranges::for_each(options.materials, [&materials](const std::string& path) { materials.add(path); });
     materials.require(scene);
     const std::vector<SurfaceFeel> feels = feelsOf(scene, materials, options.scenePath);
-    contact::ContactSettings settings;
+    headless::ContactSettings settings;
     useStiffnessOfMaterials(settings, materials);
     StrokePlayer player(scene, stroke, options.strokePath, settings);
     requireRoom(scene, player, options);
@@ -362,7 +362,7 @@ void runRender(const RenderOptions& options) {
 
     const ProgressBar bar = progressBar("render", options.quiet);
     const engine::ContactStateSource next = [&]() -> std::optional<engine::ContactState> {
-        const std::optional<contact::ContactReading> reading = player.next();
+        const std::optional<headless::ContactReading> reading = player.next();
         bar(static_cast<double>(player.played()) / static_cast<double>(player.frames()), {});
         return reading ? std::optional(stateOf(*reading, feels, effects)) : std::nullopt;
     };

@@ -129,8 +129,8 @@ private:
     std::string path_;
 };
 
-contact::Pose readPose(const Node& node) {
-    contact::Pose pose;
+headless::Pose readPose(const Node& node) {
+    headless::Pose pose;
     if (node.has("position")) {
         pose.positionMetres = node.at("position").vector("[x, y, z] in metres");
     }
@@ -146,9 +146,9 @@ contact::Pose readPose(const Node& node) {
     return pose;
 }
 
-contact::Motion readMotion(const Node& node) {
+headless::Motion readMotion(const Node& node) {
     node.requireObject({"keyframes", "loop"});
-    std::vector<contact::Keyframe> keyframes;
+    std::vector<headless::Keyframe> keyframes;
     for (const Node& element : node.at("keyframes").elements(2, "an array of two or more keyframes")) {
         element.requireObject({"t", "position", "rotation"});
         const double time = element.at("t").number(-largestMetres, largestMetres, "seconds within +-1e9");
@@ -167,16 +167,16 @@ contact::Motion readMotion(const Node& node) {
     return {std::move(keyframes), loop};
 }
 
-contact::Shape readMesh(const Node& node) {
+headless::Shape readMesh(const Node& node) {
     node.requireObject({"vertices", "triangles"});
     std::vector<glm::dvec3> vertices;
     for (const Node& element : node.at("vertices").elements(3, "an array of three or more vertices [x, y, z]")) {
         vertices.push_back(element.vector("a vertex [x, y, z] in metres"));
     }
-    std::vector<contact::TriangleMesh::Triangle> triangles;
+    std::vector<headless::TriangleMesh::Triangle> triangles;
     const std::string expected = "three vertex indices [a, b, c] from 0 to " + std::to_string(vertices.size() - 1);
     for (const Node& element : node.at("triangles").elements(1, "an array of one or more triangles [a, b, c]")) {
-        contact::TriangleMesh::Triangle corners{};
+        headless::TriangleMesh::Triangle corners{};
         if (!element.raw().is_array() || element.raw().size() != corners.size()) {
             element.fail(expected);
         }
@@ -191,13 +191,13 @@ contact::Shape readMesh(const Node& node) {
         triangles.push_back(corners);
     }
     try {
-        return std::make_shared<const contact::TriangleMesh>(std::move(vertices), triangles);
+        return std::make_shared<const headless::TriangleMesh>(std::move(vertices), triangles);
     } catch (const std::invalid_argument& error) {
         node.failWith(error.what());
     }
 }
 
-contact::Shape readShape(const Node& node) {
+headless::Shape readShape(const Node& node) {
     node.requireObject({"box", "sphere", "capsule", "plane", "mesh"});
     if (node.raw().size() != 1) {
         node.fail("an object with one key: box, sphere, capsule, plane or mesh");
@@ -211,15 +211,15 @@ contact::Shape readShape(const Node& node) {
         if (!(size.x >= 1e-9 && size.y >= 1e-9 && size.z >= 1e-9)) {
             shape.at("size").failWith("expected " + expected + ", found " + shape.at("size").raw().dump());
         }
-        return contact::Box{size};
+        return headless::Box{size};
     }
     if (kind == "sphere") {
         shape.requireObject({"radius"});
-        return contact::Sphere{shape.at("radius").positiveMetres()};
+        return headless::Sphere{shape.at("radius").positiveMetres()};
     }
     if (kind == "capsule") {
         shape.requireObject({"radius", "height"});
-        const contact::Capsule capsule{shape.at("radius").positiveMetres(), shape.at("height").positiveMetres()};
+        const headless::Capsule capsule{shape.at("radius").positiveMetres(), shape.at("height").positiveMetres()};
         if (capsule.heightMetres < 2.0 * capsule.radiusMetres) {
             shape.at("height").fail("a height that includes both caps, so at least twice the radius");
         }
@@ -227,7 +227,7 @@ contact::Shape readShape(const Node& node) {
     }
     if (kind == "plane") {
         shape.requireObject({});
-        return contact::Plane{};
+        return headless::Plane{};
     }
     return readMesh(shape);
 }
@@ -258,10 +258,10 @@ std::vector<std::pair<std::string, double>> readMaterial(const Node& node) {
     return material;
 }
 
-contact::Surface readSurface(const Node& node) {
+headless::Surface readSurface(const Node& node) {
     node.requireObject({"name", "shape", "position", "rotation", "motion", "material", "stiffness", "grain",
                         "spatial_scale", "tone_db_per_octave"});
-    contact::Surface surface;
+    headless::Surface surface;
     surface.name = node.at("name").text("a name");
     surface.shape = readShape(node.at("shape"));
     surface.pose = readPose(node);
@@ -323,10 +323,10 @@ std::string lineAndColumn(const std::string& text, std::size_t byte) {
 
 }  // namespace
 
-contact::Scene parseScene(const json& document, const std::string& fileName) {
+headless::Scene parseScene(const json& document, const std::string& fileName) {
     const Node root(document, fileName, "");
     root.requireObject({"surfaces", "stylus", "update_rate"});
-    contact::Scene scene;
+    headless::Scene scene;
     std::set<std::string> names;
     for (const Node& element : root.at("surfaces").elements(1, "an array of one or more surfaces")) {
         scene.surfaces.push_back(readSurface(element));
@@ -345,7 +345,7 @@ contact::Scene parseScene(const json& document, const std::string& fileName) {
     return scene;
 }
 
-contact::Scene readSceneFile(const std::string& path) {
+headless::Scene readSceneFile(const std::string& path) {
     const std::string text = readInputFile(path, "a scene file (JSON)");
     try {
         DuplicateKeys duplicates(path);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "contact/scene.hpp"
+#include "headless/scene.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -9,9 +9,9 @@ namespace haptoflow::cli {
 
 /// Reads SCENE.json (Documentation~/scene-and-stroke.md). Throws InputError naming the file, the key or the line
 /// and column, and what was expected there.
-[[nodiscard]] contact::Scene readSceneFile(const std::string& path);
+[[nodiscard]] headless::Scene readSceneFile(const std::string& path);
 
 /// The same from JSON already read; `fileName` is what errors call it.
-[[nodiscard]] contact::Scene parseScene(const nlohmann::json& document, const std::string& fileName);
+[[nodiscard]] headless::Scene parseScene(const nlohmann::json& document, const std::string& fileName);
 
 }  // namespace haptoflow::cli

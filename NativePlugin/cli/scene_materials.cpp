@@ -47,8 +47,8 @@ void SceneMaterials::add(const std::string& path) {
     }
 }
 
-void SceneMaterials::require(const contact::Scene& scene) {
-    for (const contact::Surface& surface : scene.surfaces) {
+void SceneMaterials::require(const headless::Scene& scene) {
+    for (const headless::Surface& surface : scene.surfaces) {
         for (const auto& [name, weight] : surface.material) {
             requireKnown(name, surface.name);
         }
@@ -87,7 +87,7 @@ const model::Label* SceneMaterials::find(std::string_view name) const {
     return found->second < labels.size() ? &labels[found->second] : &files_[found->second - labels.size()].label;
 }
 
-void useStiffnessOfMaterials(contact::ContactSettings& settings, const SceneMaterials& materials) {
+void useStiffnessOfMaterials(headless::ContactSettings& settings, const SceneMaterials& materials) {
     settings.stiffnessOfLabel = [&materials](std::string_view name) -> std::optional<double> {
         const model::Label* label = materials.find(name);
         return label == nullptr ? std::nullopt : std::optional(label->stiffnessNewtonsPerMetre);

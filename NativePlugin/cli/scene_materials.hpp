@@ -1,7 +1,7 @@
 #pragma once
 
-#include "contact/contact_types.hpp"
-#include "contact/scene.hpp"
+#include "headless/contact_types.hpp"
+#include "headless/scene.hpp"
 #include "model/material_file.hpp"
 #include "model/model_file.hpp"
 
@@ -26,7 +26,7 @@ public:
     void add(const std::string& path);
     /// Reads the material files that the scene names. Throws InputError for what is not one, and for a name that
     /// nothing has, with the scene, the surface and the three nearest names.
-    void require(const contact::Scene& scene);
+    void require(const headless::Scene& scene);
 
     /// Null where nothing has that name.
     [[nodiscard]] const model::Label* find(std::string_view name) const;
@@ -47,6 +47,6 @@ private:
 };
 
 /// Surfaces without a stiffness of their own get that of their labels and materials, which must outlive the settings.
-void useStiffnessOfMaterials(contact::ContactSettings& settings, const SceneMaterials& materials);
+void useStiffnessOfMaterials(headless::ContactSettings& settings, const SceneMaterials& materials);
 
 }  // namespace haptoflow::cli

@@ -133,13 +133,13 @@ private:
         return *value;
     }
 
-    contact::TipSample readSample() const {
+    headless::TipSample readSample() const {
         const std::vector<std::string_view> cells = splitCells(line_);
         if (cells.size() != layout_.columns()) {
             fail("expected " + std::to_string(layout_.columns()) + " values as in the header, found " +
                  std::to_string(cells.size()) + " (decimals need a point, not a comma)");
         }
-        contact::TipSample sample;
+        headless::TipSample sample;
         sample.timeSeconds = number(cells, 0);
         sample.positionMetres = {number(cells, 1), number(cells, 2), number(cells, 3)};
         std::size_t column = 4;
@@ -181,19 +181,19 @@ Stroke readStrokeFile(const std::string& path) {
     return parseStroke(readInputFile(path, "a stroke file (CSV)"), path);
 }
 
-contact::TipSample sampleStroke(const Stroke& stroke, double timeSeconds) {
+headless::TipSample sampleStroke(const Stroke& stroke, double timeSeconds) {
     const auto& samples = stroke.samples;
     const auto after =
         std::upper_bound(samples.begin(), samples.end(), timeSeconds,
-                         [](double time, const contact::TipSample& sample) { return time < sample.timeSeconds; });
-    contact::TipSample result;
+                         [](double time, const headless::TipSample& sample) { return time < sample.timeSeconds; });
+    headless::TipSample result;
     if (after == samples.begin()) {
         result = samples.front();
     } else if (after == samples.end()) {
         result = samples.back();
     } else {
-        const contact::TipSample& a = *(after - 1);
-        const contact::TipSample& b = *after;
+        const headless::TipSample& a = *(after - 1);
+        const headless::TipSample& b = *after;
         const double u = (timeSeconds - a.timeSeconds) / (b.timeSeconds - a.timeSeconds);
         result.positionMetres = glm::mix(a.positionMetres, b.positionMetres, u);
         result.forceNewtons = u < 0.5 ? a.forceNewtons : b.forceNewtons;
@@ -219,7 +219,7 @@ std::size_t frameCount(const Stroke& stroke, double updateRateHz, const std::str
     return static_cast<std::size_t>(frames);
 }
 
-contact::TipSample frameAt(const Stroke& stroke, double updateRateHz, std::size_t index) {
+headless::TipSample frameAt(const Stroke& stroke, double updateRateHz, std::size_t index) {
     return sampleStroke(stroke, stroke.samples.front().timeSeconds + static_cast<double>(index) / updateRateHz);
 }
 

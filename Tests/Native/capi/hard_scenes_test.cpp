@@ -1,7 +1,7 @@
 // What a scene and a tracker can do, all the way to the sound: the contact model reads it, and a voice of each tier of
 // the shipped model and of an untrained one is told.
-#include "contact/contact_tracker.hpp"
-#include "contact/test_scenes.hpp"
+#include "headless/contact_tracker.hpp"
+#include "headless/test_scenes.hpp"
 #include "heard_checks.hpp"
 
 #include <array>
@@ -14,16 +14,16 @@
 namespace haptoflow::capi::testing {
 namespace {
 
-using contact::Box;
-using contact::ContactReading;
-using contact::ContactTracker;
-using contact::Scene;
-using contact::TipSample;
-using contact::testing::meshOf;
-using contact::testing::rawBoxMesh;
-using contact::testing::sceneOf;
-using contact::testing::surfaceOf;
-using contact::testing::turned;
+using headless::Box;
+using headless::ContactReading;
+using headless::ContactTracker;
+using headless::Scene;
+using headless::TipSample;
+using headless::testing::meshOf;
+using headless::testing::rawBoxMesh;
+using headless::testing::sceneOf;
+using headless::testing::surfaceOf;
+using headless::testing::turned;
 
 constexpr double updateHz = 90.0;
 constexpr double speedMps = 0.25;
@@ -76,16 +76,16 @@ std::function<TipSample(int)> trembling(const glm::dvec3& place) {
     };
 }
 
-contact::testing::RawMesh insideOut() {
-    contact::testing::RawMesh mesh = rawBoxMesh({0.1, 0.1, 0.1});
+headless::testing::RawMesh insideOut() {
+    headless::testing::RawMesh mesh = rawBoxMesh({0.1, 0.1, 0.1});
     for (auto& triangle : mesh.triangles) {
         std::swap(triangle[0], triangle[1]);
     }
     return mesh;
 }
 
-contact::testing::RawMesh withNeedles() {
-    contact::testing::RawMesh mesh = rawBoxMesh({0.1, 0.1, 0.1});
+headless::testing::RawMesh withNeedles() {
+    headless::testing::RawMesh mesh = rawBoxMesh({0.1, 0.1, 0.1});
     const auto whole = mesh.triangles;
     for (const auto& [a, b, c] : whole) {
         mesh.triangles.push_back({a, b, b});
@@ -95,15 +95,15 @@ contact::testing::RawMesh withNeedles() {
 }
 
 std::vector<HardScene> hardScenes() {
-    const auto meshScene = [](const contact::testing::RawMesh& raw) { return sceneOf({surfaceOf(meshOf(raw))}); };
-    contact::Pose longRotation;
+    const auto meshScene = [](const headless::testing::RawMesh& raw) { return sceneOf({surfaceOf(meshOf(raw))}); };
+    headless::Pose longRotation;
     longRotation.rotation = glm::dquat(0.0, 0.0, 7.0, 0.0);
-    contact::Pose noRotation;
+    headless::Pose noRotation;
     noRotation.rotation = glm::dquat(0.0, 0.0, 0.0, 0.0);
-    contact::Pose damaged;
-    damaged.positionMetres = {contact::testing::nan, 0.0, 0.0};
+    headless::Pose damaged;
+    damaged.positionMetres = {headless::testing::nan, 0.0, 0.0};
     const Scene innerCorner =
-        sceneOf({surfaceOf(contact::Plane{}), surfaceOf(contact::Plane{}, {{}, turned(-90.0, {0.0, 0.0, 1.0})})});
+        sceneOf({surfaceOf(headless::Plane{}), surfaceOf(headless::Plane{}, {{}, turned(-90.0, {0.0, 0.0, 1.0})})});
     return {
         {"TimeStandsStill", box(), steps(0.0), false},
         {"TimeRunsBackwards", box(), steps(-1.0 / updateHz), false},
@@ -124,10 +124,10 @@ std::vector<HardScene> hardScenes() {
              return sample;
          }},
         {"PositionsNotFinite", box(), ruined([](TipSample& sample) {
-             sample.positionMetres = {contact::testing::nan, contact::testing::infinity, -contact::testing::infinity};
+             sample.positionMetres = {headless::testing::nan, headless::testing::infinity, -headless::testing::infinity};
          })},
-        {"ForcesNotFinite", box(), ruined([](TipSample& sample) { sample.forceNewtons = contact::testing::nan; })},
-        {"TimesNotFinite", box(), ruined([](TipSample& sample) { sample.timeSeconds = contact::testing::infinity; })},
+        {"ForcesNotFinite", box(), ruined([](TipSample& sample) { sample.forceNewtons = headless::testing::nan; })},
+        {"TimesNotFinite", box(), ruined([](TipSample& sample) { sample.timeSeconds = headless::testing::infinity; })},
         {"NormalsFlipped", meshScene(insideOut()), onFace},
         {"NormalsZero", meshScene(withNeedles()), onFace},
         {"RotationNotOfUnitLength", sceneOf({surfaceOf(Box{{0.2, 0.2, 0.2}}, longRotation)}), onFace},

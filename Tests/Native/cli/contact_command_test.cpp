@@ -49,14 +49,14 @@ double numberOf(const std::string& headerLine, const std::string& line, const st
     throw std::out_of_range(name);
 }
 
-contact::Scene tableScene(const std::string& name) {
-    contact::Scene scene;
-    scene.surfaces.push_back({name, contact::Plane{}, {}, std::nullopt, {{"wood", 1.0}}, 1000.0, {1.0, 0.0, 0.0}});
+headless::Scene tableScene(const std::string& name) {
+    headless::Scene scene;
+    scene.surfaces.push_back({name, headless::Plane{}, {}, std::nullopt, {{"wood", 1.0}}, 1000.0, {1.0, 0.0, 0.0}});
     scene.updateRateHz = 100.0;
     return scene;
 }
 
-std::string statesOf(const contact::Scene& scene, const std::string& strokeText) {
+std::string statesOf(const headless::Scene& scene, const std::string& strokeText) {
     std::ostringstream output;
     writeContactStates(output, scene, parseStroke(strokeText, "stroke.csv"), "stroke.csv", {});
     return output.str();

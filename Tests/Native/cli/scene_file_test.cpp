@@ -91,33 +91,33 @@ std::string documentation(const std::string& name) {
 }
 
 TEST(SceneFileTest, EveryKeyOfASceneArrives) {
-    const contact::Scene scene = parseScene(goodScene(), "scene.json");
+    const headless::Scene scene = parseScene(goodScene(), "scene.json");
     ASSERT_EQ(scene.surfaces.size(), 5U);
     EXPECT_DOUBLE_EQ(scene.tipRadiusMetres, 0.002);
     EXPECT_DOUBLE_EQ(scene.updateRateHz, 120.0);
-    const contact::Surface& desk = scene.surfaces[0];
+    const headless::Surface& desk = scene.surfaces[0];
     EXPECT_EQ(desk.name, "desk");
-    EXPECT_EQ(std::get<contact::Box>(desk.shape).sizeMetres, glm::dvec3(0.4, 0.02, 0.3));
+    EXPECT_EQ(std::get<headless::Box>(desk.shape).sizeMetres, glm::dvec3(0.4, 0.02, 0.3));
     EXPECT_EQ(desk.pose.positionMetres, glm::dvec3(0.1, 0.2, 0.3));
     EXPECT_EQ(desk.pose.rotation, glm::dquat(1.0, 0.0, 0.0, 0.0));
     EXPECT_EQ(desk.grain, glm::dvec3(0.0, 0.0, 1.0));
     EXPECT_DOUBLE_EQ(desk.stiffnessNewtonsPerMetre.value_or(0.0), 800.0);
     EXPECT_EQ(desk.material, (std::vector<std::pair<std::string, double>>{{"wood", 1.0}}));
-    const contact::Surface& ball = scene.surfaces[1];
+    const headless::Surface& ball = scene.surfaces[1];
     EXPECT_EQ(ball.material, (std::vector<std::pair<std::string, double>>{{"cork", 0.75}, {"wood", 0.25}}));
     ASSERT_TRUE(ball.motion);
     EXPECT_TRUE(ball.motion->loops());
     EXPECT_DOUBLE_EQ(ball.motion->poseAt(0.5).positionMetres.x, 0.5);
     EXPECT_FALSE(ball.stiffnessNewtonsPerMetre);
-    EXPECT_DOUBLE_EQ(std::get<contact::Capsule>(scene.surfaces[2].shape).heightMetres, 0.1);
-    EXPECT_FALSE(std::get<std::shared_ptr<const contact::TriangleMesh>>(scene.surfaces[4].shape)->isClosed());
+    EXPECT_DOUBLE_EQ(std::get<headless::Capsule>(scene.surfaces[2].shape).heightMetres, 0.1);
+    EXPECT_FALSE(std::get<std::shared_ptr<const headless::TriangleMesh>>(scene.surfaces[4].shape)->isClosed());
 }
 
 TEST(SceneFileTest, StylusAndUpdateRateHaveDefaults) {
     json document = goodScene();
     document.erase("stylus");
     document.erase("update_rate");
-    const contact::Scene scene = parseScene(document, "scene.json");
+    const headless::Scene scene = parseScene(document, "scene.json");
     EXPECT_DOUBLE_EQ(scene.tipRadiusMetres, 0.001);
     EXPECT_DOUBLE_EQ(scene.updateRateHz, 90.0);
 }
@@ -243,7 +243,7 @@ TEST(SceneFileTest, EverySceneOfTheDocumentationIsRead) {
          begin = page.find("```json\n", begin)) {
         begin += 8;
         const std::size_t end = page.find("```", begin);
-        const contact::Scene scene = parseScene(json::parse(page.substr(begin, end - begin)), "scene-and-stroke.md");
+        const headless::Scene scene = parseScene(json::parse(page.substr(begin, end - begin)), "scene-and-stroke.md");
         EXPECT_FALSE(scene.surfaces.empty());
         ++scenes;
         begin = end;

@@ -106,7 +106,7 @@ TEST(StrokeFileTest, TheTipBetweenSamplesLiesOnTheStraightLineAndTurnsTheShortWa
         "1,0,0,0,1,0,0,0,1\n"
         "2,4,0,0,3,0,-1,0,0\n",
         "s");
-    const contact::TipSample tip = sampleStroke(stroke, 1.25);
+    const headless::TipSample tip = sampleStroke(stroke, 1.25);
     EXPECT_DOUBLE_EQ(tip.timeSeconds, 1.25);
     EXPECT_DOUBLE_EQ(tip.positionMetres.x, 1.0);
     EXPECT_DOUBLE_EQ(tip.forceNewtons.value_or(0.0), 1.5);

@@ -1,0 +1,74 @@
+#pragma once
+
+#include "headless/bounds.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace haptoflow::headless {
+
+/// A binary tree of boxes over items (the triangles of a mesh, the surfaces of a scene), which are known by their
+/// index in `items`; split at the median of the longest axis. Visits every item whose box is within the limit, so
+/// that a search through it finds what a search through all items finds.
+class BoundsTree {
+public:
+    /// Over no items.
+    BoundsTree() = default;
+    /// All boxes must be finite.
+    explicit BoundsTree(std::span<const Bounds> items);
+
+    /// Calls `consider(item)` for items near `point`, nearest boxes first, and for some that lie farther away.
+    /// `consider` returns the squared distance beyond which nothing is of interest any more; boxes farther away than
+    /// that, or than `squaredLimit` at first, are left out.
+    template <typename Consider>
+    void visitNear(const glm::dvec3& point, double squaredLimit, Consider&& consider) const;
+
+private:
+    struct Node {
+        Bounds bounds;
+        /// Of a leaf: its first entry in order_. Of a branch: its second child; the first follows the branch itself.
+        std::uint32_t start = 0;
+        std::uint32_t count = 0;
+    };
+    // A median split halves the count at each level, so 2^32 items fit with room to spare.
+    static constexpr std::size_t deepest = 64;
+    static constexpr std::uint32_t leafSize = 4;
+
+    void build(std::span<const Bounds> items, std::uint32_t begin, std::uint32_t end);
+
+    std::vector<Node> nodes_;
+    std::vector<std::uint32_t> order_;
+};
+
+template <typename Consider>
+void BoundsTree::visitNear(const glm::dvec3& point, double squaredLimit, Consider&& consider) const {
+    double limit = squaredLimit;
+    std::array<std::uint32_t, deepest> waiting{};
+    std::size_t count = nodes_.empty() ? 0 : 1;
+    while (count > 0) {
+        const std::uint32_t index = waiting[--count];
+        const Node& node = nodes_[index];
+        if (node.bounds.squaredDistanceTo(point) > limit) {
+            continue;
+        }
+        for (std::uint32_t entry = 0; entry < node.count; ++entry) {
+            limit = consider(order_[node.start + entry]);
+        }
+        if (node.count == 0) {
+            std::uint32_t near = index + 1;
+            std::uint32_t far = node.start;
+            if (nodes_[far].bounds.squaredDistanceTo(point) < nodes_[near].bounds.squaredDistanceTo(point)) {
+                std::swap(near, far);
+            }
+            waiting[count++] = far;
+            waiting[count++] = near;
+        }
+    }
+}
+
+}  // namespace haptoflow::headless
