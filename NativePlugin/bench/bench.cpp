@@ -1,16 +1,9 @@
 #include "bench/bench.hpp"
 
-#include "bench/blend_bench.hpp"
-#include "bench/callback_bench.hpp"
-#include "bench/contact_bench.hpp"
 #include "bench/distribution.hpp"
-#include "bench/effect_bench.hpp"
-#include "bench/event_bench.hpp"
-#include "bench/idle_bench.hpp"
-#include "bench/inference_bench.hpp"
 #include "bench/latency_bench.hpp"
 #include "bench/machine.hpp"
-#include "bench/output_bench.hpp"
+#include "bench/measurements.hpp"
 
 #include <algorithm>
 #include <iomanip>

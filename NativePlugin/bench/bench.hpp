@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <iosfwd>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -35,5 +36,8 @@ using BenchProgress = std::function<void(double share, std::string_view what)>;
 /// and real time for what is paced. What could not be measured has no key; "notes" says why.
 /// Throws MeasurementError, model::ModelError, inference::RuntimeUnavailable, inference::InferenceError.
 [[nodiscard]] nlohmann::ordered_json runBench(const BenchOptions& options, const BenchProgress& progress);
+
+/// Prints the report of `runBench` for reading: one table for each measurement in it.
+void printTables(std::ostream& stream, const nlohmann::ordered_json& report);
 
 }  // namespace haptoflow::bench

@@ -1,4 +1,4 @@
-#include "bench/bench_table.hpp"
+#include "bench/bench.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "bench/blend_bench.hpp"
+#include "bench/measurements.hpp"
 
 #include "bench/distribution.hpp"
 

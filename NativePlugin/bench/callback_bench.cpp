@@ -1,4 +1,4 @@
-#include "bench/callback_bench.hpp"
+#include "bench/measurements.hpp"
 
 #include "bench/distribution.hpp"
 #include "bench/real_time_device.hpp"

@@ -1,4 +1,4 @@
-#include "bench/contact_bench.hpp"
+#include "bench/measurements.hpp"
 
 #include "bench/distribution.hpp"
 #include "headless/contact_tracker.hpp"

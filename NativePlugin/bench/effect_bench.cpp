@@ -1,4 +1,4 @@
-#include "bench/effect_bench.hpp"
+#include "bench/measurements.hpp"
 
 #include "bench/distribution.hpp"
 #include "effects/actuator_profile.hpp"

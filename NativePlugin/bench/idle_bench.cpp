@@ -1,7 +1,7 @@
-#include "bench/idle_bench.hpp"
+#include "bench/measurements.hpp"
 
 #include "bench/distribution.hpp"
-#include "bench/process_usage.hpp"
+#include "bench/machine.hpp"
 #include "bench/real_time_device.hpp"
 #include "bench/watched_generators.hpp"
 

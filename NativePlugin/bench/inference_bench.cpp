@@ -1,4 +1,4 @@
-#include "bench/inference_bench.hpp"
+#include "bench/measurements.hpp"
 
 #include "bench/distribution.hpp"
 #include "dsp/denormals.hpp"

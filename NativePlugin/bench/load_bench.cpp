@@ -1,7 +1,7 @@
 #include "bench/load_bench.hpp"
 
 #include "bench/distribution.hpp"
-#include "bench/process_usage.hpp"
+#include "bench/machine.hpp"
 
 #include <algorithm>
 #include <array>

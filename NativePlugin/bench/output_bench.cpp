@@ -1,4 +1,4 @@
-#include "bench/output_bench.hpp"
+#include "bench/measurements.hpp"
 
 #include "bench/distribution.hpp"
 #include "effects/wave_decimation.hpp"

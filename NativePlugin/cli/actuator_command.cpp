@@ -1,5 +1,4 @@
 #include "actuator_identification.hpp"
-#include "actuator_profile_file.hpp"
 #include "commands.hpp"
 #include "decimal_number.hpp"
 #include "effects/actuator_profile.hpp"
@@ -294,7 +293,7 @@ void addSweep(CLI::App& actuator, CommandOutcome& outcome) {
         ->required()
         ->type_name("SWEEP.wav");
     command->add_option("--rate", options->rateHz, "Of the audio device, in Hz")
-        ->transform(wholeBetween(8000, 192000, "Hz"))
+        ->transform(outputRate())
         ->capture_default_str();
     command->add_option("--seconds", options->sweep.seconds, "Longer is less sensitive to noise")
         ->check(decimalBetween(1.0, 120.0, "s"))

@@ -1,6 +1,5 @@
 #include "bench/bench.hpp"
 
-#include "bench/bench_table.hpp"
 #include "commands.hpp"
 #include "exit_codes.hpp"
 #include "inference/onnx_runtime.hpp"

@@ -19,13 +19,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double lowestRateHz = learning::lowestRateHz;
-constexpr double highestRateHz = learning::highestRateHz;
 constexpr double unknownNumber = std::numeric_limits<double>::quiet_NaN();
 /// A gap in the time stamps longer than this is a gap in the recording.
 constexpr double longestStepSeconds = 0.005;
 constexpr double slopeWindowSeconds = 0.09;
-constexpr double fastestMps = 10.0;
 constexpr double slowestMps = 0.0005;
 
 using learning::plainNumber;
@@ -243,7 +240,7 @@ void checkSpeeds(const std::string& path, const std::string& columns, const Trac
         return;
     }
     const double median = *(moving + (speeds.end() - moving) / 2);
-    if (!(median > slowestMps && median < fastestMps)) {
+    if (!(median > slowestMps && median < learning::maximumHandSpeedMps)) {
         const std::string first = columns.substr(0, columns.find(','));
         fail(path, first + " gives a speed of " + plainNumber(median) + " m/s", otherUnit(columns));
     }
@@ -318,7 +315,7 @@ private:
         if (file == nullptr) {
             fail(path_, std::string("not read as WAV (") + sf_strerror(nullptr) + ")", expected);
         }
-        if (info.samplerate < lowestRateHz || info.samplerate > highestRateHz) {
+        if (info.samplerate < learning::lowestRateHz || info.samplerate > learning::highestRateHz) {
             fail(path_, std::to_string(info.samplerate) + " samples a second", "1000 to 192000");
         }
         if (info.channels != 1 && info.channels != 3) {
@@ -365,11 +362,11 @@ private:
         }
         const Track acceleration = trackOf(path_, table.timeSeconds, *table.acceleration);
         recording_.rateHz = 1.0 / medianStep(acceleration.timeSeconds);
-        if (!(recording_.rateHz >= 0.99 * lowestRateHz && recording_.rateHz <= 1.01 * highestRateHz)) {
+        if (!(recording_.rateHz >= 0.99 * learning::lowestRateHz && recording_.rateHz <= 1.01 * learning::highestRateHz)) {
             fail(path_, plainNumber(recording_.rateHz) + " samples a second by time_s",
                  "1000 to 192000; time_s is in seconds");
         }
-        recording_.rateHz = std::clamp(recording_.rateHz, lowestRateHz, highestRateHz);
+        recording_.rateHz = std::clamp(recording_.rateHz, learning::lowestRateHz, learning::highestRateHz);
         startSeconds_ = acceleration.timeSeconds.front();
         recording_.axisCount = acceleration.width;
         makeEven(acceleration);

@@ -1,4 +1,3 @@
-#include "actuator_profile_file.hpp"
 #include "commands.hpp"
 #include "effects/actuator_profile.hpp"
 #include "effects/effect.hpp"
@@ -290,7 +289,7 @@ void requireSoundOptions(const RenderOptions& options) {
     }
     const NamedPath wav{"-o", options.outputPath};
     const NamedPath waveform{"--waveform", options.waveformPath};
-    if (!options.parametricPath.empty() && std::fmod(options.engine.outputRateHz, 2000.0) != 0.0) {
+    if (!options.parametricPath.empty() && std::fmod(options.engine.outputRateHz, inference::waveformRateHz) != 0.0) {
         throw UsageError("-o " + options.parametricPath +
                          " needs a --rate that is a multiple of 2000 Hz, such as 48000");
     }
@@ -422,7 +421,7 @@ void addRenderCommand(CLI::App& app, CommandOutcome& outcome) {
         ->transform(wholeBetween(0, std::numeric_limits<std::uint64_t>::max(), ""))
         ->capture_default_str();
     command->add_option("--rate", options->engine.outputRateHz, "Output rate in Hz")
-        ->transform(wholeBetween(8000, 192000, "Hz"))
+        ->transform(outputRate())
         ->capture_default_str();
     command->add_option("--lead-ms", options->engine.leadMs, "From a contact state to the first sample made from it")
         ->check(decimalBetween(0.0, 50.0, "ms"))

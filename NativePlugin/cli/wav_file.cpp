@@ -1,5 +1,6 @@
 #include "wav_file.hpp"
 
+#include "effects/compensation.hpp"
 #include "exit_codes.hpp"
 
 #include <sndfile.h>
@@ -51,15 +52,14 @@ void WavWriter::close() {
 }
 
 Recording readRecording(const std::string& path, int channel) {
-    constexpr int lowestRateHz = 8000;
-    constexpr int highestRateHz = 192000;
     constexpr sf_count_t longestSeconds = 600;
     SF_INFO info{};
     const std::unique_ptr<SNDFILE, int (*)(SNDFILE*)> file(sf_open(path.c_str(), SFM_READ, &info), sf_close);
     if (file == nullptr) {
         throw InputError(path + ": cannot be read (" + sf_strerror(nullptr) + "); expected a sound file such as WAV");
     }
-    if (info.samplerate < lowestRateHz || info.samplerate > highestRateHz) {
+    if (info.samplerate < effects::Compensation::lowestRateHz ||
+        info.samplerate > effects::Compensation::highestRateHz) {
         throw InputError(path + ": has a rate of " + std::to_string(info.samplerate) +
                          " Hz; expected 8000 to 192000 Hz");
     }

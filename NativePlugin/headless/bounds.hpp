@@ -7,7 +7,7 @@
 
 namespace haptoflow::headless {
 
-/// A box along the axes; nothing is in it until something is included.
+/// An axis-aligned box. It is empty until something is included.
 struct Bounds {
     glm::dvec3 lowest{std::numeric_limits<double>::infinity()};
     glm::dvec3 highest{-std::numeric_limits<double>::infinity()};
@@ -20,7 +20,7 @@ struct Bounds {
         include(other.lowest);
         include(other.highest);
     }
-    /// Zero inside.
+    /// Squared distance to the nearest point of the box; zero inside.
     [[nodiscard]] double squaredDistanceTo(const glm::dvec3& point) const noexcept {
         const glm::dvec3 offset = point - glm::clamp(point, lowest, highest);
         return glm::dot(offset, offset);

@@ -12,30 +12,31 @@
 
 namespace haptoflow::headless {
 
-/// A binary tree of boxes over items (the triangles of a mesh, the surfaces of a scene), which are known by their
-/// index in `items`; split at the median of the longest axis. Visits every item whose box is within the limit, so
-/// that a search through it finds what a search through all items finds.
+/// A bounding volume hierarchy: a binary tree of boxes over items (the triangles of a mesh, the surfaces of a scene),
+/// split at the median of the longest axis. Items are identified by their index in `items`. A search visits every item
+/// whose box is within the limit, so that it finds the same item as a search through all of them.
 class BoundsTree {
 public:
-    /// Over no items.
+    /// A tree without items.
     BoundsTree() = default;
     /// All boxes must be finite.
     explicit BoundsTree(std::span<const Bounds> items);
 
-    /// Calls `consider(item)` for items near `point`, nearest boxes first, and for some that lie farther away.
-    /// `consider` returns the squared distance beyond which nothing is of interest any more; boxes farther away than
-    /// that, or than `squaredLimit` at first, are left out.
+    /// Calls `consider(item)` for items near `point`, in the order of their boxes' distances, and for some that lie
+    /// farther away. `consider` returns the squared distance beyond which items are no longer of interest; boxes
+    /// farther away than that, or than `squaredLimit` at the start, are skipped.
     template <typename Consider>
     void visitNear(const glm::dvec3& point, double squaredLimit, Consider&& consider) const;
 
 private:
     struct Node {
         Bounds bounds;
-        /// Of a leaf: its first entry in order_. Of a branch: its second child; the first follows the branch itself.
+        /// For a leaf, its first entry in order_. For a branch, its second child; the first child follows the branch
+        /// itself.
         std::uint32_t start = 0;
         std::uint32_t count = 0;
     };
-    // A median split halves the count at each level, so 2^32 items fit with room to spare.
+    // A median split halves the number of items at each level, so that 2^32 items need 32 levels.
     static constexpr std::size_t deepest = 64;
     static constexpr std::uint32_t leafSize = 4;
 

@@ -7,8 +7,8 @@
 namespace haptoflow::headless {
 namespace {
 
-// The tree sees world coordinates, `reaches` sees local ones. The way there costs some ten roundings of 1e-16 each,
-// relative to the largest number on it; with this much room none of them lets the tree miss a surface.
+// The tree uses world coordinates, `reaches` local ones. The conversion rounds about ten times by 1e-16, relative to
+// the largest number in it; this allowance keeps the tree from missing a surface because of that.
 constexpr double roundingAllowance = 1e-12;
 
 }  // namespace
@@ -38,7 +38,7 @@ Bounds BroadPhase::withinReachOf(const Surface& surface, const BoundingSphere& s
     Bounds box;
     double around = sphere.radiusMetres + reachMetres_;
     if (surface.motion) {
-        // However it turns on its way.
+        // The bounding sphere covers every rotation along the path.
         box = surface.motion->bounds();
         around += glm::length(sphere.centreMetres);
     } else {

@@ -10,17 +10,17 @@
 
 namespace haptoflow::headless {
 
-/// Which surfaces of a scene a tip can meet at all, so that a frame asks those few for their exact distance and not
-/// every one. They stand in a tree that is built once, each where it rests or, if it moves, in a box around its whole
-/// path: one that roams widely is asked more often than one that stays. Planes have no end and are always
-/// asked.
+/// Finds the surfaces of a scene that are near the tip, so that a frame computes exact distances for those only. The
+/// surfaces are kept in a tree that is built once: a surface at rest in its bounding box, a moving one in a box around
+/// its whole path. A surface with a long path is therefore considered more often. Planes are infinite and are always
+/// considered.
 class BroadPhase {
 public:
-    /// `reachMetres`: how far from the tip's centre a surface still matters. Every shape must have an extent; later
-    /// changes to `surfaces` go unnoticed.
+    /// `reachMetres`: the distance from the tip's centre up to which a surface matters. Every shape must have an
+    /// extent. Later changes to `surfaces` have no effect.
     BroadPhase(const std::vector<Surface>& surfaces, double reachMetres);
 
-    /// Calls `consider(surface)` once for every surface that `reaches` would let pass, and for a few more; in no
+    /// Calls `consider(surface)` once for every surface that `reaches` would accept, and for a few more, in no
     /// particular order. `tipMetres` must be usable.
     template <typename Consider>
     void visitNear(const glm::dvec3& tipMetres, Consider&& consider) const;
@@ -33,7 +33,7 @@ private:
 
     double reachMetres_;
     std::vector<BoundingSphere> spheres_;
-    /// Planes, and what comes out of usable coordinates.
+    /// Planes, and surfaces whose coordinates are not usable.
     std::vector<std::uint32_t> endless_;
     /// The tree's items, as indices of surfaces.
     std::vector<std::uint32_t> bounded_;

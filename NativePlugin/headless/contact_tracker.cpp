@@ -15,7 +15,7 @@
 namespace haptoflow::headless {
 namespace {
 
-// A pause must not let carried tangent axes turn further than a slow frame would.
+// Limits how far carried tangent axes turn after a pause: no further than in a slow frame.
 constexpr double longestFrameSeconds = 0.05;
 
 void require(bool holds, const char* expectation) {
@@ -46,7 +46,7 @@ bool hasExtent(const Shape& shape) {
     return mesh == nullptr || *mesh != nullptr;
 }
 
-/// The scene, once it and the settings are known to be in range.
+/// Returns the scene after checking that it and the settings are in range.
 Scene checked(Scene scene, const ContactSettings& settings) {
     const VelocitySettings& velocity = settings.velocity;
     require(notNegative(scene.tipRadiusMetres), "tipRadiusMetres must be 0 or more");
@@ -127,7 +127,7 @@ ContactReading ContactTracker::update(const TipSample& sample) {
     return describe(*contact, !wasTouching, sample);
 }
 
-/// Moves the clock, the tip and its history on. False where there is no tip to speak of.
+/// Advances the clock, the tip and its history. Returns false if there is no usable tip position.
 bool ContactTracker::acceptSample(const TipSample& sample) {
     const bool timeUsable = isUsable(sample.timeSeconds);
     const bool positionUsable = isUsable(sample.positionMetres);
@@ -220,7 +220,7 @@ std::optional<ContactTracker::Candidate> ContactTracker::chooseContact() {
     return kept && lead <= settings_.switchMarginMetres ? nearby.current : nearby.deepest;
 }
 
-/// Every surface that the tip, where it is, could touch.
+/// Visits every surface that the tip could touch at its present position.
 template <typename Visit>
 void ContactTracker::visitWithinReach(Visit&& visit) const {
     const double reachMetres = scene_.tipRadiusMetres + settings_.releaseDistanceMetres;
@@ -233,7 +233,7 @@ void ContactTracker::visitWithinReach(Visit&& visit) const {
     });
 }
 
-/// Where a resting tip would touch deepest.
+/// The place where a tip at rest would have the deepest contact.
 PosedPlace ContactTracker::restingPlace(const PosedPlace& place, const glm::dvec3& restingTip) const {
     std::optional<Candidate> deepest;
     visitWithinReach([&](std::size_t surface, const Pose& pose) {
@@ -268,7 +268,8 @@ void ContactTracker::noteTransition(PosedPlace place, const glm::dvec3& velocity
         const bool wasElsewhere = place.surface != *reference;
         place = restingPlace(place, tip);
         const bool isElsewhere = place.surface != *reference;
-        // Still on the one, though it would rest on the other: the change comes with the contact's own.
+        // The tip still touches the old surface although it would rest on the new one: the change follows when the
+        // contact itself changes.
         const bool isEarly = isElsewhere && !wasElsewhere;
         if (isEarly || (!isElsewhere && isCaught(*reference, referencePose, tip))) {
             return;
@@ -284,7 +285,7 @@ void ContactTracker::noteTransition(PosedPlace place, const glm::dvec3& velocity
     countEdge(event.edgeHeightMetres);
 }
 
-/// After a touch, while what was touched is still known.
+/// Called after a touch, while the touched surface is still known.
 void ContactTracker::noteSlideOff() {
     const std::optional<std::size_t> reference = transitions_.referenceSurface();
     if (touched_ && reference == touched_) {

@@ -13,23 +13,23 @@
 
 namespace haptoflow::headless {
 
-/// Follows one stylus tip over a scene and says, frame by frame, what it touches. One thread at a time.
+/// Tracks one stylus tip in a scene and reports, frame by frame, what it touches. Not thread-safe.
 ///
-/// A touch begins where the tip sphere cuts into a surface and ends where a gap of `releaseDistanceMetres` has
-/// opened; between surfaces the deepest contact wins, but the one already touched keeps the tip until another is
-/// deeper by `switchMarginMetres`. Inside a box or a closed mesh the normal is that of the nearest face, and the
-/// face of the previous frame keeps it by the same margin, so that it changes once, not back and forth. Of surfaces
-/// that are equally deep the first of the scene counts.
+/// A touch begins when the tip sphere penetrates a surface and ends when the gap exceeds `releaseDistanceMetres`. Among
+/// several surfaces the deepest contact wins, but another surface replaces the touched one only if it is deeper by
+/// `switchMarginMetres`. Inside a box or a closed mesh the normal is that of the nearest face; the face of the previous
+/// frame is kept with the same margin, so that the normal does not flip back and forth. Among equally deep surfaces the
+/// first one of the scene wins.
 ///
-/// A frame asks only surfaces near the tip (see BroadPhase) and allocates nothing.
+/// A frame computes distances only for surfaces near the tip (see BroadPhase) and allocates nothing.
 class ContactTracker {
 public:
-    /// Copies the scene. Throws std::invalid_argument when a setting, the tip radius or a shape is out of range.
+    /// Copies the scene. Throws std::invalid_argument if a setting, the tip radius or a shape is out of range.
     explicit ContactTracker(Scene scene, ContactSettings settings = {});
 
-    /// The next frame. A sample with an unusable position keeps the last one for `lostSeconds`; time that stands
-    /// still updates the geometry only; time that goes backwards, a pause and a teleport drop the past, so that
-    /// the velocity is zero until the next frame.
+    /// Processes the next frame. A sample with an unusable position keeps the last one for `lostSeconds`. If the time
+    /// stands still, only the geometry is updated. If it goes backwards, or after a pause or a teleport, the history is
+    /// dropped, so that the velocity is zero until the next frame.
     ContactReading update(const TipSample& sample);
 
     [[nodiscard]] const ContactStatistics& statistics() const noexcept { return statistics_; }
@@ -42,7 +42,7 @@ private:
         Pose pose;
         double penetrationMetres = 0.0;
 
-        /// A total order, so that the order of the search does not show.
+        /// A total order, so that the result does not depend on the order of the search.
         [[nodiscard]] bool isDeeperThan(const Candidate& other) const noexcept {
             return penetrationMetres > other.penetrationMetres ||
                    (penetrationMetres == other.penetrationMetres && surface < other.surface);

@@ -7,14 +7,15 @@
 namespace haptoflow::headless {
 namespace {
 
-// The reference stays behind by this way, and by the longer one, for a few frames, while the normal turns: a slow tip
-// that rolls over a rim turns by little from frame to frame, and a fast one may be seen in the middle of it.
+// The reference place follows the contact at this distance, or for a few frames at the longer one while the normal
+// turns: a slow tip that rolls over a rim turns only slightly from frame to frame, and a fast one may have a frame in
+// the middle of the rim.
 constexpr double shortWayMetres = 0.002;
 constexpr double longWayMetres = 0.006;
 constexpr int mostFramesBehind = 2;
 // The cosine of 5 degrees.
 constexpr double steadyCosine = 0.9962;
-// Places on the two faces of a rim lie below each other's planes but for rounding and a mesh's unevenness.
+// Places on the two faces of a rim lie below each other's planes, up to rounding and the unevenness of a mesh.
 constexpr double flatnessMetres = 0.0001;
 
 ContactPlace inWorld(const ContactPlace& local, const Pose& pose) {
@@ -29,12 +30,13 @@ bool isTurned(const ContactPlace& before, const ContactPlace& here) {
     return glm::dot(before.normal, here.normal) < ContactTransitions::faceCosine;
 }
 
-/// Where a surface curves, each of two places lies as far below the other's plane; over a step one lies above.
+/// Height of the step from one place to the other. On a curved surface each place lies equally far below the other's
+/// plane; at a step one of them lies above.
 double stepBetween(const ContactPlace& before, const ContactPlace& here) {
     return 0.5 * std::abs(heightAbove(before, here.pointMetres) - heightAbove(here, before.pointMetres));
 }
 
-/// Two faces that look at each other across less than the tip's width: no tip comes from one to the other.
+/// True for two faces that look at each other across less than the tip's width: no tip moves from one to the other.
 bool isFacing(const ContactPlace& before, const ContactPlace& here, double tipRadiusMetres) {
     const double gapMetres = heightAbove(before, here.pointMetres);
     return glm::dot(before.normal, here.normal) < -ContactTransitions::faceCosine && gapMetres >= -flatnessMetres &&
@@ -116,7 +118,7 @@ double ContactTransitions::slideOff(const PosedPlace& nearest, const Pose& refer
     const ContactPlace here = inWorld(nearest.local, nearest.pose);
     double aboveMetres = heightAbove(before, tipMetres);
     if (reference_->earlier) {
-        // A fast tip may have been seen on the rim itself, where the normal leans outwards.
+        // A frame of a fast tip may have been on the rim itself, where the normal points outwards.
         aboveMetres = std::min(aboveMetres, heightAbove(inWorld(*reference_->earlier, referencePose), tipMetres));
     }
     const bool isLow = aboveMetres - tipRadiusMetres_ <= heightMetres;
@@ -133,13 +135,13 @@ bool ContactTransitions::isToBeMoved(const PosedPlace& now, const ContactPlace& 
     if (now.surface != reference_->surface) {
         return true;
     }
-    // On one surface the way is that over it, whatever its own motion.
+    // On one surface, measure the distance on it, so that the surface's own motion does not count.
     const double way = glm::distance(now.local.pointMetres, reference_->local.pointMetres);
     const bool isSteady = glm::dot(before.normal, here.normal) > steadyCosine;
     if (way > shortWayMetres && (isSteady || !reference_->isArmed)) {
         return true;
     }
-    // On a round surface each of two places lies as far below the other's plane, in the middle of a rim it does not.
+    // On a round surface each place lies equally far below the other's plane; in the middle of a rim it does not.
     const bool isRound = stepBetween(before, here) < lowestStepMetres;
     return way > longWayMetres && (isRound || ++reference_->framesBehind > mostFramesBehind);
 }

@@ -15,35 +15,36 @@ struct ContactPlace {
     glm::dvec3 normal{0.0, 1.0, 0.0};
 };
 
-/// A place in its surface's local frame, with where that surface is now.
+/// A place in its surface's local frame, with the present pose of that surface.
 struct PosedPlace {
     std::size_t surface = 0;
     ContactPlace local;
     Pose pose;
 };
 
-/// What a tip met between two frames.
+/// What happened to the tip between two frames.
 struct ContactEvent {
-    /// On another surface, or on another face of the same, with speed into it.
+    /// The tip landed on another surface, or on another face of the same, with a speed into it.
     bool landed = false;
-    /// Of an edge that the tip crossed; 0 for none.
+    /// Height of the edge that the tip crossed; 0 for none.
     double edgeHeightMetres = 0.0;
 };
 
-/// Tells landings and edges from smooth sliding while a tip goes on touching.
+/// Distinguishes landings and edges from smooth sliding while a tip stays in contact.
 ///
-/// A face changes where the normal turns by 40 degrees over a short way, as it does over the rim of a box and not over
-/// a ball in the hand. A tip that moves into the new face lands on it; one that does not has crossed an edge: a rim,
-/// which is as high as the tip's radius since that far the tip can fall, or the step between two surfaces that lie one
-/// beside the other. Surfaces that are flush have neither.
+/// The face changes when the normal turns by 40 degrees over a short distance, as at the rim of a box but not on a
+/// ball. If the tip moves into the new face, it lands on it. If not, it crosses an edge: either a rim, whose height is
+/// the tip's radius because the tip can fall that far, or the step between two adjacent surfaces. Surfaces that are
+/// flush have neither.
 ///
-/// A hand that nothing holds presses deep into things, and deep inside two blocks side by side their inner faces are
-/// the nearest. So a change is judged where the tip would rest on the face that it was on: see `restingTip`.
+/// A hand without force feedback presses deep into objects, and deep inside two adjacent blocks the nearest faces are
+/// the inner ones. A change is therefore judged at the place where the tip would rest on its previous face: see
+/// `restingTip`.
 class ContactTransitions {
 public:
-    /// A tip that moves more slowly into a face slides over to it.
+    /// A tip that moves into a face more slowly than this slides onto it instead of landing.
     static constexpr double landingSpeedMps = 0.03;
-    /// The cosine of 40 degrees: surfaces of eight sides have edges, rounder ones do not.
+    /// The cosine of 40 degrees: a prism with eight sides has edges, rounder ones have none.
     static constexpr double faceCosine = 0.766;
     /// A lower step is none: tracking and meshes are no more exact.
     static constexpr double lowestStepMetres = 0.0001;
@@ -56,22 +57,23 @@ public:
 
     /// The next place compares with nothing.
     void forget() noexcept { reference_.reset(); }
-    /// The surface whose pose now `advance` and `slideOff` want as `referencePose`; empty where they need none.
+    /// The surface whose present pose `advance` and `slideOff` need as `referencePose`; empty if they need none.
     [[nodiscard]] std::optional<std::size_t> referenceSurface() const noexcept;
 
-    /// `now` is on another surface than the reference, or its normal leans away from that of the reference.
+    /// True if `now` is on another surface than the reference, or its normal differs from that of the reference.
     [[nodiscard]] bool isElsewhere(const PosedPlace& now, const Pose& referencePose) const noexcept;
-    /// The tip's centre, raised out of the face of the reference until it just touches that.
+    /// The tip's centre, moved out of the reference's face until the tip just touches that face.
     [[nodiscard]] glm::dvec3 restingTip(const glm::dvec3& tipMetres, const Pose& referencePose) const noexcept;
-    /// A resting tip that goes over a rim falls onto `other`, a place of another surface: then the rim is none, and
-    /// what there is to feel is the step, once the tip is on that surface.
+    /// True if a tip at rest that crosses a rim falls onto `other`, a place on another surface. The rim then does not
+    /// count as an edge; the step does, once the tip is on that surface.
     [[nodiscard]] bool isCaughtBy(const PosedPlace& other, const Pose& referencePose,
                                   const glm::dvec3& restingTipMetres) const noexcept;
-    /// The tip touches `now`, moving into it at `approachSpeedMps`. Where it is elsewhere: as a resting tip would.
+    /// Processes a tip that touches `now` and moves into it at `approachSpeedMps`. If the face changes, `now` is the
+    /// place of a tip at rest.
     ContactEvent advance(const PosedPlace& now, const Pose& referencePose, double approachSpeedMps) noexcept;
-    /// The touch has ended with `nearest` the place of the touched surface nearest to the tip. A tip that is still no
-    /// higher than `heightMetres` above the face that it was on has slid off it: returns the height of that edge, and 0
-    /// where the tip was lifted.
+    /// Processes the end of a touch; `nearest` is the place of the touched surface nearest to the tip. If the tip is at
+    /// most `heightMetres` above its previous face, it slid off: returns the height of that edge, or 0 if the tip was
+    /// lifted.
     [[nodiscard]] double slideOff(const PosedPlace& nearest, const Pose& referencePose, const glm::dvec3& tipMetres,
                                   double heightMetres) const noexcept;
 
@@ -79,11 +81,11 @@ private:
     struct Reference {
         std::size_t surface = 0;
         ContactPlace local;
-        /// Where it was before, on the same surface.
+        /// An earlier place on the same surface.
         std::optional<ContactPlace> earlier;
-        /// One rim is one edge, however slowly the tip rolls over it.
+        /// False after an edge until the tip has left the rim, so that a slow tip gets one edge per rim.
         bool isArmed = true;
-        /// Frames that it has stayed behind by the long way.
+        /// Number of frames for which the reference has followed at the longer distance.
         int framesBehind = 0;
     };
 

@@ -79,7 +79,7 @@ Bounds Motion::bounds() const noexcept {
         const Keyframe& a = keyframes_[right - 1];
         const Keyframe& b = keyframes_[right];
         const double third = (b.timeSeconds - a.timeSeconds) / 3.0;
-        // The cubic lies within the hull of its four Bezier points.
+        // The cubic lies within the convex hull of its four Bezier points.
         bounds.include(a.pose.positionMetres);
         bounds.include(a.pose.positionMetres + third * velocityAtKeyframe(right - 1));
         bounds.include(b.pose.positionMetres - third * velocityAtKeyframe(right));

@@ -8,23 +8,23 @@
 
 namespace haptoflow::headless {
 
-/// A pose at a time of the stroke's clock.
+/// A pose at a time on the stroke's clock.
 struct Keyframe {
     double timeSeconds = 0.0;
     Pose pose;
 };
 
-/// A path through keyframes. Positions follow a cubic through the keyframes whose velocity is continuous between
-/// the first and the last; rotations turn the short way at a constant rate between two keyframes, so neighbours
-/// must lie less than half a turn apart. Before the first keyframe and after the last the object rests there;
-/// a loop starts again instead, and should end in the pose it began with.
+/// A path through keyframes. Positions follow a cubic spline through the keyframes with continuous velocity. Rotations
+/// turn the shorter way at a constant rate between two keyframes, so that neighbouring rotations must differ by less
+/// than half a turn. The object rests before the first keyframe and after the last. A loop starts again instead and
+/// should end in the pose that it began with.
 class Motion {
 public:
-    /// Throws std::invalid_argument unless there are two or more keyframes with usable, strictly increasing times.
+    /// Throws std::invalid_argument unless there are at least two keyframes with usable, strictly increasing times.
     Motion(std::vector<Keyframe> keyframes, bool loop);
 
     [[nodiscard]] Pose poseAt(double timeSeconds) const noexcept;
-    /// Around every position on the path, in metres, give or take rounding.
+    /// A box around every position on the path, in metres, up to rounding.
     [[nodiscard]] Bounds bounds() const noexcept;
     [[nodiscard]] const std::vector<Keyframe>& keyframes() const noexcept { return keyframes_; }
     [[nodiscard]] bool loops() const noexcept { return loop_; }

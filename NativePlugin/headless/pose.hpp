@@ -5,7 +5,7 @@
 
 namespace haptoflow::headless {
 
-/// Where an object is: metres and a unit quaternion, in Unity's left-handed, y-up frame.
+/// Position in metres and rotation of an object, in Unity's left-handed, y-up frame.
 struct Pose {
     glm::dvec3 positionMetres{0.0};
     glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
@@ -16,7 +16,8 @@ struct Pose {
     [[nodiscard]] glm::dvec3 directionToLocal(const glm::dvec3& world) const noexcept;
 };
 
-/// The same pose with a unit rotation and usable numbers: what is damaged becomes the origin or the identity.
+/// The same pose with a unit rotation and usable numbers: an unusable position becomes the origin, an unusable rotation
+/// the identity.
 [[nodiscard]] Pose sanitised(const Pose& pose) noexcept;
 
 }  // namespace haptoflow::headless

@@ -8,12 +8,13 @@ namespace haptoflow::headless {
 namespace {
 
 constexpr int fewestMeasurements = 3;
-// Three measurements may be this many windows old, two may be as old as the history.
+// Three measurements may be this many windows old; two may be as old as the history.
 constexpr double sparseWindows = 3.0;
 
-/// Places at times, newest first, and the slope of the straight line through them: mean of the newer half minus
-/// mean of the older half, by their times (Wald 1940). Least squares would do for exact times, but a tracker with a
-/// clock of its own puts errors into the times, which flattens a least-squares line: by 4 % at 60 Hz in 90.
+/// Positions at times, newest first, and the slope of the straight line through them: the difference between the means
+/// of the newer and the older half, divided by that of their times (Wald 1940). Least squares would be right for exact
+/// times, but a tracker with its own clock has errors in the times, which bias a least-squares slope towards zero: by 4
+/// % for 60 Hz sampled at 90 Hz.
 class RecentPlaces {
 public:
     void add(double time, const glm::dvec3& place) { entries_[count_++] = {time, place}; }
@@ -21,7 +22,7 @@ public:
     [[nodiscard]] bool full() const { return count_ == entries_.size(); }
 
     [[nodiscard]] glm::dvec3 slope() const {
-        // Of an odd number the middle one belongs to neither half.
+        // For an odd number the middle one belongs to neither half.
         const std::size_t half = count_ / 2;
         double seconds = 0.0;
         glm::dvec3 distance(0.0);
@@ -46,7 +47,7 @@ private:
     std::size_t count_ = 0;
 };
 
-/// Walks back over the frames that `takes` accepts and draws a line through `placeOf` them, down to the window's end
+/// The slope of a line through `placeOf` each of the newest frames that `takes` accepts, back to the end of the window
 /// or to a jump that no motion explains.
 template <typename Takes, typename PlaceOf>
 glm::dvec3 recentSlope(const TipHistory& history, Takes&& takes, PlaceOf&& placeOf) {
@@ -75,7 +76,7 @@ glm::dvec3 recentSlope(const TipHistory& history, Takes&& takes, PlaceOf&& place
 }  // namespace
 
 glm::dvec3 relativeVelocity(const TipHistory& history, const Surface& surface, const glm::dvec3& localPoint) {
-    // A surface that rests is left out of the sums: its coordinates would only add rounding.
+    // For a surface at rest its coordinates are left out of the sums, where they would only add rounding errors.
     const auto material = [&](const TipFrame& frame) {
         return surface.motion ? surface.poseAt(frame.timeSeconds).pointToWorld(localPoint) : glm::dvec3(0.0);
     };

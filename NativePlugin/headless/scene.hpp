@@ -12,19 +12,19 @@
 
 namespace haptoflow::headless {
 
-/// An object that the tip can touch.
+/// An object of a scene that the tip can touch.
 struct Surface {
     std::string name;
     Shape shape;
     Pose pose;
-    /// Takes the place of `pose` where there is one.
+    /// Replaces `pose` if set.
     std::optional<Motion> motion;
     /// Labels and weights; the weights sum to 1.
     std::vector<std::pair<std::string, double>> material;
     std::optional<double> stiffnessNewtonsPerMetre;
     /// Direction of the first tangent axis, in the object's local frame.
     glm::dvec3 grain{1.0, 0.0, 0.0};
-    /// How much larger its features are than the material's, and how much brighter or darker it is.
+    /// Size of the surface's features relative to the material's, and tilt of its spectrum in dB per octave.
     double spatialScale = 1.0;
     double toneDbPerOctave = 0.0;
 
@@ -33,11 +33,11 @@ struct Surface {
     }
 };
 
-/// What a stylus meets.
+/// The surfaces that a stylus can touch, and the stylus's tip.
 struct Scene {
     std::vector<Surface> surfaces;
     double tipRadiusMetres = 0.001;
-    /// How often contact is computed along a stroke.
+    /// Contact states per second that are computed along a stroke.
     double updateRateHz = 90.0;
 };
 

@@ -61,7 +61,7 @@ SurfacePoint closestOn(const Box& box, const glm::dvec3& point, const QueryOptio
     const glm::dvec3 half = 0.5 * box.sizeMetres;
     const glm::dvec3 nearest = glm::clamp(point, -half, half);
     const double distance = glm::distance(point, nearest);
-    // Below this the direction from the surface to the point is rounding error.
+    // Below this distance the direction from the surface to the point is only rounding error.
     const double onSurface = 1e-13 * std::max({half.x, half.y, half.z});
     if (distance <= onSurface) {
         return insideBox(half, nearest, options);
@@ -69,7 +69,7 @@ SurfacePoint closestOn(const Box& box, const glm::dvec3& point, const QueryOptio
     return {nearest, unitOr(point - nearest, up), distance};
 }
 
-/// Sphere and capsule alike: a ball of `radius` around the nearest point of the shape's core.
+/// For sphere and capsule: a ball of `radius` around the nearest point of the shape's core.
 SurfacePoint aroundCore(const glm::dvec3& core, double radius, const glm::dvec3& point, const glm::dvec3& fallback) {
     const glm::dvec3 offset = point - core;
     const double distance = glm::length(offset);

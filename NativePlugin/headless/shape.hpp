@@ -9,51 +9,52 @@
 
 namespace haptoflow::headless {
 
-/// Centred on the origin; edge lengths in metres, all above zero.
+/// A box centred on the origin; edge lengths in metres, all above zero.
 struct Box {
     glm::dvec3 sizeMetres{1.0};
 };
 
-/// Centred on the origin.
+/// A sphere centred on the origin.
 struct Sphere {
     double radiusMetres = 0.5;
 };
 
-/// Along local y, centred on the origin; the height includes both caps (a height below 2 radius is a sphere).
+/// A capsule along local y, centred on the origin; the height includes both caps (a height below 2 radius is a sphere).
 struct Capsule {
     double radiusMetres = 0.5;
     double heightMetres = 2.0;
 };
 
-/// Everything below local y = 0.
+/// The half space below local y = 0.
 struct Plane {};
 
-/// Shared, because trackers copy scenes; never null.
+/// Meshes are shared, because trackers copy scenes; the pointer is never null.
 using Shape = std::variant<Box, Sphere, Capsule, Plane, std::shared_ptr<const TriangleMesh>>;
 
-/// The place on a surface nearest to a point, in the shape's local frame.
+/// The point on a surface nearest to another point, in the shape's local frame.
 struct SurfacePoint {
     glm::dvec3 pointMetres{0.0};
-    /// Unit length, out of the material.
+    /// Outward unit normal.
     glm::dvec3 normal{0.0, 1.0, 0.0};
     /// Negative inside the material.
     double signedDistanceMetres = 0.0;
 };
 
-/// What a query remembers so that a normal does not flip between two faces that are equally near.
+/// The state of the previous frame that keeps a normal from flipping between two equally near faces.
 struct QueryOptions {
     /// Local normal of the previous frame's contact with the same surface.
     std::optional<glm::dvec3> previousNormal;
-    /// Inside a shape another face takes over only where it is nearer by this much (at most a tenth of a box's
-    /// half thickness).
+    /// Inside a shape, another face is used only if it is nearer by this much (at most a tenth of a box's half
+    /// thickness).
     double faceMarginMetres = 0.0005;
-    /// How far behind an open mesh a point still counts as inside it.
+    /// Depth behind an open mesh up to which a point counts as inside.
     double openMeshDepthMetres = 0.005;
 };
 
-/// `point` is in the shape's local frame and usable. Always finite, with a unit normal, also on an edge, a corner,
-/// the centre of a sphere or a capsule's axis (there: the previous normal, else +y made to fit the shape).
-/// Empty where there is nothing to touch: behind an open mesh, deeper than its depth or past its rim.
+/// The nearest point of the shape's surface. `point` is in the shape's local frame and usable. The result is finite and
+/// has a unit normal, also on an edge, on a corner, in the centre of a sphere and on a capsule's axis (there it is the
+/// previous normal, or else one near +y that fits the shape). Empty if there is no surface to touch: behind an open
+/// mesh, deeper than its depth or beyond its rim.
 [[nodiscard]] std::optional<SurfacePoint> closestSurfacePoint(const Shape& shape, const glm::dvec3& point,
                                                               const QueryOptions& options);
 

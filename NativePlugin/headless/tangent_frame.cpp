@@ -10,11 +10,12 @@
 namespace haptoflow::headless {
 namespace {
 
-// Sines of the angle between grain and normal: carried axes only below the first, grain only above the second.
+// Sines of the angle between grain and normal: below the first only carried axes are used, above the second only the
+// grain.
 constexpr double carriedBelow = 0.342020143325669;
 constexpr double grainAbove = 0.5;
 
-// A finite step across a curved surface turns the projection a little more than its derivative says.
+// A finite step on a curved surface turns the projection slightly more than its derivative predicts.
 constexpr double finiteStepAllowance = 1.2;
 
 glm::dvec3 intoPlane(const glm::dvec3& vector, const glm::dvec3& normal) {
@@ -26,7 +27,7 @@ double grainWeight(double sine) {
     return u * u * (3.0 - 2.0 * u);
 }
 
-/// `axis`, turned by the smallest rotation that takes `from` to `to`.
+/// `axis`, rotated by the smallest rotation from `from` to `to`.
 glm::dvec3 carried(const glm::dvec3& axis, const glm::dvec3& from, const glm::dvec3& to) {
     const double cosine = glm::dot(from, to);
     if (cosine < -1.0 + 1e-12) {

@@ -13,11 +13,11 @@ namespace haptoflow::headless {
 struct TipFrame {
     double timeSeconds = 0.0;
     glm::dvec3 positionMetres{0.0};
-    /// A measurement of its own; otherwise the tracker repeated its last one.
+    /// True for a new measurement, false if the tracker repeated its last one.
     bool fresh = true;
 };
 
-/// How a frame follows the last.
+/// How a frame relates to the previous one.
 enum class TipStep {
     started,
     continued,
@@ -25,27 +25,27 @@ enum class TipStep {
     teleported,
     /// The time went backwards.
     clockRestarted,
-    /// After a pause so long that the past says nothing.
+    /// After a pause so long that the history is dropped.
     resumed,
 };
 
-/// The last tenth of a second of the tip, with tracker hold told from stops.
+/// The tip's positions of the last tenth of a second; distinguishes positions that the tracker holds from stops.
 ///
-/// A tracker slower than the frame rate repeats positions. Repeats are no measurements and stay out of the
-/// velocity until `stopSeconds`; then the tip has really stopped and all of them were measurements.
+/// A tracker slower than the frame rate repeats positions. Repeated positions are not measurements and are excluded
+/// from the velocity until `stopSeconds`; after that the tip has really stopped, and all of them count as measurements.
 class TipHistory {
 public:
     static constexpr std::size_t capacity = 256;
 
     explicit TipHistory(const VelocitySettings& settings);
 
-    /// Time and position must be usable. Whatever the answer but `continued`, the past is gone.
+    /// Adds a frame; time and position must be usable. Every result but `continued` means that the history was dropped.
     TipStep add(double timeSeconds, const glm::dvec3& positionMetres);
     void clear() noexcept;
 
     /// Oldest first.
     [[nodiscard]] std::span<const TipFrame> frames() const noexcept { return frames_; }
-    /// How far the last measurement's velocity still holds now: 1 up to `holdSeconds` after it, 0 from `stopSeconds`.
+    /// Weight of the last measurement's velocity: 1 up to `holdSeconds` after it, 0 from `stopSeconds` on.
     [[nodiscard]] double confidence() const noexcept;
     [[nodiscard]] const VelocitySettings& settings() const noexcept { return settings_; }
 

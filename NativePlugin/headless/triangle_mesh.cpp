@@ -24,8 +24,8 @@ struct OnTriangle {
     std::uint32_t feature;
 };
 
-/// Which corner, edge or face of the triangle is nearest: by the Voronoi regions of its features (Ericson,
-/// Real-Time Collision Detection, 5.1.5).
+/// The corner, edge or face of the triangle that is nearest, by the Voronoi regions of its features (Ericson, Real-Time
+/// Collision Detection, 5.1.5).
 OnTriangle closestOnTriangle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& p) {
     const glm::dvec3 ab = b - a;
     const glm::dvec3 ac = c - a;
@@ -125,7 +125,7 @@ void TriangleMesh::keepTrianglesWithArea(const std::vector<Triangle>& triangles)
         }
         const glm::dvec3 ab = vertices_[corners[1]] - vertices_[corners[0]];
         const glm::dvec3 ac = vertices_[corners[2]] - vertices_[corners[0]];
-        // Slivers below this would only turn rounding errors into normals.
+        // Normals of thinner triangles would be rounding errors.
         const double longest = std::max(glm::dot(ab, ab), glm::dot(ac, ac));
         if (glm::length(glm::cross(ab, ac)) > 1e-12 * longest) {
             triangles_.push_back(corners);
@@ -184,7 +184,7 @@ void TriangleMesh::findSides() {
 void TriangleMesh::turnIfInsideOut() noexcept {
     double volume = 0.0;
     for (const Triangle& corners : triangles_) {
-        // Relative to a corner, so that a mesh far from its origin does not lose its volume to rounding.
+        // Relative to a corner, so that the volume of a mesh far from its origin is not lost to rounding.
         const glm::dvec3& origin = vertices_[triangles_[0][0]];
         volume += glm::dot(vertices_[corners[0]] - origin,
                            glm::cross(vertices_[corners[1]] - origin, vertices_[corners[2]] - origin));
@@ -205,7 +205,7 @@ void TriangleMesh::improve(Nearest& nearest, std::uint32_t triangle, const glm::
         closestOnTriangle(vertices_[corners[0]], vertices_[corners[1]], vertices_[corners[2]], point);
     const glm::dvec3 offset = point - found.pointMetres;
     const double squared = glm::dot(offset, offset);
-    // The lower index wins a tie, whatever the order of the search.
+    // In a tie the lower index wins, whatever the order of the search.
     if (squared < nearest.squaredDistance || (squared == nearest.squaredDistance && triangle < nearest.triangle)) {
         nearest = {squared, triangle, found.feature, found.pointMetres};
     }
@@ -217,7 +217,8 @@ MeshPoint TriangleMesh::describe(const Nearest& nearest, const glm::dvec3& point
     const glm::dvec3 offset = point - nearest.pointMetres;
     MeshPoint result{nearest.pointMetres, side, std::sqrt(nearest.squaredDistance), glm::dot(offset, side) < 0.0,
                      sides.rim[nearest.feature]};
-    // Towards an edge or a corner the surface is rounded: the way to it is the normal, unless it is rounding error.
+    // At an edge or a corner the surface is rounded: the normal is the direction to the point, unless that is rounding
+    // error.
     if (nearest.feature != faceFeature && result.distanceMetres > 1e-9 * boundsRadius()) {
         result.normal = unitOr(result.behind ? -offset : offset, side);
     }

@@ -11,22 +11,22 @@
 
 namespace haptoflow::headless {
 
-/// The place on a mesh nearest to a point.
+/// The point on a mesh nearest to another point.
 struct MeshPoint {
     glm::dvec3 pointMetres{0.0};
-    /// Unit length, out of the front.
+    /// Unit normal of the front side.
     glm::dvec3 normal{0.0, 1.0, 0.0};
     double distanceMetres = 0.0;
-    /// The point asked about lies inside a closed mesh, or on the back of an open one.
+    /// The other point lies inside a closed mesh, or behind an open one.
     bool behind = false;
-    /// On an edge that only one triangle has.
+    /// On an edge that belongs to a single triangle.
     bool onRim = false;
 };
 
-/// Triangles, convex or not. The front of a triangle (a, b, c) is the side that (b - a) x (c - a) points to: in
-/// Unity's frame the side from which its corners run clockwise. Corners in the same place are joined, so that
-/// meshes with split vertices count as closed. A closed mesh that is inside out is turned. Inside and outside come
-/// from angle-weighted pseudonormals (Baerentzen and Aanaes 2005): exact for closed meshes that do not cut through
+/// A triangle mesh, convex or not. The front of a triangle (a, b, c) is the side that (b - a) x (c - a) points to: in
+/// Unity's frame the side from which its corners run clockwise. Corners at the same position are joined, so that meshes
+/// with split vertices count as closed. A closed mesh that is inside out is turned. Inside and outside are decided by
+/// angle-weighted pseudonormals (Baerentzen and Aanaes 2005), which is exact for closed meshes that do not intersect
 /// themselves.
 class TriangleMesh {
 public:
@@ -35,25 +35,25 @@ public:
     /// Normals closer than this cosine (45 degrees) count as the same side in `closestPointFacing`.
     static constexpr double sameSideCosine = 0.7071;
 
-    /// Throws std::invalid_argument when a vertex is not finite, an index is out of range, or no triangle has an
-    /// area. Triangles without area are left out.
+    /// Throws std::invalid_argument if a vertex is not finite, an index is out of range, or no triangle has an area.
+    /// Triangles without area are skipped.
     TriangleMesh(std::vector<glm::dvec3> vertices, const std::vector<Triangle>& triangles);
 
     [[nodiscard]] MeshPoint closestPoint(const glm::dvec3& point) const;
-    /// Among triangles that face `direction` within 45 degrees; empty where there is none.
+    /// The nearest point on triangles that face `direction` within 45 degrees; empty if there are none.
     [[nodiscard]] std::optional<MeshPoint> closestPointFacing(const glm::dvec3& point,
                                                               const glm::dvec3& direction) const;
-    /// The same as `closestPoint`, by asking every triangle: what the tree is tested against.
+    /// The result of `closestPoint` by a search through all triangles: the reference in tests of the tree.
     [[nodiscard]] MeshPoint closestPointOfAll(const glm::dvec3& point) const;
 
-    /// Every edge is shared by as many triangles one way as the other way.
+    /// Every edge is used equally often in both directions.
     [[nodiscard]] bool isClosed() const noexcept { return closed_; }
     [[nodiscard]] glm::dvec3 boundsCentre() const noexcept;
     [[nodiscard]] double boundsRadius() const noexcept;
 
 private:
-    /// Per triangle: of each corner (0 to 2), of each edge (3: a-b, 4: b-c, 5: c-a) and of the face (6), the normal
-    /// that decides the side, and whether the feature lies on the rim.
+    /// For each triangle, the normals that decide the side: of each corner (0 to 2), each edge (3: a-b, 4: b-c, 5: c-a)
+    /// and the face (6), and whether the feature lies on the rim.
     struct Sides {
         std::array<glm::dvec3, 7> normals{};
         std::array<bool, 7> rim{};

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
+#include <filesystem>
 #include <stdexcept>
 #include <string>
 
@@ -69,6 +70,12 @@ void writeDescriptor(Descriptor* target, Descriptor content, const char* name) {
     const std::size_t filled = std::min(size, sizeof(Descriptor));
     content.struct_size = static_cast<decltype(content.struct_size)>(filled);
     std::memcpy(target, &content, filled);
+}
+
+/// A caller's path, which is UTF-8 on every platform.
+[[nodiscard]] inline std::filesystem::path utf8Path(const char* text) {
+    const std::u8string utf8(text, text + std::strlen(text));
+    return std::filesystem::path(utf8);
 }
 
 }  // namespace haptoflow::capi

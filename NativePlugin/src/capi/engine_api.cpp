@@ -16,7 +16,6 @@ using namespace haptoflow::capi;
 namespace {
 
 constexpr uint32_t usualBatchVoices = 8;
-constexpr double usualUpdateRateHz = 72.0;
 constexpr double usualBudgetShare = 0.25;
 constexpr double usualFullScaleMps2 = HAPTOFLOW_DEFAULT_FULL_SCALE_MPS2;
 static_assert(usualFullScaleMps2 == dsp::SoftLimiter::defaultFullScaleMps2);
@@ -69,7 +68,7 @@ engine::LiveEngineSettings engineSettings(const haptoflow_engine_options& given,
                                     "; expected above 0 to 1");
     }
     engine::LiveEngineSettings settings;
-    settings.updateRateHz = orDefault(given.update_rate_hz, usualUpdateRateHz);
+    settings.updateRateHz = orDefault(given.update_rate_hz, settings.updateRateHz);
     settings.quality = qualitySettings(header, given.quality, 1000.0 * budgetShare / settings.updateRateHz);
     settings.tiersByAccuracy = model::tiersByAccuracy(header.tiers);
     settings.fullScaleMps2 = static_cast<float>(orDefault(given.full_scale_mps2, usualFullScaleMps2));

@@ -1,5 +1,4 @@
 #include "capi/handles.hpp"
-#include "capi/utf8_path.hpp"
 #include "model/file_layout.hpp"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 #include "capi/handles.hpp"
-#include "capi/utf8_path.hpp"
 
 #include <cstddef>
 

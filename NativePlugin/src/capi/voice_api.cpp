@@ -27,8 +27,6 @@ static_assert(effects::maskOf(EffectKind::edge) == HAPTOFLOW_ASKS_FOR_EDGE);
 
 namespace {
 
-constexpr double usualSampleRateHz = 48000.0;
-
 // Through the force; the approach speed is only for effects.
 constexpr std::size_t mandatoryState = offsetof(haptoflow_contact_state, approach_speed_mps);
 
@@ -93,7 +91,7 @@ haptoflow_status haptoflow_voice_create(haptoflow_engine* engine, double sample_
     return guarded([&] {
         (void)require(voice, "voice");
         const auto open = engines().get(engine);
-        const double rateHz = sample_rate_hz == 0.0 ? usualSampleRateHz : sample_rate_hz;
+        const double rateHz = sample_rate_hz == 0.0 ? engine::LiveVoiceSettings{}.outputRateHz : sample_rate_hz;
         auto opened = std::make_unique<OpenVoice>();
         opened->engine = open->engine;
         opened->voice = open->engine->addVoice(rateHz);

@@ -1,6 +1,7 @@
 #include "learning/dft321.hpp"
 
 #include "dsp/fourier_transform.hpp"
+#include "inference/segment_generator.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -14,7 +15,6 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double rateHz = 2000.0;
 constexpr std::size_t hop = 35;
 constexpr std::size_t frameSamples = 2 * hop;
 constexpr std::size_t frameBins = hop + 1;
@@ -92,10 +92,10 @@ struct Band {
 };
 
 std::vector<Band> thirdOctaves(std::size_t size) {
-    const double hertzPerBin = rateHz / static_cast<double>(size);
+    const double hertzPerBin = inference::waveformRateHz / static_cast<double>(size);
     const double halfBand = std::pow(2.0, 1.0 / 6.0);
     std::vector<Band> bands;
-    for (double centre = lowestCentreHz; centre * halfBand < rateHz / 2.0; centre *= halfBand * halfBand) {
+    for (double centre = lowestCentreHz; centre * halfBand < inference::waveformRateHz / 2.0; centre *= halfBand * halfBand) {
         const Band band{.logCentre = std::log(centre),
                         .first = static_cast<std::size_t>(std::ceil(centre / halfBand / hertzPerBin)),
                         .end = static_cast<std::size_t>(std::ceil(centre * halfBand / hertzPerBin))};
@@ -147,7 +147,7 @@ std::vector<double> withBandEnergies(std::vector<double> wave, const std::array<
             }
         }
         for (std::size_t bin = 0; bin < gain.size(); ++bin) {
-            const double hertz = std::max(static_cast<double>(bin) * rateHz / static_cast<double>(size), 1.0);
+            const double hertz = std::max(static_cast<double>(bin) * inference::waveformRateHz / static_cast<double>(size), 1.0);
             gain[bin] = std::exp(interpolated(bands, logGains, std::log(hertz)));
         }
     }

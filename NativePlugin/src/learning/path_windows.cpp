@@ -1,5 +1,6 @@
 #include "learning/path_windows.hpp"
 
+#include "inference/segment_generator.hpp"
 #include "learning/linear_algebra.hpp"
 
 #include <algorithm>
@@ -12,7 +13,6 @@
 namespace haptoflow::learning {
 namespace {
 
-constexpr double rateHz = 2000.0;
 constexpr double millimetresPerMetre = 1000.0;
 /// A path that long holds many ribs, and a tracker's error over it is less than one rib.
 constexpr double wantedPathMm = 35.0;
@@ -109,9 +109,9 @@ std::optional<PathWindow> windowAt(const PreparedRecording& recording, std::span
         const auto& motion = recording.motion[first + i];
         window.xMm.push_back(x);
         window.yMm.push_back(y);
-        x += millimetresPerMetre / rateHz * motion[0];
-        y += millimetresPerMetre / rateHz * motion[1];
-        window.pathMm += millimetresPerMetre / rateHz * recording.speedMps(first + i);
+        x += millimetresPerMetre / inference::waveformRateHz * motion[0];
+        y += millimetresPerMetre / inference::waveformRateHz * motion[1];
+        window.pathMm += millimetresPerMetre / inference::waveformRateHz * recording.speedMps(first + i);
         squares += white[i] * white[i];
     }
     const double straight = std::hypot(x, y);
@@ -120,7 +120,7 @@ std::optional<PathWindow> windowAt(const PreparedRecording& recording, std::span
     }
     window.directionX = x / straight;
     window.directionY = y / straight;
-    window.speedMmps = window.pathMm * rateHz / static_cast<double>(count);
+    window.speedMmps = window.pathMm * inference::waveformRateHz / static_cast<double>(count);
     const double rms = std::sqrt(squares / static_cast<double>(count));
     const double middleX = window.xMm[count / 2];
     const double middleY = window.yMm[count / 2];
@@ -136,7 +136,7 @@ std::optional<PathWindow> windowAt(const PreparedRecording& recording, std::span
 }
 
 std::size_t windowLength(double speedMps) {
-    const double samples = wantedPathMm * rateHz / (millimetresPerMetre * std::max(speedMps, slowestSlidingMps));
+    const double samples = wantedPathMm * inference::waveformRateHz / (millimetresPerMetre * std::max(speedMps, slowestSlidingMps));
     return static_cast<std::size_t>(
         std::clamp(samples, static_cast<double>(shortestSamples), static_cast<double>(longestSamples)));
 }

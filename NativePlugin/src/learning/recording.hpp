@@ -34,6 +34,8 @@ struct Recording {
 
 inline constexpr double lowestRateHz = 1000.0;
 inline constexpr double highestRateHz = 192'000.0;
+/// No hand moves a tip faster, in m/s: a larger number is in another unit.
+inline constexpr double maximumHandSpeedMps = 10.0;
 /// What is behind this is not read.
 inline constexpr double longestSeconds = 300.0;
 /// Less sliding than this is refused.

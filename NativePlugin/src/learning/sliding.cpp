@@ -1,5 +1,6 @@
 #include "learning/sliding.hpp"
 
+#include "inference/segment_generator.hpp"
 #include "learning/plain_number.hpp"
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 namespace haptoflow::learning {
 namespace {
 
-constexpr double sampleSeconds = 1.0 / 2000.0;
+constexpr double sampleSeconds = 1.0 / inference::waveformRateHz;
 constexpr double lightestTouchNewtons = 0.02;
 /// Beyond it, a hand is less likely than a column in millimetres per second.
 constexpr double fastestHandMps = 5.0;

@@ -74,7 +74,7 @@ void TextureMeter::addLines(Sums& sums, std::span<const float, spectrumSamples> 
                             std::span<const RibWay> ways) const {
     constexpr double slowestHz = 15.0;
     constexpr double fastestHz = 900.0;
-    constexpr double frameSeconds = static_cast<double>(spectrumSamples) / 2000.0;
+    constexpr double frameSeconds = static_cast<double>(spectrumSamples) / inference::waveformRateHz;
     // Of a Hann window, half of the samples count.
     constexpr double windowSum = 0.5 * static_cast<double>(spectrumSamples);
     for (std::size_t rib = 0; rib < inference::ribCount; ++rib) {

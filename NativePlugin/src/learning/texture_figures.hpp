@@ -25,7 +25,7 @@ struct SpeedBins {
 
 inline constexpr std::size_t spectrumSamples = 256;
 inline constexpr std::size_t spectrumBins = spectrumSamples / 2 + 1;
-inline constexpr double hertzPerBin = 2000.0 / static_cast<double>(spectrumSamples);
+inline constexpr double hertzPerBin = inference::waveformRateHz / static_cast<double>(spectrumSamples);
 inline constexpr std::size_t envelopeFigures = 7;
 inline constexpr std::size_t partialsOfRib = 6;
 inline constexpr std::size_t ribPartials = partialsOfRib * inference::ribCount;

@@ -11,13 +11,12 @@
 namespace haptoflow::model {
 namespace {
 
-constexpr std::size_t largestRank = 8;
 constexpr auto largestLength = static_cast<std::int64_t>(maximumFileBytes);
 
 std::vector<std::int64_t> readShape(const HeaderNode& node) {
     std::vector<std::int64_t> shape;
     std::int64_t product = 1;
-    for (const HeaderNode& dimension : node.elements(1, largestRank)) {
+    for (const HeaderNode& dimension : node.elements(1, maximumTensorRank)) {
         shape.push_back(dimension.integer(1, largestLength / 4));
         // Both factors stay below 2^28, so that the product cannot overflow before it is compared.
         product *= shape.back();
@@ -55,7 +54,7 @@ Blob readBlob(const HeaderNode& node) {
     if (word == "onnx") {
         blob.type = BlobType::onnx;
         const HeaderNode shape = node.at("shape");
-        if (!shape.elements(0, largestRank).empty()) {
+        if (!shape.elements(0, maximumTensorRank).empty()) {
             shape.refuse("[], because the blob is a graph");
         }
         return blob;

@@ -18,6 +18,17 @@ inline constexpr std::size_t maximumBlobs = 1024;
 inline constexpr std::size_t maximumSeeds = 65'536;
 inline constexpr std::size_t embeddingSize = 64;
 inline constexpr std::size_t seedSamples = 400;
+/// Bytes of a text that is not a name, such as a description.
+inline constexpr std::size_t maximumTextBytes = 4096;
+/// Limits of motions and of the ranges of labels and materials.
+inline constexpr double maximumSpeedMps = 100.0;
+inline constexpr double maximumForceNewtons = 1000.0;
+/// Exponents of the level laws are within +- this.
+inline constexpr double maximumLevelExponent = 4.0;
+/// Largest magnitude of a number in an embedding or a seed.
+inline constexpr double maximumMagnitude = 1e6;
+/// Dimensions of a tensor, of a blob and of an ONNX graph.
+inline constexpr std::size_t maximumTensorRank = 8;
 
 struct Provenance {
     std::string statement;

@@ -1,6 +1,7 @@
 #include "model/onnx_tensor.hpp"
 
 #include "model/file_layout.hpp"
+#include "model/model_header.hpp"
 #include "model/wire_reader.hpp"
 
 #include <cstdint>
@@ -13,7 +14,6 @@ namespace {
 constexpr std::uint32_t dimsField = 1, typeField = 2, floatsField = 4, int32sField = 5, int64sField = 7;
 constexpr std::uint32_t nameField = 8, rawField = 9, doublesField = 10, docField = 12, externalField = 13;
 constexpr std::uint32_t locationField = 14, metadataField = 16;
-constexpr std::size_t largestRank = 8;
 
 struct Content {
     std::uint64_t elements = 1;
@@ -78,7 +78,7 @@ std::string problemOf(const Content& content) {
     if (bytes == 0) {
         return "is of type " + std::to_string(content.type) + "; expected float, double, int32, int64 or bool";
     }
-    if (content.rank > largestRank) {
+    if (content.rank > maximumTensorRank) {
         return "has " + std::to_string(content.rank) + " dimensions; the limit is 8";
     }
     const bool fits = !content.isTooLarge &&

@@ -1,4 +1,4 @@
-#include "model/tier_header.hpp"
+#include "model/header_entries.hpp"
 
 #include <nlohmann/json.hpp>
 
