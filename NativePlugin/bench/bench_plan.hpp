@@ -9,32 +9,32 @@ namespace haptoflow::bench {
 
 inline constexpr double outputRateHz = 48000.0;
 inline constexpr double updateRateHz = 72.0;
-/// The block length whose figures stand for the others where one is asked for.
+/// The block length of measurements that use a single one.
 inline constexpr std::size_t usualBlockFrames = 256;
 
-/// How an audio device asks for sound.
+/// Block length and burst length of an audio device.
 struct DeviceShape {
     std::size_t blockFrames = usualBlockFrames;
-    /// Callbacks that come one right after the other.
+    /// Number of callbacks that follow each other immediately.
     std::size_t burstBlocks = 1;
 
     [[nodiscard]] double blockSeconds() const noexcept { return static_cast<double>(blockFrames) / outputRateHz; }
-    /// From one burst to the next.
+    /// Time from one burst to the next.
     [[nodiscard]] double periodSeconds() const noexcept { return blockSeconds() * static_cast<double>(burstBlocks); }
 };
 
-/// How much is measured. `events` scales all counts: more of them cost time and make percentiles firmer.
+/// How much is measured. `events` scales all counts: more events take longer and give more reliable percentiles.
 struct BenchPlan {
     std::size_t events = 120;
-    /// The first is the usual block, without bursts.
+    /// The first device has the default block length and no bursts.
     std::vector<DeviceShape> devices{{256, 1}, {128, 1}, {512, 1}, {1024, 1}, {256, 2}, {1024, 2}};
     std::vector<std::size_t> callbackVoices{1, 2, 8};
     std::vector<std::size_t> batchVoices{1, 2, 4, 8, 16, 32, 64};
     std::vector<std::size_t> surfaces{10, 100, 1000, 10000};
 
-    /// Every measurement, about three minutes.
+    /// All measurements, about three minutes.
     [[nodiscard]] static BenchPlan full() { return {}; }
-    /// Every measurement on three devices with fewer events, about half a minute.
+    /// All measurements on three devices with fewer events, about half a minute.
     [[nodiscard]] static BenchPlan quick() {
         BenchPlan plan;
         plan.events = 24;

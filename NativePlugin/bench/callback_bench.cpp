@@ -15,7 +15,7 @@ namespace {
 
 using Voices = std::vector<std::shared_ptr<engine::LiveVoice>>;
 
-/// Voices of one engine that slide, and as many that nobody touches, rendered and timed apart.
+/// Sliding voices of one engine and as many untouched ones, rendered and timed separately.
 class TwoChoirs {
 public:
     TwoChoirs(const Subjects& subjects, std::size_t voices, bool hasWorker)
@@ -26,7 +26,7 @@ public:
         }
     }
 
-    /// A state for every voice: the speeds wander over a tenth to a half of the recorded range.
+    /// Publishes a state for every voice; the speeds vary between a tenth and a half of the recorded range.
     void publish(double seconds) {
         for (std::size_t voice = 0; voice < sliding_.size(); ++voice) {
             const auto phase = static_cast<double>(voice);
@@ -38,7 +38,8 @@ public:
 
     void step() { engine_->step(); }
 
-    /// One block of each kind of voice, in random order; notes both times, the very first ones' too.
+    /// Renders one block of each kind of voice, in random order, and records both times, also those of the first
+    /// blocks.
     void render(std::span<float> block) {
         std::array<double, 2> seconds{};
         const std::size_t first = order_() % 2;
@@ -80,7 +81,7 @@ public:
         return figures;
     }
 
-    /// Any thread: blocks rendered so far.
+    /// Number of blocks rendered so far; any thread may call this.
     [[nodiscard]] std::size_t blocks() const noexcept { return blocks_; }
     void reserve(std::size_t blocks) {
         slidingSeconds_.reserve(blocks);
@@ -118,7 +119,7 @@ nlohmann::ordered_json measureHot(const Subjects& subjects, std::size_t voices, 
 nlohmann::ordered_json measurePaced(const Subjects& subjects, std::size_t voices, double seconds) {
     const DeviceShape shape;
     const auto wanted = static_cast<std::size_t>(std::ceil(seconds / shape.blockSeconds()));
-    // A machine that is busy elsewhere needs longer for as many blocks.
+    // A machine that is busy with other work needs more time for the same number of blocks.
     const double longestSeconds = 1.0 + 5.0 * static_cast<double>(wanted) * shape.blockSeconds();
     TwoChoirs choirs(subjects, voices, true);
     choirs.reserve(static_cast<std::size_t>(longestSeconds / shape.blockSeconds()) + 1);

@@ -28,7 +28,7 @@ headless::Shape shapeOf(std::size_t index) {
     }
 }
 
-/// A square carpet of surfaces whose tops are level.
+/// Surfaces on a square grid with their tops at one height.
 headless::Scene carpet(std::size_t surfaces) {
     const auto columns = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(surfaces))));
     headless::Scene scene;
@@ -45,7 +45,7 @@ headless::Scene carpet(std::size_t surfaces) {
     return scene;
 }
 
-/// A tip on its way over a carpet: 0.2 m/s from one place to the next, half a millimetre deep in the tops.
+/// A tip that moves over the grid at 0.2 m/s, half a millimetre deep in the tops.
 class Stroller {
 public:
     Stroller(std::size_t surfaces, std::uint64_t seed)

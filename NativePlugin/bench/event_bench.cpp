@@ -24,10 +24,10 @@ constexpr std::array devices{EventDevice{1, usualBlockFrames, outputRateHz}, Eve
 
 enum class Kind { ordinary, onset, resume, pause, stop, panic };
 constexpr std::array<std::string_view, 6> kindNames{"ordinary", "onset", "resume", "pause", "stop", "panic"};
-// Longer than any fade, in time: what an event block is compared with has settled.
+// Longer than any fade: the blocks that events are compared with come after it.
 constexpr double settledSeconds = 0.03;
 
-/// Voices that are touched, paused, resumed, lifted and silenced together, and every block of them timed.
+/// Voices that are touched, paused, resumed, lifted and silenced together; all of their blocks are timed.
 class EventChoir {
 public:
     EventChoir(const Subjects& subjects, const EventDevice& device)
@@ -130,7 +130,7 @@ nlohmann::ordered_json measureEventBlocks(const Subjects& subjects, const BenchP
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
     for (const EventDevice& device : devices) {
         EventChoir choir(subjects, device);
-        // One touch ends by lift-off, the next by a panic.
+        // Touches end alternately by lift-off and by panic.
         for (std::size_t touch = 0; touch < std::max<std::size_t>(2, plan.events); ++touch) {
             choir.playTouch();
         }

@@ -11,7 +11,8 @@
 namespace haptoflow::bench {
 namespace {
 
-/// What a host has open while it plays. Making a generator runs its graphs once, so their memory is in it.
+/// Everything that a host has open while it plays. Creating a generator runs its graphs once, so their memory is
+/// included.
 struct OpenEngine {
     std::unique_ptr<engine::LiveEngine> engine;
     std::shared_ptr<engine::LiveVoice> voice;

@@ -53,7 +53,7 @@ Hand::Hand(const model::ModelFile& model)
         }
     }
     if (labels_.empty()) {
-        throw MeasurementError("the model has no seed: no touch-down of it sounds before the first segment");
+        throw MeasurementError("the model has no seed: no touch-down sounds before the first segment");
     }
     std::ranges::sort(labels_);
 }

@@ -38,7 +38,7 @@ Bounds BroadPhase::withinReachOf(const Surface& surface, const BoundingSphere& s
     Bounds box;
     double around = sphere.radiusMetres + reachMetres_;
     if (surface.motion) {
-        // The bounding sphere covers every rotation along the path.
+        // The margin below covers every rotation along the path.
         box = surface.motion->bounds();
         around += glm::length(sphere.centreMetres);
     } else {
