@@ -5,10 +5,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include <iosfwd>
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <iosfwd>
 #include <string>
 #include <string_view>
 #include <vector>

@@ -20,15 +20,15 @@ namespace haptoflow::bench {
 [[nodiscard]] nlohmann::ordered_json measureVoices(const Subjects& subjects, const BenchPlan& plan,
                                                    const Advance& advance);
 
-/// "callback_us": the audio callback of 1, 2 and 8 sliding voices in blocks of 256 frames, compared with that of as many
-/// voices that write silence. Hot: on one thread without waiting, with a round of inference whenever an update is due.
-/// Paced: in real time, with the engine's worker and a device's thread.
+/// "callback_us": the audio callback of 1, 2 and 8 sliding voices in blocks of 256 frames, compared with that of as
+/// many voices that write silence. Hot: on one thread without waiting, with a round of inference whenever an update is
+/// due. Paced: in real time, with the engine's worker and a device's thread.
 [[nodiscard]] nlohmann::ordered_json measureCallback(const Subjects& subjects, const BenchPlan& plan,
                                                      const Advance& advance);
 
 /// {"callback_events_us": [...]}: the time of the callback's block in which an event happens (touch-down, lift-off,
-/// pause, resumption, panic), compared with ordinary blocks. One row for each device; all voices of a row have the event
-/// in the same block. Each kind of event reports its p50 divided by that of the row's ordinary blocks.
+/// pause, resumption, panic), compared with ordinary blocks. One row for each device; all voices of a row have the
+/// event in the same block. Each kind of event reports its p50 divided by that of the row's ordinary blocks.
 [[nodiscard]] nlohmann::ordered_json measureEventBlocks(const Subjects& subjects, const BenchPlan& plan,
                                                         const Advance& advance);
 

@@ -8,8 +8,8 @@
 
 namespace haptoflow::cli {
 
-/// Plays the stroke over the scene at the scene's update rate and writes one CSV line per frame. Throws InputError
-/// when the stroke, called `strokeName`, is too long.
+/// Plays the stroke in the scene at the scene's update rate and writes one CSV line per frame. Throws InputError if the
+/// stroke, named `strokeName`, is too long.
 void writeContactStates(std::ostream& output, const headless::Scene& scene, const Stroke& stroke,
                         const std::string& strokeName, const headless::ContactSettings& settings);
 

@@ -4,8 +4,8 @@
 
 namespace haptoflow::cli {
 
-/// Everything in a file or pipe, up to 1 GiB. `expected` says what kind of file belongs there. Throws InputError that
-/// names the path: not there, a folder, not readable to its end, too large.
+/// Reads a whole file or pipe, up to 1 GiB. `expected` names the kind of file for errors. Throws InputError that names
+/// the path if the file is missing, a folder, unreadable or too large.
 [[nodiscard]] std::string readInputFile(const std::string& path, const std::string& expected);
 
 }  // namespace haptoflow::cli

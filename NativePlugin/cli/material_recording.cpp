@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double unknownNumber = std::numeric_limits<double>::quiet_NaN();
-/// A gap in the time stamps longer than this is a gap in the recording.
+/// A longer step between time stamps is a gap in the recording.
 constexpr double longestStepSeconds = 0.005;
 constexpr double slopeWindowSeconds = 0.09;
 constexpr double slowestMps = 0.0005;
@@ -31,14 +31,14 @@ using learning::plainNumber;
     throw InputError(path + ": " + found + "; expected " + expected);
 }
 
-/// Numbers at times that rise; `width` for each time.
+/// Numbers at increasing times; `width` numbers for each time.
 struct Track {
     std::vector<double> timeSeconds;
     std::vector<double> values;
     std::size_t width = 1;
 };
 
-/// The rows of a series that have a time and all their numbers.
+/// The rows of a series that have a time and all of their numbers.
 Track trackOf(const std::string& path, std::span<const double> time, const TableSeries& series) {
     Track track{.timeSeconds = {}, .values = {}, .width = series.width};
     for (std::size_t row = 0; row < series.count(); ++row) {
@@ -72,12 +72,12 @@ double medianStep(std::span<const double> time) {
     return *middle;
 }
 
-/// A walk along a track by rising times.
+/// Looks up positions along a track for increasing times.
 class Cursor {
 public:
     explicit Cursor(const Track& track) : track_(track) {}
 
-    /// The index of the last reading at or before the time, so that one follows; clamped to the ends.
+    /// The index of the last reading at or before the time, limited so that another reading follows.
     std::size_t before(double seconds) {
         while (at_ + 2 < track_.timeSeconds.size() && track_.timeSeconds[at_ + 1] <= seconds) {
             ++at_;
@@ -92,7 +92,7 @@ public:
         return one + share * (track_.values[(index + 1) * track_.width + column] - one);
     }
 
-    /// A cubic through the four readings around: time stamps are uneven, and well above the band.
+    /// A cubic through the four nearest readings, for uneven time stamps well above the signal's band.
     [[nodiscard]] double cubic(std::size_t index, std::size_t column, double seconds) const {
         if (index == 0 || index + 2 >= track_.timeSeconds.size()) {
             return linear(index, column, seconds);
@@ -115,7 +115,8 @@ private:
     std::size_t at_ = 0;
 };
 
-/// The tracker's own readings: rows between two that repeat the older one would look like rest and jumps.
+/// The readings at which the tracker measured a new value: rows that repeat an older reading would look like rests and
+/// jumps.
 Track readAnew(const Track& track) {
     std::vector<std::size_t> changes{0};
     const std::size_t count = track.timeSeconds.size();
@@ -141,7 +142,7 @@ Track readAnew(const Track& track) {
     Track result{.timeSeconds = {}, .values = {}, .width = track.width};
     changes.push_back(count);
     for (std::size_t i = 0; i + 1 < changes.size(); ++i) {
-        // A tip that rests is read too.
+        // Readings of a tip at rest are kept, too.
         std::size_t at = changes[i];
         do {
             result.timeSeconds.push_back(track.timeSeconds[at]);
@@ -152,8 +153,8 @@ Track readAnew(const Track& track) {
     return result;
 }
 
-/// Velocities from positions: the slope of a cubic that is fitted to a window of evenly spaced readings
-/// (Savitzky-Golay). It averages the tracker's steps and has no bias at constant speed or acceleration.
+/// Velocities from positions: the slope of a cubic fitted to a window of evenly spaced readings (Savitzky-Golay). The
+/// fit averages out the tracker's resolution and has no bias at constant speed or acceleration.
 Track slopesOf(const Track& positions) {
     const Track read = readAnew(positions);
     const double step = std::max(medianStep(read.timeSeconds), 1e-3);
@@ -214,16 +215,16 @@ Track velocityOf(const Track& motion, MotionForm form) {
 
 std::string otherUnit(const std::string& columns) {
     if (columns == "speed_mps") {
-        return "m/s; name the column speed_mmps where it is in mm/s";
+        return "m/s; name the column speed_mmps if it is in mm/s";
     }
     if (columns == "speed_mmps") {
-        return "mm/s; name the column speed_mps where it is in m/s";
+        return "mm/s; name the column speed_mps if it is in m/s";
     }
     if (columns.starts_with("position_x_mm")) {
-        return "millimetres; name the columns position_x_m, position_y_m where they are in metres";
+        return "millimetres; name the columns position_x_m, position_y_m if they are in metres";
     }
     if (columns.starts_with("position_x_m")) {
-        return "metres; name the columns position_x_mm, position_y_mm where they are in millimetres";
+        return "metres; name the columns position_x_mm, position_y_mm if they are in millimetres";
     }
     return "m/s (a thousandth of mm/s)";
 }
@@ -246,7 +247,7 @@ void checkSpeeds(const std::string& path, const std::string& columns, const Trac
     }
 }
 
-/// Three axes at rest show gravity.
+/// Throws if three axes at rest show gravity in units of g.
 void checkGravity(const std::string& path, const TableSeries& acceleration) {
     if (acceleration.width != 3 || !acceleration.columns.ends_with("mps2")) {
         return;
@@ -265,7 +266,7 @@ void checkGravity(const std::string& path, const TableSeries& acceleration) {
     const double rest = std::hypot(mean[0], mean[1], mean[2]) / static_cast<double>(std::max<std::size_t>(count, 1));
     if (rest > 0.9 && rest < 1.1) {
         fail(path, "acceleration_x rests at " + plainNumber(rest) + ", which looks like g",
-             "m/s^2 (9.8 at rest); name the columns acceleration_x_g and so on where they are in g");
+             "m/s^2 (9.8 at rest); name the columns acceleration_x_g and so on if they are in g");
     }
 }
 
@@ -304,7 +305,7 @@ private:
             for (const std::string& name : table.unknown) {
                 names += (names.empty() ? "" : ", ") + name;
             }
-            recording_.notes.push_back(table.path + ": columns " + names + " are not known and are ignored");
+            recording_.notes.push_back(table.path + ": columns " + names + " are unknown and ignored");
         }
     }
 
@@ -324,7 +325,7 @@ private:
         const std::optional<double> fullScale = words_.fullScaleMps2 ? words_.fullScaleMps2 : sidecar_.fullScaleMps2;
         if (!fullScale) {
             fail(sidecar_.path.string(), "no key 'full_scale_mps2' for " + fs::path(path_).filename().string(),
-                 "\"full_scale_mps2\": the acceleration in m/s^2 that +-1 stands for; or --full-scale-mps2");
+                 "\"full_scale_mps2\": the acceleration in m/s^2 that corresponds to +-1; or --full-scale-mps2");
         }
         recording_.rateHz = info.samplerate;
         recording_.axisCount = static_cast<std::size_t>(info.channels);
@@ -362,7 +363,8 @@ private:
         }
         const Track acceleration = trackOf(path_, table.timeSeconds, *table.acceleration);
         recording_.rateHz = 1.0 / medianStep(acceleration.timeSeconds);
-        if (!(recording_.rateHz >= 0.99 * learning::lowestRateHz && recording_.rateHz <= 1.01 * learning::highestRateHz)) {
+        if (!(recording_.rateHz >= 0.99 * learning::lowestRateHz &&
+              recording_.rateHz <= 1.01 * learning::highestRateHz)) {
             fail(path_, plainNumber(recording_.rateHz) + " samples a second by time_s",
                  "1000 to 192000; time_s is in seconds");
         }
@@ -418,7 +420,7 @@ private:
         }
     }
 
-    /// At the recording's own samples; NaN where the track has not begun, has ended or stopped for a while.
+    /// The track at the recording's samples; NaN before and after the track and in its gaps.
     std::vector<float> onGrid(const Track& track) const {
         constexpr double longestSilence = 0.25;
         const std::size_t count = recording_.accelerationMps2.size() / recording_.axisCount;

@@ -47,7 +47,7 @@ CLI::Validator wholeBetween(std::uint64_t lowest, std::uint64_t highest, const s
         if (error != std::errc() || stop != end || value < lowest || value > highest) {
             return "expected " + expected + ", found '" + text + "'";
         }
-        // CLI11 takes a leading zero for octal.
+        // CLI11 would read a leading zero as octal.
         text = std::to_string(value);
         return std::string();
     };

@@ -40,7 +40,7 @@ struct RenderOptions {
     std::string scenePath;
     std::string strokePath;
     std::vector<std::string> outputs;
-    /// Of the outputs; empty where there is none of the kind.
+    /// Paths of the outputs; empty if there is none of the kind.
     std::string outputPath;
     std::string parametricPath;
     std::string modelPath;
@@ -57,7 +57,7 @@ struct RenderOptions {
     bool quiet = false;
 };
 
-/// What a surface gives to a contact state.
+/// The properties of a surface that its contact states contain.
 struct SurfaceFeel {
     engine::MaterialBlend blend;
     float spatialScale = 1.0F;
@@ -71,7 +71,7 @@ const std::map<std::string, effects::EffectKind>& effectNames() {
     return names;
 }
 
-/// What every surface of the scene asks for: the texture where nothing is said.
+/// The effects that every surface requests: the texture by default.
 effects::EffectMask askedEffects(const std::vector<std::string>& names) {
     effects::EffectMask mask = names.empty() ? effects::maskOf(effects::EffectKind::texture) : 0U;
     for (const std::string& name : names) {
@@ -121,7 +121,7 @@ const model::Tier& chooseTier(const model::ModelFile& model, const std::string& 
                      "This model has " + listed);
 }
 
-/// The solver that the options ask for, where it is one that the tier obeys.
+/// The solver of the options, if the tier can use it.
 inference::SolverSettings chooseSolver(const model::Tier& tier, const std::string& solver, std::optional<int> steps) {
     if (!steps) {
         return {.kind = kindOf(tier.solver), .steps = tier.steps};
@@ -138,7 +138,7 @@ inference::SolverSettings chooseSolver(const model::Tier& tier, const std::strin
     return {.kind = solverNames().at(solver), .steps = *steps};
 }
 
-/// What each surface feels like, in the scene's order.
+/// The properties of each surface, in the scene's order.
 std::vector<SurfaceFeel> feelsOf(const headless::Scene& scene, const SceneMaterials& materials,
                                  const std::string& scenePath) {
     std::vector<SurfaceFeel> feels;
@@ -196,7 +196,7 @@ std::vector<std::string> labelsIn(const headless::Scene& scene) {
     return labels;
 }
 
-/// The files of a render: they grow while it runs and appear when all of them are whole.
+/// The files of a render: they are written while it runs and appear when all of them are complete.
 class RenderFiles final : public engine::OfflineSink {
 public:
     explicit RenderFiles(const RenderOptions& options) : fullScaleMps2_(options.engine.fullScaleMps2) {
@@ -267,7 +267,7 @@ private:
     std::vector<float> scaled_;
 };
 
-/// One WAV and one JSON file at most.
+/// Assigns the outputs to their formats: one WAV and one JSON file at most.
 void sortOutputs(RenderOptions& options) {
     for (const std::string& output : options.outputs) {
         std::string& path = output.ends_with(".json") ? options.parametricPath : options.outputPath;
@@ -285,7 +285,7 @@ void requireSoundOptions(const RenderOptions& options) {
     }
     if (options.quality == "auto") {
         throw UsageError(
-            "--quality auto measures time and would not render the same twice; name a quality of the model");
+            "--quality auto depends on measured times, so that two renders could differ; name a quality of the model");
     }
     const NamedPath wav{"-o", options.outputPath};
     const NamedPath waveform{"--waveform", options.waveformPath};
@@ -301,7 +301,7 @@ void requireSoundOptions(const RenderOptions& options) {
     requireWavName(waveform);
 }
 
-/// A WAV file's sizes are 32-bit numbers: said before hours of rendering, not after.
+/// Checks the length first: a WAV file's sizes are 32-bit numbers, and a render can take hours.
 void requireRoom(const headless::Scene& scene, const StrokePlayer& player, const RenderOptions& options) {
     const double seconds = static_cast<double>(player.frames() - 1) / scene.updateRateHz + options.engine.tailSeconds;
     const double mostSeconds = static_cast<double>(mostWavSamples) / options.engine.outputRateHz;
@@ -312,7 +312,7 @@ void requireRoom(const headless::Scene& scene, const StrokePlayer& player, const
     }
 }
 
-/// What a user would wonder about who hears less than expected.
+/// Prints notes about touches that make no sound.
 void explainSilence(const RenderOptions& options, const engine::OfflineFigures& figures, std::uint64_t missedTouches,
                     double updateRateHz) {
     const std::string note = "haptoflow: note: " + options.strokePath;
@@ -323,12 +323,12 @@ void explainSilence(const RenderOptions& options, const engine::OfflineFigures& 
     }
     if (missedTouches > 0) {
         std::cerr << note << ": " << missedTouches << " of " << figures.touches + missedTouches
-                  << " touches begin and end between two frames and are not felt: raise the scene's update_rate ("
+                  << " touches begin and end between two frames and are not rendered: raise the scene's update_rate ("
                   << updateRateHz << " Hz).\n";
     }
     if (figures.silentTouches > 0) {
         std::cerr << note << ": " << figures.silentTouches << " of " << figures.touches
-                  << " touches make no sound: a texture sounds while the tip slides, and there it does not.\n";
+                  << " touches make no sound: a texture sounds only while the tip slides.\n";
     }
 }
 
@@ -390,18 +390,18 @@ void runRender(const RenderOptions& options) {
 }  // namespace
 
 void addRenderCommand(CLI::App& app, CommandOutcome& outcome) {
-    CLI::App* command = app.add_subcommand("render", "Render what a stroke over a scene feels like, to WAV");
+    CLI::App* command = app.add_subcommand("render", "Render the vibration of a stroke over a scene to WAV");
     const auto options = std::make_shared<RenderOptions>();
     command->add_option("scene", options->scenePath, "SCENE.json: surfaces and their materials")
         ->required()
         ->type_name("SCENE.json");
-    command->add_option("--stroke", options->strokePath, "Where the tip goes: t,x,y,z[,force]")
+    command->add_option("--stroke", options->strokePath, "The tip's path: t,x,y,z[,force]")
         ->required()
         ->type_name("STROKE.csv");
     command
         ->add_option("-o,--output", options->outputs,
-                     "OUT.wav: one channel of 32-bit float. OUT.json: what a device gets that plays one carrier, "
-                     "amplitude, frequency and transients every 5 ms, each as intense to the hand as the wave. May be "
+                     "OUT.wav: one channel of 32-bit float. OUT.json: frames for a device with one carrier, with "
+                     "amplitude, frequency and transients every 5 ms at the perceived intensity of the wave. May be "
                      "given once for each")
         ->required()
         ->allow_extra_args(false)
@@ -409,38 +409,40 @@ void addRenderCommand(CLI::App& app, CommandOutcome& outcome) {
     command->add_option("--model", options->modelPath, "Model file (default: the one shipped)")->type_name("FILE");
     command
         ->add_option("--material", options->materials,
-                     "A .haptomaterial file whose name the scene then uses like a label; may be given several times")
+                     "A .haptomaterial file whose name the scene can use like a label; may be given several times")
         ->allow_extra_args(false)
         ->type_name("FILE");
     command->add_option("--quality", options->quality,
                         "A tier of the model, such as draft; `haptoflow inspect` lists them");
-    command->add_option("--solver", options->solver, "ODE solver in place of the tier's own; not for kind `direct`")
+    command->add_option("--solver", options->solver, "ODE solver instead of the tier's own; not for kind `direct`")
         ->check(CLI::IsMember({"euler", "midpoint", "heun"}));
     command->add_option("--steps", options->steps, "Steps of that solver")->transform(wholeBetween(1, 16, ""));
-    command->add_option("--seed", options->engine.seed, "Key of the noise: the same gives the same bytes")
+    command->add_option("--seed", options->engine.seed, "Seed of the noise: equal seeds give equal bytes")
         ->transform(wholeBetween(0, std::numeric_limits<std::uint64_t>::max(), ""))
         ->capture_default_str();
     command->add_option("--rate", options->engine.outputRateHz, "Output rate in Hz")
         ->transform(outputRate())
         ->capture_default_str();
-    command->add_option("--lead-ms", options->engine.leadMs, "From a contact state to the first sample made from it")
+    command
+        ->add_option("--lead-ms", options->engine.leadMs,
+                     "Time from a contact state to the first sample generated from it")
         ->check(decimalBetween(0.0, 50.0, "ms"))
         ->capture_default_str();
-    command->add_option("--full-scale", options->engine.fullScaleMps2, "Acceleration in m/s^2 that is +-1 in the WAV")
+    command->add_option("--full-scale", options->engine.fullScaleMps2, "Acceleration in m/s^2 at +-1 in the WAV")
         ->check(decimalBetween(1.0, 1000.0, "m/s^2"))
         ->capture_default_str();
     command->add_option("--report", options->reportPath, "Write figures of the render as JSON")->type_name("R.json");
     command
         ->add_option("--effects", options->effects,
-                     "What every surface asks for, one or more of texture, impact and edge (default: texture)")
+                     "Effects that every surface requests, one or more of texture, impact and edge (default: texture)")
         ->delimiter(',')
         ->check(CLI::IsMember({"texture", "impact", "edge"}))
         ->type_name("LIST");
     command
         ->add_option("--actuator", options->actuator,
-                     "Compensate for what plays the output: an actuator profile, or flat or voice-coil")
+                     "Compensate for the actuator that plays the output: a profile's file, or flat or voice-coil")
         ->type_name("PROFILE");
-    command->add_option("--delay-ms", options->delayMs, "Everything comes this much later")
+    command->add_option("--delay-ms", options->delayMs, "Delay of the whole output")
         ->check(decimalBetween(0.0, 500.0, "ms"))
         ->capture_default_str();
     command
@@ -450,11 +452,11 @@ void addRenderCommand(CLI::App& app, CommandOutcome& outcome) {
     command->add_flag("--quiet", options->quiet, "No progress bar");
     command->footer(
         "Examples:\n"
-        "  haptoflow render scene.json --stroke stroke.csv -o felt.wav --report felt.json\n"
+        "  haptoflow render scene.json --stroke stroke.csv -o stroke.wav --report stroke.json\n"
         "  haptoflow render scene.json --stroke stroke.csv -o draft.wav --quality draft\n"
         "  haptoflow render scene.json --stroke stroke.csv -o taps.wav --effects texture,impact,edge --actuator "
         "voice-coil\n"
-        "+-1 in the WAV is 200 m/s^2 (see --full-scale); most textures are quiet there, and true to each other.");
+        "+-1 in the WAV is 200 m/s^2 (see --full-scale): most textures are quiet, at their true level.");
     command->callback([options, &outcome] {
         sortOutputs(*options);
         runRender(*options);

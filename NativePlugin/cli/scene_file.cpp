@@ -34,7 +34,7 @@ std::string inWords(const json& value) {
     return text.size() > 40 ? text.substr(0, 40) + "..." : text;
 }
 
-/// A value and where it stands, so that every complaint can say so.
+/// A JSON value with its path, for error messages.
 class Node {
 public:
     Node(const json& value, const std::string& file, std::string path)
@@ -48,7 +48,7 @@ public:
         throw InputError(*file_ + ": " + (path_.empty() ? "top level" : path_) + ": " + complaint);
     }
 
-    /// An object with nothing but `known` keys.
+    /// Requires an object with no other keys than `known`.
     void requireObject(std::initializer_list<std::string_view> known) const {
         std::string names;
         for (const std::string_view name : known) {
@@ -291,7 +291,7 @@ headless::Surface readSurface(const Node& node) {
     return surface;
 }
 
-/// nlohmann keeps the last of two equal keys; in a scene that hides a mistake.
+/// nlohmann's parser keeps the last of two equal keys; in a scene they are a mistake.
 class DuplicateKeys {
 public:
     explicit DuplicateKeys(std::string file) : file_(std::move(file)) {}

@@ -7,11 +7,11 @@
 
 namespace haptoflow::cli {
 
-/// Reads SCENE.json (Documentation~/scene-and-stroke.md). Throws InputError naming the file, the key or the line
-/// and column, and what was expected there.
+/// Reads SCENE.json (Documentation~/scene-and-stroke.md). Throws InputError that names the file, the key or the line
+/// and column, and the expected content.
 [[nodiscard]] headless::Scene readSceneFile(const std::string& path);
 
-/// The same from JSON already read; `fileName` is what errors call it.
+/// Reads a scene from parsed JSON; `fileName` is its name in errors.
 [[nodiscard]] headless::Scene parseScene(const nlohmann::json& document, const std::string& fileName);
 
 }  // namespace haptoflow::cli

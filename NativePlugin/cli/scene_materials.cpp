@@ -42,8 +42,9 @@ void SceneMaterials::add(const std::string& path) {
     const std::uint32_t index = read(path, "");
     const std::string& name = files_.back().label.name;
     if (!indices_.emplace(name, index).second) {
-        throw InputError(path + ": its name is \"" + name +
-                         "\", which a label of the model or another material has already: change the key \"name\"");
+        throw InputError(
+            path + ": its name is \"" + name +
+            "\", which is already that of a label of the model or of another material: change the key \"name\"");
     }
 }
 

@@ -44,7 +44,7 @@ struct Layout {
     }
 };
 
-/// Reads line by line and knows where it is.
+/// Reads the text line by line and knows the position for errors.
 class StrokeReader {
 public:
     StrokeReader(std::string_view text, const std::string& file) : rest_(text), file_(file) {
@@ -210,7 +210,7 @@ headless::TipSample sampleStroke(const Stroke& stroke, double timeSeconds) {
 
 std::size_t frameCount(const Stroke& stroke, double updateRateHz, const std::string& fileName) {
     const double seconds = stroke.samples.back().timeSeconds - stroke.samples.front().timeSeconds;
-    // A last frame that misses the last sample by rounding alone still counts.
+    // A last frame that misses the last sample only by rounding counts.
     const double frames = std::floor(seconds * updateRateHz + 1e-6) + 1.0;
     if (frames > static_cast<double>(mostFrames)) {
         throw InputError(fileName + ": " + std::to_string(seconds) +

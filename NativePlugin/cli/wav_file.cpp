@@ -25,7 +25,7 @@ WavWriter::WavWriter(const std::filesystem::path& file, int rateHz, std::string 
     if (file_->handle == nullptr) {
         throw InputError(shownAs_ + ": cannot be written (" + sf_strerror(nullptr) + ")");
     }
-    // A peak chunk carries the time of writing, and the same render would not give the same bytes twice.
+    // A peak chunk contains the time of writing, so that equal renders would have different bytes.
     sf_command(file_->handle, SFC_SET_ADD_PEAK_CHUNK, nullptr, SF_FALSE);
     if (!comment.empty()) {
         sf_set_string(file_->handle, SF_STR_COMMENT, comment.c_str());

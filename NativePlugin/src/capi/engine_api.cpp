@@ -20,14 +20,14 @@ constexpr double usualBudgetShare = 0.25;
 constexpr double usualFullScaleMps2 = HAPTOFLOW_DEFAULT_FULL_SCALE_MPS2;
 static_assert(usualFullScaleMps2 == dsp::SoftLimiter::defaultFullScaleMps2);
 
-// The first version could not do without these; everything behind has a default.
+// The fields that the first version required; all later ones have defaults.
 constexpr std::size_t mandatoryOptions = offsetof(haptoflow_engine_options, update_rate_hz);
 
 double orDefault(double value, double usual) {
     return value == 0.0 ? usual : value;
 }
 
-/// Place in the model of the tier that a quality means.
+/// Index in the model of the tier for a quality.
 std::size_t tierOfQuality(const model::ModelHeader& header, haptoflow_quality quality) {
     const auto named = [&header](const char* name, std::size_t otherwise) {
         const auto found = std::ranges::find(header.tiers, name, &model::Tier::name);
@@ -56,7 +56,7 @@ engine::QualitySettings qualitySettings(const model::ModelHeader& header, haptof
     return settings;
 }
 
-/// Whether an engine of this quality has the tier loaded.
+/// True if an engine of this quality uses the tier.
 bool isWanted(const engine::QualitySettings& quality, std::size_t tier) {
     return !quality.fixedTier || *quality.fixedTier == tier;
 }
@@ -143,7 +143,8 @@ haptoflow_status haptoflow_engine_step(haptoflow_engine* engine) {
     return guarded([&] {
         const auto open = engines().get(engine);
         if (open->hasWorker) {
-            throw std::invalid_argument("the engine has a worker: only one made with without_worker is stepped");
+            throw std::invalid_argument(
+                "the engine has a worker: only an engine created with without_worker is stepped");
         }
         const std::lock_guard lock(open->stepping);
         open->engine->step();

@@ -19,7 +19,7 @@ namespace {
 constexpr uint32_t usualBatch = 8;
 constexpr std::size_t motionSize = HAPTOFLOW_MOTION_SIZE;
 
-// What the first version of the options could not do without; steps and maximum_batch have defaults.
+// The fields that the first version required; steps and maximum_batch have defaults.
 constexpr std::size_t mandatoryOptions = offsetof(haptoflow_generator_options, steps);
 constexpr std::size_t mandatoryForLevels = offsetof(haptoflow_batch, previous_mps2);
 constexpr std::size_t mandatoryForSegments = offsetof(haptoflow_batch, rib_phases);
@@ -62,7 +62,7 @@ const model::Tier& chosenTier(const model::ModelFile& model, const char* name) {
     return *tier;
 }
 
-/// A waveform that stands in where none is needed.
+/// The previous waveform of requests that need none.
 constexpr std::array<float, inference::segmentSamples> silence{};
 
 std::span<const float, inference::segmentSamples> waveformAt(const float* waveforms, std::size_t index) {

@@ -7,7 +7,7 @@ using namespace haptoflow::capi;
 
 namespace {
 
-// What the first version of the options had.
+// The fields of the first version of the options.
 constexpr std::size_t mandatoryOptions = offsetof(haptoflow_runtime_options, log);
 
 }  // namespace

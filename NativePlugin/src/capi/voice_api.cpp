@@ -27,7 +27,7 @@ static_assert(effects::maskOf(EffectKind::edge) == HAPTOFLOW_ASKS_FOR_EDGE);
 
 namespace {
 
-// Through the force; the approach speed is only for effects.
+// All fields up to the force; the later ones have defaults.
 constexpr std::size_t mandatoryState = offsetof(haptoflow_contact_state, approach_speed_mps);
 
 VoiceTable::Use requireVoice(haptoflow_voice voice) {
@@ -102,7 +102,7 @@ haptoflow_status haptoflow_voice_create(haptoflow_engine* engine, double sample_
             open->engine->removeVoice(live);
             throw;
         }
-        // Closed meanwhile by another thread, which may have looked for its voices before this one was there.
+        // Another thread has begun to close the engine, and may have looked for its voices before this one was added.
         if (open->engine->isStopping()) {
             (void)voices().close(*voice);
             *voice = 0;

@@ -95,7 +95,8 @@ std::vector<Band> thirdOctaves(std::size_t size) {
     const double hertzPerBin = inference::waveformRateHz / static_cast<double>(size);
     const double halfBand = std::pow(2.0, 1.0 / 6.0);
     std::vector<Band> bands;
-    for (double centre = lowestCentreHz; centre * halfBand < inference::waveformRateHz / 2.0; centre *= halfBand * halfBand) {
+    for (double centre = lowestCentreHz; centre * halfBand < inference::waveformRateHz / 2.0;
+         centre *= halfBand * halfBand) {
         const Band band{.logCentre = std::log(centre),
                         .first = static_cast<std::size_t>(std::ceil(centre / halfBand / hertzPerBin)),
                         .end = static_cast<std::size_t>(std::ceil(centre * halfBand / hertzPerBin))};
@@ -147,7 +148,8 @@ std::vector<double> withBandEnergies(std::vector<double> wave, const std::array<
             }
         }
         for (std::size_t bin = 0; bin < gain.size(); ++bin) {
-            const double hertz = std::max(static_cast<double>(bin) * inference::waveformRateHz / static_cast<double>(size), 1.0);
+            const double hertz =
+                std::max(static_cast<double>(bin) * inference::waveformRateHz / static_cast<double>(size), 1.0);
             gain[bin] = std::exp(interpolated(bands, logGains, std::log(hertz)));
         }
     }

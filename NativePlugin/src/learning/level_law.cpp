@@ -236,8 +236,10 @@ LevelLaw fitLevelLaw(const PreparedRecording& recording, const Sliding& sliding,
     law.table.forceNewtons = std::clamp(sliding.forceNewtons[1], 0.01, 100.0);
     const std::vector<double> knots = knotsOf(frames);
     std::vector<double> unknown = Fit(frames, knots, std::log(law.table.forceNewtons), prior).solve();
-    law.table.forceExponent = std::clamp(unknown[knots.size() + 1], -model::maximumLevelExponent, model::maximumLevelExponent);
-    law.speedExponent = std::clamp(overallSlope(knots, unknown, prior), -model::maximumLevelExponent, model::maximumLevelExponent);
+    law.table.forceExponent =
+        std::clamp(unknown[knots.size() + 1], -model::maximumLevelExponent, model::maximumLevelExponent);
+    law.speedExponent =
+        std::clamp(overallSlope(knots, unknown, prior), -model::maximumLevelExponent, model::maximumLevelExponent);
     for (std::size_t i = 0; i < knots.size(); ++i) {
         law.table.speedsMps.push_back(std::exp(knots[i]) - model::LevelTable::restMps);
         law.table.logLevels.push_back(unknown[i]);

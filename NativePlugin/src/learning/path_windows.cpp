@@ -136,7 +136,8 @@ std::optional<PathWindow> windowAt(const PreparedRecording& recording, std::span
 }
 
 std::size_t windowLength(double speedMps) {
-    const double samples = wantedPathMm * inference::waveformRateHz / (millimetresPerMetre * std::max(speedMps, slowestSlidingMps));
+    const double samples =
+        wantedPathMm * inference::waveformRateHz / (millimetresPerMetre * std::max(speedMps, slowestSlidingMps));
     return static_cast<std::size_t>(
         std::clamp(samples, static_cast<double>(shortestSamples), static_cast<double>(longestSamples)));
 }

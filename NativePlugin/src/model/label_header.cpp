@@ -9,7 +9,6 @@ namespace haptoflow::model {
 
 namespace {
 
-
 Impact readImpact(const HeaderNode& node) {
     Impact impact;
     const std::vector<HeaderNode> modes = node.at("modes").elements(1, Impact::maximumModes);
@@ -50,8 +49,10 @@ ToneTable readTone(const HeaderNode& node) {
 }  // namespace
 
 void readLabelTraits(const HeaderNode& node, Label& label) {
-    label.speedLevelExponent = node.at("level_exponents").at("speed").number(-maximumLevelExponent, maximumLevelExponent);
-    label.forceLevelExponent = node.at("level_exponents").at("force").number(-maximumLevelExponent, maximumLevelExponent);
+    label.speedLevelExponent =
+        node.at("level_exponents").at("speed").number(-maximumLevelExponent, maximumLevelExponent);
+    label.forceLevelExponent =
+        node.at("level_exponents").at("force").number(-maximumLevelExponent, maximumLevelExponent);
     label.frequencyExponent = node.at("frequency_exponent").number(0.0, 4.0);
     const HeaderNode wavelength = node.at("wavelength_metres");
     if (node.at("periodic").boolean()) {

@@ -2,8 +2,8 @@
 
 #include "model/bounded_json.hpp"
 #include "model/calendar_date.hpp"
-#include "model/header_node.hpp"
 #include "model/header_entries.hpp"
+#include "model/header_node.hpp"
 #include "model/model_error.hpp"
 #include "model/model_tensors.hpp"
 #include "model/name_index.hpp"

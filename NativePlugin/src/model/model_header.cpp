@@ -3,8 +3,8 @@
 #include "model/bounded_json.hpp"
 #include "model/calendar_date.hpp"
 #include "model/crc32.hpp"
-#include "model/header_node.hpp"
 #include "model/header_entries.hpp"
+#include "model/header_node.hpp"
 #include "model/model_blobs.hpp"
 #include "model/name_index.hpp"
 
@@ -16,7 +16,6 @@
 
 namespace haptoflow::model {
 namespace {
-
 
 Provenance readProvenance(const HeaderNode& node) {
     Provenance provenance;
