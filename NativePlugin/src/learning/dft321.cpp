@@ -25,7 +25,8 @@ constexpr std::size_t restoredTailSamples = 400;
 
 using FrameSpectrum = std::array<Complex, frameBins>;
 
-/// The transform of a frame length that is no power of two, by its definition: frames are few and short.
+/// A discrete Fourier transform of a length that is not a power of two, computed by its definition: frames are few and
+/// short.
 class FrameTransform {
 public:
     FrameTransform() {
@@ -68,7 +69,7 @@ FrameSpectrum combined(const std::array<FrameSpectrum, 3>& axes) {
         const double magnitude = std::sqrt(std::norm(axes[0][bin]) + std::norm(axes[1][bin]) + std::norm(axes[2][bin]));
         Complex direction = axes[0][bin] + axes[1][bin] + axes[2][bin];
         if (std::abs(direction) <= 1e-9 * magnitude) {
-            // Axes that cancel exactly leave no phase: the strongest one lends its own.
+            // If the axes cancel exactly, their sum has no phase; the phase of the strongest one is used.
             direction = std::max({axes[0][bin], axes[1][bin], axes[2][bin]},
                                  [](Complex one, Complex other) { return std::norm(one) < std::norm(other); });
         }

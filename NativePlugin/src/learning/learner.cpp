@@ -27,17 +27,17 @@ namespace {
 
 constexpr double fewSeconds = 10.0;
 constexpr float largestUnitSample = 12.0F;
-/// A level this far from every label's is more likely a wrong unit.
+/// A level this far from those of all labels is probably in another unit.
 constexpr double suspiciousLevelDb = 30.0;
 constexpr double degreesPerRadian = 57.29577951308232;
 constexpr double decibelsPerNat = 8.685889638065037;
 constexpr std::size_t population = 12;
 constexpr double firstStep = 0.45;
-/// Draws coordinates to the labels' mean, in dB^2 for each coordinate of one spread.
+/// Weight that draws coordinates to the labels' mean, in dB^2 per squared standard deviation.
 constexpr double shrinkage = 0.06;
 /// Segments of one chain of the fit; see TextureFit::distances.
 constexpr std::uint64_t segmentsPerChain = 8;
-/// Of the limit of seconds: when the search among the labels ends, and the fit.
+/// Shares of the time limit at which the search among the labels and the fit end.
 constexpr double labelShare = 0.4;
 constexpr double fitShare = 0.9;
 
@@ -97,10 +97,10 @@ public:
     }
 
 private:
-    /// Of this thread's work: other programs' do not count.
+    /// Processor time of this thread, which other programs do not affect.
     [[nodiscard]] double elapsedSeconds() const { return threadSeconds() - began_; }
 
-    /// Whether a share of the limit is spent; says so the first time.
+    /// True if this share of the limit has been used; adds a warning the first time.
     bool isOutOfTime(double share) {
         if (elapsedSeconds() <= share * settings_.secondsLimit) {
             return false;
@@ -167,7 +167,7 @@ private:
         return prior;
     }
 
-    /// A unit mistaken by ten or a thousand shows in the level alone.
+    /// Checks the level, which is the only sign of a unit that is wrong by a factor of ten or a thousand.
     void checkLevel() {
         const double speed = std::min(sliding_.speedMps[1], model_.header().speedMps.maximum);
         const double force = std::clamp(sliding_.forceNewtons[1], model_.header().forceNewtons.minimum,
@@ -207,7 +207,7 @@ private:
         }
     }
 
-    /// Turns the recording so that its clearest ribs lie across the first axis.
+    /// Rotates the recording so that its most distinct ribs are perpendicular to the first axis.
     void findRibs() {
         std::vector<WaveVector> vectors;
         if (settings_.waveVectors) {
@@ -255,7 +255,7 @@ private:
             const std::vector<double> part = fit.distances(embeddings, chains, 0);
             distances.insert(distances.end(), part.begin(), part.end());
         }
-        // Only labels with ribs have learnt what to do with a wave vector.
+        // Only embeddings of labels with ribs respond to wave vectors.
         const auto& all = model_.header().labels;
         const auto hasRibs = [&](std::size_t label) { return all[label].wavelengthMetres.has_value(); };
         std::vector<std::size_t> eligible;
@@ -366,7 +366,7 @@ private:
         report_.spectralDistanceDb = weights > 0.0 ? total / weights : 0.0;
     }
 
-    /// How the spectrum's middle moves with speed, drawn to the nearest label's; 1 where ribs are crossed.
+    /// How the spectrum's centre moves with speed, combined with the nearest label's value; 1 if ribs are crossed.
     [[nodiscard]] double frequencyExponent(const TextureFit& fit, const model::Label& nearest) const {
         constexpr double priorSpread = 0.1;
         constexpr double centroidSpread = 0.08;

@@ -5,7 +5,7 @@
 namespace haptoflow::learning {
 namespace {
 
-/// Less than it is rounding.
+/// Smaller wave numbers are rounding errors.
 constexpr double smallestPerMm = 1e-9;
 
 std::array<double, 2> turned(double x, double y, double radians) {
@@ -27,7 +27,7 @@ MaterialFrame MaterialFrame::across(std::span<const WaveVector> vectors) {
             frame.turnRadians = std::atan2(vector.y, vector.x);
         }
         const std::array<double, 2> across = turned(vector.x, vector.y, frame.turnRadians);
-        // A family of ribs has no sign: the second one's is the labels'.
+        // Ribs have no sign; the second family gets the sign that the labels use.
         const double sign = across[1] < -smallestPerMm ? -1.0 : 1.0;
         for (const double component : across) {
             frame.waveNumbers[next++] =

@@ -14,11 +14,11 @@ namespace haptoflow::learning {
 namespace {
 
 constexpr double millimetresPerMetre = 1000.0;
-/// A path that long holds many ribs, and a tracker's error over it is less than one rib.
+/// A path of this length contains many ribs, and the tracker's error over it is less than one rib.
 constexpr double wantedPathMm = 35.0;
 constexpr std::size_t shortestSamples = 160;
 constexpr std::size_t longestSamples = 1000;
-/// A window whose path bends more, or is shorter, says little about a direction.
+/// Windows with a more curved or a shorter path do not determine a direction.
 constexpr double leastStraight = 0.96;
 constexpr double shortestPathMm = 4.0;
 constexpr std::size_t predictorOrder = 10;
@@ -31,7 +31,7 @@ struct Part {
     std::vector<double> wave;
 };
 
-/// Each sample divided by the RMS of its tenth of a second.
+/// Each sample divided by the RMS of the tenth of a second around it.
 std::vector<double> evened(std::span<const float> wave) {
     std::vector<double> sums(wave.size() + 1);
     for (std::size_t i = 0; i < wave.size(); ++i) {
@@ -63,7 +63,7 @@ std::vector<Part> usableParts(const PreparedRecording& recording) {
     return parts;
 }
 
-/// Of one linear predictor for all parts.
+/// The coefficients of one linear predictor for all parts.
 std::vector<double> predictorTaps(const std::vector<Part>& parts, const Sliding& sliding) {
     std::vector<double> correlation(predictorOrder + 1);
     for (const Part& part : parts) {
@@ -85,7 +85,7 @@ std::vector<double> predictorTaps(const std::vector<Part>& parts, const Sliding&
     return solvePositive(std::move(matrix), {correlation.begin() + 1, correlation.end()});
 }
 
-/// The predictor's error: it takes away what surface and tool colour all of the sound, and leaves lines.
+/// The prediction error, without the spectral envelope of surface and tool; lines remain.
 std::vector<double> whitened(std::span<const double> wave, std::span<const double> taps) {
     std::vector<double> result(wave.size());
     for (std::size_t i = predictorOrder; i < wave.size(); ++i) {

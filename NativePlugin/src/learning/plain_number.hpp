@@ -4,7 +4,7 @@
 
 namespace haptoflow::learning {
 
-/// Three significant digits with a decimal point, whatever the locale: "0.0823", "12.5", "1200".
+/// Three significant digits with a decimal point, in every locale: "0.0823", "12.5", "1200".
 [[nodiscard]] std::string plainNumber(double value);
 
 }  // namespace haptoflow::learning

@@ -11,7 +11,7 @@ namespace haptoflow::learning {
 namespace {
 
 constexpr double flatShare = 0.95;
-// Resampler and high-pass ring for so long around what is missing.
+// Resampler and high-pass filter ring for this long around missing samples.
 constexpr double neighbourhoodSeconds = 0.06;
 constexpr double frozenSeconds = 0.03;
 constexpr double motionWindowSeconds = 0.02;
@@ -57,7 +57,7 @@ public:
     }
 
 private:
-    /// Samples first to last of the recording and what is around them.
+    /// Excludes the samples from first to last and their surroundings.
     void leaveOut(std::size_t first, std::size_t last) {
         const double startSeconds = static_cast<double>(first) / recording_.rateHz - neighbourhoodSeconds;
         const double endSeconds = static_cast<double>(last) / recording_.rateHz + neighbourhoodSeconds;
@@ -116,8 +116,8 @@ private:
     std::vector<std::uint8_t> isUsable_;
 };
 
-/// Means of a window around each sample at 2 kHz; what is not finite is left out, and where nothing is left the value
-/// before goes on.
+/// Means of a window around each sample at 2 kHz, without values that are not finite; if none are left, the previous
+/// mean is repeated.
 std::vector<float> windowMeans(const float* values, std::size_t stride, std::size_t samples, double rateHz,
                                std::size_t prepared) {
     std::vector<float> means(prepared);

@@ -11,7 +11,7 @@ namespace haptoflow::learning {
 namespace {
 
 constexpr double largestLostShare = 0.5;
-/// A limiter holds its end value for as long as the wave would be beyond it; noise meets its own maximum once.
+/// A clipped wave stays at its extreme value while it would exceed it; noise reaches its maximum only once.
 constexpr std::size_t shortestClippedRun = 3;
 constexpr double largestClippedShare = 0.001;
 

@@ -7,24 +7,24 @@
 
 namespace haptoflow::learning {
 
-/// Nothing can be learnt from a recording. The message says why, and what would do.
+/// No material can be learnt from a recording. The message names the reason and the remedy.
 class RecordingUnusable : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
 };
 
-/// One material under a tip, evenly sampled. The spans stay the caller's. A sample of which any value is not finite
-/// costs its neighbourhood.
+/// A recording of one material, evenly sampled. The spans belong to the caller. A sample with a value that is not
+/// finite excludes the samples around it.
 struct Recording {
     double rateHz = 0.0;
     /// 1 or 3, interleaved.
     std::size_t axisCount = 1;
     /// m/s^2, with gravity or without.
     std::span<const float> accelerationMps2{};
-    /// vx, vy in m/s for each sample; empty where the motion is constant.
+    /// vx, vy in m/s for each sample; empty if the velocity is constant.
     std::span<const float> velocityMps{};
     std::array<double, 2> constantVelocityMps{};
-    /// One for each sample; empty where the force is constant.
+    /// One for each sample; empty if the force is constant.
     std::span<const float> forceNewtons{};
     double constantForceNewtons = 0.0;
 
@@ -34,15 +34,15 @@ struct Recording {
 
 inline constexpr double lowestRateHz = 1000.0;
 inline constexpr double highestRateHz = 192'000.0;
-/// No hand moves a tip faster, in m/s: a larger number is in another unit.
+/// Maximum speed of a hand in m/s; a larger number is in another unit.
 inline constexpr double maximumHandSpeedMps = 10.0;
-/// What is behind this is not read.
+/// Later samples are ignored.
 inline constexpr double longestSeconds = 300.0;
-/// Less sliding than this is refused.
+/// Recordings with less sliding are refused.
 inline constexpr double shortestSlidingSeconds = 3.0;
 
-/// Throws std::invalid_argument where the spans' sizes do not belong together or a number is outside its range, and
-/// RecordingUnusable where the samples are of no use: too short, silent, clipped, not finite.
+/// Throws std::invalid_argument if the sizes of the spans do not match or a number is out of range, and
+/// RecordingUnusable if the samples are too short, silent, clipped or not finite.
 void checkRecording(const Recording& recording);
 
 }  // namespace haptoflow::learning

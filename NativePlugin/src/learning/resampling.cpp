@@ -17,8 +17,7 @@ constexpr double halfLengthInZeros = 40.0;
 constexpr std::size_t gridPerZero = 256;
 constexpr std::size_t reflectedSamples = 1000;
 
-/// The right half of the kernel, which is symmetric. The grid is so fine that values between its points may be
-/// interpolated linearly.
+/// The right half of the symmetric kernel, on a grid fine enough for linear interpolation.
 std::vector<double> sincTable() {
     std::vector<double> table(static_cast<std::size_t>(halfLengthInZeros) * gridPerZero + 2);
     const double beta = dsp::kaiserBeta(attenuationDecibels);

@@ -12,13 +12,13 @@ namespace {
 constexpr std::size_t step = 50;
 constexpr std::size_t filterSamples = dsp::toneTaps - 1;
 constexpr double smallestDistance = 0.05;
-/// A stretch this much stronger or weaker than the level law says is an accident.
+/// A stretch that differs from the level law by a larger factor is an outlier.
 constexpr double largestLevelRatio = 2.0;
 
 struct Candidate {
     std::size_t start = 0;
     std::array<double, 3> motion{};
-    /// Log speed, log force, direction and time, in units in which a distance of 1 is a different condition.
+    /// Log speed, log force, direction and time, scaled so that a distance of 1 means different conditions.
     std::array<double, 5> place{};
 };
 
@@ -67,7 +67,8 @@ double distanceOf(const Candidate& one, const Candidate& other) {
     return std::sqrt(sum);
 }
 
-/// Each as far as can be from all that were chosen before; the first is that nearest to the middle.
+/// Chooses candidates one after the other, each as far as possible from those before; the first is nearest to the
+/// middle.
 std::vector<Candidate> spreadOut(const std::vector<Candidate>& candidates) {
     Candidate middle;
     for (const Candidate& each : candidates) {
@@ -93,7 +94,7 @@ std::vector<Candidate> spreadOut(const std::vector<Candidate>& candidates) {
 }
 
 dsp::ToneKernel inverseKernel(const model::ToneTable& tone, double speedMps) {
-    // The inverse of a minimum-phase filter is the minimum-phase filter of the opposite gains.
+    // The inverse of a minimum-phase filter is the minimum-phase filter with the opposite gains.
     return dsp::toneKernel(
         dsp::toneCepstrum([&](double hertz) { return -tone.gainDb(speedMps, std::max(hertz, 1.0)); }));
 }

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double sampleSeconds = 1.0 / inference::waveformRateHz;
 constexpr double lightestTouchNewtons = 0.02;
-/// Beyond it, a hand is less likely than a column in millimetres per second.
+/// A larger speed is more probably a column in millimetres per second than a hand.
 constexpr double fastestHandMps = 5.0;
 constexpr double strongestHandNewtons = 50.0;
 

@@ -61,7 +61,7 @@ void TextureMeter::addSpectrum(Sums& sums, std::span<const float, spectrumSample
         values[i] = static_cast<double>(wave[i]) * window_[i];
     }
     dsp::fourierTransform(values, dsp::Direction::forward);
-    // So that the bins' sum is the mean square: the window's is 3/8, and inner bins stand for two.
+    // Scales the sum of the bins to the mean square: the window's is 3/8, and inner bins represent two frequencies.
     constexpr double windowPower = 0.375;
     constexpr auto length = static_cast<double>(spectrumSamples);
     for (std::size_t bin = 0; bin < spectrumBins; ++bin) {
@@ -75,7 +75,7 @@ void TextureMeter::addLines(Sums& sums, std::span<const float, spectrumSamples> 
     constexpr double slowestHz = 15.0;
     constexpr double fastestHz = 900.0;
     constexpr double frameSeconds = static_cast<double>(spectrumSamples) / inference::waveformRateHz;
-    // Of a Hann window, half of the samples count.
+    // A Hann window sums to half of its samples.
     constexpr double windowSum = 0.5 * static_cast<double>(spectrumSamples);
     for (std::size_t rib = 0; rib < inference::ribCount; ++rib) {
         const double rateHz = std::abs(ways.back()[rib] - ways.front()[rib]) / frameSeconds;

@@ -186,7 +186,7 @@ std::vector<std::vector<std::size_t>> TextureFit::startsByBin(std::size_t sample
 
 std::vector<double> TextureFit::distances(std::span<const Embedding> embeddings, std::size_t chains,
                                           std::uint64_t round) {
-    // A step through each bin's stretches that meets all of them evenly: the golden ratio's.
+    // A step with the golden ratio through each bin's stretches covers all of them evenly.
     constexpr double goldenShare = 0.6180339887498949;
     std::vector<Chain> each;
     for (std::size_t k = 0; k < chains; ++k) {

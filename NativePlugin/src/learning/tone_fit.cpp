@@ -12,9 +12,9 @@ constexpr double bandOctaves = 1.0 / 3.0;
 constexpr double narrowestHz = 7.0;
 constexpr double relativeWidth = 0.12;
 constexpr double largestGainDb = 24.0;
-/// Decibels for each nat of power.
+/// Decibels per unit of the natural logarithm of a power.
 constexpr double decibels = 4.342944819032518;
-/// Of frames that overlap as these do, so many are worth one.
+/// Number of overlapping frames with the information of one independent frame.
 constexpr double framesPerIndependent = 2.2;
 constexpr double commonSpreadDb = 10.0;
 constexpr double fewestFrames = 3.0;
@@ -34,7 +34,7 @@ struct Ratio {
     double variance = 0.0;
 };
 
-/// Recorded over generated power around a frequency.
+/// Ratio of recorded to generated power around a frequency.
 Ratio ratioAt(const TextureFigures& recorded, const TextureFigures& generated, double centreHz) {
     const double width = std::max(narrowestHz, relativeWidth * centreHz);
     double wanted = 0.0;
@@ -59,7 +59,7 @@ Ratio ratioAt(const TextureFigures& recorded, const TextureFigures& generated, d
             .variance = decibels * decibels * framesPerIndependent * independent / bands};
 }
 
-/// Draws one frequency's ratios at several speeds to their mean.
+/// Shrinks one frequency's ratios at several speeds towards their mean.
 std::vector<double> shrunk(const std::vector<Ratio>& ratios) {
     double weights = 0.0;
     double mean = 0.0;
@@ -73,7 +73,7 @@ std::vector<double> shrunk(const std::vector<Ratio>& ratios) {
         const double away = ratio.decibel - mean;
         excess += (away * away - ratio.variance) / static_cast<double>(ratios.size());
     }
-    // Rows are never taken for one and the same: three numbers do not show that.
+    // The lower limit keeps rows from becoming identical, which as few as three numbers cannot justify.
     const double spread = std::clamp(excess, 0.5, 100.0);
     double meanVariance = 0.0;
     for (const Ratio& ratio : ratios) {

@@ -32,7 +32,7 @@ LevelTable readLevel(const HeaderNode& node) {
 
 ToneTable readTone(const HeaderNode& node) {
     ToneTable tone;
-    // Above 0, because rows are interpolated in the logarithm of speed.
+    // Above 0, because the rows are interpolated over the logarithm of speed.
     tone.speedsMps = node.at("speeds_mps").risingNumbers(1, ToneTable::maximumSpeeds, 1e-6, maximumSpeedMps);
     tone.frequenciesHz = node.at("frequencies_hz")
                              .risingNumbers(ToneTable::minimumFrequencies, ToneTable::maximumFrequencies, 10.0, 1000.0);

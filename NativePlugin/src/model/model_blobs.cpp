@@ -18,7 +18,7 @@ std::vector<std::int64_t> readShape(const HeaderNode& node) {
     std::int64_t product = 1;
     for (const HeaderNode& dimension : node.elements(1, maximumTensorRank)) {
         shape.push_back(dimension.integer(1, largestLength / 4));
-        // Both factors stay below 2^28, so that the product cannot overflow before it is compared.
+        // Both factors are below 2^28, so that the product does not overflow before the comparison.
         product *= shape.back();
         if (product > largestLength / 4) {
             node.refuse("a tensor that fits into a file of 268435456 bytes");

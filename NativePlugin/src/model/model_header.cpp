@@ -72,7 +72,7 @@ void checkFixedValues(const HeaderNode& root) {
     }
 }
 
-/// The blob called `name`, which must be a float32 matrix of `columns` columns.
+/// The blob named `name`, which must be a float32 matrix with `columns` columns.
 const Blob& requireMatrix(const HeaderNode& node, const std::string& name, const std::vector<Blob>& blobs,
                           std::size_t columns) {
     const auto blob = std::find_if(blobs.begin(), blobs.end(), [&](const Blob& each) { return each.name == name; });

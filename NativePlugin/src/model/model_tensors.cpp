@@ -34,7 +34,7 @@ std::vector<float> readTensor(std::span<const std::byte> file, const Blob& blob)
     std::vector<float> values(blob.bytes / sizeof(float));
     for (std::size_t index = 0; index < values.size(); ++index) {
         values[index] = readFloat(bytes.subspan(index * sizeof(float), sizeof(float)));
-        // Written so that a NaN, which compares false, is refused too.
+        // In this form the condition is also true for NaN.
         if (!(std::fabs(values[index]) <= maximumMagnitude)) {
             throw ModelError(ModelStatus::inconsistent, "tensor \"" + blob.name + "\": number " +
                                                             std::to_string(index) +

@@ -7,7 +7,7 @@ namespace haptoflow::model {
 namespace {
 
 constexpr auto allowedOperators = std::to_array<std::string_view>({
-    // Arithmetic, number by number.
+    // Arithmetic, element by element.
     "Abs",
     "Add",
     "Ceil",
@@ -26,7 +26,7 @@ constexpr auto allowedOperators = std::to_array<std::string_view>({
     "Sqrt",
     "Sub",
     "Sum",
-    // Functions, number by number.
+    // Functions, element by element.
     "Atan",
     "Cos",
     "Elu",
@@ -44,7 +44,7 @@ constexpr auto allowedOperators = std::to_array<std::string_view>({
     "Softplus",
     "Softsign",
     "Tanh",
-    // Comparisons and choices.
+    // Comparisons and selections.
     "And",
     "Equal",
     "Greater",
@@ -68,7 +68,7 @@ constexpr auto allowedOperators = std::to_array<std::string_view>({
     "MatMul",
     "MaxPool",
     "Softmax",
-    // Sums and extremes.
+    // Reductions.
     "ReduceL1",
     "ReduceL2",
     "ReduceMax",

@@ -25,7 +25,7 @@ struct Content {
     bool isTooLarge = false;
 };
 
-/// Bytes of one number; 0 for a type that graphs of a model file do not hold.
+/// Bytes of one number; 0 for a type that graphs of a model file may not use.
 std::size_t numberBytes(std::uint64_t type) {
     switch (type) {
         case 1:  // float
@@ -51,7 +51,7 @@ std::uint64_t varintsIn(std::span<const std::byte> packed) {
 
 void addDimension(Content& content, std::uint64_t dimension) {
     ++content.rank;
-    // No tensor of a file has more numbers than the file has bytes; a negative dimension is a huge one here.
+    // No tensor has more numbers than the file has bytes. A negative dimension is read as a very large one.
     if (dimension > maximumFileBytes || content.elements * dimension > maximumFileBytes) {
         content.isTooLarge = true;
     } else {
