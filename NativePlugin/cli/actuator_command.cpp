@@ -175,7 +175,7 @@ void runIdentify(const IdentifyOptions& options) {
     constexpr double noticeablePercent = 10.0;
     if (found.profile.measurement->distortionPercent > noticeablePercent) {
         std::cerr << "haptoflow: note: " << options.recordingPath << ": the actuator distorts by "
-                  << fixedDecimals(profile.measurement->distortionPercent, 0)
+                  << fixedDecimals(found.profile.measurement->distortionPercent, 0)
                   << " %; a quieter sweep (--level) measures it at the levels of textures.\n";
     }
 }

@@ -500,11 +500,11 @@ protected:
     }
 };
 
-TEST_F(ApiStormTest, AnySequenceOfCallsFromOneThreadIsAnswered) {
+TEST_F(ApiStormTest, EveryCallOfARandomSequenceFromOneThreadReturnsAStatus) {
     storm(1, callsOfAThread(3000));
 }
 
-TEST_F(ApiStormTest, AnySequenceOfCallsFromFourThreadsIsAnswered) {
+TEST_F(ApiStormTest, EveryCallOfRandomSequencesFromFourThreadsReturnsAStatus) {
     storm(4, callsOfAThread(1500));
 }
 

@@ -62,7 +62,7 @@ double goodnessOfFit(const std::vector<double>& first, const std::vector<double>
 
 class ClosedLoopTest : public ::testing::TestWithParam<uint32_t> {};
 
-TEST_P(ClosedLoopTest, AtConstantInputLevelAndSpectrumStayWhereTheyWere) {
+TEST_P(ClosedLoopTest, LevelAndSpectrumStayConstantForAConstantInput) {
     OpenEngine open(defaultModelPath, false, HAPTOFLOW_QUALITY_STANDARD, 1, outputHz);
     uint32_t labels = 0;
     ASSERT_EQ(haptoflow_model_label_count(open.model, &labels), HAPTOFLOW_OK);

@@ -209,7 +209,7 @@ TEST_F(DescriptorSizesTest, EveryDescriptorOfTheHeaderIsInATable) {
     EXPECT_EQ(tabled, declaredDescriptors());
 }
 
-TEST_F(DescriptorSizesTest, AnInputOfAnOlderCallerIsTakenAndNothingBehindItIsRead) {
+TEST_F(DescriptorSizesTest, AnInputOfAnOlderCallerIsAcceptedAndNothingBeyondItsEndIsRead) {
     for (const Input& input : inputs()) {
         for (const std::size_t size : {input.smallest, input.full}) {
             Memory given = input.make(static_cast<uint32_t>(size));
@@ -221,7 +221,7 @@ TEST_F(DescriptorSizesTest, AnInputOfAnOlderCallerIsTakenAndNothingBehindItIsRea
     EXPECT_EQ(open_.statistics().sanitised, 0U) << "an approach speed that the caller never gave was taken";
 }
 
-TEST_F(DescriptorSizesTest, AnInputOfANewerCallerIsTakenAndWhatIsNotKnownIsIgnored) {
+TEST_F(DescriptorSizesTest, AnInputOfANewerCallerIsAcceptedAndItsUnknownFieldsAreIgnored) {
     for (const Input& input : inputs()) {
         for (const std::size_t size : {input.full + 1, input.full + 8, input.full + 64, largestSize}) {
             Memory given = input.make(static_cast<uint32_t>(size));
@@ -232,7 +232,7 @@ TEST_F(DescriptorSizesTest, AnInputOfANewerCallerIsTakenAndWhatIsNotKnownIsIgnor
     }
 }
 
-TEST_F(DescriptorSizesTest, AnInputTooSmallForItsMandatoryFieldsOrNeverSetIsRefused) {
+TEST_F(DescriptorSizesTest, AnInputThatIsTooSmallForItsMandatoryFieldsOrHasNoSizeIsRefused) {
     const std::uint64_t updates = open_.statistics().updates;
     for (const Input& input : inputs()) {
         for (const std::size_t size : {std::size_t{0}, std::size_t{3}, sizeof(uint32_t), input.smallest - 1,
@@ -246,7 +246,7 @@ TEST_F(DescriptorSizesTest, AnInputTooSmallForItsMandatoryFieldsOrNeverSetIsRefu
     EXPECT_EQ(open_.statistics().updates, updates) << "a refused state is not published";
 }
 
-TEST_F(DescriptorSizesTest, AnOutputIsFilledAsFarAsTheCallersStructReachesAndItsSizeSaysHowFarThatIs) {
+TEST_F(DescriptorSizesTest, AnOutputIsFilledUpToTheCallersSizeAndReportsTheFilledSize) {
     for (const Output& output : outputs()) {
         Memory whole(static_cast<uint32_t>(output.full));
         ASSERT_EQ(output.call(whole), HAPTOFLOW_OK) << output.name << ": " << message();
@@ -259,7 +259,7 @@ TEST_F(DescriptorSizesTest, AnOutputIsFilledAsFarAsTheCallersStructReachesAndIts
     }
 }
 
-TEST_F(DescriptorSizesTest, AnOutputWhoseSizeWasNeverSetIsRefusedAndUntouched) {
+TEST_F(DescriptorSizesTest, AnOutputWithoutASizeIsRefusedAndUnchanged) {
     for (const Output& output : outputs()) {
         for (const std::size_t size :
              {std::size_t{0}, std::size_t{1}, std::size_t{3}, largestSize + 1, std::size_t{UINT32_MAX}}) {

@@ -10,7 +10,7 @@
 namespace haptoflow::capi::testing {
 namespace {
 
-TEST(EngineApiTest, ATouchOnTheShippedModelSoundsInTheNextBlockAndGoesOnByInference) {
+TEST(EngineApiTest, ATouchOnTheShippedModelSoundsInTheNextBlockAndContinuesWithGeneratedSegments) {
     OpenEngine open(defaultModelPath);
     EXPECT_EQ(peak(open.render(480)), 0.0F);
     open.publish(slidingState());
@@ -24,7 +24,7 @@ TEST(EngineApiTest, ATouchOnTheShippedModelSoundsInTheNextBlockAndGoesOnByInfere
     EXPECT_GT(statistics.inference_ms, 40 * 0.05) << "no machine does it in less";
 }
 
-TEST(EngineApiTest, WithoutWorkerTheSameCallsGiveTheSameSamplesAndAnotherSeedOthers) {
+TEST(EngineApiTest, WithoutWorkerEqualCallsGiveEqualSamplesAndAnotherSeedGivesOthers) {
     const auto play = [](uint64_t seed) {
         OpenEngine open(tinyModelPath, false, HAPTOFLOW_QUALITY_STANDARD, seed);
         std::vector<float> heard;
@@ -39,7 +39,7 @@ TEST(EngineApiTest, WithoutWorkerTheSameCallsGiveTheSameSamplesAndAnotherSeedOth
     EXPECT_NE(first, play(8));
 }
 
-TEST(EngineApiTest, TheVoiceWritesItsChannelAndLeavesTheOthersAlone) {
+TEST(EngineApiTest, TheVoiceWritesItsChannelAndLeavesTheOthersUnchanged) {
     OpenEngine open(tinyModelPath);
     open.publish(slidingState());
     std::vector<float> interleaved(std::size_t{4} * 256, 9.0F);
@@ -61,7 +61,7 @@ TEST(EngineApiTest, TheVoiceWritesItsChannelAndLeavesTheOthersAlone) {
     }
 }
 
-TEST(EngineApiTest, CallbackArgumentsThatMakeNoSenseAreRefusedWithoutAMessage) {
+TEST(EngineApiTest, InvalidCallbackArgumentsAreRefusedWithoutAMessage) {
     OpenEngine open(tinyModelPath);
     std::array<float, 8> samples{};
     (void)haptoflow_noise_fill(0, 0, 0, nullptr, 1);
@@ -148,7 +148,7 @@ TEST(EngineApiTest, AnEngineClosedWhileItsVoiceSoundsEndsItWithoutAStep) {
     EXPECT_LE(largestStep(heard), 1.5F * usual);
 }
 
-TEST(EngineApiTest, SixtyFourVoicesFitEachInItsOwnPlaceAndTheNextIsRefused) {
+TEST(EngineApiTest, SixtyFourVoicesHaveDifferentPlacesAndTheNextIsRefused) {
     OpenEngine open(tinyModelPath);
     std::vector<haptoflow_voice> voices;
     std::set<uint32_t> places;
@@ -232,13 +232,13 @@ TEST(EngineApiTest, OptionsOutOfRangeAreRefusedByName) {
     }
 }
 
-TEST(EngineApiTest, AnEngineWithAWorkerIsNotSteppedByHand) {
+TEST(EngineApiTest, AnEngineWithAWorkerRefusesSteps) {
     OpenEngine open(tinyModelPath, true);
     EXPECT_EQ(haptoflow_engine_step(open.engine), HAPTOFLOW_INVALID_ARGUMENT);
     EXPECT_THAT(message(), ::testing::HasSubstr("worker"));
 }
 
-TEST(EngineApiTest, QualityNamesATierWhichIsReadableWithItsMeasuredTime) {
+TEST(EngineApiTest, TheTierOfAQualityIsReportedWithItsMeasuredTime) {
     OpenEngine open(tinyModelPath, false, HAPTOFLOW_QUALITY_FINE);
     uint32_t tiers = 0;
     ASSERT_EQ(haptoflow_model_tier_count(open.model, &tiers), HAPTOFLOW_OK);
@@ -273,7 +273,7 @@ TEST(EngineApiTest, PanicSilencesEveryVoiceOfTheProcess) {
     }
 }
 
-TEST(EngineApiTest, TheWorkerServesAVoiceThatIsPublishedAndRenderedAtTheLivePace) {
+TEST(EngineApiTest, TheWorkerServesAVoiceInRealTime) {
     OpenEngine open(tinyModelPath, true);
     for (int update = 0; update < 2000 && open.statistics().inferences < 10; ++update) {
         open.publish(slidingState());

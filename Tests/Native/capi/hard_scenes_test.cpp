@@ -124,7 +124,8 @@ std::vector<HardScene> hardScenes() {
              return sample;
          }},
         {"PositionsNotFinite", box(), ruined([](TipSample& sample) {
-             sample.positionMetres = {headless::testing::nan, headless::testing::infinity, -headless::testing::infinity};
+             sample.positionMetres = {headless::testing::nan, headless::testing::infinity,
+                                      -headless::testing::infinity};
          })},
         {"ForcesNotFinite", box(), ruined([](TipSample& sample) { sample.forceNewtons = headless::testing::nan; })},
         {"TimesNotFinite", box(), ruined([](TipSample& sample) { sample.timeSeconds = headless::testing::infinity; })},

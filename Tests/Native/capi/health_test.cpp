@@ -53,7 +53,7 @@ TEST_F(HealthTest, EveryReasonHasANameAndOtherNumbersHaveNone) {
     }
 }
 
-TEST_F(HealthTest, ADeviceThatChangesToARateOutsideTheRangeIsCountedAndNamedAndTheTouchResumesBehindIt) {
+TEST_F(HealthTest, AnUnsupportedDeviceRateIsCountedAndReportedAndTheTouchResumesAfterIt) {
     (void)open_.update(slidingState());
     std::vector<float> heard = open_.render(960, 4000.0);
     EXPECT_EQ(peak({heard.end() - 480, heard.end()}), 0.0F);
@@ -74,7 +74,7 @@ TEST_F(HealthTest, ADeviceThatChangesToARateOutsideTheRangeIsCountedAndNamedAndT
     EXPECT_EQ(statistics.onsets, 1U);
 }
 
-TEST_F(HealthTest, TheStrengthThatWasSetBeforeAPublishedTouchHoldsFromItsFirstSample) {
+TEST_F(HealthTest, AStrengthSetBeforeATouchAppliesFromItsFirstSample) {
     (void)open_.update(slidingState());
     (void)open_.update(liftedState());
     ASSERT_EQ(haptoflow_voice_set_strength(open_.voice, 0.0F), HAPTOFLOW_OK);
@@ -83,7 +83,7 @@ TEST_F(HealthTest, TheStrengthThatWasSetBeforeAPublishedTouchHoldsFromItsFirstSa
     EXPECT_EQ(peak(open_.update(next, 4800)), 0.0F);
 }
 
-TEST_F(HealthTest, NothingHasFailedAtFirstAndTheTextMayBeReadInAnyBuffer) {
+TEST_F(HealthTest, TheFailureTextIsEmptyAtFirstAndFitsAnyBuffer) {
     uint64_t length = 99;
     std::array<char, 4> text{'x', 'x', 'x', 'x'};
     ASSERT_EQ(haptoflow_engine_last_failure(open_.engine, text.data(), text.size(), &length), HAPTOFLOW_OK);
@@ -94,7 +94,7 @@ TEST_F(HealthTest, NothingHasFailedAtFirstAndTheTextMayBeReadInAnyBuffer) {
     EXPECT_EQ(haptoflow_engine_last_failure(nullptr, text.data(), text.size(), &length), HAPTOFLOW_INVALID_ARGUMENT);
 }
 
-TEST_F(HealthTest, AnEngineThatRunsSaysSo) {
+TEST_F(HealthTest, ARunningEngineReportsThatItsWorkerIsAlive) {
     EXPECT_EQ(open_.engineStatistics().worker_is_alive, 1U);
     EXPECT_EQ(open_.engineStatistics().priority_was_refused, 0U) << "without worker nothing was asked for";
 }

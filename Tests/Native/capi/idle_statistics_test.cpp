@@ -64,13 +64,13 @@ protected:
     std::uint64_t wakesAtFirst_ = open_.engineStatistics().wakes;
 };
 
-TEST_P(IdleStatisticsTest, WithoutTouchEveryFigureButUpdatesAndFramesIsZero) {
+TEST_P(IdleStatisticsTest, WithoutTouchAllStatisticsButUpdatesAndFramesAreZero) {
     play(liftedState(0));
     expectVoice({});
     expectIdleEngine();
 }
 
-TEST_P(IdleStatisticsTest, ATouchThatRestsIsSkippedAndEveryOtherFigureIsZero) {
+TEST_P(IdleStatisticsTest, ARestingTouchIsSkippedAndAllOtherStatisticsAreZero) {
     play(slidingState(0.0F, 2.0F));
     haptoflow_voice_statistics expected{};
     expected.skipped = updatesInTwoSeconds;

@@ -52,7 +52,7 @@ protected:
     static constexpr double largestAllowedJumpDecibels = 3.0;
 };
 
-TEST_P(RangeSweepSoundTest, FromStandstillToTwoMetresASecondTheSoundGrowsWithoutAStep) {
+TEST_P(RangeSweepSoundTest, TheLevelGrowsWithoutAStepFromRestToTwoMetresPerSecond) {
     const auto& [quality, label] = GetParam();
     const std::vector<double> levels =
         sweptLevels(quality, label, [](float done) { return slidingState(2.0F * done, 1.0F); });
@@ -61,7 +61,7 @@ TEST_P(RangeSweepSoundTest, FromStandstillToTwoMetresASecondTheSoundGrowsWithout
     EXPECT_GT(levels.back(), levels[1] + 6.0);
 }
 
-TEST_P(RangeSweepSoundTest, FromNoForceToTenNewtonsTheSoundGrowsWithoutAStep) {
+TEST_P(RangeSweepSoundTest, TheLevelGrowsWithoutAStepFromNoForceToTenNewtons) {
     const auto& [quality, label] = GetParam();
     const std::vector<double> levels =
         sweptLevels(quality, label, [](float done) { return slidingState(0.12F, 10.0F * done); });

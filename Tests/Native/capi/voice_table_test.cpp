@@ -125,7 +125,7 @@ protected:
     haptoflow_voice handle_ = 0;
 };
 
-TEST_F(VoiceTableTest, OfTwoThreadsRenderingOneVoiceTheSecondIsBusyWritesSilenceAndIsCounted) {
+TEST_F(VoiceTableTest, ASecondThreadThatRendersAVoiceIsRefusedGetsSilenceAndIsCounted) {
     std::vector<float> first;
     haptoflow_status firstStatus = HAPTOFLOW_INTERNAL_ERROR;
     std::thread other([&] { firstStatus = render(first); });
@@ -147,7 +147,7 @@ TEST_F(VoiceTableTest, OfTwoThreadsRenderingOneVoiceTheSecondIsBusyWritesSilence
     EXPECT_TRUE(table_.close(handle_));
 }
 
-TEST_F(VoiceTableTest, OfTwoThreadsThatRenderOneVoiceAtTheirOwnPaceEachBlockIsRenderedOnceOrRefused) {
+TEST_F(VoiceTableTest, EachBlockIsRenderedOnceOrRefusedWhenTwoThreadsRenderOneVoice) {
     sink_.letGo();
     std::atomic<std::uint64_t> rendered{0};
     std::atomic<std::uint64_t> refused{0};
@@ -174,11 +174,11 @@ TEST_F(VoiceTableTest, OfTwoThreadsThatRenderOneVoiceAtTheirOwnPaceEachBlockIsRe
     EXPECT_TRUE(table_.close(handle_));
 }
 
-TEST_F(VoiceTableTest, ClosingAVoiceWaitsForTheRenderUnderWay) {
+TEST_F(VoiceTableTest, ClosingAVoiceWaitsForARunningRender) {
     closeDuringARender([this] { EXPECT_TRUE(table_.close(handle_)); });
 }
 
-TEST_F(VoiceTableTest, ClosingAllVoicesOfAnEngineWaitsForTheRenderUnderWay) {
+TEST_F(VoiceTableTest, ClosingAllVoicesOfAnEngineWaitsForARunningRender) {
     closeDuringARender([this] { table_.closeAll(*engine_); });
 }
 

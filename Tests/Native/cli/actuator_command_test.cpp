@@ -40,7 +40,7 @@ protected:
     }
 };
 
-TEST_F(ActuatorCommandTest, ASweepOfADirectWireGivesAFlatProfileAndAPlot) {
+TEST_F(ActuatorCommandTest, ASweepOverADirectWireGivesAFlatProfileAndAPlot) {
     const testing::Finished sweep = run("actuator sweep -o sweep.wav --seconds 3 --level 0.5");
     ASSERT_EQ(sweep.exitCode, 0) << sweep.errors;
     const Recording written = readRecording(at("sweep.wav").string());
@@ -71,13 +71,13 @@ TEST_F(ActuatorCommandTest, ASweepOfADirectWireGivesAFlatProfileAndAPlot) {
     EXPECT_THAT(shown.output, AllOf(HasSubstr("a wire"), HasSubstr("rated level   ")));
 }
 
-TEST_F(ActuatorCommandTest, TheSameSweepIsTheSameFile) {
+TEST_F(ActuatorCommandTest, EqualOptionsGiveEqualSweepFiles) {
     ASSERT_EQ(run("actuator sweep -o one.wav --seconds 1").exitCode, 0);
     ASSERT_EQ(run("actuator sweep -o two.wav --seconds 1").exitCode, 0);
     EXPECT_EQ(read("one.wav"), read("two.wav"));
 }
 
-TEST_F(ActuatorCommandTest, WrongInputFilesAreNamedWithWhatIsWrongAndLeaveNothingBehind) {
+TEST_F(ActuatorCommandTest, WrongInputFilesAreNamedWithTheReasonAndNoOutputRemains) {
     ASSERT_EQ(run("actuator sweep -o sweep.wav --seconds 2").exitCode, 0);
     ASSERT_EQ(run("actuator sweep -o other.wav --seconds 3").exitCode, 0);
     writeRecording("recording.wav");
@@ -98,7 +98,7 @@ TEST_F(ActuatorCommandTest, WrongInputFilesAreNamedWithWhatIsWrongAndLeaveNothin
     EXPECT_EQ(fileCount(), files);
 }
 
-TEST_F(ActuatorCommandTest, WrongWordsAreRefusedWithWhatWasMeant) {
+TEST_F(ActuatorCommandTest, WrongOptionsAreRefusedWithASuggestion) {
     ASSERT_EQ(run("actuator sweep -o sweep.wav --seconds 1").exitCode, 0);
     const auto complaintOf = [this](const std::string& words) {
         const testing::Finished finished = run("actuator " + words);
@@ -118,7 +118,7 @@ TEST_F(ActuatorCommandTest, WrongWordsAreRefusedWithWhatWasMeant) {
     EXPECT_FALSE(exists("a.wav"));
 }
 
-TEST_F(ActuatorCommandTest, AChannelOfSeveralHasToBeNamed) {
+TEST_F(ActuatorCommandTest, TheChannelOfARecordingWithSeveralMustBeNamed) {
     ASSERT_EQ(run("actuator sweep -o sweep.wav --seconds 1").exitCode, 0);
     // Two channels of 32-bit float: the header of a mono file of twice the rate, read as what it is not.
     std::string bytes = read("sweep.wav");
@@ -130,7 +130,7 @@ TEST_F(ActuatorCommandTest, AChannelOfSeveralHasToBeNamed) {
     EXPECT_THAT(finished.errors, HasSubstr("has 2 channels; name the sensor's with --channel"));
 }
 
-TEST_F(ActuatorCommandTest, ShowSaysWhatCompensationDoesAndDrawsIt) {
+TEST_F(ActuatorCommandTest, ShowDescribesAndPlotsTheCompensation) {
     const testing::Finished shown = run("actuator show voice-coil --plot coil.svg");
     ASSERT_EQ(shown.exitCode, 0) << shown.errors;
     EXPECT_THAT(shown.output, AllOf(HasSubstr("voice-coil (approximate)"), HasSubstr("160.0 320.0 Hz"),
@@ -146,7 +146,7 @@ TEST_F(ActuatorCommandTest, ShowSaysWhatCompensationDoesAndDrawsIt) {
     EXPECT_THAT(broken.errors, HasSubstr("broken.json: top level: missing key \"name\""));
 }
 
-TEST(TextureDistanceTest, CompensationBringsEveryLabelOfTheShippedModelNearerToWhatWasWanted) {
+TEST(TextureDistanceTest, CompensationReducesTheDistanceOfEveryLabelOfTheShippedModel) {
     const model::ModelFile model = model::ModelFile::read(HAPTOFLOW_TEST_DEFAULT_MODEL);
     const std::vector<TextureDistance> distances =
         textureDistances(model, *effects::ActuatorProfile::builtIn("voice-coil"), {});
@@ -157,7 +157,7 @@ TEST(TextureDistanceTest, CompensationBringsEveryLabelOfTheShippedModelNearerToW
     }
 }
 
-TEST(TextureDistanceTest, AFlatActuatorIsAtNoDistance) {
+TEST(TextureDistanceTest, AFlatActuatorHasNoDistance) {
     const model::ModelFile model = model::ModelFile::read(HAPTOFLOW_TEST_DEFAULT_MODEL);
     for (const TextureDistance& each : textureDistances(model, *effects::ActuatorProfile::builtIn("flat"), {})) {
         EXPECT_NEAR(each.uncompensatedDecibels, 0.0, 1e-9) << each.label;
@@ -165,7 +165,7 @@ TEST(TextureDistanceTest, AFlatActuatorIsAtNoDistance) {
     }
 }
 
-TEST(SvgPlotTest, NamesAreEscapedAndWhatIsNotFiniteIsLeftOut) {
+TEST(SvgPlotTest, NamesAreEscapedAndValuesThatAreNotFiniteAreSkipped) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const std::string drawn = svgPlot("<&\"", {20.0, 100.0, 500.0, 1000.0},
                                       {{.axis = "dB",

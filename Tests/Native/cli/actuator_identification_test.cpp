@@ -159,7 +159,7 @@ TEST(ActuatorIdentificationTest, TheDelayIsFoundToAFractionOfAMillisecond) {
     }
 }
 
-TEST(ActuatorIdentificationTest, AFractionOfASampleOfDelayIsToldApart) {
+TEST(ActuatorIdentificationTest, DelaysThatDifferByAFractionOfASampleAreDistinguished) {
     const auto delayOf = [](double seconds) {
         return identify({.seconds = 4.0}, {.rateHz = 8000.0, .delaySeconds = seconds})
             .profile.measurement->delaySeconds;
@@ -194,7 +194,7 @@ TEST(ActuatorIdentificationTest, TheResonancesAreFound) {
     EXPECT_NEAR(found.profile.resonancesHz[1], 320.0, 8.0);
 }
 
-TEST(ActuatorIdentificationTest, HarmonicDistortionIsMeasuredAndKeptOutOfTheMagnitude) {
+TEST(ActuatorIdentificationTest, HarmonicDistortionIsMeasuredAndExcludedFromTheMagnitude) {
     // Of a sine, x^2 gives half as its second harmonic, x^3 a quarter as its third and three quarters as itself.
     for (const auto& [second, third] : {std::pair{0.1, 0.0}, {0.0, 0.1}, {0.2, 0.1}, {0.01, 0.0}}) {
         const Simulated simulated{.secondOrder = second, .thirdOrder = third, .isFlat = true};
@@ -208,7 +208,7 @@ TEST(ActuatorIdentificationTest, HarmonicDistortionIsMeasuredAndKeptOutOfTheMagn
     EXPECT_LT(identify({}, {.isFlat = true}).profile.measurement->distortionPercent, 0.05);
 }
 
-TEST(ActuatorIdentificationTest, NoiseMovesTheMagnitudeByLessThanADecibelWhereTheActuatorStandsOutOfIt) {
+TEST(ActuatorIdentificationTest, NoiseChangesTheMagnitudeByLessThanADecibelWhereTheActuatorExceedsIt) {
     const Simulated simulated{.noise = 0.02};
     const Identification found = identify({.seconds = 10.0}, simulated);
     const double peak = peakDecibels(simulated, found.profile);
@@ -225,7 +225,7 @@ TEST(ActuatorIdentificationTest, NoiseMovesTheMagnitudeByLessThanADecibelWhereTh
     EXPECT_GT(identify({.seconds = 10.0}, {}).profile.measurement->signalToNoiseDecibels, 60.0);
 }
 
-TEST(ActuatorIdentificationTest, ShortAndOddSweepsMeasureToo) {
+TEST(ActuatorIdentificationTest, ShortAndUnusualSweepsGiveTheSameProfile) {
     for (const ExponentialSweep& sweep :
          {ExponentialSweep{.seconds = 1.5}, ExponentialSweep{.seconds = 30.0, .fromHz = 15.0, .toHz = 3000.0},
           ExponentialSweep{.seconds = 3.0, .level = 0.9}}) {
@@ -243,7 +243,7 @@ TEST(ActuatorIdentificationTest, ACalibratedSensorGivesTheRatedLevel) {
     EXPECT_NEAR(*identifyActuator(recording, sweep, settings).profile.ratedLevelMps2, 50.0, 1.0);
 }
 
-TEST(ActuatorIdentificationTest, WhatItWritesIsAProfile) {
+TEST(ActuatorIdentificationTest, TheResultIsAValidProfile) {
     const Identification found = identify({.seconds = 4.0}, {});
     const effects::ActuatorProfile read = effects::ActuatorProfile::parse(found.profile.toJson());
     EXPECT_EQ(read.magnitudeDecibels, found.profile.magnitudeDecibels);
@@ -263,7 +263,7 @@ std::string refusalOf(const Recording& recording, const ExponentialSweep& sweep)
     return "not refused";
 }
 
-TEST(ActuatorIdentificationTest, ARecordingThatIsTooShortSaysByHowMuch) {
+TEST(ActuatorIdentificationTest, TheErrorForAShortRecordingStatesTheMissingTime) {
     const ExponentialSweep sweep{.seconds = 4.0};
     Recording recording = record(sweep, {.noise = 0.001});
     const auto secondsLeft = [&](double seconds) {
@@ -291,7 +291,7 @@ TEST(ActuatorIdentificationTest, ASilentOrClippedRecordingIsRefused) {
     EXPECT_THAT(refusalOf(clipped, sweep), HasSubstr("is clipped"));
 }
 
-TEST(ActuatorIdentificationTest, WhatIsNotTheSweepIsRefused) {
+TEST(ActuatorIdentificationTest, ARecordingWithoutTheSweepIsRefused) {
     const ExponentialSweep sweep{.seconds = 4.0};
     Recording recording = record(sweep, {.noise = 0.05, .gain = 1e-6});
     EXPECT_THAT(refusalOf(recording, sweep), HasSubstr("does not hold the sweep"));
@@ -320,7 +320,7 @@ TEST(ActuatorIdentificationTest, ARateTooLowForTheSweepIsRefused) {
     EXPECT_THAT(refusalOf(record(sweep, {.rateHz = 8000.0}), sweep), HasSubstr("too low for a sweep to 5000 Hz"));
 }
 
-TEST(ExponentialSweepTest, ItsSamplesAreTheDefinitionAtEveryRate) {
+TEST(ExponentialSweepTest, ItsSamplesFollowTheDefinitionAtEveryRate) {
     const ExponentialSweep sweep{.seconds = 3.0, .fromHz = 20.0, .toHz = 1200.0, .level = 0.5};
     for (const double rateHz : {8000.0, 44100.0, 192000.0}) {
         const std::vector<float> samples = sweep.samples(rateHz);
@@ -333,7 +333,7 @@ TEST(ExponentialSweepTest, ItsSamplesAreTheDefinitionAtEveryRate) {
     }
 }
 
-TEST(ExponentialSweepTest, ItsDescriptionIsReadBackAndAnythingElseIsNot) {
+TEST(ExponentialSweepTest, ItsDescriptionIsReadBackAndOtherTextIsRefused) {
     const ExponentialSweep sweep{.seconds = 3.5, .fromHz = 21.25, .toHz = 1000.0, .level = 0.1};
     const auto read = ExponentialSweep::parse(sweep.describe());
     ASSERT_TRUE(read.has_value());

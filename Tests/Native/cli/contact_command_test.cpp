@@ -57,7 +57,7 @@ std::string statesOf(const headless::Scene& scene, const std::string& strokeText
     return output.str();
 }
 
-TEST(ContactCommandTest, OneLinePerFrameInTheOrderOfTheHeader) {
+TEST(ContactCommandTest, EveryFrameIsALineInTheOrderOfTheHeader) {
     const auto lines = linesOf(statesOf(tableScene("table"), "t,x,y,z\n0,0,0.0005,0\n0.1,0.02,0.0005,0\n"));
     ASSERT_EQ(lines.size(), 12U);
     EXPECT_EQ(lines[0], header);

@@ -90,7 +90,7 @@ std::string documentation(const std::string& name) {
     return readText(std::filesystem::path(HAPTOFLOW_TEST_DOCUMENTATION_DIR) / name);
 }
 
-TEST(SceneFileTest, EveryKeyOfASceneArrives) {
+TEST(SceneFileTest, EveryKeyOfASceneIsRead) {
     const headless::Scene scene = parseScene(goodScene(), "scene.json");
     ASSERT_EQ(scene.surfaces.size(), 5U);
     EXPECT_DOUBLE_EQ(scene.tipRadiusMetres, 0.002);
@@ -122,7 +122,7 @@ TEST(SceneFileTest, StylusAndUpdateRateHaveDefaults) {
     EXPECT_DOUBLE_EQ(scene.updateRateHz, 90.0);
 }
 
-TEST(SceneFileTest, WrongValuesAreNamedByFilePathAndExpectation) {
+TEST(SceneFileTest, ErrorsForWrongValuesNameFilePathAndExpectedValue) {
     const std::vector<std::tuple<std::string, json, std::string, std::string>> mistakes{
         {"/surfaces/0/shape/box/size", {0.4, 0.0, 0.3}, "surfaces[0].shape.box.size", "edge lengths"},
         {"/surfaces/0/shape/box/size", {0.4, -0.1, 0.3}, "surfaces[0].shape.box.size", "edge lengths"},
@@ -170,7 +170,7 @@ TEST(SceneFileTest, WrongValuesAreNamedByFilePathAndExpectation) {
     }
 }
 
-TEST(SceneFileTest, UnknownAndMissingKeysAreNamedWithTheKnownOnes) {
+TEST(SceneFileTest, ErrorsForUnknownAndMissingKeysNameTheKnownOnes) {
     EXPECT_THAT(complaintAbout("/surfaces/0/colour", "red"),
                 AllOf(HasSubstr("surfaces[0]: unknown key \"colour\""), HasSubstr("material, stiffness")));
     EXPECT_THAT(complaintAbout("/surfaces/0/shape/box/radius", 1), HasSubstr("surfaces[0].shape.box: unknown key"));
@@ -182,7 +182,7 @@ TEST(SceneFileTest, UnknownAndMissingKeysAreNamedWithTheKnownOnes) {
     EXPECT_THAT(complaintAfter([](json& document) { document = json::array(); }), HasSubstr("top level: expected"));
 }
 
-TEST(SceneFileTest, BrokenJsonIsNamedByLineAndColumn) {
+TEST(SceneFileTest, ErrorsForInvalidJsonNameLineAndColumn) {
     EXPECT_THAT(complaintAboutText("{\n  \"surfaces\": [\n    {,}\n"), HasSubstr(".json:3:6: not valid JSON"));
     EXPECT_THAT(complaintAboutText(""), HasSubstr(".json:1:1: not valid JSON"));
     EXPECT_THAT(complaintAboutText("{\"surfaces\": NaN}"), HasSubstr("not valid JSON"));
@@ -190,12 +190,12 @@ TEST(SceneFileTest, BrokenJsonIsNamedByLineAndColumn) {
     EXPECT_THAT(complaintAboutText("{\"name\": \"\xff\"}"), HasSubstr("not valid JSON"));
 }
 
-TEST(SceneFileTest, AKeyThatStandsTwiceIsAnError) {
+TEST(SceneFileTest, ADuplicateKeyIsAnError) {
     EXPECT_THAT(complaintAboutText(R"({"update_rate": 90, "update_rate": 72})"),
                 HasSubstr("\"update_rate\" stands twice"));
 }
 
-TEST(SceneFileTest, AFileThatIsNotThereIsNamed) {
+TEST(SceneFileTest, TheErrorForAMissingFileNamesIt) {
     EXPECT_THROW(static_cast<void>(readSceneFile("no/such/scene.json")), InputError);
 }
 

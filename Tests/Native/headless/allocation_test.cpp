@@ -8,7 +8,7 @@
 namespace haptoflow::headless {
 namespace {
 
-TEST(AllocationTest, NoFrameOfContactAllocatesFromTheFirstOneOn) {
+TEST(AllocationTest, NoFrameOfContactAllocates) {
     testing::RandomScenes random(31, 1000, glm::dvec3(0.0));
     const Scene scene = random.scene();
     const std::vector<TipSample> stroke = random.strokeOver(scene, 3000);

@@ -44,7 +44,7 @@ TEST(BoundsTreeTest, EveryBoxWithinTheLimitIsVisitedOnceAndFewOthersAre) {
     }
 }
 
-TEST(BoundsTreeTest, BoxesThatAreAllTheSameAreAllVisited) {
+TEST(BoundsTreeTest, IdenticalBoxesAreAllVisited) {
     Bounds box;
     box.include(glm::dvec3(1.0, 2.0, 3.0));
     const std::vector<Bounds> boxes(333, box);
@@ -52,7 +52,7 @@ TEST(BoundsTreeTest, BoxesThatAreAllTheSameAreAllVisited) {
     EXPECT_TRUE(visited(BoundsTree(boxes), {1.0, 2.0, 3.1}, 0.0).empty());
 }
 
-TEST(BoundsTreeTest, ATreeOverNothingVisitsNothing) {
+TEST(BoundsTreeTest, ATreeWithoutItemsVisitsNone) {
     EXPECT_TRUE(visited(BoundsTree(), glm::dvec3(0.0), 1e300).empty());
     EXPECT_TRUE(visited(BoundsTree(std::vector<Bounds>()), glm::dvec3(0.0), 1e300).empty());
 }

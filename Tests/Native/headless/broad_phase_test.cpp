@@ -49,7 +49,7 @@ bool visits(const BroadPhase& broadPhase, const glm::dvec3& tip) {
     return visits == 1;
 }
 
-TEST(BroadPhaseTest, RoundingHidesNoSurfaceAtTheVeryEdgeOfItsReach) {
+TEST(BroadPhaseTest, RoundingHidesNoSurfaceAtTheLimitOfItsReach) {
     std::mt19937 random(23);
     std::uniform_real_distribution<double> spread(-1.0, 1.0);
     const auto anyVector = [&] { return glm::dvec3(spread(random), spread(random), spread(random)); };
@@ -73,7 +73,7 @@ TEST(BroadPhaseTest, RoundingHidesNoSurfaceAtTheVeryEdgeOfItsReach) {
     EXPECT_GT(beyond, 500);
 }
 
-TEST(BroadPhaseTest, ASurfaceIsVisitedAllAlongItsPathHoweverItTurnsOnIt) {
+TEST(BroadPhaseTest, ASurfaceIsVisitedAlongItsWholePathWhateverItsRotation) {
     std::mt19937 random(61);
     std::uniform_real_distribution<double> spread(-1.0, 1.0);
     const auto anyVector = [&] { return glm::dvec3(spread(random), spread(random), spread(random)); };
@@ -91,7 +91,7 @@ TEST(BroadPhaseTest, ASurfaceIsVisitedAllAlongItsPathHoweverItTurnsOnIt) {
     }
 }
 
-TEST(BroadPhaseTest, ATipOverTenThousandSpreadOutSurfacesAsksOnlyAHandfulWhetherTheyRestOrSwing) {
+TEST(BroadPhaseTest, ATipOverTenThousandSeparateSurfacesQueriesOnlyAFewAtRestOrMoving) {
     for (const double swingMetres : {0.0, 0.02}) {
         ContactTracker tracker(gridOfSpheres(100, swingMetres));
         std::set<int> touched;
@@ -108,7 +108,7 @@ TEST(BroadPhaseTest, ATipOverTenThousandSpreadOutSurfacesAsksOnlyAHandfulWhether
     }
 }
 
-TEST(BroadPhaseTest, ATipFarFromEverythingAsksNothing) {
+TEST(BroadPhaseTest, ATipFarFromAllSurfacesQueriesNone) {
     ContactTracker tracker(gridOfSpheres(100));
     for (int frame = 0; frame < 100; ++frame) {
         tracker.update({frame / 90.0, {2.5 + 0.001 * frame, 1.0, 2.5}, {}, {}});
@@ -117,14 +117,14 @@ TEST(BroadPhaseTest, ATipFarFromEverythingAsksNothing) {
     EXPECT_EQ(tracker.statistics().surfacesRuledOut, 0U);
 }
 
-TEST(BroadPhaseTest, AThousandSurfacesInTheSamePlaceAreAllAskedAndTheFirstOneCounts) {
+TEST(BroadPhaseTest, AThousandSurfacesInTheSamePlaceAreAllQueriedAndTheFirstOneWins) {
     const Pose pose{{0.3, 0.2, 0.1}, {1.0, 0.0, 0.0, 0.0}};
     ContactTracker tracker(sceneOf(std::vector<Surface>(1000, surfaceOf(Sphere{0.05}, pose))));
     EXPECT_EQ(tracker.update({0.0, {0.3, 0.25, 0.1}, {}, {}}).surfaceIndex, 0);
     EXPECT_EQ(tracker.statistics().surfaceQueries, 1000U);
 }
 
-TEST(BroadPhaseTest, APlaneIsTouchedHoweverFarFromItsOriginAmongSurfacesThatEnd) {
+TEST(BroadPhaseTest, APlaneIsTouchedAnyDistanceFromItsOriginAmongBoundedSurfaces) {
     Scene scene = gridOfSpheres(10);
     scene.surfaces.insert(scene.surfaces.begin() + 50, surfaceOf(Plane{}));
     ContactTracker tracker(scene);
@@ -135,7 +135,7 @@ TEST(BroadPhaseTest, APlaneIsTouchedHoweverFarFromItsOriginAmongSurfacesThatEnd)
     }
 }
 
-TEST(BroadPhaseTest, AMovingSurfaceIsTouchedWhereItIsAndNotWhereItsPoseSays) {
+TEST(BroadPhaseTest, AMovingSurfaceIsTouchedAtItsPresentPoseAndNotAtItsRestPose) {
     Surface mover = surfaceOf(Sphere{0.05});
     mover.motion.emplace(std::vector<Keyframe>{{0.0, {{5.0, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}},
                                                {1.0, {{6.0, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}}},
@@ -146,7 +146,7 @@ TEST(BroadPhaseTest, AMovingSurfaceIsTouchedWhereItIsAndNotWhereItsPoseSays) {
     EXPECT_FALSE(tracker.update({1.0, {5.5, 0.05, 0.0}, {}, {}}).touching);
 }
 
-TEST(BroadPhaseTest, SurfacesAsLargeAndAsFarAsNumbersAllowAreFound) {
+TEST(BroadPhaseTest, SurfacesOfTheLargestSizesAndDistancesAreFound) {
     const glm::dvec3 far(4e11, -4e11, 4e11);
     for (const double size : {1e-3, 1e6, 1e12}) {
         const Surface box = surfaceOf(Box{glm::dvec3(size)}, {far, {1.0, 0.0, 0.0, 0.0}});

@@ -21,7 +21,7 @@ glm::dvec3 pressed(double depth, double x = 0.0) {
     return {x, 0.001 - depth, 0.0};
 }
 
-TEST(ContactTrackerTest, TouchBeginsWhereTheTipCutsInAndEndsAfterTheReleaseDistance) {
+TEST(ContactTrackerTest, TouchBeginsAtPenetrationAndEndsBeyondTheReleaseDistance) {
     ContactTracker tracker(sceneOf({surfaceOf(Plane{})}));
     auto touchingAt = [&, time = 0.0](double depth) mutable {
         time += 0.01;
@@ -57,7 +57,7 @@ TEST(ContactTrackerTest, SpringForceIsStiffnessTimesDepthUpToTheMaximum) {
     EXPECT_DOUBLE_EQ(tracker.update({0.02, pressed(-0.0002), {}, {}}).forceNewtons, 0.0);
 }
 
-TEST(ContactTrackerTest, TheStylussOwnForceTakesThePlaceOfTheSpringWhileTouching) {
+TEST(ContactTrackerTest, AMeasuredForceReplacesTheSpringForceWhileTouching) {
     ContactTracker tracker(sceneOf({surfaceOf(Plane{})}));
     EXPECT_DOUBLE_EQ(tracker.update({0.00, pressed(0.002), 0.7, {}}).forceNewtons, 0.7);
     EXPECT_DOUBLE_EQ(tracker.update({0.01, pressed(0.002), 70.0, {}}).forceNewtons, 5.0);
@@ -94,7 +94,7 @@ TEST(ContactTrackerTest, VelocityIsSplitAlongTheTwoTangentAxes) {
     EXPECT_NEAR(readings.back().tangentialVelocityMps.y, -0.1, 1e-9);
 }
 
-TEST(ContactTrackerTest, GrainTurnsWithTheObject) {
+TEST(ContactTrackerTest, TheGrainTurnsWithTheObject) {
     Surface plate = surfaceOf(Plane{}, {{0.0, 0.0, 0.0}, testing::turned(90.0, {0.0, 1.0, 0.0})});
     ContactTracker tracker(sceneOf({plate}));
     // Unity turns +x towards -z about +y: the grain points along -z now.
@@ -104,7 +104,7 @@ TEST(ContactTrackerTest, GrainTurnsWithTheObject) {
     EXPECT_NEAR(readings.back().tangentialVelocityMps.y, 0.0, 1e-9);
 }
 
-TEST(ContactTrackerTest, AStrokeCarriedAlongByATurningObjectKeepsItsAxes) {
+TEST(ContactTrackerTest, AStrokeOnATurningObjectKeepsItsAxes) {
     Surface plate = surfaceOf(Plane{});
     plate.motion.emplace(std::vector<Keyframe>{{0.0, {{}, testing::turned(0.0, {1.0, 2.0, 0.5})}},
                                                {1.0, {{0.3, 0.2, 0.1}, testing::turned(150.0, {1.0, 2.0, 0.5})}}},
@@ -120,7 +120,7 @@ TEST(ContactTrackerTest, AStrokeCarriedAlongByATurningObjectKeepsItsAxes) {
     }
 }
 
-TEST(ContactTrackerTest, ApproachSpeedIsLatchedForTheWholeTouch) {
+TEST(ContactTrackerTest, ApproachSpeedIsConstantDuringATouch) {
     ContactTracker tracker(sceneOf({surfaceOf(Plane{})}));
     const auto readings = play(tracker, sampledPath(0.6, 120.0, [](double time) {
                                    return glm::dvec3(0.05 * time, std::max(0.0, 0.05 - 0.4 * time), 0.0);
@@ -133,7 +133,7 @@ TEST(ContactTrackerTest, ApproachSpeedIsLatchedForTheWholeTouch) {
     EXPECT_DOUBLE_EQ(readings.back().approachSpeedMps, down->approachSpeedMps);
 }
 
-TEST(ContactTrackerTest, DeepestContactWinsAndKeepsTheTipUntilAnotherIsDeeperByTheMargin) {
+TEST(ContactTrackerTest, TheDeepestContactWinsUntilAnotherIsDeeperByTheMargin) {
     const Surface left = surfaceOf(Box{{0.1, 0.1, 0.1}}, {{-0.05, -0.05, 0.0}, {1.0, 0.0, 0.0, 0.0}});
     Surface right = surfaceOf(Box{{0.1, 0.1, 0.1}}, {{0.05, -0.0497, 0.0}, {1.0, 0.0, 0.0, 0.0}});
     ContactTracker tracker(sceneOf({left, right}));

@@ -70,7 +70,7 @@ void forEachStroke(Visit&& visit) {
     }
 }
 
-TEST(ContactTransitionsTest, ASlideAgainstAWallLandsOnceWithTheSpeedOfTheSlide) {
+TEST(ContactTransitionsTest, ASlideAgainstAWallIsOneLandingAtTheSpeedOfTheSlide) {
     const Scene scene = sceneOf({surfaceOf(Plane{}), blockAt({0.5, 0.0, 0.0}, {0.6, 1.0, 1.0})});
     forEachStroke([&](double speed, double rateHz, double offset) {
         // 2 mm deep in the floor, as a hand without anything that holds it is; the wall begins at 0.2.
@@ -84,7 +84,7 @@ TEST(ContactTransitionsTest, ASlideAgainstAWallLandsOnceWithTheSpeedOfTheSlide) 
     });
 }
 
-TEST(ContactTransitionsTest, AWallOfTheSameMeshIsLandedOnAsAnotherSurfaceIs) {
+TEST(ContactTransitionsTest, AWallOfTheSameMeshIsLandedOnLikeAnotherSurface) {
     // A floor and a wall of one open mesh, its front towards the tip.
     testing::RawMesh corner;
     corner.vertices = {{-1.0, 0.0, -1.0}, {-1.0, 0.0, 1.0}, {0.2, 0.0, 1.0},
@@ -98,7 +98,7 @@ TEST(ContactTransitionsTest, AWallOfTheSameMeshIsLandedOnAsAnotherSurfaceIs) {
     EXPECT_EQ(events.edges, 0U);
 }
 
-TEST(ContactTransitionsTest, FlushPlatesHaveNeitherEdgeNorLandingHoweverTheHandPresses) {
+TEST(ContactTransitionsTest, FlushPlatesHaveNeitherEdgeNorLandingAtAnyForce) {
     forEachStroke([&](double speed, double rateHz, double offset) {
         for (const double depth : {0.0002, 0.0008, 0.0015, 0.004, 0.012}) {
             for (const double press : {0.0, 0.7}) {
@@ -113,7 +113,7 @@ TEST(ContactTransitionsTest, FlushPlatesHaveNeitherEdgeNorLandingHoweverTheHandP
     });
 }
 
-TEST(ContactTransitionsTest, AStepBetweenPlatesIsOneEdgeAsHighAsTheStepWhicheverWayItIsCrossed) {
+TEST(ContactTransitionsTest, AStepBetweenPlatesIsOneEdgeOfItsHeightInBothDirections) {
     for (const double step : {0.0003, -0.0003, -0.0008, -0.0015}) {
         forEachStroke([&](double speed, double rateHz, double offset) {
             const Events events = eventsOf(sceneOf(plates(step)), 0.2 / speed, rateHz, [&](double time) {
@@ -128,7 +128,7 @@ TEST(ContactTransitionsTest, AStepBetweenPlatesIsOneEdgeAsHighAsTheStepWhichever
     }
 }
 
-TEST(ContactTransitionsTest, PlatesThatRideTogetherOnALiftAreFlushToo) {
+TEST(ContactTransitionsTest, FlushPlatesThatMoveTogetherStayFlush) {
     std::vector<Surface> both = plates(0.0);
     for (Surface& plate : both) {
         Pose high = plate.pose;
@@ -189,7 +189,7 @@ TEST(ContactTransitionsTest, AnOpenQuadHasARimOnAllSides) {
     }
 }
 
-TEST(ContactTransitionsTest, ALiftIsNoEdgeWhateverItsAngleAndHoweverNearTheRim) {
+TEST(ContactTransitionsTest, ALiftIsNoEdgeAtAnyAngleAndAnyDistanceFromTheRim) {
     const Scene scene = sceneOf({blockAt({0.0, -0.05, 0.0})});
     for (const double up : {0.02, 0.2, 1.0}) {
         for (const double along : {0.0, 0.1, 0.5, -0.5}) {
@@ -212,7 +212,7 @@ TEST(ContactTransitionsTest, ALiftIsNoEdgeWhateverItsAngleAndHoweverNearTheRim) 
     }
 }
 
-TEST(ContactTransitionsTest, RoundThingsHaveNoEdges) {
+TEST(ContactTransitionsTest, RoundShapesHaveNoEdges) {
     const std::vector<Shape> shapes{Sphere{0.05}, Sphere{0.02}, Capsule{0.02, 0.3}, Sphere{0.5},
                                     testing::meshOf(testing::rawTorus(0.06, 0.02, 48, 24))};
     const std::vector<double> radii{0.05, 0.02, 0.02, 0.5, 0.08};
@@ -234,7 +234,7 @@ TEST(ContactTransitionsTest, RoundThingsHaveNoEdges) {
     }
 }
 
-TEST(ContactTransitionsTest, TheRimsOfAHexagonalPencilAreFelt) {
+TEST(ContactTransitionsTest, TheRimsOfAHexagonalPencilAreEdges) {
     testing::RawMesh pencil;
     constexpr std::uint32_t sides = 6;
     for (std::uint32_t side = 0; side < sides; ++side) {
@@ -260,7 +260,7 @@ TEST(ContactTransitionsTest, TheRimsOfAHexagonalPencilAreFelt) {
     EXPECT_EQ(events.edges, 6U);
 }
 
-TEST(ContactTransitionsTest, ATipAtRestInACornerCountsNothingThoughItsTrackingTrembles) {
+TEST(ContactTransitionsTest, ATipAtRestInACornerHasNoEventsInSpiteOfTrackerNoise) {
     const Scene scene = sceneOf({surfaceOf(Plane{}), blockAt({0.5, 0.0, 0.0}, {0.6, 1.0, 1.0})});
     const Events events = eventsOf(scene, 10.0, 90.0, [](double time) {
         const double tremble = 0.0002 * std::sin(2.0 * pi * 8.0 * time);
@@ -270,7 +270,7 @@ TEST(ContactTransitionsTest, ATipAtRestInACornerCountsNothingThoughItsTrackingTr
     EXPECT_EQ(events.edges, 0U);
 }
 
-TEST(ContactTransitionsTest, NothingIsCrossedByATeleportALostTrackerOrAClockThatRestarts) {
+TEST(ContactTransitionsTest, TeleportsLostTrackingAndClockRestartsAreNoEdges) {
     const Scene scene =
         sceneOf({blockAt({-0.5, -0.05, 0.0}, {1.0, 0.1, 1.0}), blockAt({0.5, 0.0, 0.0}, {0.6, 1.0, 1.0})});
     for (int kind = 0; kind < 3; ++kind) {
@@ -293,14 +293,14 @@ TEST(ContactTransitionsTest, NothingIsCrossedByATeleportALostTrackerOrAClockThat
     }
 }
 
-TEST(ContactTransitionsTest, ATipOfNoRadiusHasRimsOfTheLowestHeight) {
+TEST(ContactTransitionsTest, ATipWithoutRadiusHasRimsOfTheMinimumHeight) {
     const Events events = eventsOf(sceneOf({blockAt({0.0, -0.05, 0.0})}, 0.0), 0.5, 90.0,
                                    [](double time) { return glm::dvec3(0.2 * time, -0.0004, 0.0); });
     EXPECT_EQ(events.edges, 1U);
     EXPECT_DOUBLE_EQ(events.height, ContactTransitions::lowestRimMetres);
 }
 
-TEST(ContactTransitionsTest, ATurnedSceneCountsTheSame) {
+TEST(ContactTransitionsTest, ARotatedSceneHasTheSameEvents) {
     const glm::dquat turn = turned(73.0, {1.0, -2.0, 0.5});
     const glm::dvec3 shift(3.0, -1.0, 7.0);
     std::vector<Surface> surfaces{blockAt({-0.1, -0.05, 0.0}, {0.2, 0.1, 0.1}),

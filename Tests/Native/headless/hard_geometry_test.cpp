@@ -34,7 +34,7 @@ private:
     std::uniform_real_distribution<double> spread_{-1.0, 1.0};
 };
 
-TEST(HardGeometryTest, ATipTremblingOnAnEdgeOrACornerTouchesWithAnOutwardNormalAndNoStrayVelocity) {
+TEST(HardGeometryTest, ATipWithNoiseOnAnEdgeOrACornerHasAnOutwardNormalAndNoStrayVelocity) {
     RandomVectors random(41);
     const Shape mesh = testing::meshOf(testing::rawBoxMesh({0.1, 0.1, 0.1}));
     for (const Shape& shape : {Shape(Box{{0.2, 0.2, 0.2}}), mesh}) {
@@ -55,7 +55,7 @@ TEST(HardGeometryTest, ATipTremblingOnAnEdgeOrACornerTouchesWithAnOutwardNormalA
     }
 }
 
-TEST(HardGeometryTest, ATipTremblingInAnInnerCornerStaysOnOneSurface) {
+TEST(HardGeometryTest, ATipWithNoiseInAnInnerCornerStaysOnOneSurface) {
     RandomVectors random(43);
     const Surface wall = surfaceOf(Plane{}, {{0.0, 0.0, 0.0}, testing::turned(-90.0, {0.0, 0.0, 1.0})});
     ContactTracker tracker(sceneOf({surfaceOf(Plane{}), wall}));
@@ -70,7 +70,7 @@ TEST(HardGeometryTest, ATipTremblingInAnInnerCornerStaysOnOneSurface) {
     EXPECT_EQ(tracker.statistics().touchDowns, 1U);
 }
 
-TEST(HardGeometryTest, ATipDrawnRightThroughAClosedMeshTouchesAllTheWayAndTurnsItsNormalOnce) {
+TEST(HardGeometryTest, ATipThatPassesThroughAClosedMeshKeepsTouchingAndTurnsItsNormalOnce) {
     const Shape slab = testing::meshOf(testing::rawBoxMesh({0.05, 0.2, 0.2}));
     for (const double offCentreMetres : {0.0, 0.013}) {
         ContactTracker tracker(sceneOf({surfaceOf(slab)}, 0.002));
@@ -90,7 +90,7 @@ TEST(HardGeometryTest, ATipDrawnRightThroughAClosedMeshTouchesAllTheWayAndTurnsI
     }
 }
 
-TEST(HardGeometryTest, AMeshWithTurnedRepeatedAndNeedleTrianglesGivesSaneReadings) {
+TEST(HardGeometryTest, AMeshWithFlippedRepeatedAndNeedleTrianglesGivesValidReadings) {
     RandomVectors random(47);
     testing::RawMesh raw = testing::rawTorus(0.1, 0.04, 24, 12);
     for (std::size_t index = 0; index < raw.triangles.size(); index += 5) {
@@ -118,7 +118,7 @@ TEST(HardGeometryTest, AMeshWithTurnedRepeatedAndNeedleTrianglesGivesSaneReading
     EXPECT_GT(tracker.statistics().touchDowns, 20U);
 }
 
-TEST(HardGeometryTest, ANonUnitQuaternionTurnsAsItsUnitOneDoesAndAZeroOneNotAtAll) {
+TEST(HardGeometryTest, AQuaternionIsNormalisedAndAZeroOneIsTheIdentity) {
     const glm::dquat unit = testing::turned(50.0, {1.0, 2.0, 3.0});
     const glm::dvec3 place(0.2, -0.1, 0.4);
     const auto readingWith = [&](const glm::dquat& pose, const glm::dquat& asked) {
@@ -139,7 +139,7 @@ TEST(HardGeometryTest, ANonUnitQuaternionTurnsAsItsUnitOneDoesAndAZeroOneNotAtAl
     EXPECT_LT(glm::distance(unturned.normal, glm::dvec3(0.0, 1.0, 0.0)), 1e-12);
 }
 
-TEST(HardGeometryTest, ADamagedPoseLeavesItsSurfaceAtTheOriginUnturnedAndTheOthersAlone) {
+TEST(HardGeometryTest, AnUnusablePoseBecomesTheOriginAndDoesNotAffectOtherSurfaces) {
     const glm::dquat level(1.0, 0.0, 0.0, 0.0);
     const glm::dquat broken(1.0, infinity, 0.0, 0.0);
     const std::vector<Pose> poses{{{nan, 1.0, 1.0}, level},
@@ -161,7 +161,7 @@ TEST(HardGeometryTest, ADamagedPoseLeavesItsSurfaceAtTheOriginUnturnedAndTheOthe
     }
 }
 
-TEST(HardGeometryTest, SizesFromAMicrometreToAThousandKilometresAreSaneWithTheDefaultSettings) {
+TEST(HardGeometryTest, SizesFromAMicrometreToAThousandKilometresGiveValidReadingsWithDefaultSettings) {
     RandomVectors random(53);
     for (const double scale : {1e-6, 1e6}) {
         const Shape torus = testing::meshOf(testing::rawTorus(scale, 0.4 * scale, 24, 12));
@@ -177,7 +177,7 @@ TEST(HardGeometryTest, SizesFromAMicrometreToAThousandKilometresAreSaneWithTheDe
     }
 }
 
-TEST(HardGeometryTest, ATipWithoutRadiusTouchesWhereItsCentreIsInside) {
+TEST(HardGeometryTest, ATipWithoutRadiusTouchesWhenItsCentreIsInside) {
     ContactTracker tracker(sceneOf({surfaceOf(Sphere{0.1})}, 0.0));
     EXPECT_FALSE(tracker.update({0.00, {0.0, 0.1001, 0.0}, {}, {}}).touching);
     const ContactReading reading = tracker.update({0.01, {0.0, 0.0999, 0.0}, {}, {}});

@@ -32,7 +32,7 @@ glm::dvec3 onPlate(const Pose& pose, double along, double across) {
     return pose.pointToWorld({along, 0.013, across});
 }
 
-TEST(HardMotionTest, UpdateRatesFromThirtyToAThousandHertzReadTheSameVelocity) {
+TEST(HardMotionTest, UpdateRatesFromThirtyToAThousandHertzGiveTheSameVelocity) {
     const Surface surface = plate();
     for (const double rate : {30.0, 45.0, 59.94, 60.0, 72.0, 90.0, 120.0, 144.0, 240.0, 500.0, 1000.0}) {
         ContactTracker tracker(sceneOf({surface}, 0.004));
@@ -48,7 +48,7 @@ TEST(HardMotionTest, UpdateRatesFromThirtyToAThousandHertzReadTheSameVelocity) {
     }
 }
 
-TEST(HardMotionTest, SpeedsFromAMillimetrePerSecondToTwentyMetresPerSecondAreReadAsTheyAre) {
+TEST(HardMotionTest, SpeedsFromAMillimetrePerSecondToTwentyMetresPerSecondAreMeasuredCorrectly) {
     const Surface surface = plate();
     for (const double rate : {30.0, 72.0, 90.0, 120.0, 1000.0}) {
         for (const double speed : {0.001, 0.02, 1.5, 20.0}) {
@@ -63,7 +63,7 @@ TEST(HardMotionTest, SpeedsFromAMillimetrePerSecondToTwentyMetresPerSecondAreRea
     }
 }
 
-TEST(HardMotionTest, BeyondTheFastestSpeedTheVelocityStaysWithinIt) {
+TEST(HardMotionTest, TheVelocityIsLimitedToTheMaximumSpeed) {
     const Surface surface = plate();
     for (const double rate : {30.0, 72.0, 90.0, 1000.0}) {
         for (const double speed : {20.00001, 20.01, 25.0, 300.0, 1e6}) {
@@ -78,7 +78,7 @@ TEST(HardMotionTest, BeyondTheFastestSpeedTheVelocityStaysWithinIt) {
     }
 }
 
-TEST(HardMotionTest, AnyMixOfTimeStepsReadsNoMoreThanTheStrokesSpeed) {
+TEST(HardMotionTest, TheVelocityNeverExceedsTheStrokesSpeedForAnyMixOfTimeSteps) {
     std::mt19937 random(37);
     const Surface surface = plate();
     ContactTracker tracker(sceneOf({surface}, 0.004));
@@ -100,7 +100,7 @@ TEST(HardMotionTest, AnyMixOfTimeStepsReadsNoMoreThanTheStrokesSpeed) {
     EXPECT_EQ(tracker.statistics().touchDowns, 1U);
 }
 
-TEST(HardMotionTest, AStrokeADayLaterReadsTheSame) {
+TEST(HardMotionTest, AStrokeADayLaterGivesTheSameReadings) {
     constexpr double daySeconds = 86'400.0;
     const Surface surface = plate();
     // At 64 Hz every time of a day is a double's own, so that nothing but the tracker could lose a bit; at 72 Hz the
@@ -129,7 +129,7 @@ TEST(HardMotionTest, AStrokeADayLaterReadsTheSame) {
     }
 }
 
-TEST(HardMotionTest, ASurfaceThatSlidesAndSpinsWithTheTipReadsZero) {
+TEST(HardMotionTest, ASurfaceThatMovesAndTurnsWithTheTipHasZeroVelocity) {
     const Pose home = plate().pose;
     const glm::dvec3 normal(0.0, 1.0, 0.0);
     for (const double rate : {30.0, 90.0, 1000.0}) {
@@ -150,7 +150,7 @@ TEST(HardMotionTest, ASurfaceThatSlidesAndSpinsWithTheTipReadsZero) {
     }
 }
 
-TEST(HardMotionTest, ASurfaceThatTumblesWithTheTipReadsNoMoreThanItsTurnAcrossTheTipsRadius) {
+TEST(HardMotionTest, ASurfaceThatTumblesWithTheTipHasAtMostItsTurnAcrossTheTipsRadius) {
     const Pose home = plate().pose;
     const glm::dquat tumbled = turned(90.0, {0.0, 0.0, 1.0}) * home.rotation;
     for (const double rate : {30.0, 90.0, 1000.0}) {
@@ -167,7 +167,7 @@ TEST(HardMotionTest, ASurfaceThatTumblesWithTheTipReadsNoMoreThanItsTurnAcrossTh
     }
 }
 
-TEST(HardMotionTest, ASurfaceThatMovesUnderARestingTipReadsItsOwnSpeedBackwards) {
+TEST(HardMotionTest, ASurfaceThatMovesUnderARestingTipGivesTheOppositeOfItsVelocity) {
     for (const double rate : {30.0, 90.0, 1000.0}) {
         for (const double speed : {0.001, 0.3, 1.5}) {
             Surface belt = plate();
@@ -192,7 +192,7 @@ TEST(HardMotionTest, ASurfaceThatMovesUnderARestingTipReadsItsOwnSpeedBackwards)
     }
 }
 
-TEST(HardMotionTest, ASurfaceThatStopsDeadWithTheTipReadsNoMoreThanItsFormerSpeedAndThenZero) {
+TEST(HardMotionTest, ASurfaceThatStopsAbruptlyWithTheTipGivesAtMostItsFormerSpeedAndThenZero) {
     for (const double rate : {30.0, 90.0, 1000.0}) {
         Surface surface = plate();
         const glm::dvec3 travel = surface.pose.directionToWorld({0.15, 0.0, 0.0});

@@ -17,7 +17,7 @@ using testing::turned;
 
 const glm::dquat upright(1.0, 0.0, 0.0, 0.0);
 
-TEST(MotionTest, TwoKeyframesAreAStraightLineAtConstantSpeedAndRestAtItsEnds) {
+TEST(MotionTest, TwoKeyframesGiveAStraightLineAtConstantSpeedWithRestAtItsEnds) {
     const Motion motion({{1.0, {{0.0, 0.0, 0.0}, upright}}, {3.0, {{0.4, 0.0, 0.0}, upright}}}, false);
     EXPECT_NEAR(motion.poseAt(1.5).positionMetres.x, 0.1, 1e-12);
     EXPECT_NEAR(motion.poseAt(2.5).positionMetres.x, 0.3, 1e-12);
@@ -39,13 +39,13 @@ TEST(MotionTest, VelocityIsContinuousAtInnerKeyframesAndAcrossAClosedLoop) {
     }
 }
 
-TEST(MotionTest, RotationTurnsTheShortWayAtConstantRate) {
+TEST(MotionTest, RotationTakesTheShorterWayAtConstantRate) {
     const Motion motion({{0.0, {{}, upright}}, {1.0, {{}, -turned(90.0, {0.0, 1.0, 0.0})}}}, false);
     const glm::dvec3 x = motion.poseAt(0.5).directionToWorld({1.0, 0.0, 0.0});
     EXPECT_NEAR(testing::degreesBetween(x, {1.0, 0.0, 0.0}), 45.0, 1e-9);
 }
 
-TEST(MotionTest, LoopRepeatsForeverInBothDirections) {
+TEST(MotionTest, ALoopRepeatsWithoutEndInBothDirections) {
     const Motion motion(
         {{1.0, {{0.0, 0.0, 0.0}, upright}}, {1.5, {{0.1, 0.0, 0.0}, upright}}, {2.0, {{0.0, 0.0, 0.0}, upright}}},
         true);
@@ -53,7 +53,7 @@ TEST(MotionTest, LoopRepeatsForeverInBothDirections) {
     EXPECT_NEAR(motion.poseAt(-0.75).positionMetres.x, motion.poseAt(1.25).positionMetres.x, 1e-9);
 }
 
-TEST(MotionTest, DamagedTimesAreRefusedAndDamagedRotationsBecomeTheIdentity) {
+TEST(MotionTest, UnusableTimesAreRefusedAndUnusableRotationsBecomeTheIdentity) {
     EXPECT_THROW(Motion({{0.0, {}}}, false), std::invalid_argument);
     EXPECT_THROW(Motion({{0.0, {}}, {0.0, {}}}, false), std::invalid_argument);
     EXPECT_THROW(Motion({{0.0, {}}, {nan, {}}}, false), std::invalid_argument);
@@ -62,7 +62,7 @@ TEST(MotionTest, DamagedTimesAreRefusedAndDamagedRotationsBecomeTheIdentity) {
     EXPECT_EQ(motion.poseAt(nan).rotation, upright);
 }
 
-TEST(MotionTest, EveryPlaceOnThePathIsWithinTheBounds) {
+TEST(MotionTest, EveryPointOfThePathIsWithinTheBounds) {
     std::mt19937 random(59);
     std::uniform_real_distribution<double> spread(-1.0, 1.0);
     for (int trial = 0; trial < 100; ++trial) {

@@ -62,7 +62,7 @@ std::set<int> expectSameReadings(const Scene& scene, const std::vector<TipSample
     return touched;
 }
 
-TEST(PlainScanTest, ReadingsAreThoseOfAPlainScanToTheLastBit) {
+TEST(PlainScanTest, ReadingsEqualThoseOfAPlainScanToTheLastBit) {
     for (const auto& [count, scenes] : {std::pair(10, 40), std::pair(100, 8), std::pair(1000, 3)}) {
         std::size_t touchedSurfaces = 0;
         int planes = 0;

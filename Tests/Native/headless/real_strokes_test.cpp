@@ -104,7 +104,7 @@ private:
     double tickSeconds_ = 0.0;
 };
 
-TEST(RealStrokesTest, SpeedsOfRealStrokesAreWithinTenPercentOfAReferenceThatKnowsTheFuture) {
+TEST(RealStrokesTest, SpeedsOfRealStrokesAreWithinTenPercentOfANonCausalReference) {
     if (!std::filesystem::exists(strokesPath())) {
         GTEST_SKIP() << strokesPath() << " is not there: real strokes are no part of the repository";
     }
@@ -146,7 +146,7 @@ TEST(RealStrokesTest, SpeedsOfRealStrokesAreWithinTenPercentOfAReferenceThatKnow
     }
 }
 
-TEST(RealStrokesTest, AStrokeOverFlushTilesOf30MmHasNoEventAndOverThoseOf15MmHardlyAny) {
+TEST(RealStrokesTest, AStrokeOverFlushTilesHasNoEventsAt30MmAndFewAt15Mm) {
     if (!std::filesystem::exists(strokesPath())) {
         GTEST_SKIP() << strokesPath() << " is not there: real strokes are no part of the repository";
     }

@@ -23,14 +23,14 @@ void expectNear(const glm::dvec3& actual, const glm::dvec3& expected, double tol
     EXPECT_NEAR(actual.z, expected.z, tolerance);
 }
 
-TEST(ShapeTest, PointAboveAPlaneMeetsItStraightBelow) {
+TEST(ShapeTest, TheNearestPointOfAPlaneIsStraightBelow) {
     const SurfacePoint found = query(Plane{}, {3.0, 0.25, -2.0});
     expectNear(found.pointMetres, {3.0, 0.0, -2.0});
     expectNear(found.normal, {0.0, 1.0, 0.0});
     EXPECT_DOUBLE_EQ(found.signedDistanceMetres, 0.25);
 }
 
-TEST(ShapeTest, PointOutsideABoxMeetsFaceEdgeAndCorner) {
+TEST(ShapeTest, TheNearestPointOfABoxIsOnAFaceAnEdgeOrACorner) {
     const Box box{{2.0, 4.0, 6.0}};
     const SurfacePoint face = query(box, {1.5, 0.5, 0.5});
     expectNear(face.pointMetres, {1.0, 0.5, 0.5});
@@ -46,14 +46,14 @@ TEST(ShapeTest, PointOutsideABoxMeetsFaceEdgeAndCorner) {
     EXPECT_NEAR(corner.signedDistanceMetres, 3.0, 1e-12);
 }
 
-TEST(ShapeTest, TipInsideABoxLeavesByTheNearestFace) {
+TEST(ShapeTest, TheNormalInsideABoxIsThatOfTheNearestFace) {
     const SurfacePoint found = query(Box{{2.0, 2.0, 2.0}}, {0.1, -0.2, 0.7});
     expectNear(found.pointMetres, {0.1, -0.2, 1.0});
     expectNear(found.normal, {0.0, 0.0, 1.0});
     EXPECT_NEAR(found.signedDistanceMetres, -0.3, 1e-12);
 }
 
-TEST(ShapeTest, FaceOfThePreviousFrameKeepsTheTipUntilAnotherIsNearerByTheMargin) {
+TEST(ShapeTest, TheFaceOfThePreviousFrameIsKeptUntilAnotherIsNearerByTheMargin) {
     const Box box{{0.1, 0.1, 0.1}};
     const glm::dvec3 up(0.0, 1.0, 0.0);
     // 10.0 mm below the top, 9.7 mm from the side, then 9.4 mm.
@@ -75,7 +75,7 @@ TEST(ShapeTest, JitterAboutABoxDiagonalChangesTheFaceAtMostOnce) {
     EXPECT_LE(changes, 1);
 }
 
-TEST(ShapeTest, SphereMeetsAlongItsRadiusInsideAndOutside) {
+TEST(ShapeTest, TheNearestPointOfASphereIsOnTheRadiusInsideAndOutside) {
     const SurfacePoint outside = query(Sphere{2.0}, {0.0, 0.0, -3.0});
     expectNear(outside.pointMetres, {0.0, 0.0, -2.0});
     EXPECT_NEAR(outside.signedDistanceMetres, 1.0, 1e-12);
@@ -84,14 +84,14 @@ TEST(ShapeTest, SphereMeetsAlongItsRadiusInsideAndOutside) {
     EXPECT_NEAR(inside.signedDistanceMetres, -1.5, 1e-12);
 }
 
-TEST(ShapeTest, CentreOfASphereKeepsThePreviousNormal) {
+TEST(ShapeTest, TheCentreOfASphereKeepsThePreviousNormal) {
     const glm::dvec3 previous = glm::normalize(glm::dvec3(1.0, 2.0, 3.0));
     expectNear(query(Sphere{2.0}, glm::dvec3(0.0), previous).normal, previous);
     expectNear(query(Sphere{2.0}, glm::dvec3(0.0)).normal, {0.0, 1.0, 0.0});
     EXPECT_DOUBLE_EQ(query(Sphere{2.0}, glm::dvec3(0.0)).signedDistanceMetres, -2.0);
 }
 
-TEST(ShapeTest, CapsuleIsACylinderWithRoundCapsOfTheTotalHeight) {
+TEST(ShapeTest, ACapsuleIsACylinderWithRoundCapsWithinTheTotalHeight) {
     const Capsule capsule{0.5, 3.0};
     expectNear(query(capsule, {0.0, 2.0, 0.0}).pointMetres, {0.0, 1.5, 0.0});
     const SurfacePoint wall = query(capsule, {0.0, 0.7, 2.0});
@@ -102,7 +102,7 @@ TEST(ShapeTest, CapsuleIsACylinderWithRoundCapsOfTheTotalHeight) {
     EXPECT_DOUBLE_EQ(axis.signedDistanceMetres, -0.5);
 }
 
-TEST(ShapeTest, NormalIsUnitAndPointsFromTheContactToTheTipForRandomPointsAtEveryScale) {
+TEST(ShapeTest, TheNormalHasUnitLengthAndPointsFromTheContactToTheTipAtEveryScale) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> spread(-2.0, 2.0);
     for (const double scale : {1e-6, 1e-3, 1.0, 1e6}) {
@@ -133,7 +133,7 @@ TEST(ShapeTest, EdgesCornersAndCentresGiveFiniteUnitNormals) {
     }
 }
 
-TEST(ShapeTest, BoundingSphereHoldsTheWholeShape) {
+TEST(ShapeTest, TheBoundingSphereContainsTheWholeShape) {
     std::mt19937 random(11);
     std::normal_distribution<double> normal;
     for (const Shape& shape : {Shape(Box{{1.0, 2.0, 0.5}}), Shape(Sphere{0.7}), Shape(Capsule{0.4, 2.0}),

@@ -22,7 +22,7 @@ void expectOrthonormal(const TangentAxes& axes, const glm::dvec3& normal) {
     EXPECT_LT(glm::distance(glm::cross(axes.first, axes.second), normal), 1e-9);
 }
 
-TEST(TangentFrameTest, FirstAxisIsTheGrainAndTheThreeStandLikeXYZ) {
+TEST(TangentFrameTest, TheFirstAxisIsTheGrainAndTheAxesHaveTheHandednessOfXYZ) {
     TangentFrame frame({1.0, 0.5, 0.0});
     const TangentAxes axes = frame.update({0.0, 1.0, 0.0}, frameSeconds);
     EXPECT_LT(glm::distance(axes.first, {1.0, 0.0, 0.0}), 1e-12);
@@ -73,7 +73,7 @@ TEST(TangentFrameTest, AxesTurnByAFewDegreesAtMostAlongRandomStrokesOverASphere)
     EXPECT_LT(worst, 7.0);
 }
 
-TEST(TangentFrameTest, AwayFromThePolesTheFirstAxisIsTheGrainLineWhateverTheStroke) {
+TEST(TangentFrameTest, TheFirstAxisIsParallelToTheGrainAwayFromThePolesForEveryStroke) {
     std::mt19937 random(2);
     std::normal_distribution<double> gaussian;
     const glm::dvec3 grain(0.0, 0.0, 1.0);
@@ -91,7 +91,7 @@ TEST(TangentFrameTest, AwayFromThePolesTheFirstAxisIsTheGrainLineWhateverTheStro
     }
 }
 
-TEST(TangentFrameTest, AfterThePoleTheAxesLieAlongTheGrainAgainAndANewTouchFollowsTheArrow) {
+TEST(TangentFrameTest, TheAxesReturnToTheGrainAfterThePoleAndANewTouchToItsSign) {
     TangentFrame frame({0.0, 1.0, 0.0});
     glm::dvec3 normal;
     TangentAxes axes;
@@ -117,7 +117,7 @@ TEST(TangentFrameTest, AxesOverABoxEdgeRollWithTheNormal) {
     EXPECT_LT(degreesBetween(last.first, {0.0, -1.0, 0.0}), 1e-6);
 }
 
-TEST(TangentFrameTest, FlippedZeroLongAndDamagedNormalsGiveOrthonormalAxes) {
+TEST(TangentFrameTest, FlippedZeroLongAndUnusableNormalsGiveOrthonormalAxes) {
     for (const glm::dvec3& grain :
          {glm::dvec3(1.0, 0.0, 0.0), glm::dvec3(0.0), glm::dvec3(nan, 0.0, 0.0), glm::dvec3(0.0, 1e-200, 0.0)}) {
         TangentFrame frame(grain);

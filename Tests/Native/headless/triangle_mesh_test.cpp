@@ -15,7 +15,7 @@ namespace {
 using testing::nan;
 using testing::RawMesh;
 
-TEST(TriangleMeshTest, TreeFindsExactlyWhatASearchThroughAllTrianglesFinds) {
+TEST(TriangleMeshTest, TheTreeFindsExactlyTheResultOfASearchThroughAllTriangles) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> spread(-2.0, 2.0);
     RawMesh soup;
@@ -40,7 +40,7 @@ TEST(TriangleMeshTest, TreeFindsExactlyWhatASearchThroughAllTrianglesFinds) {
     }
 }
 
-TEST(TriangleMeshTest, InsideAndOutsideOfATorusFollowItsFormula) {
+TEST(TriangleMeshTest, InsideAndOutsideOfATorusAgreeWithItsFormula) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> spread(-1.6, 1.6);
     const RawMesh raw = testing::rawTorus(1.0, 0.4, 96, 48);
@@ -55,7 +55,7 @@ TEST(TriangleMeshTest, InsideAndOutsideOfATorusFollowItsFormula) {
     }
 }
 
-TEST(TriangleMeshTest, BoxMeshAgreesWithTheBoxShape) {
+TEST(TriangleMeshTest, ABoxMeshAgreesWithTheBoxShape) {
     std::mt19937 random(9);
     std::uniform_real_distribution<double> spread(-1.0, 1.0);
     const Shape mesh = testing::meshOf(testing::rawBoxMesh({0.3, 0.4, 0.5}));
@@ -70,7 +70,7 @@ TEST(TriangleMeshTest, BoxMeshAgreesWithTheBoxShape) {
     }
 }
 
-TEST(TriangleMeshTest, MeshTurnedInsideOutIsTurnedBack) {
+TEST(TriangleMeshTest, AMeshThatIsInsideOutIsTurned) {
     RawMesh raw = testing::rawBoxMesh({0.5, 0.5, 0.5});
     for (auto& triangle : raw.triangles) {
         std::swap(triangle[1], triangle[2]);
@@ -82,7 +82,7 @@ TEST(TriangleMeshTest, MeshTurnedInsideOutIsTurnedBack) {
     EXPECT_GT(mesh.closestPoint({0.6, 0.0, 0.0}).normal.x, 0.99);
 }
 
-TEST(TriangleMeshTest, TipDeepInAMeshKeepsItsFaceWithinTheMargin) {
+TEST(TriangleMeshTest, ATipDeepInAMeshKeepsItsFaceWithinTheMargin) {
     const Shape mesh = testing::meshOf(testing::rawBoxMesh({0.05, 0.05, 0.05}));
     QueryOptions options;
     options.previousNormal = glm::dvec3(0.0, 1.0, 0.0);
@@ -95,7 +95,7 @@ TEST(TriangleMeshTest, TipDeepInAMeshKeepsItsFaceWithinTheMargin) {
     EXPECT_GT(left->normal.x, 0.99);
 }
 
-TEST(TriangleMeshTest, OpenMeshIsTouchedFromItsFrontToALimitedDepthAndNotPastItsRim) {
+TEST(TriangleMeshTest, AnOpenMeshIsTouchedFromItsFrontToALimitedDepthWithinItsRim) {
     const auto sheet = std::make_shared<const TriangleMesh>(
         std::vector<glm::dvec3>{{-1.0, 0.0, -1.0}, {-1.0, 0.0, 1.0}, {1.0, 0.0, 1.0}, {1.0, 0.0, -1.0}},
         std::vector<TriangleMesh::Triangle>{{0, 1, 2}, {0, 2, 3}});
@@ -123,7 +123,7 @@ TEST(TriangleMeshTest, TrianglesWithoutAreaChangeNothing) {
     EXPECT_NEAR(mesh.closestPoint({0.7, 0.1, 0.1}).distanceMetres, 0.2, 1e-12);
 }
 
-TEST(TriangleMeshTest, RefusesDamagedInput) {
+TEST(TriangleMeshTest, InvalidInputIsRefused) {
     const std::vector<glm::dvec3> corners{{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
     EXPECT_THROW(TriangleMesh(corners, {{0, 1, 3}}), std::invalid_argument);
     EXPECT_THROW(TriangleMesh(corners, {}), std::invalid_argument);

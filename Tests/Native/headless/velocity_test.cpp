@@ -56,7 +56,7 @@ TEST(VelocityTest, AThirdOfTheSamplesRepeatedAtRandomChangesNothing) {
     }
 }
 
-TEST(VelocityTest, ATrackerAtTwoThirdsOfTheFrameRateIsReadWithinFivePercent) {
+TEST(VelocityTest, TheVelocityOfATrackerAtTwoThirdsOfTheFrameRateIsWithinFivePercent) {
     // The real trackers' pattern: each position is as old as the tracker's last tick.
     for (const double rate : {72.0, 90.0, 108.0, 120.0}) {
         const double tick = 1.5 / rate;
@@ -81,7 +81,7 @@ TEST(VelocityTest, LagIsHalfTheWindowAndStaysBelowTwentyMilliseconds) {
     }
 }
 
-TEST(VelocityTest, ARealStopReadsZeroWithinSixtyMilliseconds) {
+TEST(VelocityTest, ARealStopGivesZeroWithinSixtyMilliseconds) {
     for (const double rate : {72.0, 90.0, 120.0}) {
         const auto samples = sampledPath(1.0, rate, [](double time) { return alongX(0.5 * std::min(time, 0.5)); });
         const auto speeds = speedsOf(samples);
@@ -93,7 +93,7 @@ TEST(VelocityTest, ARealStopReadsZeroWithinSixtyMilliseconds) {
     }
 }
 
-TEST(VelocityTest, AStopFadesWithoutAJumpBackUp) {
+TEST(VelocityTest, AStopFadesMonotonically) {
     const auto samples = sampledPath(1.0, 1000.0, [](double time) { return alongX(0.5 * std::min(time, 0.5)); });
     const auto speeds = speedsOf(samples);
     for (std::size_t frame = 502; frame < speeds.size(); ++frame) {
@@ -102,7 +102,7 @@ TEST(VelocityTest, AStopFadesWithoutAJumpBackUp) {
     }
 }
 
-TEST(VelocityTest, ATipRidingOnAMovingAndTurningSurfaceReadsZero) {
+TEST(VelocityTest, ATipThatMovesWithATurningSurfaceHasZeroVelocity) {
     Surface plate = surfaceOf(Plane{});
     plate.motion.emplace(std::vector<Keyframe>{{0.0, {{0.0, 0.0, 0.0}, testing::turned(0.0, {0.0, 1.0, 0.0})}},
                                                {1.0, {{0.5, 0.1, 0.0}, testing::turned(120.0, {0.0, 1.0, 0.0})}},
@@ -117,7 +117,7 @@ TEST(VelocityTest, ATipRidingOnAMovingAndTurningSurfaceReadsZero) {
     }
 }
 
-TEST(VelocityTest, ATipAtRestOnATurntableFeelsAngularVelocityTimesArm) {
+TEST(VelocityTest, ATipAtRestOnATurntableHasAngularVelocityTimesArm) {
     Surface turntable = surfaceOf(Plane{});
     turntable.motion.emplace(std::vector<Keyframe>{{0.0, {{}, testing::turned(0.0, {0.0, 1.0, 0.0})}},
                                                    {1.0, {{}, testing::turned(120.0, {0.0, 1.0, 0.0})}}},
@@ -135,7 +135,7 @@ TEST(VelocityTest, ATipAtRestOnATurntableFeelsAngularVelocityTimesArm) {
     EXPECT_NEAR(velocity.z, expected, 0.005 * expected);
 }
 
-TEST(VelocityTest, ATrackerHoldOnAMovingSurfaceFadesToTheSurfacesOwnSpeed) {
+TEST(VelocityTest, APositionHeldOnAMovingSurfaceFadesToTheSurfacesOwnSpeed) {
     Surface belt = surfaceOf(Plane{});
     belt.motion.emplace(std::vector<Keyframe>{{0.0, {}}, {10.0, {{2.0, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}}}, false);
     TipHistory history{VelocitySettings{}};

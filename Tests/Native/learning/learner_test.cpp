@@ -109,7 +109,7 @@ TEST_F(LearnerTest, EqualSeedsGiveEqualBytesAndAnotherSeedAnotherMaterial) {
     EXPECT_NE(learn(made.view(), settings).materialJson, first);
 }
 
-TEST_F(LearnerTest, TheFitComesNearerThanTheNearestLabelAndTheToneNearerStill) {
+TEST_F(LearnerTest, TheFitImprovesOnTheNearestLabelAndTheToneOnTheFit) {
     const MadeRecording made({.resonanceHz = 260.0}, {});
     LearningSettings settings = brief();
     settings.segmentBudget = 14'000;
@@ -120,7 +120,7 @@ TEST_F(LearnerTest, TheFitComesNearerThanTheNearestLabelAndTheToneNearerStill) {
     EXPECT_GT(report.generations, 5U);
 }
 
-TEST_F(LearnerTest, ASeedBehindTheToneSoundsAsItWasRecorded) {
+TEST_F(LearnerTest, ASeedWithTheToneEqualsTheRecording) {
     const MadeRecording made({.resonanceHz = 90.0}, {}, 2000.0);
     const LearntMaterial learnt = learn(made.view(), brief());
     const model::MaterialFile material = model::parseMaterial(learnt.materialJson);
@@ -158,7 +158,7 @@ TEST_F(LearnerTest, ASeedBehindTheToneSoundsAsItWasRecorded) {
     EXPECT_GT(best, 0.97);
 }
 
-TEST_F(LearnerTest, RibsOfTheRecordingStandAcrossTheMaterialsFirstAxisAndMakeItPeriodic) {
+TEST_F(LearnerTest, RibsAreAcrossTheMaterialsFirstAxisAndMakeItPeriodic) {
     const MadeRecording made({.ribs = {0.8, 0.45}, .ribShare = 0.5}, {});
     const LearntMaterial learnt = learn(made.view(), brief());
     const model::MaterialFile material = model::parseMaterial(learnt.materialJson);
@@ -171,7 +171,7 @@ TEST_F(LearnerTest, RibsOfTheRecordingStandAcrossTheMaterialsFirstAxisAndMakeItP
     EXPECT_DOUBLE_EQ(material.label.frequencyExponent, 1.0);
 }
 
-TEST_F(LearnerTest, ATouchThatBeginsFromASeedGoesOnWithTheRibsInPlace) {
+TEST_F(LearnerTest, ATouchThatStartsFromASeedContinuesTheRibsInPhase) {
     const MadeRecording made({.resonanceHz = 400.0, .ribs = {0.8, 0.45}, .ribShare = 0.9},
                              {.seconds = 12.0, .slowestMps = 0.05, .fastestMps = 0.15, .strokeSeconds = 0.7});
     const LearntMaterial learnt = learn(made.view(), brief());
@@ -208,7 +208,7 @@ TEST_F(LearnerTest, SeedsOfASurfaceWithoutRibsHaveNoPhase) {
     }
 }
 
-TEST_F(LearnerTest, WaveVectorsThatAreGivenAreTakenAndNoneAreLookedFor) {
+TEST_F(LearnerTest, GivenWaveVectorsReplaceTheEstimation) {
     const MadeRecording made({.ribs = {0.8, 0.45}, .ribShare = 0.5}, {});
     LearningSettings settings = brief();
     settings.segmentBudget = 1000;
@@ -220,7 +220,7 @@ TEST_F(LearnerTest, WaveVectorsThatAreGivenAreTakenAndNoneAreLookedFor) {
     EXPECT_FALSE(model::parseMaterial(learn(made.view(), settings).materialJson).label.wavelengthMetres.has_value());
 }
 
-TEST_F(LearnerTest, AMissingStretchIsLeftOutAndSaidSo) {
+TEST_F(LearnerTest, AMissingStretchIsExcludedAndReported) {
     MadeRecording made({}, {.seconds = 12.0});
     for (std::size_t i = 10'000; i < 10'400; ++i) {
         made.acceleration[i] = std::numeric_limits<float>::quiet_NaN();
@@ -232,7 +232,7 @@ TEST_F(LearnerTest, AMissingStretchIsLeftOutAndSaidSo) {
     EXPECT_THAT(report.warnings, ::testing::Contains(HasSubstr("was left out")));
 }
 
-TEST_F(LearnerTest, OneConstantConditionIsLearntWithAWarning) {
+TEST_F(LearnerTest, AConstantMotionIsLearntWithAWarning) {
     MadeRecording made({}, {.slowestMps = 0.08, .fastestMps = 0.08});
     made.velocity.clear();
     made.force.clear();
@@ -247,7 +247,7 @@ TEST_F(LearnerTest, OneConstantConditionIsLearntWithAWarning) {
     EXPECT_GE(material.seeds.size(), 4U);
 }
 
-TEST_F(LearnerTest, ALevelThatNoLabelComesNearIsSuspectedAndAnAbsurdOneRefused) {
+TEST_F(LearnerTest, AnUnusualLevelGivesAWarningAndAnImpossibleOneIsRefused) {
     MadeRecording made({}, {});
     const auto scaled = [&](float gain) {
         MadeRecording result = made;
@@ -284,7 +284,7 @@ TEST_F(LearnerTest, ACancelledFitEndsAtTheNextGeneration) {
     EXPECT_EQ(told, 2);
 }
 
-TEST_F(LearnerTest, ALimitOfSecondsEndsTheFitWithWhatItHas) {
+TEST_F(LearnerTest, ATimeLimitEndsTheFitWithItsBestResult) {
     const MadeRecording made({}, {});
     LearningSettings settings = brief();
     settings.segmentBudget = 1'000'000;
@@ -294,7 +294,7 @@ TEST_F(LearnerTest, ALimitOfSecondsEndsTheFitWithWhatItHas) {
     EXPECT_NO_THROW((void)model::parseMaterial(learnt.materialJson));
 }
 
-TEST_F(LearnerTest, NamesThatNoMaterialCanHaveAreRefusedBeforeAnythingIsLearnt) {
+TEST_F(LearnerTest, InvalidNamesAreRefusedBeforeLearning) {
     const MadeRecording made({}, {});
     LearningSettings settings = brief();
     for (const std::string& name : {std::string(), std::string("Denim"), std::string(129, 'a'), std::string("\xFF")}) {
@@ -303,7 +303,7 @@ TEST_F(LearnerTest, NamesThatNoMaterialCanHaveAreRefusedBeforeAnythingIsLearnt) 
     }
 }
 
-TEST_F(LearnerTest, AModelOfThreeLabelsIsEnough) {
+TEST_F(LearnerTest, AModelWithThreeLabelsIsEnough) {
     const model::ModelFile tiny = model::ModelFile::read(HAPTOFLOW_TEST_GOLDEN_DIR "/model/tiny.haptoflow");
     const model::Tier& tier = tiny.header().tiers[tiny.header().defaultTier];
     inference::OnnxSegmentGenerator generator(inference::Runtime::open(HAPTOFLOW_TEST_ONNXRUNTIME), tiny, tier.name,

@@ -66,7 +66,7 @@ void expectWithin(const std::vector<WaveVector>& found, const std::vector<WaveVe
     }
 }
 
-TEST(WaveVectorsTest, TheVectorsOfTheGoldenRecordingsAreThoseOfThePythonEstimatorWithinTwoPerMille) {
+TEST(WaveVectorsTest, TheVectorsOfTheGoldenRecordingsEqualThoseOfThePythonEstimatorWithinTwoPerMille) {
     for (const auto& [name, count] : {std::pair{"corduroy", 1U}, {"jute", 2U}, {"sandpaper", 0U}}) {
         SCOPED_TRACE(name);
         const GoldenCase golden = readCase(name);
@@ -76,7 +76,7 @@ TEST(WaveVectorsTest, TheVectorsOfTheGoldenRecordingsAreThoseOfThePythonEstimato
     }
 }
 
-TEST(WaveVectorsTest, NoWindowSpansASampleThatIsNotUsable) {
+TEST(WaveVectorsTest, NoWindowContainsAnUnusableSample) {
     GoldenCase golden = readCase("corduroy");
     constexpr std::size_t first = 5000;
     constexpr std::size_t count = 900;
@@ -114,7 +114,7 @@ TEST(WaveVectorsTest, TwoFamiliesAreBothFound) {
     EXPECT_NEAR(found[1].y * (found[1].x < 0.0 ? -1.0 : 1.0), 0.7, 0.014);
 }
 
-TEST(WaveVectorsTest, ASurfaceWithoutRibsHasNoneWhateverItsResonance) {
+TEST(WaveVectorsTest, ASurfaceWithoutRibsHasNoWaveVectorsWhateverItsResonance) {
     for (const double resonanceHz : {40.0, 90.0, 180.0, 400.0}) {
         for (const unsigned seed : {1U, 2U, 3U}) {
             const MadeRecording made({.resonanceHz = resonanceHz}, {}, 4000.0, seed);
@@ -123,13 +123,13 @@ TEST(WaveVectorsTest, ASurfaceWithoutRibsHasNoneWhateverItsResonance) {
     }
 }
 
-TEST(WaveVectorsTest, AnEvenSpeedDoesNotTellARibFromAResonance) {
+TEST(WaveVectorsTest, AConstantSpeedGivesNoWaveVectors) {
     const MadeSurface surface{.ribs = {0.8, 0.0}};
     const MadeMotion motion{.slowestMps = 0.08, .fastestMps = 0.08, .turns = false};
     EXPECT_TRUE(vectorsOf(MadeRecording(surface, motion)).empty());
 }
 
-TEST(WaveVectorsTest, StrokesOfOneDirectionGiveThePitchAlongIt) {
+TEST(WaveVectorsTest, StrokesInOneDirectionGiveThePitchAlongIt) {
     const MadeSurface surface{.ribs = {0.8, 0.0}, .ribShare = 0.5};
     const std::vector<WaveVector> found = vectorsOf(MadeRecording(surface, {.turns = false}));
     ASSERT_FALSE(found.empty());

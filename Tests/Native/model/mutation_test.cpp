@@ -159,7 +159,7 @@ void mutateJson(Json& root, Random& random) {
     }
 }
 
-TEST(MutationTest, EveryChangedByteIsNoticed) {
+TEST(MutationTest, EveryChangedByteIsDetected) {
     const Bytes valid = ModelBuilder().build();
     Random random(1);
     Outcome outcome;
@@ -173,7 +173,7 @@ TEST(MutationTest, EveryChangedByteIsNoticed) {
     EXPECT_EQ(outcome.refusals(), mutants);
 }
 
-TEST(MutationTest, ChangedHeaderBytesBehindTrueChecksumsAreRefusedOrReadable) {
+TEST(MutationTest, ChangedHeaderBytesWithCorrectChecksumsAreRefusedOrReadable) {
     const Bytes valid = ModelBuilder().build();
     const std::size_t textBytes = ModelFile::parse(valid).headerText().size();
     Random random(2);
@@ -190,7 +190,7 @@ TEST(MutationTest, ChangedHeaderBytesBehindTrueChecksumsAreRefusedOrReadable) {
     EXPECT_GT(outcome.refused[ModelStatus::inconsistent], 0);
 }
 
-TEST(MutationTest, ChangedHeaderValuesBehindTrueChecksumsAreRefusedOrReadable) {
+TEST(MutationTest, ChangedHeaderValuesWithCorrectChecksumsAreRefusedOrReadable) {
     Random random(3);
     Outcome outcome;
     ModelBuilder builder;
@@ -214,7 +214,7 @@ TEST(MutationTest, ChangedHeaderValuesBehindTrueChecksumsAreRefusedOrReadable) {
     EXPECT_GT(outcome.refused[ModelStatus::oversized], 0);
 }
 
-TEST(MutationTest, ChangedLengthsAndOffsetsBehindTrueChecksumsAreRefusedOrReadable) {
+TEST(MutationTest, ChangedLengthsAndOffsetsWithCorrectChecksumsAreRefusedOrReadable) {
     const Bytes valid = ModelBuilder().build();
     Random random(4);
     Outcome outcome;
@@ -236,7 +236,7 @@ TEST(MutationTest, ChangedLengthsAndOffsetsBehindTrueChecksumsAreRefusedOrReadab
     EXPECT_GT(outcome.refused[ModelStatus::oversized], 0);
 }
 
-TEST(MutationTest, ChangedTensorsBehindTrueChecksumsAreRefusedOrReadable) {
+TEST(MutationTest, ChangedTensorsWithCorrectChecksumsAreRefusedOrReadable) {
     Random random(5);
     Outcome outcome;
     for (int index = 0; index < 4000; ++index) {

@@ -41,7 +41,7 @@ OnnxWriter plainLevel() {
     return levelGraph().apply("Identity", {"weighted"}, {"log_level"});
 }
 
-TEST(OnnxCheckTest, AcceptsEveryGraphOfTheShippedModel) {
+TEST(OnnxCheckTest, EveryGraphOfTheShippedModelIsAccepted) {
     const ModelFile model = ModelFile::read(HAPTOFLOW_TEST_DEFAULT_MODEL);
     int graphs = 0;
     for (const Blob& blob : model.header().blobs) {
@@ -53,7 +53,7 @@ TEST(OnnxCheckTest, AcceptsEveryGraphOfTheShippedModel) {
     EXPECT_EQ(graphs, static_cast<int>(model.header().tiers.size()) + 1) << "a field for each tier, and the level";
 }
 
-TEST(OnnxCheckTest, AcceptsEveryKindOfTierOfTheTinyModel) {
+TEST(OnnxCheckTest, EveryKindOfTierOfTheTinyModelIsAccepted) {
     const ModelFile model = ModelFile::read(HAPTOFLOW_TEST_GOLDEN_DIR "/model/tiny.haptoflow");
     for (const Tier& tier : model.header().tiers) {
         for (const std::string& graph : {tier.field, tier.level, tier.encoder, tier.decoder}) {
@@ -69,7 +69,7 @@ TEST(OnnxCheckTest, ALoopIsRefusedByNameWithTheRemedy) {
     expectGraphRefusal(loopingLevel(), "Documentation~/model-format.md");
 }
 
-TEST(OnnxCheckTest, OperatorsThatHoldGraphsOrMakeSizesOfValuesAreNotInTheList) {
+TEST(OnnxCheckTest, OperatorsThatContainGraphsOrDeriveSizesFromValuesAreNotInTheList) {
     for (const char* type :
          {"Loop", "Scan", "If", "SequenceMap", "Tile", "Range", "Resize", "Upsample", "OneHot", "NonZero", "EyeLike",
           "RandomNormal", "StringNormalizer", "Optional", "", "loop", "Loop "}) {
@@ -94,13 +94,13 @@ TEST(OnnxCheckTest, ADomainOtherThanOnnxIsRefusedWhereItIsImportedAndWhereItIsUs
     EXPECT_NO_THROW(checkOnnxModel(plainLevel().model(16, "ai.onnx").written(), graphName));
 }
 
-TEST(OnnxCheckTest, AnotherOpsetIsRefusedWithTheOneThatIsMeant) {
+TEST(OnnxCheckTest, AnotherOpsetIsRefusedWithTheExpectedOne) {
     expectGraphRefusal(plainLevel().model(17), "opset 17; export it for opset 16");
     expectGraphRefusal(plainLevel().model(0), "opset 0");
     expectGraphRefusal(WireWriter().message(7, plainLevel().graph), "is not an ONNX model");
 }
 
-TEST(OnnxCheckTest, FunctionsTrainingAndWhateverLaterVersionsRunAreRefused) {
+TEST(OnnxCheckTest, FunctionsTrainingAndFieldsOfLaterVersionsAreRefused) {
     for (const std::uint32_t field : {20U, 25U, 26U, 99U}) {
         expectGraphRefusal(plainLevel().model().message(field, WireWriter()),
                            "its model has the field " + std::to_string(field));
@@ -116,7 +116,7 @@ TEST(OnnxCheckTest, NoGraphAndTwoGraphsAreRefused) {
     expectGraphRefusal(Bytes{}, "needs one graph");
 }
 
-TEST(OnnxCheckTest, ATensorThatLiesInAnotherFileIsRefused) {
+TEST(OnnxCheckTest, ATensorInAnotherFileIsRefused) {
     const WireWriter entry = WireWriter().text(1, "location").text(2, "/etc/passwd");
     const Bytes four(4);
     for (const WireWriter& tensor : {rawTensor("w", onnxFloat, {1}, four).message(13, entry),
@@ -125,7 +125,7 @@ TEST(OnnxCheckTest, ATensorThatLiesInAnotherFileIsRefused) {
     }
 }
 
-TEST(OnnxCheckTest, ATensorThatDoesNotHoldWhatItsDimensionsSayIsRefused) {
+TEST(OnnxCheckTest, ATensorThatDoesNotMatchItsDimensionsIsRefused) {
     const std::string part = "does not hold as many numbers as its dimensions say";
     for (const Dimensions& dimensions :
          {Dimensions{3}, Dimensions{2, 2}, Dimensions{-1}, Dimensions{0}, Dimensions{1000000000, 1000000000},
@@ -138,7 +138,7 @@ TEST(OnnxCheckTest, ATensorThatDoesNotHoldWhatItsDimensionsSayIsRefused) {
         checkOnnxModel(plainLevel().constant(rawTensor("w", onnxFloat, {2}, Bytes(8))).model().written(), graphName));
 }
 
-TEST(OnnxCheckTest, NumbersOutsideTheRawBytesAreCountedToo) {
+TEST(OnnxCheckTest, NumbersOutsideTheRawBytesAreCounted) {
     const auto tensor = [](std::uint64_t type, std::int64_t count) {
         return WireWriter().number(1, static_cast<std::uint64_t>(count)).number(2, type).text(8, "w");
     };
@@ -158,13 +158,13 @@ TEST(OnnxCheckTest, TensorsOfTextAndOfUnknownTypesAreRefused) {
     expectGraphRefusal(plainLevel().constant(rawTensor("w", 99, {1}, Bytes(4))).model(), "is of type 99");
 }
 
-TEST(OnnxCheckTest, AnAttributesTensorIsCheckedLikeAnInitializer) {
+TEST(OnnxCheckTest, ATensorInAnAttributeIsCheckedLikeAnInitialiser) {
     const WireWriter attribute =
         WireWriter().text(1, "value").message(5, rawTensor("", onnxFloat, {9}, Bytes(4))).number(20, 4);
     expectGraphRefusal(levelGraph().apply("Constant", {}, {"c"}, {attribute}).model(), "as many numbers");
 }
 
-TEST(OnnxCheckTest, ASizeThatDependsOnWhatAnInputHoldsIsRefused) {
+TEST(OnnxCheckTest, ASizeThatDependsOnTheContentOfAnInputIsRefused) {
     for (const char* type : {"ConstantOfShape", "Expand", "Pad", "Reshape", "Slice"}) {
         OnnxWriter writer = levelGraph();
         writer.apply("Cast", {"weighted"}, {"size"}, {integerAttribute("to", 7)});
@@ -174,14 +174,14 @@ TEST(OnnxCheckTest, ASizeThatDependsOnWhatAnInputHoldsIsRefused) {
     }
 }
 
-TEST(OnnxCheckTest, ASizeThatFollowsFromAnInputsShapeIsFine) {
+TEST(OnnxCheckTest, ASizeThatDependsOnTheShapeOfAnInputIsAccepted) {
     OnnxWriter writer = levelGraph();
     writer.apply("Shape", {"weighted"}, {"shape"}).apply("ConstantOfShape", {"shape"}, {"zeros"});
     EXPECT_NO_THROW(
         checkOnnxModel(writer.apply("Add", {"weighted", "zeros"}, {"log_level"}).model().written(), graphName));
 }
 
-TEST(OnnxCheckTest, ANameThatIsReadBeforeItIsMadeOrMadeTwiceIsRefused) {
+TEST(OnnxCheckTest, ANameThatIsUsedBeforeItsDefinitionOrDefinedTwiceIsRefused) {
     expectGraphRefusal(levelGraph().apply("Add", {"weighted", "later"}, {"log_level"}).model(),
                        "\"Add\" reads \"later\" before anything made it");
     expectGraphRefusal(levelGraph().apply("Add", {"log_level", "weighted"}, {"log_level"}).model(), "before anything");
@@ -202,7 +202,7 @@ TEST(OnnxCheckTest, TooManyOperatorsOrTensorsAreRefusedBeforeTheyAreRead) {
     expectGraphRefusal(tensors.model(), "more than 65536 inputs and tensors", ModelStatus::oversized);
 }
 
-TEST(OnnxCheckTest, AMessageShowsNothingOfAFileThatATerminalWouldObey) {
+TEST(OnnxCheckTest, AMessageContainsNoControlCharactersOfAFile) {
     expectGraphRefusal(levelGraph().apply("\x1b[2J\n" + std::string(500, 'x'), {"weighted"}, {"log_level"}).model(),
                        "uses the operator \"?[2J?" + std::string(59, 'x') + "\", which");
 }
@@ -222,7 +222,7 @@ TEST(OnnxCheckTest, TheDocumentationListsTheOperatorsAndNoOthers) {
     }
 }
 
-TEST(WireReaderTest, ReadsEveryEncoding) {
+TEST(WireReaderTest, EveryEncodingIsRead) {
     const Bytes bytes{std::byte{0x08}, std::byte{0xAC}, std::byte{0x02}, std::byte{0x11}, std::byte{1},
                       std::byte{0},    std::byte{0},    std::byte{0},    std::byte{0},    std::byte{0},
                       std::byte{0},    std::byte{0x80}, std::byte{0x1A}, std::byte{2},    std::byte{'o'},
@@ -238,7 +238,7 @@ TEST(WireReaderTest, ReadsEveryEncoding) {
     EXPECT_FALSE(reader.next().has_value());
 }
 
-TEST(WireReaderTest, RefusesLengthsBeyondTheEndLongNumbersAndWhatProtobufDoesNotHave) {
+TEST(WireReaderTest, LengthsBeyondTheEndLongNumbersAndUnknownEncodingsAreRefused) {
     const auto refuse = [](std::initializer_list<int> values, const std::string& part) {
         Bytes bytes;
         for (const int value : values) {
@@ -302,7 +302,7 @@ TEST(OnnxMutationTest, ChangedBytesAreRefusedOrReadToTheEnd) {
     }
 }
 
-TEST(OnnxMutationTest, GraphsCutOffOrPutTogetherAreRefusedOrReadToTheEnd) {
+TEST(OnnxMutationTest, CutAndJoinedGraphsAreRefusedOrReadToTheEnd) {
     Random random(7);
     const std::vector<Bytes> valid = seedGraphs();
     GraphOutcome outcome;
