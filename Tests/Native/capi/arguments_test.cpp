@@ -65,7 +65,7 @@ TEST(LibraryApiTest, NoiseDependsOnlyOnItsKey) {
     EXPECT_EQ(haptoflow_noise_fill(1, 2, 3, noise.data(), UINT64_MAX), HAPTOFLOW_INVALID_ARGUMENT);
 }
 
-/// Calls of a function, each with one pointer null and everything else as it should be.
+/// Calls of a function, each with one null pointer and otherwise valid arguments.
 struct NullCalls {
     std::string function;
     std::vector<std::function<haptoflow_status()>> calls;

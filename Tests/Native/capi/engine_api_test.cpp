@@ -21,7 +21,7 @@ TEST(EngineApiTest, ATouchOnTheShippedModelSoundsInTheNextBlockAndContinuesWithG
     const haptoflow_voice_statistics statistics = open.statistics();
     EXPECT_EQ(statistics.inferences, 40U);
     EXPECT_EQ(statistics.underruns, 0U);
-    EXPECT_GT(statistics.inference_ms, 40 * 0.05) << "no machine does it in less";
+    EXPECT_GT(statistics.inference_ms, 40 * 0.05) << "no machine is faster";
 }
 
 TEST(EngineApiTest, WithoutWorkerEqualCallsGiveEqualSamplesAndAnotherSeedGivesOthers) {
@@ -114,7 +114,7 @@ TEST(EngineApiTest, ClosingTheEngineSilencesAndDestroysItsVoices) {
     EXPECT_EQ(samples, (std::array<float, 64>{}));
 }
 
-/// What a device hears of a voice that somebody takes away while it sounds: blocks until the voice is gone.
+/// The blocks of a voice that is removed while it sounds, until it is gone.
 std::vector<float> heardUntilGone(OpenEngine& open, const std::function<void()>& takeAway) {
     const haptoflow_voice voice = open.voice;
     std::vector<float> heard = open.update(slidingState(), 2048);

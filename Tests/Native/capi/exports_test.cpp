@@ -36,7 +36,7 @@ TEST(ExportsTest, TheLibraryExportsTheHeadersFunctionsAndUnitysEntryOnly) {
         declared.insert(function.name);
     }
     std::set<std::string> exported = definedSymbols("-D");
-    EXPECT_EQ(exported.erase("UnityGetAudioEffectDefinitions"), 1U) << "what Unity looks up by name";
+    EXPECT_EQ(exported.erase("UnityGetAudioEffectDefinitions"), 1U) << "Unity looks this function up by name";
     ASSERT_FALSE(declared.empty());
     EXPECT_EQ(exported, declared);
 }
@@ -56,7 +56,7 @@ TEST(ExportsTest, EveryFunctionOfTheHeaderHasACommentWithOneThreadTag) {
     const std::regex beginning(R"(\nHAPTOFLOW_API )");
     const auto count = std::distance(std::sregex_iterator(text.begin(), text.end(), beginning), std::sregex_iterator());
     const auto functions = declaredFunctions();
-    EXPECT_EQ(functions.size(), static_cast<std::size_t>(count)) << "a function stands without a comment before it";
+    EXPECT_EQ(functions.size(), static_cast<std::size_t>(count)) << "a function has no comment before it";
     const std::regex tag(R"(\[((any|loader|worker)-thread|publisher|audio-callback)\])");
     for (const DeclaredFunction& function : functions) {
         const auto tags = std::distance(std::sregex_iterator(function.comment.begin(), function.comment.end(), tag),

@@ -30,7 +30,7 @@ std::vector<float> flat(const nlohmann::json& rows) {
     return values;
 }
 
-/// The golden requests as the flat arrays of the C interface, and what they must give.
+/// The golden requests as flat arrays of the C interface, with the expected results.
 struct Golden {
     Golden() {
         std::ifstream stream(HAPTOFLOW_TEST_GOLDEN_DIR "/model/tiny.expected.json");
@@ -118,7 +118,7 @@ TEST_F(GeneratorApiTest, TheSolverCanBeChangedAndResetToTheTiersOwn) {
     EXPECT_EQ(haptoflow_generator_set_solver(generator_, 9, 1), HAPTOFLOW_INVALID_ARGUMENT);
 }
 
-/// A copy of the tiny model whose direct tier returns the rib phase that it is given.
+/// A copy of the tiny model whose direct tier returns its rib phase.
 std::vector<std::byte> ribModelBytes() {
     const model::ModelFile tiny = model::ModelFile::read(tinyModelPath);
     return inference::testing::withGraphs(tiny,
@@ -166,7 +166,7 @@ TEST(GeneratorRibPhaseTest, TheRibPhasesOfABatchReachTheGraphAndMissingOnesAreZe
                                inference::testing::secondRibWeight * phases[2 * row + 1];
         ASSERT_NEAR(segments[i] / golden.levels[row], expected, 1e-5F) << i;
     }
-    // A caller that was compiled with a header that did not know of them.
+    // A caller compiled with a header that did not have rib phases.
     batch.struct_size = offsetof(haptoflow_batch, rib_phases);
     ASSERT_EQ(haptoflow_generator_generate(generator, &batch, segments.data()), HAPTOFLOW_OK) << message();
     EXPECT_THAT(segments, ::testing::Each(0.0F));
@@ -270,7 +270,7 @@ TEST_F(GeneratorApiTest, ABatchAboveTheLimitIsRefused) {
 }
 
 TEST(RuntimeApiTest, TheApiBaseOfALibraryLoadedByTheCallerIsAccepted) {
-    // Never closed: what ONNX Runtime keeps until the end has to be known as its own by then.
+    // Never closed, so that a leak checker still knows the library whose memory ONNX Runtime keeps until the end.
     static const auto& library = *new haptoflow::testing::DynamicLibrary(HAPTOFLOW_TEST_ONNXRUNTIME);
     const auto getApiBase = library.function<const OrtApiBase* (*)()>("OrtGetApiBase");
     const haptoflow_runtime_options options{sizeof(options), getApiBase(), nullptr, nullptr, nullptr};

@@ -1,6 +1,6 @@
-// What a hand, a scene or a caller can do to a voice, on each tier of the shipped model and on an untrained one:
-// whatever it is, the output is finite, inside +-1, without a step, and silent within a block and 5 ms once contact has
-// ended.
+// Extreme inputs of a hand, a scene or a caller, on each tier of the shipped model and on an untrained one. In every
+// case the output is finite, within +-1 and without a step, and it is silent within a block and 5 ms after the end of
+// contact.
 #include "heard_checks.hpp"
 
 #include <array>
@@ -19,11 +19,11 @@ struct HardCase {
     /// The contact state of an update.
     std::function<State(uint32_t)> state;
     double updateHz = 72.0;
-    /// Fields have to be counted as sanitised.
+    /// True if fields must be counted as sanitised.
     bool isRuined = false;
-    /// Above 1, so many states are published one after the other, and then one block is rendered.
+    /// If above 1, this many states are published before each block.
     uint32_t statesOfABlock = 1;
-    /// How often a touch has to begin to sound; 0 where nothing may sound at all.
+    /// How often a touch must begin to sound; 0 if nothing may sound.
     uint32_t onsets = 1;
 };
 
@@ -35,7 +35,7 @@ std::function<State(uint32_t)> steady(float speedMps, float forceNewtons) {
     return [=](uint32_t) { return slidingState(speedMps, forceNewtons); };
 }
 
-/// Every third state has `ruin` done to it.
+/// States of which every third is changed by `ruin`.
 std::function<State(uint32_t)> ruined(const std::function<void(State&)>& ruin) {
     return [ruin](uint32_t update) {
         State state = slidingState();
@@ -68,7 +68,7 @@ State blend(std::initializer_list<std::pair<uint32_t, float>> entries) {
 }
 
 std::vector<HardCase> hardCases() {
-    // Speeds that become 0 stop every third update; the first begins, and 28 resume.
+    // Speeds that become 0 stop every third update: the first stop begins a touch, and 28 resume it.
     constexpr uint32_t stops = 29;
     std::vector<HardCase> cases{
         {.name = "VelocityZero", .state = steady(0.0F, 1.0F), .onsets = 0},
@@ -111,7 +111,7 @@ std::vector<HardCase> hardCases() {
         {"DirectionReversedEveryUpdate", [](uint32_t update) { return slidingState(update % 2 == 0 ? 0.3F : -0.3F); }},
         {"SpeedJumpsEveryUpdate", [](uint32_t update) { return slidingState(update % 2 == 0 ? 0.004F : 18.0F); }},
         {"ForceJumpsEveryUpdate", [](uint32_t update) { return slidingState(0.1F, update % 2 == 0 ? 0.01F : 900.0F); }},
-        // Lifted, touching, lifted, touching: of 86 updates 43 are touch-downs.
+        // Lifted and touching alternate: 43 of 86 updates are touch-downs.
         {.name = "ContactToggledEveryUpdate",
          .state =
              [](uint32_t update) {
@@ -121,7 +121,7 @@ std::vector<HardCase> hardCases() {
                  return state;
              },
          .onsets = 43},
-        // Blocks in which the tip comes, goes and comes again, and between them blocks in which it goes, taps and goes.
+        // In one block the tip touches, lifts and touches again; in the next it lifts, taps and lifts.
         {.name = "ContactToggledFourTimesABlock",
          .state =
              [](uint32_t update) {
@@ -152,7 +152,7 @@ std::vector<HardCase> hardCases() {
 
 class HardCaseTest : public ::testing::TestWithParam<std::tuple<Subject, HardCase>> {
 protected:
-    /// What is heard of so many updates of the case; of each it is checked that it is finite and bounded.
+    /// The output of so many updates of the case; checks that each is finite and bounded.
     static std::vector<float> play(OpenEngine& open, const HardCase& hardCase, uint32_t updates) {
         const auto frames = static_cast<uint32_t>(hardCase.statesOfABlock * 48000.0 / hardCase.updateHz);
         std::vector<float> heard;
@@ -179,7 +179,7 @@ TEST_P(HardCaseTest, TheOutputIsFiniteBoundedAndEndsWithTheContact) {
     const auto updates = static_cast<uint32_t>(1.2 * hardCase.updateHz);
     std::vector<float> heard = play(open, hardCase, updates);
     const haptoflow_voice_statistics statistics = open.statistics();
-    EXPECT_EQ(statistics.non_finite_samples, 0U) << "nothing ruined came as far as the limiter";
+    EXPECT_EQ(statistics.non_finite_samples, 0U) << "an invalid number reached the limiter";
     EXPECT_EQ(statistics.failures, 0U);
     EXPECT_EQ(statistics.sanitised > 0, hardCase.isRuined);
     if (hardCase.onsets == 0) {

@@ -1,5 +1,5 @@
-// What a scene and a tracker can do, all the way to the sound: the contact model reads it, and a voice of each tier of
-// the shipped model and of an untrained one is told.
+// Extreme scenes and tracker data, from the contact model to the rendered sound of a voice, on each tier of the shipped
+// model and on an untrained one.
 #include "headless/contact_tracker.hpp"
 #include "headless/test_scenes.hpp"
 #include "heard_checks.hpp"
@@ -32,11 +32,11 @@ struct HardScene {
     std::string name;
     Scene scene;
     std::function<TipSample(int)> sample;
-    /// Whether the tip slides, so that something has to be heard.
+    /// True if the tip slides, so that the case must sound.
     bool sounds = true;
 };
 
-/// To and fro over a face that lies at y = 0.1, half a millimetre into it.
+/// A stroke to and fro on a face at y = 0.1, half a millimetre deep.
 glm::dvec3 stroke(double seconds) {
     const double phase = 2.0 * std::numbers::pi * seconds;
     return {0.04 * std::sin(phase), 0.1005, 0.03 * std::cos(0.7 * phase)};
@@ -50,7 +50,7 @@ Scene box(double scale = 1.0) {
     return sceneOf({surfaceOf(Box{scale * glm::dvec3(0.2)})});
 }
 
-/// Every third sample has `ruin` done to it.
+/// Samples of which every third is changed by `ruin`.
 std::function<TipSample(int)> ruined(const std::function<void(TipSample&)>& ruin) {
     return [ruin](int frame) {
         TipSample sample = onFace(frame);
@@ -65,7 +65,7 @@ std::function<TipSample(int)> steps(double seconds) {
     return [seconds](int frame) { return TipSample{frame * seconds, stroke(frame / updateHz), {}, {}}; };
 }
 
-/// A tip that trembles by a tenth of a millimetre about a place.
+/// A tip with noise of a tenth of a millimetre around a place.
 std::function<TipSample(int)> trembling(const glm::dvec3& place) {
     return [place](int frame) {
         std::minstd_rand random(static_cast<unsigned>(frame + 1));
@@ -192,7 +192,7 @@ TEST_P(HardSceneTest, TheOutputIsFiniteBoundedAndEndsWithTheContact) {
     const haptoflow_voice_statistics statistics = open.statistics();
     EXPECT_EQ(statistics.non_finite_samples, 0U);
     EXPECT_EQ(statistics.failures, 0U);
-    EXPECT_EQ(statistics.sanitised, 0U) << "the contact model passed something on that is not physical";
+    EXPECT_EQ(statistics.sanitised, 0U) << "the contact model returned a number that is out of range";
     expectSilenceAfterLiftOff(open, state.touch_counter, heard);
     expectNoStep(heard);
 }

@@ -10,7 +10,7 @@
 namespace haptoflow::capi::testing {
 namespace {
 
-/// One engine, told things through the C interface alone.
+/// One engine, used through the C interface alone.
 class HealthTest : public ::testing::Test {
 protected:
     OpenEngine open_{tinyModelPath};
@@ -63,7 +63,7 @@ TEST_F(HealthTest, AnUnsupportedDeviceRateIsCountedAndReportedAndTheTouchResumes
     EXPECT_EQ(statistics.is_rate_supported, 0U);
     EXPECT_EQ(statistics.silence, HAPTOFLOW_SILENCE_RATE);
     EXPECT_EQ(statistics.rate_changes, 0U);
-    // Another label, speed and force in the block that brings the rate back.
+    // Another label, speed and force in the block that restores the rate.
     haptoflow_contact_state other = slidingState(-0.3F, 0.4F);
     other.labels[0] = 1;
     EXPECT_GT(peak(open_.update(other)), 0.0F);
@@ -96,7 +96,7 @@ TEST_F(HealthTest, TheFailureTextIsEmptyAtFirstAndFitsAnyBuffer) {
 
 TEST_F(HealthTest, ARunningEngineReportsThatItsWorkerIsAlive) {
     EXPECT_EQ(open_.engineStatistics().worker_is_alive, 1U);
-    EXPECT_EQ(open_.engineStatistics().priority_was_refused, 0U) << "without worker nothing was asked for";
+    EXPECT_EQ(open_.engineStatistics().priority_was_refused, 0U) << "without worker no priority is requested";
 }
 
 }  // namespace

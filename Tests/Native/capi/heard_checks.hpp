@@ -13,10 +13,10 @@ namespace haptoflow::capi::testing {
 
 /// -60 dB.
 constexpr float silence = 0.001F;
-/// 0.04 m/s^2 at the default full scale: four times what a fingertip feels at its most sensitive.
+/// 0.04 m/s^2 at the default full scale: four times the fingertip's lowest detection threshold.
 constexpr float faintestTouch = 0.0002F;
 
-/// What the limiter was given: its knee is at 0.7, and above it nears 1 as a hyperbola does.
+/// The signal before the limiter, whose curve is a hyperbola from the knee at 0.7 towards 1.
 inline std::vector<float> unlimited(const std::vector<float>& heard) {
     constexpr float knee = 0.7F;
     constexpr float headroom = 1.0F - knee;
@@ -30,30 +30,30 @@ inline std::vector<float> unlimited(const std::vector<float>& heard) {
     return given;
 }
 
-/// Nothing heard from the beginning on has a step that resampler and gate cannot make.
+/// Expects that the signal, from its beginning, has no step larger than resampler and gate can produce.
 inline void expectNoStep(const std::vector<float>& heard) {
     const std::vector<float> wave = unlimited(heard);
     EXPECT_LE(largestStepFrom(0.0F, wave), haptoflow::testing::steepestStep(48000.0) * peak(wave));
 }
 
-/// Lifts off, and appends what is heard to the end: under -60 dB after a block and 5 ms, and then nothing at all.
+/// Lifts off and appends the remaining output: below -60 dB after a block and 5 ms, and exactly zero after that.
 inline void expectSilenceAfterLiftOff(OpenEngine& open, uint32_t touchCounter, std::vector<float>& heard) {
     const std::vector<float> fade = open.update(liftedState(touchCounter), 256 + 240);
     const std::vector<float> end = open.render(4800);
-    EXPECT_LT(peak(std::span(fade).subspan(256)), silence) << "contact has ended";
-    EXPECT_EQ(peak(end), 0.0F) << "contact has ended";
+    EXPECT_LT(peak(std::span(fade).subspan(256)), silence) << "after the end of contact";
+    EXPECT_EQ(peak(end), 0.0F) << "after the end of contact";
     heard.insert(heard.end(), fade.begin(), fade.end());
     heard.insert(heard.end(), end.begin(), end.end());
 }
 
-/// A part of what is heard: finite, inside +-1.
+/// Appends a part of the output after checking that it is finite and within +-1.
 inline void appendChecked(std::vector<float>& heard, const std::vector<float>& part, uint32_t update) {
     EXPECT_TRUE(allFinite(part)) << "update " << update;
     EXPECT_LE(peak(part), 1.0F) << "update " << update;
     heard.insert(heard.end(), part.begin(), part.end());
 }
 
-/// A model and a quality that hard cases are played on.
+/// A model and a quality for hard cases.
 struct Subject {
     const char* name;
     const std::string* modelPath;
@@ -66,7 +66,7 @@ inline const auto subjects =
                       Subject{"ShippedFine", &defaultModelPath, HAPTOFLOW_QUALITY_FINE},
                       Subject{"Untrained", &tinyModelPath, HAPTOFLOW_QUALITY_DRAFT});
 
-/// Of a subject and a case that has a name.
+/// The test name of a subject and a named case.
 inline const auto subjectAndCaseName = [](const auto& parameters) {
     return std::string(std::get<0>(parameters.param).name) + std::get<1>(parameters.param).name;
 };

@@ -1,4 +1,4 @@
-// Learning through the C interface: a material's text, progress, cancellation, recordings of no use.
+// Learning through the C interface: a material's text, progress, cancellation, unusable recordings.
 #include "learning_options.hpp"
 #include "open_engine.hpp"
 

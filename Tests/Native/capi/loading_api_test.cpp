@@ -1,4 +1,4 @@
-// Loading through the C interface: one tier or all, within limits, ended early, with a log.
+// Loading through the C interface: one tier or all, time limits, cancellation, the log.
 #include "open_engine.hpp"
 
 #include "inference/rebuilt_model.hpp"
@@ -76,7 +76,7 @@ protected:
         EXPECT_EQ(haptoflow_engine_tier_times(engine, tier, &times), HAPTOFLOW_OK);
         return times.runs;
     }
-    /// One touch, one segment.
+    /// Publishes and generates one touch with one segment.
     static void slide(haptoflow_engine* engine, haptoflow_voice voice, uint32_t touch) {
         haptoflow_contact_state state = slidingState();
         state.touch_counter = touch;
@@ -142,7 +142,7 @@ TEST_F(LoadingApiTest, AutomaticQualityUsesTheMostAccurateTierByItsFiguresAndNot
     haptoflow_engine_options options = engineOptions(HAPTOFLOW_QUALITY_AUTO);
     options.without_worker = 0;
     options.fixed_lead_ms = 0.0;
-    // 40 ms for graphs that take microseconds.
+    // A budget of 40 ms for graphs that take microseconds.
     options.update_rate_hz = 25.0;
     options.budget_share = 1.0;
     haptoflow_engine* engine = open(options);
@@ -295,7 +295,7 @@ TEST_F(LoadingApiTest, ACancellationAlsoEndsLaterLoads) {
     haptoflow_generator* generator = nullptr;
     EXPECT_EQ(haptoflow_generator_create(&generatorOptions, &generator), HAPTOFLOW_CANCELLED);
     EXPECT_EQ(haptoflow_engine_set_quality(engine, HAPTOFLOW_QUALITY_STANDARD), HAPTOFLOW_OK)
-        << "the cancellation was of the creation: " << message();
+        << "the cancellation was for the creation only: " << message();
     EXPECT_EQ(haptoflow_cancellation_cancel(cancellation_), HAPTOFLOW_OK);
 }
 

@@ -30,7 +30,7 @@ std::string spaceOf(const haptoflow_model* model) {
 
 class MaterialApiTest : public ::testing::Test {
 protected:
-    /// The text of a valid material of the model, as a test changes it.
+    /// The text of a valid material of the model, with changes of the test.
     [[nodiscard]] std::string material(const std::function<void(json&)>& change = {}) const {
         json text = model::testing::validMaterial(spaceOf(open_.model));
         if (change) {
@@ -197,7 +197,7 @@ TEST_F(MaterialApiTest, SpatialScaleAndToneOfASurfaceReachTheVoiceAndValuesOutOf
     (void)open_.update(state);
     EXPECT_EQ(open_.statistics().sanitised, 2U);
     EXPECT_GT(tone().runs, 0U);
-    // A program of an earlier header says nothing of either.
+    // A caller of an earlier header sets neither field.
     state.struct_size = offsetof(haptoflow_contact_state, spatial_scale);
     const uint64_t runs = tone().runs;
     for (int update = 0; update < 10; ++update) {

@@ -1,5 +1,5 @@
-// Who is inside a voice when somebody else comes: held there by a sink, which the C interface has no place for. So the
-// table and the rendering behind it are met themselves.
+// Concurrent uses of a voice. A sink holds a thread inside a render, which the C interface does not allow; therefore
+// the tests use the voice table and the rendering functions directly.
 #include "capi/voice_table.hpp"
 #include "capi/voice_rendering.hpp"
 #include "engine/fake_generators.hpp"
@@ -26,7 +26,7 @@ using ::testing::Each;
 
 constexpr std::uint32_t blockFrames = 256;
 
-/// Holds the first who plays samples until it is told to let go.
+/// Blocks the first thread that plays samples until it is released.
 class HoldingSink final : public engine::WaveformSink {
 public:
     void played(std::int64_t /*start*/, std::span<const float> /*samplesMps2*/) noexcept override {
@@ -42,7 +42,7 @@ public:
 
 private:
     std::atomic<bool> hasHeld_{false};
-    // Not latches: on Windows libstdc++ 12 now and then forgets to wake who waits at one.
+    // No latches: with libstdc++ 12 on Windows a waiting thread is sometimes not woken.
     std::promise<void> entered_;
     std::promise<void> leave_;
 };
@@ -66,7 +66,7 @@ protected:
         handle_ = table_.open(std::move(opened));
     }
 
-    /// A block in the second of two channels, out of a buffer that holds nines.
+    /// Renders a block into the second of two channels of a buffer filled with nines.
     haptoflow_status render(std::vector<float>& interleaved) {
         interleaved.assign(std::size_t{blockFrames} * 2, 9.0F);
         return renderInto(table_.use(handle_), {interleaved.data(), blockFrames, 2, 1}, 48000.0);
@@ -80,7 +80,7 @@ protected:
         return samples;
     }
 
-    /// Another thread renders and is held inside; meanwhile a third one closes.
+    /// One thread renders and is blocked inside; meanwhile another one closes the voice.
     void closeDuringARender(const std::function<void()>& close) {
         haptoflow_status status = HAPTOFLOW_INTERNAL_ERROR;
         std::atomic<bool> hasRendered{false};
@@ -98,12 +98,12 @@ protected:
             closedAfterTheRender = hasRendered;
             hasClosed = true;
         });
-        // Once the handle is gone, only the render is left to wait for.
+        // Once the handle is gone, closing waits only for the render.
         while (table_.use(handle_)) {
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
         }
         std::vector<float> refused;
-        EXPECT_EQ(render(refused), HAPTOFLOW_INVALID_ARGUMENT) << "nobody new gets in";
+        EXPECT_EQ(render(refused), HAPTOFLOW_INVALID_ARGUMENT) << "new renders are refused";
         EXPECT_THAT(channel(refused, 1), Each(0.0F));
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
         EXPECT_FALSE(hasClosed);
@@ -112,7 +112,7 @@ protected:
         renderer.join();
         closer.join();
         EXPECT_EQ(status, HAPTOFLOW_OK);
-        EXPECT_GT(peak(heard), 0.001F) << "the block under way is whole";
+        EXPECT_GT(peak(heard), 0.001F) << "the running block is complete";
         EXPECT_TRUE(closedAfterTheRender);
         EXPECT_TRUE(live_.expired());
         EXPECT_EQ(engine_->statistics().voices, 0U);

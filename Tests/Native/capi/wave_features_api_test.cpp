@@ -13,7 +13,7 @@
 namespace haptoflow::capi::testing {
 namespace {
 
-/// 150 Hz that swells twice a second.
+/// A sine of 150 Hz whose amplitude swells twice per second.
 std::vector<float> swellingTone(double rateHz, double seconds) {
     std::vector<float> wave(static_cast<std::size_t>(rateHz * seconds));
     for (std::size_t i = 0; i < wave.size(); ++i) {

@@ -27,7 +27,7 @@ using ::testing::StartsWith;
 
 class ActuatorCommandTest : public testing::CommandLineTest {
 protected:
-    /// Half as loud and 0.1 s later, at channel 2 of `channels`.
+    /// Writes the sweep at half the level and 0.1 s later.
     void writeRecording(const std::string& name, int rateHz = 48000) const {
         const Recording sweep = readRecording(at("sweep.wav").string());
         std::vector<float> samples(static_cast<std::size_t>(sweep.rateHz / 10.0));
@@ -120,7 +120,7 @@ TEST_F(ActuatorCommandTest, WrongOptionsAreRefusedWithASuggestion) {
 
 TEST_F(ActuatorCommandTest, TheChannelOfARecordingWithSeveralMustBeNamed) {
     ASSERT_EQ(run("actuator sweep -o sweep.wav --seconds 1").exitCode, 0);
-    // Two channels of 32-bit float: the header of a mono file of twice the rate, read as what it is not.
+    // Two channels of 32-bit float: the header of a mono file with twice the rate, changed to stereo.
     std::string bytes = read("sweep.wav");
     bytes[22] = 2;
     bytes[32] = 8;

@@ -21,7 +21,7 @@ using ::testing::HasSubstr;
 
 constexpr double twoPi = 2.0 * std::numbers::pi;
 
-/// A second-order bandpass (peak gain `gain`) at a sample rate.
+/// A second-order bandpass with the peak gain `gain`, at a sample rate.
 class Resonance {
 public:
     Resonance(double hz, double quality, double gain, double rateHz) : rateHz_(rateHz) {
@@ -77,7 +77,7 @@ struct Simulated {
     }
 };
 
-/// The sweep at any time, as the definition has it; independent of ExponentialSweep::samples.
+/// The sweep at any time by its definition; independent of ExponentialSweep::samples.
 double sweepAt(const ExponentialSweep& sweep, double time) {
     if (time < 0.0 || time > sweep.seconds) {
         return 0.0;
@@ -170,7 +170,7 @@ TEST(ActuatorIdentificationTest, DelaysThatDifferByAFractionOfASampleAreDistingu
 }
 
 TEST(ActuatorIdentificationTest, ThePhaseIsTheActuatorsOwnWithoutTheDelay) {
-    // What lies beyond the measured range leaves the delay unknown by this much.
+    // The unmeasured response outside the range makes the delay uncertain by this much.
     constexpr double unknownDelaySeconds = 1e-4;
     for (const double gain : {1.0, -1.0}) {
         const Simulated simulated{.delaySeconds = 0.2003, .gain = gain};
@@ -195,13 +195,14 @@ TEST(ActuatorIdentificationTest, TheResonancesAreFound) {
 }
 
 TEST(ActuatorIdentificationTest, HarmonicDistortionIsMeasuredAndExcludedFromTheMagnitude) {
-    // Of a sine, x^2 gives half as its second harmonic, x^3 a quarter as its third and three quarters as itself.
+    // For a sine, x^2 has a second harmonic of a half; x^3 a third harmonic of a quarter and a fundamental of three
+    // quarters.
     for (const auto& [second, third] : {std::pair{0.1, 0.0}, {0.0, 0.1}, {0.2, 0.1}, {0.01, 0.0}}) {
         const Simulated simulated{.secondOrder = second, .thirdOrder = third, .isFlat = true};
         const Identification found = identify({.seconds = 5.0}, simulated);
         const double fundamental = 1.0 + 0.75 * third;
         const double expected = 100.0 * std::hypot(0.5 * second, 0.25 * third) / fundamental;
-        // The third harmonic is in the sweep's range for fewer fundamentals than the second.
+        // The third harmonic is within the sweep's range for fewer fundamentals than the second.
         EXPECT_NEAR(found.profile.measurement->distortionPercent, expected, 0.12 * expected) << second << ", " << third;
         expectMagnitude(found, simulated, 0.5, "distortion");
     }

@@ -39,8 +39,8 @@ Finished runBench(const std::string& words) {
     return testing::runHaptoFlow("bench " + words);
 }
 
-/// The report of a run with next to no events; the tiny model stands in for the paper's architecture too. Each test
-/// asks for what it looks at, because ctest runs each in a process of its own.
+/// The report of a run with few events; the tiny model replaces the paper's architecture, too. Each test runs only the
+/// measurements that it checks, because ctest runs each test in its own process.
 Json reportOf(const std::string& measurements) {
     const std::string only = measurements == "all" ? "" : " --only " + measurements;
     const Finished run =
@@ -86,7 +86,7 @@ TEST(BenchCommandTest, TheReportNamesModelAndProcessorButNotTheHost) {
     EXPECT_FALSE(report["machine"]["processor"].get<std::string>().empty());
     std::array<char, 256> host{};
     ASSERT_EQ(gethostname(host.data(), host.size() - 1), 0);
-    // A very short name would be found in any text.
+    // A very short host name would occur in any text.
     if (std::string(host.data()).size() > 3) {
         EXPECT_THAT(report.dump(), Not(HasSubstr(host.data())));
     }

@@ -13,7 +13,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// Sets or removes an environment variable for the length of a test.
+/// Sets or removes an environment variable for the duration of a test.
 class Environment {
 public:
     Environment(const char* name, const std::optional<std::string>& value) : name_(name) {
@@ -69,7 +69,7 @@ TEST(ModelLocationTest, AMissingModelOfTheEnvironmentIsRefusedWithTheVariable) {
 }
 
 TEST(ModelLocationTest, TheErrorForAMissingRuntimeNamesThePlacesAndTheRemedy) {
-    // The test program lies deeper in the build folder than the command line does: no place fits it.
+    // The test program is deeper in the build folder than the command line, so that none of the places exists.
     const Environment runtime("HAPTOFLOW_ONNXRUNTIME", std::nullopt);
     const std::string refusal = refusalOf([] { return findOnnxRuntime(); });
     EXPECT_THAT(refusal, HasSubstr("HAPTOFLOW_ONNXRUNTIME (not set)"));

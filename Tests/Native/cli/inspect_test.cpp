@@ -21,7 +21,7 @@ using ::testing::HasSubstr;
 using testing::Finished;
 using testing::tinyModel;
 
-/// What `haptoflow inspect` answers; what it complains of is part of the output.
+/// The output of `haptoflow inspect`, including its errors.
 Finished inspect(const std::string& words) {
     Finished run = testing::runHaptoFlow("inspect " + words);
     run.output += run.errors;
@@ -33,7 +33,7 @@ std::string bytesOf(const std::string& path) {
     return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-/// A file in the temporary folder, gone with the test.
+/// A temporary file for one test.
 class ScratchFile {
 public:
     explicit ScratchFile(const std::string& content)

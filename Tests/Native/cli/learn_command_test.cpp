@@ -1,4 +1,4 @@
-// `haptoflow learn`: recordings of every form become material files that render takes.
+// `haptoflow learn`: recordings of every format become material files that render uses.
 #include "command_line.hpp"
 
 #include "learning/made_recording.hpp"
@@ -34,7 +34,7 @@ constexpr double rateHz = 4000.0;
 
 class LearnCommandTest : public testing::CommandLineTest {
 protected:
-    /// time_s, acceleration_mps2, velocity and force of a made recording.
+    /// time_s, acceleration_mps2, velocity and force of a generated recording.
     [[nodiscard]] static std::string csvOf(
         const MadeRecording& made,
         const std::string& columns = "time_s,acceleration_mps2,velocity_x_mps,velocity_y_mps,force_newtons") {
@@ -55,7 +55,7 @@ protected:
         writer.close();
     }
 
-    /// On the tiny model, whose networks are quick.
+    /// Learns with the tiny model, whose networks are fast.
     [[nodiscard]] Finished learn(const std::string& words) const {
         return run("learn " + words + " --model '" + testing::tinyModel + "'");
     }
@@ -270,7 +270,7 @@ std::vector<double> bandsOf(const std::vector<float>& wave) {
     return bands;
 }
 
-/// At 2 kHz, without its first and last 0.3 s.
+/// The wave at 2 kHz without its first and last 0.3 s.
 std::vector<float> middleAt2kHz(const std::vector<float>& wave, double waveRateHz) {
     const std::vector<double> all = learning::bandPassed(
         learning::resampledTo2kHz({.first = wave.data(), .stride = 1, .count = wave.size()}, waveRateHz));
@@ -290,7 +290,7 @@ TEST_F(LearnCommandTest, ALearntMaterialRendersLikeItsRecordingAtAGivenSpeed) {
             "--rate 8000 --quiet");
     ASSERT_EQ(rendered.exitCode, 0) << rendered.errors;
 
-    // The truth: the same surface at 90 mm/s, but for its force, which swings there by half.
+    // The reference: the same surface at 90 mm/s; only its force varies by half.
     const MadeRecording truth(surface, {.seconds = 12.0, .slowestMps = 0.09, .fastestMps = 0.09}, rateHz, 99);
     std::vector<float> heard = readRecording(at("tile.wav").string()).samples;
     std::ranges::transform(heard, heard.begin(), [](float value) { return 200.0F * value; });

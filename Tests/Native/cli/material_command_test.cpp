@@ -10,7 +10,7 @@
 #include <functional>
 #include <string>
 
-// Materials beside the model: in scenes, by --material, and in inspect.
+// Material files in scenes, with --material, and in inspect.
 
 namespace haptoflow::cli {
 namespace {

@@ -39,7 +39,7 @@ protected:
         return rendered.exitCode == 0 ? nlohmann::json::parse(read("felt.json")) : nlohmann::json::object();
     }
 
-    /// That the words are refused as wrong usage, with such words in the message, and leave nothing behind.
+    /// Expects a usage error with this text in the message and no output file.
     void expectUsage(const std::string& words, const std::string& message) const {
         const std::size_t before = fileCount();
         const Finished rendered = render(words);
@@ -68,7 +68,7 @@ TEST_F(RenderCommandTest, AnOutputThatIsAnInputIsRefusedUnderAnyNameAndTheInputS
 }
 
 TEST_F(RenderCommandTest, AModelWhoseGraphsCannotBeLoadedIsAnInputErrorWithTierAndGraph) {
-    // Whole by its checksums, and without a graph that ONNX Runtime could run.
+    // The checksums are correct, but ONNX Runtime could run none of the graphs.
     const std::vector<std::byte> bytes = model::testing::ModelBuilder{}.build();
     write("broken.haptoflow", {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     write("oak.json", R"({"surfaces": [{"name": "floor", "shape": {"plane": {}}, "material": "oak"}]})");
@@ -303,7 +303,7 @@ TEST_F(RenderCommandTest, AStrokeTooLongForAWaveFileIsRefusedBeforeRendering) {
     EXPECT_FALSE(exists("felt.wav"));
 }
 
-/// Peak memory in KiB of a render in a process of its own.
+/// Peak memory in KiB of a render in its own process.
 long peakKibibytes(const fs::path& folder, const std::vector<std::string>& words) {
     const pid_t child = fork();
     if (child == 0) {

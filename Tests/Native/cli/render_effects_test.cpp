@@ -80,7 +80,7 @@ TEST_F(RenderEffectsTest, ADelayedRenderEqualsTheOriginalShiftedInTime) {
     for (std::size_t i = 0; i + 4800 < late.size() && i < plain.size(); ++i) {
         difference = std::max(difference, std::abs(static_cast<double>(late[i + 4800] - plain[i])));
     }
-    // The delay stands before the limiter's look-ahead and the gates, which open and close on either side of it.
+    // The delay is before the limiter's look-ahead and the gates, which open and close at other samples.
     EXPECT_LT(difference, 0.02 * static_cast<double>(std::ranges::max(plain)));
 }
 

@@ -35,7 +35,7 @@ json goodScene() {
         "stylus": {"tip_radius": 0.002}, "update_rate": 120})");
 }
 
-/// What the reader says about the good scene after `change`.
+/// The reader's error for the valid scene after `change`.
 template <typename Change>
 std::string complaintAfter(Change&& change) {
     json document = goodScene();

@@ -92,7 +92,7 @@ protected:
 
 TEST(StrokeFileTest, NumbersNeedADecimalPointInEveryLocale) {
     const std::locale before = std::locale::global(std::locale(std::locale::classic(), new CommaDecimals));
-    // Where the system has it, the C library's locale too.
+    // Also in the C library's locale, if the system has it.
     std::setlocale(LC_NUMERIC, "de_DE.UTF-8");
     const Stroke stroke = parseStroke("t,x,y,z\n0.25,0,0,0\n", "s");
     std::locale::global(before);

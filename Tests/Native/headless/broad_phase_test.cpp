@@ -15,7 +15,7 @@ namespace {
 using testing::sceneOf;
 using testing::surfaceOf;
 
-/// Spheres of 10 mm every 50 mm over a square table; each swings by so much to either side, twice a second.
+/// Spheres of 10 mm every 50 mm over a square table; each moves by `swingMetres` to either side, twice per second.
 Scene gridOfSpheres(int perSide, double swingMetres = 0.0) {
     std::vector<Surface> surfaces;
     for (int row = 0; row < perSide; ++row) {

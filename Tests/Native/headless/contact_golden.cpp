@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Every setting of the file: its name and its place.
+/// Visits every setting of the file with its name.
 template <typename Settings, typename Visit>
 void visitSettings(Settings& settings, Visit&& visit) {
     visit("maximum_force_newtons", settings.maximumForceNewtons);
@@ -55,7 +55,7 @@ json sampleToJson(const TipSample& sample) {
             sample.forceNewtons ? json(*sample.forceNewtons) : json(nullptr)};
 }
 
-/// What a reader without motions of its own needs: where every moving surface was at every sample.
+/// The pose of every moving surface at every sample, for readers without motions.
 json movingPoses(const Case& testCase, const Scene& scene) {
     json all = json::array();
     for (std::size_t index = 0; index < scene.surfaces.size(); ++index) {

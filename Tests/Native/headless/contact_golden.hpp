@@ -11,8 +11,8 @@ namespace haptoflow::headless::golden {
 inline constexpr const char* fileFormat = "haptoflow contact states";
 inline constexpr int fileVersion = 2;
 
-/// One scene with the stroke played over it, one update per sample. The layout of the file is described in
-/// Tests/Golden/contact/README.md.
+/// One scene and the stroke played in it, with one update per sample. Tests/Golden/contact/README.md describes the
+/// file's format.
 struct Case {
     std::string name;
     nlohmann::json scene;
@@ -26,7 +26,7 @@ struct Outcome {
     ContactStatistics statistics;
 };
 
-/// The settings that a case is played with, under the names that the file uses.
+/// The settings of a case, by the names in the file.
 [[nodiscard]] nlohmann::json settingsToJson(const ContactSettings& settings);
 
 [[nodiscard]] Outcome play(const Case& testCase);
@@ -37,7 +37,7 @@ struct Outcome {
 
 [[nodiscard]] nlohmann::json statisticsToJson(const ContactStatistics& statistics);
 
-/// A case out of the file. Throws nlohmann::json::exception or cli::InputError where the file is damaged.
+/// Reads a case of the file. Throws nlohmann::json::exception or cli::InputError if the file is invalid.
 [[nodiscard]] Case caseFromJson(const nlohmann::json& document);
 
 /// The whole file: every case with its readings, one sample or reading per line.

@@ -148,7 +148,7 @@ Case stepsAndWall() {
     high["position"] = {0.05, -0.0097, 0.0};
     json wall = surfaceWith("wall", {{"box", {{"size", {0.02, 0.1, 0.1}}}}}, "stone");
     wall["position"] = {0.09, 0.04, 0.0};
-    // To and fro over the step, against the wall, and at last off the low plate's rim.
+    // To and fro over the step, against the wall, and finally off the low plate's rim.
     return caseOf("over a step, against a wall, back and off the rim", sceneWith({low, high, wall}, 0.001),
                   sampledPath(2.4, frameRateHz, [](double time) {
                       const double x = time < 1.0 ? -0.04 + 0.13 * time : 0.09 - 0.17 * (time - 1.0);

@@ -16,7 +16,7 @@ using testing::sceneOf;
 using testing::speedOf;
 using testing::surfaceOf;
 
-/// Above a table at y = 0 with a tip of 1 mm, this height of the tip's centre presses `depth` into it.
+/// Position of the centre of a 1 mm tip that is pressed `depth` into a table at y = 0.
 glm::dvec3 pressed(double depth, double x = 0.0) {
     return {x, 0.001 - depth, 0.0};
 }
@@ -114,7 +114,7 @@ TEST(ContactTrackerTest, AStrokeOnATurningObjectKeepsItsAxes) {
                                    return plate.poseAt(time).pointToWorld({0.2 * time, 0.0, 0.1 * time});
                                }));
     for (std::size_t frame = 5; frame < readings.size(); ++frame) {
-        // The lag of half a window lets the plate turn by 2.6 degrees meanwhile.
+        // During the lag of half a window the plate turns by 2.6 degrees.
         EXPECT_NEAR(readings[frame].tangentialVelocityMps.x, 0.2, 0.02);
         EXPECT_NEAR(readings[frame].tangentialVelocityMps.y, -0.1, 0.02);
     }

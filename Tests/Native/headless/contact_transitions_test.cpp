@@ -28,7 +28,7 @@ Surface blockAt(const glm::dvec3& centre, const glm::dvec3& size = {0.1, 0.1, 0.
     return surfaceOf(Box{size}, {centre, {1.0, 0.0, 0.0, 0.0}});
 }
 
-/// Left and right of x = 0, tops at y = 0 and y = `step`.
+/// Two plates left and right of x = 0 with their tops at y = 0 and y = `step`.
 std::vector<Surface> plates(double step) {
     return {blockAt({-0.5, -0.05, 0.0}, {1.0, 0.1, 1.0}), blockAt({0.5, -0.05 + step, 0.0}, {1.0, 0.1, 1.0})};
 }
@@ -56,7 +56,7 @@ Events eventsOf(const Scene& scene, double seconds, double rateHz, Path&& path) 
     return events;
 }
 
-/// Speeds and frame rates of hands and headsets, and where between two frames something happens.
+/// Visits the speeds of hands and frame rates of headsets, with several phases of an event between two frames.
 template <typename Visit>
 void forEachStroke(Visit&& visit) {
     for (const double rateHz : {45.0, 72.0, 90.0, 120.0}) {
@@ -73,7 +73,7 @@ void forEachStroke(Visit&& visit) {
 TEST(ContactTransitionsTest, ASlideAgainstAWallIsOneLandingAtTheSpeedOfTheSlide) {
     const Scene scene = sceneOf({surfaceOf(Plane{}), blockAt({0.5, 0.0, 0.0}, {0.6, 1.0, 1.0})});
     forEachStroke([&](double speed, double rateHz, double offset) {
-        // 2 mm deep in the floor, as a hand without anything that holds it is; the wall begins at 0.2.
+        // 2 mm deep in the floor, as a hand without force feedback presses; the wall begins at 0.2.
         const Events events = eventsOf(scene, 0.15 / speed, rateHz, [&](double time) {
             return glm::dvec3(0.1 + offset + speed * time, -0.001, 0.0);
         });
@@ -85,7 +85,7 @@ TEST(ContactTransitionsTest, ASlideAgainstAWallIsOneLandingAtTheSpeedOfTheSlide)
 }
 
 TEST(ContactTransitionsTest, AWallOfTheSameMeshIsLandedOnLikeAnotherSurface) {
-    // A floor and a wall of one open mesh, its front towards the tip.
+    // A floor and a wall as one open mesh, with its front towards the tip.
     testing::RawMesh corner;
     corner.vertices = {{-1.0, 0.0, -1.0}, {-1.0, 0.0, 1.0}, {0.2, 0.0, 1.0},
                        {0.2, 0.0, -1.0},  {0.2, 1.0, 1.0},  {0.2, 1.0, -1.0}};
@@ -120,7 +120,7 @@ TEST(ContactTransitionsTest, AStepBetweenPlatesIsOneEdgeOfItsHeightInBothDirecti
                 return glm::dvec3(-0.1 + offset + speed * time, -0.001, 0.0);
             });
             EXPECT_EQ(events.edges, 1U) << step;
-            // A tip falls by its radius at most before it is off the rim.
+            // The tip falls by at most its radius before it is off the rim.
             EXPECT_LT(events.height, 1.1 * std::abs(step) + 0.00002) << step;
             EXPECT_GT(events.height, std::min(0.9 * std::abs(step), 0.99 * tipRadius) - 0.00002) << step;
             EXPECT_EQ(events.landings, 0U);
@@ -194,7 +194,7 @@ TEST(ContactTransitionsTest, ALiftIsNoEdgeAtAnyAngleAndAnyDistanceFromTheRim) {
     for (const double up : {0.02, 0.2, 1.0}) {
         for (const double along : {0.0, 0.1, 0.5, -0.5}) {
             for (const double from : {0.0, 0.03, 0.0485}) {
-                // What is over the rim before it is up has slid off.
+                // A tip that passes the rim before it is lifted has slid off.
                 if (from + along * 0.0009 / up > 0.049) {
                     continue;
                 }
@@ -218,7 +218,7 @@ TEST(ContactTransitionsTest, RoundShapesHaveNoEdges) {
     const std::vector<double> radii{0.05, 0.02, 0.02, 0.5, 0.08};
     for (std::size_t shape = 0; shape < shapes.size(); ++shape) {
         for (const double speed : {0.02, 0.15, 0.6}) {
-            // In the plane y = 0, around the shape, and then straight on.
+            // In the plane y = 0, around the shape, and then straight ahead.
             const double around = radii[shape] + 0.0006;
             const double seconds = 4.0 * around / speed;
             const Events events = eventsOf(sceneOf({surfaceOf(shapes[shape])}), seconds, 90.0, [&](double time) {
@@ -250,7 +250,7 @@ TEST(ContactTransitionsTest, TheRimsOfAHexagonalPencilAreEdges) {
     }
     const auto mesh = testing::meshOf(pencil);
     const Events events = eventsOf(sceneOf({surfaceOf(mesh)}), 2.0, 90.0, [&](double time) {
-        // Over six rims, half a millimetre in the faces.
+        // Over six rims, half a millimetre deep.
         const double angle = 0.1 + (2.0 * pi + 0.5) * std::min(time, 1.8) / 1.8;
         const double within = std::remainder(angle - pi / 6.0, pi / 3.0);
         const double out = 0.004 * std::cos(pi / 6.0) / std::cos(within) + 0.0004;

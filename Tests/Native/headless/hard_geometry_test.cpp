@@ -22,7 +22,7 @@ using testing::surfaceOf;
 class RandomVectors {
 public:
     explicit RandomVectors(std::uint32_t seed) : random_(seed) {}
-    /// Each coordinate between -1 and 1.
+    /// A random vector with coordinates between -1 and 1.
     glm::dvec3 next() {
         const double x = spread_(random_);
         const double y = spread_(random_);

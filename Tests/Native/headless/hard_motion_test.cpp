@@ -21,7 +21,7 @@ using testing::speedOf;
 using testing::surfaceOf;
 using testing::turned;
 
-/// Lies askew in the world, with a grain of its own. The tip of 4 mm is drawn over its upper face, 1 mm deep.
+/// A plate at an oblique angle in the world, with a grain. A tip of 4 mm is drawn over its upper face, 1 mm deep.
 Surface plate() {
     Surface surface = surfaceOf(Box{{40.0, 0.02, 40.0}}, {{0.3, -0.2, 0.1}, turned(35.0, {1.0, 2.0, -1.0})});
     surface.grain = {3.0, 0.0, 4.0};
@@ -41,7 +41,7 @@ TEST(HardMotionTest, UpdateRatesFromThirtyToAThousandHertzGiveTheSameVelocity) {
                  sampledPath(1.0, rate, [&](double time) { return onPlate(surface.pose, 0.24 * time, 0.07 * time); }));
         for (std::size_t frame = 2; frame < readings.size(); ++frame) {
             ASSERT_TRUE(readings[frame].touching);
-            // The first axis lies along the grain (3, 0, 4) / 5, the second at (4, 0, -3) / 5.
+            // The first axis is along the grain (3, 0, 4) / 5, the second along (4, 0, -3) / 5.
             EXPECT_NEAR(readings[frame].tangentialVelocityMps.x, 0.6 * 0.24 + 0.8 * 0.07, 1e-9) << rate << " Hz";
             EXPECT_NEAR(readings[frame].tangentialVelocityMps.y, 0.8 * 0.24 - 0.6 * 0.07, 1e-9) << rate << " Hz";
         }
@@ -103,8 +103,8 @@ TEST(HardMotionTest, TheVelocityNeverExceedsTheStrokesSpeedForAnyMixOfTimeSteps)
 TEST(HardMotionTest, AStrokeADayLaterGivesTheSameReadings) {
     constexpr double daySeconds = 86'400.0;
     const Surface surface = plate();
-    // At 64 Hz every time of a day is a double's own, so that nothing but the tracker could lose a bit; at 72 Hz the
-    // sample's time itself is rounded, to 2^-36 s.
+    // At 64 Hz every time of a day is exact in a double, so that only the tracker could cause an error; at 72 Hz the
+    // sample's time itself is rounded to 2^-36 s.
     for (const auto& [rate, toleranceMps] : {std::pair(64.0, 0.0), {72.0, 1e-9}, {90.0, 1e-9}}) {
         ContactTracker now(sceneOf({surface}, 0.004));
         ContactTracker later(sceneOf({surface}, 0.004));
@@ -161,7 +161,7 @@ TEST(HardMotionTest, ASurfaceThatTumblesWithTheTipHasAtMostItsTurnAcrossTheTipsR
             tracker, sampledPath(0.5, rate, [&](double time) { return onPlate(surface.poseAt(time), 0.3, -0.2); }));
         for (const ContactReading& reading : readings) {
             ASSERT_TRUE(reading.touching);
-            // The pen itself does not turn, so its tip rolls off the surface's turn of pi radians per second.
+            // The pen itself does not turn, so that its tip rolls on the surface, which turns by pi radians per second.
             EXPECT_LT(speedOf(reading), std::numbers::pi * 0.004) << rate << " Hz at " << reading.timeSeconds;
         }
     }
@@ -181,7 +181,7 @@ TEST(HardMotionTest, ASurfaceThatMovesUnderARestingTipGivesTheOppositeOfItsVeloc
             for (const ContactReading& reading : readings) {
                 ASSERT_TRUE(reading.touching);
                 EXPECT_LT(speedOf(reading), speed + 1e-9) << rate << " Hz at " << reading.timeSeconds;
-                // Before that the tip could as well be a tracker that repeats itself.
+                // Earlier, a stop cannot be distinguished from a tracker that repeats a position.
                 if (reading.timeSeconds > 0.05 + 1.0 / rate) {
                     EXPECT_NEAR(reading.tangentialVelocityMps.x, -0.6 * speed, 1e-9) << rate << " Hz";
                     EXPECT_NEAR(reading.tangentialVelocityMps.y, -0.8 * speed, 1e-9) << rate << " Hz";

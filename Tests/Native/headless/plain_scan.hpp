@@ -12,8 +12,8 @@
 
 namespace haptoflow::headless::testing {
 
-/// The rules of contact without a broad phase: every frame asks every surface in turn whose bounding sphere is within
-/// reach. What ContactTracker is held against, for usable samples without a force of their own.
+/// The contact rules without a broad phase: every frame checks every surface whose bounding sphere is within reach. A
+/// reference for ContactTracker, for usable samples without a measured force.
 class PlainScan {
 public:
     explicit PlainScan(Scene scene) : scene_(std::move(scene)) {
@@ -42,7 +42,7 @@ public:
         return last_;
     }
 
-    /// How often two surfaces were equally deep, so that only their order could decide.
+    /// How often two surfaces were equally deep, so that their order decided.
     [[nodiscard]] int ties() const { return ties_; }
 
 private:

@@ -16,7 +16,7 @@ namespace {
 using testing::PlainScan;
 using testing::RandomScenes;
 
-/// Every bit of a reading, so that comparing tells 0 from -0.
+/// The bits of a reading, so that a comparison distinguishes 0 and -0.
 std::array<std::uint64_t, 15> bitsOf(const ContactReading& reading) {
     const auto bits = [](double value) { return std::bit_cast<std::uint64_t>(value); };
     const glm::dvec3& point = reading.pointMetres;
@@ -38,7 +38,7 @@ std::array<std::uint64_t, 15> bitsOf(const ContactReading& reading) {
             bits(reading.forceNewtons)};
 }
 
-/// Plays the stroke through both and says which surfaces were touched.
+/// Plays the stroke through both implementations and returns the touched surfaces.
 std::set<int> expectSameReadings(const Scene& scene, const std::vector<TipSample>& stroke, PlainScan& scan) {
     ContactTracker tracker(scene);
     std::set<int> touched;
@@ -49,7 +49,7 @@ std::set<int> expectSameReadings(const Scene& scene, const std::vector<TipSample
         if (reading.touchCounter != touchDown.touchCounter) {
             touchDown = reading;
         } else if (reading.touching && reading.landingCounter != touchDown.landingCounter) {
-            // The plain scan knows no landing within a touch.
+            // The plain scan does not implement landings within a touch.
             plain.approachSpeedMps = reading.approachSpeedMps;
         }
         EXPECT_EQ(bitsOf(reading), bitsOf(plain)) << "at " << sample.timeSeconds << " s";

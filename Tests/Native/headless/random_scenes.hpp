@@ -8,8 +8,8 @@
 
 namespace haptoflow::headless::testing {
 
-/// Scenes of every kind of surface, at rest and moving, strewn over a cube so that their density does not depend on
-/// their number, with strokes that go from one to the next.
+/// Scenes with every kind of surface, at rest and moving, in a cube whose size keeps their density constant, and
+/// strokes from one surface to the next.
 class RandomScenes {
 public:
     RandomScenes(std::uint32_t seed, std::size_t surfaces, const glm::dvec3& originMetres)
@@ -18,7 +18,7 @@ public:
           sideMetres_(0.1 * std::cbrt(static_cast<double>(surfaces))),
           origin_(originMetres) {}
 
-    /// Every tenth surface moves, some of them far, every fifth lies exactly where the one before it does, two are
+    /// Every tenth surface moves, some of them far; every fifth is in the same place as the previous one; two are
     /// planes.
     Scene scene() {
         std::vector<Surface> surfaces;
@@ -43,7 +43,7 @@ public:
         return sceneOf(std::move(surfaces), 0.004);
     }
 
-    /// At 90 Hz. One leg in three begins with a jump.
+    /// A stroke at 90 Hz. Every third leg begins with a jump.
     std::vector<TipSample> strokeOver(const Scene& scene, std::size_t frames) {
         std::vector<TipSample> samples;
         glm::dvec3 tip = origin_;
@@ -97,7 +97,7 @@ private:
     double sideMetres_;
     glm::dvec3 origin_;
     Shape ring_ = meshOf(rawTorus(0.03, 0.01, 16, 8));
-    /// Open, and far from its own origin.
+    /// An open mesh far from its own origin.
     Shape sheet_ = std::make_shared<const TriangleMesh>(
         std::vector<glm::dvec3>{{0.02, 0.05, 0.02}, {0.02, 0.05, 0.08}, {0.08, 0.05, 0.08}, {0.08, 0.06, 0.02}},
         std::vector<TriangleMesh::Triangle>{{0, 1, 2}, {0, 2, 3}});

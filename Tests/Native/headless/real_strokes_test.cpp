@@ -48,8 +48,8 @@ double medianOf(std::vector<double> values) {
     return *middle;
 }
 
-/// Height of the table over the x-y plane, z = a + b x + c y, by least squares re-weighted towards the points that
-/// lie on it: lifted parts of a stroke must not tilt it.
+/// Height of the table over the x-y plane, z = a + b x + c y, by iteratively re-weighted least squares, so that lifted
+/// parts of a stroke do not tilt it.
 glm::dvec3 fitTable(const std::vector<TipSample>& samples) {
     glm::dvec3 plane(0.0);
     for (int round = 0; round < 20; ++round) {
@@ -72,9 +72,9 @@ glm::dquat turnedFromUp(const glm::dvec3& normal) {
     return glm::normalize(glm::dquat(1.0 + glm::dot(up, normal), glm::cross(up, normal)));
 }
 
-/// Speed along the table by another road than the tracker's: this tracker ticks steadily at 60 Hz and the samples
-/// only say when an app saw a tick, so the distinct positions are spread evenly over the stroke and differentiated
-/// over two ticks. Knows the future, which the tracker cannot.
+/// Reference of the speed along the table by another method: the tracker measures steadily at 60 Hz, and the time
+/// stamps are those at which an app received the measurement. Therefore the distinct positions are distributed evenly
+/// over the stroke and differentiated over two measurements. It uses later samples, which a live estimate cannot.
 class EvenlyTickedReference {
 public:
     EvenlyTickedReference(const std::vector<TipSample>& samples, const glm::dvec3& normal) : normal_(normal) {
@@ -108,9 +108,9 @@ TEST(RealStrokesTest, SpeedsOfRealStrokesAreWithinTenPercentOfANonCausalReferenc
     if (!std::filesystem::exists(strokesPath())) {
         GTEST_SKIP() << strokesPath() << " is not there: real strokes are no part of the repository";
     }
-    // Half a window, and the age of a position that the tracker repeats.
+    // Half a window, and the age of a repeated position.
     const double lagSeconds = 0.020;
-    // Pens rest at the ends of their strokes; there a relative error says nothing.
+    // Pens rest at the ends of their strokes, where a relative error is meaningless.
     const double movingMps = 0.05;
     const Strokes strokes = readStrokes();
     ASSERT_EQ(strokes.size(), 20U);
@@ -120,7 +120,7 @@ TEST(RealStrokesTest, SpeedsOfRealStrokesAreWithinTenPercentOfANonCausalReferenc
         const glm::dvec3 normal = glm::normalize(glm::dvec3(-plane.y, -plane.z, 1.0));
         Surface table = testing::surfaceOf(Plane{});
         table.pose = {{0.0, 0.0, plane.x}, turnedFromUp(normal)};
-        // A tip of 5 mm about the pen's tracked point keeps the few millimetres of tracking error in touch.
+        // With a tip of 5 mm around the pen's tracked point, a few millimetres of tracking error do not end the touch.
         ContactTracker tracker(testing::sceneOf({table}, 0.005));
         const EvenlyTickedReference reference(samples, normal);
 
@@ -161,7 +161,8 @@ TEST(RealStrokesTest, AStrokeOverFlushTilesHasNoEventsAt30MmAndFewAt15Mm) {
             middle += sample.positionMetres / static_cast<double>(samples.size());
         }
         middle.z = plane.x + plane.y * middle.x + plane.z * middle.y;
-        // The recordings begin pressed: the tip comes from above first, so that it enters a tile by its top.
+        // The recordings begin with the pen pressed down: an approach from above makes the tip enter a tile through its
+        // top.
         std::vector<TipSample> stroke;
         for (int frame = 0; frame < 30; ++frame) {
             TipSample sample = samples.front();
@@ -196,8 +197,7 @@ TEST(RealStrokesTest, AStrokeOverFlushTilesHasNoEventsAt30MmAndFewAt15Mm) {
             }
         }
     }
-    // Where a fast pen jumps over a tile of 15 mm and dips as deep as a quarter of it, its sides are as near as its
-    // top.
+    // If a fast pen jumps over a tile of 15 mm at a depth of a quarter of it, the tile's sides are as near as its top.
     EXPECT_GT(crossings, 3000U);
     EXPECT_LE(events, crossings / 1000);
 }

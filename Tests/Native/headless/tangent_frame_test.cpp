@@ -36,7 +36,7 @@ TEST(TangentFrameTest, AxesStayContinuousAlongAGreatCircleOverThePole) {
         TangentAxes last;
         bool first = true;
         double worst = 0.0;
-        // 0.001 degrees off the pole: the projection of the grain spins by half a turn within one frame there.
+        // At 0.001 degrees from the pole the projection of the grain turns by half a turn within one frame.
         const glm::dquat tilt = testing::turned(0.001, {1.0, 0.0, 0.0});
         for (double angle = -90.0; angle <= 450.0; angle += degreesPerFrame) {
             const glm::dvec3 normal = tilt * (testing::turned(angle, {0.0, 0.0, 1.0}) * glm::dvec3(0.0, 1.0, 0.0));
@@ -79,8 +79,8 @@ TEST(TangentFrameTest, TheFirstAxisIsParallelToTheGrainAwayFromThePolesForEveryS
     const glm::dvec3 grain(0.0, 0.0, 1.0);
     for (int stroke = 0; stroke < 100; ++stroke) {
         TangentFrame frame(grain);
-        // A circle of latitude 40 degrees from the grain's pole, 3 degrees a frame: the grain's projection turns
-        // against parallel transport all the way round.
+        // A circle of latitude 40 degrees from the grain's pole at 3 degrees per frame: the grain's projection turns
+        // against parallel transport on the whole circle.
         const double start = 360.0 * gaussian(random);
         for (double angle = 0.0; angle < 720.0; angle += 3.0) {
             const glm::dvec3 normal =

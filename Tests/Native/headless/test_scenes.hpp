@@ -31,7 +31,7 @@ inline Scene sceneOf(std::vector<Surface> surfaces, double tipRadiusMetres = 0.0
     return {std::move(surfaces), tipRadiusMetres, 90.0};
 }
 
-/// Frames at a steady rate along a path from time to position.
+/// Samples at a constant rate along a path that maps times to positions.
 template <typename Path>
 std::vector<TipSample> sampledPath(double seconds, double rateHz, Path&& path) {
     std::vector<TipSample> samples;
@@ -64,7 +64,7 @@ inline glm::dquat turned(double degrees, const glm::dvec3& axis) {
     return glm::angleAxis(degrees * std::numbers::pi / 180.0, glm::normalize(axis));
 }
 
-/// Every number of the reading is finite and within the bounds that it promises.
+/// True if every number of the reading is finite and within its documented range.
 inline bool isSane(const ContactReading& reading) {
     const auto finite = [](const glm::dvec3& vector) {
         return std::isfinite(vector.x) && std::isfinite(vector.y) && std::isfinite(vector.z);
@@ -76,7 +76,7 @@ inline bool isSane(const ContactReading& reading) {
            std::isfinite(reading.forceNewtons) && reading.forceNewtons >= 0.0 && reading.forceNewtons <= 5.0;
 }
 
-/// A closed box mesh, outward, whose eight corners are split per face as game engines do.
+/// A closed box mesh with outward faces, whose corners are separate vertices for each face, as in game engines.
 struct RawMesh {
     std::vector<glm::dvec3> vertices;
     std::vector<TriangleMesh::Triangle> triangles;

@@ -14,7 +14,7 @@ using testing::surfaceOf;
 
 const Surface table = surfaceOf(Plane{});
 
-/// Speeds after each sample.
+/// The speed after each sample.
 std::vector<double> speedsOf(const std::vector<TipSample>& samples, const Surface& surface = table) {
     TipHistory history{VelocitySettings{}};
     std::vector<double> speeds;
@@ -57,7 +57,7 @@ TEST(VelocityTest, AThirdOfTheSamplesRepeatedAtRandomChangesNothing) {
 }
 
 TEST(VelocityTest, TheVelocityOfATrackerAtTwoThirdsOfTheFrameRateIsWithinFivePercent) {
-    // The real trackers' pattern: each position is as old as the tracker's last tick.
+    // The pattern of real trackers: each position is as old as the tracker's last measurement.
     for (const double rate : {72.0, 90.0, 108.0, 120.0}) {
         const double tick = 1.5 / rate;
         const auto samples = sampledPath(

@@ -7,7 +7,7 @@
 namespace haptoflow::learning {
 namespace {
 
-/// A valley a hundred times as long as wide, askew, its floor at (1, -2, 0.5, 0).
+/// A rotated ellipsoid, a hundred times longer than wide, with its minimum at (1, -2, 0.5, 0).
 double valley(const std::vector<double>& point) {
     const double a = point[0] - 1.0 + point[1] + 2.0;
     const double b = point[0] - 1.0 - (point[1] + 2.0);

@@ -73,7 +73,7 @@ protected:
         inference::defaultSolver(model_.header().tiers[model_.header().defaultTier]), 64};
 };
 
-/// Of the ribs along the material's first axis, of samples that follow one another at the seed's speed.
+/// Fundamental of the ribs along the material's first axis, in consecutive samples at the seed's speed.
 std::complex<double> fundamentalOf(std::span<const float> wave, const model::MaterialFile& material,
                                    const model::MaterialSeed& seed) {
     const double turns = 1000.0 / inference::waveformRateHz * material.embedding[60] * seed.velocityMps[0];
@@ -141,7 +141,7 @@ TEST_F(LearnerTest, ASeedWithTheToneEqualsTheRecording) {
         }
         heard.push_back(sum);
     }
-    // Somewhere in the recording stands the same wave.
+    // The same wave must occur somewhere in the recording.
     double best = 0.0;
     for (std::size_t start = 0; start + heard.size() <= made.acceleration.size(); ++start) {
         double product = 0.0;
@@ -177,7 +177,7 @@ TEST_F(LearnerTest, ATouchThatStartsFromASeedContinuesTheRibsInPhase) {
     const LearntMaterial learnt = learn(made.view(), brief());
     const model::MaterialFile material = model::parseMaterial(learnt.materialJson);
     ASSERT_GE(material.seeds.size(), 4U);
-    // How far what is played has its ribs where the recording has them, 1 for all of it, -1 half a rib off.
+    // Similarity of the ribs played and recorded: 1 for equal phases, -1 for a difference of half a rib.
     const auto likeness = [&](double shiftTurns) {
         double together = 0.0;
         double most = 0.0;

@@ -15,7 +15,7 @@ SpeedBins threeBins() {
     return bins;
 }
 
-/// Flat, of mean square 1, times `gainDb` of the frequency.
+/// A flat spectrum with a mean square of 1, multiplied by `gainDb` of the frequency.
 template <typename Gain>
 TextureFigures spectrum(double frames, Gain gainDb) {
     TextureFigures figures;

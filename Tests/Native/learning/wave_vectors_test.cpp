@@ -31,7 +31,7 @@ std::vector<WaveVector> vectorsOf(const MadeRecording& made) {
     return vectorsOf(prepareRecording(made.view()));
 }
 
-/// A recording that the Python estimator was given, too, and what it found there.
+/// A recording and the result of the Python estimator for it.
 struct GoldenCase {
     PreparedRecording recording;
     std::vector<WaveVector> vectors;
@@ -81,7 +81,7 @@ TEST(WaveVectorsTest, NoWindowContainsAnUnusableSample) {
     constexpr std::size_t first = 5000;
     constexpr std::size_t count = 900;
     std::fill_n(golden.recording.isUsable.begin() + first, count, std::uint8_t{0});
-    // What stands there is as wrong as it can be.
+    // Invalid samples, which must have no effect.
     std::fill_n(golden.recording.wave.begin() + first, count, 1e6F);
     const GoldenCase whole = readCase("corduroy");
     expectWithin(vectorsOf(golden.recording), whole.vectors, 0.01);

@@ -27,7 +27,7 @@ Json readJson(const std::string& path) {
     return Json::parse(stream);
 }
 
-/// That the material is refused with a message that holds `part`.
+/// Expects that the material is refused with a message that contains `part`.
 void expectRefusal(const Json& material, const std::string& part) {
     try {
         (void)parseMaterial(material.dump());
@@ -37,7 +37,7 @@ void expectRefusal(const Json& material, const std::string& part) {
     }
 }
 
-/// The same of a valid material with one value changed.
+/// Expects the same for a valid material with one changed value.
 void expectRefused(const std::string& pointer, const Json& value, const std::string& part) {
     Json material = validMaterial("0123abcd");
     material[Json::json_pointer(pointer)] = value;
@@ -157,7 +157,7 @@ TEST(MaterialFileTest, EveryErrorOfTheGoldenFilesNamesItsKey) {
     for (const Json& each : golden.at("cases")) {
         const auto key = each.at("key").get<std::string>();
         SCOPED_TRACE(each.at("name").get<std::string>());
-        // A member that is missing is named apart from the object that lacks it.
+        // The message for a missing member names the member, not the object's path.
         expectRefusal(whole.patch(each.at("patch")), key.substr(key.rfind('.') + 1));
     }
 }
@@ -213,7 +213,7 @@ TEST(MaterialFileTest, AMissingFileAndAFolderAreRefusedWithTheirPath) {
     EXPECT_THAT(refusal(HAPTOFLOW_TEST_GOLDEN_DIR "/model/tiny.haptoflow"), HasSubstr("is not valid JSON"));
 }
 
-// Run under the sanitizers, these show that no byte of a file is trusted.
+// Under the sanitizers these tests show that invalid bytes cause no undefined behaviour.
 
 TEST(MaterialMutationTest, AFileCutAtAnyLengthIsRefused) {
     const std::string text = validMaterial("0123abcd").dump();

@@ -14,7 +14,7 @@
 #include <iterator>
 #include <set>
 
-// What is read of a graph before ONNX Runtime sees it.
+// Checks of a graph before ONNX Runtime loads it.
 
 namespace haptoflow::model::testing {
 namespace {
@@ -263,7 +263,7 @@ TEST(WireReaderTest, LengthsBeyondTheEndLongNumbersAndUnknownEncodingsAreRefused
     refuse({0x02, 0}, "the number 0");
 }
 
-/// The shipped level graph, which has constants, initializers and attributes, and a made one.
+/// The shipped level graph, which has constants, initialisers and attributes, and a generated one.
 std::vector<Bytes> seedGraphs() {
     const ModelFile model = ModelFile::read(HAPTOFLOW_TEST_DEFAULT_MODEL);
     const auto level = model.blob("level");
@@ -292,7 +292,7 @@ TEST(OnnxMutationTest, ChangedBytesAreRefusedOrReadToTheEnd) {
         for (int index = 0; index < 6000; ++index) {
             Bytes bytes = valid;
             for (std::size_t change = 0; change <= random.below(4); ++change) {
-                // The front holds structure, the rest mostly weights.
+                // The first bytes hold the structure, the rest mostly weights.
                 const std::size_t end = random.below(2) == 0 ? std::min<std::size_t>(bytes.size(), 4000) : bytes.size();
                 bytes[random.below(end)] = static_cast<std::byte>(random.below(256));
             }
@@ -309,7 +309,7 @@ TEST(OnnxMutationTest, CutAndJoinedGraphsAreRefusedOrReadToTheEnd) {
     for (std::size_t length = 0; length < valid[1].size(); ++length) {
         outcome.tryGraph(Bytes(valid[1].begin(), valid[1].begin() + static_cast<std::ptrdiff_t>(length)));
     }
-    EXPECT_EQ(outcome.accepted, 0) << "the opset stands last";
+    EXPECT_EQ(outcome.accepted, 0) << "the opset is at the end";
     for (int index = 0; index < 4000; ++index) {
         const Bytes& first = valid[random.below(valid.size())];
         const Bytes& second = valid[random.below(valid.size())];
