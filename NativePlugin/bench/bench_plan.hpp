@@ -8,13 +8,14 @@
 namespace haptoflow::bench {
 
 inline constexpr double outputRateHz = 48000.0;
+/// Contact states per second of the simulated headset.
 inline constexpr double updateRateHz = 72.0;
 /// The block length of measurements that use a single one.
-inline constexpr std::size_t usualBlockFrames = 256;
+inline constexpr std::size_t defaultBlockFrames = 256;
 
 /// Block length and burst length of an audio device.
 struct DeviceShape {
-    std::size_t blockFrames = usualBlockFrames;
+    std::size_t blockFrames = defaultBlockFrames;
     /// Number of callbacks that follow each other immediately.
     std::size_t burstBlocks = 1;
 
@@ -52,5 +53,20 @@ struct BenchPlan {
     [[nodiscard]] std::size_t blendUpdates() const noexcept { return 4 * events; }
     [[nodiscard]] std::size_t contactUpdates() const noexcept { return 20 * events; }
 };
+
+/// Simulated time: calls `update(seconds)` whenever a contact state is due, and `block()` for each of `blocks` blocks
+/// of the default device.
+template <typename Update, typename Block>
+void simulateBlocks(std::size_t blocks, Update&& update, Block&& block) {
+    double nextUpdate = 0.0;
+    for (std::size_t index = 0; index < blocks; ++index) {
+        const double now = static_cast<double>(index) * DeviceShape{}.blockSeconds();
+        if (now >= nextUpdate) {
+            nextUpdate += 1.0 / updateRateHz;
+            update(now);
+        }
+        block();
+    }
+}
 
 }  // namespace haptoflow::bench

@@ -92,7 +92,7 @@ nlohmann::ordered_json measureBlends(const Subjects& subjects, const BenchPlan& 
     for (const std::size_t count : measuredCounts) {
         voices.emplace_back(subjects, count);
     }
-    std::vector<float> block(usualBlockFrames);
+    std::vector<float> block(defaultBlockFrames);
     std::array<std::size_t, measuredCounts.size()> order{0, 1, 2};
     std::minstd_rand random(static_cast<std::uint32_t>(subjects.seed));
     const std::size_t updates = plan.blendUpdates();

@@ -16,9 +16,9 @@ namespace {
 using Voices = std::vector<std::shared_ptr<engine::LiveVoice>>;
 
 /// Sliding voices of one engine and as many untouched ones, rendered and timed separately.
-class TwoChoirs {
+class SlidingAndSilentVoices {
 public:
-    TwoChoirs(const Subjects& subjects, std::size_t voices, bool hasWorker)
+    SlidingAndSilentVoices(const Subjects& subjects, std::size_t voices, bool hasWorker)
         : hand_(*subjects.model), engine_(subjects.standardEngine(hasWorker)), order_(subjects.seed) {
         for (std::size_t voice = 0; voice < voices; ++voice) {
             sliding_.push_back(engine_->addVoice(outputRateHz));
@@ -100,37 +100,34 @@ private:
 };
 
 nlohmann::ordered_json measureHot(const Subjects& subjects, std::size_t voices, std::size_t blocks) {
-    TwoChoirs choirs(subjects, voices, false);
-    choirs.reserve(blocks);
-    std::vector<float> block(usualBlockFrames);
-    double nextUpdate = 0.0;
-    for (std::size_t index = 0; index < blocks; ++index) {
-        const double now = static_cast<double>(index) * DeviceShape{}.blockSeconds();
-        if (now >= nextUpdate) {
-            nextUpdate += 1.0 / updateRateHz;
-            choirs.publish(now);
-            choirs.step();
-        }
-        choirs.render(block);
-    }
-    return choirs.figures();
+    SlidingAndSilentVoices voicePairs(subjects, voices, false);
+    voicePairs.reserve(blocks);
+    std::vector<float> block(defaultBlockFrames);
+    simulateBlocks(
+        blocks,
+        [&](double now) {
+            voicePairs.publish(now);
+            voicePairs.step();
+        },
+        [&] { voicePairs.render(block); });
+    return voicePairs.figures();
 }
 
 nlohmann::ordered_json measurePaced(const Subjects& subjects, std::size_t voices, double seconds) {
     const DeviceShape shape;
     const auto wanted = static_cast<std::size_t>(std::ceil(seconds / shape.blockSeconds()));
     // A machine that is busy with other work needs more time for the same number of blocks.
-    const double longestSeconds = 1.0 + 5.0 * static_cast<double>(wanted) * shape.blockSeconds();
-    TwoChoirs choirs(subjects, voices, true);
-    choirs.reserve(static_cast<std::size_t>(longestSeconds / shape.blockSeconds()) + 1);
+    const double maximumSeconds = 1.0 + 5.0 * static_cast<double>(wanted) * shape.blockSeconds();
+    SlidingAndSilentVoices voicePairs(subjects, voices, true);
+    voicePairs.reserve(static_cast<std::size_t>(maximumSeconds / shape.blockSeconds()) + 1);
     const double start = nowSeconds();
-    RealTimeDevice device(shape, longestSeconds, [&choirs](std::span<float> block) { choirs.render(block); });
-    for (int update = 1; choirs.blocks() < wanted && nowSeconds() < start + longestSeconds; ++update) {
-        choirs.publish(nowSeconds() - start);
+    RealTimeDevice device(shape, maximumSeconds, [&voicePairs](std::span<float> block) { voicePairs.render(block); });
+    for (int update = 1; voicePairs.blocks() < wanted && nowSeconds() < start + maximumSeconds; ++update) {
+        voicePairs.publish(nowSeconds() - start);
         sleepUntil(start + update / updateRateHz);
     }
     const std::size_t lateCalls = device.finish().lateCalls;
-    nlohmann::ordered_json figures = choirs.figures();
+    nlohmann::ordered_json figures = voicePairs.figures();
     figures["late_calls"] = lateCalls;
     return figures;
 }

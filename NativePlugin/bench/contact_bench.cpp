@@ -29,11 +29,11 @@ headless::Shape shapeOf(std::size_t index) {
 }
 
 /// Surfaces on a square grid with their tops at one height.
-headless::Scene carpet(std::size_t surfaces) {
+headless::Scene gridOfSurfaces(std::size_t surfaces) {
     const auto columns = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(surfaces))));
     headless::Scene scene;
     for (std::size_t index = 0; index < surfaces; ++index) {
-        headless::Surface surface;
+        headless::SceneSurface surface;
         surface.name = "surface " + std::to_string(index);
         surface.shape = shapeOf(index);
         const std::size_t row = index / columns;
@@ -46,14 +46,14 @@ headless::Scene carpet(std::size_t surfaces) {
 }
 
 /// A tip that moves over the grid at 0.2 m/s, half a millimetre deep in the tops.
-class Stroller {
+class SlidingTip {
 public:
-    Stroller(std::size_t surfaces, std::uint64_t seed)
+    SlidingTip(std::size_t surfaces, std::uint64_t seed)
         : extentMetres_(spacingMetres * std::ceil(std::sqrt(static_cast<double>(surfaces)))),
           random_(seed),
-          tracker_(carpet(surfaces)) {}
+          tracker_(gridOfSurfaces(surfaces)) {}
 
-    void stroll(std::size_t updates) {
+    void slide(std::size_t updates) {
         for (std::size_t update = 0; update < updates; ++update) {
             advance();
             headless::TipSample sample;
@@ -102,22 +102,22 @@ private:
 }  // namespace
 
 nlohmann::ordered_json measureContact(std::uint64_t seed, const BenchPlan& plan, const Advance& advance) {
-    std::deque<Stroller> strollers;
+    std::deque<SlidingTip> tips;
     std::vector<std::size_t> order;
     for (const std::size_t surfaces : plan.surfaces) {
-        order.insert(order.end(), turnsOfEach, strollers.size());
-        strollers.emplace_back(surfaces, seed);
+        order.insert(order.end(), turnsOfEach, tips.size());
+        tips.emplace_back(surfaces, seed);
     }
     std::mt19937_64 random(seed);
     std::ranges::shuffle(order, random);
     std::size_t done = 0;
     for (const std::size_t index : order) {
-        strollers[index].stroll((plan.contactUpdates() + turnsOfEach - 1) / turnsOfEach);
+        tips[index].slide((plan.contactUpdates() + turnsOfEach - 1) / turnsOfEach);
         advance(static_cast<double>(++done) / static_cast<double>(order.size()));
     }
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
-    for (std::size_t index = 0; index < strollers.size(); ++index) {
-        rows.push_back(strollers[index].figures(plan.surfaces[index]));
+    for (std::size_t index = 0; index < tips.size(); ++index) {
+        rows.push_back(tips[index].figures(plan.surfaces[index]));
     }
     for (auto& row : rows) {
         row["ratio"] = ratioOf(row["us_per_update"].get<double>(), rows[0]["us_per_update"].get<double>());

@@ -12,11 +12,11 @@ constexpr double updateSeconds = 1.0 / updateRateHz;
 // Silence before a script begins, until its device has started.
 constexpr double quietSeconds = 0.05;
 // A state closer to the end than this would be published twice.
-constexpr double shortestSeconds = 1e-4;
+constexpr double minimumSeconds = 1e-4;
 
 /// Appends states from `begin` to `end` at the update rate, the first at `begin`.
 void hold(std::vector<TimedState>& states, const engine::ContactState& state, double begin, double end) {
-    for (int update = 0; begin + update * updateSeconds < end - shortestSeconds; ++update) {
+    for (int update = 0; begin + update * updateSeconds < end - minimumSeconds; ++update) {
         states.push_back({begin + update * updateSeconds, state});
         states.back().state.timeSeconds = states.back().seconds;
     }

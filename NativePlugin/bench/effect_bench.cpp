@@ -142,16 +142,9 @@ private:
 
 nlohmann::ordered_json measure(const Subjects& subjects, EffectKind kind, std::size_t blocks) {
     WithAndWithout voices(subjects, kind);
-    std::vector<float> block(usualBlockFrames);
-    double nextUpdate = 0.0;
-    for (std::size_t index = 0; index < blocks; ++index) {
-        const double now = static_cast<double>(index) * DeviceShape{}.blockSeconds();
-        if (now >= nextUpdate) {
-            nextUpdate += 1.0 / updateRateHz;
-            voices.publish(now);
-        }
-        voices.render(block);
-    }
+    std::vector<float> block(defaultBlockFrames);
+    simulateBlocks(
+        blocks, [&](double now) { voices.publish(now); }, [&] { voices.render(block); });
     return voices.figures();
 }
 

@@ -59,9 +59,9 @@ void findSteps(const Recording& recording, const std::vector<Published>& publish
         const float after = MarkingGenerator::markMps2(step.place);
         const float midway = 0.5F * (before + after) / fullScaleMps2;
         // Longer than any lead and any period of a device: after this time the change of label was lost.
-        constexpr double longestSeconds = 0.3;
+        constexpr double maximumSeconds = 0.3;
         const double lead = published[step.index + 1].leadSamples / inference::waveformRateHz;
-        note(recording.first(midway, stepped, stepped + longestSeconds), stepped,
+        note(recording.first(midway, stepped, stepped + maximumSeconds), stepped,
              lead + shape.periodSeconds() + takingOverSeconds, steps);
     }
 }

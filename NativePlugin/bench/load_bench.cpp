@@ -21,7 +21,7 @@ struct OpenEngine {
 OpenEngine openEngine(const Subjects& subjects) {
     engine::EngineTiers tiers;
     for (const model::Tier& tier : subjects.model->header().tiers) {
-        tiers.push_back(subjects.generator(*subjects.model, tier, usualBatch));
+        tiers.push_back(subjects.generator(*subjects.model, tier, defaultBatch));
     }
     engine::LiveEngineSettings settings;
     settings.quality.fixedTier = subjects.model->header().defaultTier;

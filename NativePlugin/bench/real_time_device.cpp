@@ -8,9 +8,9 @@
 
 namespace haptoflow::bench {
 
-RealTimeDevice::RealTimeDevice(const DeviceShape& shape, double longestSeconds, Callback callback)
+RealTimeDevice::RealTimeDevice(const DeviceShape& shape, double maximumSeconds, Callback callback)
     : shape_(shape), callback_(std::move(callback)) {
-    const auto bursts = static_cast<std::size_t>(std::ceil(longestSeconds / shape.periodSeconds()));
+    const auto bursts = static_cast<std::size_t>(std::ceil(maximumSeconds / shape.periodSeconds()));
     recording_.samples.resize(bursts * shape.burstBlocks * shape.blockFrames);
     recording_.blocks.reserve(bursts * shape.burstBlocks);
     thread_ = std::thread([this] { run(); });

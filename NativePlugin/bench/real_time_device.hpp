@@ -18,9 +18,9 @@ public:
     /// Fills the span; called on the device's thread.
     using Callback = std::function<void(std::span<float>)>;
 
-    /// Starts at once and stops by itself after `longestSeconds`, for which it allocates memory. The objects that the
+    /// Starts at once and stops by itself after `maximumSeconds`, for which it allocates memory. The objects that the
     /// callback uses must outlive the device. Throws std::system_error if no thread can be created.
-    RealTimeDevice(const DeviceShape& shape, double longestSeconds, Callback callback);
+    RealTimeDevice(const DeviceShape& shape, double maximumSeconds, Callback callback);
     RealTimeDevice(const RealTimeDevice&) = delete;
     RealTimeDevice& operator=(const RealTimeDevice&) = delete;
     ~RealTimeDevice();

@@ -16,7 +16,7 @@
 namespace haptoflow::bench {
 
 /// Voices in one batch: the default of the C interface.
-inline constexpr std::size_t usualBatch = 8;
+inline constexpr std::size_t defaultBatch = 8;
 
 /// A measurement failed because there was no sound or no segment to measure.
 class MeasurementError : public std::runtime_error {
@@ -42,7 +42,7 @@ struct Subjects {
     /// An engine with a single fixed tier.
     [[nodiscard]] std::unique_ptr<engine::LiveEngine> engineWith(std::unique_ptr<inference::SegmentGenerator> generator,
                                                                  bool hasWorker) const;
-    /// An engine with the tier "standard" for `usualBatch` voices.
+    /// An engine with the tier "standard" for `defaultBatch` voices.
     [[nodiscard]] std::unique_ptr<engine::LiveEngine> standardEngine(bool hasWorker) const;
 };
 
@@ -50,7 +50,7 @@ struct Subjects {
 class Hand {
 public:
     /// Only this many of the labels with a seed are used, in the model's order; at least one.
-    static constexpr std::size_t mostLabels = 16;
+    static constexpr std::size_t maximumLabels = 16;
 
     explicit Hand(const model::ModelFile& model);
 

@@ -92,7 +92,7 @@ ExponentialSweep readSweep(const std::string& path) {
 }
 
 /// A panel whose decibel axis covers all finite values of the lines, with its tick distance.
-PlotPanel decibelPanel(std::vector<PlotLine> lines, double lowestShown) {
+PlotPanel decibelPanel(std::vector<PlotLine> lines, double minimumShown) {
     PlotPanel panel{.axis = "dB", .lowest = 0.0, .highest = 0.0, .tick = 10.0, .lines = std::move(lines)};
     for (const PlotLine& line : panel.lines) {
         for (const double value : line.values) {
@@ -102,7 +102,7 @@ PlotPanel decibelPanel(std::vector<PlotLine> lines, double lowestShown) {
             }
         }
     }
-    panel.lowest = std::max(std::floor(panel.lowest / 10.0) * 10.0, lowestShown);
+    panel.lowest = std::max(std::floor(panel.lowest / 10.0) * 10.0, minimumShown);
     panel.highest = std::ceil((panel.highest + 1.0) / 10.0) * 10.0;
     return panel;
 }

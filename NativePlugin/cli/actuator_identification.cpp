@@ -30,10 +30,10 @@ constexpr double edgeHz = 4.0;
 // Longer than the response of any such actuator.
 constexpr double ringingSeconds = 0.4;
 constexpr double leadSeconds = 0.1;
-constexpr double shortestRingingSeconds = 0.05;
-constexpr int highestHarmonic = 5;
-constexpr double leastSignalToNoiseDecibels = 6.0;
-constexpr std::size_t fewestPoints = 24;
+constexpr double minimumRingingSeconds = 0.05;
+constexpr int maximumHarmonic = 5;
+constexpr double minimumSignalToNoiseDecibels = 6.0;
+constexpr std::size_t minimumPoints = 24;
 
 double rounded(double value, double perUnit) {
     return std::round(value * perUnit) / perUnit;
@@ -59,8 +59,8 @@ void requireSignal(const Recording& recording, const ExponentialSweep& sweep, co
                          " dB of full scale); check the sensor, its channel (--channel) and the recording level");
     }
     const auto atFull = std::ranges::count_if(recording.samples, [](float each) { return std::abs(each) >= full; });
-    constexpr int mostAtFull = 8;
-    if (peak <= 1.0F && atFull > mostAtFull) {
+    constexpr int maximumAtFull = 8;
+    if (peak <= 1.0F && atFull > maximumAtFull) {
         throw InputError(name + ": is clipped, " + std::to_string(atFull) +
                          " samples are at full scale; lower the recording level, or the sweep's --level");
     }
@@ -211,8 +211,8 @@ Arrival findArrival(const ImpulseResponse& response, const Recording& recording,
     }
     const auto middle = powers.begin() + std::ssize(powers) / 2;
     std::ranges::nth_element(powers, middle);
-    constexpr double leastPeakToMedian = 100.0;
-    if (!(std::norm(response.at(peak)) > leastPeakToMedian * *middle)) {
+    constexpr double minimumPeakToMedian = 100.0;
+    if (!(std::norm(response.at(peak)) > minimumPeakToMedian * *middle)) {
         refuseOtherSignal(name);
     }
     const double octave = std::numbers::ln2 * sweep.secondsPerNeper();
@@ -224,7 +224,7 @@ Arrival findArrival(const ImpulseResponse& response, const Recording& recording,
     const Arrival arrival{.lag = static_cast<double>(peak),
                           .leadSeconds = std::min(leadSeconds, 0.4 * octave),
                           .ringingSeconds = std::min(ringingSeconds, 0.5 * (tail - leadSeconds))};
-    if (arrival.ringingSeconds < shortestRingingSeconds) {
+    if (arrival.ringingSeconds < minimumRingingSeconds) {
         throw InputError(name + ": is too short, it ends " + fixedDecimals(std::abs(tail), 2) + " s " +
                          (tail < 0.0 ? "before" : "after") + " the sweep does; record until " +
                          fixedDecimals(ExponentialSweep::silenceSeconds, 0) + " s of silence have followed");
@@ -233,10 +233,10 @@ Arrival findArrival(const ImpulseResponse& response, const Recording& recording,
     const auto length = lead + static_cast<std::int64_t>(arrival.ringingSeconds * recording.rateHz);
     const double inside = response.energy(peak - lead, peak - lead + length);
     // With another sweep the response is spread over seconds. Distortion comes before the response and is smaller.
-    constexpr double leastOverBefore = 3.0;
-    constexpr double leastOverAfter = 10.0;
-    if (inside < leastOverBefore * response.energy(peak - lead - length, peak - lead) ||
-        inside < leastOverAfter * response.energy(peak - lead + length, peak - lead + 2 * length)) {
+    constexpr double minimumOverBefore = 3.0;
+    constexpr double minimumOverAfter = 10.0;
+    if (inside < minimumOverBefore * response.energy(peak - lead - length, peak - lead) ||
+        inside < minimumOverAfter * response.energy(peak - lead + length, peak - lead + 2 * length)) {
         refuseOtherSignal(name);
     }
     return arrival;
@@ -273,7 +273,7 @@ std::vector<Reading> readSpectra(const ImpulseResponse& response, const Arrival&
                             .noise = noisePower,
                             .phaseRadians = std::arg(linear.meanAt(hz))});
     }
-    for (int harmonic = 2; harmonic <= highestHarmonic; ++harmonic) {
+    for (int harmonic = 2; harmonic <= maximumHarmonic; ++harmonic) {
         const double neper = sweep.secondsPerNeper();
         const double lag = arrival.lag - neper * std::log(harmonic) * rateHz;
         const double toNext = neper * std::log((harmonic + 1.0) / harmonic);
@@ -294,13 +294,13 @@ std::vector<Reading> readSpectra(const ImpulseResponse& response, const Arrival&
 
 /// Removes the ends of the range where the response does not exceed the noise.
 void trim(std::vector<Reading>& readings, const std::string& name) {
-    const auto stands = [](const Reading& reading) { return reading.signalToNoise() >= leastSignalToNoiseDecibels; };
+    const auto stands = [](const Reading& reading) { return reading.signalToNoise() >= minimumSignalToNoiseDecibels; };
     readings.erase(readings.begin(), std::ranges::find_if(readings, stands));
     while (!readings.empty() && !stands(readings.back())) {
         readings.pop_back();
     }
     const auto standing = static_cast<std::size_t>(std::ranges::count_if(readings, stands));
-    if (standing < fewestPoints || 2 * standing < readings.size()) {
+    if (standing < minimumPoints || 2 * standing < readings.size()) {
         throw InputError(name + ": is too noisy, only " + std::to_string(standing) + " of " +
                          std::to_string(readings.size()) +
                          " frequencies stand out of the noise; raise the sweep's --level or --seconds");
@@ -366,8 +366,8 @@ double excessDelaySeconds(const std::vector<Reading>& readings, const std::strin
     for (std::size_t i = 0; i < readings.size(); ++i) {
         rest += readings[i].power * std::pow(excess[i] - offset - slope * readings[i].hz, 2.0);
     }
-    constexpr double largestRestRadians = 4.0;
-    if (std::sqrt(rest / weights) > largestRestRadians) {
+    constexpr double maximumRestRadians = 4.0;
+    if (std::sqrt(rest / weights) > maximumRestRadians) {
         refuseOtherSignal(name);
     }
     return -slope / twoPi;

@@ -55,8 +55,9 @@ void writeName(std::ostream& output, const std::string& name) {
 }
 
 bool asksForStiffness(const headless::Scene& scene) {
-    return std::ranges::any_of(
-        scene.surfaces, [](const headless::Surface& surface) { return !surface.stiffnessNewtonsPerMetre.has_value(); });
+    return std::ranges::any_of(scene.surfaces, [](const headless::SceneSurface& surface) {
+        return !surface.stiffnessNewtonsPerMetre.has_value();
+    });
 }
 
 void runContact(const ContactOptions& options) {

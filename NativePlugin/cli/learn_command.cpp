@@ -28,7 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t batchOfFit = 64;
-constexpr std::size_t longestName = 128;
+constexpr std::size_t maximumName = 128;
 
 struct LearnOptions {
     std::string recordingPath;
@@ -39,7 +39,7 @@ struct LearnOptions {
     std::string category;
     std::string licence;
     RecordingWords words;
-    double secondsLimit = learning::usualSecondsLimit;
+    double secondsLimit = learning::defaultSecondsLimit;
     std::uint64_t seed = 1;
     bool quiet = false;
 };
@@ -57,15 +57,15 @@ std::string plainName(const std::string& text) {
         return "material";
     }
     name = name.substr(first, name.find_last_not_of(' ') - first + 1);
-    return name.substr(0, longestName);
+    return name.substr(0, maximumName);
 }
 
 void requireName(const std::string& name) {
-    const bool isPlain = !name.empty() && name.size() <= longestName && std::ranges::none_of(name, [](char letter) {
+    const bool isPlain = !name.empty() && name.size() <= maximumName && std::ranges::none_of(name, [](char letter) {
         return std::iscntrl(static_cast<unsigned char>(letter)) != 0 || (letter >= 'A' && letter <= 'Z');
     });
     if (!isPlain) {
-        throw UsageError("--name '" + name + "': expected 1 to " + std::to_string(longestName) +
+        throw UsageError("--name '" + name + "': expected 1 to " + std::to_string(maximumName) +
                          " characters without capital letters, as labels have");
     }
 }

@@ -21,9 +21,9 @@ namespace fs = std::filesystem;
 
 constexpr double unknownNumber = std::numeric_limits<double>::quiet_NaN();
 /// A longer step between time stamps is a gap in the recording.
-constexpr double longestStepSeconds = 0.005;
+constexpr double maximumStepSeconds = 0.005;
 constexpr double slopeWindowSeconds = 0.09;
-constexpr double slowestMps = 0.0005;
+constexpr double minimumSpeedMps = 0.0005;
 
 using learning::plainNumber;
 
@@ -241,7 +241,7 @@ void checkSpeeds(const std::string& path, const std::string& columns, const Trac
         return;
     }
     const double median = *(moving + (speeds.end() - moving) / 2);
-    if (!(median > slowestMps && median < learning::maximumHandSpeedMps)) {
+    if (!(median > minimumSpeedMps && median < learning::maximumHandSpeedMps)) {
         const std::string first = columns.substr(0, columns.find(','));
         fail(path, first + " gives a speed of " + plainNumber(median) + " m/s", otherUnit(columns));
     }
@@ -329,14 +329,14 @@ private:
         }
         recording_.rateHz = info.samplerate;
         recording_.axisCount = static_cast<std::size_t>(info.channels);
-        const auto longest = static_cast<sf_count_t>(learning::longestSeconds * recording_.rateHz);
+        const auto longest = static_cast<sf_count_t>(learning::maximumSeconds * recording_.rateHz);
         const sf_count_t frames = std::min(info.frames, longest);
         recording_.accelerationMps2.resize(static_cast<std::size_t>(frames) * recording_.axisCount);
         if (sf_readf_float(file.get(), recording_.accelerationMps2.data(), frames) != frames) {
             fail(path_, "cannot be read to its end", "a whole file; is it cut off?");
         }
         if (info.frames > longest) {
-            recording_.notes.push_back(path_ + ": only the first " + plainNumber(learning::longestSeconds) +
+            recording_.notes.push_back(path_ + ": only the first " + plainNumber(learning::maximumSeconds) +
                                        " s are read");
         }
         for (float& value : recording_.accelerationMps2) {
@@ -376,15 +376,15 @@ private:
     }
 
     void makeEven(const Track& acceleration) {
-        const double span = std::min(acceleration.timeSeconds.back() - startSeconds_, learning::longestSeconds);
+        const double span = std::min(acceleration.timeSeconds.back() - startSeconds_, learning::maximumSeconds);
         const auto count = static_cast<std::size_t>(span * recording_.rateHz) + 1;
-        const double longestStep = std::max(longestStepSeconds, 4.0 / recording_.rateHz);
+        const double maximumStep = std::max(maximumStepSeconds, 4.0 / recording_.rateHz);
         Cursor cursor(acceleration);
         recording_.accelerationMps2.reserve(count * acceleration.width);
         for (std::size_t i = 0; i < count; ++i) {
             const double seconds = startSeconds_ + static_cast<double>(i) / recording_.rateHz;
             const std::size_t index = cursor.before(seconds);
-            const bool isGap = acceleration.timeSeconds[index + 1] - acceleration.timeSeconds[index] > longestStep;
+            const bool isGap = acceleration.timeSeconds[index + 1] - acceleration.timeSeconds[index] > maximumStep;
             for (std::size_t axis = 0; axis < acceleration.width; ++axis) {
                 recording_.accelerationMps2.push_back(
                     static_cast<float>(isGap ? unknownNumber : cursor.cubic(index, axis, seconds)));
@@ -422,7 +422,7 @@ private:
 
     /// The track at the recording's samples; NaN before and after the track and in its gaps.
     std::vector<float> onGrid(const Track& track) const {
-        constexpr double longestSilence = 0.25;
+        constexpr double maximumSilence = 0.25;
         const std::size_t count = recording_.accelerationMps2.size() / recording_.axisCount;
         std::vector<float> values;
         values.reserve(count * track.width);
@@ -430,9 +430,9 @@ private:
         for (std::size_t i = 0; i < count; ++i) {
             const double seconds = startSeconds_ + static_cast<double>(i) / recording_.rateHz;
             const std::size_t index = cursor.before(seconds);
-            const bool isKnown = seconds >= track.timeSeconds.front() - longestSilence &&
-                                 seconds <= track.timeSeconds.back() + longestSilence &&
-                                 track.timeSeconds[index + 1] - track.timeSeconds[index] <= longestSilence;
+            const bool isKnown = seconds >= track.timeSeconds.front() - maximumSilence &&
+                                 seconds <= track.timeSeconds.back() + maximumSilence &&
+                                 track.timeSeconds[index + 1] - track.timeSeconds[index] <= maximumSilence;
             for (std::size_t column = 0; column < track.width; ++column) {
                 values.push_back(static_cast<float>(isKnown ? cursor.linear(index, column, seconds) : unknownNumber));
             }

@@ -72,7 +72,7 @@ std::string didYouMean(std::span<const std::string> words) {
     return text + "?";
 }
 
-std::string meantWord(std::string_view word, std::span<const std::string> candidates) {
+std::string likelyWord(std::string_view word, std::span<const std::string> candidates) {
     const std::vector<std::string> nearest = nearestWords(word, candidates, 1);
     const bool isNear =
         !nearest.empty() && lettersApart(word, nearest.front()) <= std::max<std::size_t>(1, word.size() / 3);

@@ -20,6 +20,6 @@ namespace haptoflow::cli {
 [[nodiscard]] std::string didYouMean(std::span<const std::string> words);
 
 /// The candidate that a misspelt word probably stands for; empty if none is near enough.
-[[nodiscard]] std::string meantWord(std::string_view word, std::span<const std::string> candidates);
+[[nodiscard]] std::string likelyWord(std::string_view word, std::span<const std::string> candidates);
 
 }  // namespace haptoflow::cli

@@ -32,8 +32,8 @@ fs::path followLinks(const fs::path& path) {
     fs::path target = path;
     std::error_code ignored;
     for (int link = 0; fs::is_symlink(fs::symlink_status(target, ignored)); ++link) {
-        constexpr int mostLinks = 40;
-        if (link == mostLinks) {
+        constexpr int maximumLinks = 40;
+        if (link == maximumLinks) {
             throw InputError(path.string() + ": is a cycle of links");
         }
         const fs::path next = fs::read_symlink(target, ignored);

@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::string_view timeColumn = "time_s";
 constexpr double gravityMps2 = 9.80665;
-constexpr std::size_t mostColumns = 256;
-constexpr std::size_t mostRows = 60'000'000;
+constexpr std::size_t maximumColumns = 256;
+constexpr std::size_t maximumRows = 60'000'000;
 
 struct ColumnForm {
     std::vector<std::string> columns;
@@ -144,8 +144,8 @@ private:
             const std::size_t comma = std::min(line.find(',', start), line.size());
             names_.emplace_back(bareCell(line.substr(start, comma - start)).substr(0, 80));
             start = comma + 1;
-            if (names_.size() > mostColumns) {
-                fail("more than " + std::to_string(mostColumns) + " columns", "a recording's");
+            if (names_.size() > maximumColumns) {
+                fail("more than " + std::to_string(maximumColumns) + " columns", "a recording's");
             }
         }
         for (const std::string& name : names_) {
@@ -244,8 +244,8 @@ private:
                     values->push_back(number(cells[column], column));
                 }
             }
-            if (++rows > mostRows) {
-                fail("more than " + std::to_string(mostRows) + " rows", "five minutes of recording at most");
+            if (++rows > maximumRows) {
+                fail("more than " + std::to_string(maximumRows) + " rows", "five minutes of recording at most");
             }
         }
         if (rows < 4) {

@@ -58,7 +58,7 @@ struct RenderOptions {
 };
 
 /// The properties of a surface that its contact states contain.
-struct SurfaceFeel {
+struct SurfaceProperties {
     engine::MaterialBlend blend;
     float spatialScale = 1.0F;
     float toneDbPerOctave = 0.0F;
@@ -72,7 +72,7 @@ const std::map<std::string, effects::EffectKind>& effectNames() {
 }
 
 /// The effects that every surface requests: the texture by default.
-effects::EffectMask askedEffects(const std::vector<std::string>& names) {
+effects::EffectMask requestedEffects(const std::vector<std::string>& names) {
     effects::EffectMask mask = names.empty() ? effects::maskOf(effects::EffectKind::texture) : 0U;
     for (const std::string& name : names) {
         mask |= effects::maskOf(effectNames().at(name));
@@ -116,7 +116,7 @@ const model::Tier& chooseTier(const model::ModelFile& model, const std::string& 
         tiers.push_back(tier.name);
         listed += (listed.empty() ? "" : ", ") + tier.name;
     }
-    const std::string meant = meantWord(quality, tiers);
+    const std::string meant = likelyWord(quality, tiers);
     throw UsageError("--quality " + quality + ": " + (meant.empty() ? "" : didYouMean(std::array{meant}) + " ") +
                      "This model has " + listed);
 }
@@ -139,29 +139,29 @@ inference::SolverSettings chooseSolver(const model::Tier& tier, const std::strin
 }
 
 /// The properties of each surface, in the scene's order.
-std::vector<SurfaceFeel> feelsOf(const headless::Scene& scene, const SceneMaterials& materials,
-                                 const std::string& scenePath) {
-    std::vector<SurfaceFeel> feels;
-    for (const headless::Surface& surface : scene.surfaces) {
+std::vector<SurfaceProperties> propertiesOf(const headless::Scene& scene, const SceneMaterials& materials,
+                                            const std::string& scenePath) {
+    std::vector<SurfaceProperties> surfaces;
+    for (const headless::SceneSurface& surface : scene.surfaces) {
         if (surface.material.size() > engine::MaterialBlend::capacity) {
             throw InputError(scenePath + ": surface '" + surface.name + "' blends " +
                              std::to_string(surface.material.size()) + " labels; expected at most " +
                              std::to_string(engine::MaterialBlend::capacity));
         }
-        SurfaceFeel feel{.blend = {},
-                         .spatialScale = static_cast<float>(surface.spatialScale),
-                         .toneDbPerOctave = static_cast<float>(surface.toneDbPerOctave)};
+        SurfaceProperties properties{.blend = {},
+                                     .spatialScale = static_cast<float>(surface.spatialScale),
+                                     .toneDbPerOctave = static_cast<float>(surface.toneDbPerOctave)};
+        engine::MaterialBlend& blend = properties.blend;
         for (const auto& [name, weight] : surface.material) {
-            feel.blend.entries.at(feel.blend.count) = {.label = materials.indexOf(name),
-                                                       .weight = static_cast<float>(weight)};
-            ++feel.blend.count;
+            blend.entries.at(blend.count) = {.label = materials.indexOf(name), .weight = static_cast<float>(weight)};
+            ++blend.count;
         }
-        feels.push_back(feel);
+        surfaces.push_back(properties);
     }
-    return feels;
+    return surfaces;
 }
 
-engine::ContactState stateOf(const headless::ContactReading& reading, std::span<const SurfaceFeel> feels,
+engine::ContactState stateOf(const headless::ContactReading& reading, std::span<const SurfaceProperties> surfaces,
                              effects::EffectMask effects) {
     engine::ContactState state;
     state.effects = effects;
@@ -176,17 +176,17 @@ engine::ContactState stateOf(const headless::ContactReading& reading, std::span<
     state.edgeCounter = reading.edgeCounter;
     state.edgeHeightMetres = static_cast<float>(reading.edgeHeightMetres);
     if (reading.surfaceIndex >= 0) {
-        const SurfaceFeel& feel = feels[static_cast<std::size_t>(reading.surfaceIndex)];
-        state.material = feel.blend;
-        state.spatialScale = feel.spatialScale;
-        state.toneDbPerOctave = feel.toneDbPerOctave;
+        const SurfaceProperties& surface = surfaces[static_cast<std::size_t>(reading.surfaceIndex)];
+        state.material = surface.blend;
+        state.spatialScale = surface.spatialScale;
+        state.toneDbPerOctave = surface.toneDbPerOctave;
     }
     return state;
 }
 
 std::vector<std::string> labelsIn(const headless::Scene& scene) {
     std::vector<std::string> labels;
-    for (const headless::Surface& surface : scene.surfaces) {
+    for (const headless::SceneSurface& surface : scene.surfaces) {
         for (const auto& [name, weight] : surface.material) {
             if (std::ranges::find(labels, name) == labels.end()) {
                 labels.push_back(name);
@@ -304,10 +304,10 @@ void requireSoundOptions(const RenderOptions& options) {
 /// Checks the length first: a WAV file's sizes are 32-bit numbers, and a render can take hours.
 void requireRoom(const headless::Scene& scene, const StrokePlayer& player, const RenderOptions& options) {
     const double seconds = static_cast<double>(player.frames() - 1) / scene.updateRateHz + options.engine.tailSeconds;
-    const double mostSeconds = static_cast<double>(mostWavSamples) / options.engine.outputRateHz;
-    if (seconds > mostSeconds) {
+    const double maximumSeconds = static_cast<double>(maximumWavSamples) / options.engine.outputRateHz;
+    if (seconds > maximumSeconds) {
         throw InputError(options.strokePath + ": lasts " + std::to_string(std::llround(seconds)) +
-                         " s; a WAV file at this --rate has room for " + std::to_string(std::llround(mostSeconds)) +
+                         " s; a WAV file at this --rate has room for " + std::to_string(std::llround(maximumSeconds)) +
                          " s. Give a lower --rate or a shorter stroke");
     }
 }
@@ -343,7 +343,7 @@ void runRender(const RenderOptions& options) {
     SceneMaterials materials(model, modelPath, options.scenePath);
     std::ranges::for_each(options.materials, [&materials](const std::string& path) { materials.add(path); });
     materials.require(scene);
-    const std::vector<SurfaceFeel> feels = feelsOf(scene, materials, options.scenePath);
+    const std::vector<SurfaceProperties> surfaces = propertiesOf(scene, materials, options.scenePath);
     headless::ContactSettings settings;
     useStiffnessOfMaterials(settings, materials);
     StrokePlayer player(scene, stroke, options.strokePath, settings);
@@ -355,7 +355,7 @@ void runRender(const RenderOptions& options) {
         engineSettings.actuator =
             std::make_shared<const effects::ActuatorProfile>(readActuatorProfile(options.actuator));
     }
-    const effects::EffectMask effects = askedEffects(options.effects);
+    const effects::EffectMask effects = requestedEffects(options.effects);
     RenderFiles files(options);
     inference::OnnxSegmentGenerator generator(openRuntime(), model, tier.name, solver, 1);
 
@@ -363,7 +363,7 @@ void runRender(const RenderOptions& options) {
     const engine::ContactStateSource next = [&]() -> std::optional<engine::ContactState> {
         const std::optional<headless::ContactReading> reading = player.next();
         bar(static_cast<double>(player.played()) / static_cast<double>(player.frames()), {});
-        return reading ? std::optional(stateOf(*reading, feels, effects)) : std::nullopt;
+        return reading ? std::optional(stateOf(*reading, surfaces, effects)) : std::nullopt;
     };
     const engine::OfflineFigures figures = engine::renderOffline(model, generator, next, engineSettings, files);
 

@@ -24,7 +24,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double largestMetres = 1e9;
+constexpr double maximumMetres = 1e9;
 
 std::string inWords(const json& value) {
     if (value.is_structured()) {
@@ -94,7 +94,7 @@ public:
         return number;
     }
 
-    [[nodiscard]] double positiveMetres() const { return number(1e-9, largestMetres, "metres from 1e-9 to 1e9"); }
+    [[nodiscard]] double positiveMetres() const { return number(1e-9, maximumMetres, "metres from 1e-9 to 1e9"); }
 
     template <std::size_t Size>
     [[nodiscard]] std::array<double, Size> numbers(const std::string& expected) const {
@@ -104,7 +104,7 @@ public:
         }
         for (std::size_t index = 0; index < Size; ++index) {
             result[index] = Node((*value_)[index], *file_, path_ + "[" + std::to_string(index) + "]")
-                                .number(-largestMetres, largestMetres, "a number within +-1e9");
+                                .number(-maximumMetres, maximumMetres, "a number within +-1e9");
         }
         return result;
     }
@@ -151,7 +151,7 @@ headless::Motion readMotion(const Node& node) {
     std::vector<headless::Keyframe> keyframes;
     for (const Node& element : node.at("keyframes").elements(2, "an array of two or more keyframes")) {
         element.requireObject({"t", "position", "rotation"});
-        const double time = element.at("t").number(-largestMetres, largestMetres, "seconds within +-1e9");
+        const double time = element.at("t").number(-maximumMetres, maximumMetres, "seconds within +-1e9");
         if (!keyframes.empty() && time <= keyframes.back().timeSeconds) {
             element.at("t").fail("a time after the keyframe before");
         }
@@ -258,10 +258,10 @@ std::vector<std::pair<std::string, double>> readMaterial(const Node& node) {
     return material;
 }
 
-headless::Surface readSurface(const Node& node) {
+headless::SceneSurface readSurface(const Node& node) {
     node.requireObject({"name", "shape", "position", "rotation", "motion", "material", "stiffness", "grain",
                         "spatial_scale", "tone_db_per_octave"});
-    headless::Surface surface;
+    headless::SceneSurface surface;
     surface.name = node.at("name").text("a name");
     surface.shape = readShape(node.at("shape"));
     surface.pose = readPose(node);

@@ -49,7 +49,7 @@ void SceneMaterials::add(const std::string& path) {
 }
 
 void SceneMaterials::require(const headless::Scene& scene) {
-    for (const headless::Surface& surface : scene.surfaces) {
+    for (const headless::SceneSurface& surface : scene.surfaces) {
         for (const auto& [name, weight] : surface.material) {
             requireKnown(name, surface.name);
         }

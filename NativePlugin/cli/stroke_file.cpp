@@ -13,8 +13,8 @@
 namespace haptoflow::cli {
 namespace {
 
-constexpr double largestValue = 1e9;
-constexpr std::size_t mostFrames = 10'000'000;
+constexpr double maximumValue = 1e9;
+constexpr std::size_t maximumFrames = 10'000'000;
 constexpr std::array<std::string_view, 9> columnNames{"t", "x", "y", "z", "force", "qx", "qy", "qz", "qw"};
 constexpr std::string_view headerForm = "t,x,y,z[,force][,qx,qy,qz,qw]";
 
@@ -127,7 +127,7 @@ private:
 
     double number(const std::vector<std::string_view>& cells, std::size_t column) const {
         const std::optional<double> value = decimalNumber(cells[column]);
-        if (!value || !(std::abs(*value) <= largestValue)) {
+        if (!value || !(std::abs(*value) <= maximumValue)) {
             fail(column, "expected a number within +-1e9 with a decimal point");
         }
         return *value;
@@ -212,7 +212,7 @@ std::size_t frameCount(const Stroke& stroke, double updateRateHz, const std::str
     const double seconds = stroke.samples.back().timeSeconds - stroke.samples.front().timeSeconds;
     // A last frame that misses the last sample only by rounding counts.
     const double frames = std::floor(seconds * updateRateHz + 1e-6) + 1.0;
-    if (frames > static_cast<double>(mostFrames)) {
+    if (frames > static_cast<double>(maximumFrames)) {
         throw InputError(fileName + ": " + std::to_string(seconds) +
                          " s at the scene's update_rate are more than ten million frames; expected a shorter stroke");
     }

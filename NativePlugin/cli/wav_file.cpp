@@ -52,7 +52,7 @@ void WavWriter::close() {
 }
 
 Recording readRecording(const std::string& path, int channel) {
-    constexpr sf_count_t longestSeconds = 600;
+    constexpr sf_count_t maximumSeconds = 600;
     SF_INFO info{};
     const std::unique_ptr<SNDFILE, int (*)(SNDFILE*)> file(sf_open(path.c_str(), SFM_READ, &info), sf_close);
     if (file == nullptr) {
@@ -63,7 +63,7 @@ Recording readRecording(const std::string& path, int channel) {
         throw InputError(path + ": has a rate of " + std::to_string(info.samplerate) +
                          " Hz; expected 8000 to 192000 Hz");
     }
-    if (info.frames > longestSeconds * info.samplerate) {
+    if (info.frames > maximumSeconds * info.samplerate) {
         throw InputError(path + ": is longer than ten minutes; cut it to the sweep and the silence after it");
     }
     if (channel == 0 && info.channels != 1) {

@@ -10,7 +10,7 @@
 namespace haptoflow::cli {
 
 /// Maximum number of 32-bit float samples of one channel in a WAV file, whose sizes are 32-bit numbers.
-inline constexpr std::uint64_t mostWavSamples = (0xFFFF'FFFFULL - 1024) / sizeof(float);
+inline constexpr std::uint64_t maximumWavSamples = (0xFFFF'FFFFULL - 1024) / sizeof(float);
 
 /// Writes one channel of 32-bit float samples, +-1, in parts. Throws InputError that names the file as `shownAs`.
 class WavWriter {

@@ -37,7 +37,7 @@ private:
         std::uint32_t count = 0;
     };
     // A median split halves the number of items at each level, so that 2^32 items need 32 levels.
-    static constexpr std::size_t deepest = 64;
+    static constexpr std::size_t maximumDepth = 64;
     static constexpr std::uint32_t leafSize = 4;
 
     void build(std::span<const Bounds> items, std::uint32_t begin, std::uint32_t end);
@@ -49,7 +49,7 @@ private:
 template <typename Consider>
 void BoundsTree::visitNear(const glm::dvec3& point, double squaredLimit, Consider&& consider) const {
     double limit = squaredLimit;
-    std::array<std::uint32_t, deepest> waiting{};
+    std::array<std::uint32_t, maximumDepth> waiting{};
     std::size_t count = nodes_.empty() ? 0 : 1;
     while (count > 0) {
         const std::uint32_t index = waiting[--count];

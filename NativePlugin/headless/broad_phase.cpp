@@ -13,7 +13,7 @@ constexpr double roundingAllowance = 1e-12;
 
 }  // namespace
 
-BroadPhase::BroadPhase(const std::vector<Surface>& surfaces, double reachMetres) : reachMetres_(reachMetres) {
+BroadPhase::BroadPhase(const std::vector<SceneSurface>& surfaces, double reachMetres) : reachMetres_(reachMetres) {
     spheres_.reserve(surfaces.size());
     std::vector<Bounds> boxes;
     for (std::uint32_t index = 0; index < surfaces.size(); ++index) {
@@ -34,7 +34,7 @@ bool BroadPhase::reaches(std::size_t surface, const glm::dvec3& localTipMetres) 
     return glm::distance(localTipMetres, sphere.centreMetres) <= sphere.radiusMetres + reachMetres_;
 }
 
-Bounds BroadPhase::withinReachOf(const Surface& surface, const BoundingSphere& sphere) const noexcept {
+Bounds BroadPhase::withinReachOf(const SceneSurface& surface, const BoundingSphere& sphere) const noexcept {
     Bounds box;
     double around = sphere.radiusMetres + reachMetres_;
     if (surface.motion) {

@@ -18,7 +18,7 @@ class BroadPhase {
 public:
     /// `reachMetres`: the distance from the tip's centre up to which a surface matters. Every shape must have an
     /// extent. Later changes to `surfaces` have no effect.
-    BroadPhase(const std::vector<Surface>& surfaces, double reachMetres);
+    BroadPhase(const std::vector<SceneSurface>& surfaces, double reachMetres);
 
     /// Calls `consider(surface)` once for every surface that `reaches` would accept, and for a few more, in no
     /// particular order. `tipMetres` must be usable.
@@ -29,7 +29,7 @@ public:
     [[nodiscard]] bool reaches(std::size_t surface, const glm::dvec3& localTipMetres) const noexcept;
 
 private:
-    [[nodiscard]] Bounds withinReachOf(const Surface& surface, const BoundingSphere& sphere) const noexcept;
+    [[nodiscard]] Bounds withinReachOf(const SceneSurface& surface, const BoundingSphere& sphere) const noexcept;
 
     double reachMetres_;
     std::vector<BoundingSphere> spheres_;

@@ -16,7 +16,7 @@ namespace haptoflow::headless {
 namespace {
 
 // Limits how far carried tangent axes turn after a pause: no further than in a slow frame.
-constexpr double longestFrameSeconds = 0.05;
+constexpr double maximumFrameSeconds = 0.05;
 
 void require(bool holds, const char* expectation) {
     if (!holds) {
@@ -60,18 +60,18 @@ Scene checked(Scene scene, const ContactSettings& settings) {
     require(notNegative(velocity.holdSeconds), "holdSeconds must be 0 or more");
     require(velocity.stopSeconds > velocity.holdSeconds && isUsable(velocity.stopSeconds),
             "stopSeconds must be above holdSeconds");
-    require(positive(velocity.longestGapSeconds), "longestGapSeconds must be above 0");
-    require(positive(velocity.shortestStepSeconds), "shortestStepSeconds must be above 0");
-    require(notNegative(velocity.smallestMoveMetres), "smallestMoveMetres must be 0 or more");
-    require(positive(velocity.fastestMps), "fastestMps must be above 0");
-    require(positive(velocity.shortestJumpSeconds), "shortestJumpSeconds must be above 0");
-    for (const Surface& surface : scene.surfaces) {
+    require(positive(velocity.maximumGapSeconds), "maximumGapSeconds must be above 0");
+    require(positive(velocity.minimumStepSeconds), "minimumStepSeconds must be above 0");
+    require(notNegative(velocity.minimumMoveMetres), "minimumMoveMetres must be 0 or more");
+    require(positive(velocity.maximumSpeedMps), "maximumSpeedMps must be above 0");
+    require(positive(velocity.minimumJumpSeconds), "minimumJumpSeconds must be above 0");
+    for (const SceneSurface& surface : scene.surfaces) {
         require(hasExtent(surface.shape), "every shape must have sizes above 0 and every mesh must be there");
     }
     return scene;
 }
 
-double stiffnessOf(const Surface& surface, const ContactSettings& settings) {
+double stiffnessOf(const SceneSurface& surface, const ContactSettings& settings) {
     if (surface.stiffnessNewtonsPerMetre && positive(*surface.stiffnessNewtonsPerMetre)) {
         return *surface.stiffnessNewtonsPerMetre;
     }
@@ -97,7 +97,7 @@ ContactTracker::ContactTracker(Scene scene, ContactSettings settings)
       broadPhase_(scene_.surfaces, scene_.tipRadiusMetres + settings_.releaseDistanceMetres),
       history_(settings_.velocity),
       transitions_(scene_.tipRadiusMetres) {
-    for (const Surface& surface : scene_.surfaces) {
+    for (const SceneSurface& surface : scene_.surfaces) {
         stiffnessNewtonsPerMetre_.push_back(stiffnessOf(surface, settings_));
         frames_.emplace_back(surface.grain);
     }
@@ -140,7 +140,7 @@ bool ContactTracker::acceptSample(const TipSample& sample) {
     if (timeUsable) {
         nowSeconds_ = sample.timeSeconds;
     }
-    stepSeconds_ = started_ ? std::clamp(nowSeconds_ - before, 0.0, longestFrameSeconds) : 0.0;
+    stepSeconds_ = started_ ? std::clamp(nowSeconds_ - before, 0.0, maximumFrameSeconds) : 0.0;
     started_ = started_ || timeUsable;
     if (positionUsable) {
         tipMetres_ = sample.positionMetres;

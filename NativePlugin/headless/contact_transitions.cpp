@@ -10,9 +10,9 @@ namespace {
 // The reference place follows the contact at this distance, or for a few frames at the longer one while the normal
 // turns: a slow tip that rolls over a rim turns only slightly from frame to frame, and a fast one may have a frame in
 // the middle of the rim.
-constexpr double shortWayMetres = 0.002;
-constexpr double longWayMetres = 0.006;
-constexpr int mostFramesBehind = 2;
+constexpr double shortDistanceMetres = 0.002;
+constexpr double longDistanceMetres = 0.006;
+constexpr int maximumFramesBehind = 2;
 // The cosine of 5 degrees.
 constexpr double steadyCosine = 0.9962;
 // Places on the two faces of a rim lie below each other's planes, up to rounding and the unevenness of a mesh.
@@ -40,7 +40,7 @@ double stepBetween(const ContactPlace& before, const ContactPlace& here) {
 bool isFacing(const ContactPlace& before, const ContactPlace& here, double tipRadiusMetres) {
     const double gapMetres = heightAbove(before, here.pointMetres);
     return glm::dot(before.normal, here.normal) < -ContactTransitions::faceCosine && gapMetres >= -flatnessMetres &&
-           gapMetres <= std::max(2.0 * tipRadiusMetres, ContactTransitions::lowestRimMetres);
+           gapMetres <= std::max(2.0 * tipRadiusMetres, ContactTransitions::minimumRimMetres);
 }
 
 bool isConvex(const ContactPlace& before, const ContactPlace& here) {
@@ -93,7 +93,7 @@ ContactEvent ContactTransitions::advance(const PosedPlace& now, const Pose& refe
     const bool isOther = now.surface != reference_->surface;
     const double stepMetres = stepBetween(before, here);
     ContactEvent event;
-    if (turned || (isOther && stepMetres >= lowestStepMetres)) {
+    if (turned || (isOther && stepMetres >= minimumStepMetres)) {
         if (approachSpeedMps >= landingSpeedMps) {
             event.landed = true;
         } else if (!turned) {
@@ -127,7 +127,7 @@ double ContactTransitions::slideOff(const PosedPlace& nearest, const Pose& refer
 }
 
 double ContactTransitions::rimHeightMetres() const noexcept {
-    return std::max(tipRadiusMetres_, lowestRimMetres);
+    return std::max(tipRadiusMetres_, minimumRimMetres);
 }
 
 bool ContactTransitions::isToBeMoved(const PosedPlace& now, const ContactPlace& before,
@@ -136,14 +136,14 @@ bool ContactTransitions::isToBeMoved(const PosedPlace& now, const ContactPlace& 
         return true;
     }
     // On one surface, measure the distance on it, so that the surface's own motion does not count.
-    const double way = glm::distance(now.local.pointMetres, reference_->local.pointMetres);
+    const double distanceMetres = glm::distance(now.local.pointMetres, reference_->local.pointMetres);
     const bool isSteady = glm::dot(before.normal, here.normal) > steadyCosine;
-    if (way > shortWayMetres && (isSteady || !reference_->isArmed)) {
+    if (distanceMetres > shortDistanceMetres && (isSteady || !reference_->isArmed)) {
         return true;
     }
     // On a round surface each place lies equally far below the other's plane; in the middle of a rim it does not.
-    const bool isRound = stepBetween(before, here) < lowestStepMetres;
-    return way > longWayMetres && (isRound || ++reference_->framesBehind > mostFramesBehind);
+    const bool isRound = stepBetween(before, here) < minimumStepMetres;
+    return distanceMetres > longDistanceMetres && (isRound || ++reference_->framesBehind > maximumFramesBehind);
 }
 
 void ContactTransitions::moveReference(const PosedPlace& now, bool isArmed) noexcept {

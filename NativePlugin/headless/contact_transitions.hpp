@@ -47,11 +47,11 @@ public:
     /// The cosine of 40 degrees: a prism with eight sides has edges, rounder ones have none.
     static constexpr double faceCosine = 0.766;
     /// A lower step is none: tracking and meshes are no more exact.
-    static constexpr double lowestStepMetres = 0.0001;
+    static constexpr double minimumStepMetres = 0.0001;
     /// A tip that is further away a frame later has not slid off but jumped.
     static constexpr double slideOffReachMetres = 0.05;
     /// Of the rim under a tip of any radius.
-    static constexpr double lowestRimMetres = 0.0005;
+    static constexpr double minimumRimMetres = 0.0005;
 
     explicit ContactTransitions(double tipRadiusMetres) noexcept : tipRadiusMetres_(tipRadiusMetres) {}
 

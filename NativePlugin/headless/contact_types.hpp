@@ -58,20 +58,20 @@ struct VelocitySettings {
     /// A position repeated for this long means that the tip has stopped.
     double stopSeconds = 0.050;
     /// A longer pause drops the history.
-    double longestGapSeconds = 0.250;
+    double maximumGapSeconds = 0.250;
     /// Samples closer in time than this would only add noise to the line.
-    double shortestStepSeconds = 0.0005;
+    double minimumStepSeconds = 0.0005;
     /// A position that moved less than this counts as repeated.
-    double smallestMoveMetres = 1e-7;
+    double minimumMoveMetres = 1e-7;
     /// A faster move is a teleport. Hands reach a quarter of this speed.
-    double fastestMps = 20.0;
+    double maximumSpeedMps = 20.0;
     /// Minimum time used to compute a jump's speed, so that jittering time stamps do not look like teleports.
-    double shortestJumpSeconds = 0.005;
+    double minimumJumpSeconds = 0.005;
 
     /// A move longer than this within `seconds` is a teleport. The allowance keeps a move at exactly the maximum speed
     /// from counting as one because of rounding.
-    [[nodiscard]] double longestMoveMetres(double seconds) const noexcept {
-        return (1.0 + 1e-6) * fastestMps * std::max(seconds, shortestJumpSeconds);
+    [[nodiscard]] double maximumMoveMetres(double seconds) const noexcept {
+        return (1.0 + 1e-6) * maximumSpeedMps * std::max(seconds, minimumJumpSeconds);
     }
 };
 

@@ -7,7 +7,7 @@
 namespace haptoflow::headless {
 namespace {
 
-constexpr int fewestMeasurements = 3;
+constexpr int minimumMeasurements = 3;
 // Three measurements may be this many windows old; two may be as old as the history.
 constexpr double sparseWindows = 3.0;
 
@@ -62,9 +62,9 @@ glm::dvec3 recentSlope(const TipHistory& history, Takes&& takes, PlaceOf&& place
         if (recent.count() > 0) {
             const double age = recent.newestTime() - frame->timeSeconds;
             const bool wanted = age <= settings.windowSeconds || recent.count() < 2 ||
-                                (recent.count() < fewestMeasurements && age <= sparseWindows * settings.windowSeconds);
+                                (recent.count() < minimumMeasurements && age <= sparseWindows * settings.windowSeconds);
             const double step = recent.oldestTime() - frame->timeSeconds;
-            if (!wanted || glm::distance(place, recent.oldestPlace()) > settings.longestMoveMetres(step)) {
+            if (!wanted || glm::distance(place, recent.oldestPlace()) > settings.maximumMoveMetres(step)) {
                 break;
             }
         }
@@ -75,7 +75,7 @@ glm::dvec3 recentSlope(const TipHistory& history, Takes&& takes, PlaceOf&& place
 
 }  // namespace
 
-glm::dvec3 relativeVelocity(const TipHistory& history, const Surface& surface, const glm::dvec3& localPoint) {
+glm::dvec3 relativeVelocity(const TipHistory& history, const SceneSurface& surface, const glm::dvec3& localPoint) {
     // For a surface at rest its coordinates are left out of the sums, where they would only add rounding errors.
     const auto material = [&](const TipFrame& frame) {
         return surface.motion ? surface.poseAt(frame.timeSeconds).pointToWorld(localPoint) : glm::dvec3(0.0);
@@ -89,7 +89,7 @@ glm::dvec3 relativeVelocity(const TipHistory& history, const Surface& surface, c
         velocity -= (1.0 - confidence) * recentSlope(
                                              history, [](const TipFrame&) { return true; }, material);
     }
-    const double fastest = history.settings().fastestMps;
+    const double fastest = history.settings().maximumSpeedMps;
     const double speed = glm::length(velocity);
     return speed > fastest ? velocity * (fastest / speed) : velocity;
 }

@@ -13,7 +13,7 @@ namespace haptoflow::headless {
 /// lag is half the window, 15 to 18 ms at 72 to 120 Hz. If the tracker repeats a position for longer than the hold
 /// time, the tip's share fades to zero. The magnitude is limited to the maximum speed; it is zero with fewer than two
 /// measurements.
-[[nodiscard]] glm::dvec3 relativeVelocity(const TipHistory& history, const Surface& surface,
+[[nodiscard]] glm::dvec3 relativeVelocity(const TipHistory& history, const SceneSurface& surface,
                                           const glm::dvec3& localPoint);
 
 }  // namespace haptoflow::headless

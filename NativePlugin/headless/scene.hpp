@@ -13,7 +13,7 @@
 namespace haptoflow::headless {
 
 /// An object of a scene that the tip can touch.
-struct Surface {
+struct SceneSurface {
     std::string name;
     Shape shape;
     Pose pose;
@@ -35,7 +35,7 @@ struct Surface {
 
 /// The surfaces that a stylus can touch, and the stylus's tip.
 struct Scene {
-    std::vector<Surface> surfaces;
+    std::vector<SceneSurface> surfaces;
     double tipRadiusMetres = 0.001;
     /// Contact states per second that are computed along a stroke.
     double updateRateHz = 90.0;

@@ -32,22 +32,22 @@ TipStep TipHistory::add(double timeSeconds, const glm::dvec3& positionMetres) {
     }
     const double moved = glm::distance(positionMetres, measuredMetres_);
     const double sinceMeasured = timeSeconds - measuredSeconds_;
-    if (timeSeconds - latestSeconds_ > settings_.longestGapSeconds) {
+    if (timeSeconds - latestSeconds_ > settings_.maximumGapSeconds) {
         return start(TipStep::resumed, timeSeconds, positionMetres);
     }
-    if (moved > settings_.longestMoveMetres(sinceMeasured)) {
+    if (moved > settings_.maximumMoveMetres(sinceMeasured)) {
         return start(TipStep::teleported, timeSeconds, positionMetres);
     }
     latestSeconds_ = timeSeconds;
-    if (timeSeconds - frames_.back().timeSeconds < settings_.shortestStepSeconds) {
+    if (timeSeconds - frames_.back().timeSeconds < settings_.minimumStepSeconds) {
         return TipStep::continued;
     }
-    if (moved > settings_.smallestMoveMetres) {
+    if (moved > settings_.minimumMoveMetres) {
         resting_ = false;
     } else if (sinceMeasured >= settings_.stopSeconds) {
         confirmStop(timeSeconds);
     }
-    const bool fresh = resting_ || moved > settings_.smallestMoveMetres;
+    const bool fresh = resting_ || moved > settings_.minimumMoveMetres;
     if (frames_.size() == capacity) {
         frames_.erase(frames_.begin());
     }

@@ -7,7 +7,7 @@
 namespace haptoflow::headless {
 
 bool isUsable(double value) noexcept {
-    return std::abs(value) <= largestCoordinate;
+    return std::abs(value) <= maximumCoordinate;
 }
 
 bool isUsable(const glm::dvec3& vector) noexcept {

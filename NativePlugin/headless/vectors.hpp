@@ -6,9 +6,9 @@
 namespace haptoflow::headless {
 
 /// Coordinates beyond this, in metres or seconds, are not usable: their squares must stay finite.
-inline constexpr double largestCoordinate = 1e12;
+inline constexpr double maximumCoordinate = 1e12;
 
-/// True for a finite number of at most `largestCoordinate`.
+/// True for a finite number of at most `maximumCoordinate`.
 [[nodiscard]] bool isUsable(double value) noexcept;
 [[nodiscard]] bool isUsable(const glm::dvec3& vector) noexcept;
 

@@ -38,10 +38,10 @@ template <typename Type>
 }
 
 /// No descriptor will be larger; a larger struct_size is uninitialised memory.
-inline constexpr std::size_t largestDescriptor = 4096;
+inline constexpr std::size_t maximumDescriptor = 4096;
 
 inline void checkStructSize(std::size_t found, std::size_t minimum, const char* name) {
-    if (found < minimum || found > largestDescriptor) {
+    if (found < minimum || found > maximumDescriptor) {
         throw std::invalid_argument(std::string(name) + ": struct_size is " + std::to_string(found) +
                                     "; set it to sizeof the struct");
     }

@@ -15,10 +15,10 @@ using namespace haptoflow::capi;
 
 namespace {
 
-constexpr uint32_t usualBatchVoices = 8;
-constexpr double usualBudgetShare = 0.25;
-constexpr double usualFullScaleMps2 = HAPTOFLOW_DEFAULT_FULL_SCALE_MPS2;
-static_assert(usualFullScaleMps2 == dsp::SoftLimiter::defaultFullScaleMps2);
+constexpr uint32_t defaultBatchVoices = 8;
+constexpr double defaultBudgetShare = 0.25;
+constexpr double defaultFullScaleMps2 = HAPTOFLOW_DEFAULT_FULL_SCALE_MPS2;
+static_assert(defaultFullScaleMps2 == dsp::SoftLimiter::defaultFullScaleMps2);
 
 // The fields that the first version required; all later ones have defaults.
 constexpr std::size_t mandatoryOptions = offsetof(haptoflow_engine_options, update_rate_hz);
@@ -62,7 +62,7 @@ bool isWanted(const engine::QualitySettings& quality, std::size_t tier) {
 }
 
 engine::LiveEngineSettings engineSettings(const haptoflow_engine_options& given, const model::ModelHeader& header) {
-    const double budgetShare = orDefault(given.budget_share, usualBudgetShare);
+    const double budgetShare = orDefault(given.budget_share, defaultBudgetShare);
     if (!(budgetShare > 0.0 && budgetShare <= 1.0)) {
         throw std::invalid_argument("options: budget_share is " + std::to_string(budgetShare) +
                                     "; expected above 0 to 1");
@@ -71,7 +71,7 @@ engine::LiveEngineSettings engineSettings(const haptoflow_engine_options& given,
     settings.updateRateHz = orDefault(given.update_rate_hz, settings.updateRateHz);
     settings.quality = qualitySettings(header, given.quality, 1000.0 * budgetShare / settings.updateRateHz);
     settings.tiersByAccuracy = model::tiersByAccuracy(header.tiers);
-    settings.fullScaleMps2 = static_cast<float>(orDefault(given.full_scale_mps2, usualFullScaleMps2));
+    settings.fullScaleMps2 = static_cast<float>(orDefault(given.full_scale_mps2, defaultFullScaleMps2));
     settings.seed = given.seed;
     settings.hasWorker = given.without_worker == 0;
     if (given.fixed_lead_ms != 0.0) {
@@ -89,7 +89,7 @@ haptoflow_status haptoflow_engine_create(const haptoflow_engine_options* options
         const auto runtime = runtimes().get(given.runtime);
         const auto open = models().get(given.model);
         const model::ModelHeader& header = open->model.header();
-        const uint32_t batch = given.batch_voices != 0 ? given.batch_voices : usualBatchVoices;
+        const uint32_t batch = given.batch_voices != 0 ? given.batch_voices : defaultBatchVoices;
         if (batch > HAPTOFLOW_MAXIMUM_VOICES) {
             throw std::invalid_argument("options: batch_voices is " + std::to_string(batch) + "; expected 1 to 64");
         }

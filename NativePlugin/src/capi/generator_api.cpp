@@ -16,7 +16,7 @@ static_assert(inference::largestBatch == HAPTOFLOW_MAXIMUM_BATCH);
 
 namespace {
 
-constexpr uint32_t usualBatch = 8;
+constexpr uint32_t defaultBatch = 8;
 constexpr std::size_t motionSize = HAPTOFLOW_MOTION_SIZE;
 
 // The fields that the first version required; steps and maximum_batch have defaults.
@@ -113,7 +113,7 @@ haptoflow_status haptoflow_generator_create(const haptoflow_generator_options* o
         const auto open = models().get(given.model);
         const model::Tier& tier = chosenTier(open->model, given.tier);
         const auto tierSolver = inference::defaultSolver(tier);
-        const uint32_t batch = given.maximum_batch != 0 ? given.maximum_batch : usualBatch;
+        const uint32_t batch = given.maximum_batch != 0 ? given.maximum_batch : defaultBatch;
         *generator = generators().open(std::shared_ptr<OpenGenerator>(
             new OpenGenerator{{},
                               tierSolver,

@@ -25,7 +25,7 @@ namespace {
 
 constexpr std::size_t mandatoryOptions = offsetof(haptoflow_learning_options, seed);
 constexpr std::size_t batchOfFit = 64;
-constexpr double longestLimitSeconds = 3600.0;
+constexpr double maximumLimitSeconds = 3600.0;
 
 std::string textOrNone(const char* text) {
     return text != nullptr ? text : "";
@@ -47,8 +47,8 @@ learning::Recording recordingOf(const haptoflow_learning_options& given) {
     if (given.axis_count != 1 && given.axis_count != 3) {
         throw std::invalid_argument("options: axis_count is " + std::to_string(given.axis_count) + "; expected 1 or 3");
     }
-    constexpr uint64_t mostSamples = std::numeric_limits<std::size_t>::max() / (3 * sizeof(float));
-    if (given.sample_count > mostSamples) {
+    constexpr uint64_t maximumSamples = std::numeric_limits<std::size_t>::max() / (3 * sizeof(float));
+    if (given.sample_count > maximumSamples) {
         throw std::invalid_argument("options: sample_count is " + std::to_string(given.sample_count));
     }
     const auto count = static_cast<std::size_t>(given.sample_count);
@@ -73,7 +73,7 @@ learning::LearningSettings settingsOf(const haptoflow_learning_options& given,
     settings.licence = textOrNone(given.licence);
     settings.seed = given.seed;
     if (given.seconds_limit != 0.0) {
-        if (!(given.seconds_limit > 0.0 && given.seconds_limit <= longestLimitSeconds)) {
+        if (!(given.seconds_limit > 0.0 && given.seconds_limit <= maximumLimitSeconds)) {
             throw std::invalid_argument("options: seconds_limit is " + std::to_string(given.seconds_limit) +
                                         "; expected above 0 to 3600, or 0 for 20");
         }

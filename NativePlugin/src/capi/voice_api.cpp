@@ -58,7 +58,7 @@ engine::ContactState contactState(const haptoflow_contact_state& given) {
     return state;
 }
 
-effects::EffectMask askedBeyondStates(engine::VoiceChannels& channels) {
+effects::EffectMask effectsRequestedBySettings(engine::VoiceChannels& channels) {
     const std::lock_guard lock(channels.processorMutex);
     const engine::ProcessorSettings& settings = channels.processorSettings;
     return (settings.hasDelay ? effects::maskOf(EffectKind::delay) : 0U) |
@@ -311,7 +311,8 @@ haptoflow_status haptoflow_voice_effect_statistics(haptoflow_voice voice, haptof
         const engine::EffectCounters& own = counters.effects[static_cast<std::size_t>(effect)];
         haptoflow_effect_statistics content{};
         content.is_asked_for =
-            ((counters.askedFor | askedBeyondStates(use->voice->channels)) >> static_cast<unsigned>(effect)) & 1U;
+            ((counters.askedFor | effectsRequestedBySettings(use->voice->channels)) >> static_cast<unsigned>(effect)) &
+            1U;
         content.prepared = own.prepared;
         content.runs = own.runs;
         content.samples = own.samples;

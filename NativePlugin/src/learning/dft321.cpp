@@ -19,7 +19,7 @@ constexpr std::size_t hop = 35;
 constexpr std::size_t frameSamples = 2 * hop;
 constexpr std::size_t frameBins = hop + 1;
 constexpr int correctionRounds = 3;
-constexpr double largestCorrection = 1.9952623149688795;  // 6 dB
+constexpr double maximumCorrection = 1.9952623149688795;  // 6 dB
 constexpr double lowestCentreHz = 12.401570718501561;     // third octaves from 1 kHz down
 constexpr std::size_t restoredTailSamples = 400;
 
@@ -138,14 +138,14 @@ std::vector<double> withBandEnergies(std::vector<double> wave, const std::array<
     for (int round = 0; round < correctionRounds; ++round) {
         for (std::size_t band = 0; band < bands.size(); ++band) {
             double found = 0.0;
-            double asked = 0.0;
+            double target = 0.0;
             for (std::size_t bin = bands[band].first; bin < bands[band].end; ++bin) {
                 found += std::norm(spectrum[bin]) * gain[bin] * gain[bin];
-                asked += wanted[bin];
+                target += wanted[bin];
             }
-            if (found > 1e-20 * std::max(loudest, 1e-300) && asked > 0.0) {
-                const double limit = std::log(largestCorrection);
-                logGains[band] = std::clamp(logGains[band] + 0.5 * std::log(asked / found), -limit, limit);
+            if (found > 1e-20 * std::max(loudest, 1e-300) && target > 0.0) {
+                const double limit = std::log(maximumCorrection);
+                logGains[band] = std::clamp(logGains[band] + 0.5 * std::log(target / found), -limit, limit);
             }
         }
         for (std::size_t bin = 0; bin < gain.size(); ++bin) {

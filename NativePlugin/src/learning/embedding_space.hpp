@@ -12,7 +12,7 @@ namespace haptoflow::learning {
 /// along each axis. Wave vectors are not among the coordinates: they are given.
 class EmbeddingSpace {
 public:
-    static constexpr std::size_t mostAxes = 16;
+    static constexpr std::size_t maximumAxes = 16;
 
     EmbeddingSpace(const model::ModelFile& model, std::span<const float, 2 * inference::ribCount> waveVectors);
 

@@ -26,7 +26,7 @@ namespace haptoflow::learning {
 namespace {
 
 constexpr double fewSeconds = 10.0;
-constexpr float largestUnitSample = 12.0F;
+constexpr float maximumUnitSample = 12.0F;
 /// A level this far from those of all labels is probably in another unit.
 constexpr double suspiciousLevelDb = 30.0;
 constexpr double degreesPerRadian = 57.29577951308232;
@@ -51,8 +51,8 @@ public:
         checkRecording(recording);
         recording_ = prepareRecording(recording);
         sliding_ = findSliding(recording_, model.header());
-        if (recording.seconds() > longestSeconds) {
-            report_.warnings.push_back("only the first " + plainNumber(longestSeconds) + " s were read");
+        if (recording.seconds() > maximumSeconds) {
+            report_.warnings.push_back("only the first " + plainNumber(maximumSeconds) + " s were read");
         }
     }
 
@@ -200,10 +200,10 @@ private:
     void makeUnitWave() {
         unitWave_.resize(recording_.wave.size());
         for (std::size_t i = 0; i < unitWave_.size(); ++i) {
-            const double speed = std::max(recording_.speedMps(i), slowestSlidingMps);
+            const double speed = std::max(recording_.speedMps(i), minimumSlidingMps);
             const double level = std::exp(level_.logLevel(speed, recording_.motion[i][2]));
             unitWave_[i] =
-                std::clamp(static_cast<float>(recording_.wave[i] / level), -largestUnitSample, largestUnitSample);
+                std::clamp(static_cast<float>(recording_.wave[i] / level), -maximumUnitSample, maximumUnitSample);
         }
     }
 
@@ -426,22 +426,22 @@ void requireText(const std::string& text, std::size_t longest, const char* what)
 }  // namespace
 
 void checkSettings(const LearningSettings& settings) {
-    constexpr std::size_t longestName = 128;
-    constexpr std::size_t longestText = 4096;
-    constexpr double finestCyclesPerMillimetre = 20.0;
+    constexpr std::size_t maximumName = 128;
+    constexpr std::size_t maximumText = 4096;
+    constexpr double maximumCyclesPerMillimetre = 20.0;
     const bool hasCapitals = std::ranges::any_of(settings.name, [](char each) { return each >= 'A' && each <= 'Z'; });
     if (settings.name.empty() || hasCapitals) {
-        throw std::invalid_argument("name is \"" + settings.name.substr(0, longestName) +
+        throw std::invalid_argument("name is \"" + settings.name.substr(0, maximumName) +
                                     "\"; expected text that is not empty and has no capital letters, as labels have");
     }
-    requireText(settings.name, longestName, "name");
-    requireText(settings.category, longestName, "category");
-    requireText(settings.description, longestText, "description");
-    requireText(settings.licence, longestText, "licence");
-    requireText(settings.recordings, longestText, "recordings");
+    requireText(settings.name, maximumName, "name");
+    requireText(settings.category, maximumName, "category");
+    requireText(settings.description, maximumText, "description");
+    requireText(settings.licence, maximumText, "licence");
+    requireText(settings.recordings, maximumText, "recordings");
     if (settings.waveVectors) {
         for (const double number : *settings.waveVectors) {
-            if (!(std::abs(number) <= finestCyclesPerMillimetre)) {
+            if (!(std::abs(number) <= maximumCyclesPerMillimetre)) {
                 throw std::invalid_argument("wave_vectors: " + plainNumber(number) +
                                             " cycles per millimetre; expected -20 to 20");
             }

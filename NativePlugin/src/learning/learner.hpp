@@ -16,8 +16,8 @@
 namespace haptoflow::learning {
 
 /// Maximum number of segments that the fit generates: about eight seconds on one core.
-inline constexpr std::uint64_t usualSegmentBudget = 42'000;
-inline constexpr double usualSecondsLimit = 20.0;
+inline constexpr std::uint64_t defaultSegmentBudget = 42'000;
+inline constexpr double defaultSecondsLimit = 20.0;
 
 struct LearningSettings {
     /// Lower case like a label's, 1 to 128 bytes.
@@ -34,8 +34,8 @@ struct LearningSettings {
     std::uint64_t seed = 1;
     /// Limit of the calling thread's processor time in seconds. The fit ends there with its best result, which then
     /// depends on the machine's speed.
-    double secondsLimit = usualSecondsLimit;
-    std::uint64_t segmentBudget = usualSegmentBudget;
+    double secondsLimit = defaultSecondsLimit;
+    std::uint64_t segmentBudget = defaultSegmentBudget;
     /// k1x, k1y, k2x, k2y in cycles per millimetre along the recording's axes, zero for none; empty to estimate them.
     std::optional<std::array<double, 2 * inference::ribCount>> waveVectors{};
     /// Receives the completed share, 0 to 1, and the name of the present step.

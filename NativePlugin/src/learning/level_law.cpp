@@ -15,11 +15,11 @@ constexpr double frameSpread = 0.35;
 constexpr double slopeSpread = 0.9;
 constexpr double framesPerKnot = 14.0;
 constexpr double knotDistance = 0.22;
-constexpr std::size_t mostKnots = 14;
+constexpr std::size_t maximumKnots = 14;
 constexpr int newtonRounds = 30;
 constexpr std::size_t steadyMargin = 80;
-constexpr double largestChange = 2.0;
-constexpr double leastSteadyShare = 0.25;
+constexpr double maximumChange = 2.0;
+constexpr double minimumSteadyShare = 0.25;
 
 struct Frame {
     double logSpeed = 0.0;
@@ -38,7 +38,7 @@ bool isSteady(const PreparedRecording& recording, std::size_t start) {
         lowest = std::min(lowest, speed);
         highest = std::max(highest, speed);
     }
-    return highest <= largestChange * lowest;
+    return highest <= maximumChange * lowest;
 }
 
 std::vector<Frame> framesOf(const PreparedRecording& recording, const Sliding& sliding) {
@@ -55,9 +55,9 @@ std::vector<Frame> framesOf(const PreparedRecording& recording, const Sliding& s
             const double speed = recording.speedMps(i) + model::LevelTable::restMps;
             frame.power += value * value / static_cast<double>(frameSamples);
             squaredSpeed += speed * speed / static_cast<double>(frameSamples);
-            frame.logForce +=
-                std::log(std::max(static_cast<double>(recording.motion[i][2]), model::LevelTable::weakestNewtons)) /
-                static_cast<double>(frameSamples);
+            frame.logForce += std::log(std::max(static_cast<double>(recording.motion[i][2]),
+                                                model::LevelTable::minimumForceNewtons)) /
+                              static_cast<double>(frameSamples);
         }
         // Levels grow about in proportion to the speed, so that a frame's mean power corresponds to the mean square of
         // its speed.
@@ -69,8 +69,8 @@ std::vector<Frame> framesOf(const PreparedRecording& recording, const Sliding& s
             steady.push_back(frame);
         }
     }
-    return static_cast<double>(steady.size()) >= leastSteadyShare * static_cast<double>(frames.size()) ? steady
-                                                                                                       : frames;
+    return static_cast<double>(steady.size()) >= minimumSteadyShare * static_cast<double>(frames.size()) ? steady
+                                                                                                         : frames;
 }
 
 /// Log speeds of the knots: evenly spaced quantiles with a minimum distance that the frames can resolve.
@@ -87,7 +87,7 @@ std::vector<double> knotsOf(const std::vector<Frame>& frames) {
         return {quantile(0.5)};
     }
     const auto count = std::clamp<std::size_t>(
-        1 + static_cast<std::size_t>(static_cast<double>(frames.size()) / framesPerKnot), 2, mostKnots);
+        1 + static_cast<std::size_t>(static_cast<double>(frames.size()) / framesPerKnot), 2, maximumKnots);
     std::vector<double> knots{first};
     for (std::size_t i = 1; i + 1 < count; ++i) {
         const double knot = quantile(0.03 + 0.94 * static_cast<double>(i) / static_cast<double>(count - 1));

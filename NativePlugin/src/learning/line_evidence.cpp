@@ -10,11 +10,11 @@ namespace {
 
 constexpr double lowestHz = 15.0;
 constexpr double highestHz = 800.0;
-constexpr double lowestAlongPerMm = 0.08;
+constexpr double minimumAlongPerMm = 0.08;
 /// At least one window in this many must cover a vector: strokes go in all directions, and only some cross given ribs.
-constexpr std::size_t hearingShare = 5;
+constexpr std::size_t coveringShare = 5;
 /// Limit in units of the mean noise power, so that one loud window does not dominate.
-constexpr double largestPower = 30.0;
+constexpr double maximumPower = 30.0;
 constexpr std::size_t neighbours = 41;
 /// Half overlapping windows give 0.6 of the information of separate ones.
 constexpr double independentShare = 0.6;
@@ -101,25 +101,25 @@ std::vector<double> spectrumOf(const PathWindow& window) {
     // The median of a chi-squared variable with two degrees of freedom is ln 2 of its mean.
     const double usual = inBand.empty() ? 1.0 : medianOf(std::move(inBand)) / std::numbers::ln2;
     for (double& each : power) {
-        each = std::min(usual > 0.0 ? each / usual : each, largestPower);
+        each = std::min(usual > 0.0 ? each / usual : each, maximumPower);
     }
     return power;
 }
 
 /// Marks wave numbers inside the band that no harmonic of a known vector explains.
-std::vector<std::uint8_t> heardSteps(const PathWindow& window, std::span<const CyclesPerMm> known) {
+std::vector<std::uint8_t> coveredSteps(const PathWindow& window, std::span<const CyclesPerMm> known) {
     std::vector<std::uint8_t> heard(stepCount);
     for (std::size_t step = 0; step < stepCount; ++step) {
         const double place = static_cast<double>(step) * stepPerMm;
-        bool isHeard = isInBand(place, window);
+        bool isCovered = isInBand(place, window);
         for (const CyclesPerMm& vector : known) {
             const double fundamental = std::abs(window.directionX * vector[0] + window.directionY * vector[1]);
             for (std::size_t order = 0; order <= takenHarmonics; ++order) {
                 const double reach = (1.0 + widerByOrder * static_cast<double>(order)) * lobeBins / window.pathMm;
-                isHeard = isHeard && std::abs(place - static_cast<double>(order) * fundamental) >= reach;
+                isCovered = isCovered && std::abs(place - static_cast<double>(order) * fundamental) >= reach;
             }
         }
-        heard[step] = isHeard ? 1 : 0;
+        heard[step] = isCovered ? 1 : 0;
     }
     return heard;
 }
@@ -153,7 +153,7 @@ double angleOf(std::size_t direction) {
     return std::numbers::pi * static_cast<double>(direction) / static_cast<double>(directionCount);
 }
 
-bool hears(const PathWindow& window, const CyclesPerMm& vector) {
+bool covers(const PathWindow& window, const CyclesPerMm& vector) {
     return isInBand(std::abs(vector[0] * window.directionX + vector[1] * window.directionY), window);
 }
 
@@ -162,9 +162,9 @@ LineEvidence lineEvidence(std::span<const PathWindow> windows, std::span<const C
     std::vector<std::vector<std::uint8_t>> heard;
     for (const PathWindow& window : windows) {
         spectra.push_back(spectrumOf(window));
-        heard.push_back(heardSteps(window, known));
+        heard.push_back(coveredSteps(window, known));
     }
-    const auto fewest = static_cast<double>(std::max(fewestWindows, windows.size() / hearingShare));
+    const auto fewest = static_cast<double>(std::max(minimumWindows, windows.size() / coveringShare));
     LineEvidence evidence{DirectionMap(directionCount * stepCount), DirectionMap(directionCount * stepCount)};
     for (std::size_t direction = 0; direction < directionCount; ++direction) {
         const double cosine = std::cos(angleOf(direction));
@@ -175,7 +175,7 @@ LineEvidence lineEvidence(std::span<const PathWindow> windows, std::span<const C
             for (std::size_t step = 0; step < stepCount; ++step) {
                 const double along = share * static_cast<double>(step);
                 const auto column = static_cast<std::size_t>(std::floor(along + 0.5));
-                if (along * stepPerMm > lowestAlongPerMm && heard[w][column] != 0) {
+                if (along * stepPerMm > minimumAlongPerMm && heard[w][column] != 0) {
                     row.sums[step] += spectra[w][column];
                     row.counts[step] += 1.0;
                 }

@@ -17,7 +17,7 @@ inline constexpr std::size_t directionCount = 120;
 inline constexpr std::size_t stepCount = 402;
 inline constexpr double stepPerMm = 0.01;
 inline constexpr std::size_t takenHarmonics = 8;
-inline constexpr std::size_t fewestWindows = 6;
+inline constexpr std::size_t minimumWindows = 6;
 
 /// One row of `stepCount` values for each direction.
 using DirectionMap = std::vector<double>;
@@ -34,7 +34,7 @@ struct LineEvidence {
 [[nodiscard]] double angleOf(std::size_t direction);
 
 /// True if the line of a wave vector lies between the hand's own motion and the end of the band in this window.
-[[nodiscard]] bool hears(const PathWindow& window, const CyclesPerMm& vector);
+[[nodiscard]] bool covers(const PathWindow& window, const CyclesPerMm& vector);
 
 /// `known`: vectors whose harmonics are not counted as evidence.
 [[nodiscard]] LineEvidence lineEvidence(std::span<const PathWindow> windows, std::span<const CyclesPerMm> known);

@@ -15,15 +15,15 @@ namespace {
 
 constexpr double millimetresPerMetre = 1000.0;
 /// A path of this length contains many ribs, and the tracker's error over it is less than one rib.
-constexpr double wantedPathMm = 35.0;
-constexpr std::size_t shortestSamples = 160;
-constexpr std::size_t longestSamples = 1000;
+constexpr double targetPathMm = 35.0;
+constexpr std::size_t minimumSamples = 160;
+constexpr std::size_t maximumSamples = 1000;
 /// Windows with a more curved or a shorter path do not determine a direction.
-constexpr double leastStraight = 0.96;
-constexpr double shortestPathMm = 4.0;
+constexpr double minimumStraightness = 0.96;
+constexpr double minimumPathMm = 4.0;
 constexpr std::size_t predictorOrder = 10;
 constexpr std::size_t levelReachSamples = 100;
-constexpr std::size_t mostWindows = 200;
+constexpr std::size_t maximumWindows = 200;
 
 /// One usable stretch of the recording.
 struct Part {
@@ -55,7 +55,7 @@ std::vector<Part> usableParts(const PreparedRecording& recording) {
         while (last < count && recording.isUsable[last] != 0) {
             ++last;
         }
-        if (last - first > shortestSamples) {
+        if (last - first > minimumSamples) {
             parts.push_back({first, evened(std::span(recording.wave).subspan(first, last - first))});
         }
         first = last + 1;
@@ -115,7 +115,7 @@ std::optional<PathWindow> windowAt(const PreparedRecording& recording, std::span
         squares += white[i] * white[i];
     }
     const double straight = std::hypot(x, y);
-    if (straight < leastStraight * window.pathMm || window.pathMm < shortestPathMm || !(squares > 0.0)) {
+    if (straight < minimumStraightness * window.pathMm || window.pathMm < minimumPathMm || !(squares > 0.0)) {
         return std::nullopt;
     }
     window.directionX = x / straight;
@@ -137,9 +137,9 @@ std::optional<PathWindow> windowAt(const PreparedRecording& recording, std::span
 
 std::size_t windowLength(double speedMps) {
     const double samples =
-        wantedPathMm * inference::waveformRateHz / (millimetresPerMetre * std::max(speedMps, slowestSlidingMps));
+        targetPathMm * inference::waveformRateHz / (millimetresPerMetre * std::max(speedMps, minimumSlidingMps));
     return static_cast<std::size_t>(
-        std::clamp(samples, static_cast<double>(shortestSamples), static_cast<double>(longestSamples)));
+        std::clamp(samples, static_cast<double>(minimumSamples), static_cast<double>(maximumSamples)));
 }
 
 }  // namespace
@@ -150,11 +150,11 @@ std::vector<PathWindow> pathWindows(const PreparedRecording& recording, const Sl
     std::vector<PathWindow> windows;
     for (const Part& part : parts) {
         const std::vector<double> white = whitened(part.wave, taps);
-        for (std::size_t start = predictorOrder; start + shortestSamples <= white.size();) {
+        for (std::size_t start = predictorOrder; start + minimumSamples <= white.size();) {
             const std::size_t first = part.first + start;
             const std::size_t count = windowLength(recording.speedMps(first));
             if (start + count > white.size() || !sliding.holds(first, count)) {
-                start += shortestSamples / 2;
+                start += minimumSamples / 2;
                 continue;
             }
             if (std::optional<PathWindow> window = windowAt(recording, std::span(white).subspan(start, count), first)) {
@@ -163,12 +163,12 @@ std::vector<PathWindow> pathWindows(const PreparedRecording& recording, const Sl
             start += count / 2;
         }
     }
-    if (windows.size() <= mostWindows) {
+    if (windows.size() <= maximumWindows) {
         return windows;
     }
     std::vector<PathWindow> kept;
-    for (std::size_t i = 0; i < mostWindows; ++i) {
-        kept.push_back(std::move(windows[i * windows.size() / mostWindows]));
+    for (std::size_t i = 0; i < maximumWindows; ++i) {
+        kept.push_back(std::move(windows[i * windows.size() / maximumWindows]));
     }
     return kept;
 }

@@ -150,7 +150,7 @@ double PreparedRecording::speedMps(std::size_t sample) const {
 
 PreparedRecording prepareRecording(const Recording& recording) {
     const std::size_t samples =
-        std::min(recording.sampleCount(), static_cast<std::size_t>(longestSeconds * recording.rateHz));
+        std::min(recording.sampleCount(), static_cast<std::size_t>(maximumSeconds * recording.rateHz));
     PreparedRecording prepared;
     prepared.wave = oneAxis(recording, samples);
     const std::size_t count = prepared.wave.size();

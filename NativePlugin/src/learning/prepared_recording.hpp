@@ -24,7 +24,7 @@ struct PreparedRecording {
 };
 
 /// Resamples (windowed sinc), combines three axes (DFT321) and filters without phase shift, as in training. Uses the
-/// first `longestSeconds`. Call `checkRecording` first.
+/// first `maximumSeconds`. Call `checkRecording` first.
 [[nodiscard]] PreparedRecording prepareRecording(const Recording& recording);
 
 }  // namespace haptoflow::learning

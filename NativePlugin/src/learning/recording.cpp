@@ -10,10 +10,10 @@
 namespace haptoflow::learning {
 namespace {
 
-constexpr double largestLostShare = 0.5;
+constexpr double maximumLostShare = 0.5;
 /// A clipped wave stays at its extreme value while it would exceed it; noise reaches its maximum only once.
-constexpr std::size_t shortestClippedRun = 3;
-constexpr double largestClippedShare = 0.001;
+constexpr std::size_t minimumClippedRun = 3;
+constexpr double maximumClippedShare = 0.001;
 
 void require(bool holds, const std::string& message) {
     if (!holds) {
@@ -73,7 +73,7 @@ AxisFigures figuresOf(const Recording& recording, std::size_t axis) {
         const float value = at(i);
         const bool isEnd = (value == lowest || value == highest) && highest > lowest;
         run = isEnd && run > 0 && value == at(i - 1) ? run + 1 : (isEnd ? 1 : 0);
-        clipped += run == shortestClippedRun ? shortestClippedRun : (run > shortestClippedRun ? 1 : 0);
+        clipped += run == minimumClippedRun ? minimumClippedRun : (run > minimumClippedRun ? 1 : 0);
         if (std::isfinite(value)) {
             squares += (value - figures.mean) * (value - figures.mean);
         }
@@ -87,7 +87,7 @@ AxisFigures figuresOf(const Recording& recording, std::size_t axis) {
 
 void checkRecording(const Recording& recording) {
     checkSizes(recording);
-    if (recording.seconds() < shortestSlidingSeconds) {
+    if (recording.seconds() < minimumSlidingSeconds) {
         throw RecordingUnusable("the recording lasts " + plainNumber(recording.seconds()) +
                                 " s; record 10 s or more of sliding");
     }
@@ -96,12 +96,12 @@ void checkRecording(const Recording& recording) {
         const AxisFigures figures = figuresOf(recording, axis);
         const std::string name = recording.axisCount == 1 ? "the acceleration" : "axis " + std::to_string(axis + 1);
         const auto count = static_cast<double>(recording.sampleCount());
-        if (static_cast<double>(figures.finite) < (1.0 - largestLostShare) * count) {
+        if (static_cast<double>(figures.finite) < (1.0 - maximumLostShare) * count) {
             throw RecordingUnusable(name + " is not finite in " +
                                     plainNumber(100.0 - 100.0 * static_cast<double>(figures.finite) / count) +
                                     " % of its samples; record again, or cut the recording to what is whole");
         }
-        if (figures.clippedShare > largestClippedShare) {
+        if (figures.clippedShare > maximumClippedShare) {
             throw RecordingUnusable(name + " is clipped: " + plainNumber(100.0 * figures.clippedShare) +
                                     " % of its samples stand at its largest or smallest value; record again with a "
                                     "larger range");

@@ -37,9 +37,9 @@ inline constexpr double highestRateHz = 192'000.0;
 /// Maximum speed of a hand in m/s; a larger number is in another unit.
 inline constexpr double maximumHandSpeedMps = 10.0;
 /// Later samples are ignored.
-inline constexpr double longestSeconds = 300.0;
+inline constexpr double maximumSeconds = 300.0;
 /// Recordings with less sliding are refused.
-inline constexpr double shortestSlidingSeconds = 3.0;
+inline constexpr double minimumSlidingSeconds = 3.0;
 
 /// Throws std::invalid_argument if the sizes of the spans do not match or a number is out of range, and
 /// RecordingUnusable if the samples are too short, silent, clipped or not finite.

@@ -11,9 +11,9 @@ namespace {
 
 constexpr std::size_t step = 50;
 constexpr std::size_t filterSamples = dsp::toneTaps - 1;
-constexpr double smallestDistance = 0.05;
+constexpr double minimumDistance = 0.05;
 /// A stretch that differs from the level law by a larger factor is an outlier.
-constexpr double largestLevelRatio = 2.0;
+constexpr double maximumLevelRatio = 2.0;
 
 struct Candidate {
     std::size_t start = 0;
@@ -38,7 +38,7 @@ std::vector<Candidate> candidatesOf(const PreparedRecording& recording, const Sl
             continue;
         }
         const double rms = rmsOf(unitWave.subspan(start, model::seedSamples));
-        if (!(rms > 1.0 / largestLevelRatio && rms < largestLevelRatio)) {
+        if (!(rms > 1.0 / maximumLevelRatio && rms < maximumLevelRatio)) {
             continue;
         }
         Candidate each{.start = start, .motion = {}, .place = {}};
@@ -48,7 +48,7 @@ std::vector<Candidate> candidatesOf(const PreparedRecording& recording, const Sl
             }
         }
         const double speed = std::hypot(each.motion[0], each.motion[1]);
-        if (speed < slowestSlidingMps) {
+        if (speed < minimumSlidingMps) {
             continue;
         }
         each.place = {2.0 * std::log(speed), 1.4 * std::log(each.motion[2]), 0.5 * each.motion[0] / speed,
@@ -80,12 +80,12 @@ std::vector<Candidate> spreadOut(const std::vector<Candidate>& candidates) {
         std::ranges::min_element(candidates, {}, [&](const Candidate& each) { return distanceOf(each, middle); });
     std::vector<Candidate> chosen{*first};
     std::vector<double> nearest(candidates.size(), std::numeric_limits<double>::infinity());
-    while (chosen.size() < mostLearntSeeds) {
+    while (chosen.size() < maximumLearntSeeds) {
         for (std::size_t i = 0; i < candidates.size(); ++i) {
             nearest[i] = std::min(nearest[i], distanceOf(candidates[i], chosen.back()));
         }
         const auto farthest = std::ranges::max_element(nearest);
-        if (*farthest < smallestDistance) {
+        if (*farthest < minimumDistance) {
             break;
         }
         chosen.push_back(candidates[static_cast<std::size_t>(farthest - nearest.begin())]);

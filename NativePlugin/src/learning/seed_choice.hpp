@@ -24,7 +24,7 @@ struct LearntSeed {
     std::size_t start = 0;
 };
 
-inline constexpr std::size_t mostLearntSeeds = 8;
+inline constexpr std::size_t maximumLearntSeeds = 8;
 
 /// Chooses stretches of the recording with speeds, forces and directions as different as possible.
 [[nodiscard]] std::vector<LearntSeed> chooseSeeds(const PreparedRecording& recording, const Sliding& sliding,

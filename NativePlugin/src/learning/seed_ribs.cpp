@@ -73,13 +73,13 @@ private:
         }
         std::vector<float> made(requests.size() * half);
         loop_.generate(requests, made);
-        std::array<double, triedPhases> likeness{};
+        std::array<double, triedPhases> similarity{};
         for (std::size_t k = 0; k < requests.size(); ++k) {
             for (std::size_t i = 0; i < half; ++i) {
-                likeness[k / draws] += weight_[i] * samples[half + i] * made[k * half + i];
+                similarity[k / draws] += weight_[i] * samples[half + i] * made[k * half + i];
             }
         }
-        return tried(static_cast<std::size_t>(std::ranges::max_element(likeness) - likeness.begin()));
+        return tried(static_cast<std::size_t>(std::ranges::max_element(similarity) - similarity.begin()));
     }
 
     static double tried(std::size_t phase) { return static_cast<double>(phase) / static_cast<double>(triedPhases); }

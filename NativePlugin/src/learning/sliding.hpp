@@ -9,7 +9,7 @@
 namespace haptoflow::learning {
 
 /// A slower tip counts as resting.
-inline constexpr double slowestSlidingMps = 0.004;
+inline constexpr double minimumSlidingMps = 0.004;
 
 /// The samples that show the material: usable, touching, sliding, and inside the model's range of speed.
 struct Sliding {

@@ -31,7 +31,7 @@ inline constexpr std::size_t partialsOfRib = 6;
 inline constexpr std::size_t ribPartials = partialsOfRib * inference::ribCount;
 
 /// Phase along each wave vector since the start, in cycles.
-using RibWay = std::array<double, inference::ribCount>;
+using RibTravel = std::array<double, inference::ribCount>;
 
 /// Statistics of a texture of unit level at one speed.
 struct TextureFigures {
@@ -55,7 +55,7 @@ public:
 
     /// Adds one stretch of `spectrumSamples` with a speed in `bin`. `ways` has an entry for each sample; empty without
     /// ribs.
-    void add(std::size_t bin, std::span<const float, spectrumSamples> wave, std::span<const RibWay> ways);
+    void add(std::size_t bin, std::span<const float, spectrumSamples> wave, std::span<const RibTravel> ribTravels);
     [[nodiscard]] std::vector<TextureFigures> figures() const;
 
 private:
@@ -72,7 +72,8 @@ private:
         std::array<double, ribPartials> lineFrames{};
     };
 
-    void addLines(Sums& sums, std::span<const float, spectrumSamples> wave, std::span<const RibWay> ways) const;
+    void addLines(Sums& sums, std::span<const float, spectrumSamples> wave,
+                  std::span<const RibTravel> ribTravels) const;
 
     void addSpectrum(Sums& sums, std::span<const float, spectrumSamples> wave) const;
 

@@ -46,7 +46,7 @@ private:
     const Sliding& sliding_;
     std::span<const float> unitWave_;
     /// For each sample of the recording; empty without ribs.
-    std::vector<RibWay> ways_;
+    std::vector<RibTravel> ribTravels_;
     std::uint64_t seed_;
     SpeedBins bins_;
     std::vector<TextureFigures> recorded_;

@@ -11,13 +11,13 @@ constexpr double highestHz = 950.0;
 constexpr double bandOctaves = 1.0 / 3.0;
 constexpr double narrowestHz = 7.0;
 constexpr double relativeWidth = 0.12;
-constexpr double largestGainDb = 24.0;
+constexpr double maximumGainDb = 24.0;
 /// Decibels per unit of the natural logarithm of a power.
 constexpr double decibels = 4.342944819032518;
 /// Number of overlapping frames with the information of one independent frame.
 constexpr double framesPerIndependent = 2.2;
 constexpr double commonSpreadDb = 10.0;
-constexpr double fewestFrames = 3.0;
+constexpr double minimumFrames = 3.0;
 
 std::vector<double> bandCentres(double bandwidthHz) {
     std::vector<double> centres;
@@ -104,7 +104,7 @@ ToneFit fitTone(const SpeedBins& bins, std::span<const TextureFigures> recorded,
     ToneFit fit;
     std::vector<std::size_t> used;
     for (std::size_t bin = 0; bin < bins.count(); ++bin) {
-        if (recorded[bin].frames >= fewestFrames && generated[bin].frames >= fewestFrames) {
+        if (recorded[bin].frames >= minimumFrames && generated[bin].frames >= minimumFrames) {
             used.push_back(bin);
             fit.tone.speedsMps.push_back(bins.centresMps[bin]);
         }
@@ -121,7 +121,7 @@ ToneFit fitTone(const SpeedBins& bins, std::span<const TextureFigures> recorded,
         }
         const std::vector<double> gains = shrunk(ratios);
         for (std::size_t row = 0; row < used.size(); ++row) {
-            fit.tone.gainsDb[row][f] = std::clamp(gains[row], -largestGainDb, largestGainDb);
+            fit.tone.gainsDb[row][f] = std::clamp(gains[row], -maximumGainDb, maximumGainDb);
         }
     }
     for (std::size_t row = 0; row < used.size(); ++row) {

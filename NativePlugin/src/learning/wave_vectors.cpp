@@ -20,11 +20,11 @@ using Complex = std::complex<double>;
 
 constexpr std::size_t harmonicCount = 6;
 /// Range of a fundamental: wavelengths of 8 to 0.4 mm.
-constexpr std::size_t lowestStep = 12;
-constexpr std::size_t highestStep = 250;
-constexpr double lowestPerMm = 1.0 / 8.0;
-constexpr double highestPerMm = 1.0 / 0.4;
-constexpr double leastSpeedRatio = 1.25;
+constexpr std::size_t minimumStep = 12;
+constexpr std::size_t maximumStep = 250;
+constexpr double minimumPerMm = 1.0 / 8.0;
+constexpr double maximumPerMm = 1.0 / 0.4;
+constexpr double minimumSpeedRatio = 1.25;
 /// Threshold of the log likelihood ratio. Noise alone reaches 15 on none of 38 surfaces without ribs.
 constexpr double sure = 20.0;
 constexpr double sureBesideKnown = 24.0;
@@ -33,11 +33,11 @@ constexpr double ownLines = 8.0;
 constexpr double ownLinesShare = 0.06;
 constexpr double shareOfFirst = 0.04;
 constexpr double lowHarmonicsShare = 0.3;
-constexpr double leastRatio = 1.6;
+constexpr double minimumRatio = 1.6;
 /// Preference for perpendicular vectors among equal ones: threads mostly cross at right angles.
 constexpr double crossingBonus = 0.2;
 constexpr double crossingDegrees = 8.0;
-constexpr double leastTurnDegrees = 20.0;
+constexpr double minimumTurnDegrees = 20.0;
 constexpr double degreesPerRadian = 180.0 / std::numbers::pi;
 
 using Harmonics = std::array<double, harmonicCount>;
@@ -83,7 +83,7 @@ public:
             const std::size_t step = fundamentalOf(row, place);
             const Harmonics gains = linesOf(evidence_.gains, row, step);
             const Harmonics ratios = linesOf(evidence_.ratios, row, step);
-            if (*std::ranges::max_element(ratios) >= leastRatio && gains[0] + gains[1] >= lowHarmonicsShare * score) {
+            if (*std::ranges::max_element(ratios) >= minimumRatio && gains[0] + gains[1] >= lowHarmonicsShare * score) {
                 const double length = static_cast<double>(step) * stepPerMm;
                 return Clearest{
                     {length * std::cos(angleOf(row)), length * std::sin(angleOf(row))}, audible(gains), score};
@@ -117,7 +117,7 @@ private:
         DirectionMap scores(evidence_.gains.size());
         for (std::size_t row = 0; row < directionCount; ++row) {
             const double weight = weightBeside(known, angleOf(row));
-            for (std::size_t step = lowestStep; step < highestStep; ++step) {
+            for (std::size_t step = minimumStep; step < maximumStep; ++step) {
                 double score = 0.0;
                 for (std::size_t order = 1; order <= harmonicCount && order * step < stepCount; ++order) {
                     score += std::max(evidence_.gains[row * stepCount + order * step] - priceOfAHarmonic, 0.0);
@@ -134,7 +134,7 @@ private:
             const double turned = std::fmod(std::abs(angle - std::atan2(vector[1], vector[0])), std::numbers::pi);
             const double degrees = degreesPerRadian * std::min(turned, std::numbers::pi - turned);
             const double fromCrossing = (degrees - 90.0) / crossingDegrees;
-            weight *= degrees < leastTurnDegrees ? 0.0 : 1.0 + crossingBonus * std::exp(-fromCrossing * fromCrossing);
+            weight *= degrees < minimumTurnDegrees ? 0.0 : 1.0 + crossingBonus * std::exp(-fromCrossing * fromCrossing);
         }
         return weight;
     }
@@ -167,7 +167,7 @@ private:
     /// is.
     [[nodiscard]] std::size_t fundamentalOf(std::size_t row, std::size_t step) const {
         for (const std::size_t divisor : {4U, 3U, 2U}) {
-            if (static_cast<double>(divisor * step) * stepPerMm <= highestPerMm) {
+            if (static_cast<double>(divisor * step) * stepPerMm <= maximumPerMm) {
                 const Harmonics gains = gainsNear(row, step);
                 const double all = sumOf(gains);
                 const bool isLost = sumOf(gainsNear(row, divisor * step)) <= 0.6 * all;
@@ -178,7 +178,7 @@ private:
         }
         for (const std::size_t divisor : {4U, 3U, 2U}) {
             for (const std::size_t lower : {step / divisor, (step + divisor - 1) / divisor}) {
-                if (static_cast<double>(lower) * stepPerMm >= lowestPerMm) {
+                if (static_cast<double>(lower) * stepPerMm >= minimumPerMm) {
                     const Harmonics gains = gainsNear(row, lower);
                     if (sumBetween(gains, divisor) > ownLines && gains[0] > ownLines) {
                         return lower;
@@ -205,11 +205,11 @@ double amplitudeOf(std::span<const PathWindow> windows, const CyclesPerMm& vecto
                    std::span<const std::size_t> orders) {
     double total = 0.0;
     for (const PathWindow& window : windows) {
-        std::array<bool, harmonicCount> isHeard{};
+        std::array<bool, harmonicCount> isCovered{};
         for (const std::size_t order : orders) {
-            isHeard[order - 1] = hears(window, multiple(vector, order));
+            isCovered[order - 1] = covers(window, multiple(vector, order));
         }
-        if (std::ranges::none_of(isHeard, [](bool each) { return each; })) {
+        if (std::ranges::none_of(isCovered, [](bool each) { return each; })) {
             continue;
         }
         std::array<double, harmonicCount> real{};
@@ -228,7 +228,7 @@ double amplitudeOf(std::span<const PathWindow> windows, const CyclesPerMm& vecto
             }
         }
         for (std::size_t order = 0; order < highest; ++order) {
-            total += isHeard[order] ? std::hypot(real[order], imaginary[order]) : 0.0;
+            total += isCovered[order] ? std::hypot(real[order], imaginary[order]) : 0.0;
         }
     }
     return total;
@@ -277,7 +277,7 @@ void takeOut(std::span<PathWindow> windows, const CyclesPerMm& vector) {
                 line[i] *= turns[i];
                 sum += window.wave[i] * std::conj(line[i]);
             }
-            if (hears(window, multiple(vector, order))) {
+            if (covers(window, multiple(vector, order))) {
                 for (std::size_t i = 0; i < line.size(); ++i) {
                     window.wave[i] -= window.hann[i] * 2.0 * (sum / window.hannSum * line[i]).real();
                 }
@@ -292,7 +292,7 @@ bool speedChanges(std::span<const PathWindow> windows) {
         speeds.push_back(window.speedMmps);
     }
     std::ranges::sort(speeds);
-    return speeds[speeds.size() * 9 / 10] >= leastSpeedRatio * speeds[speeds.size() / 10];
+    return speeds[speeds.size() * 9 / 10] >= minimumSpeedRatio * speeds[speeds.size() / 10];
 }
 
 /// Chooses between a vector and its opposite, which describe the same ribs: the larger component is positive, to five
@@ -312,7 +312,7 @@ double WaveVector::cyclesPerMillimetre() const {
 
 std::vector<WaveVector> findWaveVectors(const PreparedRecording& recording, const Sliding& sliding) {
     std::vector<PathWindow> windows = pathWindows(recording, sliding);
-    if (windows.size() < fewestWindows || !speedChanges(windows)) {
+    if (windows.size() < minimumWindows || !speedChanges(windows)) {
         return {};
     }
     std::vector<CyclesPerMm> found;

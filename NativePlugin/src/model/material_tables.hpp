@@ -22,7 +22,7 @@ struct LevelTable {
     /// Added to a speed before taking its logarithm, so that speed 0 has a finite one.
     static constexpr double restMps = 0.0005;
     /// Smaller forces are replaced by this one.
-    static constexpr double weakestNewtons = 0.02;
+    static constexpr double minimumForceNewtons = 0.02;
 
     /// Increasing; at least one.
     std::vector<double> speedsMps;

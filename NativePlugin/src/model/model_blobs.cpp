@@ -11,16 +11,16 @@
 namespace haptoflow::model {
 namespace {
 
-constexpr auto largestLength = static_cast<std::int64_t>(maximumFileBytes);
+constexpr auto maximumLength = static_cast<std::int64_t>(maximumFileBytes);
 
 std::vector<std::int64_t> readShape(const HeaderNode& node) {
     std::vector<std::int64_t> shape;
     std::int64_t product = 1;
     for (const HeaderNode& dimension : node.elements(1, maximumTensorRank)) {
-        shape.push_back(dimension.integer(1, largestLength / 4));
+        shape.push_back(dimension.integer(1, maximumLength / 4));
         // Both factors are below 2^28, so that the product does not overflow before the comparison.
         product *= shape.back();
-        if (product > largestLength / 4) {
+        if (product > maximumLength / 4) {
             node.refuse("a tensor that fits into a file of 268435456 bytes");
         }
     }
@@ -44,9 +44,9 @@ Blob readBlob(const HeaderNode& node) {
     blob.name = node.at("name").name(nameBytes);
     const HeaderNode type = node.at("type");
     const std::string word = type.text(nameBytes);
-    blob.bytes = static_cast<std::size_t>(node.at("bytes").integer(1, largestLength));
+    blob.bytes = static_cast<std::size_t>(node.at("bytes").integer(1, maximumLength));
     const HeaderNode offset = node.at("offset");
-    blob.offset = static_cast<std::size_t>(offset.integer(0, largestLength));
+    blob.offset = static_cast<std::size_t>(offset.integer(0, maximumLength));
     if (blob.offset % blobAlignment != 0) {
         offset.refuse("a multiple of 64");
     }

@@ -33,8 +33,8 @@ struct WireField {
 };
 
 /// Reads the fields of one protobuf message in order. Every length is checked against the remaining bytes; nothing is
-/// copied and nothing recurses. Home-made: the protobuf library would be a large dependency of the plugin, and it builds
-/// the whole message before the message can be checked.
+/// copied and nothing recurses. Home-made: the protobuf library would be a large dependency of the plugin, and it
+/// builds the whole message before the message can be checked.
 class WireReader {
 public:
     explicit WireReader(std::span<const std::byte> message) noexcept : rest_(message) {}

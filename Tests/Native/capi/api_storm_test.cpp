@@ -457,8 +457,8 @@ class ApiStormTest : public ::testing::Test {
 protected:
     /// Number of calls of each thread, from HAPTOFLOW_TEST_STORM_CALLS; the soak test sets a large one.
     static int callsOfAThread(int usual) {
-        const char* asked = std::getenv("HAPTOFLOW_TEST_STORM_CALLS");
-        return asked != nullptr ? std::atoi(asked) : usual;
+        const char* given = std::getenv("HAPTOFLOW_TEST_STORM_CALLS");
+        return given != nullptr ? std::atoi(given) : usual;
     }
 
     static void storm(int threadCount, int calls) {

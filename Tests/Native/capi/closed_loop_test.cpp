@@ -20,8 +20,8 @@ constexpr std::size_t frameSamples = 400;
 constexpr std::size_t bins = frameSamples / 2;
 
 double loopSeconds() {
-    const char* asked = std::getenv("HAPTOFLOW_TEST_LOOP_SECONDS");
-    return asked != nullptr ? std::strtod(asked, nullptr) : 24.0;
+    const char* given = std::getenv("HAPTOFLOW_TEST_LOOP_SECONDS");
+    return given != nullptr ? std::strtod(given, nullptr) : 24.0;
 }
 
 /// Mean magnitude spectrum over frames that overlap by half, 0 to 1 kHz in steps of 5 Hz.

@@ -17,12 +17,12 @@ namespace {
 
 constexpr unsigned char untouched = 0xEE;
 /// The library refuses larger descriptors as uninitialised.
-constexpr std::size_t largestSize = 4096;
+constexpr std::size_t maximumSize = 4096;
 
 /// A struct of any size in its own memory, followed by bytes that do not belong to the caller.
 class Memory {
 public:
-    explicit Memory(uint32_t structSize) : bytes_(2 * largestSize, untouched) { setSize(structSize); }
+    explicit Memory(uint32_t structSize) : bytes_(2 * maximumSize, untouched) { setSize(structSize); }
     template <typename Descriptor>
     Memory(const Descriptor& content, uint32_t structSize) : Memory(structSize) {
         std::memcpy(bytes_.data(), &content, std::min<std::size_t>(structSize, sizeof(content)));
@@ -224,7 +224,7 @@ TEST_F(DescriptorSizesTest, AnInputOfAnOlderCallerIsAcceptedAndNothingBeyondItsE
 
 TEST_F(DescriptorSizesTest, AnInputOfANewerCallerIsAcceptedAndItsUnknownFieldsAreIgnored) {
     for (const Input& input : inputs()) {
-        for (const std::size_t size : {input.full + 1, input.full + 8, input.full + 64, largestSize}) {
+        for (const std::size_t size : {input.full + 1, input.full + 8, input.full + 64, maximumSize}) {
             Memory given = input.make(static_cast<uint32_t>(size));
             const Memory before = given;
             EXPECT_EQ(input.call(given), HAPTOFLOW_OK) << input.function << ", " << size << " bytes: " << message();
@@ -237,7 +237,7 @@ TEST_F(DescriptorSizesTest, AnInputThatIsTooSmallForItsMandatoryFieldsOrHasNoSiz
     const std::uint64_t updates = open_.statistics().updates;
     for (const Input& input : inputs()) {
         for (const std::size_t size : {std::size_t{0}, std::size_t{3}, sizeof(uint32_t), input.smallest - 1,
-                                       largestSize + 1, std::size_t{UINT32_MAX}}) {
+                                       maximumSize + 1, std::size_t{UINT32_MAX}}) {
             Memory given = input.make(static_cast<uint32_t>(input.full));
             *given.as<uint32_t>() = static_cast<uint32_t>(size);
             EXPECT_EQ(input.call(given), HAPTOFLOW_INVALID_ARGUMENT) << input.function << ", " << size << " bytes";
@@ -263,7 +263,7 @@ TEST_F(DescriptorSizesTest, AnOutputIsFilledUpToTheCallersSizeAndReportsTheFille
 TEST_F(DescriptorSizesTest, AnOutputWithoutASizeIsRefusedAndUnchanged) {
     for (const Output& output : outputs()) {
         for (const std::size_t size :
-             {std::size_t{0}, std::size_t{1}, std::size_t{3}, largestSize + 1, std::size_t{UINT32_MAX}}) {
+             {std::size_t{0}, std::size_t{1}, std::size_t{3}, maximumSize + 1, std::size_t{UINT32_MAX}}) {
             Memory given(static_cast<uint32_t>(size));
             const Memory before = given;
             EXPECT_EQ(output.call(given), HAPTOFLOW_INVALID_ARGUMENT) << output.name << ", " << size << " bytes";

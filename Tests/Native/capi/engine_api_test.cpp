@@ -27,12 +27,12 @@ TEST(EngineApiTest, ATouchOnTheShippedModelSoundsInTheNextBlockAndContinuesWithG
 TEST(EngineApiTest, WithoutWorkerEqualCallsGiveEqualSamplesAndAnotherSeedGivesOthers) {
     const auto play = [](uint64_t seed) {
         OpenEngine open(tinyModelPath, false, HAPTOFLOW_QUALITY_STANDARD, seed);
-        std::vector<float> heard;
+        std::vector<float> output;
         for (int update = 0; update < 30; ++update) {
             const std::vector<float> part = open.update(slidingState());
-            heard.insert(heard.end(), part.begin(), part.end());
+            output.insert(output.end(), part.begin(), part.end());
         }
-        return heard;
+        return output;
     };
     const std::vector<float> first = play(7);
     EXPECT_EQ(first, play(7));
@@ -115,37 +115,37 @@ TEST(EngineApiTest, ClosingTheEngineSilencesAndDestroysItsVoices) {
 }
 
 /// The blocks of a voice that is removed while it sounds, until it is gone.
-std::vector<float> heardUntilGone(OpenEngine& open, const std::function<void()>& takeAway) {
+std::vector<float> blocksUntilGone(OpenEngine& open, const std::function<void()>& removeVoice) {
     const haptoflow_voice voice = open.voice;
-    std::vector<float> heard = open.update(slidingState(), 2048);
-    std::thread taker(takeAway);
+    std::vector<float> output = open.update(slidingState(), 2048);
+    std::thread taker(removeVoice);
     for (haptoflow_status status = HAPTOFLOW_OK; status == HAPTOFLOW_OK;) {
         std::array<float, 256> block{};
         status = haptoflow_voice_render(voice, block.data(), 256, 1, 0, 48000.0);
-        heard.insert(heard.end(), block.begin(), block.end());
+        output.insert(output.end(), block.begin(), block.end());
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     taker.join();
-    return heard;
+    return output;
 }
 
 TEST(EngineApiTest, AVoiceDestroyedWhileItSoundsEndsWithoutAStep) {
     OpenEngine open(tinyModelPath);
     const float usual = largestStep(open.update(slidingState(), 2048));
     ASSERT_GT(usual, 0.0F);
-    const auto heard =
-        heardUntilGone(open, [&] { EXPECT_EQ(haptoflow_voice_destroy(&open.voice), HAPTOFLOW_OK) << message(); });
-    EXPECT_EQ(heard.back(), 0.0F);
-    EXPECT_LE(largestStep(heard), 1.5F * usual);
+    const auto output =
+        blocksUntilGone(open, [&] { EXPECT_EQ(haptoflow_voice_destroy(&open.voice), HAPTOFLOW_OK) << message(); });
+    EXPECT_EQ(output.back(), 0.0F);
+    EXPECT_LE(largestStep(output), 1.5F * usual);
 }
 
 TEST(EngineApiTest, AnEngineClosedWhileItsVoiceSoundsEndsItWithoutAStep) {
     OpenEngine open(tinyModelPath);
     const float usual = largestStep(open.update(slidingState(), 2048));
-    const auto heard =
-        heardUntilGone(open, [&] { EXPECT_EQ(haptoflow_engine_close(&open.engine), HAPTOFLOW_OK) << message(); });
-    EXPECT_EQ(heard.back(), 0.0F);
-    EXPECT_LE(largestStep(heard), 1.5F * usual);
+    const auto output =
+        blocksUntilGone(open, [&] { EXPECT_EQ(haptoflow_engine_close(&open.engine), HAPTOFLOW_OK) << message(); });
+    EXPECT_EQ(output.back(), 0.0F);
+    EXPECT_LE(largestStep(output), 1.5F * usual);
 }
 
 TEST(EngineApiTest, SixtyFourVoicesHaveDifferentPlacesAndTheNextIsRefused) {

@@ -2,7 +2,7 @@
 // model and on an untrained one.
 #include "headless/contact_tracker.hpp"
 #include "headless/test_scenes.hpp"
-#include "heard_checks.hpp"
+#include "output_checks.hpp"
 
 #include <array>
 #include <functional>
@@ -51,11 +51,11 @@ Scene box(double scale = 1.0) {
 }
 
 /// Samples of which every third is changed by `ruin`.
-std::function<TipSample(int)> ruined(const std::function<void(TipSample&)>& ruin) {
-    return [ruin](int frame) {
+std::function<TipSample(int)> corrupted(const std::function<void(TipSample&)>& corrupt) {
+    return [corrupt](int frame) {
         TipSample sample = onFace(frame);
         if (frame % 3 == 2) {
-            ruin(sample);
+            corrupt(sample);
         }
         return sample;
     };
@@ -107,7 +107,7 @@ std::vector<HardScene> hardScenes() {
     return {
         {"TimeStandsStill", box(), steps(0.0), false},
         {"TimeRunsBackwards", box(), steps(-1.0 / updateHz), false},
-        {"TimeGoesBackEveryThirdUpdate", box(), ruined([](TipSample& sample) { sample.timeSeconds -= 1.0; })},
+        {"TimeGoesBackEveryThirdUpdate", box(), corrupted([](TipSample& sample) { sample.timeSeconds -= 1.0; })},
         {"StepsOfAMicrosecond", box(), steps(1e-6), false},
         {"StepsOfTenSeconds", box(), steps(10.0), false},
         {"APauseOfTenSeconds", box(),
@@ -116,19 +116,20 @@ std::vector<HardScene> hardScenes() {
              sample.timeSeconds += frame > 50 ? 10.0 : 0.0;
              return sample;
          }},
-        {"TeleportEveryThirdUpdate", box(), ruined([](TipSample& sample) { sample.positionMetres.x += 5.0; })},
+        {"TeleportEveryThirdUpdate", box(), corrupted([](TipSample& sample) { sample.positionMetres.x += 5.0; })},
         {"TeleportOnTheSurface", box(),
          [](int frame) {
              TipSample sample = onFace(frame);
              sample.positionMetres.x += frame % 20 < 10 ? 0.05 : -0.05;
              return sample;
          }},
-        {"PositionsNotFinite", box(), ruined([](TipSample& sample) {
+        {"PositionsNotFinite", box(), corrupted([](TipSample& sample) {
              sample.positionMetres = {headless::testing::nan, headless::testing::infinity,
                                       -headless::testing::infinity};
          })},
-        {"ForcesNotFinite", box(), ruined([](TipSample& sample) { sample.forceNewtons = headless::testing::nan; })},
-        {"TimesNotFinite", box(), ruined([](TipSample& sample) { sample.timeSeconds = headless::testing::infinity; })},
+        {"ForcesNotFinite", box(), corrupted([](TipSample& sample) { sample.forceNewtons = headless::testing::nan; })},
+        {"TimesNotFinite", box(),
+         corrupted([](TipSample& sample) { sample.timeSeconds = headless::testing::infinity; })},
         {"NormalsFlipped", meshScene(insideOut()), onFace},
         {"NormalsZero", meshScene(withNeedles()), onFace},
         {"RotationNotOfUnitLength", sceneOf({surfaceOf(Box{{0.2, 0.2, 0.2}}, longRotation)}), onFace},
@@ -161,7 +162,7 @@ std::vector<HardScene> hardScenes() {
     };
 }
 
-haptoflow_contact_state told(const ContactReading& reading) {
+haptoflow_contact_state contactStateOf(const ContactReading& reading) {
     haptoflow_contact_state state = slidingState();
     state.touching = reading.touching ? 1 : 0;
     state.touch_counter = reading.touchCounter;
@@ -178,23 +179,23 @@ TEST_P(HardSceneTest, TheOutputIsFiniteBoundedAndEndsWithTheContact) {
     const auto& [subject, hardScene] = GetParam();
     OpenEngine open(*subject.modelPath, false, subject.quality);
     ContactTracker tracker(hardScene.scene);
-    std::vector<float> heard;
+    std::vector<float> output;
     haptoflow_contact_state state{};
     for (int frame = 0; frame < static_cast<int>(1.2 * updateHz); ++frame) {
-        state = told(tracker.update(hardScene.sample(frame)));
-        appendChecked(heard, open.update(state, static_cast<uint32_t>(48000.0 / updateHz)),
+        state = contactStateOf(tracker.update(hardScene.sample(frame)));
+        appendChecked(output, open.update(state, static_cast<uint32_t>(48000.0 / updateHz)),
                       static_cast<uint32_t>(frame));
     }
     EXPECT_GT(state.touch_counter, 0U) << "nothing was touched";
     if (hardScene.sounds) {
-        EXPECT_GT(peak(heard), faintestTouch);
+        EXPECT_GT(peak(output), perceptibleLevel);
     }
     const haptoflow_voice_statistics statistics = open.statistics();
     EXPECT_EQ(statistics.non_finite_samples, 0U);
     EXPECT_EQ(statistics.failures, 0U);
     EXPECT_EQ(statistics.sanitised, 0U) << "the contact model returned a number that is out of range";
-    expectSilenceAfterLiftOff(open, state.touch_counter, heard);
-    expectNoStep(heard);
+    expectSilenceAfterLiftOff(open, state.touch_counter, output);
+    expectNoStep(output);
 }
 
 INSTANTIATE_TEST_SUITE_P(OnModel, HardSceneTest, ::testing::Combine(subjects, ::testing::ValuesIn(hardScenes())),

@@ -55,8 +55,8 @@ TEST_F(HealthTest, EveryReasonHasANameAndOtherNumbersHaveNone) {
 
 TEST_F(HealthTest, AnUnsupportedDeviceRateIsCountedAndReportedAndTheTouchResumesAfterIt) {
     (void)open_.update(slidingState());
-    std::vector<float> heard = open_.render(960, 4000.0);
-    EXPECT_EQ(peak({heard.end() - 480, heard.end()}), 0.0F);
+    std::vector<float> output = open_.render(960, 4000.0);
+    EXPECT_EQ(peak({output.end() - 480, output.end()}), 0.0F);
     haptoflow_voice_statistics statistics = open_.statistics();
     EXPECT_EQ(statistics.unsupported_rate_blocks, 1U);
     EXPECT_EQ(statistics.device_rate_hz, 4000.0);

@@ -69,11 +69,11 @@ public:
     /// Publishes one contact state, runs inference and returns the output until the next update.
     std::vector<float> update(const haptoflow_contact_state& state, uint32_t frames = 667) {
         publish(state);
-        std::vector<float> heard = render(1);
+        std::vector<float> output = render(1);
         EXPECT_EQ(haptoflow_engine_step(engine), HAPTOFLOW_OK) << message();
         const std::vector<float> rest = render(frames - 1);
-        heard.insert(heard.end(), rest.begin(), rest.end());
-        return heard;
+        output.insert(output.end(), rest.begin(), rest.end());
+        return output;
     }
     [[nodiscard]] haptoflow_voice_statistics statistics() const {
         haptoflow_voice_statistics statistics{};

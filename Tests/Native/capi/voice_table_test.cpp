@@ -86,10 +86,10 @@ protected:
         std::atomic<bool> hasRendered{false};
         std::atomic<bool> hasClosed{false};
         bool closedAfterTheRender = false;
-        std::vector<float> heard(blockFrames);
+        std::vector<float> output(blockFrames);
         std::thread renderer([&] {
             const VoiceTable::Use use = table_.use(handle_);
-            status = renderInto(use, {heard.data(), blockFrames, 1, 0}, 48000.0);
+            status = renderInto(use, {output.data(), blockFrames, 1, 0}, 48000.0);
             hasRendered = true;
         });
         sink_.waitUntilHeld();
@@ -112,7 +112,7 @@ protected:
         renderer.join();
         closer.join();
         EXPECT_EQ(status, HAPTOFLOW_OK);
-        EXPECT_GT(peak(heard), 0.001F) << "the running block is complete";
+        EXPECT_GT(peak(output), 0.001F) << "the running block is complete";
         EXPECT_TRUE(closedAfterTheRender);
         EXPECT_TRUE(live_.expired());
         EXPECT_EQ(engine_->statistics().voices, 0U);

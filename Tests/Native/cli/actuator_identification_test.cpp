@@ -101,13 +101,13 @@ Recording record(const ExponentialSweep& sweep, const Simulated& simulated) {
         const double played = sweepAt(sweep, i / simulated.rateHz - simulated.delaySeconds) / sweep.level;
         const double driven = sweep.level * (played + simulated.secondOrder * played * played +
                                              simulated.thirdOrder * played * played * played);
-        double felt = simulated.isFlat ? driven : 0.0;
+        double response = simulated.isFlat ? driven : 0.0;
         if (!simulated.isFlat) {
             for (Resonance& each : resonances) {
-                felt += each.next(driven);
+                response += each.next(driven);
             }
         }
-        recording.samples.push_back(static_cast<float>(simulated.gain * felt + simulated.noise * normal(random)));
+        recording.samples.push_back(static_cast<float>(simulated.gain * response + simulated.noise * normal(random)));
     }
     return recording;
 }

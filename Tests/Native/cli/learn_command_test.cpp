@@ -291,7 +291,7 @@ TEST_F(LearnCommandTest, ALearntMaterialRendersLikeItsRecordingAtAGivenSpeed) {
     ASSERT_EQ(rendered.exitCode, 0) << rendered.errors;
 
     // The reference: the same surface at 90 mm/s; only its force varies by half.
-    const MadeRecording truth(surface, {.seconds = 12.0, .slowestMps = 0.09, .fastestMps = 0.09}, rateHz, 99);
+    const MadeRecording truth(surface, {.seconds = 12.0, .minimumSpeedMps = 0.09, .maximumSpeedMps = 0.09}, rateHz, 99);
     std::vector<float> heard = readRecording(at("tile.wav").string()).samples;
     std::ranges::transform(heard, heard.begin(), [](float value) { return 200.0F * value; });
     const std::vector<double> found = bandsOf(middleAt2kHz(heard, 8000.0));

@@ -40,10 +40,10 @@ TEST(NearWordsTest, TheNearestIsFirstAndAmongEquallyNearOnesTheOneThatContainsTh
 }
 
 TEST(NearWordsTest, AWordThatIsFarFromAllHasNoSuggestion) {
-    EXPECT_EQ(meantWord("stoen", labels), "stone");
-    EXPECT_EQ(meantWord("xylophone", labels), "");
-    EXPECT_EQ(meantWord("", labels), "");
-    EXPECT_EQ(meantWord("wood", {}), "");
+    EXPECT_EQ(likelyWord("stoen", labels), "stone");
+    EXPECT_EQ(likelyWord("xylophone", labels), "");
+    EXPECT_EQ(likelyWord("", labels), "");
+    EXPECT_EQ(likelyWord("wood", {}), "");
 }
 
 TEST(NearWordsTest, TheQuestionListsTheWords) {

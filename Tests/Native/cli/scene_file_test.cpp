@@ -95,7 +95,7 @@ TEST(SceneFileTest, EveryKeyOfASceneIsRead) {
     ASSERT_EQ(scene.surfaces.size(), 5U);
     EXPECT_DOUBLE_EQ(scene.tipRadiusMetres, 0.002);
     EXPECT_DOUBLE_EQ(scene.updateRateHz, 120.0);
-    const headless::Surface& desk = scene.surfaces[0];
+    const headless::SceneSurface& desk = scene.surfaces[0];
     EXPECT_EQ(desk.name, "desk");
     EXPECT_EQ(std::get<headless::Box>(desk.shape).sizeMetres, glm::dvec3(0.4, 0.02, 0.3));
     EXPECT_EQ(desk.pose.positionMetres, glm::dvec3(0.1, 0.2, 0.3));
@@ -103,7 +103,7 @@ TEST(SceneFileTest, EveryKeyOfASceneIsRead) {
     EXPECT_EQ(desk.grain, glm::dvec3(0.0, 0.0, 1.0));
     EXPECT_DOUBLE_EQ(desk.stiffnessNewtonsPerMetre.value_or(0.0), 800.0);
     EXPECT_EQ(desk.material, (std::vector<std::pair<std::string, double>>{{"wood", 1.0}}));
-    const headless::Surface& ball = scene.surfaces[1];
+    const headless::SceneSurface& ball = scene.surfaces[1];
     EXPECT_EQ(ball.material, (std::vector<std::pair<std::string, double>>{{"cork", 0.75}, {"wood", 0.25}}));
     ASSERT_TRUE(ball.motion);
     EXPECT_TRUE(ball.motion->loops());

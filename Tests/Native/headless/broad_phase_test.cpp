@@ -17,7 +17,7 @@ using testing::surfaceOf;
 
 /// Spheres of 10 mm every 50 mm over a square table; each moves by `swingMetres` to either side, twice per second.
 Scene gridOfSpheres(int perSide, double swingMetres = 0.0) {
-    std::vector<Surface> surfaces;
+    std::vector<SceneSurface> surfaces;
     for (int row = 0; row < perSide; ++row) {
         for (int column = 0; column < perSide; ++column) {
             const Pose home{{0.05 * column, 0.0, 0.05 * row}, {1.0, 0.0, 0.0, 0.0}};
@@ -35,7 +35,7 @@ Scene gridOfSpheres(int perSide, double swingMetres = 0.0) {
 }
 
 /// A little box mesh that lies far from its own origin.
-Surface farFromItsOrigin(const glm::dvec3& offsetMetres) {
+SceneSurface farFromItsOrigin(const glm::dvec3& offsetMetres) {
     testing::RawMesh raw = testing::rawBoxMesh(glm::dvec3(0.01));
     for (glm::dvec3& vertex : raw.vertices) {
         vertex += offsetMetres;
@@ -57,7 +57,7 @@ TEST(BroadPhaseTest, RoundingHidesNoSurfaceAtTheLimitOfItsReach) {
     int within = 0;
     int beyond = 0;
     for (int trial = 0; trial < 3000; ++trial) {
-        Surface surface = farFromItsOrigin(100.0 * anyVector());
+        SceneSurface surface = farFromItsOrigin(100.0 * anyVector());
         surface.pose = {anyVector(), testing::turned(180.0 * spread(random), anyVector())};
         const BroadPhase broadPhase({surface}, reach);
         const BoundingSphere sphere = boundingSphere(surface.shape);
@@ -79,7 +79,7 @@ TEST(BroadPhaseTest, ASurfaceIsVisitedAlongItsWholePathWhateverItsRotation) {
     const auto anyVector = [&] { return glm::dvec3(spread(random), spread(random), spread(random)); };
     const auto anyPose = [&] { return Pose{anyVector(), testing::turned(180.0 * spread(random), anyVector())}; };
     for (int trial = 0; trial < 200; ++trial) {
-        Surface surface = farFromItsOrigin(anyVector());
+        SceneSurface surface = farFromItsOrigin(anyVector());
         surface.motion.emplace(std::vector<Keyframe>{{0.0, anyPose()}, {0.3, anyPose()}, {1.0, anyPose()}}, false);
         const BroadPhase broadPhase({surface}, 0.002);
         const BoundingSphere sphere = boundingSphere(surface.shape);
@@ -119,7 +119,7 @@ TEST(BroadPhaseTest, ATipFarFromAllSurfacesQueriesNone) {
 
 TEST(BroadPhaseTest, AThousandSurfacesInTheSamePlaceAreAllQueriedAndTheFirstOneWins) {
     const Pose pose{{0.3, 0.2, 0.1}, {1.0, 0.0, 0.0, 0.0}};
-    ContactTracker tracker(sceneOf(std::vector<Surface>(1000, surfaceOf(Sphere{0.05}, pose))));
+    ContactTracker tracker(sceneOf(std::vector<SceneSurface>(1000, surfaceOf(Sphere{0.05}, pose))));
     EXPECT_EQ(tracker.update({0.0, {0.3, 0.25, 0.1}, {}, {}}).surfaceIndex, 0);
     EXPECT_EQ(tracker.statistics().surfaceQueries, 1000U);
 }
@@ -136,7 +136,7 @@ TEST(BroadPhaseTest, APlaneIsTouchedAnyDistanceFromItsOriginAmongBoundedSurfaces
 }
 
 TEST(BroadPhaseTest, AMovingSurfaceIsTouchedAtItsPresentPoseAndNotAtItsRestPose) {
-    Surface mover = surfaceOf(Sphere{0.05});
+    SceneSurface mover = surfaceOf(Sphere{0.05});
     mover.motion.emplace(std::vector<Keyframe>{{0.0, {{5.0, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}},
                                                {1.0, {{6.0, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}}},
                          false);
@@ -149,7 +149,7 @@ TEST(BroadPhaseTest, AMovingSurfaceIsTouchedAtItsPresentPoseAndNotAtItsRestPose)
 TEST(BroadPhaseTest, SurfacesOfTheLargestSizesAndDistancesAreFound) {
     const glm::dvec3 far(4e11, -4e11, 4e11);
     for (const double size : {1e-3, 1e6, 1e12}) {
-        const Surface box = surfaceOf(Box{glm::dvec3(size)}, {far, {1.0, 0.0, 0.0, 0.0}});
+        const SceneSurface box = surfaceOf(Box{glm::dvec3(size)}, {far, {1.0, 0.0, 0.0, 0.0}});
         ContactTracker tracker(sceneOf({surfaceOf(Sphere{0.1}), box}));
         EXPECT_EQ(tracker.update({0.0, far, {}, {}}).surfaceIndex, 1) << size;
     }

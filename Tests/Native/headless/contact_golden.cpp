@@ -23,11 +23,11 @@ void visitSettings(Settings& settings, Visit&& visit) {
     visit("velocity_window_seconds", settings.velocity.windowSeconds);
     visit("velocity_hold_seconds", settings.velocity.holdSeconds);
     visit("velocity_stop_seconds", settings.velocity.stopSeconds);
-    visit("velocity_longest_gap_seconds", settings.velocity.longestGapSeconds);
-    visit("velocity_shortest_step_seconds", settings.velocity.shortestStepSeconds);
-    visit("velocity_smallest_move_metres", settings.velocity.smallestMoveMetres);
-    visit("velocity_fastest_mps", settings.velocity.fastestMps);
-    visit("velocity_shortest_jump_seconds", settings.velocity.shortestJumpSeconds);
+    visit("velocity_longest_gap_seconds", settings.velocity.maximumGapSeconds);
+    visit("velocity_shortest_step_seconds", settings.velocity.minimumStepSeconds);
+    visit("velocity_smallest_move_metres", settings.velocity.minimumMoveMetres);
+    visit("velocity_fastest_mps", settings.velocity.maximumSpeedMps);
+    visit("velocity_shortest_jump_seconds", settings.velocity.minimumJumpSeconds);
 }
 
 ContactSettings settingsOf(const Case& testCase) {

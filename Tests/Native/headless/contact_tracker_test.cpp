@@ -95,7 +95,7 @@ TEST(ContactTrackerTest, VelocityIsSplitAlongTheTwoTangentAxes) {
 }
 
 TEST(ContactTrackerTest, TheGrainTurnsWithTheObject) {
-    Surface plate = surfaceOf(Plane{}, {{0.0, 0.0, 0.0}, testing::turned(90.0, {0.0, 1.0, 0.0})});
+    SceneSurface plate = surfaceOf(Plane{}, {{0.0, 0.0, 0.0}, testing::turned(90.0, {0.0, 1.0, 0.0})});
     ContactTracker tracker(sceneOf({plate}));
     // Unity turns +x towards -z about +y: the grain points along -z now.
     const auto readings =
@@ -105,7 +105,7 @@ TEST(ContactTrackerTest, TheGrainTurnsWithTheObject) {
 }
 
 TEST(ContactTrackerTest, AStrokeOnATurningObjectKeepsItsAxes) {
-    Surface plate = surfaceOf(Plane{});
+    SceneSurface plate = surfaceOf(Plane{});
     plate.motion.emplace(std::vector<Keyframe>{{0.0, {{}, testing::turned(0.0, {1.0, 2.0, 0.5})}},
                                                {1.0, {{0.3, 0.2, 0.1}, testing::turned(150.0, {1.0, 2.0, 0.5})}}},
                          false);
@@ -134,8 +134,8 @@ TEST(ContactTrackerTest, ApproachSpeedIsConstantDuringATouch) {
 }
 
 TEST(ContactTrackerTest, TheDeepestContactWinsUntilAnotherIsDeeperByTheMargin) {
-    const Surface left = surfaceOf(Box{{0.1, 0.1, 0.1}}, {{-0.05, -0.05, 0.0}, {1.0, 0.0, 0.0, 0.0}});
-    Surface right = surfaceOf(Box{{0.1, 0.1, 0.1}}, {{0.05, -0.0497, 0.0}, {1.0, 0.0, 0.0, 0.0}});
+    const SceneSurface left = surfaceOf(Box{{0.1, 0.1, 0.1}}, {{-0.05, -0.05, 0.0}, {1.0, 0.0, 0.0, 0.0}});
+    SceneSurface right = surfaceOf(Box{{0.1, 0.1, 0.1}}, {{0.05, -0.0497, 0.0}, {1.0, 0.0, 0.0, 0.0}});
     ContactTracker tracker(sceneOf({left, right}));
     EXPECT_EQ(tracker.update({0.00, pressed(0.0005, -0.02), {}, {}}).surfaceIndex, 0);
     EXPECT_EQ(tracker.update({0.01, pressed(0.0005, -0.0002), {}, {}}).surfaceIndex, 0);
@@ -145,8 +145,8 @@ TEST(ContactTrackerTest, TheDeepestContactWinsUntilAnotherIsDeeperByTheMargin) {
 }
 
 TEST(ContactTrackerTest, JitterOnTheSeamOfTwoSurfacesDoesNotSwitchBackAndForth) {
-    const Surface left = surfaceOf(Box{{0.1, 0.1, 0.1}}, {{-0.05, -0.05, 0.0}, {1.0, 0.0, 0.0, 0.0}});
-    const Surface right = surfaceOf(Box{{0.1, 0.1, 0.1}}, {{0.05, -0.05, 0.0}, {1.0, 0.0, 0.0, 0.0}});
+    const SceneSurface left = surfaceOf(Box{{0.1, 0.1, 0.1}}, {{-0.05, -0.05, 0.0}, {1.0, 0.0, 0.0, 0.0}});
+    const SceneSurface right = surfaceOf(Box{{0.1, 0.1, 0.1}}, {{0.05, -0.05, 0.0}, {1.0, 0.0, 0.0, 0.0}});
     ContactTracker tracker(sceneOf({left, right}));
     const auto readings = play(tracker, sampledPath(2.0, 90.0, [frame = 0](double) mutable {
                                    return pressed(0.0007, ++frame % 2 == 0 ? 0.0004 : -0.0004);
@@ -177,7 +177,7 @@ TEST(ContactTrackerTest, CrossingABoxEdgeRollsTheNormalOverInsteadOfFlippingIt) 
 TEST(ContactTrackerTest, RandomStrokesOverAMovingBoxHaveNoStrayVelocity) {
     std::mt19937 random(6);
     std::normal_distribution<double> gaussian;
-    Surface box = surfaceOf(Box{{0.2, 0.1, 0.15}}, {{0.1, 0.2, 0.3}, testing::turned(40.0, {1.0, 1.0, 0.0})});
+    SceneSurface box = surfaceOf(Box{{0.2, 0.1, 0.15}}, {{0.1, 0.2, 0.3}, testing::turned(40.0, {1.0, 1.0, 0.0})});
     ContactTracker tracker(sceneOf({box}, 0.004));
     glm::dvec3 position(0.0, 0.053, 0.0);
     glm::dvec3 velocity(0.2, 0.0, 0.1);

@@ -24,12 +24,12 @@ using testing::turned;
 constexpr double pi = std::numbers::pi;
 constexpr double tipRadius = 0.001;
 
-Surface blockAt(const glm::dvec3& centre, const glm::dvec3& size = {0.1, 0.1, 0.1}) {
+SceneSurface blockAt(const glm::dvec3& centre, const glm::dvec3& size = {0.1, 0.1, 0.1}) {
     return surfaceOf(Box{size}, {centre, {1.0, 0.0, 0.0, 0.0}});
 }
 
 /// Two plates left and right of x = 0 with their tops at y = 0 and y = `step`.
-std::vector<Surface> plates(double step) {
+std::vector<SceneSurface> plates(double step) {
     return {blockAt({-0.5, -0.05, 0.0}, {1.0, 0.1, 1.0}), blockAt({0.5, -0.05 + step, 0.0}, {1.0, 0.1, 1.0})};
 }
 
@@ -129,8 +129,8 @@ TEST(ContactTransitionsTest, AStepBetweenPlatesIsOneEdgeOfItsHeightInBothDirecti
 }
 
 TEST(ContactTransitionsTest, FlushPlatesThatMoveTogetherStayFlush) {
-    std::vector<Surface> both = plates(0.0);
-    for (Surface& plate : both) {
+    std::vector<SceneSurface> both = plates(0.0);
+    for (SceneSurface& plate : both) {
         Pose high = plate.pose;
         high.positionMetres += glm::dvec3(0.3, 0.7, 0.0);
         plate.motion.emplace(std::vector<Keyframe>{{0.0, plate.pose}, {0.8, high}}, false);
@@ -297,15 +297,15 @@ TEST(ContactTransitionsTest, ATipWithoutRadiusHasRimsOfTheMinimumHeight) {
     const Events events = eventsOf(sceneOf({blockAt({0.0, -0.05, 0.0})}, 0.0), 0.5, 90.0,
                                    [](double time) { return glm::dvec3(0.2 * time, -0.0004, 0.0); });
     EXPECT_EQ(events.edges, 1U);
-    EXPECT_DOUBLE_EQ(events.height, ContactTransitions::lowestRimMetres);
+    EXPECT_DOUBLE_EQ(events.height, ContactTransitions::minimumRimMetres);
 }
 
 TEST(ContactTransitionsTest, ARotatedSceneHasTheSameEvents) {
     const glm::dquat turn = turned(73.0, {1.0, -2.0, 0.5});
     const glm::dvec3 shift(3.0, -1.0, 7.0);
-    std::vector<Surface> surfaces{blockAt({-0.1, -0.05, 0.0}, {0.2, 0.1, 0.1}),
-                                  blockAt({0.3, 0.3, 0.0}, {0.6, 1.0, 1.0})};
-    for (Surface& surface : surfaces) {
+    std::vector<SceneSurface> surfaces{blockAt({-0.1, -0.05, 0.0}, {0.2, 0.1, 0.1}),
+                                       blockAt({0.3, 0.3, 0.0}, {0.6, 1.0, 1.0})};
+    for (SceneSurface& surface : surfaces) {
         surface.pose.positionMetres = shift + turn * surface.pose.positionMetres;
         surface.pose.rotation = turn;
     }

@@ -32,15 +32,15 @@ TEST(HardCasesTest, EveryReadingIsFiniteForAnyMixOfInvalidNumbers) {
     const std::vector<double> numbers{0.0, -0.0, 1e-320, 1e-9,  0.001,  0.1, -0.1,     1.0,
                                       1e6, 1e12, 1e13,   1e300, -1e300, nan, infinity, -infinity};
     const auto pick = [&] { return numbers[random() % numbers.size()]; };
-    Surface broken = surfaceOf(Sphere{0.1}, {{nan, 0.0, 0.0}, {nan, 0.0, 0.0, 0.0}});
+    SceneSurface broken = surfaceOf(Sphere{0.1}, {{nan, 0.0, 0.0}, {nan, 0.0, 0.0, 0.0}});
     broken.grain = {nan, infinity, 0.0};
-    Surface zeroRotation = surfaceOf(Box{{0.2, 0.2, 0.2}}, {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 0.0}});
+    SceneSurface zeroRotation = surfaceOf(Box{{0.2, 0.2, 0.2}}, {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 0.0}});
     zeroRotation.stiffnessNewtonsPerMetre = nan;
-    const Surface mesh = surfaceOf(testing::meshOf(testing::rawTorus(0.1, 0.04, 24, 12)));
+    const SceneSurface mesh = surfaceOf(testing::meshOf(testing::rawTorus(0.1, 0.04, 24, 12)));
     ContactTracker tracker(sceneOf({broken, zeroRotation, mesh, surfaceOf(Capsule{0.1, 0.4})}, 0.01));
     for (int frame = 0; frame < 50000; ++frame) {
-        const bool mostlyGood = random() % 2 == 0;
-        const double time = mostlyGood ? frame / 90.0 : pick();
+        const bool mostlyValid = random() % 2 == 0;
+        const double time = mostlyValid ? frame / 90.0 : pick();
         TipSample sample{time, {pick(), pick(), pick()}, std::nullopt, glm::dquat(nan, nan, nan, nan)};
         if (random() % 2 == 0) {
             sample.forceNewtons = pick();
@@ -143,8 +143,8 @@ TEST(HardCasesTest, ScenesFromAMicrometreToAThousandKilometresGiveTheSameScaledS
         ContactSettings settings;
         settings.releaseDistanceMetres *= scale;
         settings.switchMarginMetres *= scale;
-        settings.velocity.fastestMps *= scale;
-        settings.velocity.smallestMoveMetres *= scale;
+        settings.velocity.maximumSpeedMps *= scale;
+        settings.velocity.minimumMoveMetres *= scale;
         settings.maximumForceNewtons *= scale;
         ContactTracker tracker(scene, settings);
         const auto readings = play(

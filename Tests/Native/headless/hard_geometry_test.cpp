@@ -57,7 +57,7 @@ TEST(HardGeometryTest, ATipWithNoiseOnAnEdgeOrACornerHasAnOutwardNormalAndNoStra
 
 TEST(HardGeometryTest, ATipWithNoiseInAnInnerCornerStaysOnOneSurface) {
     RandomVectors random(43);
-    const Surface wall = surfaceOf(Plane{}, {{0.0, 0.0, 0.0}, testing::turned(-90.0, {0.0, 0.0, 1.0})});
+    const SceneSurface wall = surfaceOf(Plane{}, {{0.0, 0.0, 0.0}, testing::turned(-90.0, {0.0, 0.0, 1.0})});
     ContactTracker tracker(sceneOf({surfaceOf(Plane{}), wall}));
     const int first = tracker.update({0.0, {0.0005, 0.0005, 0.0}, {}, {}}).surfaceIndex;
     for (int frame = 1; frame < 500; ++frame) {
@@ -121,9 +121,9 @@ TEST(HardGeometryTest, AMeshWithFlippedRepeatedAndNeedleTrianglesGivesValidReadi
 TEST(HardGeometryTest, AQuaternionIsNormalisedAndAZeroOneIsTheIdentity) {
     const glm::dquat unit = testing::turned(50.0, {1.0, 2.0, 3.0});
     const glm::dvec3 place(0.2, -0.1, 0.4);
-    const auto readingWith = [&](const glm::dquat& pose, const glm::dquat& asked) {
+    const auto readingWith = [&](const glm::dquat& pose, const glm::dquat& given) {
         ContactTracker tracker(sceneOf({surfaceOf(Box{{0.1, 0.2, 0.3}}, {place, pose})}));
-        return tracker.update({0.0, place + asked * glm::dvec3(0.02, 0.1002, 0.07), {}, {}});
+        return tracker.update({0.0, place + given * glm::dvec3(0.02, 0.1002, 0.07), {}, {}});
     };
     const ContactReading wanted = readingWith(unit, unit);
     ASSERT_TRUE(wanted.touching);
@@ -147,11 +147,11 @@ TEST(HardGeometryTest, AnUnusablePoseBecomesTheOriginAndDoesNotAffectOtherSurfac
                                   {{1.0, 1.0, -infinity}, broken},
                                   {{1e300, 0.0, 0.0}, {nan, nan, nan, nan}}};
     for (const Pose& pose : poses) {
-        const Surface resting = surfaceOf(Box{{0.1, 0.2, 0.3}}, pose);
-        Surface moving = resting;
+        const SceneSurface resting = surfaceOf(Box{{0.1, 0.2, 0.3}}, pose);
+        SceneSurface moving = resting;
         moving.motion.emplace(std::vector<Keyframe>{{0.0, pose}, {1.0, pose}}, false);
-        for (const Surface& damaged : {resting, moving}) {
-            const Surface sound = surfaceOf(Sphere{0.1}, {{2.0, 0.0, 0.0}, level});
+        for (const SceneSurface& damaged : {resting, moving}) {
+            const SceneSurface sound = surfaceOf(Sphere{0.1}, {{2.0, 0.0, 0.0}, level});
             ContactTracker tracker(sceneOf({damaged, sound}));
             const ContactReading reading = tracker.update({0.0, {0.02, 0.1002, 0.07}, {}, {}});
             EXPECT_EQ(reading.surfaceIndex, 0);

@@ -22,8 +22,8 @@ using testing::surfaceOf;
 using testing::turned;
 
 /// A plate at an oblique angle in the world, with a grain. A tip of 4 mm is drawn over its upper face, 1 mm deep.
-Surface plate() {
-    Surface surface = surfaceOf(Box{{40.0, 0.02, 40.0}}, {{0.3, -0.2, 0.1}, turned(35.0, {1.0, 2.0, -1.0})});
+SceneSurface plate() {
+    SceneSurface surface = surfaceOf(Box{{40.0, 0.02, 40.0}}, {{0.3, -0.2, 0.1}, turned(35.0, {1.0, 2.0, -1.0})});
     surface.grain = {3.0, 0.0, 4.0};
     return surface;
 }
@@ -33,7 +33,7 @@ glm::dvec3 onPlate(const Pose& pose, double along, double across) {
 }
 
 TEST(HardMotionTest, UpdateRatesFromThirtyToAThousandHertzGiveTheSameVelocity) {
-    const Surface surface = plate();
+    const SceneSurface surface = plate();
     for (const double rate : {30.0, 45.0, 59.94, 60.0, 72.0, 90.0, 120.0, 144.0, 240.0, 500.0, 1000.0}) {
         ContactTracker tracker(sceneOf({surface}, 0.004));
         const auto readings =
@@ -49,7 +49,7 @@ TEST(HardMotionTest, UpdateRatesFromThirtyToAThousandHertzGiveTheSameVelocity) {
 }
 
 TEST(HardMotionTest, SpeedsFromAMillimetrePerSecondToTwentyMetresPerSecondAreMeasuredCorrectly) {
-    const Surface surface = plate();
+    const SceneSurface surface = plate();
     for (const double rate : {30.0, 72.0, 90.0, 120.0, 1000.0}) {
         for (const double speed : {0.001, 0.02, 1.5, 20.0}) {
             ContactTracker tracker(sceneOf({surface}, 0.004));
@@ -64,7 +64,7 @@ TEST(HardMotionTest, SpeedsFromAMillimetrePerSecondToTwentyMetresPerSecondAreMea
 }
 
 TEST(HardMotionTest, TheVelocityIsLimitedToTheMaximumSpeed) {
-    const Surface surface = plate();
+    const SceneSurface surface = plate();
     for (const double rate : {30.0, 72.0, 90.0, 1000.0}) {
         for (const double speed : {20.00001, 20.01, 25.0, 300.0, 1e6}) {
             ContactTracker tracker(sceneOf({surface}, 0.004));
@@ -80,7 +80,7 @@ TEST(HardMotionTest, TheVelocityIsLimitedToTheMaximumSpeed) {
 
 TEST(HardMotionTest, TheVelocityNeverExceedsTheStrokesSpeedForAnyMixOfTimeSteps) {
     std::mt19937 random(37);
-    const Surface surface = plate();
+    const SceneSurface surface = plate();
     ContactTracker tracker(sceneOf({surface}, 0.004));
     double time = 0.0;
     bool moved = false;
@@ -102,7 +102,7 @@ TEST(HardMotionTest, TheVelocityNeverExceedsTheStrokesSpeedForAnyMixOfTimeSteps)
 
 TEST(HardMotionTest, AStrokeADayLaterGivesTheSameReadings) {
     constexpr double daySeconds = 86'400.0;
-    const Surface surface = plate();
+    const SceneSurface surface = plate();
     // At 64 Hz every time of a day is exact in a double, so that only the tracker could cause an error; at 72 Hz the
     // sample's time itself is rounded to 2^-36 s.
     for (const auto& [rate, toleranceMps] : {std::pair(64.0, 0.0), {72.0, 1e-9}, {90.0, 1e-9}}) {
@@ -133,7 +133,7 @@ TEST(HardMotionTest, ASurfaceThatMovesAndTurnsWithTheTipHasZeroVelocity) {
     const Pose home = plate().pose;
     const glm::dvec3 normal(0.0, 1.0, 0.0);
     for (const double rate : {30.0, 90.0, 1000.0}) {
-        Surface surface = plate();
+        SceneSurface surface = plate();
         surface.motion.emplace(std::vector<Keyframe>{{0.0, home},
                                                      {0.4, {{0.5, -0.1, 0.1}, home.rotation * turned(80.0, normal)}},
                                                      {1.0, {{0.2, 0.4, -0.3}, home.rotation * turned(10.0, normal)}}},
@@ -154,7 +154,7 @@ TEST(HardMotionTest, ASurfaceThatTumblesWithTheTipHasAtMostItsTurnAcrossTheTipsR
     const Pose home = plate().pose;
     const glm::dquat tumbled = turned(90.0, {0.0, 0.0, 1.0}) * home.rotation;
     for (const double rate : {30.0, 90.0, 1000.0}) {
-        Surface surface = plate();
+        SceneSurface surface = plate();
         surface.motion.emplace(std::vector<Keyframe>{{0.0, home}, {0.5, {{0.5, -0.1, 0.1}, tumbled}}}, false);
         ContactTracker tracker(sceneOf({surface}, 0.004));
         const auto readings = play(
@@ -170,7 +170,7 @@ TEST(HardMotionTest, ASurfaceThatTumblesWithTheTipHasAtMostItsTurnAcrossTheTipsR
 TEST(HardMotionTest, ASurfaceThatMovesUnderARestingTipGivesTheOppositeOfItsVelocity) {
     for (const double rate : {30.0, 90.0, 1000.0}) {
         for (const double speed : {0.001, 0.3, 1.5}) {
-            Surface belt = plate();
+            SceneSurface belt = plate();
             const glm::dvec3 travel = belt.pose.directionToWorld({speed, 0.0, 0.0});
             belt.motion.emplace(
                 std::vector<Keyframe>{{0.0, belt.pose}, {1.0, {belt.pose.positionMetres + travel, belt.pose.rotation}}},
@@ -194,7 +194,7 @@ TEST(HardMotionTest, ASurfaceThatMovesUnderARestingTipGivesTheOppositeOfItsVeloc
 
 TEST(HardMotionTest, ASurfaceThatStopsAbruptlyWithTheTipGivesAtMostItsFormerSpeedAndThenZero) {
     for (const double rate : {30.0, 90.0, 1000.0}) {
-        Surface surface = plate();
+        SceneSurface surface = plate();
         const glm::dvec3 travel = surface.pose.directionToWorld({0.15, 0.0, 0.0});
         surface.motion.emplace(
             std::vector<Keyframe>{{0.0, surface.pose},

@@ -17,7 +17,7 @@ namespace haptoflow::headless::testing {
 class PlainScan {
 public:
     explicit PlainScan(Scene scene) : scene_(std::move(scene)) {
-        for (const Surface& surface : scene_.surfaces) {
+        for (const SceneSurface& surface : scene_.surfaces) {
             frames_.emplace_back(surface.grain);
         }
     }
@@ -54,7 +54,7 @@ private:
     };
 
     std::optional<Found> query(std::size_t index, const TipSample& sample) const {
-        const Surface& surface = scene_.surfaces[index];
+        const SceneSurface& surface = scene_.surfaces[index];
         const Pose pose = surface.poseAt(sample.timeSeconds);
         const glm::dvec3 tip = pose.pointToLocal(sample.positionMetres);
         const BoundingSphere sphere = boundingSphere(surface.shape);

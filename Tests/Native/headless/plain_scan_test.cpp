@@ -79,7 +79,7 @@ TEST(PlainScanTest, ReadingsEqualThoseOfAPlainScanToTheLastBit) {
             touchedSurfaces += touched.size();
             ties += scan.ties();
             for (const int index : touched) {
-                const Surface& surface = scene.surfaces[static_cast<std::size_t>(index)];
+                const SceneSurface& surface = scene.surfaces[static_cast<std::size_t>(index)];
                 planes += std::holds_alternative<Plane>(surface.shape) ? 1 : 0;
                 movers += surface.motion ? 1 : 0;
             }

@@ -21,7 +21,7 @@ public:
     /// Every tenth surface moves, some of them far; every fifth is in the same place as the previous one; two are
     /// planes.
     Scene scene() {
-        std::vector<Surface> surfaces;
+        std::vector<SceneSurface> surfaces;
         for (std::size_t index = 0; index < count_; ++index) {
             if (index % 10 == 6 || index % 10 == 8) {
                 surfaces.push_back(surfaces.back());
@@ -48,7 +48,7 @@ public:
         std::vector<TipSample> samples;
         glm::dvec3 tip = origin_;
         while (samples.size() < frames) {
-            const Surface& aim = scene.surfaces[random_() % scene.surfaces.size()];
+            const SceneSurface& aim = scene.surfaces[random_() % scene.surfaces.size()];
             const double now = static_cast<double>(samples.size()) / 90.0;
             const glm::dvec3 target = aim.poseAt(now).positionMetres + 0.02 * anyVector();
             const glm::dvec3 from = random_() % 3 == 0 ? target + 0.03 * anyVector() : tip;

@@ -118,7 +118,7 @@ TEST(RealStrokesTest, SpeedsOfRealStrokesAreWithinTenPercentOfANonCausalReferenc
         SCOPED_TRACE(name);
         const glm::dvec3 plane = fitTable(samples);
         const glm::dvec3 normal = glm::normalize(glm::dvec3(-plane.y, -plane.z, 1.0));
-        Surface table = testing::surfaceOf(Plane{});
+        SceneSurface table = testing::surfaceOf(Plane{});
         table.pose = {{0.0, 0.0, plane.x}, turnedFromUp(normal)};
         // With a tip of 5 mm around the pen's tracked point, a few millimetres of tracking error do not end the touch.
         ContactTracker tracker(testing::sceneOf({table}, 0.005));
@@ -172,11 +172,11 @@ TEST(RealStrokesTest, AStrokeOverFlushTilesHasNoEventsAt30MmAndFewAt15Mm) {
         }
         stroke.insert(stroke.end(), samples.begin(), samples.end());
         for (const double tileMetres : {0.03, 0.015}) {
-            std::vector<Surface> tiles;
+            std::vector<SceneSurface> tiles;
             const int half = static_cast<int>(0.5 / tileMetres);
             for (int row = -half; row <= half; ++row) {
                 for (int column = -half; column <= half; ++column) {
-                    Surface tile = testing::surfaceOf(Box{{tileMetres, 0.05, tileMetres}});
+                    SceneSurface tile = testing::surfaceOf(Box{{tileMetres, 0.05, tileMetres}});
                     tile.pose = {middle + turn * glm::dvec3(row * tileMetres, -0.025, column * tileMetres), turn};
                     tiles.push_back(std::move(tile));
                 }

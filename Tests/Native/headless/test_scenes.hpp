@@ -18,8 +18,8 @@ namespace haptoflow::headless::testing {
 inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
-inline Surface surfaceOf(Shape shape, Pose pose = {}) {
-    Surface surface;
+inline SceneSurface surfaceOf(Shape shape, Pose pose = {}) {
+    SceneSurface surface;
     surface.name = "surface";
     surface.shape = std::move(shape);
     surface.pose = pose;
@@ -27,7 +27,7 @@ inline Surface surfaceOf(Shape shape, Pose pose = {}) {
     return surface;
 }
 
-inline Scene sceneOf(std::vector<Surface> surfaces, double tipRadiusMetres = 0.001) {
+inline Scene sceneOf(std::vector<SceneSurface> surfaces, double tipRadiusMetres = 0.001) {
     return {std::move(surfaces), tipRadiusMetres, 90.0};
 }
 

@@ -12,10 +12,10 @@ namespace {
 using testing::sampledPath;
 using testing::surfaceOf;
 
-const Surface table = surfaceOf(Plane{});
+const SceneSurface table = surfaceOf(Plane{});
 
 /// The speed after each sample.
-std::vector<double> speedsOf(const std::vector<TipSample>& samples, const Surface& surface = table) {
+std::vector<double> speedsOf(const std::vector<TipSample>& samples, const SceneSurface& surface = table) {
     TipHistory history{VelocitySettings{}};
     std::vector<double> speeds;
     for (const TipSample& sample : samples) {
@@ -103,7 +103,7 @@ TEST(VelocityTest, AStopFadesMonotonically) {
 }
 
 TEST(VelocityTest, ATipThatMovesWithATurningSurfaceHasZeroVelocity) {
-    Surface plate = surfaceOf(Plane{});
+    SceneSurface plate = surfaceOf(Plane{});
     plate.motion.emplace(std::vector<Keyframe>{{0.0, {{0.0, 0.0, 0.0}, testing::turned(0.0, {0.0, 1.0, 0.0})}},
                                                {1.0, {{0.5, 0.1, 0.0}, testing::turned(120.0, {0.0, 1.0, 0.0})}},
                                                {2.0, {{0.0, 0.2, 0.3}, testing::turned(240.0, {0.0, 1.0, 0.2})}}},
@@ -118,7 +118,7 @@ TEST(VelocityTest, ATipThatMovesWithATurningSurfaceHasZeroVelocity) {
 }
 
 TEST(VelocityTest, ATipAtRestOnATurntableHasAngularVelocityTimesArm) {
-    Surface turntable = surfaceOf(Plane{});
+    SceneSurface turntable = surfaceOf(Plane{});
     turntable.motion.emplace(std::vector<Keyframe>{{0.0, {{}, testing::turned(0.0, {0.0, 1.0, 0.0})}},
                                                    {1.0, {{}, testing::turned(120.0, {0.0, 1.0, 0.0})}}},
                              false);
@@ -136,7 +136,7 @@ TEST(VelocityTest, ATipAtRestOnATurntableHasAngularVelocityTimesArm) {
 }
 
 TEST(VelocityTest, APositionHeldOnAMovingSurfaceFadesToTheSurfacesOwnSpeed) {
-    Surface belt = surfaceOf(Plane{});
+    SceneSurface belt = surfaceOf(Plane{});
     belt.motion.emplace(std::vector<Keyframe>{{0.0, {}}, {10.0, {{2.0, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}}}, false);
     TipHistory history{VelocitySettings{}};
     double last = 0.0;
@@ -152,7 +152,7 @@ TEST(VelocityTest, APositionHeldOnAMovingSurfaceFadesToTheSurfacesOwnSpeed) {
 }
 
 TEST(VelocityTest, ASurfaceThatJumpsBackAtTheEndOfItsLoopIsNotAStroke) {
-    Surface plate = surfaceOf(Plane{});
+    SceneSurface plate = surfaceOf(Plane{});
     plate.motion.emplace(std::vector<Keyframe>{{0.0, {}}, {1.0, {{0.5, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}}}, true);
     TipHistory history{VelocitySettings{}};
     for (int frame = 0; frame <= 270; ++frame) {

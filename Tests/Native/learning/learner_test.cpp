@@ -47,8 +47,8 @@ protected:
     }
 
     /// The segment that the network generates after a seed's first 200 samples, at the seed's own motion.
-    std::vector<float> goneOn(const model::MaterialFile& material, const model::MaterialSeed& seed,
-                              std::uint32_t draw) {
+    std::vector<float> continuation(const model::MaterialFile& material, const model::MaterialSeed& seed,
+                                    std::uint32_t draw) {
         constexpr std::size_t half = inference::segmentSamples;
         std::vector<float> noise(half);
         std::vector<float> played(half);
@@ -173,28 +173,28 @@ TEST_F(LearnerTest, RibsAreAcrossTheMaterialsFirstAxisAndMakeItPeriodic) {
 
 TEST_F(LearnerTest, ATouchThatStartsFromASeedContinuesTheRibsInPhase) {
     const MadeRecording made({.resonanceHz = 400.0, .ribs = {0.8, 0.45}, .ribShare = 0.9},
-                             {.seconds = 12.0, .slowestMps = 0.05, .fastestMps = 0.15, .strokeSeconds = 0.7});
+                             {.seconds = 12.0, .minimumSpeedMps = 0.05, .maximumSpeedMps = 0.15, .strokeSeconds = 0.7});
     const LearntMaterial learnt = learn(made.view(), brief());
     const model::MaterialFile material = model::parseMaterial(learnt.materialJson);
     ASSERT_GE(material.seeds.size(), 4U);
     // Similarity of the ribs played and recorded: 1 for equal phases, -1 for a difference of half a rib.
-    const auto likeness = [&](double shiftTurns) {
+    const auto similarity = [&](double shiftTurns) {
         double together = 0.0;
         double most = 0.0;
         for (model::MaterialSeed seed : material.seeds) {
             const std::complex<double> recorded = fundamentalOf(std::span(seed.samples).subspan(200), material, seed);
             seed.ribPhase[0] = std::fmod(seed.ribPhase[0] + shiftTurns, 1.0);
             for (std::uint32_t draw = 0; draw < 16; ++draw) {
-                const std::complex<double> played = fundamentalOf(goneOn(material, seed, draw), material, seed);
+                const std::complex<double> played = fundamentalOf(continuation(material, seed, draw), material, seed);
                 together += (played * std::conj(recorded)).real();
                 most += std::abs(played) * std::abs(recorded);
             }
         }
         return together / most;
     };
-    const double placed = likeness(0.0);
+    const double placed = similarity(0.0);
     EXPECT_GT(placed, 0.6);
-    EXPECT_LT(likeness(0.5), 0.5 * placed) << "the network does not follow the phase";
+    EXPECT_LT(similarity(0.5), 0.5 * placed) << "the network does not follow the phase";
 }
 
 TEST_F(LearnerTest, SeedsOfASurfaceWithoutRibsHaveNoPhase) {
@@ -233,7 +233,7 @@ TEST_F(LearnerTest, AMissingStretchIsExcludedAndReported) {
 }
 
 TEST_F(LearnerTest, AConstantMotionIsLearntWithAWarning) {
-    MadeRecording made({}, {.slowestMps = 0.08, .fastestMps = 0.08});
+    MadeRecording made({}, {.minimumSpeedMps = 0.08, .maximumSpeedMps = 0.08});
     made.velocity.clear();
     made.force.clear();
     made.constantVelocity = {0.08, 0.0};
@@ -272,16 +272,16 @@ TEST_F(LearnerTest, ACancelledFitEndsAtTheNextGeneration) {
     LearningSettings settings = brief();
     settings.segmentBudget = 1'000'000;
     settings.cancellation = &cancellation;
-    int told = 0;
+    int reports = 0;
     settings.progress = [&](double share, const char*) {
         EXPECT_GE(share, 0.0);
         EXPECT_LE(share, 1.0);
-        if (share > 0.2 && ++told == 2) {
+        if (share > 0.2 && ++reports == 2) {
             cancellation.cancel();
         }
     };
     EXPECT_THROW((void)learn(made.view(), settings), inference::LoadCancelled);
-    EXPECT_EQ(told, 2);
+    EXPECT_EQ(reports, 2);
 }
 
 TEST_F(LearnerTest, ATimeLimitEndsTheFitWithItsBestResult) {

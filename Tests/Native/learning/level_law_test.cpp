@@ -47,7 +47,7 @@ TEST(LevelLawTest, AJumpOf14DecibelsIsFollowedInsideTheRecordedRange) {
 }
 
 TEST(LevelLawTest, WithOneSpeedTheExponentsAreThoseOfThePrior) {
-    MadeRecording made({.speedExponent = 0.0}, {.slowestMps = 0.08, .fastestMps = 0.0801});
+    MadeRecording made({.speedExponent = 0.0}, {.minimumSpeedMps = 0.08, .maximumSpeedMps = 0.0801});
     const LevelLaw law = lawOf(made, {.speedMean = 0.75, .speedSpread = 0.1, .forceMean = 0.2, .forceSpread = 0.1});
     EXPECT_EQ(law.table.speedsMps.size(), 1U);
     EXPECT_NEAR(law.speedExponent, 0.75, 0.05);
@@ -55,7 +55,7 @@ TEST(LevelLawTest, WithOneSpeedTheExponentsAreThoseOfThePrior) {
 }
 
 TEST(LevelLawTest, TheTableIsWithinTheMaterialFilesLimits) {
-    const LevelLaw law = lawOf(MadeRecording({}, {.seconds = 60.0, .slowestMps = 0.006, .fastestMps = 1.0}));
+    const LevelLaw law = lawOf(MadeRecording({}, {.seconds = 60.0, .minimumSpeedMps = 0.006, .maximumSpeedMps = 1.0}));
     EXPECT_LE(law.table.speedsMps.size(), 16U);
     EXPECT_TRUE(std::ranges::is_sorted(law.table.speedsMps));
     EXPECT_EQ(law.table.speedsMps.size(), law.table.logLevels.size());

@@ -29,8 +29,8 @@ struct MadeSurface {
 
 struct MadeMotion {
     double seconds = 10.0;
-    double slowestMps = 0.03;
-    double fastestMps = 0.25;
+    double minimumSpeedMps = 0.03;
+    double maximumSpeedMps = 0.25;
     /// True if the direction rotates while the tip moves, false for motion along the first axis.
     bool turns = true;
     /// Time for which speed and direction are constant; 0 for a motion that changes all the time.
@@ -60,7 +60,8 @@ public:
             const double moment =
                 motion.strokeSeconds > 0.0 ? motion.strokeSeconds * std::floor(time / motion.strokeSeconds) : time;
             const double share = 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * moment / 2.3);
-            const double speed = motion.slowestMps * std::pow(motion.fastestMps / motion.slowestMps, share);
+            const double speed =
+                motion.minimumSpeedMps * std::pow(motion.maximumSpeedMps / motion.minimumSpeedMps, share);
             const double direction = motion.turns ? 0.9 * moment : 0.0;
             const double pressed = 0.8 + 0.4 * std::sin(2.0 * std::numbers::pi * time / 1.7);
             velocity.push_back(static_cast<float>(speed * std::cos(direction)));

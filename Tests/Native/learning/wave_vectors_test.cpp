@@ -125,7 +125,7 @@ TEST(WaveVectorsTest, ASurfaceWithoutRibsHasNoWaveVectorsWhateverItsResonance) {
 
 TEST(WaveVectorsTest, AConstantSpeedGivesNoWaveVectors) {
     const MadeSurface surface{.ribs = {0.8, 0.0}};
-    const MadeMotion motion{.slowestMps = 0.08, .fastestMps = 0.08, .turns = false};
+    const MadeMotion motion{.minimumSpeedMps = 0.08, .maximumSpeedMps = 0.08, .turns = false};
     EXPECT_TRUE(vectorsOf(MadeRecording(surface, motion)).empty());
 }
 
