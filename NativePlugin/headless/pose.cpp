@@ -16,10 +16,6 @@ glm::dvec3 Pose::directionToWorld(const glm::dvec3& local) const noexcept {
     return rotation * local;
 }
 
-glm::dvec3 Pose::directionToLocal(const glm::dvec3& world) const noexcept {
-    return glm::conjugate(rotation) * world;
-}
-
 Pose sanitised(const Pose& pose) noexcept {
     return {isUsable(pose.positionMetres) ? pose.positionMetres : glm::dvec3(0.0), unitRotation(pose.rotation)};
 }

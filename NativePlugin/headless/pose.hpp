@@ -13,7 +13,6 @@ struct Pose {
     [[nodiscard]] glm::dvec3 pointToWorld(const glm::dvec3& local) const noexcept;
     [[nodiscard]] glm::dvec3 pointToLocal(const glm::dvec3& world) const noexcept;
     [[nodiscard]] glm::dvec3 directionToWorld(const glm::dvec3& local) const noexcept;
-    [[nodiscard]] glm::dvec3 directionToLocal(const glm::dvec3& world) const noexcept;
 };
 
 /// The same pose with a unit rotation and usable numbers: an unusable position becomes the origin, an unusable rotation

@@ -51,17 +51,6 @@ inference::SolverSettings solverSettings(haptoflow_solver solver, int32_t steps,
     }
 }
 
-const model::Tier& chosenTier(const model::ModelFile& model, const char* name) {
-    if (name == nullptr) {
-        return model.header().tiers[model.header().defaultTier];
-    }
-    const model::Tier* tier = model.findTier(name);
-    if (tier == nullptr) {
-        throw std::invalid_argument(std::string("the model has no tier \"") + name + '"');
-    }
-    return *tier;
-}
-
 /// The previous waveform of requests that need none.
 constexpr std::array<float, inference::segmentSamples> silence{};
 
@@ -111,7 +100,7 @@ haptoflow_status haptoflow_generator_create(const haptoflow_generator_options* o
         (void)require(generator, "generator");
         const auto runtime = runtimes().get(given.runtime);
         const auto open = models().get(given.model);
-        const model::Tier& tier = chosenTier(open->model, given.tier);
+        const model::Tier& tier = tierNamed(open->model, given.tier);
         const auto tierSolver = inference::defaultSolver(tier);
         const uint32_t batch = given.maximum_batch != 0 ? given.maximum_batch : defaultBatch;
         *generator = generators().open(std::shared_ptr<OpenGenerator>(

@@ -86,6 +86,10 @@ using LearningTable = HandleTable<haptoflow_learning, const OpenLearning>;
 [[nodiscard]] WaveFeaturesTable& waveFeatures();
 [[nodiscard]] LearningTable& learnings();
 
+/// The tier of this name, or the model's default tier if `name` is null. Throws std::invalid_argument for an unknown
+/// name.
+[[nodiscard]] const model::Tier& tierNamed(const model::ModelFile& model, const char* name);
+
 /// The limits of a load from the options: a null cancellation means none, a limit of 0 the default. Throws
 /// std::invalid_argument.
 [[nodiscard]] inference::LoadLimits loadLimits(const haptoflow_cancellation* cancellation, double probeLimitMs);

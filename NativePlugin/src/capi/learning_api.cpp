@@ -31,17 +31,6 @@ std::string textOrNone(const char* text) {
     return text != nullptr ? text : "";
 }
 
-const model::Tier& chosenTier(const model::ModelFile& model, const char* name) {
-    if (name == nullptr) {
-        return model.header().tiers[model.header().defaultTier];
-    }
-    const model::Tier* tier = model.findTier(name);
-    if (tier == nullptr) {
-        throw std::invalid_argument(std::string("options: the model has no tier \"") + name + '"');
-    }
-    return *tier;
-}
-
 learning::Recording recordingOf(const haptoflow_learning_options& given) {
     (void)require(given.acceleration_mps2, "options: acceleration_mps2");
     if (given.axis_count != 1 && given.axis_count != 3) {
@@ -99,7 +88,7 @@ haptoflow_status haptoflow_learn_material(const haptoflow_learning_options* opti
         (void)require(learning, "learning");
         const auto runtime = runtimes().get(given.runtime);
         const auto open = models().get(given.model);
-        const model::Tier& tier = chosenTier(open->model, given.tier);
+        const model::Tier& tier = tierNamed(open->model, given.tier);
         const inference::LoadLimits limits = loadLimits(given.cancellation, 0.0);
         const learning::Recording recording = recordingOf(given);
         const learning::LearningSettings settings = settingsOf(given, limits.cancellation.get());

@@ -306,10 +306,6 @@ WaveVector upward(const CyclesPerMm& vector) {
 
 }  // namespace
 
-double WaveVector::cyclesPerMillimetre() const {
-    return std::hypot(x, y);
-}
-
 std::vector<WaveVector> findWaveVectors(const PreparedRecording& recording, const Sliding& sliding) {
     std::vector<PathWindow> windows = pathWindows(recording, sliding);
     if (windows.size() < minimumWindows || !speedChanges(windows)) {

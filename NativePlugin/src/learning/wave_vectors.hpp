@@ -11,8 +11,6 @@ namespace haptoflow::learning {
 struct WaveVector {
     double x = 0.0;
     double y = 0.0;
-
-    [[nodiscard]] double cyclesPerMillimetre() const;
 };
 
 /// Finds at most two vectors, the most distinct first, with wavelengths of 0.4 to 8 mm: spectral lines whose frequency

@@ -2,7 +2,6 @@
 
 #include <stdexcept>
 #include <string>
-#include <string_view>
 
 namespace haptoflow::model {
 
@@ -23,13 +22,10 @@ enum class ModelStatus {
     inconsistent,
 };
 
-/// The status's name as it appears in messages, for example "too new".
-[[nodiscard]] std::string_view statusName(ModelStatus status) noexcept;
-
 /// A model file was refused. The message names the offset or header key and the expected value.
 class ModelError : public std::runtime_error {
 public:
-    ModelError(ModelStatus status, const std::string& message);
+    ModelError(ModelStatus status, const std::string& message) : std::runtime_error(message), status_(status) {}
 
     [[nodiscard]] ModelStatus status() const noexcept { return status_; }
 

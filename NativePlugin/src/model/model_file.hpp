@@ -34,8 +34,6 @@ public:
     /// CRC-32 of the whole file, which identifies the model in stored measurements.
     [[nodiscard]] std::uint32_t checksum() const noexcept;
 
-    /// The label of this name, or null.
-    [[nodiscard]] const Label* findLabel(std::string_view name) const noexcept;
     /// The tier of this name, or null.
     [[nodiscard]] const Tier* findTier(std::string_view name) const noexcept;
 

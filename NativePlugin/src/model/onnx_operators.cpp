@@ -6,7 +6,7 @@
 namespace haptoflow::model {
 namespace {
 
-constexpr auto allowedOperators = std::to_array<std::string_view>({
+constexpr auto operatorNames = std::to_array<std::string_view>({
     // Arithmetic, element by element.
     "Abs",
     "Add",
@@ -99,11 +99,11 @@ constexpr auto allowedOperators = std::to_array<std::string_view>({
 }  // namespace
 
 bool isAllowedOperator(std::string_view name) noexcept {
-    return std::ranges::find(allowedOperators, name) != allowedOperators.end();
+    return std::ranges::find(operatorNames, name) != operatorNames.end();
 }
 
-std::size_t allowedOperatorCount() noexcept {
-    return allowedOperators.size();
+std::span<const std::string_view> allowedOperators() noexcept {
+    return operatorNames;
 }
 
 bool isShapeOperand(std::string_view name, std::size_t input) noexcept {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string_view>
 
 namespace haptoflow::model {
@@ -12,8 +13,8 @@ inline constexpr unsigned graphOpset = 16;
 /// sizes of their results depend only on the sizes of their inputs and on constants, and none of them contains a graph.
 [[nodiscard]] bool isAllowedOperator(std::string_view name) noexcept;
 
-/// Number of allowed operators.
-[[nodiscard]] std::size_t allowedOperatorCount() noexcept;
+/// The names of all allowed operators.
+[[nodiscard]] std::span<const std::string_view> allowedOperators() noexcept;
 
 /// True if this input determines the size or shape of the operator's result.
 [[nodiscard]] bool isShapeOperand(std::string_view name, std::size_t input) noexcept;

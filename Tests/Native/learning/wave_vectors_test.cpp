@@ -61,7 +61,7 @@ void expectWithin(const std::vector<WaveVector>& found, const std::vector<WaveVe
     ASSERT_EQ(found.size(), expected.size());
     for (std::size_t i = 0; i < found.size(); ++i) {
         EXPECT_LT(std::hypot(found[i].x - expected[i].x, found[i].y - expected[i].y),
-                  share * expected[i].cyclesPerMillimetre())
+                  share * std::hypot(expected[i].x, expected[i].y))
             << "vector " << i << " is (" << found[i].x << ", " << found[i].y << ")";
     }
 }

@@ -104,11 +104,8 @@ TEST(ModelFileTest, BlobsAreFoundByName) {
     EXPECT_THROW((void)model.blob("nothing"), std::out_of_range);
 }
 
-TEST(ModelFileTest, LabelsAndTiersAreFoundByName) {
+TEST(ModelFileTest, TiersAreFoundByName) {
     const ModelFile model = ModelFile::parse(ModelBuilder().build());
-    ASSERT_NE(model.findLabel("metal mesh"), nullptr);
-    EXPECT_EQ(model.findLabel("metal mesh"), &model.header().labels[1]);
-    EXPECT_EQ(model.findLabel("felt"), nullptr);
     ASSERT_NE(model.findTier("draft"), nullptr);
     EXPECT_EQ(model.findTier("draft")->steps, 1);
     EXPECT_EQ(model.findTier("fine"), nullptr);

@@ -26,7 +26,7 @@ void expectGraphRefusal(const Bytes& bytes, const std::string& part, ModelStatus
         checkOnnxModel(bytes, graphName);
         ADD_FAILURE() << "the graph was accepted; expected a refusal that mentions: " << part;
     } catch (const ModelError& error) {
-        EXPECT_EQ(statusName(error.status()), statusName(status)) << error.what();
+        EXPECT_EQ(error.status(), status) << error.what();
         EXPECT_THAT(error.what(), ::testing::StartsWith(graphName));
         EXPECT_THAT(error.what(), ::testing::HasSubstr(part));
     }
@@ -216,10 +216,8 @@ TEST(OnnxCheckTest, TheDocumentationListsTheOperatorsAndNoOthers) {
     const std::size_t first = text.find("```\n", begin) + 4;
     std::istringstream words(text.substr(first, text.find("```", first) - first));
     std::set<std::string> listed{std::istream_iterator<std::string>(words), {}};
-    EXPECT_EQ(listed.size(), allowedOperatorCount());
-    for (const std::string& type : listed) {
-        EXPECT_TRUE(isAllowedOperator(type)) << type;
-    }
+    const std::span<const std::string_view> allowed = allowedOperators();
+    EXPECT_EQ(listed, std::set<std::string>(allowed.begin(), allowed.end()));
 }
 
 TEST(WireReaderTest, EveryEncodingIsRead) {
