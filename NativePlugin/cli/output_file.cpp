@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* remedy = ": cannot be written: name a file in a folder that exists and that you may write to";
+constexpr const char* remedy = ": cannot be written: name a file in an existing folder with write permission";
 
 /// True for something that is not a regular file, which a rename would replace.
 bool isSpecial(const fs::path& path) {

@@ -153,7 +153,7 @@ headless::Motion readMotion(const Node& node) {
         element.requireObject({"t", "position", "rotation"});
         const double time = element.at("t").number(-maximumMetres, maximumMetres, "seconds within +-1e9");
         if (!keyframes.empty() && time <= keyframes.back().timeSeconds) {
-            element.at("t").fail("a time after the keyframe before");
+            element.at("t").fail("a time after that of the previous keyframe");
         }
         keyframes.push_back({time, readPose(element)});
     }
@@ -269,7 +269,7 @@ headless::SceneSurface readSurface(const Node& node) {
     if (node.has("motion")) {
         if (node.has("position") || node.has("rotation")) {
             node.failWith(
-                "has both a motion and a position or rotation; the keyframes say where it is, remove the other");
+                "has both a motion and a position or rotation; the keyframes give its pose, remove the other");
         }
         surface.motion = readMotion(node.at("motion"));
     }
@@ -303,7 +303,7 @@ public:
             open_.pop_back();
         } else if (event == json::parse_event_t::key && !open_.back().insert(parsed.get<std::string>()).second) {
             throw InputError(file_ + ": the key \"" + parsed.get<std::string>() +
-                             "\" stands twice in the same object; keep one");
+                             "\" occurs twice in one object; keep one");
         }
         return true;
     }
@@ -331,7 +331,7 @@ headless::Scene parseScene(const json& document, const std::string& fileName) {
     for (const Node& element : root.at("surfaces").elements(1, "an array of one or more surfaces")) {
         scene.surfaces.push_back(readSurface(element));
         if (!names.insert(scene.surfaces.back().name).second) {
-            element.at("name").fail("a name that no other surface has");
+            element.at("name").fail("a name that is different from those of all other surfaces");
         }
     }
     if (root.has("stylus")) {

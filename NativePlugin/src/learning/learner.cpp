@@ -128,18 +128,17 @@ private:
         report_.forceNewtons = {sliding_.forceNewtons[0], sliding_.forceNewtons[2]};
         if (sliding_.seconds < fewSeconds) {
             report_.warnings.push_back("the tip slides for " + plainNumber(sliding_.seconds) +
-                                       " s; from 10 s on a material is learnt more truly");
+                                       " s; 10 s or more give a more accurate material");
         }
         if (sliding_.speedMps[2] < 1.3 * sliding_.speedMps[0]) {
             report_.warnings.emplace_back(
-                "the speed hardly changes: how level and spectrum follow it is taken from the model's labels");
+                "the speed hardly changes: its effect on level and spectrum is taken from the model's labels");
         }
         const double lost = 1.0 - std::accumulate(recording_.isUsable.begin(), recording_.isUsable.end(), 0.0) /
                                       static_cast<double>(recording_.isUsable.size());
         if (lost > 0.0) {
-            report_.warnings.push_back(
-                plainNumber(100.0 * lost) +
-                " % of the recording was left out around samples that are missing or stand still");
+            report_.warnings.push_back(plainNumber(100.0 * lost) +
+                                       " % of the recording was left out around missing or frozen samples");
         }
     }
 

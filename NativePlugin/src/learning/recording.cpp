@@ -28,7 +28,7 @@ void checkSizes(const Recording& recording) {
             "the recording's rate is " + plainNumber(recording.rateHz) + " Hz; expected 1000 to 192000 Hz");
     const std::size_t count = recording.sampleCount();
     require(count * recording.axisCount == recording.accelerationMps2.size(),
-            "the acceleration does not have as many numbers for each axis");
+            "the acceleration does not have the same number of samples for each axis");
     require(recording.velocityMps.empty() || recording.velocityMps.size() == 2 * count,
             "the velocity does not have two numbers for each sample of the acceleration");
     require(recording.forceNewtons.empty() || recording.forceNewtons.size() == count,
@@ -99,7 +99,7 @@ void checkRecording(const Recording& recording) {
         if (static_cast<double>(figures.finite) < (1.0 - maximumLostShare) * count) {
             throw RecordingUnusable(name + " is not finite in " +
                                     plainNumber(100.0 - 100.0 * static_cast<double>(figures.finite) / count) +
-                                    " % of its samples; record again, or cut the recording to what is whole");
+                                    " % of its samples; record again, or cut the damaged part off");
         }
         if (figures.clippedShare > maximumClippedShare) {
             throw RecordingUnusable(name + " is clipped: " + plainNumber(100.0 * figures.clippedShare) +

@@ -96,7 +96,7 @@ Sliding findSliding(const PreparedRecording& recording, const model::ModelHeader
     if (sliding.seconds < minimumSlidingSeconds) {
         throw RecordingUnusable("the tip slides for " + seconds(keptSpeeds.size()) + " s of " + seconds(count) +
                                 " s (" + seconds(count - usable) +
-                                " s were left out for samples that are missing or stand still); record 10 s or more of "
+                                " s were left out around missing or frozen samples); record 10 s or more of "
                                 "sliding");
     }
     sliding.speedMps = percentiles(std::move(keptSpeeds));

@@ -93,7 +93,7 @@ public:
             }
         }
         if (graphs.size() != 1 || !hasOpset_) {
-            refuse("is not an ONNX model: it needs one graph and the opset that this was exported with");
+            refuse("is not an ONNX model: it must have one graph and an opset");
         }
         readNames(graphs.front());
         readNodes(graphs.front());
@@ -250,9 +250,10 @@ private:
                    "; export it with ONNX's own operators only");
         }
         if (!isAllowedOperator(node.operatorType)) {
-            refuse("uses the operator " + type +
-                   ", which a model file may not: export it with the operators that Documentation~/model-format.md "
-                   "lists");
+            refuse(
+                "uses the operator " + type +
+                ", which model files may not contain: export it with the operators that Documentation~/model-format.md "
+                "lists");
         }
         for (const auto& attribute : node.attributes) {
             checkAttribute(attribute, type);
@@ -266,20 +267,20 @@ private:
             }
             const auto found = origins_.find(input);
             if (found == origins_.end()) {
-                refuse("the operator " + type + " reads " + quoted(input) + " before anything made it");
+                refuse("the operator " + type + " reads " + quoted(input) + " before it is defined");
             }
             if (found->second == Origin::inputs) {
                 if (isShapeOperand(node.operatorType, index)) {
                     refuse("the operator " + type +
-                           " takes a size from what the graph's inputs hold; sizes must follow from constants and "
-                           "from the inputs' shapes");
+                           " takes a size from the content of the graph's inputs; sizes must depend only on constants "
+                           "and on the inputs' shapes");
                 }
                 origin = node.operatorType == "Shape" ? origin : Origin::inputs;
             }
         }
         for (const std::string_view output : node.outputs) {
             if (!output.empty() && !origins_.emplace(output, origin).second) {
-                refuse("the name " + quoted(output) + " is given twice");
+                refuse("the name " + quoted(output) + " is defined twice");
             }
         }
     }

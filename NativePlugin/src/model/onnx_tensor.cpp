@@ -73,7 +73,7 @@ void addDimensions(Content& content, const WireField& field) {
 std::string problemOf(const Content& content) {
     const std::size_t bytes = numberBytes(content.type);
     if (content.isExternal) {
-        return "lies in another file; export the graph with its weights inside";
+        return "is in another file; export the graph with its weights inside";
     }
     if (bytes == 0) {
         return "is of type " + std::to_string(content.type) + "; expected float, double, int32, int64 or bool";
@@ -84,7 +84,7 @@ std::string problemOf(const Content& content) {
     const bool fits = !content.isTooLarge &&
                       (content.rawBytes ? content.typedNumbers == 0 && *content.rawBytes == content.elements * bytes
                                         : content.typedNumbers == content.elements);
-    return fits ? "" : "does not hold as many numbers as its dimensions say";
+    return fits ? "" : "has another number of values than its dimensions";
 }
 
 }  // namespace

@@ -139,7 +139,7 @@ TEST(SceneFileTest, ErrorsForWrongValuesNameFilePathAndExpectedValue) {
         {"/surfaces/0/grain", {0, 0, 0}, "surfaces[0].grain", "direction"},
         {"/surfaces/0/stiffness", -1, "surfaces[0].stiffness", "N/m"},
         {"/surfaces/0/name", "", "surfaces[0].name", "a name"},
-        {"/surfaces/1/name", "desk", "surfaces[1].name", "no other surface"},
+        {"/surfaces/1/name", "desk", "surfaces[1].name", "all other surfaces"},
         {"/surfaces/0/material", 3, "surfaces[0].material", "a label"},
         {"/surfaces/0/material", {{"wood", -1}}, "surfaces[0].material.wood", "weight"},
         {"/surfaces/0/material", {{"wood", 0}}, "surfaces[0].material", "above 0"},
@@ -192,7 +192,7 @@ TEST(SceneFileTest, ErrorsForInvalidJsonNameLineAndColumn) {
 
 TEST(SceneFileTest, ADuplicateKeyIsAnError) {
     EXPECT_THAT(complaintAboutText(R"({"update_rate": 90, "update_rate": 72})"),
-                HasSubstr("\"update_rate\" stands twice"));
+                HasSubstr("\"update_rate\" occurs twice"));
 }
 
 TEST(SceneFileTest, TheErrorForAMissingFileNamesIt) {

@@ -65,7 +65,8 @@ TEST(OnnxCheckTest, EveryKindOfTierOfTheTinyModelIsAccepted) {
 }
 
 TEST(OnnxCheckTest, ALoopIsRefusedByNameWithTheRemedy) {
-    expectGraphRefusal(loopingLevel(), "uses the operator \"Loop\", which a model file may not: export it with the");
+    expectGraphRefusal(loopingLevel(),
+                       "uses the operator \"Loop\", which model files may not contain: export it with the");
     expectGraphRefusal(loopingLevel(), "Documentation~/model-format.md");
 }
 
@@ -111,9 +112,9 @@ TEST(OnnxCheckTest, FunctionsTrainingAndFieldsOfLaterVersionsAreRefused) {
 }
 
 TEST(OnnxCheckTest, NoGraphAndTwoGraphsAreRefused) {
-    expectGraphRefusal(WireWriter().message(8, OnnxWriter::opsetOf(16, "")), "needs one graph");
-    expectGraphRefusal(plainLevel().model().message(7, plainLevel().graph), "needs one graph");
-    expectGraphRefusal(Bytes{}, "needs one graph");
+    expectGraphRefusal(WireWriter().message(8, OnnxWriter::opsetOf(16, "")), "must have one graph");
+    expectGraphRefusal(plainLevel().model().message(7, plainLevel().graph), "must have one graph");
+    expectGraphRefusal(Bytes{}, "must have one graph");
 }
 
 TEST(OnnxCheckTest, ATensorInAnotherFileIsRefused) {
@@ -121,12 +122,12 @@ TEST(OnnxCheckTest, ATensorInAnotherFileIsRefused) {
     const Bytes four(4);
     for (const WireWriter& tensor : {rawTensor("w", onnxFloat, {1}, four).message(13, entry),
                                      rawTensor("w", onnxFloat, {1}, four).number(14, 1)}) {
-        expectGraphRefusal(plainLevel().constant(tensor).model(), "the tensor \"w\" lies in another file");
+        expectGraphRefusal(plainLevel().constant(tensor).model(), "the tensor \"w\" is in another file");
     }
 }
 
 TEST(OnnxCheckTest, ATensorThatDoesNotMatchItsDimensionsIsRefused) {
-    const std::string part = "does not hold as many numbers as its dimensions say";
+    const std::string part = "has another number of values than its dimensions";
     for (const Dimensions& dimensions :
          {Dimensions{3}, Dimensions{2, 2}, Dimensions{-1}, Dimensions{0}, Dimensions{1000000000, 1000000000},
           Dimensions{std::int64_t{1} << 62, 4}, Dimensions{INT64_MIN}}) {
@@ -149,7 +150,7 @@ TEST(OnnxCheckTest, NumbersOutsideTheRawBytesAreCounted) {
     }
     for (const WireWriter& wrong :
          {tensor(onnxFloat, 3).bytes(4, Bytes(8)), tensor(onnxInt64, 4).bytes(7, packed), tensor(onnxInt64, 1)}) {
-        EXPECT_THAT(readOnnxTensor(wrong.written()).problem, ::testing::HasSubstr("as many numbers"));
+        EXPECT_THAT(readOnnxTensor(wrong.written()).problem, ::testing::HasSubstr("another number of values"));
     }
 }
 
@@ -161,7 +162,7 @@ TEST(OnnxCheckTest, TensorsOfTextAndOfUnknownTypesAreRefused) {
 TEST(OnnxCheckTest, ATensorInAnAttributeIsCheckedLikeAnInitialiser) {
     const WireWriter attribute =
         WireWriter().text(1, "value").message(5, rawTensor("", onnxFloat, {9}, Bytes(4))).number(20, 4);
-    expectGraphRefusal(levelGraph().apply("Constant", {}, {"c"}, {attribute}).model(), "as many numbers");
+    expectGraphRefusal(levelGraph().apply("Constant", {}, {"c"}, {attribute}).model(), "another number of values");
 }
 
 TEST(OnnxCheckTest, ASizeThatDependsOnTheContentOfAnInputIsRefused) {
@@ -169,8 +170,9 @@ TEST(OnnxCheckTest, ASizeThatDependsOnTheContentOfAnInputIsRefused) {
         OnnxWriter writer = levelGraph();
         writer.apply("Cast", {"weighted"}, {"size"}, {integerAttribute("to", 7)});
         const Names inputs = std::string(type) == "ConstantOfShape" ? Names{"size"} : Names{"weighted", "size"};
-        expectGraphRefusal(writer.apply(type, inputs, {"log_level"}).model(),
-                           std::string("the operator \"") + type + "\" takes a size from what the graph's inputs hold");
+        expectGraphRefusal(
+            writer.apply(type, inputs, {"log_level"}).model(),
+            std::string("the operator \"") + type + "\" takes a size from the content of the graph's inputs");
     }
 }
 
@@ -183,10 +185,12 @@ TEST(OnnxCheckTest, ASizeThatDependsOnTheShapeOfAnInputIsAccepted) {
 
 TEST(OnnxCheckTest, ANameThatIsUsedBeforeItsDefinitionOrDefinedTwiceIsRefused) {
     expectGraphRefusal(levelGraph().apply("Add", {"weighted", "later"}, {"log_level"}).model(),
-                       "\"Add\" reads \"later\" before anything made it");
-    expectGraphRefusal(levelGraph().apply("Add", {"log_level", "weighted"}, {"log_level"}).model(), "before anything");
-    expectGraphRefusal(levelGraph().apply("Identity", {"motion"}, {"weighted"}).model(), "\"weighted\" is given twice");
-    expectGraphRefusal(levelGraph().apply("Identity", {"weighted"}, {"motion"}).model(), "\"motion\" is given twice");
+                       "\"Add\" reads \"later\" before it is defined");
+    expectGraphRefusal(levelGraph().apply("Add", {"log_level", "weighted"}, {"log_level"}).model(),
+                       "before it is defined");
+    expectGraphRefusal(levelGraph().apply("Identity", {"motion"}, {"weighted"}).model(),
+                       "\"weighted\" is defined twice");
+    expectGraphRefusal(levelGraph().apply("Identity", {"weighted"}, {"motion"}).model(), "\"motion\" is defined twice");
 }
 
 TEST(OnnxCheckTest, TooManyOperatorsOrTensorsAreRefusedBeforeTheyAreRead) {
