@@ -74,8 +74,8 @@ public:
         return {*found, *file_, path_.empty() ? key : path_ + "." + key};
     }
 
-    [[nodiscard]] std::vector<Node> elements(std::size_t fewest, const std::string& expected) const {
-        if (!value_->is_array() || value_->size() < fewest) {
+    [[nodiscard]] std::vector<Node> elements(std::size_t minimumCount, const std::string& expected) const {
+        if (!value_->is_array() || value_->size() < minimumCount) {
             fail(expected);
         }
         std::vector<Node> nodes;

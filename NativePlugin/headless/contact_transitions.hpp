@@ -11,7 +11,7 @@ namespace haptoflow::headless {
 /// A place on a surface, in the surface's local frame or in world space.
 struct ContactPlace {
     glm::dvec3 pointMetres{0.0};
-    /// Unit length, out of the surface.
+    /// Outward unit normal.
     glm::dvec3 normal{0.0, 1.0, 0.0};
 };
 
@@ -46,16 +46,16 @@ public:
     static constexpr double landingSpeedMps = 0.03;
     /// The cosine of 40 degrees: a prism with eight sides has edges, rounder ones have none.
     static constexpr double faceCosine = 0.766;
-    /// A lower step is none: tracking and meshes are no more exact.
+    /// Lower steps are ignored: tracking and meshes are not more accurate than this.
     static constexpr double minimumStepMetres = 0.0001;
-    /// A tip that is further away a frame later has not slid off but jumped.
+    /// A tip that is farther away in the next frame has jumped and not slid off.
     static constexpr double slideOffReachMetres = 0.05;
-    /// Of the rim under a tip of any radius.
+    /// Minimum height of a rim, for tips of any radius.
     static constexpr double minimumRimMetres = 0.0005;
 
     explicit ContactTransitions(double tipRadiusMetres) noexcept : tipRadiusMetres_(tipRadiusMetres) {}
 
-    /// The next place compares with nothing.
+    /// Drops the reference: the next place is not compared with another one.
     void forget() noexcept { reference_.reset(); }
     /// The surface whose present pose `advance` and `slideOff` need as `referencePose`; empty if they need none.
     [[nodiscard]] std::optional<std::size_t> referenceSurface() const noexcept;

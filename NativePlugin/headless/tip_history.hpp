@@ -21,7 +21,7 @@ struct TipFrame {
 enum class TipStep {
     started,
     continued,
-    /// Too far in too short a time.
+    /// The tip moved farther than the maximum speed allows.
     teleported,
     /// The time went backwards.
     clockRestarted,

@@ -88,10 +88,10 @@ std::vector<double> HeaderNode::numbers(std::size_t count, double minimum, doubl
     return result;
 }
 
-std::vector<double> HeaderNode::risingNumbers(std::size_t fewest, std::size_t most, double minimum,
+std::vector<double> HeaderNode::risingNumbers(std::size_t minimumCount, std::size_t maximumCount, double minimum,
                                               double maximum) const {
     std::vector<double> result;
-    for (const HeaderNode& node : elements(fewest, most)) {
+    for (const HeaderNode& node : elements(minimumCount, maximumCount)) {
         const double value = node.number(minimum, maximum);
         if (!result.empty() && value <= result.back()) {
             node.refuse("a number above the one before");

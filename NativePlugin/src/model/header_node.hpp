@@ -28,8 +28,8 @@ public:
     [[nodiscard]] std::vector<HeaderNode> elements(std::size_t minimum, std::size_t maximum) const;
     /// An array of exactly `count` numbers, each in [minimum, maximum].
     [[nodiscard]] std::vector<double> numbers(std::size_t count, double minimum, double maximum) const;
-    /// An array of `fewest` to `most` strictly increasing numbers, each in [minimum, maximum].
-    [[nodiscard]] std::vector<double> risingNumbers(std::size_t fewest, std::size_t most, double minimum,
+    /// An array of `minimumCount` to `maximumCount` strictly increasing numbers, each in [minimum, maximum].
+    [[nodiscard]] std::vector<double> risingNumbers(std::size_t minimumCount, std::size_t maximumCount, double minimum,
                                                     double maximum) const;
 
     [[nodiscard]] double number(double minimum, double maximum) const;

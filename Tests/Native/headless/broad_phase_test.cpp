@@ -34,7 +34,7 @@ Scene gridOfSpheres(int perSide, double swingMetres = 0.0) {
     return sceneOf(std::move(surfaces));
 }
 
-/// A little box mesh that lies far from its own origin.
+/// A small box mesh far from its own origin.
 SceneSurface farFromItsOrigin(const glm::dvec3& offsetMetres) {
     testing::RawMesh raw = testing::rawBoxMesh(glm::dvec3(0.01));
     for (glm::dvec3& vertex : raw.vertices) {

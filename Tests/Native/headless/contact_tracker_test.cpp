@@ -158,7 +158,7 @@ TEST(ContactTrackerTest, JitterOnTheSeamOfTwoSurfacesDoesNotSwitchBackAndForth) 
 
 TEST(ContactTrackerTest, CrossingABoxEdgeRollsTheNormalOverInsteadOfFlippingIt) {
     ContactTracker tracker(sceneOf({surfaceOf(Box{{0.1, 0.1, 0.1}})}, 0.005));
-    // Over the top, round the edge at a depth of 0.5 mm, down the side.
+    // Over the top, around the edge at a depth of 0.5 mm, down the side.
     const auto readings = play(tracker, sampledPath(1.0, 240.0, [](double time) {
                                    const double path = 0.04 * time - 0.02;
                                    const double arc = 0.0045 * std::numbers::pi / 2.0;
