@@ -1,5 +1,6 @@
 #include "stroke_file.hpp"
 
+#include "csv_lines.hpp"
 #include "decimal_number.hpp"
 #include "exit_codes.hpp"
 #include "input_file.hpp"
@@ -18,20 +19,10 @@ constexpr std::size_t maximumFrames = 10'000'000;
 constexpr std::array<std::string_view, 9> columnNames{"t", "x", "y", "z", "force", "qx", "qy", "qz", "qw"};
 constexpr std::string_view headerForm = "t,x,y,z[,force][,qx,qy,qz,qw]";
 
-std::string_view trimmed(std::string_view text) {
-    constexpr std::string_view blank = " \t\r";
-    const std::size_t first = text.find_first_not_of(blank);
-    return first == std::string_view::npos ? std::string_view()
-                                           : text.substr(first, text.find_last_not_of(blank) - first + 1);
-}
-
-std::vector<std::string_view> splitCells(std::string_view line) {
+std::vector<std::string_view> trimmedCells(std::string_view line) {
     std::vector<std::string_view> cells;
-    for (std::size_t start = 0; start <= line.size();) {
-        const std::size_t comma = std::min(line.find(',', start), line.size());
-        cells.push_back(trimmed(line.substr(start, comma - start)));
-        start = comma + 1;
-    }
+    splitCells(line, cells);
+    std::ranges::transform(cells, cells.begin(), [](std::string_view cell) { return trimmed(cell); });
     return cells;
 }
 
@@ -47,20 +38,16 @@ struct Layout {
 /// Reads the text line by line and knows the position for errors.
 class StrokeReader {
 public:
-    StrokeReader(std::string_view text, const std::string& file) : rest_(text), file_(file) {
-        if (rest_.starts_with("\xEF\xBB\xBF")) {
-            rest_.remove_prefix(3);
-        }
-    }
+    StrokeReader(std::string_view text, const std::string& file) : lines_(text), file_(file) {}
 
     Stroke read() {
-        if (!nextLine()) {
+        if (!lines_.next()) {
             fail("expected the header " + std::string(headerForm) + ", found an empty file");
         }
         readHeader();
         Stroke stroke;
-        while (nextLine()) {
-            if (trimmed(line_).empty()) {
+        while (lines_.next()) {
+            if (trimmed(lines_.line()).empty()) {
                 requireNothingMore();
                 break;
             }
@@ -77,29 +64,20 @@ public:
     }
 
 private:
-    bool nextLine() {
-        if (rest_.empty()) {
-            return false;
-        }
-        const std::size_t end = std::min(rest_.find('\n'), rest_.size());
-        line_ = rest_.substr(0, end);
-        rest_.remove_prefix(std::min(end + 1, rest_.size()));
-        ++lineNumber_;
-        return true;
-    }
+    [[noreturn]] void fail(const std::string& complaint) const { failAt(lines_.number(), complaint); }
 
-    [[noreturn]] void fail(const std::string& complaint) const {
-        throw InputError(file_ + ":" + std::to_string(std::max<std::size_t>(1, lineNumber_)) + ": " + complaint);
+    [[noreturn]] void failAt(std::size_t line, const std::string& complaint) const {
+        throw InputError(file_ + ":" + std::to_string(std::max<std::size_t>(1, line)) + ": " + complaint);
     }
 
     [[noreturn]] void fail(std::size_t column, const std::string& expected) const {
-        const std::vector<std::string_view> cells = splitCells(line_);
+        const std::vector<std::string_view> cells = trimmedCells(lines_.line());
         fail("column " + std::string(layout_.nameOf(column)) + ": " + expected + ", found \"" +
              std::string(cells[column].substr(0, 40)) + "\"");
     }
 
     void readHeader() {
-        const std::vector<std::string_view> cells = splitCells(line_);
+        const std::vector<std::string_view> cells = trimmedCells(lines_.line());
         for (const bool force : {false, true}) {
             for (const bool orientation : {false, true}) {
                 layout_ = {force, orientation};
@@ -113,14 +91,13 @@ private:
             }
         }
         fail("expected the header " + std::string(headerForm) + " with commas between the names, found \"" +
-             std::string(trimmed(line_).substr(0, 80)) + "\"");
+             std::string(trimmed(lines_.line()).substr(0, 80)) + "\"");
     }
 
     void requireNothingMore() {
-        while (nextLine()) {
-            if (!trimmed(line_).empty()) {
-                --lineNumber_;
-                fail("an empty line between samples; remove it");
+        while (lines_.next()) {
+            if (!trimmed(lines_.line()).empty()) {
+                failAt(lines_.number() - 1, "an empty line between samples; remove it");
             }
         }
     }
@@ -134,7 +111,7 @@ private:
     }
 
     headless::TipSample readSample() const {
-        const std::vector<std::string_view> cells = splitCells(line_);
+        const std::vector<std::string_view> cells = trimmedCells(lines_.line());
         if (cells.size() != layout_.columns()) {
             fail("expected " + std::to_string(layout_.columns()) + " values as in the header, found " +
                  std::to_string(cells.size()) + " (decimals need a point, not a comma)");
@@ -164,11 +141,9 @@ private:
         return sample;
     }
 
-    std::string_view rest_;
-    std::string_view line_;
+    CsvLines lines_;
     const std::string& file_;
     Layout layout_;
-    std::size_t lineNumber_ = 0;
 };
 
 }  // namespace

@@ -14,8 +14,7 @@ struct Stroke {
     std::vector<headless::TipSample> samples;
 };
 
-/// Reads STROKE.csv (Documentation~/scene-and-stroke.md). Throws InputError that names file, line and column. The
-/// parser is home-made: the format needs the position of an error and no quoting, and the build has no CSV library.
+/// Reads STROKE.csv (Documentation~/scene-and-stroke.md). Throws InputError that names file, line and column.
 [[nodiscard]] Stroke readStrokeFile(const std::string& path);
 
 /// Reads a stroke from text; `fileName` is its name in errors.
