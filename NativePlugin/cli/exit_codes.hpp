@@ -1,5 +1,7 @@
 #pragma once
 
+#include "input_file.hpp"
+
 #include <stdexcept>
 #include <string>
 
@@ -9,12 +11,6 @@ inline constexpr int exitDone = 0;
 inline constexpr int exitUsage = 2;
 inline constexpr int exitBadInput = 3;
 inline constexpr int exitInternal = 4;
-
-/// An input file is wrong. The message names the file, the line or key, and the expected content.
-class InputError : public std::runtime_error {
-public:
-    using std::runtime_error::runtime_error;
-};
 
 /// The options contradict each other in a way that CLI11 cannot check.
 class UsageError : public std::runtime_error {

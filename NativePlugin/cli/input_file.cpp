@@ -1,7 +1,5 @@
 #include "input_file.hpp"
 
-#include "exit_codes.hpp"
-
 #include <array>
 #include <filesystem>
 #include <fstream>

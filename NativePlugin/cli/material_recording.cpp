@@ -1,7 +1,7 @@
 #include "material_recording.hpp"
 
 #include "exit_codes.hpp"
-#include "learning/plain_number.hpp"
+#include "learning/recording.hpp"
 #include "recording_sidecar.hpp"
 #include "recording_table.hpp"
 

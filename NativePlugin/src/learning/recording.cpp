@@ -1,10 +1,10 @@
 #include "learning/recording.hpp"
 
-#include "learning/plain_number.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <locale>
+#include <sstream>
 #include <string>
 
 namespace haptoflow::learning {
@@ -84,6 +84,19 @@ AxisFigures figuresOf(const Recording& recording, std::size_t axis) {
 }
 
 }  // namespace
+
+std::string plainNumber(double value) {
+    constexpr double beyondDigits = 1000.0;
+    std::ostringstream text;
+    text.imbue(std::locale::classic());
+    text.precision(3);
+    if (std::abs(value) >= beyondDigits) {
+        text.precision(0);
+        text << std::fixed;
+    }
+    text << value;
+    return text.str();
+}
 
 void checkRecording(const Recording& recording) {
     checkSizes(recording);

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <span>
 #include <stdexcept>
+#include <string>
 
 namespace haptoflow::learning {
 
@@ -44,5 +45,8 @@ inline constexpr double minimumSlidingSeconds = 3.0;
 /// Throws std::invalid_argument if the sizes of the spans do not match or a number is out of range, and
 /// RecordingUnusable if the samples are too short, silent, clipped or not finite.
 void checkRecording(const Recording& recording);
+
+/// A number for messages: three significant digits with a decimal point, in every locale: "0.0823", "12.5", "1200".
+[[nodiscard]] std::string plainNumber(double value);
 
 }  // namespace haptoflow::learning

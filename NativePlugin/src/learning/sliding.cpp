@@ -1,7 +1,7 @@
 #include "learning/sliding.hpp"
 
 #include "inference/segment_generator.hpp"
-#include "learning/plain_number.hpp"
+#include "learning/recording.hpp"
 
 #include <algorithm>
 #include <cmath>
