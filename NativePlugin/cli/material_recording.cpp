@@ -305,7 +305,7 @@ private:
             for (const std::string& name : table.unknown) {
                 names += (names.empty() ? "" : ", ") + name;
             }
-            recording_.notes.push_back(table.path + ": columns " + names + " are unknown and ignored");
+            recording_.notes.push_back(table.path + ": columns " + names + " are not known and are ignored");
         }
     }
 

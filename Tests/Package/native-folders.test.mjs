@@ -58,3 +58,13 @@ test('every file and folder that CMake names is in the repository', () => {
   assert.ok(named.length > 250, `${named.length} paths were found`);
   assert.deepEqual(named.filter(({ name }) => !generated.has(name) && !existsSync(inRepository(name))), []);
 });
+
+test('every test program that a script names is a folder of Tests/Native', () => {
+  const names = [
+    ...[...read(inRepository('scripts', 'lib', 'test_runners.mjs')).matchAll(/folder: '(\w+)'/g)].map(([, name]) => name),
+    ...[...read(inRepository('scripts', 'test-soak.mjs')).matchAll(/program: '(\w+)'/g)].map(([, name]) => name),
+    ...read(inRepository('scripts', 'lib', 'platform_tests.mjs')).match(/const programs = \[([^\]]*)\]/)[1].match(/\w+/g),
+  ];
+  assert.ok(names.length > 10, `${names.length} names were found`);
+  assert.deepEqual(names.filter((name) => !existsSync(inRepository('Tests', 'Native', name, 'CMakeLists.txt'))), []);
+});

@@ -9,7 +9,7 @@ import { inRepository } from './repository.mjs';
 import { addCounts, noCounts } from './test_counts.mjs';
 
 /** Programs of Tests/Native: arithmetic and threads as this platform does them, then the library as shipped, through its C interface and as Unity's mixer meets it. */
-const programs = ['model', 'dsp', 'contact', 'engine', 'capi', 'unity'];
+const programs = ['model', 'dsp', 'headless', 'engine', 'capi', 'unity'];
 
 /**
  * What an emulated platform leaves out, and why it shows nothing there that it does not show elsewhere. Everything runs on

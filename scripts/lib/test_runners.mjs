@@ -16,7 +16,7 @@ import { addCounts, countsOfTap, countsOfTrx, judged, noCounts } from './test_co
  */
 const sanitized = [
   { preset: 'asan-ubsan', folder: 'model' },
-  { preset: 'asan-ubsan', folder: 'contact' },
+  { preset: 'asan-ubsan', folder: 'headless' },
   { preset: 'asan-ubsan', folder: 'engine', tests: 'LiveVoice|LiveEngine|StallTest|LeadTest|WaveformTimeline|MaterialLibrary|ToneVoice|SignalVoice' },
   { preset: 'asan-ubsan', folder: 'learning', except: 'LearnerTest' },
   { preset: 'asan-ubsan', folder: 'capi', except: 'ClosedLoop|Hard(Case|Scene)Test.*Shipped|RangeSweepSound' },

@@ -91,9 +91,9 @@ TEST_F(ActuatorCommandTest, WrongInputFilesAreNamedWithTheReasonAndNoOutputRemai
     EXPECT_THAT(complaintOf("missing.wav --sweep sweep.wav"), HasSubstr("missing.wav: cannot be read"));
     EXPECT_THAT(complaintOf("text.wav --sweep sweep.wav"), HasSubstr("text.wav: cannot be read"));
     EXPECT_THAT(complaintOf("recording.wav --sweep recording.wav"),
-                HasSubstr("recording.wav: does not say which sweep it holds"));
+                HasSubstr("recording.wav: holds no description of its sweep"));
     EXPECT_THAT(complaintOf("recording.wav --sweep other.wav"), HasSubstr("recording.wav: begins 0."));
-    EXPECT_THAT(complaintOf("other.wav --sweep sweep.wav"), HasSubstr("other.wav: does not hold the sweep"));
+    EXPECT_THAT(complaintOf("other.wav --sweep sweep.wav"), HasSubstr("other.wav: does not contain the sweep"));
     EXPECT_THAT(complaintOf("recording.wav --sweep sweep.wav --channel 2"), HasSubstr("has no channel 2; it has 1"));
     EXPECT_EQ(fileCount(), files);
 }

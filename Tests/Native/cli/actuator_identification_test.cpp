@@ -295,11 +295,11 @@ TEST(ActuatorIdentificationTest, ASilentOrClippedRecordingIsRefused) {
 TEST(ActuatorIdentificationTest, ARecordingWithoutTheSweepIsRefused) {
     const ExponentialSweep sweep{.seconds = 4.0};
     Recording recording = record(sweep, {.noise = 0.05, .gain = 1e-6});
-    EXPECT_THAT(refusalOf(recording, sweep), HasSubstr("does not hold the sweep"));
+    EXPECT_THAT(refusalOf(recording, sweep), HasSubstr("does not contain the sweep"));
     const Recording other = record({.seconds = 5.0}, {});
-    EXPECT_THAT(refusalOf(other, sweep), HasSubstr("does not hold the sweep"));
+    EXPECT_THAT(refusalOf(other, sweep), HasSubstr("does not contain the sweep"));
     const Recording elsewhere = record({.seconds = 4.0, .fromHz = 40.0, .toHz = 600.0}, {});
-    EXPECT_THAT(refusalOf(elsewhere, sweep), HasSubstr("does not hold the sweep"));
+    EXPECT_THAT(refusalOf(elsewhere, sweep), HasSubstr("does not contain the sweep"));
     std::mt19937 random(1);
     for (std::size_t i = 0; i < recording.samples.size(); ++i) {
         recording.samples[i] = 0.5F * static_cast<float>(std::sin(twoPi * 100.0 * static_cast<double>(i) / 48000.0));
