@@ -479,7 +479,7 @@ protected:
         }
         for (const Storm& each : storms) {
             EXPECT_TRUE(each.isSound());
-            EXPECT_TRUE(each.hasSounded()) << "a storm of refusals proves little";
+            EXPECT_TRUE(each.hasSounded()) << "a storm without sound proves little";
         }
         // Objects that the storm left open are closed here; handles that it closed are refused.
         for (haptoflow_engine* engine : handles.engines.all()) {

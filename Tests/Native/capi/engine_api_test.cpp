@@ -188,7 +188,7 @@ TEST(EngineApiTest, DescriptorsOfOlderAndNewerCallersBothWork) {
     statistics.struct_size = offsetof(haptoflow_voice_statistics, inferences);
     ASSERT_EQ(haptoflow_voice_get_statistics(open.voice, &statistics), HAPTOFLOW_OK);
     EXPECT_EQ(statistics.updates, 2U);
-    EXPECT_EQ(statistics.inferences, 0xEEEEEEEEEEEEEEEEU) << "beyond the caller's struct nothing is written";
+    EXPECT_EQ(statistics.inferences, 0xEEEEEEEEEEEEEEEEU) << "nothing is written beyond the caller's struct";
 
     haptoflow_engine_options options{};
     options.struct_size = offsetof(haptoflow_engine_options, update_rate_hz);
@@ -228,7 +228,7 @@ TEST(EngineApiTest, OptionsOutOfRangeAreRefusedByName) {
     haptoflow_voice voice = 0;
     for (const double rateHz : {4000.0, 192001.0, -48000.0, std::nan(""), HUGE_VAL}) {
         EXPECT_EQ(haptoflow_voice_create(open.engine, rateHz, &voice), HAPTOFLOW_INVALID_ARGUMENT) << rateHz;
-        EXPECT_THAT(message(), ::testing::HasSubstr("8000")) << "the message names what is possible";
+        EXPECT_THAT(message(), ::testing::HasSubstr("8000")) << "the message names the supported range";
     }
 }
 

@@ -186,7 +186,7 @@ TEST_P(HardSceneTest, TheOutputIsFiniteBoundedAndEndsWithTheContact) {
         appendChecked(output, open.update(state, static_cast<uint32_t>(48000.0 / updateHz)),
                       static_cast<uint32_t>(frame));
     }
-    EXPECT_GT(state.touch_counter, 0U) << "nothing was touched";
+    EXPECT_GT(state.touch_counter, 0U) << "the tip touched nothing";
     if (hardScene.sounds) {
         EXPECT_GT(peak(output), perceptibleLevel);
     }

@@ -161,7 +161,7 @@ TEST_F(MaterialApiTest, AMaterialWithoutALevelOfItsOwnSoundsAtTheModelsLevel) {
         plain = std::string(info.name) == "plain" ? label : plain;
     }
     for (int update = 0; update < 20; ++update) {
-        EXPECT_EQ(open_.update(on(index)), other.update(on(plain))) << "the twin of a label, bit for bit";
+        EXPECT_EQ(open_.update(on(index)), other.update(on(plain))) << "equals the label that it copies, bit for bit";
     }
 }
 
@@ -204,7 +204,7 @@ TEST_F(MaterialApiTest, SpatialScaleAndToneOfASurfaceReachTheVoiceAndValuesOutOf
         (void)open_.update(state);
     }
     EXPECT_EQ(open_.statistics().sanitised, 2U);
-    EXPECT_LT(tone().runs, runs + 100U) << "the tone has gone out";
+    EXPECT_LT(tone().runs, runs + 100U) << "the tone has been switched off";
     EXPECT_EQ(tone().is_asked_for, 0U);
 }
 

@@ -132,7 +132,7 @@ TEST_F(OpenModelTest, ANewerStructIsFilledUpToTheLibrarysSize) {
     info.known.struct_size = sizeof(info);
     ASSERT_EQ(haptoflow_model_tier(model_, 1, &info.known), HAPTOFLOW_OK);
     EXPECT_STREQ(info.known.name, "standard");
-    EXPECT_EQ(info.known.struct_size, sizeof(info.known)) << "what was filled";
+    EXPECT_EQ(info.known.struct_size, sizeof(info.known)) << "the number of bytes that were filled";
     EXPECT_THAT(info.later, ::testing::Each(0x55));
 }
 

@@ -102,7 +102,7 @@ TEST_F(VoiceEffectsApiTest, AVoiceUsesOnlyTheProcessorsThatWereSet) {
     }
     const uint64_t runs = of(HAPTOFLOW_EFFECT_DELAY).runs;
     (void)open_.update(slidingState());
-    EXPECT_EQ(of(HAPTOFLOW_EFFECT_DELAY).runs, runs) << "switched off means never run";
+    EXPECT_EQ(of(HAPTOFLOW_EFFECT_DELAY).runs, runs) << "a processor that is switched off does not run";
     EXPECT_EQ(of(HAPTOFLOW_EFFECT_DELAY).is_asked_for, 0U);
 }
 
@@ -172,7 +172,7 @@ TEST_F(VoiceEffectsApiTest, ASignalReplacesAllEffectsWhileTheTipMovesAndItsStart
     ASSERT_EQ(haptoflow_voice_signal_statistics(open_.voice, &turns), HAPTOFLOW_OK) << message();
     EXPECT_EQ(turns.starts, 1U);
     EXPECT_EQ(turns.stops, 1U);
-    EXPECT_GT(turns.last_start_latency_seconds, 0.01) << "the delay, and the way to the callback";
+    EXPECT_GT(turns.last_start_latency_seconds, 0.01) << "the delay and the time until the callback";
     EXPECT_GT(turns.last_stop_latency_seconds, 0.01);
     EXPECT_EQ(turns.mean_start_latency_seconds, turns.last_start_latency_seconds);
     EXPECT_EQ(turns.mean_stop_latency_seconds, turns.last_stop_latency_seconds);

@@ -133,7 +133,7 @@ TEST_F(VoiceTableTest, ASecondThreadThatRendersAVoiceIsRefusedGetsSilenceAndIsCo
     std::vector<float> second;
     EXPECT_EQ(render(second), HAPTOFLOW_BUSY);
     EXPECT_THAT(channel(second, 1), Each(0.0F));
-    EXPECT_THAT(channel(second, 0), Each(9.0F)) << "another channel is not the voice's";
+    EXPECT_THAT(channel(second, 0), Each(9.0F)) << "other channels are unchanged";
     EXPECT_EQ(table_.use(handle_)->refusedCalls, 1U);
     sink_.letGo();
     other.join();
@@ -141,7 +141,7 @@ TEST_F(VoiceTableTest, ASecondThreadThatRendersAVoiceIsRefusedGetsSilenceAndIsCo
     EXPECT_GT(peak(channel(first, 1)), 0.001F);
     EXPECT_EQ(table_.use(handle_)->voice->channels.counters.renderedFrames, blockFrames);
 
-    EXPECT_EQ(render(second), HAPTOFLOW_OK) << "the voice is free again";
+    EXPECT_EQ(render(second), HAPTOFLOW_OK) << "the voice can be rendered again";
     EXPECT_GT(peak(channel(second, 1)), 0.001F);
     EXPECT_EQ(table_.use(handle_)->refusedCalls, 1U);
     EXPECT_TRUE(table_.close(handle_));

@@ -198,7 +198,8 @@ TEST(BenchCommandTest, LatenciesHaveARowForEachDeviceWithItsGoalAfterTheDefaultB
         const Json& step = report["contact_to_sound_ms"]["rows"][device];
         EXPECT_GE(step["goal"], period + 1.0 - 1e-3);
         EXPECT_LE(step["goal"], step["lead"]["worst"].get<double>() + period + 1.0 + 1e-3);
-        EXPECT_NEAR(step["filter_delay"], 1.2, 0.1) << "the resampler alone: inside the range nothing else filters";
+        EXPECT_NEAR(step["filter_delay"], 1.2, 0.1)
+            << "the delay of the resampler alone: there is no other filter inside the range";
         EXPECT_GE(step["within_goal_and_filters"], step["within_goal"]);
     }
 }
@@ -283,7 +284,7 @@ TEST(BenchCommandTest, WithoutThePapersModelTheReportHasANoteAndNoSpeedUp) {
     EXPECT_THAT(run.output,
                 AllOf(HasSubstr("inference, one segment"), HasSubstr("note: speedup_vs_paper_architecture")));
     EXPECT_THAT(run.output, Not(HasSubstr("callback")));
-    EXPECT_EQ(run.errors, "") << "no progress bar where standard error is no terminal";
+    EXPECT_EQ(run.errors, "") << "no progress bar if standard error is not a terminal";
     std::ifstream stream(path);
     const Json report = Json::parse(stream);
     std::filesystem::remove(path);

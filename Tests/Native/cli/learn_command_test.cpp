@@ -65,7 +65,7 @@ protected:
         const Finished finished = learn(words + " -o refused.haptomaterial");
         EXPECT_EQ(finished.exitCode, exitCode) << finished.errors;
         EXPECT_THAT(finished.errors, HasSubstr(said));
-        EXPECT_EQ(fileCount(), files) << "something was left behind";
+        EXPECT_EQ(fileCount(), files) << "a file remained";
     }
 
     const MadeRecording made_{{}, {}};

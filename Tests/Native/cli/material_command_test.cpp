@@ -87,7 +87,7 @@ TEST_F(MaterialCommandTest, TheNameOfAMaterialOnTheCommandLineCountsAsALabel) {
     const std::string byName = read("felt.wav");
     writeScene("denim.haptomaterial");
     (void)rendered();
-    EXPECT_EQ(read("felt.wav"), byName) << "the same material, whoever names it";
+    EXPECT_EQ(read("felt.wav"), byName) << "the same material by each name";
     const Finished contact = run("contact scene.json --stroke stroke.csv --material denim.haptomaterial");
     EXPECT_EQ(contact.exitCode, 0) << contact.errors;
 }
@@ -123,7 +123,7 @@ TEST_F(MaterialCommandTest, SpatialScaleAndToneOfASurfaceAreRenderedAndTheirRang
     const std::string plain = read("felt.wav");
     writeScene("corduroy", {{"spatial_scale", 1.0}, {"tone_db_per_octave", 0.0}});
     (void)rendered();
-    EXPECT_EQ(read("felt.wav"), plain) << "a scale of 1 and no tilt are nothing";
+    EXPECT_EQ(read("felt.wav"), plain) << "a scale of 1 and no tilt change nothing";
     writeScene("corduroy", {{"spatial_scale", 2.0}});
     (void)rendered();
     EXPECT_NE(read("felt.wav"), plain);

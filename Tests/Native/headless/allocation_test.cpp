@@ -23,7 +23,7 @@ TEST(AllocationTest, NoFrameOfContactAllocates) {
     EXPECT_GT(tracker.statistics().teleports, 5U);
 
     const std::vector<double> proof(10);
-    EXPECT_GT(haptoflow::testing::allocationCount(), before) << "the counter does not count";
+    EXPECT_GT(haptoflow::testing::allocationCount(), before) << "the counter does not work";
 }
 
 }  // namespace

@@ -106,7 +106,7 @@ private:
 
 TEST(RealStrokesTest, SpeedsOfRealStrokesAreWithinTenPercentOfANonCausalReference) {
     if (!std::filesystem::exists(strokesPath())) {
-        GTEST_SKIP() << strokesPath() << " is not there: real strokes are no part of the repository";
+        GTEST_SKIP() << strokesPath() << " is missing: the repository does not contain real strokes";
     }
     // Half a window, and the age of a repeated position.
     const double lagSeconds = 0.020;
@@ -148,7 +148,7 @@ TEST(RealStrokesTest, SpeedsOfRealStrokesAreWithinTenPercentOfANonCausalReferenc
 
 TEST(RealStrokesTest, AStrokeOverFlushTilesHasNoEventsAt30MmAndFewAt15Mm) {
     if (!std::filesystem::exists(strokesPath())) {
-        GTEST_SKIP() << strokesPath() << " is not there: real strokes are no part of the repository";
+        GTEST_SKIP() << strokesPath() << " is missing: the repository does not contain real strokes";
     }
     std::size_t crossings = 0;
     std::size_t events = 0;

@@ -50,7 +50,8 @@ TEST(OnnxCheckTest, EveryGraphOfTheShippedModelIsAccepted) {
             ++graphs;
         }
     }
-    EXPECT_EQ(graphs, static_cast<int>(model.header().tiers.size()) + 1) << "a field for each tier, and the level";
+    EXPECT_EQ(graphs, static_cast<int>(model.header().tiers.size()) + 1)
+        << "a velocity field for each tier, and the level graph";
 }
 
 TEST(OnnxCheckTest, EveryKindOfTierOfTheTinyModelIsAccepted) {
