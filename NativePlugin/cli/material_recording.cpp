@@ -215,16 +215,16 @@ Track velocityOf(const Track& motion, MotionForm form) {
 
 std::string otherUnit(const std::string& columns) {
     if (columns == "speed_mps") {
-        return "m/s; name the column speed_mmps if it is in mm/s";
+        return "m/s; name the column speed_mmps where it is in mm/s";
     }
     if (columns == "speed_mmps") {
-        return "mm/s; name the column speed_mps if it is in m/s";
+        return "mm/s; name the column speed_mps where it is in m/s";
     }
     if (columns.starts_with("position_x_mm")) {
-        return "millimetres; name the columns position_x_m, position_y_m if they are in metres";
+        return "millimetres; name the columns position_x_m, position_y_m where they are in metres";
     }
     if (columns.starts_with("position_x_m")) {
-        return "metres; name the columns position_x_mm, position_y_mm if they are in millimetres";
+        return "metres; name the columns position_x_mm, position_y_mm where they are in millimetres";
     }
     return "m/s (a thousandth of mm/s)";
 }
@@ -266,7 +266,7 @@ void checkGravity(const std::string& path, const TableSeries& acceleration) {
     const double rest = std::hypot(mean[0], mean[1], mean[2]) / static_cast<double>(std::max<std::size_t>(count, 1));
     if (rest > 0.9 && rest < 1.1) {
         fail(path, "acceleration_x rests at " + plainNumber(rest) + ", which looks like g",
-             "m/s^2 (9.8 at rest); name the columns acceleration_x_g and so on if they are in g");
+             "m/s^2 (9.8 at rest); name the columns acceleration_x_g and so on where they are in g");
     }
 }
 
@@ -325,7 +325,7 @@ private:
         const std::optional<double> fullScale = words_.fullScaleMps2 ? words_.fullScaleMps2 : sidecar_.fullScaleMps2;
         if (!fullScale) {
             fail(sidecar_.path.string(), "no key 'full_scale_mps2' for " + fs::path(path_).filename().string(),
-                 "\"full_scale_mps2\": the acceleration in m/s^2 that corresponds to +-1; or --full-scale-mps2");
+                 "\"full_scale_mps2\": the acceleration in m/s^2 that +-1 stands for; or --full-scale-mps2");
         }
         recording_.rateHz = info.samplerate;
         recording_.axisCount = static_cast<std::size_t>(info.channels);
