@@ -85,6 +85,7 @@ ExponentialSweep readSweep(const std::string& path) {
     const std::optional<ExponentialSweep> sweep = ExponentialSweep::parse(readRecording(path).comment);
     if (!sweep) {
         throw InputError(
+            path +
             ": holds no description of its sweep; expected the file that `haptoflow actuator sweep` wrote, "
             "not converted by another program");
     }
