@@ -1,16 +1,9 @@
 #include "bench/bench.hpp"
 
-#include "bench/blend_bench.hpp"
-#include "bench/callback_bench.hpp"
-#include "bench/contact_bench.hpp"
 #include "bench/distribution.hpp"
-#include "bench/effect_bench.hpp"
-#include "bench/event_bench.hpp"
-#include "bench/idle_bench.hpp"
-#include "bench/inference_bench.hpp"
 #include "bench/latency_bench.hpp"
 #include "bench/machine.hpp"
-#include "bench/output_bench.hpp"
+#include "bench/measurements.hpp"
 
 #include <algorithm>
 #include <iomanip>
@@ -22,7 +15,7 @@ namespace {
 
 struct Measurement {
     std::string_view name;
-    /// About its share of a whole run's time, for the progress bar.
+    /// Approximate share of a whole run's time, for the progress bar.
     double weight;
     std::function<nlohmann::ordered_json(const Advance&)> run;
 };
@@ -43,9 +36,9 @@ nlohmann::ordered_json identity(const std::filesystem::path& path, const model::
 nlohmann::ordered_json goals() {
     return {{"callback_us", "below 1 % of the block at p99, one voice"},
             {"callback_events_us", "at most twice an ordinary block of the same row, p50 to p50"},
-            {"effects", "no run where nobody asks for it"},
-            {"onset_ms", "one block; in bursts, one burst"},
-            {"contact_to_sound_ms", "the voice's lead, one block and 1 ms; the output's filters come on top"},
+            {"effects", "no run without a request"},
+            {"onset_ms", "one block; with bursts, one burst"},
+            {"contact_to_sound_ms", "the voice's lead, one block and 1 ms; the delay of the output's filters is added"},
             {"stop_ms", "one block and 5 ms"},
             {"speedup_vs_paper_architecture", "at least 60, hot"},
             {"idle", "no inference"}};
@@ -72,8 +65,8 @@ nlohmann::ordered_json notesFor(const nlohmann::ordered_json& report, const Subj
     nlohmann::ordered_json notes = nlohmann::ordered_json::array();
     if (report.contains("inference_ms") && subjects.paper == nullptr) {
         notes.push_back(
-            "speedup_vs_paper_architecture was not measured: no model of the paper's architecture was named; "
-            "`npm run bench` makes one, --paper-model names one");
+            "speedup_vs_paper_architecture was not measured: there is no model of the paper's architecture; "
+            "`npm run bench` builds one, --paper-model names one");
     }
     if (report.contains("onset_ms") && !report.contains("contact_to_sound_ms")) {
         notes.push_back("contact_to_sound_ms was not measured: it needs a model with seeds of two labels");

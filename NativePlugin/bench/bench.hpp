@@ -8,32 +8,37 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <iosfwd>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace haptoflow::bench {
 
-/// What can be measured alone. Loading and memory are always measured: everything else needs what they open.
+/// Measurements that can be run alone. Loading and memory are always measured, because all others need the open model.
 inline constexpr std::array<std::string_view, 10> measurementNames{
     "callback", "events", "effects", "blends", "outputs", "latency", "inference", "voices", "idle", "contact"};
 
 struct BenchOptions {
     SubjectFiles files;
     BenchPlan plan;
-    /// Of measurementNames; empty for all.
+    /// Names from measurementNames; empty for all.
     std::vector<std::string> only;
     std::uint64_t seed = 1;
-    /// Of HaptoFlow.
+    /// HaptoFlow's version.
     std::string version;
 };
 
-/// Told what is being measured and how much of the whole is done, 0 to 1.
+/// Receives the name of the current measurement and the completed share of the whole, 0 to 1.
 using BenchProgress = std::function<void(double share, std::string_view what)>;
 
-/// Measures, and says everything in one object: bench.json, see Documentation~/benchmarks.md. Takes the plan's time,
-/// and real time for what is paced. What could not be measured has no key; "notes" says why.
+/// Runs the measurements and returns the results as one object, bench.json: see Documentation~/benchmarks.md. Takes the
+/// plan's time, because paced measurements run in real time. A measurement that was not possible has no key; "notes"
+/// says why.
 /// Throws MeasurementError, model::ModelError, inference::RuntimeUnavailable, inference::InferenceError.
 [[nodiscard]] nlohmann::ordered_json runBench(const BenchOptions& options, const BenchProgress& progress);
+
+/// Prints the report of `runBench` for reading: one table for each measurement in it.
+void printTables(std::ostream& stream, const nlohmann::ordered_json& report);
 
 }  // namespace haptoflow::bench

@@ -6,22 +6,22 @@
 
 namespace haptoflow::bench {
 
-/// Told how much of a measurement is done, 0 to 1.
+/// Receives the completed share of a measurement, 0 to 1.
 using Advance = std::function<void(double share)>;
 
-/// Seconds of the clock that all measurements share; it never goes back.
+/// Time in seconds of the monotonic clock that all measurements use.
 [[nodiscard]] inline double nowSeconds() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// Sleeps until `nowSeconds` has reached the time.
+/// Sleeps until `nowSeconds` has reached `seconds`.
 inline void sleepUntil(double seconds) {
     using Clock = std::chrono::steady_clock;
     const auto sinceEpoch = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
     std::this_thread::sleep_until(Clock::time_point(sinceEpoch));
 }
 
-/// How long `action` takes, in seconds.
+/// Runs `action` and returns the time that it took, in seconds.
 template <typename Action>
 [[nodiscard]] double secondsOf(Action&& action) {
     const auto began = std::chrono::steady_clock::now();

@@ -10,33 +10,34 @@
 namespace haptoflow::bench {
 
 inline constexpr double outputRateHz = 48000.0;
+/// Contact states per second of the simulated headset.
 inline constexpr double updateRateHz = engine::defaultUpdateRateHz;
-/// The block length whose figures stand for the others where one is asked for.
-inline constexpr std::size_t usualBlockFrames = 256;
+/// The block length of measurements that use a single one.
+inline constexpr std::size_t defaultBlockFrames = 256;
 
-/// How an audio device asks for sound.
+/// Block length and burst length of an audio device.
 struct DeviceShape {
-    std::size_t blockFrames = usualBlockFrames;
-    /// Callbacks that come one right after the other.
+    std::size_t blockFrames = defaultBlockFrames;
+    /// Number of callbacks that follow each other immediately.
     std::size_t burstBlocks = 1;
 
     [[nodiscard]] double blockSeconds() const noexcept { return static_cast<double>(blockFrames) / outputRateHz; }
-    /// From one burst to the next.
+    /// Time from one burst to the next.
     [[nodiscard]] double periodSeconds() const noexcept { return blockSeconds() * static_cast<double>(burstBlocks); }
 };
 
-/// How much is measured. `events` scales all counts: more of them cost time and make percentiles firmer.
+/// How much is measured. `events` scales all counts: more events take longer and give more reliable percentiles.
 struct BenchPlan {
     std::size_t events = 120;
-    /// The first is the usual block, without bursts.
+    /// The first device has the default block length and no bursts.
     std::vector<DeviceShape> devices{{256, 1}, {128, 1}, {512, 1}, {1024, 1}, {256, 2}, {1024, 2}};
     std::vector<std::size_t> callbackVoices{1, 2, 8};
     std::vector<std::size_t> batchVoices{1, 2, 4, 8, 16, 32, 64};
     std::vector<std::size_t> surfaces{10, 100, 1000, 10000};
 
-    /// Every measurement, about three minutes.
+    /// All measurements, about three minutes.
     [[nodiscard]] static BenchPlan full() { return {}; }
-    /// Every measurement on three devices with fewer events, about half a minute.
+    /// All measurements on three devices with fewer events, about half a minute.
     [[nodiscard]] static BenchPlan quick() {
         BenchPlan plan;
         plan.events = 24;
@@ -54,5 +55,20 @@ struct BenchPlan {
     [[nodiscard]] std::size_t blendUpdates() const noexcept { return 4 * events; }
     [[nodiscard]] std::size_t contactUpdates() const noexcept { return 20 * events; }
 };
+
+/// Simulated time: calls `update(seconds)` whenever a contact state is due, and `block()` for each of `blocks` blocks
+/// of the default device.
+template <typename Update, typename Block>
+void simulateBlocks(std::size_t blocks, Update&& update, Block&& block) {
+    double nextUpdate = 0.0;
+    for (std::size_t index = 0; index < blocks; ++index) {
+        const double now = static_cast<double>(index) * DeviceShape{}.blockSeconds();
+        if (now >= nextUpdate) {
+            nextUpdate += 1.0 / updateRateHz;
+            update(now);
+        }
+        block();
+    }
+}
 
 }  // namespace haptoflow::bench

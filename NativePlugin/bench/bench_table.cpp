@@ -1,4 +1,4 @@
-#include "bench/bench_table.hpp"
+#include "bench/bench.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Row = std::vector<std::string>;
 
-/// Three significant digits and no exponent; a dash for what was not measured.
+/// A number with three significant digits and no exponent; a dash if it was not measured.
 std::string figure(const Json& value) {
     if (!value.is_number()) {
         return "-";
@@ -37,14 +37,14 @@ std::string text(const Json& value) {
     return value.get<std::string>();
 }
 
-/// p50, p99 and worst as three cells.
+/// Appends p50, p99 and worst as three cells.
 void appendRanks(Row& row, const Json& distribution) {
     for (const char* rank : {"p50", "p99", "worst"}) {
         row.push_back(figure(distribution[rank]));
     }
 }
 
-/// The first column flush left, the others flush right; the first row is the heading.
+/// The first column is left-aligned, the others are right-aligned; the first row is the heading.
 void printTable(std::ostream& stream, const std::string& title, const std::vector<Row>& rows) {
     std::vector<std::size_t> widths(rows.front().size());
     for (const Row& row : rows) {

@@ -1,4 +1,4 @@
-#include "bench/blend_bench.hpp"
+#include "bench/measurements.hpp"
 
 #include "bench/distribution.hpp"
 
@@ -18,10 +18,10 @@ namespace haptoflow::bench {
 namespace {
 
 constexpr std::array<std::size_t, 3> measuredCounts{1, 2, engine::MaterialBlend::capacity};
-// Of 5.3 ms each: as much sound as there is time between two contact states, rounded up.
+// Blocks of 5.3 ms that cover the time between two contact states, rounded up.
 constexpr std::size_t blocksOfUpdate = 3;
 
-/// One voice over a blend of so many materials, with an engine of its own.
+/// One voice on a blend of several materials, with its own engine.
 class BlendedVoice {
 public:
     BlendedVoice(const Subjects& subjects, std::size_t count)
@@ -37,12 +37,12 @@ public:
             const double taken = secondsOf([&] { voice_->renderer.render(block, outputRateHz); });
             callbackSeconds_.push_back(taken);
             if (index == 0) {
-                // Only now does the worker know that the callback plays.
+                // The worker learns only now that the callback runs.
                 updateSeconds_.push_back(secondsOf([&] { engine_->step(); }));
             }
         }
     }
-    /// What was measured so far is forgotten: the first states find nothing in the caches.
+    /// Discards the measurements so far: the caches were cold for the first states.
     void warmedUp() {
         publishSeconds_.clear();
         callbackSeconds_.clear();
@@ -51,7 +51,7 @@ public:
 
     [[nodiscard]] nlohmann::ordered_json figures() const {
         if (voice_->channels.counters.inferences == 0) {
-            throw MeasurementError("a blend that slides was not generated for: it was not measured");
+            throw MeasurementError("no segment was generated for a sliding blend: it was not measured");
         }
         return {{"materials", count_},
                 {"publish_us", toJson(distributionOf(publishSeconds_), microseconds)},
@@ -61,7 +61,7 @@ public:
     }
 
 private:
-    /// Of one core: a blend is balanced in every fourth update or so, which its median does not show.
+    /// Share of one core. About every fourth update balances the blend, which does not show in the median.
     [[nodiscard]] double workerPercent() const {
         const double spent = std::accumulate(updateSeconds_.begin(), updateSeconds_.end(), 0.0);
         return 100.0 * spent * updateRateHz / static_cast<double>(updateSeconds_.size());
@@ -92,7 +92,7 @@ nlohmann::ordered_json measureBlends(const Subjects& subjects, const BenchPlan& 
     for (const std::size_t count : measuredCounts) {
         voices.emplace_back(subjects, count);
     }
-    std::vector<float> block(usualBlockFrames);
+    std::vector<float> block(defaultBlockFrames);
     std::array<std::size_t, measuredCounts.size()> order{0, 1, 2};
     std::minstd_rand random(static_cast<std::uint32_t>(subjects.seed));
     const std::size_t updates = plan.blendUpdates();

@@ -1,4 +1,4 @@
-#include "bench/callback_bench.hpp"
+#include "bench/measurements.hpp"
 
 #include "bench/distribution.hpp"
 #include "bench/real_time_device.hpp"
@@ -15,10 +15,10 @@ namespace {
 
 using Voices = std::vector<std::shared_ptr<engine::LiveVoice>>;
 
-/// Voices of one engine that slide, and as many that nobody touches, rendered and timed apart.
-class TwoChoirs {
+/// Sliding voices of one engine and as many untouched ones, rendered and timed separately.
+class SlidingAndSilentVoices {
 public:
-    TwoChoirs(const Subjects& subjects, std::size_t voices, bool hasWorker)
+    SlidingAndSilentVoices(const Subjects& subjects, std::size_t voices, bool hasWorker)
         : hand_(*subjects.model), engine_(subjects.standardEngine(hasWorker)), order_(subjects.seed) {
         for (std::size_t voice = 0; voice < voices; ++voice) {
             sliding_.push_back(engine_->addVoice(outputRateHz));
@@ -26,7 +26,7 @@ public:
         }
     }
 
-    /// A state for every voice: the speeds wander over a tenth to a half of the recorded range.
+    /// Publishes a state for every voice; the speeds vary between a tenth and a half of the recorded range.
     void publish(double seconds) {
         for (std::size_t voice = 0; voice < sliding_.size(); ++voice) {
             const auto phase = static_cast<double>(voice);
@@ -38,7 +38,8 @@ public:
 
     void step() { engine_->step(); }
 
-    /// One block of each kind of voice, in random order; notes both times, the very first ones' too.
+    /// Renders one block of each kind of voice, in random order, and records both times, also those of the first
+    /// blocks.
     void render(std::span<float> block) {
         std::array<double, 2> seconds{};
         const std::size_t first = order_() % 2;
@@ -80,7 +81,7 @@ public:
         return figures;
     }
 
-    /// Any thread: blocks rendered so far.
+    /// Number of blocks rendered so far; any thread may call this.
     [[nodiscard]] std::size_t blocks() const noexcept { return blocks_; }
     void reserve(std::size_t blocks) {
         slidingSeconds_.reserve(blocks);
@@ -99,37 +100,34 @@ private:
 };
 
 nlohmann::ordered_json measureHot(const Subjects& subjects, std::size_t voices, std::size_t blocks) {
-    TwoChoirs choirs(subjects, voices, false);
-    choirs.reserve(blocks);
-    std::vector<float> block(usualBlockFrames);
-    double nextUpdate = 0.0;
-    for (std::size_t index = 0; index < blocks; ++index) {
-        const double now = static_cast<double>(index) * DeviceShape{}.blockSeconds();
-        if (now >= nextUpdate) {
-            nextUpdate += 1.0 / updateRateHz;
-            choirs.publish(now);
-            choirs.step();
-        }
-        choirs.render(block);
-    }
-    return choirs.figures();
+    SlidingAndSilentVoices voicePairs(subjects, voices, false);
+    voicePairs.reserve(blocks);
+    std::vector<float> block(defaultBlockFrames);
+    simulateBlocks(
+        blocks,
+        [&](double now) {
+            voicePairs.publish(now);
+            voicePairs.step();
+        },
+        [&] { voicePairs.render(block); });
+    return voicePairs.figures();
 }
 
 nlohmann::ordered_json measurePaced(const Subjects& subjects, std::size_t voices, double seconds) {
     const DeviceShape shape;
     const auto wanted = static_cast<std::size_t>(std::ceil(seconds / shape.blockSeconds()));
-    // A machine that is busy elsewhere needs longer for as many blocks.
-    const double longestSeconds = 1.0 + 5.0 * static_cast<double>(wanted) * shape.blockSeconds();
-    TwoChoirs choirs(subjects, voices, true);
-    choirs.reserve(static_cast<std::size_t>(longestSeconds / shape.blockSeconds()) + 1);
+    // A machine that is busy with other work needs more time for the same number of blocks.
+    const double maximumSeconds = 1.0 + 5.0 * static_cast<double>(wanted) * shape.blockSeconds();
+    SlidingAndSilentVoices voicePairs(subjects, voices, true);
+    voicePairs.reserve(static_cast<std::size_t>(maximumSeconds / shape.blockSeconds()) + 1);
     const double start = nowSeconds();
-    RealTimeDevice device(shape, longestSeconds, [&choirs](std::span<float> block) { choirs.render(block); });
-    for (int update = 1; choirs.blocks() < wanted && nowSeconds() < start + longestSeconds; ++update) {
-        choirs.publish(nowSeconds() - start);
+    RealTimeDevice device(shape, maximumSeconds, [&voicePairs](std::span<float> block) { voicePairs.render(block); });
+    for (int update = 1; voicePairs.blocks() < wanted && nowSeconds() < start + maximumSeconds; ++update) {
+        voicePairs.publish(nowSeconds() - start);
         sleepUntil(start + update / updateRateHz);
     }
     const std::size_t lateCalls = device.finish().lateCalls;
-    nlohmann::ordered_json figures = choirs.figures();
+    nlohmann::ordered_json figures = voicePairs.figures();
     figures["late_calls"] = lateCalls;
     return figures;
 }

@@ -1,7 +1,7 @@
-#include "bench/contact_bench.hpp"
+#include "bench/measurements.hpp"
 
 #include "bench/distribution.hpp"
-#include "contact/contact_tracker.hpp"
+#include "headless/contact_tracker.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,23 +17,23 @@ constexpr double spacingMetres = 0.05;
 constexpr double topMetres = 0.02;
 constexpr std::size_t turnsOfEach = 20;
 
-contact::Shape shapeOf(std::size_t index) {
+headless::Shape shapeOf(std::size_t index) {
     switch (index % 3) {
         case 0:
-            return contact::Box{.sizeMetres = {0.04, 2.0 * topMetres, 0.04}};
+            return headless::Box{.sizeMetres = {0.04, 2.0 * topMetres, 0.04}};
         case 1:
-            return contact::Sphere{.radiusMetres = topMetres};
+            return headless::Sphere{.radiusMetres = topMetres};
         default:
-            return contact::Capsule{.radiusMetres = 0.01, .heightMetres = 2.0 * topMetres};
+            return headless::Capsule{.radiusMetres = 0.01, .heightMetres = 2.0 * topMetres};
     }
 }
 
-/// A square carpet of surfaces whose tops are level.
-contact::Scene carpet(std::size_t surfaces) {
+/// Surfaces on a square grid with their tops at one height.
+headless::Scene gridOfSurfaces(std::size_t surfaces) {
     const auto columns = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(surfaces))));
-    contact::Scene scene;
+    headless::Scene scene;
     for (std::size_t index = 0; index < surfaces; ++index) {
-        contact::Surface surface;
+        headless::SceneSurface surface;
         surface.name = "surface " + std::to_string(index);
         surface.shape = shapeOf(index);
         const std::size_t row = index / columns;
@@ -45,18 +45,18 @@ contact::Scene carpet(std::size_t surfaces) {
     return scene;
 }
 
-/// A tip on its way over a carpet: 0.2 m/s from one place to the next, half a millimetre deep in the tops.
-class Stroller {
+/// A tip that moves over the grid at 0.2 m/s, half a millimetre deep in the tops.
+class SlidingTip {
 public:
-    Stroller(std::size_t surfaces, std::uint64_t seed)
+    SlidingTip(std::size_t surfaces, std::uint64_t seed)
         : extentMetres_(spacingMetres * std::ceil(std::sqrt(static_cast<double>(surfaces)))),
           random_(seed),
-          tracker_(carpet(surfaces)) {}
+          tracker_(gridOfSurfaces(surfaces)) {}
 
-    void stroll(std::size_t updates) {
+    void slide(std::size_t updates) {
         for (std::size_t update = 0; update < updates; ++update) {
             advance();
-            contact::TipSample sample;
+            headless::TipSample sample;
             sample.timeSeconds = seconds_;
             sample.positionMetres = tip_;
             microseconds_.push_back(microseconds * secondsOf([&] { touching_ += tracker_.update(sample).touching; }));
@@ -90,7 +90,7 @@ private:
 
     double extentMetres_;
     std::mt19937_64 random_;
-    contact::ContactTracker tracker_;
+    headless::ContactTracker tracker_;
     glm::dvec3 tip_{0.0, topMetres + 0.0005, 0.0};
     glm::dvec3 direction_{0.0};
     double leftMetres_ = 0.0;
@@ -102,22 +102,22 @@ private:
 }  // namespace
 
 nlohmann::ordered_json measureContact(std::uint64_t seed, const BenchPlan& plan, const Advance& advance) {
-    std::deque<Stroller> strollers;
+    std::deque<SlidingTip> tips;
     std::vector<std::size_t> order;
     for (const std::size_t surfaces : plan.surfaces) {
-        order.insert(order.end(), turnsOfEach, strollers.size());
-        strollers.emplace_back(surfaces, seed);
+        order.insert(order.end(), turnsOfEach, tips.size());
+        tips.emplace_back(surfaces, seed);
     }
     std::mt19937_64 random(seed);
     std::ranges::shuffle(order, random);
     std::size_t done = 0;
     for (const std::size_t index : order) {
-        strollers[index].stroll((plan.contactUpdates() + turnsOfEach - 1) / turnsOfEach);
+        tips[index].slide((plan.contactUpdates() + turnsOfEach - 1) / turnsOfEach);
         advance(static_cast<double>(++done) / static_cast<double>(order.size()));
     }
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
-    for (std::size_t index = 0; index < strollers.size(); ++index) {
-        rows.push_back(strollers[index].figures(plan.surfaces[index]));
+    for (std::size_t index = 0; index < tips.size(); ++index) {
+        rows.push_back(tips[index].figures(plan.surfaces[index]));
     }
     for (auto& row : rows) {
         row["ratio"] = ratioOf(row["us_per_update"].get<double>(), rows[0]["us_per_update"].get<double>());

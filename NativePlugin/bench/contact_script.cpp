@@ -9,14 +9,14 @@ namespace haptoflow::bench {
 namespace {
 
 constexpr double updateSeconds = 1.0 / updateRateHz;
-// Nothing sounds before a script begins, and its device has started.
+// Silence before a script begins, until its device has started.
 constexpr double quietSeconds = 0.05;
-// Nearer to the end than this, a state would be published twice.
-constexpr double shortestSeconds = 1e-4;
+// A state closer to the end than this would be published twice.
+constexpr double minimumSeconds = 1e-4;
 
-/// Writes states from `begin` to `end` at the update rate, the first at `begin`.
+/// Appends states from `begin` to `end` at the update rate, the first at `begin`.
 void hold(std::vector<TimedState>& states, const engine::ContactState& state, double begin, double end) {
-    for (int update = 0; begin + update * updateSeconds < end - shortestSeconds; ++update) {
+    for (int update = 0; begin + update * updateSeconds < end - minimumSeconds; ++update) {
         states.push_back({begin + update * updateSeconds, state});
         states.back().state.timeSeconds = states.back().seconds;
     }
@@ -35,7 +35,7 @@ TouchScript touchScript(const Hand& hand, const DeviceShape& shape, std::size_t 
     hold(script.states, Hand::lifted(counter - 1), now, quietSeconds);
     now = quietSeconds;
     for (std::size_t index = 0; index < touches; ++index, ++counter) {
-        // What sounds first and what sounds last needs a period each, and the fade 5 ms.
+        // A period each for the start and the end of the sound, and 5 ms for the fade.
         const double touchSeconds = period + 0.03 + phase(random);
         const double pauseSeconds = period + 0.02 + phase(random);
         Touch touch;
@@ -62,8 +62,8 @@ StepScript stepScript(const Hand& hand, const DeviceShape& shape, std::size_t st
     hold(script.states, Hand::lifted(counter - 1), now, quietSeconds);
     now = quietSeconds;
     while (script.steps.size() < steps) {
-        // The first label of a stroke waits for the seed to be over. Whole updates: a hand's states come at the update
-        // rate for as long as it touches.
+        // The first label of a stroke lasts until the seed has ended. Times are whole updates, because a hand's states
+        // come at the update rate throughout a touch.
         const double firstSeconds = std::ceil(0.15 / updateSeconds) * updateSeconds;
         for (std::size_t place = 0; place < hand.labelCount(); ++place) {
             if (place > 0) {
@@ -73,7 +73,7 @@ StepScript stepScript(const Hand& hand, const DeviceShape& shape, std::size_t st
             hold(script.states, hand.sliding(counter, place), now, now + seconds);
             now += seconds;
         }
-        // The last step must sound before the tip leaves.
+        // The last step must sound before the tip is lifted.
         const double tailSeconds = std::ceil((2.0 * shape.periodSeconds() + 0.06) / updateSeconds) * updateSeconds;
         hold(script.states, hand.sliding(counter, hand.labelCount() - 1), now, now + tailSeconds);
         now += tailSeconds;

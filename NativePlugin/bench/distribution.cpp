@@ -16,7 +16,7 @@ double nearestRank(const std::vector<double>& sorted, double share) {
 
 Distribution distributionOf(std::vector<double> values) {
     if (values.empty()) {
-        throw std::invalid_argument("a distribution of no values");
+        throw std::invalid_argument("a distribution needs at least one value");
     }
     std::ranges::sort(values);
     return {.count = values.size(),

@@ -7,7 +7,7 @@
 
 namespace haptoflow::bench {
 
-/// What is told of many measurements of one thing. A mean would hide the ones that are felt.
+/// Percentiles of repeated measurements. A mean would hide the slow ones, which are the perceptible ones.
 struct Distribution {
     std::size_t count = 0;
     double p50 = 0.0;
@@ -15,21 +15,21 @@ struct Distribution {
     double worst = 0.0;
 };
 
-/// What `toJson` multiplies seconds by.
+/// Scales of `toJson` for values in seconds.
 inline constexpr double milliseconds = 1e3;
 inline constexpr double microseconds = 1e6;
 
-/// By nearest rank: p50 and p99 are values that were measured, and below 100 values p99 is the worst.
-/// Throws std::invalid_argument for no value.
+/// By nearest rank: p50 and p99 are measured values, and below 100 values p99 is the worst one.
+/// Throws std::invalid_argument if there are no values.
 [[nodiscard]] Distribution distributionOf(std::vector<double> values);
 
-/// The number to six significant digits: more of a time is noise.
+/// The number rounded to six significant digits; further digits of a time are noise.
 [[nodiscard]] double rounded(double value);
 
-/// {"count", "p50", "p99", "worst"}, each times `scale`, rounded.
+/// {"count", "p50", "p99", "worst"}, each multiplied by `scale` and rounded.
 [[nodiscard]] nlohmann::ordered_json toJson(const Distribution& distribution, double scale = 1.0);
 
-/// numerator / denominator of figures as they are printed, rounded; null where the denominator is 0.
+/// numerator / denominator, both rounded as they are printed; null if the denominator is 0.
 [[nodiscard]] nlohmann::ordered_json ratioOf(double numerator, double denominator);
 
 }  // namespace haptoflow::bench

@@ -1,4 +1,4 @@
-#include "bench/effect_bench.hpp"
+#include "bench/measurements.hpp"
 
 #include "bench/distribution.hpp"
 #include "effects/actuator_profile.hpp"
@@ -40,7 +40,7 @@ constexpr std::array<NamedEffect, 8> measuredEffects{{{"texture", EffectKind::te
                                                       {"exposure guard", EffectKind::exposureGuard},
                                                       {"signal", EffectKind::signal}}};
 
-/// Two voices that do the same, with and without the effect, rendered and timed apart.
+/// Two voices in the same state, with and without the effect, rendered and timed separately.
 class WithAndWithout {
 public:
     WithAndWithout(const Subjects& subjects, EffectKind kind)
@@ -73,7 +73,7 @@ public:
         state.edgeCounter = static_cast<std::uint32_t>(seconds * crossingsPerSecond);
         state.edgeHeightMetres = edgeHeightMetres;
         const bool isOfSurface = kind_ <= EffectKind::edge;
-        // Both voices ask for the texture, except where the texture itself is measured, or what sounds instead of it.
+        // Both voices request the texture, unless the texture or the signal, which replaces it, is measured.
         const bool isAlone = kind_ == EffectKind::texture || kind_ == EffectKind::signal;
         state.effects = isAlone ? 0U : maskOf(EffectKind::texture);
         engine_->publish(*without_, state);
@@ -83,7 +83,7 @@ public:
         engine_->step();
     }
 
-    /// One block of each voice, in random order.
+    /// Renders one block of each voice, in random order.
     void render(std::span<float> block) {
         const bool isFirst = order_() % 2 == 0;
         for (const bool isWith : {isFirst, !isFirst}) {
@@ -97,7 +97,7 @@ public:
         const Runs with = runsOf(*with_);
         const Runs without = runsOf(*without_);
         if (with.runs == 0) {
-            throw MeasurementError("an effect that was asked for did not run: it was not measured");
+            throw MeasurementError("a requested effect did not run: it was not measured");
         }
         const double blocks = static_cast<double>(withSeconds_.size());
         const double ownMicroseconds = 1e-3 * static_cast<double>(with.nanoseconds) / blocks;
@@ -120,7 +120,7 @@ private:
         std::uint64_t nanoseconds = 0;
     };
 
-    /// Of the texture: the network's runs and their time, which is the worker's and not the callback's.
+    /// For the texture: the network's runs and their time, which the worker spends and not the callback.
     [[nodiscard]] Runs runsOf(const engine::LiveVoice& voice) const {
         const engine::VoiceCounters& all = voice.channels.counters;
         if (kind_ == EffectKind::texture) {
@@ -142,16 +142,9 @@ private:
 
 nlohmann::ordered_json measure(const Subjects& subjects, EffectKind kind, std::size_t blocks) {
     WithAndWithout voices(subjects, kind);
-    std::vector<float> block(usualBlockFrames);
-    double nextUpdate = 0.0;
-    for (std::size_t index = 0; index < blocks; ++index) {
-        const double now = static_cast<double>(index) * DeviceShape{}.blockSeconds();
-        if (now >= nextUpdate) {
-            nextUpdate += 1.0 / updateRateHz;
-            voices.publish(now);
-        }
-        voices.render(block);
-    }
+    std::vector<float> block(defaultBlockFrames);
+    simulateBlocks(
+        blocks, [&](double now) { voices.publish(now); }, [&] { voices.render(block); });
     return voices.figures();
 }
 

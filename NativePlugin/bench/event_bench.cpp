@@ -1,4 +1,4 @@
-#include "bench/event_bench.hpp"
+#include "bench/measurements.hpp"
 
 #include "bench/distribution.hpp"
 
@@ -19,18 +19,18 @@ struct EventDevice {
     double rateHz;
 };
 
-constexpr std::array devices{EventDevice{1, usualBlockFrames, outputRateHz}, EventDevice{1, 64, 192000.0},
+constexpr std::array devices{EventDevice{1, defaultBlockFrames, outputRateHz}, EventDevice{1, 64, 192000.0},
                              EventDevice{16, 128, outputRateHz}};
 
 enum class Kind { ordinary, onset, resume, pause, stop, panic };
 constexpr std::array<std::string_view, 6> kindNames{"ordinary", "onset", "resume", "pause", "stop", "panic"};
-// Longer than any fade, in time: what an event block is compared with has settled.
+// Longer than any fade: the blocks that events are compared with come after it.
 constexpr double settledSeconds = 0.03;
 
-/// Voices that are touched, paused, resumed, lifted and silenced together, and every block of them timed.
-class EventChoir {
+/// Voices that are touched, paused, resumed, lifted and silenced together; all of their blocks are timed.
+class EventVoices {
 public:
-    EventChoir(const Subjects& subjects, const EventDevice& device)
+    EventVoices(const Subjects& subjects, const EventDevice& device)
         : device_(device), hand_(*subjects.model), engine_(subjects.standardEngine(false)), random_(subjects.seed) {
         for (std::size_t voice = 0; voice < device.voices; ++voice) {
             voices_.push_back(engine_->addVoice(device.rateHz));
@@ -129,12 +129,12 @@ private:
 nlohmann::ordered_json measureEventBlocks(const Subjects& subjects, const BenchPlan& plan, const Advance& advance) {
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
     for (const EventDevice& device : devices) {
-        EventChoir choir(subjects, device);
-        // One touch ends by lift-off, the next by a panic.
+        EventVoices eventVoices(subjects, device);
+        // Touches end alternately by lift-off and by panic.
         for (std::size_t touch = 0; touch < std::max<std::size_t>(2, plan.events); ++touch) {
-            choir.playTouch();
+            eventVoices.playTouch();
         }
-        rows.push_back(choir.figures());
+        rows.push_back(eventVoices.figures());
         advance(static_cast<double>(rows.size()) / static_cast<double>(devices.size()));
     }
     return {{"callback_events_us", rows}};

@@ -1,7 +1,7 @@
-#include "bench/idle_bench.hpp"
+#include "bench/measurements.hpp"
 
 #include "bench/distribution.hpp"
-#include "bench/process_usage.hpp"
+#include "bench/machine.hpp"
 #include "bench/real_time_device.hpp"
 #include "bench/watched_generators.hpp"
 
@@ -19,7 +19,7 @@ struct Busy {
     [[nodiscard]] double percent() const { return rounded(100.0 * cpuSeconds / wallSeconds); }
 };
 
-/// Two threads in real time: a device that calls `render`, and this one, which calls `update`.
+/// Runs two threads in real time: a device that calls `render`, and this thread, which calls `update`.
 template <typename Render, typename Update>
 void pass(double seconds, Busy& busy, Render render, Update update) {
     const double cpuBefore = processCpuSeconds();
@@ -44,7 +44,7 @@ nlohmann::ordered_json measureIdle(const Subjects& subjects, const BenchPlan& pl
     const CountingGenerator& counted = *counting;
     const auto engine = subjects.engineWith(std::move(counting), true);
     const auto voice = engine->addVoice(outputRateHz);
-    // Making the engine asks the network for levels.
+    // Creating the engine runs the network for levels.
     const std::uint64_t runsBefore = counted.runs;
     const std::uint64_t wakesBefore = engine->statistics().wakes;
     Busy idle;

@@ -1,4 +1,4 @@
-#include "bench/inference_bench.hpp"
+#include "bench/measurements.hpp"
 
 #include "bench/distribution.hpp"
 #include "dsp/denormals.hpp"
@@ -16,7 +16,7 @@ constexpr std::size_t blocksOfEach = 8;
 constexpr std::size_t warmUpRuns = 3;
 constexpr std::size_t requestCount = 64;
 
-/// A tier under the stopwatch.
+/// A tier whose runs are timed.
 struct Contender {
     std::string name;
     const model::Tier& tier;
@@ -45,14 +45,14 @@ void runPaced(Contender& contender, std::size_t runs) {
     (void)contender.run();
     double due = nowSeconds();
     for (std::size_t run = 0; run < runs; ++run) {
-        // One that takes longer than the pace goes on at once.
+        // A run that takes longer than the pace is followed by the next one at once.
         due = std::max(due + 1.0 / updateRateHz, nowSeconds());
         sleepUntil(due);
         contender.pacedSeconds.push_back(contender.run());
     }
 }
 
-/// Every contender in `blocksOfEach` blocks, all shuffled together.
+/// Runs every tier in `blocksOfEach` blocks, in random order over all tiers.
 template <typename RunBlock>
 void inRandomOrder(std::deque<Contender>& contenders, std::size_t runs, std::mt19937_64& random, RunBlock runBlock) {
     std::vector<std::size_t> order;
@@ -76,7 +76,7 @@ nlohmann::ordered_json figuresOf(const Contender& contender) {
     return figures;
 }
 
-/// How many times longer the paper's architecture takes, at the median.
+/// The median time of the paper's architecture divided by the tier's.
 nlohmann::ordered_json speedup(const nlohmann::ordered_json& paper, const nlohmann::ordered_json& tier) {
     return ratioOf(paper["p50"].get<double>(), tier["p50"].get<double>());
 }

@@ -12,7 +12,7 @@ namespace haptoflow::bench {
 namespace {
 
 constexpr std::size_t eventsPerRound = 25;
-// A machine that is busy elsewhere loses events; after so many rounds more than needed it has lost too many.
+// Rounds in addition to the needed ones, for events that a busy machine loses.
 constexpr std::size_t spareRounds = 3;
 
 struct DeviceRun {
@@ -28,7 +28,7 @@ struct Measured {
     std::vector<DeviceRun> steps;
 };
 
-/// An engine with its worker and one voice, for as many recordings as are wanted.
+/// An engine with its worker and one voice, for any number of recordings.
 class Rig {
 public:
     explicit Rig(std::unique_ptr<engine::LiveEngine> engine)
@@ -48,7 +48,7 @@ private:
     std::shared_ptr<engine::LiveVoice> voice_;
 };
 
-/// Calls `round(events)` until `measured()` has reached `wanted`, or too many rounds have lost too much.
+/// Calls `round(events)` until `measured()` has reached `wanted`, or until too many rounds have lost events.
 template <typename Round, typename Count>
 void inRounds(std::size_t wanted, const char* what, Round round, Count measured) {
     const std::size_t rounds = (wanted + eventsPerRound - 1) / eventsPerRound + spareRounds;
@@ -57,7 +57,8 @@ void inRounds(std::size_t wanted, const char* what, Round round, Count measured)
     }
     if (measured() == 0) {
         throw MeasurementError(std::string("no ") + what +
-                               " was heard from the simulated device: a model that is silent, or a machine too busy");
+                               " was found in the simulated device's recording: the model is silent, or the machine is "
+                               "too busy");
     }
 }
 
@@ -103,7 +104,7 @@ void measureSteps(const Subjects& subjects, const DeviceShape& shape, std::size_
             const StepScript script = stepScript(hand, shape, count, firstTouch, random);
             firstTouch += static_cast<std::uint32_t>(script.states.size());
             const auto [recording, published] = rig.play(shape, script.states);
-            // The first round is the one in which the voice learns its lead.
+            // In the first round the voice learns its lead.
             if (std::exchange(learns, false)) {
                 return;
             }
@@ -138,7 +139,7 @@ nlohmann::ordered_json rowOf(const DeviceRun& run) {
     return row;
 }
 
-/// The usual device's figures, then every device's.
+/// The figures of the default device, followed by those of every device.
 nlohmann::ordered_json sectionOf(const std::vector<nlohmann::ordered_json>& rows) {
     nlohmann::ordered_json section = rows.front();
     section["rows"] = rows;

@@ -13,10 +13,11 @@
 
 namespace haptoflow::bench {
 
-/// Seconds from what the hand did to what the device played, and how often nothing was found that belongs to it.
+/// Times in seconds from an action of the hand to its effect in the played signal, and the number of actions without
+/// one.
 struct Latencies {
     std::vector<double> seconds;
-    /// Of each, the goal that held for it.
+    /// The goal for each time, which depends on the device and the lead.
     std::vector<double> goalSeconds;
     std::size_t missed = 0;
 };
@@ -27,13 +28,14 @@ void findOnsets(const Recording& recording, const std::vector<Published>& publis
 /// Stop: from publishing a lift-off to the end of the last sample within 60 dB of the touch's peak.
 void findStops(const Recording& recording, const std::vector<Published>& published, const TouchScript& script,
                const DeviceShape& shape, Latencies& stops);
-/// Contact to sound: from publishing a label step to the first sample nearer to the new label's mark than to the old
-/// one's. `fullScaleMps2` is +-1 of the recording. The lead of each goal is the one noted with the next state.
+/// Contact to sound: from publishing a change of label to the first sample that is nearer to the new label's marking
+/// level than to the old one's. `fullScaleMps2` is the acceleration at +-1 of the recording. Each goal uses the lead
+/// recorded with the next state.
 void findSteps(const Recording& recording, const std::vector<Published>& published, const StepScript& script,
                const DeviceShape& shape, float fullScaleMps2, Latencies& steps);
 
-/// "onset_ms", "contact_to_sound_ms" and "stop_ms", with a row for each device. With real threads: the engine's worker,
-/// a device's, and this one, which publishes. Throws MeasurementError where nothing sounds.
+/// "onset_ms", "contact_to_sound_ms" and "stop_ms", with a row for each device. Uses real threads: the engine's worker,
+/// a device's thread, and this one, which publishes. Throws MeasurementError if nothing sounds.
 [[nodiscard]] nlohmann::ordered_json measureLatency(const Subjects& subjects, const BenchPlan& plan,
                                                     const Advance& advance);
 

@@ -8,7 +8,7 @@ constexpr float minus60Db = 1e-3F;
 constexpr double releaseSeconds = 0.005;
 constexpr double takingOverSeconds = 0.001;
 
-/// When the touch behind this one begins; after the last, when the script ends.
+/// The time at which the next touch begins, or the end of the script after the last touch.
 double nextDown(const std::vector<Published>& published, const TouchScript& script, std::size_t touch) {
     return touch + 1 < script.touches.size() ? published[script.touches[touch + 1].down].seconds
                                              : published.back().seconds;
@@ -58,10 +58,10 @@ void findSteps(const Recording& recording, const std::vector<Published>& publish
         const float before = MarkingGenerator::markMps2(step.place - 1);
         const float after = MarkingGenerator::markMps2(step.place);
         const float midway = 0.5F * (before + after) / fullScaleMps2;
-        // Longer than any lead and any period of a device: after that the step was never generated for.
-        constexpr double longestSeconds = 0.3;
+        // Longer than any lead and any period of a device: after this time the change of label was lost.
+        constexpr double maximumSeconds = 0.3;
         const double lead = published[step.index + 1].leadSamples / inference::waveformRateHz;
-        note(recording.first(midway, stepped, stepped + longestSeconds), stepped,
+        note(recording.first(midway, stepped, stepped + maximumSeconds), stepped,
              lead + shape.periodSeconds() + takingOverSeconds, steps);
     }
 }

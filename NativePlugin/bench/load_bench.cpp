@@ -1,7 +1,7 @@
 #include "bench/load_bench.hpp"
 
 #include "bench/distribution.hpp"
-#include "bench/process_usage.hpp"
+#include "bench/machine.hpp"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,8 @@
 namespace haptoflow::bench {
 namespace {
 
-/// What a host has open while it plays. Making a generator runs its graphs once, so their memory is in it.
+/// Everything that a host has open while it plays. Creating a generator runs its graphs once, so their memory is
+/// included.
 struct OpenEngine {
     std::unique_ptr<engine::LiveEngine> engine;
     std::shared_ptr<engine::LiveVoice> voice;
@@ -20,7 +21,7 @@ struct OpenEngine {
 OpenEngine openEngine(const Subjects& subjects) {
     engine::EngineTiers tiers;
     for (const model::Tier& tier : subjects.model->header().tiers) {
-        tiers.push_back(subjects.generator(*subjects.model, tier, usualBatch));
+        tiers.push_back(subjects.generator(*subjects.model, tier, defaultBatch));
     }
     engine::LiveEngineSettings settings;
     settings.quality.fixedTier = subjects.model->header().defaultTier;

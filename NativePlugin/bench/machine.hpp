@@ -6,13 +6,19 @@
 
 namespace haptoflow::bench {
 
-/// Processor, cores, system and build, in words: times mean nothing without them. Nothing that names the machine.
+/// Processor, cores, system and build, which every reported time depends on. Nothing in it identifies the machine.
 [[nodiscard]] nlohmann::ordered_json machineWords(const std::string& onnxRuntimeVersion);
 
-/// Programs that wanted a core over the last minute, this one included; null where the system does not tell.
+/// The system's load average over the last minute, this process included; null where the system does not report one.
 [[nodiscard]] nlohmann::ordered_json loadAverage();
 
-/// YYYY-MM-DD, of the universal time.
+/// The date in UTC as YYYY-MM-DD.
 [[nodiscard]] std::string today();
+
+/// Processor time that all threads of this process have used, in seconds.
+[[nodiscard]] double processCpuSeconds();
+
+/// Memory of this process that is in RAM now, in MiB; 0 where the system does not report it.
+[[nodiscard]] double residentMebibytes();
 
 }  // namespace haptoflow::bench

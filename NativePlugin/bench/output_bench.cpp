@@ -1,4 +1,4 @@
-#include "bench/output_bench.hpp"
+#include "bench/measurements.hpp"
 
 #include "bench/distribution.hpp"
 #include "effects/wave_decimation.hpp"
@@ -25,7 +25,7 @@ struct OutputKind {
     const char* name;
     double rateHz;
     bool hasLowPass;
-    /// Length of a frame of features; 0 for an output that takes the wave itself.
+    /// Length of a frame of features; 0 for an output that uses the wave itself.
     double featureSeconds;
 };
 
@@ -34,7 +34,7 @@ constexpr std::array<OutputKind, 4> kinds{{{"audio", outputRateHz, false, 0.0},
                                            {"controller parametric", deviceVoiceRateHz, true, 0.005},
                                            {"motor", deviceVoiceRateHz, true, 0.008}}};
 
-/// One voice and what its output makes of the wave, frame by frame.
+/// One voice and the processing of its wave for an output, frame by frame.
 class OutputSubject {
 public:
     OutputSubject(const OutputKind& kind, engine::LiveEngine& engine)
@@ -53,7 +53,7 @@ public:
 
     [[nodiscard]] engine::LiveVoice& voice() noexcept { return *voice_; }
 
-    /// What is due until `now`, in seconds since the start.
+    /// Processes everything that is due until `now`, in seconds since the start.
     void frame(double now) {
         const auto due = static_cast<std::uint64_t>(now * kind_.rateHz);
         const std::size_t count = std::min<std::size_t>(block_.size(), due - rendered_);

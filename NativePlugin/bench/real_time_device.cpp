@@ -8,9 +8,9 @@
 
 namespace haptoflow::bench {
 
-RealTimeDevice::RealTimeDevice(const DeviceShape& shape, double longestSeconds, Callback callback)
+RealTimeDevice::RealTimeDevice(const DeviceShape& shape, double maximumSeconds, Callback callback)
     : shape_(shape), callback_(std::move(callback)) {
-    const auto bursts = static_cast<std::size_t>(std::ceil(longestSeconds / shape.periodSeconds()));
+    const auto bursts = static_cast<std::size_t>(std::ceil(maximumSeconds / shape.periodSeconds()));
     recording_.samples.resize(bursts * shape.burstBlocks * shape.blockFrames);
     recording_.blocks.reserve(bursts * shape.burstBlocks);
     thread_ = std::thread([this] { run(); });
@@ -32,7 +32,7 @@ Recording RealTimeDevice::finish() {
 
 void RealTimeDevice::run() {
     engine::nameThisThread("device");
-    // A host's audio thread comes before others too; where the process may not ask for it, nothing changes.
+    // A host's audio thread has a raised priority, too. If the system refuses it, the thread runs without.
     (void)engine::raiseThisThreadsPriority();
     const double period = shape_.periodSeconds();
     double due = nowSeconds();
@@ -41,7 +41,7 @@ void RealTimeDevice::run() {
         sleepUntil(due);
         const double now = nowSeconds();
         recording_.lateCalls += now - due > 0.5 * period ? 1 : 0;
-        // What a driver has lost it does not ask for again.
+        // Like a driver, the device skips the blocks that it has missed.
         due = now - due > period ? now : due;
         for (std::size_t block = 0; block < shape_.burstBlocks; ++block) {
             renderBlock(now + static_cast<double>(block) * shape_.blockSeconds());

@@ -10,22 +10,22 @@
 
 namespace haptoflow::bench {
 
-/// An audio device without a sound card: a thread that calls back in real time and keeps what it is given. What a block
-/// that is asked for at a time holds, plays from that time on; the buffers of a driver and the digital-to-analogue
-/// converter come on top, and are the same for every program.
+/// An audio device without a sound card: a thread that calls back in real time and keeps the rendered blocks. A block
+/// requested at a time counts as playing from that time on; the delays of a driver's buffers and of the
+/// digital-to-analogue converter are added to that and are the same for every program.
 class RealTimeDevice {
 public:
-    /// Fills the span; on the device's thread.
+    /// Fills the span; called on the device's thread.
     using Callback = std::function<void(std::span<float>)>;
 
-    /// Starts at once and stops by itself after `longestSeconds`, for which it keeps room. What the callback names must
-    /// outlive the device. Throws std::system_error where no thread can be made.
-    RealTimeDevice(const DeviceShape& shape, double longestSeconds, Callback callback);
+    /// Starts at once and stops by itself after `maximumSeconds`, for which it allocates memory. The objects that the
+    /// callback uses must outlive the device. Throws std::system_error if no thread can be created.
+    RealTimeDevice(const DeviceShape& shape, double maximumSeconds, Callback callback);
     RealTimeDevice(const RealTimeDevice&) = delete;
     RealTimeDevice& operator=(const RealTimeDevice&) = delete;
     ~RealTimeDevice();
 
-    /// Ends the stream and hands over what was played. Once.
+    /// Stops the device and returns what it played. Call it once.
     [[nodiscard]] Recording finish();
 
 private:

@@ -6,8 +6,7 @@
 namespace haptoflow::bench {
 namespace {
 
-/// Calls `visit(seconds, magnitude)` for every sample that plays between two times, in the order of playing; ends
-/// where it returns false.
+/// Calls `visit(seconds, magnitude)` for every sample that plays between two times, in order, until it returns false.
 template <typename Visit>
 void visitPlaying(const Recording& recording, double fromSeconds, double toSeconds, Visit visit) {
     for (const PlayedBlock& block : recording.blocks) {

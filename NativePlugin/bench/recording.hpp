@@ -8,7 +8,7 @@
 
 namespace haptoflow::bench {
 
-/// One callback: when its first sample plays, and how long it took.
+/// One callback: the time at which its first sample plays, and how long the callback took.
 struct PlayedBlock {
     double playsAtSeconds = 0.0;
     double renderSeconds = 0.0;
@@ -16,18 +16,18 @@ struct PlayedBlock {
     std::size_t frames = 0;
 };
 
-/// What a simulated device was given to play, and when each sample of it plays. All times are those of `nowSeconds`;
-/// a search from one time to another leaves the second out.
+/// The signal that a simulated device played, with the time of each sample. All times are those of `nowSeconds`; a
+/// search between two times excludes the second one.
 struct Recording {
     double rateHz = outputRateHz;
     std::vector<PlayedBlock> blocks;
     std::vector<float> samples;
-    /// Callbacks that came more than half a period late: the machine had something else to do.
+    /// Callbacks that came more than half a period late, because the machine was busy with other work.
     std::size_t lateCalls = 0;
 
-    /// The largest magnitude that plays between two times; 0 where nothing does.
+    /// The largest magnitude between two times; 0 if there are no samples.
     [[nodiscard]] float peak(double fromSeconds, double toSeconds) const;
-    /// When the first or last sample of at least this magnitude plays.
+    /// The times of the first and the last sample of at least this magnitude.
     [[nodiscard]] std::optional<double> first(float magnitude, double fromSeconds, double toSeconds) const;
     [[nodiscard]] std::optional<double> last(float magnitude, double fromSeconds, double toSeconds) const;
 };

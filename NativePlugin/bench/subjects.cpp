@@ -41,19 +41,19 @@ std::unique_ptr<engine::LiveEngine> Subjects::engineWith(std::unique_ptr<inferen
 }
 
 std::unique_ptr<engine::LiveEngine> Subjects::standardEngine(bool hasWorker) const {
-    return engineWith(generator(*model, standard(), usualBatch), hasWorker);
+    return engineWith(generator(*model, standard(), defaultBatch), hasWorker);
 }
 
 Hand::Hand(const model::ModelFile& model)
     : speedMps_(model.header().speedMps), forceNewtons_(model.header().forceNewtons) {
     for (const model::SeedEntry& seed : model.header().seeds) {
         const auto label = static_cast<std::uint32_t>(seed.label);
-        if (labels_.size() < mostLabels && std::ranges::find(labels_, label) == labels_.end()) {
+        if (labels_.size() < maximumLabels && std::ranges::find(labels_, label) == labels_.end()) {
             labels_.push_back(label);
         }
     }
     if (labels_.empty()) {
-        throw MeasurementError("the model has no seed: no touch-down of it sounds before the first segment");
+        throw MeasurementError("the model has no seed: no touch-down sounds before the first segment");
     }
     std::ranges::sort(labels_);
 }

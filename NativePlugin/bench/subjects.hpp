@@ -15,49 +15,49 @@
 
 namespace haptoflow::bench {
 
-/// Voices in one batch, as the C interface has it where nobody says otherwise.
-inline constexpr std::size_t usualBatch = 8;
+/// Voices in one batch: the default of the C interface.
+inline constexpr std::size_t defaultBatch = 8;
 
-/// Something that should have been measured was not there: no sound, no segment.
+/// A measurement failed because there was no sound or no segment to measure.
 class MeasurementError : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
 };
 
-/// What is measured, open and ready. Read from any thread.
+/// The open library, models and settings that the measurements use. Any thread may read them.
 struct Subjects {
     std::shared_ptr<const inference::Runtime> runtime;
     std::shared_ptr<const model::ModelFile> model;
-    /// The paper's architecture; null where nobody named its file.
+    /// The model of the paper's architecture; null if no file was given.
     std::shared_ptr<const model::ModelFile> paper;
-    /// Key of all noise and of every random order.
+    /// Seed of all noise and of every random order.
     std::uint64_t seed = 1;
 
-    /// The tier "standard", or the model's default where it has none of that name.
+    /// The tier "standard", or the model's default tier if it has no such tier.
     [[nodiscard]] const model::Tier& standard() const;
     /// A tier of `file` with its own solver.
     [[nodiscard]] std::unique_ptr<inference::OnnxSegmentGenerator> generator(const model::ModelFile& file,
                                                                              const model::Tier& tier,
                                                                              std::size_t batch) const;
-    /// An engine with one fixed tier.
+    /// An engine with a single fixed tier.
     [[nodiscard]] std::unique_ptr<engine::LiveEngine> engineWith(std::unique_ptr<inference::SegmentGenerator> generator,
                                                                  bool hasWorker) const;
-    /// The same with the tier "standard", of `usualBatch` voices.
+    /// An engine with the tier "standard" for `defaultBatch` voices.
     [[nodiscard]] std::unique_ptr<engine::LiveEngine> standardEngine(bool hasWorker) const;
 };
 
 /// The contact states of a tip that slides over a model's labels in the middle of its recorded range.
 class Hand {
 public:
-    /// At most this many of the labels that have a seed, in the model's order; at least one.
-    static constexpr std::size_t mostLabels = 16;
+    /// Only this many of the labels with a seed are used, in the model's order; at least one.
+    static constexpr std::size_t maximumLabels = 16;
 
     explicit Hand(const model::ModelFile& model);
 
     [[nodiscard]] std::size_t labelCount() const noexcept { return labels_.size(); }
-    /// Index into the model's labels.
+    /// Index in the model's labels of the label at a place in the hand's list.
     [[nodiscard]] std::uint32_t label(std::size_t place) const { return labels_.at(place); }
-    /// `speedShare` and the fixed force are shares of the recorded range.
+    /// A state of sliding; `speedShare` and the fixed force are shares of the recorded range.
     [[nodiscard]] engine::ContactState sliding(std::uint32_t touch, std::size_t place, double speedShare = 0.3) const;
     [[nodiscard]] static engine::ContactState lifted(std::uint32_t touch);
 
@@ -67,12 +67,12 @@ private:
     model::TrainedInterval forceNewtons_;
 };
 
-/// Requests as live voices make them: labels and motions of the recorded range, noise for the past and the start.
+/// Requests like those of live voices: labels and motions of the recorded range, noise as previous waveform and noise.
 class RandomRequests {
 public:
     RandomRequests(const model::ModelFile& model, std::size_t count, std::uint64_t seed);
 
-    /// The next `count` of them, from the start again after the last; `count` is at most what there are.
+    /// The next `count` requests, starting again after the last one; `count` is at most their number.
     [[nodiscard]] std::span<const inference::SegmentRequest> next(std::size_t count);
 
 private:

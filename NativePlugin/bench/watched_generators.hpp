@@ -12,7 +12,7 @@
 
 namespace haptoflow::bench {
 
-/// Counts what the network behind it is asked for.
+/// Counts the runs and requests of another generator.
 class CountingGenerator final : public inference::SegmentGenerator {
 public:
     explicit CountingGenerator(std::unique_ptr<inference::SegmentGenerator> behind) : behind_(std::move(behind)) {}
@@ -26,18 +26,18 @@ public:
         behind_->levels(requests, levelsMps2);
     }
 
-    /// Any thread reads.
+    /// Any thread may read these.
     std::atomic<std::uint64_t> runs{0};
 
 private:
     std::unique_ptr<inference::SegmentGenerator> behind_;
 };
 
-/// Takes the time that the network behind it takes, then writes over each segment a constant that says for which label
-/// it was generated: so that a recording shows when the first sample of a new label sounds.
+/// Takes as long as another generator, then replaces each segment by a constant that identifies its label, so that a
+/// recording shows when the first sample of a new label plays.
 class MarkingGenerator final : public inference::SegmentGenerator {
 public:
-    /// `labels`: the model's labels that are told apart, by their place in this list.
+    /// `labels`: the model's labels that are distinguished, each by its place in this list.
     MarkingGenerator(std::unique_ptr<inference::SegmentGenerator> behind, const model::ModelFile& model,
                      std::span<const std::uint32_t> labels);
 
@@ -46,7 +46,7 @@ public:
         behind_->levels(requests, levelsMps2);
     }
 
-    /// m/s^2: one step higher for each place. Sixteen of them stay below the limiter's knee.
+    /// The constant in m/s^2, one step higher for each place. Sixteen of them stay below the limiter's knee.
     [[nodiscard]] static float markMps2(std::size_t place) noexcept { return 2.0F * static_cast<float>(place + 1); }
 
 private:

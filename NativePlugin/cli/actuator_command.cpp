@@ -1,5 +1,4 @@
 #include "actuator_identification.hpp"
-#include "actuator_profile_file.hpp"
 #include "commands.hpp"
 #include "decimal_number.hpp"
 #include "effects/actuator_profile.hpp"
@@ -87,14 +86,14 @@ ExponentialSweep readSweep(const std::string& path) {
     if (!sweep) {
         throw InputError(
             path +
-            ": does not say which sweep it holds; expected the file that `haptoflow actuator sweep` wrote, "
+            ": holds no description of its sweep; expected the file that `haptoflow actuator sweep` wrote, "
             "not converted by another program");
     }
     return *sweep;
 }
 
-/// Decibels that hold all finite values of the lines, and what a tick is worth.
-PlotPanel decibelPanel(std::vector<PlotLine> lines, double lowestShown) {
+/// A panel whose decibel axis covers all finite values of the lines, with its tick distance.
+PlotPanel decibelPanel(std::vector<PlotLine> lines, double minimumShown) {
     PlotPanel panel{.axis = "dB", .lowest = 0.0, .highest = 0.0, .tick = 10.0, .lines = std::move(lines)};
     for (const PlotLine& line : panel.lines) {
         for (const double value : line.values) {
@@ -104,7 +103,7 @@ PlotPanel decibelPanel(std::vector<PlotLine> lines, double lowestShown) {
             }
         }
     }
-    panel.lowest = std::max(std::floor(panel.lowest / 10.0) * 10.0, lowestShown);
+    panel.lowest = std::max(std::floor(panel.lowest / 10.0) * 10.0, minimumShown);
     panel.highest = std::ceil((panel.highest + 1.0) / 10.0) * 10.0;
     return panel;
 }
@@ -178,7 +177,7 @@ void runIdentify(const IdentifyOptions& options) {
     if (found.profile.measurement->distortionPercent > noticeablePercent) {
         std::cerr << "haptoflow: note: " << options.recordingPath << ": the actuator distorts by "
                   << fixedDecimals(found.profile.measurement->distortionPercent, 0)
-                  << " %; a quieter sweep (--level) measures what it does at the levels of textures.\n";
+                  << " %; a quieter sweep (--level) measures it at the levels of textures.\n";
     }
 }
 
@@ -256,7 +255,7 @@ void describeLabels(const ShowOptions& options, const ActuatorProfile& profile) 
     for (const TextureDistance& each : distances) {
         width = std::max(width, each.label.size());
     }
-    std::cout << "\nLog-spectral distance from the wanted texture to what this actuator plays, 20-1000 Hz, dB\n  "
+    std::cout << "\nLog-spectral distance between the texture and what this actuator plays, 20-1000 Hz, dB\n  "
               << std::left << std::setw(static_cast<int>(width)) << "label" << std::right
               << "  uncompensated  compensated\n";
     for (const TextureDistance& each : distances) {
@@ -293,25 +292,25 @@ void addSweep(CLI::App& actuator, CommandOutcome& outcome) {
     command->add_option("-o,--output", options->outputPath, "The WAV file, one channel of 32-bit float")
         ->required()
         ->type_name("SWEEP.wav");
-    command->add_option("--rate", options->rateHz, "Of the audio device, in Hz")
-        ->transform(wholeBetween(8000, 192000, "Hz"))
+    command->add_option("--rate", options->rateHz, "Sample rate of the audio device in Hz")
+        ->transform(outputRate())
         ->capture_default_str();
-    command->add_option("--seconds", options->sweep.seconds, "Longer is less sensitive to noise")
+    command->add_option("--seconds", options->sweep.seconds, "Duration; a longer sweep is less sensitive to noise")
         ->check(decimalBetween(1.0, 120.0, "s"))
         ->capture_default_str();
-    command->add_option("--from-hz", options->sweep.fromHz, "Where it begins")
+    command->add_option("--from-hz", options->sweep.fromHz, "Frequency at the start")
         ->check(decimalBetween(5.0, 10000.0, "Hz"))
         ->capture_default_str();
-    command->add_option("--to-hz", options->sweep.toHz, "Where it ends")
+    command->add_option("--to-hz", options->sweep.toHz, "Frequency at the end")
         ->check(decimalBetween(10.0, 20000.0, "Hz"))
         ->capture_default_str();
-    command->add_option("--level", options->sweep.level, "Amplitude as a share of full scale")
+    command->add_option("--level", options->sweep.level, "Amplitude, a share of full scale")
         ->check(decimalBetween(0.001, 1.0, ""))
         ->capture_default_str();
     command->footer(
-        "An exponential sine sweep, and a second of silence: record until that is over. Its figures stand in the file\n"
-        "as a comment, from which `identify` takes them.\n"
-        "At a resonance the actuator moves most: begin with a low --level, and raise it until the recording is well\n"
+        "An exponential sine sweep followed by a second of silence: record until the silence is over. The file holds\n"
+        "the sweep's parameters as a comment, which `identify` reads.\n"
+        "An actuator moves most at its resonance: begin with a low --level and raise it until the recording is well\n"
         "above the noise.\n"
         "Example:\n"
         "  haptoflow actuator sweep -o sweep.wav --level 0.1");
@@ -324,7 +323,7 @@ void addSweep(CLI::App& actuator, CommandOutcome& outcome) {
 void addIdentify(CLI::App& actuator, CommandOutcome& outcome) {
     CLI::App* command = actuator.add_subcommand("identify", "Make an actuator's profile from its recorded sweep");
     const auto options = std::make_shared<IdentifyOptions>();
-    command->add_option("recording", options->recordingPath, "What the sensor heard, at any rate from 8 to 192 kHz")
+    command->add_option("recording", options->recordingPath, "The sensor's recording, at any rate from 8 to 192 kHz")
         ->required()
         ->type_name("RECORDING.wav");
     command->add_option("--sweep", options->sweepPath, "The file that was played, as `sweep` wrote it")
@@ -333,22 +332,22 @@ void addIdentify(CLI::App& actuator, CommandOutcome& outcome) {
     command->add_option("-o,--output", options->outputPath, "The profile")->required()->type_name("PROFILE.json");
     command->add_option("--plot", options->plotPath, "Magnitude, distortion, noise and phase as a picture")
         ->type_name("PLOT.svg");
-    command->add_option("--name", options->name, "What the profile is called (default: the file's name)")
+    command->add_option("--name", options->name, "Name of the profile (default: the file's name)")
         ->check([](const std::string& name) {
             const bool isPlain = std::ranges::none_of(
                 name, [](char letter) { return static_cast<unsigned char>(letter) < 0x20 || letter == 0x7F; });
             return isPlain && !name.empty() && name.size() <= 128 ? std::string()
                                                                   : std::string("expected one line of 1 to 128 bytes");
         });
-    command->add_option("--channel", options->channel, "Of the recording, counted from 1; needed where it has several")
+    command->add_option("--channel", options->channel, "Channel of the recording, from 1; needed if it has several")
         ->transform(wholeBetween(1, 1024, ""));
     command
         ->add_option("--mps2-per-unit", options->mps2PerUnit,
-                     "m/s^2 of a sample of 1 in the recording, where the sensor is calibrated: gives the rated level")
+                     "m/s^2 of a sample of 1 in the recording, for a calibrated sensor: sets the rated level")
         ->check(decimalBetween(1e-6, 1e6, "m/s^2"));
     command->footer(
         "Fix an accelerometer where the fingers hold the pen, start recording, play the sweep through the actuator,\n"
-        "stop after the silence. A hand that holds the pen as in use belongs to the measurement.\n"
+        "stop after the silence. Hold the pen as in use: the hand is part of the measurement.\n"
         "The profile holds magnitude (the strongest frequency is 0 dB) and phase, smoothed over a twelfth of an "
         "octave,\n"
         "resonances, and the measurement's delay, distortion and signal to noise; frequencies at either end that do "
@@ -364,18 +363,19 @@ void addIdentify(CLI::App& actuator, CommandOutcome& outcome) {
 }
 
 void addShow(CLI::App& actuator, CommandOutcome& outcome) {
-    CLI::App* command = actuator.add_subcommand("show", "Print a profile, and what compensation for it does and costs");
+    CLI::App* command =
+        actuator.add_subcommand("show", "Print a profile, and the effect and cost of compensating for it");
     const auto options = std::make_shared<ShowOptions>();
     command->add_option("profile", options->profile, "A profile's file, or a built-in one: flat, voice-coil")
         ->required()
         ->type_name("PROFILE");
-    command->add_option("--boost", options->compensation.maximumBoostDecibels, "Bound of the compensation")
+    command->add_option("--boost", options->compensation.maximumBoostDecibels, "Maximum gain of the compensation")
         ->check(decimalBetween(0.0, 24.0, "dB"))
         ->capture_default_str();
     command->add_option("--plot", options->plotPath, "Actuator, compensation and both together as a picture")
         ->type_name("PLOT.svg");
     command->add_flag("--labels", options->labels,
-                      "Add, for each label of the model, how far the played texture is from the wanted one");
+                      "Add, for each label of the model, the distance between the played texture and the original");
     command->add_option("--model", options->modelPath, "Model file for --labels (default: the one shipped)")
         ->type_name("FILE");
     command->footer(
@@ -390,13 +390,13 @@ void addShow(CLI::App& actuator, CommandOutcome& outcome) {
 }  // namespace
 
 void addActuatorCommand(CLI::App& app, CommandOutcome& outcome) {
-    CLI::App* command = app.add_subcommand("actuator", "Measure an actuator, and show what compensates for it");
+    CLI::App* command = app.add_subcommand("actuator", "Measure an actuator, and show its compensation");
     command->require_subcommand(1);
     addSweep(*command, outcome);
     addIdentify(*command, outcome);
     addShow(*command, outcome);
     command->footer(
-        "In this order: write the sweep, play it through the actuator while an accelerometer records, identify, show.\n"
+        "The steps: write the sweep, play it through the actuator while an accelerometer records, identify, show.\n"
         "  haptoflow actuator sweep -o sweep.wav\n"
         "  haptoflow actuator identify recording.wav --sweep sweep.wav -o pen.json --plot pen.svg\n"
         "  haptoflow actuator show pen.json --labels");

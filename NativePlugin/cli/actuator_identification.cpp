@@ -23,17 +23,17 @@ using Complex = std::complex<double>;
 constexpr double twoPi = 2.0 * std::numbers::pi;
 constexpr double pointsPerOctave = 24.0;
 constexpr double smoothingOctaves = 1.0 / 12.0;
-// Of the sweep's range at either end, where the deconvolution is faded in: left out of the profile.
+// Excluded from the profile at either end of the sweep's range, where the deconvolution is faded in.
 constexpr double edgeOctaves = 1.0 / 6.0;
-// And this much at the lower end, about the resolution of the window over the response.
+// Excluded at the lower end in addition: about the resolution of the window over the response.
 constexpr double edgeHz = 4.0;
-// Longer than any actuator of this kind rings.
+// Longer than the response of any such actuator.
 constexpr double ringingSeconds = 0.4;
 constexpr double leadSeconds = 0.1;
-constexpr double shortestRingingSeconds = 0.05;
-constexpr int highestHarmonic = 5;
-constexpr double leastSignalToNoiseDecibels = 6.0;
-constexpr std::size_t fewestPoints = 24;
+constexpr double minimumRingingSeconds = 0.05;
+constexpr int maximumHarmonic = 5;
+constexpr double minimumSignalToNoiseDecibels = 6.0;
+constexpr std::size_t minimumPoints = 24;
 
 double rounded(double value, double perUnit) {
     return std::round(value * perUnit) / perUnit;
@@ -48,7 +48,7 @@ void requireSignal(const Recording& recording, const ExponentialSweep& sweep, co
     constexpr float full = 0.999F;
     const double seconds = static_cast<double>(recording.samples.size()) / recording.rateHz;
     if (seconds < sweep.seconds) {
-        throw InputError(name + ": lasts " + fixedDecimals(seconds, 1) + " s, and the sweep alone " +
+        throw InputError(name + ": lasts " + fixedDecimals(seconds, 1) + " s, but the sweep alone lasts " +
                          fixedDecimals(sweep.seconds, 1) +
                          " s; record from before the sweep until the silence after it");
     }
@@ -59,14 +59,14 @@ void requireSignal(const Recording& recording, const ExponentialSweep& sweep, co
                          " dB of full scale); check the sensor, its channel (--channel) and the recording level");
     }
     const auto atFull = std::ranges::count_if(recording.samples, [](float each) { return std::abs(each) >= full; });
-    constexpr int mostAtFull = 8;
-    if (peak <= 1.0F && atFull > mostAtFull) {
+    constexpr int maximumAtFull = 8;
+    if (peak <= 1.0F && atFull > maximumAtFull) {
         throw InputError(name + ": is clipped, " + std::to_string(atFull) +
                          " samples are at full scale; lower the recording level, or the sweep's --level");
     }
 }
 
-/// What turns the sweep into the recording, over time: the response and, before it, the harmonics.
+/// The deconvolution of the recording by the sweep: the impulse response and, before it, those of the harmonics.
 class ImpulseResponse {
 public:
     ImpulseResponse(const Recording& recording, const ExponentialSweep& sweep) : rateHz_(recording.rateHz) {
@@ -84,7 +84,7 @@ public:
     }
 
     [[nodiscard]] double rateHz() const { return rateHz_; }
-    /// At a lag in samples, which may be negative. The magnitude of it is the envelope.
+    /// The value at a lag in samples, which may be negative. Its magnitude is the envelope.
     [[nodiscard]] Complex at(std::int64_t lag) const {
         const auto length = static_cast<std::int64_t>(values_.size());
         return values_[static_cast<std::size_t>(((lag % length) + length) % length)];
@@ -100,8 +100,9 @@ public:
     }
 
 private:
-    // Sweep and recording were transformed as the real and imaginary part of one signal. Only the positive frequencies
-    // are kept, so that the result is complex, its real part the response and its magnitude the envelope.
+    // Sweep and recording were transformed together, as the real and imaginary part of one signal. Only positive
+    // frequencies are kept, so that the result is complex: its real part is the response and its magnitude the
+    // envelope.
     void deconvolve(const ExponentialSweep& sweep) {
         const std::size_t length = values_.size();
         for (std::size_t bin = 1; bin < length / 2; ++bin) {
@@ -130,7 +131,7 @@ public:
         : rateHz_(response.rateHz()), centre_(std::llround(lag)) {
         const auto before = static_cast<std::int64_t>(beforeSeconds * rateHz_);
         const auto after = static_cast<std::int64_t>(afterSeconds * rateHz_);
-        // Half a hertz or finer, so that a twelfth of an octave holds several bins.
+        // A resolution of half a hertz or finer, so that a twelfth of an octave contains several bins.
         bins_.resize(std::max(std::bit_ceil(static_cast<std::size_t>(2.0 * rateHz_)),
                               std::bit_ceil(static_cast<std::size_t>(before + after))));
         for (std::int64_t i = -before; i < after; ++i) {
@@ -146,7 +147,7 @@ public:
         dsp::fourierTransform(bins_, dsp::Direction::forward);
     }
 
-    /// In samples.
+    /// The lag in samples.
     [[nodiscard]] double centre() const { return static_cast<double>(centre_); }
     [[nodiscard]] double windowPower() const { return windowPower_; }
 
@@ -183,7 +184,7 @@ private:
     std::vector<Complex> bins_;
 };
 
-/// Where the response begins, and how much of it the recording holds.
+/// The time at which the response begins, and how much of it the recording contains.
 struct Arrival {
     /// In samples of the recording.
     double lag = 0.0;
@@ -194,7 +195,7 @@ struct Arrival {
 [[noreturn]] void refuseOtherSignal(const std::string& name) {
     throw InputError(
         name +
-        ": does not hold the sweep; expected a recording of the file that --sweep names, played once at the "
+        ": does not contain the sweep; expected a recording of the file that --sweep names, played once at the "
         "rate that it states, louder than the noise");
 }
 
@@ -210,8 +211,8 @@ Arrival findArrival(const ImpulseResponse& response, const Recording& recording,
     }
     const auto middle = powers.begin() + std::ssize(powers) / 2;
     std::ranges::nth_element(powers, middle);
-    constexpr double leastPeakToMedian = 100.0;
-    if (!(std::norm(response.at(peak)) > leastPeakToMedian * *middle)) {
+    constexpr double minimumPeakToMedian = 100.0;
+    if (!(std::norm(response.at(peak)) > minimumPeakToMedian * *middle)) {
         refuseOtherSignal(name);
     }
     const double octave = std::numbers::ln2 * sweep.secondsPerNeper();
@@ -223,7 +224,7 @@ Arrival findArrival(const ImpulseResponse& response, const Recording& recording,
     const Arrival arrival{.lag = static_cast<double>(peak),
                           .leadSeconds = std::min(leadSeconds, 0.4 * octave),
                           .ringingSeconds = std::min(ringingSeconds, 0.5 * (tail - leadSeconds))};
-    if (arrival.ringingSeconds < shortestRingingSeconds) {
+    if (arrival.ringingSeconds < minimumRingingSeconds) {
         throw InputError(name + ": is too short, it ends " + fixedDecimals(std::abs(tail), 2) + " s " +
                          (tail < 0.0 ? "before" : "after") + " the sweep does; record until " +
                          fixedDecimals(ExponentialSweep::silenceSeconds, 0) + " s of silence have followed");
@@ -231,24 +232,24 @@ Arrival findArrival(const ImpulseResponse& response, const Recording& recording,
     const auto lead = static_cast<std::int64_t>(arrival.leadSeconds * recording.rateHz);
     const auto length = lead + static_cast<std::int64_t>(arrival.ringingSeconds * recording.rateHz);
     const double inside = response.energy(peak - lead, peak - lead + length);
-    // The recording of another sweep is smeared over seconds; distortion comes before the response, and is less.
-    constexpr double leastOverBefore = 3.0;
-    constexpr double leastOverAfter = 10.0;
-    if (inside < leastOverBefore * response.energy(peak - lead - length, peak - lead) ||
-        inside < leastOverAfter * response.energy(peak - lead + length, peak - lead + 2 * length)) {
+    // With another sweep the response is spread over seconds. Distortion comes before the response and is smaller.
+    constexpr double minimumOverBefore = 3.0;
+    constexpr double minimumOverAfter = 10.0;
+    if (inside < minimumOverBefore * response.energy(peak - lead - length, peak - lead) ||
+        inside < minimumOverAfter * response.energy(peak - lead + length, peak - lead + 2 * length)) {
         refuseOtherSignal(name);
     }
     return arrival;
 }
 
-/// What was measured at one frequency, as powers of recorded over played.
+/// The measurement at one frequency, as ratios of recorded to played power.
 struct Reading {
     double hz = 0.0;
     double power = 0.0;
     double noise = 0.0;
-    /// NaN where no harmonic lies within the sweep's range.
+    /// NaN if no harmonic lies within the sweep's range.
     double distortion = std::numeric_limits<double>::quiet_NaN();
-    /// With the arrival's lag as time 0.
+    /// Phase with the arrival's lag as time 0.
     double phaseRadians = 0.0;
 
     [[nodiscard]] double signalToNoise() const { return powerDecibels(power) - powerDecibels(noise); }
@@ -272,7 +273,7 @@ std::vector<Reading> readSpectra(const ImpulseResponse& response, const Arrival&
                             .noise = noisePower,
                             .phaseRadians = std::arg(linear.meanAt(hz))});
     }
-    for (int harmonic = 2; harmonic <= highestHarmonic; ++harmonic) {
+    for (int harmonic = 2; harmonic <= maximumHarmonic; ++harmonic) {
         const double neper = sweep.secondsPerNeper();
         const double lag = arrival.lag - neper * std::log(harmonic) * rateHz;
         const double toNext = neper * std::log((harmonic + 1.0) / harmonic);
@@ -291,23 +292,22 @@ std::vector<Reading> readSpectra(const ImpulseResponse& response, const Arrival&
     return readings;
 }
 
-/// Leaves out the ends where the actuator does not stand out of the noise.
+/// Removes the ends of the range where the response does not exceed the noise.
 void trim(std::vector<Reading>& readings, const std::string& name) {
-    const auto stands = [](const Reading& reading) { return reading.signalToNoise() >= leastSignalToNoiseDecibels; };
+    const auto stands = [](const Reading& reading) { return reading.signalToNoise() >= minimumSignalToNoiseDecibels; };
     readings.erase(readings.begin(), std::ranges::find_if(readings, stands));
     while (!readings.empty() && !stands(readings.back())) {
         readings.pop_back();
     }
     const auto standing = static_cast<std::size_t>(std::ranges::count_if(readings, stands));
-    if (standing < fewestPoints || 2 * standing < readings.size()) {
+    if (standing < minimumPoints || 2 * standing < readings.size()) {
         throw InputError(name + ": is too noisy, only " + std::to_string(standing) + " of " +
                          std::to_string(readings.size()) +
                          " frequencies stand out of the noise; raise the sweep's --level or --seconds");
     }
 }
 
-/// The phase that a minimum-phase system of the measured magnitude would have. Beyond the ends the magnitude goes on as
-/// it ends.
+/// The phase of a minimum-phase system with the measured magnitude, which is extrapolated beyond both ends.
 std::vector<double> minimumPhaseOf(const std::vector<Reading>& readings) {
     constexpr int beyond = static_cast<int>(4.0 * pointsPerOctave);
     constexpr std::size_t end = 8;
@@ -326,8 +326,8 @@ std::vector<double> minimumPhaseOf(const std::vector<Reading>& readings) {
     return {phase.begin() + beyond, phase.end() - beyond};
 }
 
-/// The delay behind the arrival's lag that makes the response as nearly minimum-phase as a delay can. Throws InputError
-/// where it stays far from that: then what was recorded is not the sweep at the rate that the file states.
+/// The delay in addition to the arrival's lag that brings the response closest to minimum phase. Throws InputError if
+/// it is still far from that: the recording then is not the sweep at the rate that the file states.
 double excessDelaySeconds(const std::vector<Reading>& readings, const std::string& name) {
     const std::vector<double> minimum = minimumPhaseOf(readings);
     std::vector<double> excess;
@@ -352,7 +352,7 @@ double excessDelaySeconds(const std::vector<Reading>& readings, const std::strin
         covariance += readings[i].power * (readings[i].hz - meanHz) * (excess[i] - meanExcess);
         variance += readings[i].power * (readings[i].hz - meanHz) * (readings[i].hz - meanHz);
     }
-    // At 0 Hz the phase is 0, or half a turn where a wire is swapped.
+    // At 0 Hz the phase is 0, or half a turn if the wires are swapped.
     const double atZero = meanExcess - covariance / variance * meanHz;
     const double offset = std::numbers::pi * std::round(atZero / std::numbers::pi);
     double slope = 0.0;
@@ -366,14 +366,14 @@ double excessDelaySeconds(const std::vector<Reading>& readings, const std::strin
     for (std::size_t i = 0; i < readings.size(); ++i) {
         rest += readings[i].power * std::pow(excess[i] - offset - slope * readings[i].hz, 2.0);
     }
-    constexpr double largestRestRadians = 4.0;
-    if (std::sqrt(rest / weights) > largestRestRadians) {
+    constexpr double maximumRestRadians = 4.0;
+    if (std::sqrt(rest / weights) > maximumRestRadians) {
         refuseOtherSignal(name);
     }
     return -slope / twoPi;
 }
 
-/// The peaks that stand 3 dB above what lies between them and a higher one, or the end of the range.
+/// The peaks that are 3 dB above the lowest value between them and a higher peak or the end of the range.
 std::vector<double> findResonances(const std::vector<double>& hz, const std::vector<double>& decibels) {
     constexpr double prominence = 3.0;
     std::vector<double> found;

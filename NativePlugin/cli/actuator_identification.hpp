@@ -12,25 +12,25 @@ namespace haptoflow::cli {
 
 struct IdentificationSettings {
     std::string name;
-    /// Of the recording, as errors and the provenance call it.
+    /// Name of the recording in errors and in the profile's provenance.
     std::string recordingName;
-    /// m/s^2 of a sample of 1 in the recording; none where the sensor is not calibrated.
+    /// m/s^2 of a sample of 1 in the recording; empty if the sensor is not calibrated.
     std::optional<double> mps2PerUnit;
 };
 
-/// What a recorded sweep says about the actuator that played it.
+/// The actuator's properties that follow from a recorded sweep.
 struct Identification {
     effects::ActuatorProfile profile;
-    /// At the profile's frequencies, dB as the profile's magnitude: what noise the measurement would have shown.
+    /// The measurement's noise at the profile's frequencies, in dB on the scale of the profile's magnitude.
     std::vector<double> noiseDecibels;
-    /// The same of the second to fifth harmonic of a tone of that frequency, together; NaN where they lie above the
+    /// The second to fifth harmonic of a tone of that frequency together, on the same scale; NaN if they lie above the
     /// sweep's range.
     std::vector<double> distortionDecibels;
 };
 
-/// Finds the delay, deconvolves, separates the harmonics, smooths over a twelfth of an octave. The recording may have
-/// another rate than the file that was played. Throws InputError naming the recording: too short, clipped, silent,
-/// without the sweep, too noisy.
+/// Finds the delay, deconvolves, separates the harmonics and smooths over a twelfth of an octave. The recording's rate
+/// may differ from that of the played file. Throws InputError that names the recording: too short, clipped, silent,
+/// without the sweep, or too noisy.
 [[nodiscard]] Identification identifyActuator(const Recording& recording, const ExponentialSweep& sweep,
                                               const IdentificationSettings& settings);
 

@@ -1,6 +1,5 @@
 #include "bench/bench.hpp"
 
-#include "bench/bench_table.hpp"
 #include "commands.hpp"
 #include "exit_codes.hpp"
 #include "inference/onnx_runtime.hpp"
@@ -65,7 +64,7 @@ void runBench(const BenchCommandOptions& options) {
     requireApart(
         std::array{NamedPath{"-o", options.outputPath}},
         std::array{NamedPath{"--model", options.modelPath}, NamedPath{"--paper-model", options.paperModelPath}});
-    // Before minutes of measuring, not after: the file must be one that can be written.
+    // Checked before minutes of measuring: the file must be writable.
     std::optional<OutputFile> output;
     if (!options.outputPath.empty()) {
         output.emplace(options.outputPath);
@@ -89,28 +88,29 @@ void addBenchCommand(CLI::App& app, CommandOutcome& outcome) {
     command->add_option("--model", options->modelPath, "Model file (default: the one shipped)")->type_name("FILE");
     command
         ->add_option("--paper-model", options->paperModelPath,
-                     "Model file of the paper's architecture, to compare with (`npm run bench` makes one)")
+                     "Model file of the paper's architecture, for comparison (`npm run bench` builds one)")
         ->type_name("FILE");
     command->add_flag("--quick", options->quick, "Fewer events and devices: half a minute for a first look");
     command
-        ->add_option("--only", options->only,
-                     "Some measurements: callback, events, effects, outputs, latency, inference, voices, idle, contact")
+        ->add_option(
+            "--only", options->only,
+            "Only these measurements: callback, events, effects, outputs, latency, inference, voices, idle, contact")
         ->delimiter(',')
         ->check(
             CLI::IsMember(std::vector<std::string>(bench::measurementNames.begin(), bench::measurementNames.end())));
     command
         ->add_option("--events", options->events,
-                     "Events behind each latency; all other counts follow (default: 120, quick 24). Below 100 the p99 "
-                     "is the worst")
+                     "Events of each latency measurement; all other counts scale with it (default: 120, quick 24). "
+                     "Below 100 the p99 is the worst")
         ->transform(wholeBetween(1, 10000, ""));
-    command->add_flag("--json", options->json, "Print the report as JSON in place of tables");
-    command->add_option("-o,--output", options->outputPath, "Write the report as JSON too")->type_name("BENCH.json");
+    command->add_flag("--json", options->json, "Print the report as JSON instead of tables");
+    command->add_option("-o,--output", options->outputPath, "Also write the report as JSON")->type_name("BENCH.json");
     command->add_flag("--quiet", options->quiet, "No progress bar");
     command->footer(
         "Examples:\n"
         "  haptoflow bench --quick\n"
         "  haptoflow bench --only inference --paper-model paper.haptoflow --json\n"
-        "Leave the machine alone while it runs: what else wants a core is in every figure.");
+        "Keep the machine idle while it runs: other programs slow down every measurement.");
     command->callback([options, &outcome] {
         runBench(*options);
         outcome.exitCode = exitDone;

@@ -31,10 +31,10 @@ struct ContactOptions {
     std::string modelPath;
     std::vector<std::string> materials;
     std::optional<double> defaultStiffnessNewtonsPerMetre;
-    contact::ContactSettings settings;
+    headless::ContactSettings settings;
 };
 
-/// Twelve significant digits, with a point whatever the locale; never "-0".
+/// Writes twelve significant digits with a decimal point, in every locale; never "-0".
 void writeNumber(std::ostream& output, double value) {
     std::array<char, 32> digits{};
     const auto [end, error] = std::to_chars(digits.data(), digits.data() + digits.size(), value + 0.0,
@@ -54,18 +54,19 @@ void writeName(std::ostream& output, const std::string& name) {
     output << '"';
 }
 
-bool asksForStiffness(const contact::Scene& scene) {
-    return std::ranges::any_of(
-        scene.surfaces, [](const contact::Surface& surface) { return !surface.stiffnessNewtonsPerMetre.has_value(); });
+bool asksForStiffness(const headless::Scene& scene) {
+    return std::ranges::any_of(scene.surfaces, [](const headless::SceneSurface& surface) {
+        return !surface.stiffnessNewtonsPerMetre.has_value();
+    });
 }
 
 void runContact(const ContactOptions& options) {
     requireApart(std::array{NamedPath{"-o", options.outputPath}},
                  std::array{NamedPath{"the scene", options.scenePath}, NamedPath{"the stroke", options.strokePath},
                             NamedPath{"the model", options.modelPath}});
-    const contact::Scene scene = readSceneFile(options.scenePath);
+    const headless::Scene scene = readSceneFile(options.scenePath);
     const Stroke stroke = readStrokeFile(options.strokePath);
-    contact::ContactSettings settings = options.settings;
+    headless::ContactSettings settings = options.settings;
     std::optional<model::ModelFile> model;
     std::optional<SceneMaterials> materials;
     if (options.defaultStiffnessNewtonsPerMetre) {
@@ -94,13 +95,13 @@ void runContact(const ContactOptions& options) {
 
 }  // namespace
 
-void writeContactStates(std::ostream& output, const contact::Scene& scene, const Stroke& stroke,
-                        const std::string& strokeName, const contact::ContactSettings& settings) {
+void writeContactStates(std::ostream& output, const headless::Scene& scene, const Stroke& stroke,
+                        const std::string& strokeName, const headless::ContactSettings& settings) {
     StrokePlayer player(scene, stroke, strokeName, settings);
     output << "t,surface,touching,touch_counter,px,py,pz,nx,ny,nz,penetration_m,vx_mps,vy_mps,approach_mps,force_n,"
               "landing_counter,edge_counter,edge_height_m\n";
-    while (const std::optional<contact::ContactReading> played = player.next()) {
-        const contact::ContactReading& reading = *played;
+    while (const std::optional<headless::ContactReading> played = player.next()) {
+        const headless::ContactReading& reading = *played;
         writeNumber(output, reading.timeSeconds);
         output << ',';
         if (reading.touching) {
@@ -126,42 +127,42 @@ void addContactCommand(CLI::App& app, CommandOutcome& outcome) {
     command->add_option("scene", options->scenePath, "SCENE.json: surfaces, their materials and motions")
         ->required()
         ->type_name("SCENE.json");
-    command->add_option("--stroke", options->strokePath, "Where the tip goes: t,x,y,z[,force][,qx,qy,qz,qw]")
+    command->add_option("--stroke", options->strokePath, "The tip's path: t,x,y,z[,force][,qx,qy,qz,qw]")
         ->required()
         ->type_name("STROKE.csv");
     command->add_option("-o,--output", options->outputPath, "Write to this file instead of standard output")
         ->type_name("FILE");
     CLI::Option* model = command
                              ->add_option("--model", options->modelPath,
-                                          "Model file whose labels give the stiffness that a surface leaves out "
+                                          "Model file whose labels give the stiffness of surfaces without their own "
                                           "(default: the one shipped)")
                              ->type_name("FILE");
     CLI::Option* material = command
                                 ->add_option("--material", options->materials,
-                                             "A .haptomaterial file whose name the scene then uses like a label; may "
+                                             "A .haptomaterial file whose name the scene can use like a label; may "
                                              "be given several times")
                                 ->allow_extra_args(false)
                                 ->type_name("FILE");
     command
         ->add_option("--default-stiffness", options->defaultStiffnessNewtonsPerMetre,
-                     "N/m of surfaces that give no stiffness of their own, in place of their labels'; no model is read")
+                     "N/m of surfaces without a stiffness of their own, instead of their labels'; no model is read")
         ->check(decimalBetween(1e-3, 1e7, "N/m"))
         ->excludes(model)
         ->excludes(material);
     command
         ->add_option("--maximum-force", options->settings.maximumForceNewtons,
-                     "Newtons at which spring and measured force saturate")
+                     "Limit in newtons of spring force and measured force")
         ->check(decimalBetween(1e-3, 1e3, "N"))
         ->capture_default_str();
     command->footer(
-        "One line per frame of the scene's update_rate (90 Hz where it gives none): time, the surface touched\n"
-        "(empty without touch), touch-downs so far, the contact point and the normal out of the surface, how deep\n"
-        "the tip sits in it, the tip's speed along the surface's two tangent axes, the speed of this touch's newest\n"
-        "landing, the force (the stroke's own where it has one, else depth times the stiffness of the surface or of "
-        "its\n"
-        "labels), landings on another surface or face within touches so far, and edges crossed so far with the height "
+        "One line per frame of the scene's update_rate (90 Hz by default): time, the touched surface (empty without\n"
+        "touch), the number of touch-downs so far, the contact point, the outward normal of the surface, the\n"
+        "penetration depth, the tip's velocity along the surface's two tangent axes, the speed of this touch's newest\n"
+        "landing, the force (the stroke's own if it has one, otherwise the depth times the stiffness of the surface or "
         "of\n"
-        "the newest.\n"
+        "its labels), the number of landings on another surface or face within touches so far, and the number of "
+        "edges\n"
+        "crossed so far with the height of the newest.\n"
         "Metres, seconds, newtons; Unity's left-handed frame with y up.\n"
         "Example:\n"
         "  haptoflow contact scene.json --stroke stroke.csv -o states.csv\n"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "contact/contact_tracker.hpp"
+#include "headless/contact_tracker.hpp"
 #include "stroke_file.hpp"
 
 #include <iosfwd>
@@ -8,9 +8,9 @@
 
 namespace haptoflow::cli {
 
-/// Plays the stroke over the scene at the scene's update rate and writes one CSV line per frame. Throws InputError
-/// when the stroke, called `strokeName`, is too long.
-void writeContactStates(std::ostream& output, const contact::Scene& scene, const Stroke& stroke,
-                        const std::string& strokeName, const contact::ContactSettings& settings);
+/// Plays the stroke in the scene at the scene's update rate and writes one CSV line per frame. Throws InputError if the
+/// stroke, named `strokeName`, is too long.
+void writeContactStates(std::ostream& output, const headless::Scene& scene, const Stroke& stroke,
+                        const std::string& strokeName, const headless::ContactSettings& settings);
 
 }  // namespace haptoflow::cli

@@ -25,7 +25,7 @@ std::optional<double> unsignedOrNegative(std::string_view text) {
 
 #else
 
-// Clang's library before version 20 reads whole numbers only by from_chars.
+// Before version 20, libc++'s from_chars reads whole numbers only.
 std::optional<double> unsignedOrNegative(std::string_view text) {
     if (text.empty() || text.find_first_not_of("0123456789.eE+-") != std::string_view::npos || text.front() == '+') {
         return std::nullopt;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "input_file.hpp"
+
 #include <stdexcept>
 #include <string>
 
@@ -10,13 +12,7 @@ inline constexpr int exitUsage = 2;
 inline constexpr int exitBadInput = 3;
 inline constexpr int exitInternal = 4;
 
-/// A file that the user gave is wrong. The message names the file, the line or key, and what was expected.
-class InputError : public std::runtime_error {
-public:
-    using std::runtime_error::runtime_error;
-};
-
-/// The words of the command line contradict each other in a way CLI11 cannot see.
+/// The options contradict each other in a way that CLI11 cannot check.
 class UsageError : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;

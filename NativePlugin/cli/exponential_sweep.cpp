@@ -46,7 +46,7 @@ std::vector<float> ExponentialSweep::samples(double rateHz) const {
         const double turns = fromHz * neper * std::expm1(time / neper);
         const double share = std::clamp(std::min(time, seconds - time) / fade, 0.0, 1.0);
         const double gain = 0.5 - 0.5 * std::cos(std::numbers::pi * share);
-        // Whole turns are taken off first: the sine of a large number is slow and no better.
+        // Only the fraction of the turns: the sine of a large number is slower and no more accurate.
         result[i] = static_cast<float>(level * gain * std::sin(2.0 * std::numbers::pi * (turns - std::floor(turns))));
     }
     return result;

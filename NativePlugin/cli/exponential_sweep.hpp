@@ -7,12 +7,12 @@
 
 namespace haptoflow::cli {
 
-/// A sine whose frequency rises exponentially: each octave lasts as long as any other, and after deconvolution what an
-/// actuator distorts comes apart from what it plays (A. Farina, "Simultaneous measurement of impulse response and
-/// distortion with a swept-sine technique", AES 108, 2000).
+/// A sine whose frequency rises exponentially: all octaves take the same time, and deconvolution separates an
+/// actuator's distortion from its response (A. Farina, "Simultaneous measurement of impulse response and distortion
+/// with a swept-sine technique", AES 108, 2000).
 struct ExponentialSweep {
     static constexpr double silenceSeconds = 1.0;
-    /// Of the sweep's range, at either end, that the fades take: what is measured lies between.
+    /// Length of the fade at either end of the sweep's range; the measured range lies between.
     static constexpr double fadeOctaves = 0.1;
 
     double seconds = 10.0;
@@ -21,13 +21,13 @@ struct ExponentialSweep {
     /// Amplitude, a share of full scale.
     double level = 0.25;
 
-    /// By how much later a frequency e times higher comes.
+    /// Time in which the frequency rises by a factor of e.
     [[nodiscard]] double secondsPerNeper() const;
     /// The sweep alone, without the silence after it.
     [[nodiscard]] std::vector<float> samples(double rateHz) const;
-    /// A line of text that `parse` reads.
+    /// A line of text with the sweep's parameters, which `parse` reads.
     [[nodiscard]] std::string describe() const;
-    /// None where the text is not a sweep's, or its figures make no sweep.
+    /// Empty if the text does not describe a sweep, or its parameters are not valid.
     [[nodiscard]] static std::optional<ExponentialSweep> parse(std::string_view text);
 };
 

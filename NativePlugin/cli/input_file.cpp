@@ -1,7 +1,5 @@
 #include "input_file.hpp"
 
-#include "exit_codes.hpp"
-
 #include <array>
 #include <filesystem>
 #include <fstream>
@@ -18,13 +16,13 @@ std::string readInputFile(const std::string& path, const std::string& expected) 
     if (!file) {
         throw InputError(path + ": cannot be opened; expected " + expected);
     }
-    constexpr std::size_t largestBytes = std::size_t{1} << 30U;
+    constexpr std::size_t maximumBytes = std::size_t{1} << 30U;
     std::string text;
     std::array<char, 1U << 16U> part{};
-    while (text.size() <= largestBytes && (file.read(part.data(), part.size()) || file.gcount() > 0)) {
+    while (text.size() <= maximumBytes && (file.read(part.data(), part.size()) || file.gcount() > 0)) {
         text.append(part.data(), static_cast<std::size_t>(file.gcount()));
     }
-    if (text.size() > largestBytes) {
+    if (text.size() > maximumBytes) {
         throw InputError(path + ": is larger than 1 GiB; expected " + expected);
     }
     if (file.bad()) {

@@ -94,7 +94,7 @@ void printGeneral(std::ostream& stream, const std::string& path, const model::Mo
                         {"trained force", interval(header.forceNewtons) + " N"},
                         {"peak", inWords(header.peakMps2) + " m/s^2"},
                         {"seeds", std::to_string(header.seeds.size())},
-                        {"space", model::spaceOf(header) + ": material files of this space sound under the model"}});
+                        {"space", model::spaceOf(header) + ": material files of this space work with the model"}});
 }
 
 void printLabels(std::ostream& stream, const model::ModelHeader& header) {
@@ -140,7 +140,7 @@ std::string between(const std::array<double, 2>& range) {
     return inWords(range[0]) + " to " + inWords(range[1]);
 }
 
-/// What is said of a material's wave vectors: ribs or threads a millimetre, by direction.
+/// A material's wave vectors as text, in cycles per millimetre.
 std::string ribsOf(const model::MaterialFile& material) {
     std::string text;
     const auto vectors = std::span(material.embedding).last(4);
@@ -174,7 +174,7 @@ void printMaterial(std::ostream& stream, const std::string& path, const model::M
     stream << label.name << '\n' << orDash(material.description) << "\n\n";
     printTable(stream,
                {{"file", path},
-                {"space", material.space + ": sounds under the models of this space"},
+                {"space", material.space + ": works with the models of this space"},
                 {"category", label.category},
                 {"provenance", orDash(provenance.statement)},
                 {"recordings", orDash(provenance.recordings)},
@@ -213,7 +213,7 @@ void runInspect(const InspectOptions& options) {
         inspectMaterial(options);
         return;
     }
-    // Reading verifies every checksum; a file that gets past it has none left to doubt.
+    // Reading verifies every checksum.
     const model::ModelFile file = readModel(options.modelPath);
     if (options.json) {
         printJson(std::cout, options.modelPath, file);
@@ -227,8 +227,7 @@ void runInspect(const InspectOptions& options) {
 }  // namespace
 
 void addInspectCommand(CLI::App& app, CommandOutcome& outcome) {
-    CLI::App* command =
-        app.add_subcommand("inspect", "Verify a model or material file and show what it says about itself");
+    CLI::App* command = app.add_subcommand("inspect", "Verify a model or material file and show its content");
     const auto options = std::make_shared<InspectOptions>();
     command->add_option("model", options->modelPath, "The .haptoflow or .haptomaterial file")
         ->required()

@@ -28,7 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t batchOfFit = 64;
-constexpr std::size_t longestName = 128;
+constexpr std::size_t maximumName = 128;
 
 struct LearnOptions {
     std::string recordingPath;
@@ -39,12 +39,12 @@ struct LearnOptions {
     std::string category;
     std::string licence;
     RecordingWords words;
-    double secondsLimit = learning::usualSecondsLimit;
+    double secondsLimit = learning::defaultSecondsLimit;
     std::uint64_t seed = 1;
     bool quiet = false;
 };
 
-/// What a file's name or a sidecar's label is as a material's name: lower case, without signs at its ends.
+/// A material's name from a file's name or a sidecar's label: lower case, without punctuation at its ends.
 std::string plainName(const std::string& text) {
     std::string name;
     for (const char letter : text) {
@@ -57,15 +57,15 @@ std::string plainName(const std::string& text) {
         return "material";
     }
     name = name.substr(first, name.find_last_not_of(' ') - first + 1);
-    return name.substr(0, longestName);
+    return name.substr(0, maximumName);
 }
 
 void requireName(const std::string& name) {
-    const bool isPlain = !name.empty() && name.size() <= longestName && std::ranges::none_of(name, [](char letter) {
+    const bool isPlain = !name.empty() && name.size() <= maximumName && std::ranges::none_of(name, [](char letter) {
         return std::iscntrl(static_cast<unsigned char>(letter)) != 0 || (letter >= 'A' && letter <= 'Z');
     });
     if (!isPlain) {
-        throw UsageError("--name '" + name + "': expected 1 to " + std::to_string(longestName) +
+        throw UsageError("--name '" + name + "': expected 1 to " + std::to_string(maximumName) +
                          " characters without capital letters, as labels have");
     }
 }
@@ -163,7 +163,7 @@ void runLearn(const LearnOptions& options) {
 
 void addLearnCommand(CLI::App& app, CommandOutcome& outcome) {
     CLI::App* command =
-        app.add_subcommand("learn", "Make a material of a recording: ten seconds of one surface, at many speeds");
+        app.add_subcommand("learn", "Learn a material from a recording: ten seconds of one surface, at many speeds");
     const auto options = std::make_shared<LearnOptions>();
     command->add_option("recording", options->recordingPath, "Vibration of one or three axes, with motion and force")
         ->required()
@@ -176,23 +176,24 @@ void addLearnCommand(CLI::App& app, CommandOutcome& outcome) {
     command->add_option("--name", options->name,
                         "The material's name (default: the sidecar's label, or the recording's file name)");
     command->add_option("--category", options->category, "For example wood (default: the nearest label's)");
-    command->add_option("--speed-mps", options->words.speedMps, "Speed of a recording that holds no motion, m/s")
+    command->add_option("--speed-mps", options->words.speedMps, "Speed in m/s, for a recording without motion")
         ->check(decimalBetween(0.001, 10.0, "m/s"));
-    command->add_option("--force-newtons", options->words.forceNewtons, "Force of a recording that holds none, N")
+    command->add_option("--force-newtons", options->words.forceNewtons, "Force in N, for a recording without force")
         ->check(decimalBetween(0.02, 100.0, "N"));
     command
         ->add_option("--full-scale-mps2", options->words.fullScaleMps2, "Acceleration in m/s^2 that is +-1 in the WAV")
         ->check(decimalBetween(0.01, 100'000.0, "m/s^2"));
     command->add_option("--licence", options->licence, "Licence of the recording (default: the sidecar's, or unknown)");
     command
-        ->add_option("--seconds-limit", options->secondsLimit,
-                     "Stop fitting after so many seconds; a fit that ends by itself is the same on every run")
+        ->add_option(
+            "--seconds-limit", options->secondsLimit,
+            "Stop fitting after this many seconds; a fit that is not stopped gives the same result on every run")
         ->check(decimalBetween(1.0, 3600.0, "s"))
         ->capture_default_str();
-    command->add_option("--seed", options->seed, "Key of the fit's chance: the same gives the same bytes")
+    command->add_option("--seed", options->seed, "Seed of the fit: equal seeds give equal bytes")
         ->transform(wholeBetween(0, std::numeric_limits<std::uint64_t>::max(), ""))
         ->capture_default_str();
-    command->add_option("--report", options->reportPath, "Write figures of the fit as JSON")->type_name("R.json");
+    command->add_option("--report", options->reportPath, "Write the results of the fit as JSON")->type_name("R.json");
     command->add_flag("--quiet", options->quiet, "No progress bar");
     command->footer(
         "Examples:\n"
@@ -200,11 +201,13 @@ void addLearnCommand(CLI::App& app, CommandOutcome& outcome) {
         "  haptoflow learn doormat.wav --full-scale-mps2 100 --speed-mps 0.08 --force-newtons 1\n"
         "  haptoflow learn tile.csv --name \"kitchen tile\" --category ceramic --report tile.json\n"
         "Columns of a CSV: time_s; acceleration_mps2 or acceleration_x_mps2, ..y.., ..z.. (or .._g); speed_mps,\n"
-        "velocity_x_mps with velocity_y_mps, or position_x_mm with position_y_mm; force_newtons. What is constant may\n"
-        "stand in NAME.json beside NAME.csv or NAME.wav: {\"full_scale_mps2\": 100, \"speed_mps\": 0.08,\n"
+        "velocity_x_mps with velocity_y_mps, or position_x_mm with position_y_mm; force_newtons. Constant values may "
+        "be\n"
+        "in NAME.json beside NAME.csv or NAME.wav: {\"full_scale_mps2\": 100, \"speed_mps\": 0.08,\n"
         "\"force_newtons\": 1.0, \"label\": \"doormat\", \"licence\": \"CC BY 4.0\"}.\n"
-        "Record strokes from slow to fast, in the directions that matter: what the recording does not show is taken\n"
-        "from the nearest label of the model.");
+        "Record strokes at slow and fast speeds, in all directions of interest: properties that the recording does "
+        "not\n"
+        "show are taken from the nearest label of the model.");
     command->callback([options, &outcome] {
         runLearn(*options);
         outcome.exitCode = exitDone;

@@ -21,7 +21,7 @@ std::vector<const CLI::App*> subcommandsOf(const CLI::App& app) {
     return app.get_subcommands([](const CLI::App*) { return true; });
 }
 
-/// The subcommand that the words begin with; null where they begin with none.
+/// The subcommand that the command line begins with; null if there is none.
 const CLI::App* subcommandIn(const CLI::App& app, const std::vector<std::string>& words) {
     const std::vector<const CLI::App*> all = subcommandsOf(app);
     const auto found = std::ranges::find_if(all, [&words](const CLI::App* subcommand) {
@@ -30,7 +30,7 @@ const CLI::App* subcommandIn(const CLI::App& app, const std::vector<std::string>
     return found == all.end() ? nullptr : *found;
 }
 
-/// Throws UsageError for a word that stands where a subcommand is meant and is none.
+/// Throws UsageError if the first word is not a subcommand.
 void requireSubcommand(const CLI::App& app, const std::vector<std::string>& words) {
     if (words.empty() || words.front().starts_with('-') || subcommandsOf(app).empty()) {
         return;
@@ -45,14 +45,14 @@ void requireSubcommand(const CLI::App& app, const std::vector<std::string>& word
         names.push_back(subcommand->get_name());
         listed += (listed.empty() ? "" : ", ") + names.back();
     }
-    const std::string meant = haptoflow::cli::meantWord(words.front(), names);
+    const std::string meant = haptoflow::cli::likelyWord(words.front(), names);
     const std::string place = app.get_parent() == nullptr ? "" : app.get_name() + ' ';
     throw haptoflow::cli::UsageError("there is no command '" + place + words.front() + "'; " +
                                      (meant.empty() ? "" : haptoflow::cli::didYouMean(std::array{meant}) + " ") +
                                      "The commands are " + listed);
 }
 
-/// Says which option each misspelt one was meant to be.
+/// Prints a suggestion for each misspelt option.
 void suggestOptions(const CLI::App& app, const std::vector<std::string>& words) {
     if (const CLI::App* subcommand = subcommandIn(app, words)) {
         suggestOptions(*subcommand, {words.begin() + 1, words.end()});
@@ -67,7 +67,7 @@ void suggestOptions(const CLI::App& app, const std::vector<std::string>& words) 
     for (const std::string& word : words) {
         const std::string option = word.substr(0, word.find('='));
         if (option.starts_with("--") && option.size() > 2 && std::ranges::find(known, option) == known.end()) {
-            const std::string meant = haptoflow::cli::meantWord(option, known);
+            const std::string meant = haptoflow::cli::likelyWord(option, known);
             std::cerr << "There is no option '" << option << "'"
                       << (meant.empty() ? "" : "; " + haptoflow::cli::didYouMean(std::array{meant})) << '\n';
         }
@@ -77,13 +77,13 @@ void suggestOptions(const CLI::App& app, const std::vector<std::string>& words) 
 int run(int argc, char** argv) {
     using namespace haptoflow::cli;
 
-    CLI::App app{"HaptoFlow: what a stylus stroke across tagged surfaces feels like."};
+    CLI::App app{"HaptoFlow: renders the vibration of a stylus stroke over surfaces with material labels."};
     app.name("haptoflow");
     app.set_version_flag("--version", HAPTOFLOW_VERSION);
     app.require_subcommand(1);
     app.footer(
         "Examples:\n"
-        "  haptoflow render scene.json --stroke stroke.csv -o felt.wav\n"
+        "  haptoflow render scene.json --stroke stroke.csv -o stroke.wav\n"
         "  haptoflow contact scene.json --stroke stroke.csv\n"
         "  haptoflow inspect default.haptoflow\n"
         "  haptoflow actuator show voice-coil\n"
@@ -117,7 +117,7 @@ int run(int argc, char** argv) {
         std::cerr << "haptoflow: " << error.what() << '\n';
         return exitBadInput;
     } catch (const haptoflow::model::ModelError& error) {
-        // One of the model's graphs, read when it is loaded into ONNX Runtime.
+        // An error in one of the model's graphs, found when it is loaded into ONNX Runtime.
         std::cerr << "haptoflow: model: " << error.what() << '\n';
         return exitBadInput;
     } catch (const haptoflow::inference::TierTooSlow& error) {
@@ -135,7 +135,7 @@ int main(int argc, char** argv) {
     try {
         return run(argc, argv);
     } catch (...) {
-        // Not even the message of the first failure could be written: nothing that throws is left to say it with.
+        // Writing the first message failed; fputs does not throw.
         (void)std::fputs("haptoflow: internal error\n", stderr);
         return haptoflow::cli::exitInternal;
     }

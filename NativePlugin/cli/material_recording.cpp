@@ -1,7 +1,7 @@
 #include "material_recording.hpp"
 
 #include "exit_codes.hpp"
-#include "learning/plain_number.hpp"
+#include "learning/recording.hpp"
 #include "recording_sidecar.hpp"
 #include "recording_table.hpp"
 
@@ -19,14 +19,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double lowestRateHz = learning::lowestRateHz;
-constexpr double highestRateHz = learning::highestRateHz;
 constexpr double unknownNumber = std::numeric_limits<double>::quiet_NaN();
-/// A gap in the time stamps longer than this is a gap in the recording.
-constexpr double longestStepSeconds = 0.005;
+/// A longer step between time stamps is a gap in the recording.
+constexpr double maximumStepSeconds = 0.005;
 constexpr double slopeWindowSeconds = 0.09;
-constexpr double fastestMps = 10.0;
-constexpr double slowestMps = 0.0005;
+constexpr double minimumSpeedMps = 0.0005;
 
 using learning::plainNumber;
 
@@ -34,14 +31,14 @@ using learning::plainNumber;
     throw InputError(path + ": " + found + "; expected " + expected);
 }
 
-/// Numbers at times that rise; `width` for each time.
+/// Numbers at increasing times; `width` numbers for each time.
 struct Track {
     std::vector<double> timeSeconds;
     std::vector<double> values;
     std::size_t width = 1;
 };
 
-/// The rows of a series that have a time and all their numbers.
+/// The rows of a series that have a time and all of their numbers.
 Track trackOf(const std::string& path, std::span<const double> time, const TableSeries& series) {
     Track track{.timeSeconds = {}, .values = {}, .width = series.width};
     for (std::size_t row = 0; row < series.count(); ++row) {
@@ -75,12 +72,12 @@ double medianStep(std::span<const double> time) {
     return *middle;
 }
 
-/// A walk along a track by rising times.
+/// Looks up positions along a track for increasing times.
 class Cursor {
 public:
     explicit Cursor(const Track& track) : track_(track) {}
 
-    /// The index of the last reading at or before the time, so that one follows; clamped to the ends.
+    /// The index of the last reading at or before the time, limited so that another reading follows.
     std::size_t before(double seconds) {
         while (at_ + 2 < track_.timeSeconds.size() && track_.timeSeconds[at_ + 1] <= seconds) {
             ++at_;
@@ -95,7 +92,7 @@ public:
         return one + share * (track_.values[(index + 1) * track_.width + column] - one);
     }
 
-    /// A cubic through the four readings around: time stamps are uneven, and well above the band.
+    /// A cubic through the four nearest readings, for uneven time stamps well above the signal's band.
     [[nodiscard]] double cubic(std::size_t index, std::size_t column, double seconds) const {
         if (index == 0 || index + 2 >= track_.timeSeconds.size()) {
             return linear(index, column, seconds);
@@ -118,7 +115,8 @@ private:
     std::size_t at_ = 0;
 };
 
-/// The tracker's own readings: rows between two that repeat the older one would look like rest and jumps.
+/// The readings at which the tracker measured a new value: rows that repeat an older reading would look like rests and
+/// jumps.
 Track readAnew(const Track& track) {
     std::vector<std::size_t> changes{0};
     const std::size_t count = track.timeSeconds.size();
@@ -144,7 +142,7 @@ Track readAnew(const Track& track) {
     Track result{.timeSeconds = {}, .values = {}, .width = track.width};
     changes.push_back(count);
     for (std::size_t i = 0; i + 1 < changes.size(); ++i) {
-        // A tip that rests is read too.
+        // Readings of a tip at rest are kept, too.
         std::size_t at = changes[i];
         do {
             result.timeSeconds.push_back(track.timeSeconds[at]);
@@ -155,8 +153,8 @@ Track readAnew(const Track& track) {
     return result;
 }
 
-/// Velocities from positions: the slope of a cubic that is fitted to a window of evenly spaced readings
-/// (Savitzky-Golay). It averages the tracker's steps and has no bias at constant speed or acceleration.
+/// Velocities from positions: the slope of a cubic fitted to a window of evenly spaced readings (Savitzky-Golay). The
+/// fit averages out the tracker's resolution and has no bias at constant speed or acceleration.
 Track slopesOf(const Track& positions) {
     const Track read = readAnew(positions);
     const double step = std::max(medianStep(read.timeSeconds), 1e-3);
@@ -243,13 +241,13 @@ void checkSpeeds(const std::string& path, const std::string& columns, const Trac
         return;
     }
     const double median = *(moving + (speeds.end() - moving) / 2);
-    if (!(median > slowestMps && median < fastestMps)) {
+    if (!(median > minimumSpeedMps && median < learning::maximumHandSpeedMps)) {
         const std::string first = columns.substr(0, columns.find(','));
         fail(path, first + " gives a speed of " + plainNumber(median) + " m/s", otherUnit(columns));
     }
 }
 
-/// Three axes at rest show gravity.
+/// Throws if three axes at rest show gravity in units of g.
 void checkGravity(const std::string& path, const TableSeries& acceleration) {
     if (acceleration.width != 3 || !acceleration.columns.ends_with("mps2")) {
         return;
@@ -318,7 +316,7 @@ private:
         if (file == nullptr) {
             fail(path_, std::string("not read as WAV (") + sf_strerror(nullptr) + ")", expected);
         }
-        if (info.samplerate < lowestRateHz || info.samplerate > highestRateHz) {
+        if (info.samplerate < learning::lowestRateHz || info.samplerate > learning::highestRateHz) {
             fail(path_, std::to_string(info.samplerate) + " samples a second", "1000 to 192000");
         }
         if (info.channels != 1 && info.channels != 3) {
@@ -331,14 +329,14 @@ private:
         }
         recording_.rateHz = info.samplerate;
         recording_.axisCount = static_cast<std::size_t>(info.channels);
-        const auto longest = static_cast<sf_count_t>(learning::longestSeconds * recording_.rateHz);
+        const auto longest = static_cast<sf_count_t>(learning::maximumSeconds * recording_.rateHz);
         const sf_count_t frames = std::min(info.frames, longest);
         recording_.accelerationMps2.resize(static_cast<std::size_t>(frames) * recording_.axisCount);
         if (sf_readf_float(file.get(), recording_.accelerationMps2.data(), frames) != frames) {
             fail(path_, "cannot be read to its end", "a whole file; is it cut off?");
         }
         if (info.frames > longest) {
-            recording_.notes.push_back(path_ + ": only the first " + plainNumber(learning::longestSeconds) +
+            recording_.notes.push_back(path_ + ": only the first " + plainNumber(learning::maximumSeconds) +
                                        " s are read");
         }
         for (float& value : recording_.accelerationMps2) {
@@ -365,11 +363,12 @@ private:
         }
         const Track acceleration = trackOf(path_, table.timeSeconds, *table.acceleration);
         recording_.rateHz = 1.0 / medianStep(acceleration.timeSeconds);
-        if (!(recording_.rateHz >= 0.99 * lowestRateHz && recording_.rateHz <= 1.01 * highestRateHz)) {
+        if (!(recording_.rateHz >= 0.99 * learning::lowestRateHz &&
+              recording_.rateHz <= 1.01 * learning::highestRateHz)) {
             fail(path_, plainNumber(recording_.rateHz) + " samples a second by time_s",
                  "1000 to 192000; time_s is in seconds");
         }
-        recording_.rateHz = std::clamp(recording_.rateHz, lowestRateHz, highestRateHz);
+        recording_.rateHz = std::clamp(recording_.rateHz, learning::lowestRateHz, learning::highestRateHz);
         startSeconds_ = acceleration.timeSeconds.front();
         recording_.axisCount = acceleration.width;
         makeEven(acceleration);
@@ -377,15 +376,15 @@ private:
     }
 
     void makeEven(const Track& acceleration) {
-        const double span = std::min(acceleration.timeSeconds.back() - startSeconds_, learning::longestSeconds);
+        const double span = std::min(acceleration.timeSeconds.back() - startSeconds_, learning::maximumSeconds);
         const auto count = static_cast<std::size_t>(span * recording_.rateHz) + 1;
-        const double longestStep = std::max(longestStepSeconds, 4.0 / recording_.rateHz);
+        const double maximumStep = std::max(maximumStepSeconds, 4.0 / recording_.rateHz);
         Cursor cursor(acceleration);
         recording_.accelerationMps2.reserve(count * acceleration.width);
         for (std::size_t i = 0; i < count; ++i) {
             const double seconds = startSeconds_ + static_cast<double>(i) / recording_.rateHz;
             const std::size_t index = cursor.before(seconds);
-            const bool isGap = acceleration.timeSeconds[index + 1] - acceleration.timeSeconds[index] > longestStep;
+            const bool isGap = acceleration.timeSeconds[index + 1] - acceleration.timeSeconds[index] > maximumStep;
             for (std::size_t axis = 0; axis < acceleration.width; ++axis) {
                 recording_.accelerationMps2.push_back(
                     static_cast<float>(isGap ? unknownNumber : cursor.cubic(index, axis, seconds)));
@@ -421,9 +420,9 @@ private:
         }
     }
 
-    /// At the recording's own samples; NaN where the track has not begun, has ended or stopped for a while.
+    /// The track at the recording's samples; NaN before and after the track and in its gaps.
     std::vector<float> onGrid(const Track& track) const {
-        constexpr double longestSilence = 0.25;
+        constexpr double maximumSilence = 0.25;
         const std::size_t count = recording_.accelerationMps2.size() / recording_.axisCount;
         std::vector<float> values;
         values.reserve(count * track.width);
@@ -431,9 +430,9 @@ private:
         for (std::size_t i = 0; i < count; ++i) {
             const double seconds = startSeconds_ + static_cast<double>(i) / recording_.rateHz;
             const std::size_t index = cursor.before(seconds);
-            const bool isKnown = seconds >= track.timeSeconds.front() - longestSilence &&
-                                 seconds <= track.timeSeconds.back() + longestSilence &&
-                                 track.timeSeconds[index + 1] - track.timeSeconds[index] <= longestSilence;
+            const bool isKnown = seconds >= track.timeSeconds.front() - maximumSilence &&
+                                 seconds <= track.timeSeconds.back() + maximumSilence &&
+                                 track.timeSeconds[index + 1] - track.timeSeconds[index] <= maximumSilence;
             for (std::size_t column = 0; column < track.width; ++column) {
                 values.push_back(static_cast<float>(isKnown ? cursor.linear(index, column, seconds) : unknownNumber));
             }

@@ -54,7 +54,7 @@ fs::path executableFolder() {
 }
 
 std::optional<fs::path> fromEnvironment(const char* variable) {
-    // Nothing in this process changes the environment.
+    // No other thread changes the environment.
     const char* value = std::getenv(variable);  // NOLINT(concurrency-mt-unsafe)
     if (value == nullptr || *value == '\0') {
         return std::nullopt;
@@ -62,7 +62,7 @@ std::optional<fs::path> fromEnvironment(const char* variable) {
     return fs::path(value);
 }
 
-/// The first of the candidates that is a file; the environment's word, where it has one, is the only candidate.
+/// The first candidate that is a file; a path in the environment variable replaces all candidates.
 fs::path find(const std::string& what, const char* variable, const std::vector<fs::path>& candidates,
               const std::string& remedy) {
     std::error_code ignored;
@@ -70,8 +70,8 @@ fs::path find(const std::string& what, const char* variable, const std::vector<f
         if (fs::is_regular_file(*named, ignored)) {
             return *named;
         }
-        throw InputError(named->string() + ": no such file; it is what the environment variable " + variable +
-                         " names as " + what);
+        throw InputError(named->string() + ": no such file; the environment variable " + variable + " names it as " +
+                         what);
     }
     std::string message = what + " was not found. Looked at " + variable + " (not set)";
     for (const fs::path& candidate : candidates) {

@@ -9,20 +9,20 @@
 
 namespace haptoflow::cli {
 
-/// The model to use: `given` where it is not empty; else what the environment variable HAPTOFLOW_MODEL names; else
-/// default.haptoflow beside the executable; else the one of the checkout that the executable was built in
-/// (../../Packages/com.haptoflow.runtime/Runtime/Models). Throws InputError that names every place looked at.
+/// The model to use: `given` if it is not empty; otherwise the path in the environment variable HAPTOFLOW_MODEL;
+/// otherwise default.haptoflow beside the executable; otherwise that of the checkout in which the executable was built
+/// (../../Packages/com.haptoflow.runtime/Runtime/Models). Throws InputError that names all of these places.
 [[nodiscard]] std::filesystem::path findModel(const std::string& given);
 
-/// ONNX Runtime's library: what the environment variable HAPTOFLOW_ONNXRUNTIME names; else the library beside the
-/// executable; else the npm package of the checkout (../../node_modules/com.github.asus4.onnxruntime/Plugins).
-/// Throws InputError that names every place looked at.
+/// ONNX Runtime's library: the path in the environment variable HAPTOFLOW_ONNXRUNTIME; otherwise the library beside the
+/// executable; otherwise the npm package of the checkout (../../node_modules/com.github.asus4.onnxruntime/Plugins).
+/// Throws InputError that names all of these places.
 [[nodiscard]] std::filesystem::path findOnnxRuntime();
 
-/// Reads a model; a refusal becomes an InputError.
+/// Reads a model; errors become InputError.
 [[nodiscard]] model::ModelFile readModel(const std::filesystem::path& path);
 
-/// Opens the ONNX Runtime that findOnnxRuntime finds; a refusal becomes an InputError.
+/// Opens the ONNX Runtime that findOnnxRuntime finds; errors become InputError.
 [[nodiscard]] std::shared_ptr<const inference::Runtime> openRuntime();
 
 }  // namespace haptoflow::cli

@@ -25,7 +25,7 @@ std::string plain(std::string_view word) {
 std::size_t lettersApart(std::string_view one, std::string_view other) {
     const std::string a = plain(one);
     const std::string b = plain(other);
-    // Rows of the usual table: [0] the letter before the last, [1] the last, [2] this one.
+    // Rows of the dynamic-programming table: [0] two letters before, [1] the previous letter, [2] the present one.
     std::array<std::vector<std::size_t>, 3> rows;
     rows.fill(std::vector<std::size_t>(b.size() + 1));
     for (std::size_t j = 0; j <= b.size(); ++j) {
@@ -72,7 +72,7 @@ std::string didYouMean(std::span<const std::string> words) {
     return text + "?";
 }
 
-std::string meantWord(std::string_view word, std::span<const std::string> candidates) {
+std::string likelyWord(std::string_view word, std::span<const std::string> candidates) {
     const std::vector<std::string> nearest = nearestWords(word, candidates, 1);
     const bool isNear =
         !nearest.empty() && lettersApart(word, nearest.front()) <= std::max<std::size_t>(1, word.size() / 3);

@@ -1,10 +1,15 @@
 #include "option_values.hpp"
 
 #include "decimal_number.hpp"
+#include "effects/compensation.hpp"
+#include "exit_codes.hpp"
+#include "input_file.hpp"
 
 #include <charconv>
+#include <optional>
 #include <sstream>
 #include <system_error>
+#include <utility>
 
 namespace haptoflow::cli {
 namespace {
@@ -42,11 +47,29 @@ CLI::Validator wholeBetween(std::uint64_t lowest, std::uint64_t highest, const s
         if (error != std::errc() || stop != end || value < lowest || value > highest) {
             return "expected " + expected + ", found '" + text + "'";
         }
-        // CLI11 takes a leading zero for octal.
+        // CLI11 would read a leading zero as octal.
         text = std::to_string(value);
         return std::string();
     };
     return {check, std::to_string(lowest) + " to " + std::to_string(highest), expected};
+}
+
+CLI::Validator outputRate() {
+    return wholeBetween(static_cast<std::uint64_t>(effects::Compensation::lowestRateHz),
+                        static_cast<std::uint64_t>(effects::Compensation::highestRateHz), "Hz");
+}
+
+effects::ActuatorProfile readActuatorProfile(const std::string& nameOrPath) {
+    if (std::optional<effects::ActuatorProfile> builtIn = effects::ActuatorProfile::builtIn(nameOrPath)) {
+        return *std::move(builtIn);
+    }
+    const std::string text =
+        readInputFile(nameOrPath, "an actuator profile (JSON), or the name of a built-in one: flat, voice-coil");
+    try {
+        return effects::ActuatorProfile::parse(text);
+    } catch (const effects::ProfileError& error) {
+        throw InputError(nameOrPath + ": " + error.what());
+    }
 }
 
 }  // namespace haptoflow::cli

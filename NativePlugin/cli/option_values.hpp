@@ -1,5 +1,7 @@
 #pragma once
 
+#include "effects/actuator_profile.hpp"
+
 #include <CLI/CLI.hpp>
 
 #include <cstdint>
@@ -7,11 +9,18 @@
 
 namespace haptoflow::cli {
 
-/// Takes decimal numbers from `lowest` to `highest` and nothing else: no "nan", no "inf", no hexadecimal.
+/// Accepts decimal numbers from `lowest` to `highest`; unlike CLI11's own CLI::Range, no "nan", "inf" or hexadecimal.
 [[nodiscard]] CLI::Validator decimalBetween(double lowest, double highest, const std::string& unit);
 
-/// Takes whole numbers in decimal digits from `lowest` to `highest`: no sign, and as `transform` no leading zero that
-/// CLI11 would read as octal.
+/// Accepts whole numbers in decimal digits from `lowest` to `highest`, without sign. As `transform` it removes leading
+/// zeros, which CLI11 would read as octal.
 [[nodiscard]] CLI::Validator wholeBetween(std::uint64_t lowest, std::uint64_t highest, const std::string& unit);
+
+/// Accepts the sample rates in Hz that the output of a voice supports.
+[[nodiscard]] CLI::Validator outputRate();
+
+/// The built-in actuator profile of this name, otherwise the profile in this file. Throws InputError that names the
+/// file and the key.
+[[nodiscard]] effects::ActuatorProfile readActuatorProfile(const std::string& nameOrPath);
 
 }  // namespace haptoflow::cli

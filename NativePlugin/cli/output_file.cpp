@@ -16,9 +16,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* remedy = ": cannot be written: name a file in a folder that exists and that you may write to";
+constexpr const char* remedy = ": cannot be written: name a file in an existing folder with write permission";
 
-/// True where a rename would put a file in the place of something that is none.
+/// True for something that is not a regular file, which a rename would replace.
 bool isSpecial(const fs::path& path) {
     std::error_code ignored;
     const fs::file_status status = fs::status(path, ignored);
@@ -27,14 +27,14 @@ bool isSpecial(const fs::path& path) {
            name.starts_with("/dev/") || name.starts_with("/proc/");
 }
 
-/// Where links lead in the end, whether there is a file or not.
+/// The final target of a chain of links, whether it exists or not.
 fs::path followLinks(const fs::path& path) {
     fs::path target = path;
     std::error_code ignored;
     for (int link = 0; fs::is_symlink(fs::symlink_status(target, ignored)); ++link) {
-        constexpr int mostLinks = 40;
-        if (link == mostLinks) {
-            throw InputError(path.string() + ": is a circle of links");
+        constexpr int maximumLinks = 40;
+        if (link == maximumLinks) {
+            throw InputError(path.string() + ": is a cycle of links");
         }
         const fs::path next = fs::read_symlink(target, ignored);
         target = next.is_absolute() ? next : target.parent_path() / next;
@@ -42,7 +42,7 @@ fs::path followLinks(const fs::path& path) {
     return target;
 }
 
-/// A new file beside `target` (or of its name in `folder`) that nobody else has.
+/// Creates a new file with a unique name beside `target` (or with its name in `folder`).
 fs::path makePartial(const fs::path& target, const fs::path& shown) {
     for (int attempt = 0; attempt < 1000; ++attempt) {
         fs::path partial = target;
@@ -58,8 +58,8 @@ fs::path makePartial(const fs::path& target, const fs::path& shown) {
     throw InputError(shown.string() + remedy);
 }
 
-/// Partial files of this process, for the signal that ends it: fixed in place, since a handler may not allocate. An
-/// entry counts once its flag is set.
+/// Partial files of this process, which the signal handler removes: a fixed array, because a handler must not allocate.
+/// An entry is valid while its flag is set.
 struct Unfinished {
     std::atomic<bool> isUsed = false;
     std::array<char, 4096> path{};
@@ -87,7 +87,7 @@ void rememberUnfinished(const fs::path& partial) {
         }
     }
     for (const int signal : {SIGINT, SIGTERM}) {
-        // Where somebody wants a signal ignored (nohup, a shell's background jobs), it stays ignored.
+        // A signal that was ignored before (nohup, a shell's background jobs) stays ignored.
         if (std::signal(signal, removeUnfinished) == SIG_IGN) {
             std::signal(signal, SIG_IGN);
         }

@@ -6,12 +6,12 @@
 
 namespace haptoflow::cli {
 
-/// A file that appears whole or not at all. What is written goes to `partial()`; `commit` puts it in its place. A link
-/// is followed and stays; a device, a pipe or a file of /dev and /proc is written to, never replaced. Without `commit`
-/// nothing is left behind, nor where SIGINT or SIGTERM ends the process.
+/// A file that is either written completely or not created. The content goes to `partial()`; `commit` moves it to its
+/// final name. Links are followed and kept. Devices, pipes and files of /dev and /proc are written directly and never
+/// replaced. Without `commit`, and after SIGINT or SIGTERM, no partial file remains.
 class OutputFile {
 public:
-    /// Throws InputError naming the path where nothing can be written there.
+    /// Throws InputError that names the path if it cannot be written.
     explicit OutputFile(const std::filesystem::path& path);
     OutputFile(const OutputFile&) = delete;
     OutputFile& operator=(const OutputFile&) = delete;
@@ -19,11 +19,11 @@ public:
     OutputFile& operator=(OutputFile&&) = delete;
     ~OutputFile();
 
-    /// An empty file of this process's own.
+    /// A new, empty file of this process.
     [[nodiscard]] const std::filesystem::path& partial() const noexcept { return partial_; }
-    /// What the user called it.
+    /// The path as the user gave it.
     [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
-    /// Throws InputError naming the path.
+    /// Throws InputError that names the path.
     void commit();
 
 private:
@@ -33,21 +33,21 @@ private:
     bool isWrittenInPlace_ = false;
 };
 
-/// Writes the whole text to the file's partial; does not commit. Throws InputError naming the path.
+/// Writes the whole text to the partial file; does not commit. Throws InputError that names the path.
 void writeText(const OutputFile& file, const std::string& text);
 
-/// A path of the command line and what it is for: "the scene", "--report".
+/// A path of the command line and its role: "the scene", "--report".
 struct NamedPath {
     std::string role;
     std::filesystem::path path;
 };
 
-/// Throws UsageError where an output is a file that is read or another output's. Empty paths are left out; devices and
-/// pipes may stand twice.
+/// Throws UsageError if an output is also an input or another output. Empty paths are ignored; devices and pipes may
+/// occur twice.
 void requireApart(std::span<const NamedPath> outputs, std::span<const NamedPath> inputs);
 
-/// Throws UsageError where a path's name ends in something else than ".wav", and says which name would do. Devices,
-/// pipes, empty paths and names without an ending pass.
+/// Throws UsageError that suggests a name if the extension of a path is not ".wav". Devices, pipes, empty paths and
+/// names without an extension are accepted.
 void requireWavName(const NamedPath& output);
 
 }  // namespace haptoflow::cli

@@ -18,7 +18,7 @@ const effects::WaveFeatureOptions& options() {
     return usual;
 }
 
-/// Seconds of the render at a sample of the features, without what the decimation delays.
+/// Time in the render, in seconds, of a sample of the features, with the delay of the decimation subtracted.
 double secondsAt(std::uint64_t sample) {
     constexpr auto delay = static_cast<double>(WaveDecimation::delaySamples);
     return std::max(0.0, (static_cast<double>(sample) - delay) / WaveFeatures::sampleRateHz);
@@ -34,7 +34,7 @@ nlohmann::ordered_json errorOf(std::span<const float> wave, std::span<const effe
             {"p95", summary.percentile95Db}};
 }
 
-/// How far the intensity that is played is from the wanted one.
+/// Errors of the played intensity.
 nlohmann::ordered_json intensityErrors(std::span<const float> wave, std::span<const effects::WaveFrame> frames) {
     effects::WaveFeatureOptions motor;
     motor.frameSeconds = 0.008;

@@ -9,15 +9,15 @@
 
 namespace haptoflow::cli {
 
-/// Collects what a device with one carrier gets for a render, frame by frame.
+/// Collects the frames that a device with one carrier gets for a render.
 class ParametricFrames {
 public:
-    /// Of the output: a multiple of 2000 Hz. Throws std::invalid_argument.
+    /// `outputRateHz`: a multiple of 2000 Hz. Throws std::invalid_argument.
     explicit ParametricFrames(double outputRateHz);
 
-    /// The next samples, +-1 for `fullScaleMps2`.
+    /// Processes the next samples, +-1 at `fullScaleMps2`.
     void take(std::span<const float> samples, float fullScaleMps2);
-    /// The layout is described in Documentation~/effects-and-outputs.md.
+    /// The frames as JSON; Documentation~/effects-and-outputs.md describes the format.
     [[nodiscard]] std::string toJson();
 
 private:
@@ -26,7 +26,7 @@ private:
     effects::WaveDecimation decimation_;
     effects::WaveFeatures features_;
     std::vector<effects::WaveFrame> frames_;
-    // At 2 kHz: what was wanted, for the error of what is played.
+    // The wave at 2 kHz, for the errors of the played intensity.
     std::vector<float> wave_;
 };
 

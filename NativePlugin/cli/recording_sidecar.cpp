@@ -2,6 +2,7 @@
 
 #include "exit_codes.hpp"
 #include "input_file.hpp"
+#include "learning/recording.hpp"
 #include "model/bounded_json.hpp"
 #include "model/model_error.hpp"
 
@@ -18,7 +19,6 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr const char* defaultsFile = "recordings.json";
-constexpr double fastestMps = 10.0;
 constexpr std::array keys{"label",  "full_scale_mps2", "speed_mps", "velocity_mps", "force_newtons",
                           "motion", "rate_hz",         "licence",   "source"};
 
@@ -63,7 +63,7 @@ json documentIn(const fs::path& file) {
     return document;
 }
 
-/// The values of both files and where each comes from.
+/// The values of both files and the file that each comes from.
 class Values {
 public:
     explicit Values(const fs::path& recording) {
@@ -99,8 +99,8 @@ public:
     }
 
     [[nodiscard]] std::optional<std::array<double, 2>> velocity() const {
-        if (const auto speed =
-                number("speed_mps", 0.0, fastestMps, "metres a second, 0 to 10 (a thousandth of mm/s)")) {
+        if (const auto speed = number("speed_mps", 0.0, learning::maximumHandSpeedMps,
+                                      "metres a second, 0 to 10 (a thousandth of mm/s)")) {
             return std::array{*speed, 0.0};
         }
         const json* value = find("velocity_mps");
@@ -109,7 +109,8 @@ public:
         }
         const bool isPair =
             value->is_array() && value->size() == 2 && (*value)[0].is_number() && (*value)[1].is_number();
-        if (!isPair || !(std::hypot((*value)[0].get<double>(), (*value)[1].get<double>()) <= fastestMps)) {
+        if (!isPair ||
+            !(std::hypot((*value)[0].get<double>(), (*value)[1].get<double>()) <= learning::maximumHandSpeedMps)) {
             refuse("velocity_mps", "[vx, vy] in metres a second, 10 at most (a thousandth of mm/s)");
         }
         return std::array{(*value)[0].get<double>(), (*value)[1].get<double>()};
@@ -133,7 +134,7 @@ private:
     void add(const fs::path& file) {
         const json document = documentIn(file);
         for (const auto& [key, value] : document.items()) {
-            // A file says one of speed and velocity; the later file's word replaces both.
+            // A file gives either the speed or the velocity; that of the later file replaces both.
             if (key == "speed_mps") {
                 values_.erase("velocity_mps");
             } else if (key == "velocity_mps") {
@@ -169,7 +170,8 @@ RecordingSidecar readRecordingSidecar(const fs::path& recording) {
     sidecar.velocityMps = values.velocity();
     sidecar.forceNewtons = values.number("force_newtons", 0.0, 100.0, "newtons, 0 to 100 (a thousandth of mN)");
     sidecar.motion = values.motion();
-    sidecar.rateHz = values.number("rate_hz", 1000.0, 192'000.0, "samples a second, 1000 to 192000");
+    sidecar.rateHz =
+        values.number("rate_hz", learning::lowestRateHz, learning::highestRateHz, "samples a second, 1000 to 192000");
     sidecar.licence = values.text("licence");
     sidecar.source = values.text("source");
     return sidecar;

@@ -7,24 +7,24 @@
 
 namespace haptoflow::cli {
 
-/// What the files beside a recording say of it; empty for what they leave to its columns.
+/// Properties of a recording from the files beside it; empty if the recording's own columns give them.
 struct RecordingSidecar {
-    /// NAME.json, whether it exists or not.
+    /// The path NAME.json, whether it exists or not.
     std::filesystem::path path;
     std::string label;
     std::optional<double> fullScaleMps2;
-    /// A speed lies along the first axis.
+    /// A given speed is a velocity along the first axis.
     std::optional<std::array<double, 2>> velocityMps;
     std::optional<double> forceNewtons;
-    /// A table of motion and force with a clock of its own.
+    /// A table of motion and force with its own time stamps.
     std::optional<std::filesystem::path> motion;
     std::optional<double> rateHz;
     std::string licence;
     std::string source;
 };
 
-/// Reads NAME.json beside NAME.csv or NAME.wav, and recordings.json in the same folder, whose keys hold where NAME.json
-/// has none. Throws InputError that names file and key, what was found and what is expected.
+/// Reads NAME.json beside NAME.csv or NAME.wav, and recordings.json in the same folder for keys that NAME.json does not
+/// have. Throws InputError that names file and key, the value found and the expected one.
 [[nodiscard]] RecordingSidecar readRecordingSidecar(const std::filesystem::path& recording);
 
 }  // namespace haptoflow::cli

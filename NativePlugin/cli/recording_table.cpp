@@ -1,5 +1,6 @@
 #include "recording_table.hpp"
 
+#include "csv_lines.hpp"
 #include "decimal_number.hpp"
 #include "exit_codes.hpp"
 #include "input_file.hpp"
@@ -15,8 +16,8 @@ namespace {
 
 constexpr std::string_view timeColumn = "time_s";
 constexpr double gravityMps2 = 9.80665;
-constexpr std::size_t mostColumns = 256;
-constexpr std::size_t mostRows = 60'000'000;
+constexpr std::size_t maximumColumns = 256;
+constexpr std::size_t maximumRows = 60'000'000;
 
 struct ColumnForm {
     std::vector<std::string> columns;
@@ -64,10 +65,7 @@ std::string namesOf(const std::vector<ColumnForm>& forms) {
 }
 
 std::string_view bareCell(std::string_view text) {
-    constexpr std::string_view blank = " \t\r\"";
-    const std::size_t first = text.find_first_not_of(blank);
-    return first == std::string_view::npos ? std::string_view()
-                                           : text.substr(first, text.find_last_not_of(blank) - first + 1);
+    return trimmed(text, " \t\r\"");
 }
 
 class TableReader {
@@ -76,11 +74,7 @@ public:
         : path_(path),
           needsAcceleration_(needsAcceleration),
           text_(readInputFile(path, "a table (CSV) with the columns time_s and acceleration_mps2")),
-          rest_(text_) {
-        if (rest_.starts_with("\xEF\xBB\xBF")) {
-            rest_.remove_prefix(3);
-        }
-    }
+          lines_(text_) {}
 
     RecordingTable read() {
         readHeader();
@@ -124,29 +118,21 @@ private:
         throw InputError(path_ + ": " + found + "; expected " + expected);
     }
 
-    std::string_view nextLine() {
-        const std::size_t end = std::min(rest_.find('\n'), rest_.size());
-        const std::string_view line = rest_.substr(0, end);
-        rest_.remove_prefix(std::min(end + 1, rest_.size()));
-        ++lineNumber_;
-        return line;
-    }
-
     void readHeader() {
-        if (rest_.empty()) {
+        if (!lines_.next()) {
             fail("is empty", "a table (CSV) with the columns time_s and acceleration_mps2");
         }
-        const std::string_view line = nextLine();
+        const std::string_view line = lines_.line();
         if (line.find(';') != std::string_view::npos && line.find(',') == std::string_view::npos) {
             fail("columns separated by semicolons", "commas between columns and points in numbers");
         }
-        for (std::size_t start = 0; start <= line.size();) {
-            const std::size_t comma = std::min(line.find(',', start), line.size());
-            names_.emplace_back(bareCell(line.substr(start, comma - start)).substr(0, 80));
-            start = comma + 1;
-            if (names_.size() > mostColumns) {
-                fail("more than " + std::to_string(mostColumns) + " columns", "a recording's");
-            }
+        if (static_cast<std::size_t>(std::ranges::count(line, ',')) >= maximumColumns) {
+            fail("more than " + std::to_string(maximumColumns) + " columns", "a recording's");
+        }
+        std::vector<std::string_view> cells;
+        splitCells(line, cells);
+        for (const std::string_view cell : cells) {
+            names_.emplace_back(bareCell(cell).substr(0, 80));
         }
         for (const std::string& name : names_) {
             if (std::ranges::count(names_, name) > 1) {
@@ -213,7 +199,7 @@ private:
         }
         const std::optional<double> value = decimalNumber(text);
         if (!value) {
-            throw InputError(path_ + ":" + std::to_string(lineNumber_) + ": column " + names_[column] +
+            throw InputError(path_ + ":" + std::to_string(lines_.number()) + ": column " + names_[column] +
                              ": expected a number with a decimal point, found \"" + std::string(text.substr(0, 40)) +
                              "\"");
         }
@@ -223,19 +209,13 @@ private:
     void readRows(const std::vector<std::pair<std::vector<std::size_t>, std::vector<double>*>>& wanted) {
         std::vector<std::string_view> cells;
         std::size_t rows = 0;
-        while (!rest_.empty()) {
-            const std::string_view line = nextLine();
-            if (bareCell(line).empty()) {
+        while (lines_.next()) {
+            if (bareCell(lines_.line()).empty()) {
                 continue;
             }
-            cells.clear();
-            for (std::size_t start = 0; start <= line.size();) {
-                const std::size_t comma = std::min(line.find(',', start), line.size());
-                cells.push_back(line.substr(start, comma - start));
-                start = comma + 1;
-            }
+            splitCells(lines_.line(), cells);
             if (cells.size() != names_.size()) {
-                throw InputError(path_ + ":" + std::to_string(lineNumber_) + ": expected " +
+                throw InputError(path_ + ":" + std::to_string(lines_.number()) + ": expected " +
                                  std::to_string(names_.size()) + " values as in the first line, found " +
                                  std::to_string(cells.size()) + " (decimals need a point, not a comma)");
             }
@@ -244,8 +224,8 @@ private:
                     values->push_back(number(cells[column], column));
                 }
             }
-            if (++rows > mostRows) {
-                fail("more than " + std::to_string(mostRows) + " rows", "five minutes of recording at most");
+            if (++rows > maximumRows) {
+                fail("more than " + std::to_string(maximumRows) + " rows", "five minutes of recording at most");
             }
         }
         if (rows < 4) {
@@ -263,9 +243,8 @@ private:
     const std::string& path_;
     bool needsAcceleration_;
     std::string text_;
-    std::string_view rest_;
+    CsvLines lines_;
     std::vector<std::string> names_;
-    std::size_t lineNumber_ = 0;
 };
 
 }  // namespace

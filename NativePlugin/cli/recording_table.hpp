@@ -7,12 +7,12 @@
 
 namespace haptoflow::cli {
 
-/// Columns of a table that belong together, in SI units: sample by sample, `width` numbers each. A cell without a
-/// number is NaN.
+/// Columns of a table that belong together, in SI units: `width` numbers for each sample. A cell without a number is
+/// NaN.
 struct TableSeries {
     std::size_t width = 1;
     std::vector<double> values;
-    /// What they were read from: "position_x_mm, position_y_mm".
+    /// Names of the columns: "position_x_mm, position_y_mm".
     std::string columns;
 
     [[nodiscard]] std::size_t count() const { return values.size() / width; }
@@ -20,10 +20,10 @@ struct TableSeries {
 
 enum class MotionForm { velocity, speed, position };
 
-/// A table of a recording of one's own: columns by name with their unit.
+/// A table of a user's own recording: columns named with their unit.
 struct RecordingTable {
     std::string path;
-    /// Seconds; empty where there is no column time_s.
+    /// Seconds; empty without a column time_s.
     std::vector<double> timeSeconds;
     /// m/s^2; of width 1 or 3.
     std::optional<TableSeries> acceleration;
@@ -32,16 +32,16 @@ struct RecordingTable {
     MotionForm motionForm = MotionForm::velocity;
     /// N.
     std::optional<TableSeries> force;
-    /// Names that no form knows; they are ignored.
+    /// Names of unknown columns, which are ignored.
     std::vector<std::string> unknown;
 };
 
-/// The forms in which motion and force may stand in a table, for messages.
+/// The possible columns of motion and of force, for messages.
 [[nodiscard]] std::string motionForms();
 [[nodiscard]] std::string forceForms();
 
-/// Reads a CSV. `needsAcceleration`: false for a table of motion alone. Throws InputError that names file, line and
-/// column, what was found and what is expected.
+/// Reads a CSV file. `needsAcceleration` is false for a table of motion alone. Throws InputError that names file, line
+/// and column, the text found and the expected one.
 [[nodiscard]] RecordingTable readRecordingTable(const std::string& path, bool needsAcceleration);
 
 }  // namespace haptoflow::cli

@@ -1,4 +1,3 @@
-#include "actuator_profile_file.hpp"
 #include "commands.hpp"
 #include "effects/actuator_profile.hpp"
 #include "effects/effect.hpp"
@@ -42,7 +41,7 @@ struct RenderOptions {
     std::string scenePath;
     std::string strokePath;
     std::vector<std::string> outputs;
-    /// Of the outputs; empty where there is none of the kind.
+    /// Paths of the outputs; empty if there is none of the kind.
     std::string outputPath;
     std::string parametricPath;
     std::string modelPath;
@@ -59,8 +58,8 @@ struct RenderOptions {
     bool quiet = false;
 };
 
-/// What a surface gives to a contact state.
-struct SurfaceFeel {
+/// The properties of a surface that its contact states contain.
+struct SurfaceProperties {
     engine::MaterialBlend blend;
     float spatialScale = 1.0F;
     float toneDbPerOctave = 0.0F;
@@ -73,8 +72,8 @@ const std::map<std::string, effects::EffectKind>& effectNames() {
     return names;
 }
 
-/// What every surface of the scene asks for: the texture where nothing is said.
-effects::EffectMask askedEffects(const std::vector<std::string>& names) {
+/// The effects that every surface requests: the texture by default.
+effects::EffectMask requestedEffects(const std::vector<std::string>& names) {
     effects::EffectMask mask = names.empty() ? effects::maskOf(effects::EffectKind::texture) : 0U;
     for (const std::string& name : names) {
         mask |= effects::maskOf(effectNames().at(name));
@@ -102,12 +101,12 @@ const model::Tier& chooseTier(const model::ModelFile& model, const std::string& 
         tiers.push_back(tier.name);
         listed += (listed.empty() ? "" : ", ") + tier.name;
     }
-    const std::string meant = meantWord(quality, tiers);
+    const std::string meant = likelyWord(quality, tiers);
     throw UsageError("--quality " + quality + ": " + (meant.empty() ? "" : didYouMean(std::array{meant}) + " ") +
                      "This model has " + listed);
 }
 
-/// The solver that the options ask for, where it is one that the tier obeys.
+/// The solver of the options, if the tier can use it.
 inference::SolverSettings chooseSolver(const model::Tier& tier, const std::string& solver, std::optional<int> steps) {
     if (!steps) {
         return inference::defaultSolver(tier);
@@ -124,30 +123,30 @@ inference::SolverSettings chooseSolver(const model::Tier& tier, const std::strin
     return {.kind = solverNames().at(solver), .steps = *steps};
 }
 
-/// What each surface feels like, in the scene's order.
-std::vector<SurfaceFeel> feelsOf(const contact::Scene& scene, const SceneMaterials& materials,
-                                 const std::string& scenePath) {
-    std::vector<SurfaceFeel> feels;
-    for (const contact::Surface& surface : scene.surfaces) {
+/// The properties of each surface, in the scene's order.
+std::vector<SurfaceProperties> propertiesOf(const headless::Scene& scene, const SceneMaterials& materials,
+                                            const std::string& scenePath) {
+    std::vector<SurfaceProperties> surfaces;
+    for (const headless::SceneSurface& surface : scene.surfaces) {
         if (surface.material.size() > engine::MaterialBlend::capacity) {
             throw InputError(scenePath + ": surface '" + surface.name + "' blends " +
                              std::to_string(surface.material.size()) + " labels; expected at most " +
                              std::to_string(engine::MaterialBlend::capacity));
         }
-        SurfaceFeel feel{.blend = {},
-                         .spatialScale = static_cast<float>(surface.spatialScale),
-                         .toneDbPerOctave = static_cast<float>(surface.toneDbPerOctave)};
+        SurfaceProperties properties{.blend = {},
+                                     .spatialScale = static_cast<float>(surface.spatialScale),
+                                     .toneDbPerOctave = static_cast<float>(surface.toneDbPerOctave)};
+        engine::MaterialBlend& blend = properties.blend;
         for (const auto& [name, weight] : surface.material) {
-            feel.blend.entries.at(feel.blend.count) = {.label = materials.indexOf(name),
-                                                       .weight = static_cast<float>(weight)};
-            ++feel.blend.count;
+            blend.entries.at(blend.count) = {.label = materials.indexOf(name), .weight = static_cast<float>(weight)};
+            ++blend.count;
         }
-        feels.push_back(feel);
+        surfaces.push_back(properties);
     }
-    return feels;
+    return surfaces;
 }
 
-engine::ContactState stateOf(const contact::ContactReading& reading, std::span<const SurfaceFeel> feels,
+engine::ContactState stateOf(const headless::ContactReading& reading, std::span<const SurfaceProperties> surfaces,
                              effects::EffectMask effects) {
     engine::ContactState state;
     state.effects = effects;
@@ -162,17 +161,17 @@ engine::ContactState stateOf(const contact::ContactReading& reading, std::span<c
     state.edgeCounter = reading.edgeCounter;
     state.edgeHeightMetres = static_cast<float>(reading.edgeHeightMetres);
     if (reading.surfaceIndex >= 0) {
-        const SurfaceFeel& feel = feels[static_cast<std::size_t>(reading.surfaceIndex)];
-        state.material = feel.blend;
-        state.spatialScale = feel.spatialScale;
-        state.toneDbPerOctave = feel.toneDbPerOctave;
+        const SurfaceProperties& surface = surfaces[static_cast<std::size_t>(reading.surfaceIndex)];
+        state.material = surface.blend;
+        state.spatialScale = surface.spatialScale;
+        state.toneDbPerOctave = surface.toneDbPerOctave;
     }
     return state;
 }
 
-std::vector<std::string> labelsIn(const contact::Scene& scene) {
+std::vector<std::string> labelsIn(const headless::Scene& scene) {
     std::vector<std::string> labels;
-    for (const contact::Surface& surface : scene.surfaces) {
+    for (const headless::SceneSurface& surface : scene.surfaces) {
         for (const auto& [name, weight] : surface.material) {
             if (std::ranges::find(labels, name) == labels.end()) {
                 labels.push_back(name);
@@ -182,7 +181,7 @@ std::vector<std::string> labelsIn(const contact::Scene& scene) {
     return labels;
 }
 
-/// The files of a render: they grow while it runs and appear when all of them are whole.
+/// The files of a render: they are written while it runs and appear when all of them are complete.
 class RenderFiles final : public engine::OfflineSink {
 public:
     explicit RenderFiles(const RenderOptions& options) : fullScaleMps2_(options.engine.fullScaleMps2) {
@@ -253,7 +252,7 @@ private:
     std::vector<float> scaled_;
 };
 
-/// One WAV and one JSON file at most.
+/// Assigns the outputs to their formats: one WAV and one JSON file at most.
 void sortOutputs(RenderOptions& options) {
     for (const std::string& output : options.outputs) {
         std::string& path = output.ends_with(".json") ? options.parametricPath : options.outputPath;
@@ -271,11 +270,11 @@ void requireSoundOptions(const RenderOptions& options) {
     }
     if (options.quality == "auto") {
         throw UsageError(
-            "--quality auto measures time and would not render the same twice; name a quality of the model");
+            "--quality auto depends on measured times, so that two renders could differ; name a quality of the model");
     }
     const NamedPath wav{"-o", options.outputPath};
     const NamedPath waveform{"--waveform", options.waveformPath};
-    if (!options.parametricPath.empty() && std::fmod(options.engine.outputRateHz, 2000.0) != 0.0) {
+    if (!options.parametricPath.empty() && std::fmod(options.engine.outputRateHz, inference::waveformRateHz) != 0.0) {
         throw UsageError("-o " + options.parametricPath +
                          " needs a --rate that is a multiple of 2000 Hz, such as 48000");
     }
@@ -287,18 +286,18 @@ void requireSoundOptions(const RenderOptions& options) {
     requireWavName(waveform);
 }
 
-/// A WAV file's sizes are 32-bit numbers: said before hours of rendering, not after.
-void requireRoom(const contact::Scene& scene, const StrokePlayer& player, const RenderOptions& options) {
+/// Checks the length first: a WAV file's sizes are 32-bit numbers, and a render can take hours.
+void requireRoom(const headless::Scene& scene, const StrokePlayer& player, const RenderOptions& options) {
     const double seconds = static_cast<double>(player.frames() - 1) / scene.updateRateHz + options.engine.tailSeconds;
-    const double mostSeconds = static_cast<double>(mostWavSamples) / options.engine.outputRateHz;
-    if (seconds > mostSeconds) {
+    const double maximumSeconds = static_cast<double>(maximumWavSamples) / options.engine.outputRateHz;
+    if (seconds > maximumSeconds) {
         throw InputError(options.strokePath + ": lasts " + std::to_string(std::llround(seconds)) +
-                         " s; a WAV file at this --rate has room for " + std::to_string(std::llround(mostSeconds)) +
+                         " s; a WAV file at this --rate has room for " + std::to_string(std::llround(maximumSeconds)) +
                          " s. Give a lower --rate or a shorter stroke");
     }
 }
 
-/// What a user would wonder about who hears less than expected.
+/// Prints notes about touches that make no sound.
 void explainSilence(const RenderOptions& options, const engine::OfflineFigures& figures, std::uint64_t missedTouches,
                     double updateRateHz) {
     const std::string note = "haptoflow: note: " + options.strokePath;
@@ -309,18 +308,18 @@ void explainSilence(const RenderOptions& options, const engine::OfflineFigures& 
     }
     if (missedTouches > 0) {
         std::cerr << note << ": " << missedTouches << " of " << figures.touches + missedTouches
-                  << " touches begin and end between two frames and are not felt: raise the scene's update_rate ("
+                  << " touches begin and end between two frames and are not rendered: raise the scene's update_rate ("
                   << updateRateHz << " Hz).\n";
     }
     if (figures.silentTouches > 0) {
         std::cerr << note << ": " << figures.silentTouches << " of " << figures.touches
-                  << " touches make no sound: a texture sounds while the tip slides, and there it does not.\n";
+                  << " touches make no sound: a texture sounds only while the tip slides.\n";
     }
 }
 
 void runRender(const RenderOptions& options) {
     requireSoundOptions(options);
-    const contact::Scene scene = readSceneFile(options.scenePath);
+    const headless::Scene scene = readSceneFile(options.scenePath);
     const Stroke stroke = readStrokeFile(options.strokePath);
     const std::filesystem::path modelPath = findModel(options.modelPath);
     const model::ModelFile model = readModel(modelPath);
@@ -329,8 +328,8 @@ void runRender(const RenderOptions& options) {
     SceneMaterials materials(model, modelPath, options.scenePath);
     std::ranges::for_each(options.materials, [&materials](const std::string& path) { materials.add(path); });
     materials.require(scene);
-    const std::vector<SurfaceFeel> feels = feelsOf(scene, materials, options.scenePath);
-    contact::ContactSettings settings;
+    const std::vector<SurfaceProperties> surfaces = propertiesOf(scene, materials, options.scenePath);
+    headless::ContactSettings settings;
     useStiffnessOfMaterials(settings, materials);
     StrokePlayer player(scene, stroke, options.strokePath, settings);
     requireRoom(scene, player, options);
@@ -341,15 +340,15 @@ void runRender(const RenderOptions& options) {
         engineSettings.actuator =
             std::make_shared<const effects::ActuatorProfile>(readActuatorProfile(options.actuator));
     }
-    const effects::EffectMask effects = askedEffects(options.effects);
+    const effects::EffectMask effects = requestedEffects(options.effects);
     RenderFiles files(options);
     inference::OnnxSegmentGenerator generator(openRuntime(), model, tier.name, solver, 1);
 
     const ProgressBar bar = progressBar("render", options.quiet);
     const engine::ContactStateSource next = [&]() -> std::optional<engine::ContactState> {
-        const std::optional<contact::ContactReading> reading = player.next();
+        const std::optional<headless::ContactReading> reading = player.next();
         bar(static_cast<double>(player.played()) / static_cast<double>(player.frames()), {});
-        return reading ? std::optional(stateOf(*reading, feels, effects)) : std::nullopt;
+        return reading ? std::optional(stateOf(*reading, surfaces, effects)) : std::nullopt;
     };
     const engine::OfflineFigures figures = engine::renderOffline(model, generator, next, engineSettings, files);
 
@@ -376,18 +375,18 @@ void runRender(const RenderOptions& options) {
 }  // namespace
 
 void addRenderCommand(CLI::App& app, CommandOutcome& outcome) {
-    CLI::App* command = app.add_subcommand("render", "Render what a stroke over a scene feels like, to WAV");
+    CLI::App* command = app.add_subcommand("render", "Render the vibration of a stroke over a scene to WAV");
     const auto options = std::make_shared<RenderOptions>();
     command->add_option("scene", options->scenePath, "SCENE.json: surfaces and their materials")
         ->required()
         ->type_name("SCENE.json");
-    command->add_option("--stroke", options->strokePath, "Where the tip goes: t,x,y,z[,force]")
+    command->add_option("--stroke", options->strokePath, "The tip's path: t,x,y,z[,force]")
         ->required()
         ->type_name("STROKE.csv");
     command
         ->add_option("-o,--output", options->outputs,
-                     "OUT.wav: one channel of 32-bit float. OUT.json: what a device gets that plays one carrier, "
-                     "amplitude, frequency and transients every 5 ms, each as intense to the hand as the wave. May be "
+                     "OUT.wav: one channel of 32-bit float. OUT.json: frames for a device with one carrier, with "
+                     "amplitude, frequency and transients every 5 ms at the perceived intensity of the wave. May be "
                      "given once for each")
         ->required()
         ->allow_extra_args(false)
@@ -395,38 +394,40 @@ void addRenderCommand(CLI::App& app, CommandOutcome& outcome) {
     command->add_option("--model", options->modelPath, "Model file (default: the one shipped)")->type_name("FILE");
     command
         ->add_option("--material", options->materials,
-                     "A .haptomaterial file whose name the scene then uses like a label; may be given several times")
+                     "A .haptomaterial file whose name the scene can use like a label; may be given several times")
         ->allow_extra_args(false)
         ->type_name("FILE");
     command->add_option("--quality", options->quality,
                         "A tier of the model, such as draft; `haptoflow inspect` lists them");
-    command->add_option("--solver", options->solver, "ODE solver in place of the tier's own; not for kind `direct`")
+    command->add_option("--solver", options->solver, "ODE solver instead of the tier's own; not for kind `direct`")
         ->check(CLI::IsMember({"euler", "midpoint", "heun"}));
     command->add_option("--steps", options->steps, "Steps of that solver")->transform(wholeBetween(1, 16, ""));
-    command->add_option("--seed", options->engine.seed, "Key of the noise: the same gives the same bytes")
+    command->add_option("--seed", options->engine.seed, "Seed of the noise: equal seeds give equal bytes")
         ->transform(wholeBetween(0, std::numeric_limits<std::uint64_t>::max(), ""))
         ->capture_default_str();
     command->add_option("--rate", options->engine.outputRateHz, "Output rate in Hz")
-        ->transform(wholeBetween(8000, 192000, "Hz"))
+        ->transform(outputRate())
         ->capture_default_str();
-    command->add_option("--lead-ms", options->engine.leadMs, "From a contact state to the first sample made from it")
+    command
+        ->add_option("--lead-ms", options->engine.leadMs,
+                     "Time from a contact state to the first sample generated from it")
         ->check(decimalBetween(0.0, 50.0, "ms"))
         ->capture_default_str();
-    command->add_option("--full-scale", options->engine.fullScaleMps2, "Acceleration in m/s^2 that is +-1 in the WAV")
+    command->add_option("--full-scale", options->engine.fullScaleMps2, "Acceleration in m/s^2 at +-1 in the WAV")
         ->check(decimalBetween(1.0, 1000.0, "m/s^2"))
         ->capture_default_str();
     command->add_option("--report", options->reportPath, "Write figures of the render as JSON")->type_name("R.json");
     command
         ->add_option("--effects", options->effects,
-                     "What every surface asks for, one or more of texture, impact and edge (default: texture)")
+                     "Effects that every surface requests, one or more of texture, impact and edge (default: texture)")
         ->delimiter(',')
         ->check(CLI::IsMember({"texture", "impact", "edge"}))
         ->type_name("LIST");
     command
         ->add_option("--actuator", options->actuator,
-                     "Compensate for what plays the output: an actuator profile, or flat or voice-coil")
+                     "Compensate for the actuator that plays the output: a profile's file, or flat or voice-coil")
         ->type_name("PROFILE");
-    command->add_option("--delay-ms", options->delayMs, "Everything comes this much later")
+    command->add_option("--delay-ms", options->delayMs, "Delay of the whole output")
         ->check(decimalBetween(0.0, 500.0, "ms"))
         ->capture_default_str();
     command
@@ -436,11 +437,11 @@ void addRenderCommand(CLI::App& app, CommandOutcome& outcome) {
     command->add_flag("--quiet", options->quiet, "No progress bar");
     command->footer(
         "Examples:\n"
-        "  haptoflow render scene.json --stroke stroke.csv -o felt.wav --report felt.json\n"
+        "  haptoflow render scene.json --stroke stroke.csv -o stroke.wav --report stroke.json\n"
         "  haptoflow render scene.json --stroke stroke.csv -o draft.wav --quality draft\n"
         "  haptoflow render scene.json --stroke stroke.csv -o taps.wav --effects texture,impact,edge --actuator "
         "voice-coil\n"
-        "+-1 in the WAV is 200 m/s^2 (see --full-scale); most textures are quiet there, and true to each other.");
+        "+-1 in the WAV is 200 m/s^2 (see --full-scale): most textures are quiet, at their true level.");
     command->callback([options, &outcome] {
         sortOutputs(*options);
         runRender(*options);

@@ -8,7 +8,7 @@ namespace haptoflow::cli {
 
 namespace {
 
-/// Of the effects that ran: their blows, and the samples that they worked on.
+/// For each effect that ran: its impacts or edges, and the samples that it processed.
 nlohmann::ordered_json effectsOf(const engine::OfflineFigures& figures) {
     constexpr std::array<const char*, effects::effectKinds> names{"texture",      "impact",         "edge", "delay",
                                                                   "compensation", "exposure guard", "tone", "signal"};

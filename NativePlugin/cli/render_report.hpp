@@ -14,7 +14,7 @@ struct RenderIdentity {
     std::vector<std::string> labels{};
     std::string wav{};
     std::string tier{};
-    /// Empty where the tier is evaluated once and knows neither solver nor steps.
+    /// Empty for a tier that is evaluated once, without solver and steps.
     std::string solver{};
     int steps = 0;
     double outputRateHz = 0.0;
@@ -23,7 +23,7 @@ struct RenderIdentity {
 };
 
 /// One render as JSON: `name`, `labels`, `wav`, `seconds`, `rms_mps2`, `peak`, `segments`, `inference_ms` {p50, p99},
-/// `nonfinite`, `underruns`, and what else the engine counted. `solver` and `steps` are null for a tier without them.
+/// `nonfinite`, `underruns` and the engine's other counts. `solver` and `steps` are null for a tier without them.
 [[nodiscard]] std::string renderReport(const RenderIdentity& identity, const engine::OfflineFigures& figures);
 
 }  // namespace haptoflow::cli

@@ -24,7 +24,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double largestMetres = 1e9;
+constexpr double maximumMetres = 1e9;
 
 std::string inWords(const json& value) {
     if (value.is_structured()) {
@@ -34,7 +34,7 @@ std::string inWords(const json& value) {
     return text.size() > 40 ? text.substr(0, 40) + "..." : text;
 }
 
-/// A value and where it stands, so that every complaint can say so.
+/// A JSON value with its path, for error messages.
 class Node {
 public:
     Node(const json& value, const std::string& file, std::string path)
@@ -48,7 +48,7 @@ public:
         throw InputError(*file_ + ": " + (path_.empty() ? "top level" : path_) + ": " + complaint);
     }
 
-    /// An object with nothing but `known` keys.
+    /// Requires an object with no other keys than `known`.
     void requireObject(std::initializer_list<std::string_view> known) const {
         std::string names;
         for (const std::string_view name : known) {
@@ -74,8 +74,8 @@ public:
         return {*found, *file_, path_.empty() ? key : path_ + "." + key};
     }
 
-    [[nodiscard]] std::vector<Node> elements(std::size_t fewest, const std::string& expected) const {
-        if (!value_->is_array() || value_->size() < fewest) {
+    [[nodiscard]] std::vector<Node> elements(std::size_t minimumCount, const std::string& expected) const {
+        if (!value_->is_array() || value_->size() < minimumCount) {
             fail(expected);
         }
         std::vector<Node> nodes;
@@ -94,7 +94,7 @@ public:
         return number;
     }
 
-    [[nodiscard]] double positiveMetres() const { return number(1e-9, largestMetres, "metres from 1e-9 to 1e9"); }
+    [[nodiscard]] double positiveMetres() const { return number(1e-9, maximumMetres, "metres from 1e-9 to 1e9"); }
 
     template <std::size_t Size>
     [[nodiscard]] std::array<double, Size> numbers(const std::string& expected) const {
@@ -104,7 +104,7 @@ public:
         }
         for (std::size_t index = 0; index < Size; ++index) {
             result[index] = Node((*value_)[index], *file_, path_ + "[" + std::to_string(index) + "]")
-                                .number(-largestMetres, largestMetres, "a number within +-1e9");
+                                .number(-maximumMetres, maximumMetres, "a number within +-1e9");
         }
         return result;
     }
@@ -129,8 +129,8 @@ private:
     std::string path_;
 };
 
-contact::Pose readPose(const Node& node) {
-    contact::Pose pose;
+headless::Pose readPose(const Node& node) {
+    headless::Pose pose;
     if (node.has("position")) {
         pose.positionMetres = node.at("position").vector("[x, y, z] in metres");
     }
@@ -146,14 +146,14 @@ contact::Pose readPose(const Node& node) {
     return pose;
 }
 
-contact::Motion readMotion(const Node& node) {
+headless::Motion readMotion(const Node& node) {
     node.requireObject({"keyframes", "loop"});
-    std::vector<contact::Keyframe> keyframes;
+    std::vector<headless::Keyframe> keyframes;
     for (const Node& element : node.at("keyframes").elements(2, "an array of two or more keyframes")) {
         element.requireObject({"t", "position", "rotation"});
-        const double time = element.at("t").number(-largestMetres, largestMetres, "seconds within +-1e9");
+        const double time = element.at("t").number(-maximumMetres, maximumMetres, "seconds within +-1e9");
         if (!keyframes.empty() && time <= keyframes.back().timeSeconds) {
-            element.at("t").fail("a time after the keyframe before");
+            element.at("t").fail("a time after that of the previous keyframe");
         }
         keyframes.push_back({time, readPose(element)});
     }
@@ -167,16 +167,16 @@ contact::Motion readMotion(const Node& node) {
     return {std::move(keyframes), loop};
 }
 
-contact::Shape readMesh(const Node& node) {
+headless::Shape readMesh(const Node& node) {
     node.requireObject({"vertices", "triangles"});
     std::vector<glm::dvec3> vertices;
     for (const Node& element : node.at("vertices").elements(3, "an array of three or more vertices [x, y, z]")) {
         vertices.push_back(element.vector("a vertex [x, y, z] in metres"));
     }
-    std::vector<contact::TriangleMesh::Triangle> triangles;
+    std::vector<headless::TriangleMesh::Triangle> triangles;
     const std::string expected = "three vertex indices [a, b, c] from 0 to " + std::to_string(vertices.size() - 1);
     for (const Node& element : node.at("triangles").elements(1, "an array of one or more triangles [a, b, c]")) {
-        contact::TriangleMesh::Triangle corners{};
+        headless::TriangleMesh::Triangle corners{};
         if (!element.raw().is_array() || element.raw().size() != corners.size()) {
             element.fail(expected);
         }
@@ -191,13 +191,13 @@ contact::Shape readMesh(const Node& node) {
         triangles.push_back(corners);
     }
     try {
-        return std::make_shared<const contact::TriangleMesh>(std::move(vertices), triangles);
+        return std::make_shared<const headless::TriangleMesh>(std::move(vertices), triangles);
     } catch (const std::invalid_argument& error) {
         node.failWith(error.what());
     }
 }
 
-contact::Shape readShape(const Node& node) {
+headless::Shape readShape(const Node& node) {
     node.requireObject({"box", "sphere", "capsule", "plane", "mesh"});
     if (node.raw().size() != 1) {
         node.fail("an object with one key: box, sphere, capsule, plane or mesh");
@@ -211,15 +211,15 @@ contact::Shape readShape(const Node& node) {
         if (!(size.x >= 1e-9 && size.y >= 1e-9 && size.z >= 1e-9)) {
             shape.at("size").failWith("expected " + expected + ", found " + shape.at("size").raw().dump());
         }
-        return contact::Box{size};
+        return headless::Box{size};
     }
     if (kind == "sphere") {
         shape.requireObject({"radius"});
-        return contact::Sphere{shape.at("radius").positiveMetres()};
+        return headless::Sphere{shape.at("radius").positiveMetres()};
     }
     if (kind == "capsule") {
         shape.requireObject({"radius", "height"});
-        const contact::Capsule capsule{shape.at("radius").positiveMetres(), shape.at("height").positiveMetres()};
+        const headless::Capsule capsule{shape.at("radius").positiveMetres(), shape.at("height").positiveMetres()};
         if (capsule.heightMetres < 2.0 * capsule.radiusMetres) {
             shape.at("height").fail("a height that includes both caps, so at least twice the radius");
         }
@@ -227,7 +227,7 @@ contact::Shape readShape(const Node& node) {
     }
     if (kind == "plane") {
         shape.requireObject({});
-        return contact::Plane{};
+        return headless::Plane{};
     }
     return readMesh(shape);
 }
@@ -258,10 +258,10 @@ std::vector<std::pair<std::string, double>> readMaterial(const Node& node) {
     return material;
 }
 
-contact::Surface readSurface(const Node& node) {
+headless::SceneSurface readSurface(const Node& node) {
     node.requireObject({"name", "shape", "position", "rotation", "motion", "material", "stiffness", "grain",
                         "spatial_scale", "tone_db_per_octave"});
-    contact::Surface surface;
+    headless::SceneSurface surface;
     surface.name = node.at("name").text("a name");
     surface.shape = readShape(node.at("shape"));
     surface.pose = readPose(node);
@@ -269,7 +269,7 @@ contact::Surface readSurface(const Node& node) {
     if (node.has("motion")) {
         if (node.has("position") || node.has("rotation")) {
             node.failWith(
-                "has both a motion and a position or rotation; the keyframes say where it is, remove the other");
+                "has both a motion and a position or rotation; the keyframes give its pose, remove the other");
         }
         surface.motion = readMotion(node.at("motion"));
     }
@@ -291,7 +291,7 @@ contact::Surface readSurface(const Node& node) {
     return surface;
 }
 
-/// nlohmann keeps the last of two equal keys; in a scene that hides a mistake.
+/// nlohmann's parser keeps the last of two equal keys; in a scene they are a mistake.
 class DuplicateKeys {
 public:
     explicit DuplicateKeys(std::string file) : file_(std::move(file)) {}
@@ -303,7 +303,7 @@ public:
             open_.pop_back();
         } else if (event == json::parse_event_t::key && !open_.back().insert(parsed.get<std::string>()).second) {
             throw InputError(file_ + ": the key \"" + parsed.get<std::string>() +
-                             "\" stands twice in the same object; keep one");
+                             "\" occurs twice in one object; keep one");
         }
         return true;
     }
@@ -323,15 +323,15 @@ std::string lineAndColumn(const std::string& text, std::size_t byte) {
 
 }  // namespace
 
-contact::Scene parseScene(const json& document, const std::string& fileName) {
+headless::Scene parseScene(const json& document, const std::string& fileName) {
     const Node root(document, fileName, "");
     root.requireObject({"surfaces", "stylus", "update_rate"});
-    contact::Scene scene;
+    headless::Scene scene;
     std::set<std::string> names;
     for (const Node& element : root.at("surfaces").elements(1, "an array of one or more surfaces")) {
         scene.surfaces.push_back(readSurface(element));
         if (!names.insert(scene.surfaces.back().name).second) {
-            element.at("name").fail("a name that no other surface has");
+            element.at("name").fail("a name that is different from those of all other surfaces");
         }
     }
     if (root.has("stylus")) {
@@ -345,7 +345,7 @@ contact::Scene parseScene(const json& document, const std::string& fileName) {
     return scene;
 }
 
-contact::Scene readSceneFile(const std::string& path) {
+headless::Scene readSceneFile(const std::string& path) {
     const std::string text = readInputFile(path, "a scene file (JSON)");
     try {
         DuplicateKeys duplicates(path);

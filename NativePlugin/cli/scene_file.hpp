@@ -1,17 +1,17 @@
 #pragma once
 
-#include "contact/scene.hpp"
+#include "headless/scene.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
 namespace haptoflow::cli {
 
-/// Reads SCENE.json (Documentation~/scene-and-stroke.md). Throws InputError naming the file, the key or the line
-/// and column, and what was expected there.
-[[nodiscard]] contact::Scene readSceneFile(const std::string& path);
+/// Reads SCENE.json (Documentation~/scene-and-stroke.md). Throws InputError that names the file, the key or the line
+/// and column, and the expected content.
+[[nodiscard]] headless::Scene readSceneFile(const std::string& path);
 
-/// The same from JSON already read; `fileName` is what errors call it.
-[[nodiscard]] contact::Scene parseScene(const nlohmann::json& document, const std::string& fileName);
+/// Reads a scene from parsed JSON; `fileName` is its name in errors.
+[[nodiscard]] headless::Scene parseScene(const nlohmann::json& document, const std::string& fileName);
 
 }  // namespace haptoflow::cli

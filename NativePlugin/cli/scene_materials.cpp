@@ -42,13 +42,14 @@ void SceneMaterials::add(const std::string& path) {
     const std::uint32_t index = read(path, "");
     const std::string& name = files_.back().label.name;
     if (!indices_.emplace(name, index).second) {
-        throw InputError(path + ": its name is \"" + name +
-                         "\", which a label of the model or another material has already: change the key \"name\"");
+        throw InputError(
+            path + ": its name is \"" + name +
+            "\", which is already that of a label of the model or of another material: change the key \"name\"");
     }
 }
 
-void SceneMaterials::require(const contact::Scene& scene) {
-    for (const contact::Surface& surface : scene.surfaces) {
+void SceneMaterials::require(const headless::Scene& scene) {
+    for (const headless::SceneSurface& surface : scene.surfaces) {
         for (const auto& [name, weight] : surface.material) {
             requireKnown(name, surface.name);
         }
@@ -87,7 +88,7 @@ const model::Label* SceneMaterials::find(std::string_view name) const {
     return found->second < labels.size() ? &labels[found->second] : &files_[found->second - labels.size()].label;
 }
 
-void useStiffnessOfMaterials(contact::ContactSettings& settings, const SceneMaterials& materials) {
+void useStiffnessOfMaterials(headless::ContactSettings& settings, const SceneMaterials& materials) {
     settings.stiffnessOfLabel = [&materials](std::string_view name) -> std::optional<double> {
         const model::Label* label = materials.find(name);
         return label == nullptr ? std::nullopt : std::optional(label->stiffnessNewtonsPerMetre);

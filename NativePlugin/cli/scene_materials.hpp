@@ -1,7 +1,7 @@
 #pragma once
 
-#include "contact/contact_types.hpp"
-#include "contact/scene.hpp"
+#include "headless/contact_types.hpp"
+#include "headless/scene.hpp"
 #include "model/material_file.hpp"
 #include "model/model_file.hpp"
 
@@ -14,25 +14,25 @@
 
 namespace haptoflow::cli {
 
-/// What a name in a scene stands for: a label of the model, the name of a material file that was given beside the
-/// scene, or the path of one, relative to the scene file.
+/// Resolves the material names of a scene: a label of the model, the name of a material file given on the command line,
+/// or the path of one, relative to the scene file.
 class SceneMaterials {
 public:
     /// The model must outlive this.
     SceneMaterials(const model::ModelFile& model, std::filesystem::path modelPath, std::string scenePath);
 
-    /// A material file whose name then counts as a label. Throws InputError: not such a file, learnt for another model,
-    /// a name that is taken.
+    /// Adds a material file whose name then counts as a label. Throws InputError if it is not a material file, was
+    /// learnt for another model, or has a name that is already used.
     void add(const std::string& path);
-    /// Reads the material files that the scene names. Throws InputError for what is not one, and for a name that
-    /// nothing has, with the scene, the surface and the three nearest names.
-    void require(const contact::Scene& scene);
+    /// Reads the material files that the scene names. Throws InputError for an invalid file, and for an unknown name
+    /// with the scene, the surface and the three nearest names.
+    void require(const headless::Scene& scene);
 
-    /// Null where nothing has that name.
+    /// The label or material of this name; null if there is none.
     [[nodiscard]] const model::Label* find(std::string_view name) const;
-    /// As a contact state names it. Only for a name that was required.
+    /// The index that contact states use. Only for a name that was required.
     [[nodiscard]] std::uint32_t indexOf(const std::string& name) const { return indices_.at(name); }
-    /// Those to be registered, in the order of their indices.
+    /// The material files to be registered, in the order of their indices.
     [[nodiscard]] const std::vector<model::MaterialFile>& files() const noexcept { return files_; }
 
 private:
@@ -46,7 +46,7 @@ private:
     std::map<std::string, std::uint32_t, std::less<>> indices_;
 };
 
-/// Surfaces without a stiffness of their own get that of their labels and materials, which must outlive the settings.
-void useStiffnessOfMaterials(contact::ContactSettings& settings, const SceneMaterials& materials);
+/// Sets the stiffness of labels and materials for surfaces without their own; `materials` must outlive the settings.
+void useStiffnessOfMaterials(headless::ContactSettings& settings, const SceneMaterials& materials);
 
 }  // namespace haptoflow::cli

@@ -1,5 +1,6 @@
 #include "stroke_file.hpp"
 
+#include "csv_lines.hpp"
 #include "decimal_number.hpp"
 #include "exit_codes.hpp"
 #include "input_file.hpp"
@@ -13,25 +14,15 @@
 namespace haptoflow::cli {
 namespace {
 
-constexpr double largestValue = 1e9;
-constexpr std::size_t mostFrames = 10'000'000;
+constexpr double maximumValue = 1e9;
+constexpr std::size_t maximumFrames = 10'000'000;
 constexpr std::array<std::string_view, 9> columnNames{"t", "x", "y", "z", "force", "qx", "qy", "qz", "qw"};
 constexpr std::string_view headerForm = "t,x,y,z[,force][,qx,qy,qz,qw]";
 
-std::string_view trimmed(std::string_view text) {
-    constexpr std::string_view blank = " \t\r";
-    const std::size_t first = text.find_first_not_of(blank);
-    return first == std::string_view::npos ? std::string_view()
-                                           : text.substr(first, text.find_last_not_of(blank) - first + 1);
-}
-
-std::vector<std::string_view> splitCells(std::string_view line) {
+std::vector<std::string_view> trimmedCells(std::string_view line) {
     std::vector<std::string_view> cells;
-    for (std::size_t start = 0; start <= line.size();) {
-        const std::size_t comma = std::min(line.find(',', start), line.size());
-        cells.push_back(trimmed(line.substr(start, comma - start)));
-        start = comma + 1;
-    }
+    splitCells(line, cells);
+    std::ranges::transform(cells, cells.begin(), [](std::string_view cell) { return trimmed(cell); });
     return cells;
 }
 
@@ -44,23 +35,19 @@ struct Layout {
     }
 };
 
-/// Reads line by line and knows where it is.
+/// Reads the text line by line and knows the position for errors.
 class StrokeReader {
 public:
-    StrokeReader(std::string_view text, const std::string& file) : rest_(text), file_(file) {
-        if (rest_.starts_with("\xEF\xBB\xBF")) {
-            rest_.remove_prefix(3);
-        }
-    }
+    StrokeReader(std::string_view text, const std::string& file) : lines_(text), file_(file) {}
 
     Stroke read() {
-        if (!nextLine()) {
+        if (!lines_.next()) {
             fail("expected the header " + std::string(headerForm) + ", found an empty file");
         }
         readHeader();
         Stroke stroke;
-        while (nextLine()) {
-            if (trimmed(line_).empty()) {
+        while (lines_.next()) {
+            if (trimmed(lines_.line()).empty()) {
                 requireNothingMore();
                 break;
             }
@@ -77,29 +64,20 @@ public:
     }
 
 private:
-    bool nextLine() {
-        if (rest_.empty()) {
-            return false;
-        }
-        const std::size_t end = std::min(rest_.find('\n'), rest_.size());
-        line_ = rest_.substr(0, end);
-        rest_.remove_prefix(std::min(end + 1, rest_.size()));
-        ++lineNumber_;
-        return true;
-    }
+    [[noreturn]] void fail(const std::string& complaint) const { failAt(lines_.number(), complaint); }
 
-    [[noreturn]] void fail(const std::string& complaint) const {
-        throw InputError(file_ + ":" + std::to_string(std::max<std::size_t>(1, lineNumber_)) + ": " + complaint);
+    [[noreturn]] void failAt(std::size_t line, const std::string& complaint) const {
+        throw InputError(file_ + ":" + std::to_string(std::max<std::size_t>(1, line)) + ": " + complaint);
     }
 
     [[noreturn]] void fail(std::size_t column, const std::string& expected) const {
-        const std::vector<std::string_view> cells = splitCells(line_);
+        const std::vector<std::string_view> cells = trimmedCells(lines_.line());
         fail("column " + std::string(layout_.nameOf(column)) + ": " + expected + ", found \"" +
              std::string(cells[column].substr(0, 40)) + "\"");
     }
 
     void readHeader() {
-        const std::vector<std::string_view> cells = splitCells(line_);
+        const std::vector<std::string_view> cells = trimmedCells(lines_.line());
         for (const bool force : {false, true}) {
             for (const bool orientation : {false, true}) {
                 layout_ = {force, orientation};
@@ -113,33 +91,32 @@ private:
             }
         }
         fail("expected the header " + std::string(headerForm) + " with commas between the names, found \"" +
-             std::string(trimmed(line_).substr(0, 80)) + "\"");
+             std::string(trimmed(lines_.line()).substr(0, 80)) + "\"");
     }
 
     void requireNothingMore() {
-        while (nextLine()) {
-            if (!trimmed(line_).empty()) {
-                --lineNumber_;
-                fail("an empty line between samples; remove it");
+        while (lines_.next()) {
+            if (!trimmed(lines_.line()).empty()) {
+                failAt(lines_.number() - 1, "an empty line between samples; remove it");
             }
         }
     }
 
     double number(const std::vector<std::string_view>& cells, std::size_t column) const {
         const std::optional<double> value = decimalNumber(cells[column]);
-        if (!value || !(std::abs(*value) <= largestValue)) {
+        if (!value || !(std::abs(*value) <= maximumValue)) {
             fail(column, "expected a number within +-1e9 with a decimal point");
         }
         return *value;
     }
 
-    contact::TipSample readSample() const {
-        const std::vector<std::string_view> cells = splitCells(line_);
+    headless::TipSample readSample() const {
+        const std::vector<std::string_view> cells = trimmedCells(lines_.line());
         if (cells.size() != layout_.columns()) {
             fail("expected " + std::to_string(layout_.columns()) + " values as in the header, found " +
                  std::to_string(cells.size()) + " (decimals need a point, not a comma)");
         }
-        contact::TipSample sample;
+        headless::TipSample sample;
         sample.timeSeconds = number(cells, 0);
         sample.positionMetres = {number(cells, 1), number(cells, 2), number(cells, 3)};
         std::size_t column = 4;
@@ -164,11 +141,9 @@ private:
         return sample;
     }
 
-    std::string_view rest_;
-    std::string_view line_;
+    CsvLines lines_;
     const std::string& file_;
     Layout layout_;
-    std::size_t lineNumber_ = 0;
 };
 
 }  // namespace
@@ -181,19 +156,19 @@ Stroke readStrokeFile(const std::string& path) {
     return parseStroke(readInputFile(path, "a stroke file (CSV)"), path);
 }
 
-contact::TipSample sampleStroke(const Stroke& stroke, double timeSeconds) {
+headless::TipSample sampleStroke(const Stroke& stroke, double timeSeconds) {
     const auto& samples = stroke.samples;
     const auto after =
         std::upper_bound(samples.begin(), samples.end(), timeSeconds,
-                         [](double time, const contact::TipSample& sample) { return time < sample.timeSeconds; });
-    contact::TipSample result;
+                         [](double time, const headless::TipSample& sample) { return time < sample.timeSeconds; });
+    headless::TipSample result;
     if (after == samples.begin()) {
         result = samples.front();
     } else if (after == samples.end()) {
         result = samples.back();
     } else {
-        const contact::TipSample& a = *(after - 1);
-        const contact::TipSample& b = *after;
+        const headless::TipSample& a = *(after - 1);
+        const headless::TipSample& b = *after;
         const double u = (timeSeconds - a.timeSeconds) / (b.timeSeconds - a.timeSeconds);
         result.positionMetres = glm::mix(a.positionMetres, b.positionMetres, u);
         result.forceNewtons = u < 0.5 ? a.forceNewtons : b.forceNewtons;
@@ -210,16 +185,16 @@ contact::TipSample sampleStroke(const Stroke& stroke, double timeSeconds) {
 
 std::size_t frameCount(const Stroke& stroke, double updateRateHz, const std::string& fileName) {
     const double seconds = stroke.samples.back().timeSeconds - stroke.samples.front().timeSeconds;
-    // A last frame that misses the last sample by rounding alone still counts.
+    // A last frame that misses the last sample only by rounding counts.
     const double frames = std::floor(seconds * updateRateHz + 1e-6) + 1.0;
-    if (frames > static_cast<double>(mostFrames)) {
+    if (frames > static_cast<double>(maximumFrames)) {
         throw InputError(fileName + ": " + std::to_string(seconds) +
                          " s at the scene's update_rate are more than ten million frames; expected a shorter stroke");
     }
     return static_cast<std::size_t>(frames);
 }
 
-contact::TipSample frameAt(const Stroke& stroke, double updateRateHz, std::size_t index) {
+headless::TipSample frameAt(const Stroke& stroke, double updateRateHz, std::size_t index) {
     return sampleStroke(stroke, stroke.samples.front().timeSeconds + static_cast<double>(index) / updateRateHz);
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "contact/contact_types.hpp"
+#include "headless/contact_types.hpp"
 
 #include <cstddef>
 #include <string>
@@ -9,27 +9,26 @@
 
 namespace haptoflow::cli {
 
-/// A recorded movement of the tip: one or more samples, their times never decreasing.
+/// A recorded path of the tip: one or more samples with non-decreasing times.
 struct Stroke {
-    std::vector<contact::TipSample> samples;
+    std::vector<headless::TipSample> samples;
 };
 
-/// Reads STROKE.csv (Documentation~/scene-and-stroke.md). Throws InputError naming file, line and column.
+/// Reads STROKE.csv (Documentation~/scene-and-stroke.md). Throws InputError that names file, line and column.
 [[nodiscard]] Stroke readStrokeFile(const std::string& path);
 
-/// The same from text already read; `fileName` is what errors call it.
+/// Reads a stroke from text; `fileName` is its name in errors.
 [[nodiscard]] Stroke parseStroke(std::string_view text, const std::string& fileName);
 
-/// The tip at a time: position and force on a straight line between the samples around it, orientation turned the
-/// short way, the ends held outside. Of samples at the same time the last counts from then on. The stroke must have
-/// a sample.
-[[nodiscard]] contact::TipSample sampleStroke(const Stroke& stroke, double timeSeconds);
+/// The tip at a time: position and force are interpolated linearly between the neighbouring samples, the orientation
+/// turns the shorter way; outside the stroke the first or last sample is used. Of several samples at the same time the
+/// last one is valid from then on. The stroke must have a sample.
+[[nodiscard]] headless::TipSample sampleStroke(const Stroke& stroke, double timeSeconds);
 
-/// How many frames 1 / updateRateHz apart fit from the first sample to the last. Throws InputError above ten
-/// million.
+/// The number of frames at the update rate from the first sample to the last. Throws InputError above ten million.
 [[nodiscard]] std::size_t frameCount(const Stroke& stroke, double updateRateHz, const std::string& fileName);
 
-/// The tip at frame `index`, at index / updateRateHz after the first sample.
-[[nodiscard]] contact::TipSample frameAt(const Stroke& stroke, double updateRateHz, std::size_t index);
+/// The tip at frame `index`, index / updateRateHz seconds after the first sample.
+[[nodiscard]] headless::TipSample frameAt(const Stroke& stroke, double updateRateHz, std::size_t index);
 
 }  // namespace haptoflow::cli

@@ -22,7 +22,7 @@ std::string svgNumber(double value) {
     std::ostringstream stream;
     stream.imbue(std::locale::classic());
     stream.precision(6);
-    // Hundredths of a pixel; no "-0".
+    // Rounded to hundredths of a pixel; never "-0".
     stream << std::round(value * 100.0) / 100.0 + 0.0;
     return stream.str();
 }
@@ -61,7 +61,7 @@ std::string svgLine(double x1, double y1, double x2, double y2, const std::strin
            svgNumber(y2) + "\" " + style + "/>\n";
 }
 
-/// Where a frequency stands.
+/// Maps frequencies to horizontal positions.
 class FrequencyAxis {
 public:
     FrequencyAxis(double lowestHz, double highestHz) : lowestHz_(lowestHz), octaves_(std::log2(highestHz / lowestHz)) {}

@@ -13,7 +13,7 @@ struct PlotLine {
     bool isDashed = false;
 };
 
-/// One vertical axis and what is drawn over it.
+/// One vertical axis and its lines.
 struct PlotPanel {
     std::string axis;
     double lowest = 0.0;
@@ -22,8 +22,9 @@ struct PlotPanel {
     std::vector<PlotLine> lines;
 };
 
-/// An SVG picture of values over the logarithm of frequency, the panels one below the other. Each line has a value for
-/// each frequency; what is not finite is left out, what lies beyond the axis is drawn at its edge.
+/// An SVG picture of values over the logarithm of frequency, with the panels below each other. Each line has a value
+/// for each frequency; values that are not finite are skipped, values outside the axis are drawn at its edge.
+/// Home-made: the build has no plotting library for C++, and two kinds of panel are all that is needed.
 [[nodiscard]] std::string svgPlot(const std::string& title, const std::vector<double>& frequencyHz,
                                   const std::vector<PlotPanel>& panels);
 

@@ -20,7 +20,7 @@ constexpr double lowestHz = 20.0;
 constexpr double highestHz = 1000.0;
 constexpr double dynamicDecibels = 30.0;
 
-/// Mean power at each bin, of windows that overlap by half.
+/// Mean power in each bin, over windows that overlap by half.
 using Spectrum = std::vector<double>;
 
 void addPower(Spectrum& spectrum, const std::vector<float>& samples) {
@@ -41,7 +41,7 @@ double hzOf(std::size_t bin) {
     return static_cast<double>(bin) * rateHz / static_cast<double>(window);
 }
 
-/// What was wanted and what is played, in dB, where both count.
+/// The original and the played spectrum in dB, over the bins that are compared.
 struct LabelSpectra {
     std::string label;
     std::vector<double> uncompensated;
@@ -58,7 +58,7 @@ LabelSpectra spectraOf(const model::ModelFile& model, std::size_t label, const e
         }
         const std::span<const float, model::seedSamples> waveform = model.seed(seed);
         dsp::WaveformResampler resampler(rateHz);
-        // Played twice: the first time the filters swing in.
+        // Played twice: the filters settle during the first time.
         std::vector<float> texture(2 * static_cast<std::size_t>(4 * model::seedSamples));
         for (std::size_t turn = 0; turn < 2; ++turn) {
             resampler.process(waveform, std::span(texture).subspan(turn * texture.size() / 2, texture.size() / 2));
@@ -86,7 +86,7 @@ LabelSpectra spectraOf(const model::ModelFile& model, std::size_t label, const e
 
 using Differences = std::vector<double> LabelSpectra::*;
 
-/// The one strength that suits all labels best: the mean of their mean differences.
+/// The gain that is best for all labels together: the mean of their mean differences.
 double strengthDecibels(const std::vector<LabelSpectra>& labels, Differences differences) {
     double sum = 0.0;
     for (const LabelSpectra& label : labels) {

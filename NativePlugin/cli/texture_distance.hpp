@@ -9,17 +9,17 @@
 
 namespace haptoflow::cli {
 
-/// How far what an actuator plays is from the texture that was wanted: log-spectral distance, the root mean square over
-/// 20-1000 Hz of the difference of mean power spectra in dB.
+/// Distance between the texture that an actuator plays and the original: log-spectral distance, the root mean square
+/// over 20-1000 Hz of the difference of mean power spectra in dB.
 struct TextureDistance {
     std::string label;
     double uncompensatedDecibels = 0.0;
     double compensatedDecibels = 0.0;
 };
 
-/// For every label of a model, by its recorded seeds. One strength, the best for all labels together, is set with and
-/// one without compensation, as by an amplifier's knob. Bins more than 30 dB below a label's loudest are left out. The
-/// actuator is its profile's magnitude.
+/// The distance for every label of a model, over its recorded seeds. One gain, the best for all labels together, is
+/// used with compensation and one without, like the setting of an amplifier. Bins more than 30 dB below a label's
+/// maximum are ignored. The actuator is modelled by the magnitude of its profile.
 [[nodiscard]] std::vector<TextureDistance> textureDistances(const model::ModelFile& model,
                                                             const effects::ActuatorProfile& profile,
                                                             const effects::CompensationSettings& settings);

@@ -1,5 +1,6 @@
 #include "wav_file.hpp"
 
+#include "effects/compensation.hpp"
 #include "exit_codes.hpp"
 
 #include <sndfile.h>
@@ -24,7 +25,7 @@ WavWriter::WavWriter(const std::filesystem::path& file, int rateHz, std::string 
     if (file_->handle == nullptr) {
         throw InputError(shownAs_ + ": cannot be written (" + sf_strerror(nullptr) + ")");
     }
-    // A peak chunk carries the time of writing, and the same render would not give the same bytes twice.
+    // A peak chunk contains the time of writing, so that equal renders would have different bytes.
     sf_command(file_->handle, SFC_SET_ADD_PEAK_CHUNK, nullptr, SF_FALSE);
     if (!comment.empty()) {
         sf_set_string(file_->handle, SF_STR_COMMENT, comment.c_str());
@@ -51,19 +52,18 @@ void WavWriter::close() {
 }
 
 Recording readRecording(const std::string& path, int channel) {
-    constexpr int lowestRateHz = 8000;
-    constexpr int highestRateHz = 192000;
-    constexpr sf_count_t longestSeconds = 600;
+    constexpr sf_count_t maximumSeconds = 600;
     SF_INFO info{};
     const std::unique_ptr<SNDFILE, int (*)(SNDFILE*)> file(sf_open(path.c_str(), SFM_READ, &info), sf_close);
     if (file == nullptr) {
         throw InputError(path + ": cannot be read (" + sf_strerror(nullptr) + "); expected a sound file such as WAV");
     }
-    if (info.samplerate < lowestRateHz || info.samplerate > highestRateHz) {
+    if (info.samplerate < effects::Compensation::lowestRateHz ||
+        info.samplerate > effects::Compensation::highestRateHz) {
         throw InputError(path + ": has a rate of " + std::to_string(info.samplerate) +
                          " Hz; expected 8000 to 192000 Hz");
     }
-    if (info.frames > longestSeconds * info.samplerate) {
+    if (info.frames > maximumSeconds * info.samplerate) {
         throw InputError(path + ": is longer than ten minutes; cut it to the sweep and the silence after it");
     }
     if (channel == 0 && info.channels != 1) {

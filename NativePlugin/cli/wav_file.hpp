@@ -9,13 +9,13 @@
 
 namespace haptoflow::cli {
 
-/// Most samples that one channel of 32-bit float has room for in a WAV file, whose sizes are 32-bit numbers.
-inline constexpr std::uint64_t mostWavSamples = (0xFFFF'FFFFULL - 1024) / sizeof(float);
+/// Maximum number of 32-bit float samples of one channel in a WAV file, whose sizes are 32-bit numbers.
+inline constexpr std::uint64_t maximumWavSamples = (0xFFFF'FFFFULL - 1024) / sizeof(float);
 
-/// Writes one channel of 32-bit float samples, +-1, piece by piece. Throws InputError that calls the file `shownAs`.
+/// Writes one channel of 32-bit float samples, +-1, in parts. Throws InputError that names the file as `shownAs`.
 class WavWriter {
 public:
-    /// `comment` is text that stands in the file beside the samples; readRecording gives it back.
+    /// `comment` is text stored beside the samples; readRecording returns it.
     WavWriter(const std::filesystem::path& file, int rateHz, std::string shownAs, const std::string& comment = "");
     WavWriter(const WavWriter&) = delete;
     WavWriter& operator=(const WavWriter&) = delete;
@@ -24,7 +24,7 @@ public:
     ~WavWriter();
 
     void write(std::span<const float> samples);
-    /// Completes the header; nothing can be written after it.
+    /// Completes the header; nothing can be written afterwards.
     void close();
 
 private:
@@ -40,8 +40,8 @@ struct Recording {
     std::string comment;
 };
 
-/// Reads channel `channel` (from 1 on; 0 for a file that may have one only) of a sound file of 8 to 192 kHz and at most
-/// ten minutes. Throws InputError that calls the file by its path; samples that are not finite are refused too.
+/// Reads channel `channel` (from 1 on; 0 for a file that must have a single one) of a sound file of 8 to 192 kHz and at
+/// most ten minutes. Throws InputError that names the path; samples that are not finite are errors, too.
 [[nodiscard]] Recording readRecording(const std::string& path, int channel = 0);
 
 }  // namespace haptoflow::cli

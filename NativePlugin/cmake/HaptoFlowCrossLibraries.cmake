@@ -1,14 +1,14 @@
-# Cross builds take the header-only libraries from the build machine. Its include folder itself must stay out of sight
-# (it holds the build machine's C library), so that each library is linked into a folder of its own.
+# Cross builds use the header-only libraries of the build machine. Its include folder itself must not be on the include
+# path, because it contains the build machine's C library; therefore each library is linked into a separate folder.
 
 set(haptoflow_borrowed_headers "${CMAKE_BINARY_DIR}/borrowed-headers")
 
 # haptoflow_borrow_headers(TARGET FOLDER PROBE): an imported target for one header-only library.
 function(haptoflow_borrow_headers target folder probe)
   find_path(HAPTOFLOW_${folder}_INCLUDE_DIR "${folder}/${probe}" NO_CMAKE_FIND_ROOT_PATH REQUIRED
-            DOC "Where the build machine has ${folder}/${probe}")
+            DOC "The build machine's include folder of ${folder}/${probe}")
   if(CMAKE_HOST_WIN32)
-    # No C library lies there, and links want a privilege.
+    # That folder contains no C library on Windows, where links need a privilege.
     set(haptoflow_borrowed_headers "${HAPTOFLOW_${folder}_INCLUDE_DIR}")
   else()
     file(MAKE_DIRECTORY "${haptoflow_borrowed_headers}")
@@ -25,7 +25,7 @@ if(HAPTOFLOW_BUILD_CLI OR HAPTOFLOW_BUILD_TESTS)
 endif()
 haptoflow_borrow_headers(nlohmann_json::nlohmann_json nlohmann json.hpp)
 
-# GoogleTest is compiled with the tests, from the sources that its package installs beside the binaries.
+# Compiles GoogleTest from the sources that its package installs.
 function(haptoflow_add_googletest)
   set(HAPTOFLOW_GOOGLETEST_SOURCES "/usr/src/googletest" CACHE PATH "GoogleTest's sources, for cross builds")
   if(NOT EXISTS "${HAPTOFLOW_GOOGLETEST_SOURCES}/CMakeLists.txt")

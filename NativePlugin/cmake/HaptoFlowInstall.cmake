@@ -1,5 +1,5 @@
-# `cmake --install`: the library, its one header, the default model, and a CMake package `haptoflow` whose target is
-# haptoflow::haptoflow. ONNX Runtime is the user's to bring: the library is told where it is at run time.
+# `cmake --install` installs the library, its public header, the default model, and a CMake package `haptoflow` with the
+# target haptoflow::haptoflow. ONNX Runtime is not included: the application passes its path at run time.
 include(CMakePackageConfigHelpers)
 
 install(TARGETS audioplugin_haptoflow EXPORT haptoflow-targets

@@ -1,5 +1,4 @@
-# What every native target of the project shares: language level, warnings, sanitizers, and where
-# third-party headers come from.
+# Settings that all native targets share: language level, warnings, sanitizers and the paths of third-party headers.
 
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
@@ -21,7 +20,8 @@ find_package(Threads REQUIRED)
 add_library(haptoflow_options INTERFACE)
 if(CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
   target_compile_options(haptoflow_options INTERFACE -Wall -Wextra -Wconversion -Wshadow -Werror)
-  # Contraction into fused multiply-adds differs between processors; without it a render is the same everywhere.
+  # Compilers contract to fused multiply-adds on some processors only; without contraction the samples of a seeded
+  # render do not depend on the processor.
   target_compile_options(haptoflow_options INTERFACE -ffp-contract=off)
 elseif(MSVC)
   target_compile_options(haptoflow_options INTERFACE /W4 /WX /utf-8)
@@ -31,14 +31,14 @@ if(HAPTOFLOW_SANITIZERS)
   add_link_options(-fsanitize=${HAPTOFLOW_SANITIZERS})
   set(haptoflow_sanitizer_flags "-fsanitize=${HAPTOFLOW_SANITIZERS}")
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    # Instrumented code of the standard library's own headers (std::regex) trips this warning of GCC 12 wrongly; the
-    # release build keeps it.
+    # GCC 12 reports false positives of this warning in instrumented standard headers (std::regex). The release build
+    # keeps the warning.
     target_compile_options(haptoflow_options INTERFACE -Wno-maybe-uninitialized)
   endif()
 endif()
 
-# ONNX Runtime: headers only. The library is opened at run time, never linked (its SONAME differs from its
-# file name on Linux, which would keep a linked plugin from loading inside Unity).
+# ONNX Runtime: headers only. The plugin opens the library at run time instead of linking it: on Linux its SONAME
+# differs from its file name, so Unity could not load a plugin that is linked to it.
 set(haptoflow_onnxruntime_headers
     "${HAPTOFLOW_ONNXRUNTIME_DIR}/Plugins/iOS~/onnxruntime.xcframework/ios-arm64/onnxruntime.framework/Headers")
 if(NOT EXISTS "${haptoflow_onnxruntime_headers}/onnxruntime_c_api.h")
@@ -54,34 +54,37 @@ if(CMAKE_SYSTEM_NAME STREQUAL "Windows")
 elseif(APPLE)
   set(haptoflow_onnxruntime_library "${HAPTOFLOW_ONNXRUNTIME_DIR}/Plugins/macOS/arm64/libonnxruntime.dylib")
 elseif(CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64")
-  # The package has none for Linux arm64; onnxruntime-node has one.
+  # That package has no library for Linux arm64; the npm package onnxruntime-node, which the platform tests install,
+  # has one.
   set(haptoflow_onnxruntime_library
       "${PROJECT_SOURCE_DIR}/Tests/Platforms/node_modules/onnxruntime-node/bin/napi-v6/linux/arm64/libonnxruntime.so.1")
 else()
   set(haptoflow_onnxruntime_library "${HAPTOFLOW_ONNXRUNTIME_DIR}/Plugins/Linux/x64/libonnxruntime.so")
 endif()
 set(HAPTOFLOW_ONNXRUNTIME_LIBRARY "${haptoflow_onnxruntime_library}" CACHE FILEPATH
-    "ONNX Runtime for the tests, which open it as a program does")
+    "ONNX Runtime library that the tests open at run time")
 
-# haptoflow_add_library(NAME SOURCES ... [DEPENDS ...]): one static library per folder of NativePlugin/src.
+# haptoflow_add_library(NAME SOURCES ... [DEPENDS ...] [PRIVATE_DEPENDS ...]): the static library of one folder. Includes
+# name the folder: "dsp/gate.hpp" for NativePlugin/src/dsp/gate.hpp, "headless/scene.hpp" for NativePlugin/headless/.
 function(haptoflow_add_library name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;DEPENDS;PRIVATE_DEPENDS")
   add_library(${name} STATIC ${arg_SOURCES})
-  target_include_directories(${name} PUBLIC "${PROJECT_SOURCE_DIR}/NativePlugin/src")
+  cmake_path(GET CMAKE_CURRENT_SOURCE_DIR PARENT_PATH include_root)
+  target_include_directories(${name} PUBLIC "${include_root}")
   target_link_libraries(${name} PUBLIC ${arg_DEPENDS} PRIVATE haptoflow_options ${arg_PRIVATE_DEPENDS})
 endfunction()
 
-# haptoflow_join_sources(NAME): most of compiling such a file is reading GoogleTest, CLI11 or the JSON library, so eight
-# are read at once: a third of the time. What is shipped is compiled file by file.
+# haptoflow_join_sources(NAME): compiles the files of a test program or of the command line eight at a time. Most of
+# their compile time goes into reading GoogleTest, CLI11 or the JSON library; joined, they compile in a third of the
+# time. The plugin is always compiled file by file.
 function(haptoflow_join_sources name)
   if(HAPTOFLOW_JOINED_SOURCES)
     set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
   endif()
 endfunction()
 
-# haptoflow_add_test(NAME [CLI] [APART] SOURCES ... DEPENDS ...): one GoogleTest program, every test of it known to
-# ctest. CLI: it starts the command line, whose path HAPTOFLOW_TEST_CLI tells it. APART: its files do not bear to be
-# joined.
+# haptoflow_add_test(NAME [CLI] [APART] SOURCES ... DEPENDS ...): one GoogleTest program; ctest lists each of its tests.
+# CLI: its tests start the command line, whose path is in HAPTOFLOW_TEST_CLI. APART: its files cannot be compiled joined.
 function(haptoflow_add_test name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "CLI;APART" "" "SOURCES;DEPENDS")
   add_executable(${name} ${arg_SOURCES})
@@ -96,7 +99,8 @@ function(haptoflow_add_test name)
     add_dependencies(${name} haptoflow_cli)
   endif()
   if(CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
-    # The libraries under test are optimised as shipped; the tests' own code is read once and run once.
+    # The libraries under test keep the optimisation of the shipped build. The tests' own code runs once, so that
+    # compiling it faster saves more than optimising it.
     target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
     if(HAPTOFLOW_SANITIZERS MATCHES "undefined")
       # The libraries are checked for undefined behaviour; to check the tests' own code as well doubles its compile time.

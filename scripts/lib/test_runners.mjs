@@ -13,7 +13,7 @@ import { pythonOrFail } from './setup.mjs';
 import { addCounts, countsOfTap, countsOfTrx, judged, noCounts } from './test_counts.mjs';
 
 /** Programs of Tests/Native that every platform builds. */
-const portablePrograms = ['model', 'dsp', 'effects', 'contact', 'inference', 'learning', 'engine', 'capi', 'unity'];
+const portablePrograms = ['model', 'dsp', 'effects', 'headless', 'inference', 'learning', 'engine', 'capi', 'unity'];
 
 /**
  * What runs under which sanitizers: programs that read untrusted input, hand memory across the C ABI, or share it between
@@ -24,7 +24,7 @@ const sanitized = [
   { preset: 'asan-ubsan', program: 'capi', except: ['*ClosedLoop*', '*HardCaseTest.*Shipped*', '*HardSceneTest.*Shipped*', '*RangeSweepSound*'] },
   { preset: 'asan-ubsan', program: 'unity' },
   { preset: 'asan-ubsan', program: 'model' },
-  { preset: 'asan-ubsan', program: 'contact', long: true },
+  { preset: 'asan-ubsan', program: 'headless', long: true },
   { preset: 'asan-ubsan', program: 'learning', except: ['*LearnerTest*'], long: true },
   {
     preset: 'asan-ubsan',

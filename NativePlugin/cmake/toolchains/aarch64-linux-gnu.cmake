@@ -1,4 +1,4 @@
-# Linux arm64 (the architecture of Quest) from x64: GCC's cross compiler. Tests run under qemu's user mode.
+# Linux arm64 (the architecture of Quest) with GCC's cross compiler on x64. Tests run under qemu's user mode.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
 set(CMAKE_C_COMPILER aarch64-linux-gnu-gcc)

@@ -1,4 +1,4 @@
-# Windows x64 from Linux: mingw-w64 with POSIX threads, everything of the compiler's own linked in. Tests run under wine.
+# Windows x64 on Linux: mingw-w64 with POSIX threads and statically linked runtime libraries. Tests run under wine.
 set(CMAKE_SYSTEM_NAME Windows)
 set(CMAKE_SYSTEM_PROCESSOR x86_64)
 set(CMAKE_C_COMPILER x86_64-w64-mingw32-gcc-posix)

@@ -11,7 +11,7 @@
 namespace haptoflow::capi {
 namespace {
 
-// Of fixed size, so that reporting that memory ran out needs none.
+// Of fixed size, so that an error about exhausted memory needs none.
 thread_local std::array<char, 1024> message{};
 
 haptoflow_status report(haptoflow_status status, const char* text) noexcept {

@@ -5,18 +5,19 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
+#include <filesystem>
 #include <stdexcept>
 #include <string>
 
 namespace haptoflow::capi {
 
-/// Turns the exception that is being handled into a status and remembers its message for this thread.
+/// Converts the exception that is being handled into a status and stores its message for this thread.
 [[nodiscard]] haptoflow_status reportCurrentException() noexcept;
 
 /// The message of the last failed call on this thread.
 [[nodiscard]] const char* lastMessage() noexcept;
 
-/// Runs the body of a C function; nothing that it throws leaves.
+/// Runs the body of a C function; no exception leaves it.
 template <typename Action>
 [[nodiscard]] haptoflow_status guarded(Action&& action) noexcept {
     try {
@@ -27,7 +28,7 @@ template <typename Action>
     }
 }
 
-/// `pointer`, which must not be null. Throws std::invalid_argument naming it.
+/// Returns `pointer`. Throws std::invalid_argument that names it if it is null.
 template <typename Type>
 [[nodiscard]] Type* require(Type* pointer, const char* name) {
     if (pointer == nullptr) {
@@ -36,20 +37,19 @@ template <typename Type>
     return pointer;
 }
 
-/// No descriptor will ever be larger; a larger struct_size is memory that was never filled in.
-inline constexpr std::size_t largestDescriptor = 4096;
+/// No descriptor will be larger; a larger struct_size is uninitialised memory.
+inline constexpr std::size_t maximumDescriptor = 4096;
 
 inline void checkStructSize(std::size_t found, std::size_t minimum, const char* name) {
-    if (found < minimum || found > largestDescriptor) {
+    if (found < minimum || found > maximumDescriptor) {
         throw std::invalid_argument(std::string(name) + ": struct_size is " + std::to_string(found) +
                                     "; set it to sizeof the struct");
     }
 }
 
-/// A copy of a caller's descriptor of any version; what the caller's version lacks is zero. `minimum` is the size of
-/// the first version's mandatory fields. A size that ends within a field belongs to no version. It is rounded down, so
-/// that no part of a pointer is copied without the rest: that would make an invalid address. Throws
-/// std::invalid_argument.
+/// Copies a caller's descriptor of any version; fields that the caller's version does not have are zero. `minimum` is
+/// the size of the first version's mandatory fields. A size that ends within a field belongs to no version; it is
+/// rounded down, because copying part of a pointer would make an invalid address. Throws std::invalid_argument.
 template <typename Descriptor>
 [[nodiscard]] Descriptor readDescriptor(const Descriptor* descriptor, std::size_t minimum, const char* name) {
     const std::size_t size = require(descriptor, name)->struct_size;
@@ -60,8 +60,8 @@ template <typename Descriptor>
     return copy;
 }
 
-/// Fills a caller's descriptor of any version as far as it reaches and sets its struct_size to the bytes filled. Throws
-/// std::invalid_argument.
+/// Fills a caller's descriptor of any version up to its size and sets its struct_size to the number of bytes filled.
+/// Throws std::invalid_argument.
 template <typename Descriptor>
 void writeDescriptor(Descriptor* target, Descriptor content, const char* name) {
     const std::size_t size = require(target, name)->struct_size;
@@ -69,6 +69,12 @@ void writeDescriptor(Descriptor* target, Descriptor content, const char* name) {
     const std::size_t filled = std::min(size, sizeof(Descriptor));
     content.struct_size = static_cast<decltype(content.struct_size)>(filled);
     std::memcpy(target, &content, filled);
+}
+
+/// A caller's path, which is UTF-8 on every platform.
+[[nodiscard]] inline std::filesystem::path utf8Path(const char* text) {
+    const std::u8string utf8(text, text + std::strlen(text));
+    return std::filesystem::path(utf8);
 }
 
 }  // namespace haptoflow::capi

@@ -15,20 +15,18 @@ using namespace haptoflow::capi;
 
 namespace {
 
-constexpr uint32_t usualBatchVoices = 8;
-constexpr double usualUpdateRateHz = engine::defaultUpdateRateHz;
-constexpr double usualBudgetShare = engine::defaultBudgetShare;
-constexpr double usualFullScaleMps2 = HAPTOFLOW_DEFAULT_FULL_SCALE_MPS2;
-static_assert(usualFullScaleMps2 == dsp::SoftLimiter::defaultFullScaleMps2);
+constexpr uint32_t defaultBatchVoices = 8;
+constexpr double defaultFullScaleMps2 = HAPTOFLOW_DEFAULT_FULL_SCALE_MPS2;
+static_assert(defaultFullScaleMps2 == dsp::SoftLimiter::defaultFullScaleMps2);
 
-// The first version could not do without these; everything behind has a default.
+// The fields that the first version required; all later ones have defaults.
 constexpr std::size_t mandatoryOptions = offsetof(haptoflow_engine_options, update_rate_hz);
 
 double orDefault(double value, double usual) {
     return value == 0.0 ? usual : value;
 }
 
-/// Place in the model of the tier that a quality means.
+/// Index in the model of the tier for a quality.
 std::size_t tierOfQuality(const model::ModelHeader& header, haptoflow_quality quality) {
     const auto named = [&header](const char* name, std::size_t otherwise) {
         const auto found = std::ranges::find(header.tiers, name, &model::Tier::name);
@@ -57,22 +55,22 @@ engine::QualitySettings qualitySettings(const model::ModelHeader& header, haptof
     return settings;
 }
 
-/// Whether an engine of this quality has the tier loaded.
+/// True if an engine of this quality uses the tier.
 bool isWanted(const engine::QualitySettings& quality, std::size_t tier) {
     return !quality.fixedTier || *quality.fixedTier == tier;
 }
 
 engine::LiveEngineSettings engineSettings(const haptoflow_engine_options& given, const model::ModelHeader& header) {
-    const double budgetShare = orDefault(given.budget_share, usualBudgetShare);
+    const double budgetShare = orDefault(given.budget_share, engine::defaultBudgetShare);
     if (!(budgetShare > 0.0 && budgetShare <= 1.0)) {
         throw std::invalid_argument("options: budget_share is " + std::to_string(budgetShare) +
                                     "; expected above 0 to 1");
     }
     engine::LiveEngineSettings settings;
-    settings.updateRateHz = orDefault(given.update_rate_hz, usualUpdateRateHz);
+    settings.updateRateHz = orDefault(given.update_rate_hz, settings.updateRateHz);
     settings.quality = qualitySettings(header, given.quality, 1000.0 * budgetShare / settings.updateRateHz);
     settings.tiersByAccuracy = model::tiersByAccuracy(header.tiers);
-    settings.fullScaleMps2 = static_cast<float>(orDefault(given.full_scale_mps2, usualFullScaleMps2));
+    settings.fullScaleMps2 = static_cast<float>(orDefault(given.full_scale_mps2, defaultFullScaleMps2));
     settings.seed = given.seed;
     settings.hasWorker = given.without_worker == 0;
     if (given.fixed_lead_ms != 0.0) {
@@ -90,7 +88,7 @@ haptoflow_status haptoflow_engine_create(const haptoflow_engine_options* options
         const auto runtime = runtimes().get(given.runtime);
         const auto open = models().get(given.model);
         const model::ModelHeader& header = open->model.header();
-        const uint32_t batch = given.batch_voices != 0 ? given.batch_voices : usualBatchVoices;
+        const uint32_t batch = given.batch_voices != 0 ? given.batch_voices : defaultBatchVoices;
         if (batch > HAPTOFLOW_MAXIMUM_VOICES) {
             throw std::invalid_argument("options: batch_voices is " + std::to_string(batch) + "; expected 1 to 64");
         }
@@ -144,7 +142,8 @@ haptoflow_status haptoflow_engine_step(haptoflow_engine* engine) {
     return guarded([&] {
         const auto open = engines().get(engine);
         if (open->hasWorker) {
-            throw std::invalid_argument("the engine has a worker: only one made with without_worker is stepped");
+            throw std::invalid_argument(
+                "the engine has a worker: only an engine created with without_worker is stepped");
         }
         const std::lock_guard lock(open->stepping);
         open->engine->step();

@@ -16,10 +16,10 @@ static_assert(inference::largestBatch == HAPTOFLOW_MAXIMUM_BATCH);
 
 namespace {
 
-constexpr uint32_t usualBatch = 8;
+constexpr uint32_t defaultBatch = 8;
 constexpr std::size_t motionSize = HAPTOFLOW_MOTION_SIZE;
 
-// What the first version of the options could not do without; steps and maximum_batch have defaults.
+// The fields that the first version required; steps and maximum_batch have defaults.
 constexpr std::size_t mandatoryOptions = offsetof(haptoflow_generator_options, steps);
 constexpr std::size_t mandatoryForLevels = offsetof(haptoflow_batch, previous_mps2);
 constexpr std::size_t mandatoryForSegments = offsetof(haptoflow_batch, rib_phases);
@@ -51,18 +51,7 @@ inference::SolverSettings solverSettings(haptoflow_solver solver, int32_t steps,
     }
 }
 
-const model::Tier& chosenTier(const model::ModelFile& model, const char* name) {
-    if (name == nullptr) {
-        return model.header().tiers[model.header().defaultTier];
-    }
-    const model::Tier* tier = model.findTier(name);
-    if (tier == nullptr) {
-        throw std::invalid_argument(std::string("the model has no tier \"") + name + '"');
-    }
-    return *tier;
-}
-
-/// A waveform that stands in where none is needed.
+/// The previous waveform of requests that need none.
 constexpr std::array<float, inference::segmentSamples> silence{};
 
 std::span<const float, inference::segmentSamples> waveformAt(const float* waveforms, std::size_t index) {
@@ -111,9 +100,9 @@ haptoflow_status haptoflow_generator_create(const haptoflow_generator_options* o
         (void)require(generator, "generator");
         const auto runtime = runtimes().get(given.runtime);
         const auto open = models().get(given.model);
-        const model::Tier& tier = chosenTier(open->model, given.tier);
+        const model::Tier& tier = tierNamed(open->model, given.tier);
         const auto tierSolver = inference::defaultSolver(tier);
-        const uint32_t batch = given.maximum_batch != 0 ? given.maximum_batch : usualBatch;
+        const uint32_t batch = given.maximum_batch != 0 ? given.maximum_batch : defaultBatch;
         *generator = generators().open(std::shared_ptr<OpenGenerator>(
             new OpenGenerator{{},
                               tierSolver,

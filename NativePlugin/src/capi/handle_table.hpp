@@ -9,8 +9,8 @@
 
 namespace haptoflow::capi {
 
-/// Opaque handles to shared objects. A handle is a number that is never given out twice, not an address, so that a
-/// closed or invented one is recognised instead of followed. Any thread.
+/// Opaque handles to shared objects. A handle is a number that is never reused, not an address, so that a closed or
+/// invalid handle is detected instead of dereferenced. Thread-safe.
 template <typename Handle, typename Object>
 class HandleTable {
 public:
@@ -34,8 +34,8 @@ public:
         return found->second;
     }
 
-    /// Throws std::invalid_argument for a handle that is not open. The object itself goes outside the lock, with its
-    /// last user.
+    /// Throws std::invalid_argument for a handle that is not open. The object is destroyed outside the lock, when its
+    /// last user releases it.
     void close(const Handle* handle) {
         std::shared_ptr<Object> last;
         const std::lock_guard lock(mutex_);
@@ -48,7 +48,7 @@ public:
     }
 
 private:
-    // Multiples of 16 look like addresses to tools that tag the lower bits of pointers.
+    // Tools that tag the lower bits of pointers expect multiples of 16.
     static constexpr std::uintptr_t numberStep = 16;
 
     [[noreturn]] void refuse() const { throw std::invalid_argument(std::string("not an open ") + kind_ + " handle"); }

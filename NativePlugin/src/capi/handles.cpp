@@ -41,6 +41,17 @@ LearningTable& learnings() {
     return table;
 }
 
+const model::Tier& tierNamed(const model::ModelFile& model, const char* name) {
+    if (name == nullptr) {
+        return model.header().tiers[model.header().defaultTier];
+    }
+    const model::Tier* tier = model.findTier(name);
+    if (tier == nullptr) {
+        throw std::invalid_argument(std::string("options: the model has no tier \"") + name + '"');
+    }
+    return *tier;
+}
+
 inference::LoadLimits loadLimits(const haptoflow_cancellation* cancellation, double probeLimitMs) {
     inference::LoadLimits limits;
     if (probeLimitMs != 0.0) {

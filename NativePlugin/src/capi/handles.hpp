@@ -22,7 +22,7 @@ struct OpenModel {
         : model(std::move(file)), headerText(model.headerText()), space(model::spaceOf(model.header())) {}
 
     model::ModelFile model;
-    /// With the zero byte at its end that the file's own copy lacks.
+    /// The file's header with a final zero byte, which the file itself does not have.
     std::string headerText;
     std::string space;
 };
@@ -33,7 +33,7 @@ struct OpenGenerator {
     inference::OnnxSegmentGenerator generator;
 };
 
-/// Loads the tiers of one engine, when it is made or when a later quality asks for them.
+/// Loads the tiers of one engine, when it is created or when a later quality uses them.
 struct TierLoader {
     std::shared_ptr<const inference::Runtime> runtime;
     std::shared_ptr<const OpenModel> model;
@@ -42,7 +42,7 @@ struct TierLoader {
     /// Throws what OnnxSegmentGenerator's constructor throws.
     [[nodiscard]] std::unique_ptr<inference::SegmentGenerator> load(std::size_t tier,
                                                                     const inference::LoadLimits& limits) const;
-    /// The tier's level graph alone, for a user of its own. Throws what OnnxLevelEstimator's constructor throws.
+    /// Loads only the tier's level graph. Throws what OnnxLevelEstimator's constructor throws.
     [[nodiscard]] std::unique_ptr<inference::LevelEstimator> loadLevels(std::size_t tier,
                                                                         const inference::LoadLimits& limits) const;
 };
@@ -53,18 +53,18 @@ struct OpenEngine {
 
     std::shared_ptr<engine::LiveEngine> engine;
     bool hasWorker;
-    /// Steps by hand queue up.
+    /// Serialises calls of haptoflow_engine_step.
     std::mutex stepping;
-    /// So do changes of quality, which may load.
+    /// Serialises changes of quality, which may load tiers.
     std::mutex loading;
     const TierLoader loader;
     const double probeLimitMs;
-    /// Registrations queue up, too: they share a level graph, loaded when the first of them needs it.
+    /// Serialises registrations, which share a level graph that the first one that needs it loads.
     std::mutex registering;
     std::unique_ptr<inference::LevelEstimator> levels;
 };
 
-/// What C callers see of a label; its texts live as long as the label.
+/// The info of a label for C callers; its texts are valid as long as the label.
 [[nodiscard]] haptoflow_label_info describe(const model::Label& label);
 
 using RuntimeTable = HandleTable<haptoflow_runtime, const inference::Runtime>;
@@ -77,7 +77,7 @@ using WaveFeaturesTable = HandleTable<haptoflow_wave_features, OpenWaveFeatures>
 struct OpenLearning;
 using LearningTable = HandleTable<haptoflow_learning, const OpenLearning>;
 
-// The tables are never destroyed: ONNX Runtime may be gone by the time that static objects are.
+// The tables are never destroyed, because ONNX Runtime may be unloaded before static objects are destroyed.
 [[nodiscard]] RuntimeTable& runtimes();
 [[nodiscard]] CancellationTable& cancellations();
 [[nodiscard]] ModelTable& models();
@@ -86,11 +86,15 @@ using LearningTable = HandleTable<haptoflow_learning, const OpenLearning>;
 [[nodiscard]] WaveFeaturesTable& waveFeatures();
 [[nodiscard]] LearningTable& learnings();
 
-/// The limits of a load as options give them: a null cancellation is none, a limit of 0 is the usual one. Throws
+/// The tier of this name, or the model's default tier if `name` is null. Throws std::invalid_argument for an unknown
+/// name.
+[[nodiscard]] const model::Tier& tierNamed(const model::ModelFile& model, const char* name);
+
+/// The limits of a load from the options: a null cancellation means none, a limit of 0 the default. Throws
 /// std::invalid_argument.
 [[nodiscard]] inference::LoadLimits loadLimits(const haptoflow_cancellation* cancellation, double probeLimitMs);
 
-/// Closes *handle and makes it null; a null handle is fine, a null pointer to one is not.
+/// Closes *handle and sets it to null; *handle may be null, `handle` must not.
 template <typename Table, typename Handle>
 void closeHandle(Table& table, Handle** handle, const char* name) {
     if (*require(handle, name) != nullptr) {

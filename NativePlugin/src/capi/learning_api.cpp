@@ -25,21 +25,10 @@ namespace {
 
 constexpr std::size_t mandatoryOptions = offsetof(haptoflow_learning_options, seed);
 constexpr std::size_t batchOfFit = 64;
-constexpr double longestLimitSeconds = 3600.0;
+constexpr double maximumLimitSeconds = 3600.0;
 
 std::string textOrNone(const char* text) {
     return text != nullptr ? text : "";
-}
-
-const model::Tier& chosenTier(const model::ModelFile& model, const char* name) {
-    if (name == nullptr) {
-        return model.header().tiers[model.header().defaultTier];
-    }
-    const model::Tier* tier = model.findTier(name);
-    if (tier == nullptr) {
-        throw std::invalid_argument(std::string("options: the model has no tier \"") + name + '"');
-    }
-    return *tier;
 }
 
 learning::Recording recordingOf(const haptoflow_learning_options& given) {
@@ -47,8 +36,8 @@ learning::Recording recordingOf(const haptoflow_learning_options& given) {
     if (given.axis_count != 1 && given.axis_count != 3) {
         throw std::invalid_argument("options: axis_count is " + std::to_string(given.axis_count) + "; expected 1 or 3");
     }
-    constexpr uint64_t mostSamples = std::numeric_limits<std::size_t>::max() / (3 * sizeof(float));
-    if (given.sample_count > mostSamples) {
+    constexpr uint64_t maximumSamples = std::numeric_limits<std::size_t>::max() / (3 * sizeof(float));
+    if (given.sample_count > maximumSamples) {
         throw std::invalid_argument("options: sample_count is " + std::to_string(given.sample_count));
     }
     const auto count = static_cast<std::size_t>(given.sample_count);
@@ -73,7 +62,7 @@ learning::LearningSettings settingsOf(const haptoflow_learning_options& given,
     settings.licence = textOrNone(given.licence);
     settings.seed = given.seed;
     if (given.seconds_limit != 0.0) {
-        if (!(given.seconds_limit > 0.0 && given.seconds_limit <= longestLimitSeconds)) {
+        if (!(given.seconds_limit > 0.0 && given.seconds_limit <= maximumLimitSeconds)) {
             throw std::invalid_argument("options: seconds_limit is " + std::to_string(given.seconds_limit) +
                                         "; expected above 0 to 3600, or 0 for 20");
         }
@@ -99,7 +88,7 @@ haptoflow_status haptoflow_learn_material(const haptoflow_learning_options* opti
         (void)require(learning, "learning");
         const auto runtime = runtimes().get(given.runtime);
         const auto open = models().get(given.model);
-        const model::Tier& tier = chosenTier(open->model, given.tier);
+        const model::Tier& tier = tierNamed(open->model, given.tier);
         const inference::LoadLimits limits = loadLimits(given.cancellation, 0.0);
         const learning::Recording recording = recordingOf(given);
         const learning::LearningSettings settings = settingsOf(given, limits.cancellation.get());

@@ -15,7 +15,7 @@ namespace {
 
 model::MaterialFile readJson(const char* json, uint64_t length) {
     (void)require(json, "json");
-    // Refused here, before as many bytes are looked at.
+    // Checked here, before that many bytes are read.
     if (length > model::maximumMaterialBytes) {
         throw model::MaterialError("length is " + std::to_string(length) + "; the limit is " +
                                    std::to_string(model::maximumMaterialBytes));
@@ -23,7 +23,7 @@ model::MaterialFile readJson(const char* json, uint64_t length) {
     return model::parseMaterial(std::string_view(json, static_cast<std::size_t>(length)));
 }
 
-/// Loads the level graph at its first use. Only under OpenEngine::registering.
+/// Loads the level graph at its first use. Only while OpenEngine::registering is locked.
 engine::MaterialLibrary::LevelSource levelsOf(OpenEngine& open) {
     return [&open]() -> inference::LevelEstimator& {
         if (open.levels == nullptr) {

@@ -1,5 +1,4 @@
 #include "capi/handles.hpp"
-#include "capi/utf8_path.hpp"
 #include "model/file_layout.hpp"
 
 #include <algorithm>
@@ -18,7 +17,7 @@ model::ModelFile openModel(const haptoflow_model_options& options) {
     if (options.path != nullptr) {
         return model::ModelFile::read(utf8Path(options.path));
     }
-    // Refused here, before as much memory is asked for.
+    // Checked here, before that much memory is allocated.
     if (options.byte_count > model::maximumFileBytes) {
         throw model::ModelError(model::ModelStatus::oversized,
                                 "byte_count is " + std::to_string(options.byte_count) + "; the limit is 268435456");

@@ -1,5 +1,4 @@
 #include "capi/handles.hpp"
-#include "capi/utf8_path.hpp"
 
 #include <cstddef>
 
@@ -8,7 +7,7 @@ using namespace haptoflow::capi;
 
 namespace {
 
-// What the first version of the options had.
+// The fields of the first version of the options.
 constexpr std::size_t mandatoryOptions = offsetof(haptoflow_runtime_options, log);
 
 }  // namespace

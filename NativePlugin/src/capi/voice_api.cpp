@@ -27,9 +27,7 @@ static_assert(effects::maskOf(EffectKind::edge) == HAPTOFLOW_ASKS_FOR_EDGE);
 
 namespace {
 
-constexpr double usualSampleRateHz = 48000.0;
-
-// Through the force; the approach speed is only for effects.
+// All fields up to the force; the later ones have defaults.
 constexpr std::size_t mandatoryState = offsetof(haptoflow_contact_state, approach_speed_mps);
 
 VoiceTable::Use requireVoice(haptoflow_voice voice) {
@@ -60,7 +58,7 @@ engine::ContactState contactState(const haptoflow_contact_state& given) {
     return state;
 }
 
-effects::EffectMask askedBeyondStates(engine::VoiceChannels& channels) {
+effects::EffectMask effectsRequestedBySettings(engine::VoiceChannels& channels) {
     const std::lock_guard lock(channels.processorMutex);
     const engine::ProcessorSettings& settings = channels.processorSettings;
     return (settings.hasDelay ? effects::maskOf(EffectKind::delay) : 0U) |
@@ -93,7 +91,7 @@ haptoflow_status haptoflow_voice_create(haptoflow_engine* engine, double sample_
     return guarded([&] {
         (void)require(voice, "voice");
         const auto open = engines().get(engine);
-        const double rateHz = sample_rate_hz == 0.0 ? usualSampleRateHz : sample_rate_hz;
+        const double rateHz = sample_rate_hz == 0.0 ? engine::LiveVoiceSettings{}.outputRateHz : sample_rate_hz;
         auto opened = std::make_unique<OpenVoice>();
         opened->engine = open->engine;
         opened->voice = open->engine->addVoice(rateHz);
@@ -104,7 +102,7 @@ haptoflow_status haptoflow_voice_create(haptoflow_engine* engine, double sample_
             open->engine->removeVoice(live);
             throw;
         }
-        // Closed meanwhile by another thread, which may have looked for its voices before this one was there.
+        // Another thread has begun to close the engine, and may have looked for its voices before this one was added.
         if (open->engine->isStopping()) {
             (void)voices().close(*voice);
             *voice = 0;
@@ -313,7 +311,8 @@ haptoflow_status haptoflow_voice_effect_statistics(haptoflow_voice voice, haptof
         const engine::EffectCounters& own = counters.effects[static_cast<std::size_t>(effect)];
         haptoflow_effect_statistics content{};
         content.is_asked_for =
-            ((counters.askedFor | askedBeyondStates(use->voice->channels)) >> static_cast<unsigned>(effect)) & 1U;
+            ((counters.askedFor | effectsRequestedBySettings(use->voice->channels)) >> static_cast<unsigned>(effect)) &
+            1U;
         content.prepared = own.prepared;
         content.runs = own.runs;
         content.samples = own.samples;

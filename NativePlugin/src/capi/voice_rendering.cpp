@@ -6,7 +6,7 @@
 namespace haptoflow::capi {
 namespace {
 
-/// Calls `action` with each frame's samples that belong to the target.
+/// Calls `action` with the samples of each frame that belong to the target.
 template <typename Action>
 void forEachFrame(const ChannelTarget& target, std::size_t firstFrame, std::size_t frames, Action action) noexcept {
     const std::size_t channels = target.channelCount;

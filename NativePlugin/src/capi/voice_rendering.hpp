@@ -7,7 +7,7 @@
 
 namespace haptoflow::capi {
 
-/// Where a voice's samples go: one channel of interleaved frames, or all.
+/// The destination of a voice's samples: one channel of interleaved frames, or all.
 struct ChannelTarget {
     static constexpr std::uint32_t maximumChannels = 64;
 
@@ -20,7 +20,8 @@ struct ChannelTarget {
     [[nodiscard]] bool isValid() const noexcept;
 };
 
-// RealtimeSanitizer holds a function with this attribute, and whatever it calls, to what an audio callback may do.
+// RealtimeSanitizer checks that functions with this attribute, and their callees, do only what an audio callback may
+// do.
 #if defined(__has_cpp_attribute)
 #if __has_cpp_attribute(clang::nonblocking)
 #define HAPTOFLOW_NONBLOCKING [[clang::nonblocking]]
@@ -30,8 +31,8 @@ struct ChannelTarget {
 #define HAPTOFLOW_NONBLOCKING
 #endif
 
-/// Renders the voice into a valid target; zeros where there is none, or where another thread renders it. Wait-free:
-/// made for the audio callback.
+/// Renders the voice into a valid target; writes zeros if there is no voice, or if another thread renders it.
+/// Wait-free, for the audio callback.
 [[nodiscard]] haptoflow_status renderInto(const VoiceTable::Use& use, const ChannelTarget& target,
                                           double sampleRateHz) noexcept HAPTOFLOW_NONBLOCKING;
 

@@ -12,8 +12,8 @@ namespace {
 constexpr haptoflow_voice placeBits = 0xFF;
 constexpr int generationShift = 8;
 
-// Made when the library is loaded, so that the first to ask may be an audio thread, and never destroyed, so that it may
-// be the last too.
+// Constructed when the library is loaded, because the first user may be an audio thread, and never destroyed, because
+// an audio thread may also be the last.
 union Lasting {
     Lasting() : table() {}
     Lasting(const Lasting&) = delete;
@@ -80,8 +80,8 @@ void VoiceTable::fadeOut(std::span<Place* const> places) {
 }
 
 void VoiceTable::remove(Place& place) {
-    // From here on nobody new gets in; those inside are waited for. Sequentially consistent, like the entry below: of
-    // "handle gone" and "user there" each side sees the other's.
+    // From here on no new user gets the voice; present users are waited for. Both operations are sequentially
+    // consistent, so that either this thread sees the user or the user sees that the handle is gone.
     place.handle.store(0);
     while (place.users.load() != 0) {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));

@@ -14,26 +14,26 @@
 
 namespace haptoflow::capi {
 
-/// A voice with the engine that serves it, kept alive until the voice is destroyed.
+/// A voice with its engine, which it keeps alive until the voice is destroyed.
 struct OpenVoice {
     std::shared_ptr<engine::LiveEngine> engine;
     std::shared_ptr<engine::LiveVoice> voice;
     std::atomic_flag publishing{};
     std::atomic_flag rendering{};
     std::atomic<std::uint64_t> refusedCalls{0};
-    /// Whoever holds `rendering` renders into it. As long as any platform's block; longer ones go in pieces.
+    /// Only the thread that holds `rendering` uses it. As long as the blocks of any platform; longer blocks are split.
     std::array<float, 8192> block{};
 };
 
-/// The process's voices in a fixed number of places. A handle is a place and a count of how often that place was used,
-/// so that looking one up needs no lock, and one that was destroyed is recognised. Destroying waits for the users.
+/// The voices of the process in a fixed number of slots. A handle combines a slot and the number of its uses, so that a
+/// lookup needs no lock and a destroyed voice is detected. Destroying a voice waits for its users.
 class VoiceTable {
 public:
     static constexpr std::size_t capacity = HAPTOFLOW_MAXIMUM_VOICES;
-    /// The longest usual block, 1024 frames at 24 kHz, and 5 ms.
+    /// Time limit of a fade: the longest common block, 1024 frames at 24 kHz, and 5 ms.
     static constexpr std::chrono::milliseconds fadeLimit{48};
 
-    /// A user's hold on a voice; null where the handle is not open. Wait-free.
+    /// A user's reference to a voice; null if the handle is not open. Wait-free.
     class Use {
     public:
         Use() = default;
@@ -58,23 +58,23 @@ public:
         OpenVoice* voice_ = nullptr;
     };
 
-    /// Throws std::invalid_argument when every place is taken.
+    /// Throws std::invalid_argument if all slots are in use.
     [[nodiscard]] haptoflow_voice open(std::unique_ptr<OpenVoice> voice);
-    /// Waits until the voice has faded and nobody uses it any more; for the fade at most `fadeLimit`, as nobody may be
-    /// rendering. False where the handle is not open.
+    /// Waits until the voice has faded and has no users; at most `fadeLimit` for the fade, because nobody may be
+    /// rendering it. Returns false if the handle is not open.
     bool close(haptoflow_voice handle);
-    /// Closes all voices of that engine, in one fade.
+    /// Closes all voices of an engine with a common fade.
     void closeAll(const engine::LiveEngine& engine);
 
     [[nodiscard]] Use use(haptoflow_voice handle) noexcept;
-    /// The voice at that place, if there is one.
+    /// The voice in a slot, if there is one.
     [[nodiscard]] Use useAt(std::size_t place) noexcept;
-    /// The place of a handle that is open; capacity otherwise.
+    /// The slot of an open handle; capacity otherwise.
     [[nodiscard]] std::size_t placeOf(haptoflow_voice handle) const noexcept;
 
 private:
     struct Place {
-        // 0 while free, otherwise the handle.
+        // The handle, or 0 while the slot is free.
         std::atomic<haptoflow_voice> handle{0};
         std::atomic<std::uint32_t> users{0};
         std::unique_ptr<OpenVoice> voice;

@@ -119,7 +119,7 @@ haptoflow_status haptoflow_wave_features_process(haptoflow_wave_features* featur
             if (!open->decimation.take(wave_mps2[i], decimated)) {
                 continue;
             }
-            // A frame is longer than a sample: at most one is completed.
+            // A frame is longer than a sample, so that one sample completes at most one frame.
             effects::WaveFrame frame;
             const auto progress = open->features.process(std::span(&decimated, 1), std::span(&frame, 1));
             if (progress.frames > 0 && written < capacity) {

@@ -12,7 +12,7 @@ constexpr std::size_t segment = inference::segmentSamples;
 constexpr std::size_t spliceSamples = 4;
 constexpr std::size_t correlationSamples = 32;
 
-/// Puts a segment behind what is running, with the engine's splice: gains that hold the level for any correlation.
+/// Appends a segment with the engine's splice, whose gains keep the level for any correlation.
 void splice(std::span<float, segment> running, std::span<const float, segment> successor) {
     double one = 0.0;
     double other = 0.0;
@@ -36,7 +36,7 @@ void splice(std::span<float, segment> running, std::span<const float, segment> s
     }
 }
 
-/// How far the tip travels along each wave vector with every sample, in turns.
+/// Change of the phase along each wave vector from sample to sample, in cycles.
 std::array<double, inference::ribCount> turnsPerSample(const Embedding& embedding, const std::array<float, 3>& motion) {
     constexpr double millimetresPerMetre = 1000.0;
     std::array<double, inference::ribCount> turns{};
@@ -77,7 +77,7 @@ void ClosedLoop::generate(std::span<const inference::SegmentRequest> requests, s
 std::vector<float> ClosedLoop::run(std::span<const Embedding> embeddings, std::span<const Chain> chains,
                                    const LoopSettings& settings) {
     const std::size_t whole = settings.warmSamples + settings.samples;
-    // Before each chain its past, behind it the rest of its last segment.
+    // Before each chain its previous waveform, after it the rest of its last segment.
     const std::size_t stride = segment + whole + segment;
     std::vector<float> waves(chains.size() * stride);
     for (std::size_t c = 0; c < chains.size(); ++c) {

@@ -13,45 +13,45 @@ namespace haptoflow::learning {
 
 using Embedding = std::array<float, inference::embeddingSize>;
 
-/// One run of the network on its own output along a stretch of the recorded motion.
+/// One run of the network, with its own output as previous waveform, along a stretch of the recorded motion.
 struct Chain {
-    /// Index into the embeddings.
+    /// Index in the embeddings.
     std::size_t embedding = 0;
-    /// Sample of the recording where it begins; the 200 before it are its first past.
+    /// Sample of the recording at which it starts; the 200 samples before it are the first previous waveform.
     std::size_t start = 0;
-    /// Chains of equal keys get equal noise.
+    /// Chains with equal keys have equal noise.
     std::uint32_t noise = 0;
 };
 
 struct LoopSettings {
     std::size_t hopSamples = 100;
-    /// Run before the samples that count.
+    /// Generated before the samples that are used.
     std::size_t warmSamples = 200;
     std::size_t samples = 512;
     std::uint64_t seed = 0;
     std::uint64_t round = 0;
 };
 
-/// Lets the network follow the recording's motion in waves of unit level, many chains in one batch.
+/// Runs the network in closed loop along the recording's motion, with waves of unit level and many chains in a batch.
 class ClosedLoop {
 public:
-    /// `unitWave`: the recording divided by its level. All of it must outlive the loop.
+    /// `unitWave`: the recording divided by its level. All arguments must outlive the loop.
     ClosedLoop(inference::SegmentGenerator& generator, const model::ModelHeader& model,
                const PreparedRecording& recording, std::span<const float> unitWave);
 
-    /// `settings.samples` of unit level for each chain, one after the other. Each segment is told the mean motion of
-    /// its own hop: the recording's ribs are to be met where they are, not where a tracker would see them. Throws
-    /// inference::InferenceError.
+    /// Returns `settings.samples` samples of unit level for each chain, one chain after the other. The motion of each
+    /// segment is the mean over its own hop, without the delay of a tracker, so that generated ribs coincide with the
+    /// recorded ones. Throws inference::InferenceError.
     [[nodiscard]] std::vector<float> run(std::span<const Embedding> embeddings, std::span<const Chain> chains,
                                          const LoopSettings& settings);
 
-    /// Mean motion of the recording's samples from `first` on, inside the model's range.
+    /// Mean motion of the recording's samples from `first` on, limited to the model's range.
     [[nodiscard]] std::array<float, 3> motionFrom(std::size_t first, std::size_t count) const;
 
-    /// One segment for each request. Throws inference::InferenceError.
+    /// Generates one segment for each request. Throws inference::InferenceError.
     void generate(std::span<const inference::SegmentRequest> requests, std::span<float> segments);
 
-    /// Segments made so far.
+    /// Number of segments generated so far.
     [[nodiscard]] std::uint64_t segments() const noexcept { return segments_; }
 
 private:

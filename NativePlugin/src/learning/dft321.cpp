@@ -1,6 +1,7 @@
 #include "learning/dft321.hpp"
 
 #include "dsp/fourier_transform.hpp"
+#include "inference/segment_generator.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -14,18 +15,18 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double rateHz = 2000.0;
 constexpr std::size_t hop = 35;
 constexpr std::size_t frameSamples = 2 * hop;
 constexpr std::size_t frameBins = hop + 1;
 constexpr int correctionRounds = 3;
-constexpr double largestCorrection = 1.9952623149688795;  // 6 dB
+constexpr double maximumCorrection = 1.9952623149688795;  // 6 dB
 constexpr double lowestCentreHz = 12.401570718501561;     // third octaves from 1 kHz down
 constexpr std::size_t restoredTailSamples = 400;
 
 using FrameSpectrum = std::array<Complex, frameBins>;
 
-/// The transform of a frame length that is no power of two, by its definition: frames are few and short.
+/// A discrete Fourier transform of a length that is not a power of two, computed by its definition: frames are few and
+/// short.
 class FrameTransform {
 public:
     FrameTransform() {
@@ -68,7 +69,7 @@ FrameSpectrum combined(const std::array<FrameSpectrum, 3>& axes) {
         const double magnitude = std::sqrt(std::norm(axes[0][bin]) + std::norm(axes[1][bin]) + std::norm(axes[2][bin]));
         Complex direction = axes[0][bin] + axes[1][bin] + axes[2][bin];
         if (std::abs(direction) <= 1e-9 * magnitude) {
-            // Axes that cancel exactly leave no phase: the strongest one lends its own.
+            // If the axes cancel exactly, their sum has no phase; the phase of the strongest one is used.
             direction = std::max({axes[0][bin], axes[1][bin], axes[2][bin]},
                                  [](Complex one, Complex other) { return std::norm(one) < std::norm(other); });
         }
@@ -92,10 +93,11 @@ struct Band {
 };
 
 std::vector<Band> thirdOctaves(std::size_t size) {
-    const double hertzPerBin = rateHz / static_cast<double>(size);
+    const double hertzPerBin = inference::waveformRateHz / static_cast<double>(size);
     const double halfBand = std::pow(2.0, 1.0 / 6.0);
     std::vector<Band> bands;
-    for (double centre = lowestCentreHz; centre * halfBand < rateHz / 2.0; centre *= halfBand * halfBand) {
+    for (double centre = lowestCentreHz; centre * halfBand < inference::waveformRateHz / 2.0;
+         centre *= halfBand * halfBand) {
         const Band band{.logCentre = std::log(centre),
                         .first = static_cast<std::size_t>(std::ceil(centre / halfBand / hertzPerBin)),
                         .end = static_cast<std::size_t>(std::ceil(centre * halfBand / hertzPerBin))};
@@ -136,18 +138,19 @@ std::vector<double> withBandEnergies(std::vector<double> wave, const std::array<
     for (int round = 0; round < correctionRounds; ++round) {
         for (std::size_t band = 0; band < bands.size(); ++band) {
             double found = 0.0;
-            double asked = 0.0;
+            double target = 0.0;
             for (std::size_t bin = bands[band].first; bin < bands[band].end; ++bin) {
                 found += std::norm(spectrum[bin]) * gain[bin] * gain[bin];
-                asked += wanted[bin];
+                target += wanted[bin];
             }
-            if (found > 1e-20 * std::max(loudest, 1e-300) && asked > 0.0) {
-                const double limit = std::log(largestCorrection);
-                logGains[band] = std::clamp(logGains[band] + 0.5 * std::log(asked / found), -limit, limit);
+            if (found > 1e-20 * std::max(loudest, 1e-300) && target > 0.0) {
+                const double limit = std::log(maximumCorrection);
+                logGains[band] = std::clamp(logGains[band] + 0.5 * std::log(target / found), -limit, limit);
             }
         }
         for (std::size_t bin = 0; bin < gain.size(); ++bin) {
-            const double hertz = std::max(static_cast<double>(bin) * rateHz / static_cast<double>(size), 1.0);
+            const double hertz =
+                std::max(static_cast<double>(bin) * inference::waveformRateHz / static_cast<double>(size), 1.0);
             gain[bin] = std::exp(interpolated(bands, logGains, std::log(hertz)));
         }
     }

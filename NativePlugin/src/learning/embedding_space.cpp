@@ -33,7 +33,7 @@ EmbeddingSpace::EmbeddingSpace(const model::ModelFile& model,
         }
     }
     EigenDecomposition axes = decompose(std::move(covariance));
-    for (std::size_t axis = 0; axis < std::min({mostAxes, labels - std::min<std::size_t>(labels, 1), freeNumbers});
+    for (std::size_t axis = 0; axis < std::min({maximumAxes, labels - std::min<std::size_t>(labels, 1), freeNumbers});
          ++axis) {
         if (axes.values[axis] <= 1e-6 * axes.values[0]) {
             break;

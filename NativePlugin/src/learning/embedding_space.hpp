@@ -8,19 +8,20 @@
 
 namespace haptoflow::learning {
 
-/// Embeddings by their coordinates along the principal axes of the model's labels, in units of the labels' spread along
-/// each. Wave vectors stand apart: they are given.
+/// Embeddings in coordinates along the principal axes of the model's labels, in units of the labels' standard deviation
+/// along each axis. Wave vectors are not among the coordinates: they are given.
 class EmbeddingSpace {
 public:
-    static constexpr std::size_t mostAxes = 16;
+    static constexpr std::size_t maximumAxes = 16;
 
     EmbeddingSpace(const model::ModelFile& model, std::span<const float, 2 * inference::ribCount> waveVectors);
 
     [[nodiscard]] std::size_t axisCount() const noexcept { return axes_.size(); }
     [[nodiscard]] std::vector<double> coordinatesOf(const Embedding& embedding) const;
-    /// What the axes leave of `base` stays, so that a label's own coordinates give the label.
+    /// The embedding at these coordinates. The part of `base` that the axes do not cover is kept, so that a label's own
+    /// coordinates give its embedding.
     [[nodiscard]] Embedding at(const Embedding& base, std::span<const double> coordinates) const;
-    /// The label's embedding with the wave vectors that were given.
+    /// The label's embedding with the given wave vectors.
     [[nodiscard]] Embedding ofLabel(std::size_t label) const;
 
 private:

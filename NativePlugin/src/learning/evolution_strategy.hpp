@@ -8,19 +8,19 @@
 
 namespace haptoflow::learning {
 
-/// CMA-ES (Hansen and Ostermeier 2001; parameters of Hansen's tutorial, 2016): minimises without gradients. Ask for a
-/// generation, measure it, tell the scores. Equal seeds and scores give equal generations on every machine whose
-/// arithmetic is IEEE 754's.
+/// CMA-ES (Hansen and Ostermeier 2001; parameters of Hansen's tutorial, 2016): minimises without gradients. Call `ask`
+/// for a generation and `tell` with its scores. Equal seeds and scores give equal generations on every machine with
+/// IEEE 754 arithmetic. Home-made: libcmaes needs Eigen and does not guarantee equal results on all platforms.
 class EvolutionStrategy {
 public:
     EvolutionStrategy(std::vector<double> start, double stepSize, std::size_t population, std::uint64_t seed);
 
-    /// Points of the next generation, each with the start's number of coordinates.
+    /// The points of the next generation, each with the start's number of coordinates.
     [[nodiscard]] const std::vector<std::vector<double>>& ask();
-    /// Scores of the points that `ask` gave, in their order; less is better.
+    /// Scores of the points of `ask`, in their order; lower is better.
     void tell(std::span<const double> scores);
 
-    /// Where the distribution's centre is: with noisy scores a better guess than the best point.
+    /// Centre of the distribution: for noisy scores a better estimate than the best point.
     [[nodiscard]] const std::vector<double>& mean() const noexcept { return mean_; }
     [[nodiscard]] double stepSize() const noexcept { return stepSize_; }
 

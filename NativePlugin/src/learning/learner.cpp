@@ -7,8 +7,8 @@
 #include "learning/level_law.hpp"
 #include "learning/material_frame.hpp"
 #include "learning/material_text.hpp"
-#include "learning/plain_number.hpp"
 #include "learning/prepared_recording.hpp"
+#include "learning/recording.hpp"
 #include "learning/seed_choice.hpp"
 #include "learning/seed_ribs.hpp"
 #include "learning/sliding.hpp"
@@ -26,18 +26,18 @@ namespace haptoflow::learning {
 namespace {
 
 constexpr double fewSeconds = 10.0;
-constexpr float largestUnitSample = 12.0F;
-/// A level this far from every label's is more likely a wrong unit.
+constexpr float maximumUnitSample = 12.0F;
+/// A level this far from those of all labels is probably in another unit.
 constexpr double suspiciousLevelDb = 30.0;
 constexpr double degreesPerRadian = 57.29577951308232;
 constexpr double decibelsPerNat = 8.685889638065037;
 constexpr std::size_t population = 12;
 constexpr double firstStep = 0.45;
-/// Draws coordinates to the labels' mean, in dB^2 for each coordinate of one spread.
+/// Weight that draws coordinates to the labels' mean, in dB^2 per squared standard deviation.
 constexpr double shrinkage = 0.06;
 /// Segments of one chain of the fit; see TextureFit::distances.
 constexpr std::uint64_t segmentsPerChain = 8;
-/// Of the limit of seconds: when the search among the labels ends, and the fit.
+/// Shares of the time limit at which the search among the labels and the fit end.
 constexpr double labelShare = 0.4;
 constexpr double fitShare = 0.9;
 
@@ -51,8 +51,8 @@ public:
         checkRecording(recording);
         recording_ = prepareRecording(recording);
         sliding_ = findSliding(recording_, model.header());
-        if (recording.seconds() > longestSeconds) {
-            report_.warnings.push_back("only the first " + plainNumber(longestSeconds) + " s were read");
+        if (recording.seconds() > maximumSeconds) {
+            report_.warnings.push_back("only the first " + plainNumber(maximumSeconds) + " s were read");
         }
     }
 
@@ -97,10 +97,10 @@ public:
     }
 
 private:
-    /// Of this thread's work: other programs' do not count.
+    /// Processor time of this thread, which other programs do not affect.
     [[nodiscard]] double elapsedSeconds() const { return threadSeconds() - began_; }
 
-    /// Whether a share of the limit is spent; says so the first time.
+    /// True if this share of the limit has been used; adds a warning the first time.
     bool isOutOfTime(double share) {
         if (elapsedSeconds() <= share * settings_.secondsLimit) {
             return false;
@@ -128,18 +128,17 @@ private:
         report_.forceNewtons = {sliding_.forceNewtons[0], sliding_.forceNewtons[2]};
         if (sliding_.seconds < fewSeconds) {
             report_.warnings.push_back("the tip slides for " + plainNumber(sliding_.seconds) +
-                                       " s; from 10 s on a material is learnt more truly");
+                                       " s; 10 s or more give a more accurate material");
         }
         if (sliding_.speedMps[2] < 1.3 * sliding_.speedMps[0]) {
             report_.warnings.emplace_back(
-                "the speed hardly changes: how level and spectrum follow it is taken from the model's labels");
+                "the speed hardly changes: its effect on level and spectrum is taken from the model's labels");
         }
         const double lost = 1.0 - std::accumulate(recording_.isUsable.begin(), recording_.isUsable.end(), 0.0) /
                                       static_cast<double>(recording_.isUsable.size());
         if (lost > 0.0) {
-            report_.warnings.push_back(
-                plainNumber(100.0 * lost) +
-                " % of the recording was left out around samples that are missing or stand still");
+            report_.warnings.push_back(plainNumber(100.0 * lost) +
+                                       " % of the recording was left out around missing or frozen samples");
         }
     }
 
@@ -167,7 +166,7 @@ private:
         return prior;
     }
 
-    /// A unit mistaken by ten or a thousand shows in the level alone.
+    /// Checks the level, which is the only sign of a unit that is wrong by a factor of ten or a thousand.
     void checkLevel() {
         const double speed = std::min(sliding_.speedMps[1], model_.header().speedMps.maximum);
         const double force = std::clamp(sliding_.forceNewtons[1], model_.header().forceNewtons.minimum,
@@ -200,14 +199,14 @@ private:
     void makeUnitWave() {
         unitWave_.resize(recording_.wave.size());
         for (std::size_t i = 0; i < unitWave_.size(); ++i) {
-            const double speed = std::max(recording_.speedMps(i), slowestSlidingMps);
+            const double speed = std::max(recording_.speedMps(i), minimumSlidingMps);
             const double level = std::exp(level_.logLevel(speed, recording_.motion[i][2]));
             unitWave_[i] =
-                std::clamp(static_cast<float>(recording_.wave[i] / level), -largestUnitSample, largestUnitSample);
+                std::clamp(static_cast<float>(recording_.wave[i] / level), -maximumUnitSample, maximumUnitSample);
         }
     }
 
-    /// Turns the recording so that its clearest ribs lie across the first axis.
+    /// Rotates the recording so that its most distinct ribs are perpendicular to the first axis.
     void findRibs() {
         std::vector<WaveVector> vectors;
         if (settings_.waveVectors) {
@@ -255,7 +254,7 @@ private:
             const std::vector<double> part = fit.distances(embeddings, chains, 0);
             distances.insert(distances.end(), part.begin(), part.end());
         }
-        // Only labels with ribs have learnt what to do with a wave vector.
+        // Only embeddings of labels with ribs respond to wave vectors.
         const auto& all = model_.header().labels;
         const auto hasRibs = [&](std::size_t label) { return all[label].wavelengthMetres.has_value(); };
         std::vector<std::size_t> eligible;
@@ -366,7 +365,7 @@ private:
         report_.spectralDistanceDb = weights > 0.0 ? total / weights : 0.0;
     }
 
-    /// How the spectrum's middle moves with speed, drawn to the nearest label's; 1 where ribs are crossed.
+    /// How the spectrum's centre moves with speed, combined with the nearest label's value; 1 if ribs are crossed.
     [[nodiscard]] double frequencyExponent(const TextureFit& fit, const model::Label& nearest) const {
         constexpr double priorSpread = 0.1;
         constexpr double centroidSpread = 0.08;
@@ -426,22 +425,22 @@ void requireText(const std::string& text, std::size_t longest, const char* what)
 }  // namespace
 
 void checkSettings(const LearningSettings& settings) {
-    constexpr std::size_t longestName = 128;
-    constexpr std::size_t longestText = 4096;
-    constexpr double finestCyclesPerMillimetre = 20.0;
+    constexpr std::size_t maximumName = 128;
+    constexpr std::size_t maximumText = 4096;
+    constexpr double maximumCyclesPerMillimetre = 20.0;
     const bool hasCapitals = std::ranges::any_of(settings.name, [](char each) { return each >= 'A' && each <= 'Z'; });
     if (settings.name.empty() || hasCapitals) {
-        throw std::invalid_argument("name is \"" + settings.name.substr(0, longestName) +
+        throw std::invalid_argument("name is \"" + settings.name.substr(0, maximumName) +
                                     "\"; expected text that is not empty and has no capital letters, as labels have");
     }
-    requireText(settings.name, longestName, "name");
-    requireText(settings.category, longestName, "category");
-    requireText(settings.description, longestText, "description");
-    requireText(settings.licence, longestText, "licence");
-    requireText(settings.recordings, longestText, "recordings");
+    requireText(settings.name, maximumName, "name");
+    requireText(settings.category, maximumName, "category");
+    requireText(settings.description, maximumText, "description");
+    requireText(settings.licence, maximumText, "licence");
+    requireText(settings.recordings, maximumText, "recordings");
     if (settings.waveVectors) {
         for (const double number : *settings.waveVectors) {
-            if (!(std::abs(number) <= finestCyclesPerMillimetre)) {
+            if (!(std::abs(number) <= maximumCyclesPerMillimetre)) {
                 throw std::invalid_argument("wave_vectors: " + plainNumber(number) +
                                             " cycles per millimetre; expected -20 to 20");
             }

@@ -10,16 +10,16 @@ namespace {
 
 constexpr std::size_t frameSamples = 100;
 constexpr std::size_t frameHop = 50;
-/// How far one frame's log RMS strays from the law, and how far a slope between knots strays from the common one.
+/// Standard deviations: of one frame's log RMS from the law, and of a slope between knots from the common one.
 constexpr double frameSpread = 0.35;
 constexpr double slopeSpread = 0.9;
 constexpr double framesPerKnot = 14.0;
 constexpr double knotDistance = 0.22;
-constexpr std::size_t mostKnots = 14;
+constexpr std::size_t maximumKnots = 14;
 constexpr int newtonRounds = 30;
 constexpr std::size_t steadyMargin = 80;
-constexpr double largestChange = 2.0;
-constexpr double leastSteadyShare = 0.25;
+constexpr double maximumChange = 2.0;
+constexpr double minimumSteadyShare = 0.25;
 
 struct Frame {
     double logSpeed = 0.0;
@@ -27,7 +27,7 @@ struct Frame {
     double power = 0.0;
 };
 
-/// Where the speed changes fast, a tracker's smoothed speed says little about the wave's.
+/// True if the speed changes slowly. While it changes fast, the tracker's smoothed speed does not match the wave.
 bool isSteady(const PreparedRecording& recording, std::size_t start) {
     double lowest = recording.speedMps(start);
     double highest = lowest;
@@ -38,7 +38,7 @@ bool isSteady(const PreparedRecording& recording, std::size_t start) {
         lowest = std::min(lowest, speed);
         highest = std::max(highest, speed);
     }
-    return highest <= largestChange * lowest;
+    return highest <= maximumChange * lowest;
 }
 
 std::vector<Frame> framesOf(const PreparedRecording& recording, const Sliding& sliding) {
@@ -55,24 +55,25 @@ std::vector<Frame> framesOf(const PreparedRecording& recording, const Sliding& s
             const double speed = recording.speedMps(i) + model::LevelTable::restMps;
             frame.power += value * value / static_cast<double>(frameSamples);
             squaredSpeed += speed * speed / static_cast<double>(frameSamples);
-            frame.logForce +=
-                std::log(std::max(static_cast<double>(recording.motion[i][2]), model::LevelTable::weakestNewtons)) /
-                static_cast<double>(frameSamples);
+            frame.logForce += std::log(std::max(static_cast<double>(recording.motion[i][2]),
+                                                model::LevelTable::minimumForceNewtons)) /
+                              static_cast<double>(frameSamples);
         }
-        // Levels grow about as the speed: what a frame's power is the mean of goes with the mean of the square.
+        // Levels grow about in proportion to the speed, so that a frame's mean power corresponds to the mean square of
+        // its speed.
         frame.logSpeed = 0.5 * std::log(squaredSpeed);
-        // Digital silence has no logarithm; a hundredth of what can be felt has.
+        // Avoids the logarithm of digital silence: the limit is a hundredth of the detection threshold.
         frame.power = std::max(frame.power, 1e-10);
         frames.push_back(frame);
         if (isSteady(recording, start)) {
             steady.push_back(frame);
         }
     }
-    return static_cast<double>(steady.size()) >= leastSteadyShare * static_cast<double>(frames.size()) ? steady
-                                                                                                       : frames;
+    return static_cast<double>(steady.size()) >= minimumSteadyShare * static_cast<double>(frames.size()) ? steady
+                                                                                                         : frames;
 }
 
-/// Log speeds of the knots: evenly spread quantiles, no two nearer than they can be told apart.
+/// Log speeds of the knots: evenly spaced quantiles with a minimum distance that the frames can resolve.
 std::vector<double> knotsOf(const std::vector<Frame>& frames) {
     std::vector<double> sorted(frames.size());
     std::ranges::transform(frames, sorted.begin(), [](const Frame& frame) { return frame.logSpeed; });
@@ -86,7 +87,7 @@ std::vector<double> knotsOf(const std::vector<Frame>& frames) {
         return {quantile(0.5)};
     }
     const auto count = std::clamp<std::size_t>(
-        1 + static_cast<std::size_t>(static_cast<double>(frames.size()) / framesPerKnot), 2, mostKnots);
+        1 + static_cast<std::size_t>(static_cast<double>(frames.size()) / framesPerKnot), 2, maximumKnots);
     std::vector<double> knots{first};
     for (std::size_t i = 1; i + 1 < count; ++i) {
         const double knot = quantile(0.03 + 0.94 * static_cast<double>(i) / static_cast<double>(count - 1));
@@ -98,7 +99,7 @@ std::vector<double> knotsOf(const std::vector<Frame>& frames) {
     return knots;
 }
 
-/// Unknowns: the log level at each knot, then the common slope, then the force exponent.
+/// The unknowns: the log level at each knot, then the common slope, then the force exponent.
 class Fit {
 public:
     Fit(const std::vector<Frame>& frames, std::vector<double> knots, double logForce, const ExponentPrior& prior)
@@ -164,8 +165,8 @@ private:
         }
     }
 
-    /// One step of Fisher's scoring: of s + power exp(-2 s) / 2, whose slope is 1 - power exp(-2 s) and whose expected
-    /// curvature is 2. Frames overlap by half.
+    /// One step of Fisher scoring for s + power exp(-2 s) / 2, whose derivative is 1 - power exp(-2 s) and whose
+    /// expected second derivative is 2. Frames overlap by half.
     void step(std::vector<double>& unknown) const {
         SymmetricMatrix normal(unknown.size());
         std::vector<double> right(unknown.size());
@@ -187,7 +188,7 @@ private:
             row.add(i - 1, -1.0);
             row.add(slope(), -distance);
             const double residual = -(unknown[i] - unknown[i - 1] - distance * unknown[slope()]);
-            // A slope may bend as often in a wide stretch as in several narrow ones.
+            // The slope may change as much within one wide interval as within several narrow ones.
             accumulate(normal, right, row, residual, 1.0 / (slopeSpread * slopeSpread * distance * knotDistance));
         }
         const auto towards = [&](std::size_t index, double mean, double spread) {
@@ -209,7 +210,7 @@ private:
     ExponentPrior prior_;
 };
 
-/// From one end of the table to the other, as far as its width tells that from what other materials have.
+/// The slope from one end of the table to the other, weighted against the prior by the table's width.
 double overallSlope(const std::vector<double>& knots, const std::vector<double>& logLevels,
                     const ExponentPrior& prior) {
     constexpr double endSpread = 0.15;
@@ -236,8 +237,10 @@ LevelLaw fitLevelLaw(const PreparedRecording& recording, const Sliding& sliding,
     law.table.forceNewtons = std::clamp(sliding.forceNewtons[1], 0.01, 100.0);
     const std::vector<double> knots = knotsOf(frames);
     std::vector<double> unknown = Fit(frames, knots, std::log(law.table.forceNewtons), prior).solve();
-    law.table.forceExponent = std::clamp(unknown[knots.size() + 1], -4.0, 4.0);
-    law.speedExponent = std::clamp(overallSlope(knots, unknown, prior), -4.0, 4.0);
+    law.table.forceExponent =
+        std::clamp(unknown[knots.size() + 1], -model::maximumLevelExponent, model::maximumLevelExponent);
+    law.speedExponent =
+        std::clamp(overallSlope(knots, unknown, prior), -model::maximumLevelExponent, model::maximumLevelExponent);
     for (std::size_t i = 0; i < knots.size(); ++i) {
         law.table.speedsMps.push_back(std::exp(knots[i]) - model::LevelTable::restMps);
         law.table.logLevels.push_back(unknown[i]);

@@ -6,11 +6,11 @@
 
 namespace haptoflow::learning {
 
-/// How strong the material vibrates.
+/// The level of a material as a function of speed and force.
 struct LevelLaw {
-    /// Where one speed alone was recorded, it holds one.
+    /// Has a single speed if only one was recorded.
     model::LevelTable table;
-    /// Beyond the table's ends.
+    /// Exponent beyond the table's ends.
     double speedExponent = 0.0;
 
     [[nodiscard]] double logLevel(double speedMps, double newtons) const noexcept {
@@ -18,7 +18,7 @@ struct LevelLaw {
     }
 };
 
-/// What other materials have: the mean of their exponents and how far they are from it.
+/// Exponents of other materials: mean and standard deviation.
 struct ExponentPrior {
     double speedMean = 0.9;
     double speedSpread = 0.2;
@@ -26,8 +26,9 @@ struct ExponentPrior {
     double forceSpread = 0.18;
 };
 
-/// Fits the law to the power of frames of 50 ms, each as likely as its chi-squared distribution has it: between knots
-/// the slope may leave a common one as far as the frames insist. Few speeds leave the exponents to the prior.
+/// Fits the law to the power of frames of 50 ms by maximum likelihood, with chi-squared distributed power. The slope
+/// between knots may differ from the common one where the frames require it. With few speeds the exponents come from
+/// the prior.
 [[nodiscard]] LevelLaw fitLevelLaw(const PreparedRecording& recording, const Sliding& sliding,
                                    const ExponentPrior& prior);
 

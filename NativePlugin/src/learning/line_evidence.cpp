@@ -10,15 +10,15 @@ namespace {
 
 constexpr double lowestHz = 15.0;
 constexpr double highestHz = 800.0;
-constexpr double lowestAlongPerMm = 0.08;
-/// One window in so many must hear a vector: strokes go in all directions, and across some ribs only.
-constexpr std::size_t hearingShare = 5;
-/// Times the mean power of noise: one loud window must not stand for many.
-constexpr double largestPower = 30.0;
+constexpr double minimumAlongPerMm = 0.08;
+/// At least one window in this many must cover a vector: strokes go in all directions, and only some cross given ribs.
+constexpr std::size_t coveringShare = 5;
+/// Limit in units of the mean noise power, so that one loud window does not dominate.
+constexpr double maximumPower = 30.0;
 constexpr std::size_t neighbours = 41;
-/// Half overlapped windows tell 0.6 of what separate ones would.
+/// Half overlapping windows give 0.6 of the information of separate ones.
 constexpr double independentShare = 0.6;
-/// Half a main lobe of a window is 1.6 of its bins; ribs that are not quite even smear their higher harmonics.
+/// Half a window's main lobe is 1.6 of its bins; slightly uneven ribs spread their higher harmonics.
 constexpr double lobeBins = 1.6;
 constexpr double widerByOrder = 0.1;
 
@@ -27,11 +27,11 @@ bool isInBand(double cyclesPerMm, const PathWindow& window) {
     return hertz >= lowestHz && hertz <= highestHz;
 }
 
-/// Sum over the samples of one wave number after another; in single precision, whose error stays far below noise.
+/// Sums a wave over the samples for increasing wave numbers; in single precision, whose error is far below the noise.
 class TurningWave {
 public:
     explicit TurningWave(const PathWindow& window) {
-        // Zero behind the end, so that whole lanes are summed.
+        // Padded with zeros, so that whole lanes are summed.
         const std::size_t padded = (window.wave.size() + lanes - 1) / lanes * lanes;
         for (std::vector<float>* each : {&real_, &imaginary_, &stepReal_, &stepImaginary_}) {
             each->resize(padded);
@@ -45,7 +45,7 @@ public:
         }
     }
 
-    /// Power at this wave number; the next call is for the next.
+    /// Power at the present wave number; advances to the next one.
     double next() {
         std::array<float, lanes> realSums{};
         std::array<float, lanes> imaginarySums{};
@@ -87,7 +87,7 @@ double medianOf(std::vector<double> values) {
     return values.size() % 2 == 1 ? *middle : 0.5 * (*middle + *std::max_element(values.begin(), middle));
 }
 
-/// By wave number along the window's own direction, 1 for its median noise.
+/// Power by wave number along the window's own direction, with 1 as the median of the noise.
 std::vector<double> spectrumOf(const PathWindow& window) {
     TurningWave wave(window);
     std::vector<double> power(stepCount);
@@ -98,39 +98,39 @@ std::vector<double> spectrumOf(const PathWindow& window) {
             inBand.push_back(power[step]);
         }
     }
-    // The median of a chi-squared variable of two degrees is ln 2 of its mean.
+    // The median of a chi-squared variable with two degrees of freedom is ln 2 of its mean.
     const double usual = inBand.empty() ? 1.0 : medianOf(std::move(inBand)) / std::numbers::ln2;
     for (double& each : power) {
-        each = std::min(usual > 0.0 ? each / usual : each, largestPower);
+        each = std::min(usual > 0.0 ? each / usual : each, maximumPower);
     }
     return power;
 }
 
-/// Inside the band, and nothing that a harmonic of a known vector would explain.
-std::vector<std::uint8_t> heardSteps(const PathWindow& window, std::span<const CyclesPerMm> known) {
+/// Marks wave numbers inside the band that no harmonic of a known vector explains.
+std::vector<std::uint8_t> coveredSteps(const PathWindow& window, std::span<const CyclesPerMm> known) {
     std::vector<std::uint8_t> heard(stepCount);
     for (std::size_t step = 0; step < stepCount; ++step) {
         const double place = static_cast<double>(step) * stepPerMm;
-        bool isHeard = isInBand(place, window);
+        bool isCovered = isInBand(place, window);
         for (const CyclesPerMm& vector : known) {
             const double fundamental = std::abs(window.directionX * vector[0] + window.directionY * vector[1]);
             for (std::size_t order = 0; order <= takenHarmonics; ++order) {
                 const double reach = (1.0 + widerByOrder * static_cast<double>(order)) * lobeBins / window.pathMm;
-                isHeard = isHeard && std::abs(place - static_cast<double>(order) * fundamental) >= reach;
+                isCovered = isCovered && std::abs(place - static_cast<double>(order) * fundamental) >= reach;
             }
         }
-        heard[step] = isHeard ? 1 : 0;
+        heard[step] = isCovered ? 1 : 0;
     }
     return heard;
 }
 
-/// One direction of the map: means over the windows that hear a wave number, and how many do.
+/// One direction of the map: means over the windows that cover a wave number, and their number.
 struct DirectionRow {
     std::array<double, stepCount> sums{};
     std::array<double, stepCount> counts{};
 };
 
-/// What stands around each value: the median of 41, the ends repeated.
+/// Background of each value: the median of 41 neighbours, with repeated ends.
 std::vector<double> mediansAround(std::span<const double> values) {
     constexpr std::ptrdiff_t reach = neighbours / 2;
     const auto last = static_cast<std::ptrdiff_t>(values.size()) - 1;
@@ -153,7 +153,7 @@ double angleOf(std::size_t direction) {
     return std::numbers::pi * static_cast<double>(direction) / static_cast<double>(directionCount);
 }
 
-bool hears(const PathWindow& window, const CyclesPerMm& vector) {
+bool covers(const PathWindow& window, const CyclesPerMm& vector) {
     return isInBand(std::abs(vector[0] * window.directionX + vector[1] * window.directionY), window);
 }
 
@@ -162,9 +162,9 @@ LineEvidence lineEvidence(std::span<const PathWindow> windows, std::span<const C
     std::vector<std::vector<std::uint8_t>> heard;
     for (const PathWindow& window : windows) {
         spectra.push_back(spectrumOf(window));
-        heard.push_back(heardSteps(window, known));
+        heard.push_back(coveredSteps(window, known));
     }
-    const auto fewest = static_cast<double>(std::max(fewestWindows, windows.size() / hearingShare));
+    const auto fewest = static_cast<double>(std::max(minimumWindows, windows.size() / coveringShare));
     LineEvidence evidence{DirectionMap(directionCount * stepCount), DirectionMap(directionCount * stepCount)};
     for (std::size_t direction = 0; direction < directionCount; ++direction) {
         const double cosine = std::cos(angleOf(direction));
@@ -175,7 +175,7 @@ LineEvidence lineEvidence(std::span<const PathWindow> windows, std::span<const C
             for (std::size_t step = 0; step < stepCount; ++step) {
                 const double along = share * static_cast<double>(step);
                 const auto column = static_cast<std::size_t>(std::floor(along + 0.5));
-                if (along * stepPerMm > lowestAlongPerMm && heard[w][column] != 0) {
+                if (along * stepPerMm > minimumAlongPerMm && heard[w][column] != 0) {
                     row.sums[step] += spectra[w][column];
                     row.counts[step] += 1.0;
                 }
@@ -188,7 +188,8 @@ LineEvidence lineEvidence(std::span<const PathWindow> windows, std::span<const C
         const std::vector<double> around = mediansAround(means);
         for (std::size_t step = 0; step < stepCount; ++step) {
             const double ratio = row.counts[step] >= fewest ? means[step] / std::max(around[step], 1.0) : 0.0;
-            // Of exponentially distributed powers whose mean is `ratio` instead of 1, at the most likely ratio.
+            // The likelihood ratio for exponentially distributed powers of mean `ratio` instead of 1, at its most
+            // likely value.
             const double gain =
                 ratio > 1.0 ? independentShare * row.counts[step] * (ratio - 1.0 - std::log(ratio)) : 0.0;
             evidence.ratios[direction * stepCount + step] = ratio;

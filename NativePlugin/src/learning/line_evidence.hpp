@@ -13,30 +13,30 @@ namespace haptoflow::learning {
 using CyclesPerMm = std::array<double, 2>;
 
 inline constexpr std::size_t directionCount = 120;
-/// Of wave numbers: multiples of `stepPerMm` from 0 to a little above 4 cycles per millimetre.
+/// Wave numbers are multiples of `stepPerMm` from 0 to slightly above 4 cycles per millimetre.
 inline constexpr std::size_t stepCount = 402;
 inline constexpr double stepPerMm = 0.01;
 inline constexpr std::size_t takenHarmonics = 8;
-inline constexpr std::size_t fewestWindows = 6;
+inline constexpr std::size_t minimumWindows = 6;
 
-/// Rows of directions, `stepCount` values each.
+/// One row of `stepCount` values for each direction.
 using DirectionMap = std::vector<double>;
 
-/// How much speaks for a line of the spectrum at each wave vector.
+/// Evidence for a spectral line at each wave vector.
 struct LineEvidence {
-    /// Log likelihood ratio of a line there.
+    /// Log likelihood ratio of a line at the wave vector.
     DirectionMap gains;
-    /// Its mean power over that of its neighbours.
+    /// Mean power divided by that of the neighbours.
     DirectionMap ratios;
 };
 
-/// Of the direction map's rows, in radians from 0 to below pi.
+/// Angle of a row of the direction map, in radians from 0 to below pi.
 [[nodiscard]] double angleOf(std::size_t direction);
 
-/// Whether the line of a wave vector lies where it can be told from the hand's own motion and the end of the band.
-[[nodiscard]] bool hears(const PathWindow& window, const CyclesPerMm& vector);
+/// True if the line of a wave vector lies between the hand's own motion and the end of the band in this window.
+[[nodiscard]] bool covers(const PathWindow& window, const CyclesPerMm& vector);
 
-/// `known`: vectors whose harmonics count for nothing.
+/// `known`: vectors whose harmonics are not counted as evidence.
 [[nodiscard]] LineEvidence lineEvidence(std::span<const PathWindow> windows, std::span<const CyclesPerMm> known);
 
 }  // namespace haptoflow::learning

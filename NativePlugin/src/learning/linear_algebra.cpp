@@ -8,7 +8,7 @@
 namespace haptoflow::learning {
 namespace {
 
-constexpr int mostSweeps = 60;
+constexpr int maximumSweeps = 60;
 
 double offDiagonal(const SymmetricMatrix& matrix) {
     double sum = 0.0;
@@ -77,7 +77,7 @@ EigenDecomposition decompose(SymmetricMatrix matrix) {
         vectors.at(i, i) = 1.0;
         scale += matrix.at(i, i) * matrix.at(i, i);
     }
-    for (int sweep = 0; sweep < mostSweeps && offDiagonal(matrix) > 1e-24 * scale; ++sweep) {
+    for (int sweep = 0; sweep < maximumSweeps && offDiagonal(matrix) > 1e-24 * scale; ++sweep) {
         for (std::size_t p = 0; p < size; ++p) {
             for (std::size_t q = p + 1; q < size; ++q) {
                 rotate(matrix, vectors, p, q);
@@ -103,10 +103,10 @@ EigenDecomposition decompose(SymmetricMatrix matrix) {
 }
 
 std::vector<double> solvePositive(SymmetricMatrix matrix, std::vector<double> right) {
-    constexpr int mostTries = 12;
+    constexpr int maximumTries = 12;
     SymmetricMatrix factor = matrix;
     double ridge = 1e-12;
-    for (int attempt = 0; attempt < mostTries && !factorise(factor); ++attempt) {
+    for (int attempt = 0; attempt < maximumTries && !factorise(factor); ++attempt) {
         factor = matrix;
         for (std::size_t i = 0; i < matrix.size; ++i) {
             factor.at(i, i) += ridge * (1.0 + std::abs(matrix.at(i, i)));

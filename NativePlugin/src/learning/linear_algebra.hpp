@@ -5,7 +5,8 @@
 
 namespace haptoflow::learning {
 
-/// A small dense symmetric matrix, row by row.
+/// A small dense symmetric matrix, row by row. Home-made: these two algorithms are all that learning needs, and their
+/// fixed order of operations gives equal bytes on all platforms.
 struct SymmetricMatrix {
     explicit SymmetricMatrix(std::size_t order) : size(order), values(order * order) {}
 
@@ -16,17 +17,18 @@ struct SymmetricMatrix {
     std::vector<double> values;
 };
 
-/// Eigenvalues, the largest first, and for each its eigenvector of length 1, row by row. The sign of a vector makes its
-/// largest component positive, so that equal matrices give equal bytes.
+/// Eigenvalues in decreasing order and the unit eigenvector of each, row by row. The largest component of each vector
+/// is positive, so that equal matrices give equal bytes.
 struct EigenDecomposition {
     std::vector<double> values;
     std::vector<std::vector<double>> vectors;
 };
 
-/// By Jacobi's rotations.
+/// By Jacobi rotations.
 [[nodiscard]] EigenDecomposition decompose(SymmetricMatrix matrix);
 
-/// x of matrix x = right, for a positive definite matrix, by Cholesky; a small ridge is added where it is not.
+/// Solves matrix x = right for a positive definite matrix by Cholesky decomposition; adds a small ridge if it is not
+/// positive definite.
 [[nodiscard]] std::vector<double> solvePositive(SymmetricMatrix matrix, std::vector<double> right);
 
 }  // namespace haptoflow::learning

@@ -5,8 +5,8 @@
 namespace haptoflow::learning {
 namespace {
 
-/// Less than it is rounding.
-constexpr double smallestPerMm = 1e-9;
+/// Smaller wave numbers are rounding errors.
+constexpr double minimumPerMm = 1e-9;
 
 std::array<double, 2> turned(double x, double y, double radians) {
     const double cosine = std::cos(radians);
@@ -27,11 +27,11 @@ MaterialFrame MaterialFrame::across(std::span<const WaveVector> vectors) {
             frame.turnRadians = std::atan2(vector.y, vector.x);
         }
         const std::array<double, 2> across = turned(vector.x, vector.y, frame.turnRadians);
-        // A family of ribs has no sign: the second one's is the labels'.
-        const double sign = across[1] < -smallestPerMm ? -1.0 : 1.0;
+        // Ribs have no sign; the second family gets the sign that the labels use.
+        const double sign = across[1] < -minimumPerMm ? -1.0 : 1.0;
         for (const double component : across) {
             frame.waveNumbers[next++] =
-                std::abs(component) < smallestPerMm ? 0.0F : static_cast<float>(sign * component);
+                std::abs(component) < minimumPerMm ? 0.0F : static_cast<float>(sign * component);
         }
     }
     return frame;

@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// So many digits as are worth keeping: it makes files smaller and equal on platforms whose last bits differ.
+/// Rounds to the significant digits, which makes files smaller and equal on platforms whose last bits differ.
 double rounded(double value, double perUnit) {
     return std::round(value * perUnit) / perUnit + 0.0;
 }

@@ -13,11 +13,11 @@
 
 namespace haptoflow::learning {
 
-/// Everything that stands in a material file.
+/// The content of a material file.
 struct MaterialContent {
     const LearningSettings& settings;
     const LearningReport& report;
-    /// What the recording does not say comes from here.
+    /// Source of the properties that the recording does not show.
     const model::Label& nearest;
     const Embedding& embedding;
     const LevelLaw& level;

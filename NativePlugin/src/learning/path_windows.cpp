@@ -1,5 +1,6 @@
 #include "learning/path_windows.hpp"
 
+#include "inference/segment_generator.hpp"
 #include "learning/linear_algebra.hpp"
 
 #include <algorithm>
@@ -12,18 +13,17 @@
 namespace haptoflow::learning {
 namespace {
 
-constexpr double rateHz = 2000.0;
 constexpr double millimetresPerMetre = 1000.0;
-/// A path that long holds many ribs, and a tracker's error over it is less than one rib.
-constexpr double wantedPathMm = 35.0;
-constexpr std::size_t shortestSamples = 160;
-constexpr std::size_t longestSamples = 1000;
-/// A window whose path bends more, or is shorter, says little about a direction.
-constexpr double leastStraight = 0.96;
-constexpr double shortestPathMm = 4.0;
+/// A path of this length contains many ribs, and the tracker's error over it is less than one rib.
+constexpr double targetPathMm = 35.0;
+constexpr std::size_t minimumSamples = 160;
+constexpr std::size_t maximumSamples = 1000;
+/// Windows with a more curved or a shorter path do not determine a direction.
+constexpr double minimumStraightness = 0.96;
+constexpr double minimumPathMm = 4.0;
 constexpr std::size_t predictorOrder = 10;
 constexpr std::size_t levelReachSamples = 100;
-constexpr std::size_t mostWindows = 200;
+constexpr std::size_t maximumWindows = 200;
 
 /// One usable stretch of the recording.
 struct Part {
@@ -31,7 +31,7 @@ struct Part {
     std::vector<double> wave;
 };
 
-/// Each sample divided by the RMS of its tenth of a second.
+/// Each sample divided by the RMS of the tenth of a second around it.
 std::vector<double> evened(std::span<const float> wave) {
     std::vector<double> sums(wave.size() + 1);
     for (std::size_t i = 0; i < wave.size(); ++i) {
@@ -55,7 +55,7 @@ std::vector<Part> usableParts(const PreparedRecording& recording) {
         while (last < count && recording.isUsable[last] != 0) {
             ++last;
         }
-        if (last - first > shortestSamples) {
+        if (last - first > minimumSamples) {
             parts.push_back({first, evened(std::span(recording.wave).subspan(first, last - first))});
         }
         first = last + 1;
@@ -63,7 +63,7 @@ std::vector<Part> usableParts(const PreparedRecording& recording) {
     return parts;
 }
 
-/// Of one linear predictor for all parts.
+/// The coefficients of one linear predictor for all parts.
 std::vector<double> predictorTaps(const std::vector<Part>& parts, const Sliding& sliding) {
     std::vector<double> correlation(predictorOrder + 1);
     for (const Part& part : parts) {
@@ -85,7 +85,7 @@ std::vector<double> predictorTaps(const std::vector<Part>& parts, const Sliding&
     return solvePositive(std::move(matrix), {correlation.begin() + 1, correlation.end()});
 }
 
-/// The predictor's error: it takes away what surface and tool colour all of the sound, and leaves lines.
+/// The prediction error, without the spectral envelope of surface and tool; lines remain.
 std::vector<double> whitened(std::span<const double> wave, std::span<const double> taps) {
     std::vector<double> result(wave.size());
     for (std::size_t i = predictorOrder; i < wave.size(); ++i) {
@@ -109,18 +109,18 @@ std::optional<PathWindow> windowAt(const PreparedRecording& recording, std::span
         const auto& motion = recording.motion[first + i];
         window.xMm.push_back(x);
         window.yMm.push_back(y);
-        x += millimetresPerMetre / rateHz * motion[0];
-        y += millimetresPerMetre / rateHz * motion[1];
-        window.pathMm += millimetresPerMetre / rateHz * recording.speedMps(first + i);
+        x += millimetresPerMetre / inference::waveformRateHz * motion[0];
+        y += millimetresPerMetre / inference::waveformRateHz * motion[1];
+        window.pathMm += millimetresPerMetre / inference::waveformRateHz * recording.speedMps(first + i);
         squares += white[i] * white[i];
     }
     const double straight = std::hypot(x, y);
-    if (straight < leastStraight * window.pathMm || window.pathMm < shortestPathMm || !(squares > 0.0)) {
+    if (straight < minimumStraightness * window.pathMm || window.pathMm < minimumPathMm || !(squares > 0.0)) {
         return std::nullopt;
     }
     window.directionX = x / straight;
     window.directionY = y / straight;
-    window.speedMmps = window.pathMm * rateHz / static_cast<double>(count);
+    window.speedMmps = window.pathMm * inference::waveformRateHz / static_cast<double>(count);
     const double rms = std::sqrt(squares / static_cast<double>(count));
     const double middleX = window.xMm[count / 2];
     const double middleY = window.yMm[count / 2];
@@ -136,9 +136,10 @@ std::optional<PathWindow> windowAt(const PreparedRecording& recording, std::span
 }
 
 std::size_t windowLength(double speedMps) {
-    const double samples = wantedPathMm * rateHz / (millimetresPerMetre * std::max(speedMps, slowestSlidingMps));
+    const double samples =
+        targetPathMm * inference::waveformRateHz / (millimetresPerMetre * std::max(speedMps, minimumSlidingMps));
     return static_cast<std::size_t>(
-        std::clamp(samples, static_cast<double>(shortestSamples), static_cast<double>(longestSamples)));
+        std::clamp(samples, static_cast<double>(minimumSamples), static_cast<double>(maximumSamples)));
 }
 
 }  // namespace
@@ -149,11 +150,11 @@ std::vector<PathWindow> pathWindows(const PreparedRecording& recording, const Sl
     std::vector<PathWindow> windows;
     for (const Part& part : parts) {
         const std::vector<double> white = whitened(part.wave, taps);
-        for (std::size_t start = predictorOrder; start + shortestSamples <= white.size();) {
+        for (std::size_t start = predictorOrder; start + minimumSamples <= white.size();) {
             const std::size_t first = part.first + start;
             const std::size_t count = windowLength(recording.speedMps(first));
             if (start + count > white.size() || !sliding.holds(first, count)) {
-                start += shortestSamples / 2;
+                start += minimumSamples / 2;
                 continue;
             }
             if (std::optional<PathWindow> window = windowAt(recording, std::span(white).subspan(start, count), first)) {
@@ -162,12 +163,12 @@ std::vector<PathWindow> pathWindows(const PreparedRecording& recording, const Sl
             start += count / 2;
         }
     }
-    if (windows.size() <= mostWindows) {
+    if (windows.size() <= maximumWindows) {
         return windows;
     }
     std::vector<PathWindow> kept;
-    for (std::size_t i = 0; i < mostWindows; ++i) {
-        kept.push_back(std::move(windows[i * windows.size() / mostWindows]));
+    for (std::size_t i = 0; i < maximumWindows; ++i) {
+        kept.push_back(std::move(windows[i * windows.size() / maximumWindows]));
     }
     return kept;
 }

@@ -1,5 +1,6 @@
 #include "learning/prepared_recording.hpp"
 
+#include "inference/segment_generator.hpp"
 #include "learning/dft321.hpp"
 #include "learning/resampling.hpp"
 
@@ -9,9 +10,8 @@
 namespace haptoflow::learning {
 namespace {
 
-constexpr double targetRateHz = 2000.0;
 constexpr double flatShare = 0.95;
-// Resampler and high-pass ring for so long around what is missing.
+// Resampler and high-pass filter ring for this long around missing samples.
 constexpr double neighbourhoodSeconds = 0.06;
 constexpr double frozenSeconds = 0.03;
 constexpr double motionWindowSeconds = 0.02;
@@ -57,12 +57,13 @@ public:
     }
 
 private:
-    /// Samples first to last of the recording and what is around them.
+    /// Excludes the samples from first to last and their surroundings.
     void leaveOut(std::size_t first, std::size_t last) {
         const double startSeconds = static_cast<double>(first) / recording_.rateHz - neighbourhoodSeconds;
         const double endSeconds = static_cast<double>(last) / recording_.rateHz + neighbourhoodSeconds;
-        const auto begin = static_cast<std::size_t>(std::max(0.0, std::floor(startSeconds * targetRateHz)));
-        const auto end = static_cast<std::size_t>(std::ceil(endSeconds * targetRateHz));
+        const auto begin =
+            static_cast<std::size_t>(std::max(0.0, std::floor(startSeconds * inference::waveformRateHz)));
+        const auto end = static_cast<std::size_t>(std::ceil(endSeconds * inference::waveformRateHz));
         for (std::size_t i = begin; i < std::min(end, isUsable_.size()); ++i) {
             isUsable_[i] = 0;
         }
@@ -115,14 +116,14 @@ private:
     std::vector<std::uint8_t> isUsable_;
 };
 
-/// Means of a window around each sample at 2 kHz; what is not finite is left out, and where nothing is left the value
-/// before goes on.
+/// Means of a window around each sample at 2 kHz, without values that are not finite; if none are left, the previous
+/// mean is repeated.
 std::vector<float> windowMeans(const float* values, std::size_t stride, std::size_t samples, double rateHz,
                                std::size_t prepared) {
     std::vector<float> means(prepared);
     float last = 0.0F;
     for (std::size_t n = 0; n < prepared; ++n) {
-        const double centre = static_cast<double>(n) / targetRateHz * rateHz;
+        const double centre = static_cast<double>(n) / inference::waveformRateHz * rateHz;
         const double half = 0.5 * motionWindowSeconds * rateHz;
         const auto first = static_cast<std::size_t>(std::max(0.0, std::ceil(centre - half)));
         const std::size_t end = std::min(samples, static_cast<std::size_t>(std::floor(centre + half)) + 1);
@@ -149,12 +150,12 @@ double PreparedRecording::speedMps(std::size_t sample) const {
 
 PreparedRecording prepareRecording(const Recording& recording) {
     const std::size_t samples =
-        std::min(recording.sampleCount(), static_cast<std::size_t>(longestSeconds * recording.rateHz));
+        std::min(recording.sampleCount(), static_cast<std::size_t>(maximumSeconds * recording.rateHz));
     PreparedRecording prepared;
     prepared.wave = oneAxis(recording, samples);
     const std::size_t count = prepared.wave.size();
     prepared.isUsable = Neighbourhoods(recording, samples, count).usable();
-    prepared.bandwidthHz = 0.5 * flatShare * std::min(recording.rateHz, targetRateHz);
+    prepared.bandwidthHz = 0.5 * flatShare * std::min(recording.rateHz, inference::waveformRateHz);
     prepared.motion.resize(count);
     const auto fill = [&](std::size_t component, std::span<const float> values, std::size_t stride, std::size_t offset,
                           double constant) {

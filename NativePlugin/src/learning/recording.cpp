@@ -1,19 +1,19 @@
 #include "learning/recording.hpp"
 
-#include "learning/plain_number.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <locale>
+#include <sstream>
 #include <string>
 
 namespace haptoflow::learning {
 namespace {
 
-constexpr double largestLostShare = 0.5;
-/// A limiter holds its end value for as long as the wave would be beyond it; noise meets its own maximum once.
-constexpr std::size_t shortestClippedRun = 3;
-constexpr double largestClippedShare = 0.001;
+constexpr double maximumLostShare = 0.5;
+/// A clipped wave stays at its extreme value while it would exceed it; noise reaches its maximum only once.
+constexpr std::size_t minimumClippedRun = 3;
+constexpr double maximumClippedShare = 0.001;
 
 void require(bool holds, const std::string& message) {
     if (!holds) {
@@ -28,7 +28,7 @@ void checkSizes(const Recording& recording) {
             "the recording's rate is " + plainNumber(recording.rateHz) + " Hz; expected 1000 to 192000 Hz");
     const std::size_t count = recording.sampleCount();
     require(count * recording.axisCount == recording.accelerationMps2.size(),
-            "the acceleration does not have as many numbers for each axis");
+            "the acceleration does not have the same number of samples for each axis");
     require(recording.velocityMps.empty() || recording.velocityMps.size() == 2 * count,
             "the velocity does not have two numbers for each sample of the acceleration");
     require(recording.forceNewtons.empty() || recording.forceNewtons.size() == count,
@@ -73,7 +73,7 @@ AxisFigures figuresOf(const Recording& recording, std::size_t axis) {
         const float value = at(i);
         const bool isEnd = (value == lowest || value == highest) && highest > lowest;
         run = isEnd && run > 0 && value == at(i - 1) ? run + 1 : (isEnd ? 1 : 0);
-        clipped += run == shortestClippedRun ? shortestClippedRun : (run > shortestClippedRun ? 1 : 0);
+        clipped += run == minimumClippedRun ? minimumClippedRun : (run > minimumClippedRun ? 1 : 0);
         if (std::isfinite(value)) {
             squares += (value - figures.mean) * (value - figures.mean);
         }
@@ -85,9 +85,22 @@ AxisFigures figuresOf(const Recording& recording, std::size_t axis) {
 
 }  // namespace
 
+std::string plainNumber(double value) {
+    constexpr double beyondDigits = 1000.0;
+    std::ostringstream text;
+    text.imbue(std::locale::classic());
+    text.precision(3);
+    if (std::abs(value) >= beyondDigits) {
+        text.precision(0);
+        text << std::fixed;
+    }
+    text << value;
+    return text.str();
+}
+
 void checkRecording(const Recording& recording) {
     checkSizes(recording);
-    if (recording.seconds() < shortestSlidingSeconds) {
+    if (recording.seconds() < minimumSlidingSeconds) {
         throw RecordingUnusable("the recording lasts " + plainNumber(recording.seconds()) +
                                 " s; record 10 s or more of sliding");
     }
@@ -96,12 +109,12 @@ void checkRecording(const Recording& recording) {
         const AxisFigures figures = figuresOf(recording, axis);
         const std::string name = recording.axisCount == 1 ? "the acceleration" : "axis " + std::to_string(axis + 1);
         const auto count = static_cast<double>(recording.sampleCount());
-        if (static_cast<double>(figures.finite) < (1.0 - largestLostShare) * count) {
+        if (static_cast<double>(figures.finite) < (1.0 - maximumLostShare) * count) {
             throw RecordingUnusable(name + " is not finite in " +
                                     plainNumber(100.0 - 100.0 * static_cast<double>(figures.finite) / count) +
-                                    " % of its samples; record again, or cut the recording to what is whole");
+                                    " % of its samples; record again, or cut the damaged part off");
         }
-        if (figures.clippedShare > largestClippedShare) {
+        if (figures.clippedShare > maximumClippedShare) {
             throw RecordingUnusable(name + " is clipped: " + plainNumber(100.0 * figures.clippedShare) +
                                     " % of its samples stand at its largest or smallest value; record again with a "
                                     "larger range");

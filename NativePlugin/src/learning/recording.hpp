@@ -4,27 +4,28 @@
 #include <cstddef>
 #include <span>
 #include <stdexcept>
+#include <string>
 
 namespace haptoflow::learning {
 
-/// Nothing can be learnt from a recording. The message says why, and what would do.
+/// No material can be learnt from a recording. The message names the reason and the remedy.
 class RecordingUnusable : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
 };
 
-/// One material under a tip, evenly sampled. The spans stay the caller's. A sample of which any value is not finite
-/// costs its neighbourhood.
+/// A recording of one material, evenly sampled. The spans belong to the caller. A sample with a value that is not
+/// finite excludes the samples around it.
 struct Recording {
     double rateHz = 0.0;
     /// 1 or 3, interleaved.
     std::size_t axisCount = 1;
     /// m/s^2, with gravity or without.
     std::span<const float> accelerationMps2{};
-    /// vx, vy in m/s for each sample; empty where the motion is constant.
+    /// vx, vy in m/s for each sample; empty if the velocity is constant.
     std::span<const float> velocityMps{};
     std::array<double, 2> constantVelocityMps{};
-    /// One for each sample; empty where the force is constant.
+    /// One for each sample; empty if the force is constant.
     std::span<const float> forceNewtons{};
     double constantForceNewtons = 0.0;
 
@@ -34,13 +35,18 @@ struct Recording {
 
 inline constexpr double lowestRateHz = 1000.0;
 inline constexpr double highestRateHz = 192'000.0;
-/// What is behind this is not read.
-inline constexpr double longestSeconds = 300.0;
-/// Less sliding than this is refused.
-inline constexpr double shortestSlidingSeconds = 3.0;
+/// Maximum speed of a hand in m/s; a larger number is in another unit.
+inline constexpr double maximumHandSpeedMps = 10.0;
+/// Later samples are ignored.
+inline constexpr double maximumSeconds = 300.0;
+/// Recordings with less sliding are refused.
+inline constexpr double minimumSlidingSeconds = 3.0;
 
-/// Throws std::invalid_argument where the spans' sizes do not belong together or a number is outside its range, and
-/// RecordingUnusable where the samples are of no use: too short, silent, clipped, not finite.
+/// Throws std::invalid_argument if the sizes of the spans do not match or a number is out of range, and
+/// RecordingUnusable if the samples are too short, silent, clipped or not finite.
 void checkRecording(const Recording& recording);
+
+/// A number for messages: three significant digits with a decimal point, in every locale: "0.0823", "12.5", "1200".
+[[nodiscard]] std::string plainNumber(double value);
 
 }  // namespace haptoflow::learning

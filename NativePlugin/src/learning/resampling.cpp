@@ -2,6 +2,7 @@
 
 #include "dsp/fourier_transform.hpp"
 #include "dsp/kaiser_window.hpp"
+#include "inference/segment_generator.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -11,14 +12,12 @@
 namespace haptoflow::learning {
 namespace {
 
-constexpr double targetRateHz = 2000.0;
 constexpr double attenuationDecibels = 66.0;
 constexpr double halfLengthInZeros = 40.0;
 constexpr std::size_t gridPerZero = 256;
 constexpr std::size_t reflectedSamples = 1000;
 
-/// The right half of the kernel, which is symmetric. The grid is so fine that values between its points may be
-/// interpolated linearly.
+/// The right half of the symmetric kernel, on a grid fine enough for linear interpolation.
 std::vector<double> sincTable() {
     std::vector<double> table(static_cast<std::size_t>(halfLengthInZeros) * gridPerZero + 2);
     const double beta = dsp::kaiserBeta(attenuationDecibels);
@@ -39,7 +38,7 @@ double eighthPower(double value) {
 
 std::vector<double> resampledTo2kHz(const Channel& channel, double rateHz) {
     const std::vector<double> table = sincTable();
-    const double step = rateHz / targetRateHz;
+    const double step = rateHz / inference::waveformRateHz;
     const double zerosPerInput = std::min(1.0, 1.0 / step);
     const double reach = halfLengthInZeros / zerosPerInput;
     const auto inputs = static_cast<std::ptrdiff_t>(channel.count);
@@ -81,7 +80,7 @@ std::vector<double> bandPassed(std::span<const double> values) {
     const std::size_t size = spectrum.size();
     spectrum[0] = 0.0;
     for (std::size_t bin = 1; bin <= size / 2; ++bin) {
-        const double hertz = static_cast<double>(bin) * targetRateHz / static_cast<double>(size);
+        const double hertz = static_cast<double>(bin) * inference::waveformRateHz / static_cast<double>(size);
         const double gain = 1.0 / ((1.0 + eighthPower(highPassHz / hertz)) * (1.0 + eighthPower(hertz / lowPassHz)));
         spectrum[bin] *= gain;
         if (bin != size - bin) {

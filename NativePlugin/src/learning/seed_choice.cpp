@@ -11,14 +11,14 @@ namespace {
 
 constexpr std::size_t step = 50;
 constexpr std::size_t filterSamples = dsp::toneTaps - 1;
-constexpr double smallestDistance = 0.05;
-/// A stretch this much stronger or weaker than the level law says is an accident.
-constexpr double largestLevelRatio = 2.0;
+constexpr double minimumDistance = 0.05;
+/// A stretch that differs from the level law by a larger factor is an outlier.
+constexpr double maximumLevelRatio = 2.0;
 
 struct Candidate {
     std::size_t start = 0;
     std::array<double, 3> motion{};
-    /// Log speed, log force, direction and time, in units in which a distance of 1 is a different condition.
+    /// Log speed, log force, direction and time, scaled so that a distance of 1 means different conditions.
     std::array<double, 5> place{};
 };
 
@@ -38,7 +38,7 @@ std::vector<Candidate> candidatesOf(const PreparedRecording& recording, const Sl
             continue;
         }
         const double rms = rmsOf(unitWave.subspan(start, model::seedSamples));
-        if (!(rms > 1.0 / largestLevelRatio && rms < largestLevelRatio)) {
+        if (!(rms > 1.0 / maximumLevelRatio && rms < maximumLevelRatio)) {
             continue;
         }
         Candidate each{.start = start, .motion = {}, .place = {}};
@@ -48,7 +48,7 @@ std::vector<Candidate> candidatesOf(const PreparedRecording& recording, const Sl
             }
         }
         const double speed = std::hypot(each.motion[0], each.motion[1]);
-        if (speed < slowestSlidingMps) {
+        if (speed < minimumSlidingMps) {
             continue;
         }
         each.place = {2.0 * std::log(speed), 1.4 * std::log(each.motion[2]), 0.5 * each.motion[0] / speed,
@@ -67,7 +67,8 @@ double distanceOf(const Candidate& one, const Candidate& other) {
     return std::sqrt(sum);
 }
 
-/// Each as far as can be from all that were chosen before; the first is that nearest to the middle.
+/// Chooses candidates one after the other, each as far as possible from those before; the first is nearest to the
+/// middle.
 std::vector<Candidate> spreadOut(const std::vector<Candidate>& candidates) {
     Candidate middle;
     for (const Candidate& each : candidates) {
@@ -79,12 +80,12 @@ std::vector<Candidate> spreadOut(const std::vector<Candidate>& candidates) {
         std::ranges::min_element(candidates, {}, [&](const Candidate& each) { return distanceOf(each, middle); });
     std::vector<Candidate> chosen{*first};
     std::vector<double> nearest(candidates.size(), std::numeric_limits<double>::infinity());
-    while (chosen.size() < mostLearntSeeds) {
+    while (chosen.size() < maximumLearntSeeds) {
         for (std::size_t i = 0; i < candidates.size(); ++i) {
             nearest[i] = std::min(nearest[i], distanceOf(candidates[i], chosen.back()));
         }
         const auto farthest = std::ranges::max_element(nearest);
-        if (*farthest < smallestDistance) {
+        if (*farthest < minimumDistance) {
             break;
         }
         chosen.push_back(candidates[static_cast<std::size_t>(farthest - nearest.begin())]);
@@ -93,7 +94,7 @@ std::vector<Candidate> spreadOut(const std::vector<Candidate>& candidates) {
 }
 
 dsp::ToneKernel inverseKernel(const model::ToneTable& tone, double speedMps) {
-    // The inverse of a minimum-phase filter is the minimum-phase filter of the opposite gains.
+    // The inverse of a minimum-phase filter is the minimum-phase filter with the opposite gains.
     return dsp::toneKernel(
         dsp::toneCepstrum([&](double hertz) { return -tone.gainDb(speedMps, std::max(hertz, 1.0)); }));
 }

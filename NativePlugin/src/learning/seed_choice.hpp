@@ -16,17 +16,17 @@ namespace haptoflow::learning {
 struct LearntSeed {
     std::array<double, 2> velocityMps{};
     double forceNewtons = 0.0;
-    /// With an RMS of 1, so that the tone makes the recording's sound of it.
+    /// With an RMS of 1 and without the tone, which restores the recording's spectrum.
     std::array<float, model::seedSamples> samples{};
-    /// Turns along each wave vector at sample 200, as the network counts them; empty without ribs.
+    /// Phase along each wave vector in cycles at sample 200, in the network's convention; empty without ribs.
     std::optional<std::array<double, inference::ribCount>> ribPhase{};
-    /// Sample of the recording at which it begins.
+    /// Sample of the recording at which it starts.
     std::size_t start = 0;
 };
 
-inline constexpr std::size_t mostLearntSeeds = 8;
+inline constexpr std::size_t maximumLearntSeeds = 8;
 
-/// Stretches of the recording at speeds, forces and directions as different as it has them.
+/// Chooses stretches of the recording with speeds, forces and directions as different as possible.
 [[nodiscard]] std::vector<LearntSeed> chooseSeeds(const PreparedRecording& recording, const Sliding& sliding,
                                                   std::span<const float> unitWave, const model::ToneTable& tone);
 

@@ -14,9 +14,9 @@ namespace {
 constexpr std::size_t half = inference::segmentSamples;
 static_assert(model::seedSamples == 2 * half);
 constexpr std::size_t triedPhases = 16;
-/// Of each phase; every second one without a past, from which the network can only follow the phase.
+/// Runs for each phase; every second one has no previous waveform, so that the network can follow only the phase.
 constexpr std::size_t draws = 6;
-/// Of the noise's keys: no round of the fit has it.
+/// Noise key that no round of the fit uses.
 constexpr std::uint64_t noiseRound = std::uint64_t{1} << 40U;
 
 using RibPhase = std::array<double, inference::ribCount>;
@@ -35,7 +35,7 @@ public:
                 {.seed = key, .voice = static_cast<std::uint32_t>(draw), .segment = noiseRound}, noise_[draw]);
         }
         for (std::size_t i = 0; i < half; ++i) {
-            // A tip whose speed changes is the less where the phase says, the later it is.
+            // Later samples count less, because the phase becomes inaccurate when the tip's speed changes.
             weight_[i] = 0.5 + 0.5 * std::cos(std::numbers::pi * static_cast<double>(i) / static_cast<double>(half));
         }
     }
@@ -73,13 +73,13 @@ private:
         }
         std::vector<float> made(requests.size() * half);
         loop_.generate(requests, made);
-        std::array<double, triedPhases> likeness{};
+        std::array<double, triedPhases> similarity{};
         for (std::size_t k = 0; k < requests.size(); ++k) {
             for (std::size_t i = 0; i < half; ++i) {
-                likeness[k / draws] += weight_[i] * samples[half + i] * made[k * half + i];
+                similarity[k / draws] += weight_[i] * samples[half + i] * made[k * half + i];
             }
         }
-        return tried(static_cast<std::size_t>(std::ranges::max_element(likeness) - likeness.begin()));
+        return tried(static_cast<std::size_t>(std::ranges::max_element(similarity) - similarity.begin()));
     }
 
     static double tried(std::size_t phase) { return static_cast<double>(phase) / static_cast<double>(triedPhases); }

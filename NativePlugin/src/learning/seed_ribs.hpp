@@ -8,9 +8,10 @@
 
 namespace haptoflow::learning {
 
-/// Gives each seed of a ruled material its rib phase: nobody knows where on the surface a recording began, nor where
-/// the network's ribs of this embedding do, so that phases are tried until the network goes on from a seed's first half
-/// as the recording does. Without wave vectors in the embedding nothing is done. Throws inference::InferenceError.
+/// Finds the rib phase of each seed of a ruled material. The position on the surface at which a recording starts is
+/// unknown, and so is that of the network's ribs for this embedding. Therefore phases are tried until the network
+/// continues a seed's first half like the recording does. Does nothing if the embedding has no wave vectors. Throws
+/// inference::InferenceError.
 void placeRibs(std::span<LearntSeed> seeds, ClosedLoop& loop, const Embedding& embedding, std::uint64_t seed);
 
 }  // namespace haptoflow::learning

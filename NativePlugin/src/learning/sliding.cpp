@@ -1,6 +1,7 @@
 #include "learning/sliding.hpp"
 
-#include "learning/plain_number.hpp"
+#include "inference/segment_generator.hpp"
+#include "learning/recording.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,11 +10,11 @@
 namespace haptoflow::learning {
 namespace {
 
-constexpr double sampleSeconds = 1.0 / 2000.0;
+constexpr double sampleSeconds = 1.0 / inference::waveformRateHz;
 constexpr double lightestTouchNewtons = 0.02;
-/// Beyond it, a hand is less likely than a column in millimetres per second.
-constexpr double fastestHandMps = 5.0;
-constexpr double strongestHandNewtons = 50.0;
+/// A larger speed is more probably a column in millimetres per second than a hand.
+constexpr double maximumHandMps = 5.0;
+constexpr double maximumHandNewtons = 50.0;
 
 std::array<double, 3> percentiles(std::vector<double> values) {
     if (values.empty()) {
@@ -27,7 +28,7 @@ std::array<double, 3> percentiles(std::vector<double> values) {
 }
 
 void checkUnits(double medianSpeed, double medianForce, const model::ModelHeader& model) {
-    if (medianSpeed > fastestHandMps) {
+    if (medianSpeed > maximumHandMps) {
         throw RecordingUnusable("the speed is " + plainNumber(medianSpeed) +
                                 " m/s in the median, which no hand reaches; is it in mm/s?");
     }
@@ -36,7 +37,7 @@ void checkUnits(double medianSpeed, double medianForce, const model::ModelHeader
                                 " m/s in the median; the model was trained up to " +
                                 plainNumber(model.speedMps.maximum) + " m/s");
     }
-    if (medianForce > strongestHandNewtons) {
+    if (medianForce > maximumHandNewtons) {
         throw RecordingUnusable("the force is " + plainNumber(medianForce) +
                                 " N in the median, which no hand presses; is it in millinewtons?");
     }
@@ -56,7 +57,7 @@ Sliding findSliding(const PreparedRecording& recording, const model::ModelHeader
     const std::size_t count = recording.wave.size();
     for (std::size_t i = 0; i < count; ++i) {
         usable += recording.isUsable[i];
-        if (recording.isUsable[i] != 0 && recording.speedMps(i) >= slowestSlidingMps) {
+        if (recording.isUsable[i] != 0 && recording.speedMps(i) >= minimumSlidingMps) {
             speeds.push_back(recording.speedMps(i));
             forces.push_back(recording.motion[i][2]);
         }
@@ -64,7 +65,7 @@ Sliding findSliding(const PreparedRecording& recording, const model::ModelHeader
     const auto seconds = [](std::size_t samples) { return plainNumber(static_cast<double>(samples) * sampleSeconds); };
     if (speeds.empty()) {
         throw RecordingUnusable("the tip never moves: the speed stays below " +
-                                plainNumber(1000.0 * slowestSlidingMps) +
+                                plainNumber(1000.0 * minimumSlidingMps) +
                                 " mm/s; give the speed, or record sliding strokes");
     }
     const double medianForce = percentiles(forces)[1];
@@ -82,7 +83,7 @@ Sliding findSliding(const PreparedRecording& recording, const model::ModelHeader
     for (std::size_t i = 0; i < count; ++i) {
         const double speed = recording.speedMps(i);
         const double force = recording.motion[i][2];
-        const bool slides = recording.isUsable[i] != 0 && speed >= slowestSlidingMps && force >= lightestTouchNewtons &&
+        const bool slides = recording.isUsable[i] != 0 && speed >= minimumSlidingMps && force >= lightestTouchNewtons &&
                             speed <= beyondRange * model.speedMps.maximum;
         sliding.isSliding[i] = slides ? 1 : 0;
         sliding.before[i + 1] = sliding.before[i] + (slides ? 1U : 0U);
@@ -92,10 +93,10 @@ Sliding findSliding(const PreparedRecording& recording, const model::ModelHeader
         }
     }
     sliding.seconds = static_cast<double>(keptSpeeds.size()) * sampleSeconds;
-    if (sliding.seconds < shortestSlidingSeconds) {
+    if (sliding.seconds < minimumSlidingSeconds) {
         throw RecordingUnusable("the tip slides for " + seconds(keptSpeeds.size()) + " s of " + seconds(count) +
                                 " s (" + seconds(count - usable) +
-                                " s were left out for samples that are missing or stand still); record 10 s or more of "
+                                " s were left out around missing or frozen samples); record 10 s or more of "
                                 "sliding");
     }
     sliding.speedMps = percentiles(std::move(keptSpeeds));

@@ -8,10 +8,10 @@
 
 namespace haptoflow::learning {
 
-/// Slower than this, a tip rests.
-inline constexpr double slowestSlidingMps = 0.004;
+/// A slower tip counts as resting.
+inline constexpr double minimumSlidingMps = 0.004;
 
-/// Which samples show the material: usable, touching, sliding, and inside the model's range of speed.
+/// The samples that show the material: usable, touching, sliding, and inside the model's range of speed.
 struct Sliding {
     std::vector<std::uint8_t> isSliding;
     double seconds = 0.0;
@@ -19,14 +19,14 @@ struct Sliding {
     std::array<double, 3> speedMps{};
     std::array<double, 3> forceNewtons{};
 
-    /// Whether all samples from first to first + count slide.
+    /// True if all samples from first to first + count slide.
     [[nodiscard]] bool holds(std::size_t first, std::size_t count) const;
 
-    /// Number of sliding samples before each, and behind the last: what makes `holds` quick.
+    /// Number of sliding samples before each sample, and before the end: makes `holds` fast.
     std::vector<std::uint32_t> before;
 };
 
-/// Throws RecordingUnusable: no motion, too fast, no force, too little sliding.
+/// Throws RecordingUnusable if there is no motion, too much speed, no force or too little sliding.
 [[nodiscard]] Sliding findSliding(const PreparedRecording& recording, const model::ModelHeader& model);
 
 }  // namespace haptoflow::learning

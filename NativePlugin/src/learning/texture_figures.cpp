@@ -61,7 +61,7 @@ void TextureMeter::addSpectrum(Sums& sums, std::span<const float, spectrumSample
         values[i] = static_cast<double>(wave[i]) * window_[i];
     }
     dsp::fourierTransform(values, dsp::Direction::forward);
-    // So that the bins' sum is the mean square: the window's is 3/8, and inner bins stand for two.
+    // Scales the sum of the bins to the mean square: the window's is 3/8, and inner bins represent two frequencies.
     constexpr double windowPower = 0.375;
     constexpr auto length = static_cast<double>(spectrumSamples);
     for (std::size_t bin = 0; bin < spectrumBins; ++bin) {
@@ -71,20 +71,20 @@ void TextureMeter::addSpectrum(Sums& sums, std::span<const float, spectrumSample
 }
 
 void TextureMeter::addLines(Sums& sums, std::span<const float, spectrumSamples> wave,
-                            std::span<const RibWay> ways) const {
+                            std::span<const RibTravel> ribTravels) const {
     constexpr double slowestHz = 15.0;
     constexpr double fastestHz = 900.0;
-    constexpr double frameSeconds = static_cast<double>(spectrumSamples) / 2000.0;
-    // Of a Hann window, half of the samples count.
+    constexpr double frameSeconds = static_cast<double>(spectrumSamples) / inference::waveformRateHz;
+    // A Hann window sums to half of its samples.
     constexpr double windowSum = 0.5 * static_cast<double>(spectrumSamples);
     for (std::size_t rib = 0; rib < inference::ribCount; ++rib) {
-        const double rateHz = std::abs(ways.back()[rib] - ways.front()[rib]) / frameSeconds;
+        const double rateHz = std::abs(ribTravels.back()[rib] - ribTravels.front()[rib]) / frameSeconds;
         if (rateHz <= 0.0) {
             continue;
         }
         std::array<std::complex<double>, partialsOfRib> sum{};
         for (std::size_t i = 0; i < spectrumSamples; ++i) {
-            const std::complex<double> turn = std::polar(1.0, -2.0 * std::numbers::pi * ways[i][rib]);
+            const std::complex<double> turn = std::polar(1.0, -2.0 * std::numbers::pi * ribTravels[i][rib]);
             std::complex<double> each = window_[i] * static_cast<double>(wave[i]);
             for (std::complex<double>& partial : sum) {
                 each *= turn;
@@ -101,11 +101,12 @@ void TextureMeter::addLines(Sums& sums, std::span<const float, spectrumSamples> 
     }
 }
 
-void TextureMeter::add(std::size_t bin, std::span<const float, spectrumSamples> wave, std::span<const RibWay> ways) {
+void TextureMeter::add(std::size_t bin, std::span<const float, spectrumSamples> wave,
+                       std::span<const RibTravel> ribTravels) {
     Sums& sums = sums_.at(bin);
     addSpectrum(sums, wave);
-    if (!ways.empty()) {
-        addLines(sums, wave, ways);
+    if (!ribTravels.empty()) {
+        addLines(sums, wave, ribTravels);
     }
     sums.frames += 1.0;
     for (const float value : wave) {

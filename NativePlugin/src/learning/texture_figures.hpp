@@ -9,51 +9,53 @@
 
 namespace haptoflow::learning {
 
-/// Parts of the recorded range of speed, divided by logarithm where there is as much sliding on either side.
+/// Intervals of the recorded range of speed, on a logarithmic scale, with enough sliding in each.
 struct SpeedBins {
-    /// Between neighbouring bins, rising: one fewer than there are bins.
+    /// Boundaries between neighbouring bins, increasing: one fewer than bins.
     std::vector<double> edgesMps;
     /// Geometric mean of each bin's speeds.
     std::vector<double> centresMps;
 
     [[nodiscard]] std::size_t count() const { return centresMps.size(); }
     [[nodiscard]] std::size_t binOf(double speedMps) const;
-    /// At most `most`, with enough sliding in each for a spectrum and none too narrow to matter. `speedsMps`: one for
-    /// each sliding sample.
+    /// Divides the range into at most `most` bins, each with enough sliding for a spectrum and wide enough to matter.
+    /// `speedsMps` has one entry for each sliding sample.
     [[nodiscard]] static SpeedBins divide(std::vector<double> speedsMps, std::size_t most);
 };
 
 inline constexpr std::size_t spectrumSamples = 256;
 inline constexpr std::size_t spectrumBins = spectrumSamples / 2 + 1;
-inline constexpr double hertzPerBin = 2000.0 / static_cast<double>(spectrumSamples);
+inline constexpr double hertzPerBin = inference::waveformRateHz / static_cast<double>(spectrumSamples);
 inline constexpr std::size_t envelopeFigures = 7;
 inline constexpr std::size_t partialsOfRib = 6;
 inline constexpr std::size_t ribPartials = partialsOfRib * inference::ribCount;
 
-/// How far a tip has travelled along each wave vector, in turns.
-using RibWay = std::array<double, inference::ribCount>;
+/// Phase along each wave vector since the start, in cycles.
+using RibTravel = std::array<double, inference::ribCount>;
 
-/// What a texture of unit level is like at one speed.
+/// Statistics of a texture of unit level at one speed.
 struct TextureFigures {
     double frames = 0.0;
-    /// Mean power density over Hann-windowed frames of 128 ms: their mean is the wave's mean square.
+    /// Mean power density over Hann-windowed frames of 128 ms; its mean is the wave's mean square.
     std::array<double, spectrumBins> power{};
-    /// How its strength changes in time: mean and spread of the log RMS of 4, 20 and 60 samples; log kurtosis / 4.
+    /// Statistics of the envelope: mean and standard deviation of the log RMS of 4, 20 and 60 samples; log kurtosis /
+    /// 4.
     std::array<double, envelopeFigures> envelope{};
     double meanSquare = 0.0;
-    /// Mean power of each partial of the ribs, those of the first wave vector first, and in how many frames it was one
-    /// that a wave at 2 kHz can show.
+    /// Mean power of each partial of the ribs, those of the first wave vector first, and the number of frames in which
+    /// it was below the end of the band.
     std::array<double, ribPartials> lines{};
     std::array<double, ribPartials> lineFrames{};
 };
 
-/// Gathers the figures of many stretches.
+/// Accumulates the statistics of many stretches.
 class TextureMeter {
 public:
     explicit TextureMeter(std::size_t bins);
 
-    /// One stretch of `spectrumSamples`; its speed belongs to `bin`. `ways`: for each sample; empty without ribs.
-    void add(std::size_t bin, std::span<const float, spectrumSamples> wave, std::span<const RibWay> ways);
+    /// Adds one stretch of `spectrumSamples` with a speed in `bin`. `ways` has an entry for each sample; empty without
+    /// ribs.
+    void add(std::size_t bin, std::span<const float, spectrumSamples> wave, std::span<const RibTravel> ribTravels);
     [[nodiscard]] std::vector<TextureFigures> figures() const;
 
 private:
@@ -70,7 +72,8 @@ private:
         std::array<double, ribPartials> lineFrames{};
     };
 
-    void addLines(Sums& sums, std::span<const float, spectrumSamples> wave, std::span<const RibWay> ways) const;
+    void addLines(Sums& sums, std::span<const float, spectrumSamples> wave,
+                  std::span<const RibTravel> ribTravels) const;
 
     void addSpectrum(Sums& sums, std::span<const float, spectrumSamples> wave) const;
 

@@ -6,7 +6,7 @@
 namespace haptoflow::learning {
 namespace {
 
-constexpr std::size_t mostBins = 6;
+constexpr std::size_t maximumBins = 6;
 constexpr std::size_t pastSamples = inference::segmentSamples;
 constexpr std::size_t warmSamples = 200;
 constexpr std::size_t chainSamples = 512;
@@ -19,7 +19,7 @@ constexpr double envelopeWeight = 1.0;
 constexpr double levelWeight = 0.3;
 constexpr double lineWeight = 1.0;
 constexpr double lineFloor = 3e-4;
-constexpr double fewestLineFrames = 3.0;
+constexpr double minimumLineFrames = 3.0;
 
 struct Band {
     std::size_t first = 0;
@@ -51,7 +51,7 @@ double lineDistance(const TextureFigures& recorded, const TextureFigures& genera
     double sum = 0.0;
     double count = 0.0;
     for (std::size_t i = 0; i < ribPartials; ++i) {
-        if (recorded.lineFrames[i] >= fewestLineFrames && generated.lineFrames[i] >= fewestLineFrames) {
+        if (recorded.lineFrames[i] >= minimumLineFrames && generated.lineFrames[i] >= minimumLineFrames) {
             const double difference =
                 10.0 * std::log10((generated.lines[i] + lineFloor) / (recorded.lines[i] + lineFloor));
             sum += difference * difference;
@@ -78,22 +78,22 @@ double oneDistance(const TextureFigures& recorded, const TextureFigures& generat
            lineWeight * lineDistance(recorded, generated);
 }
 
-std::vector<RibWay> waysAlong(const PreparedRecording& recording,
-                              std::span<const float, 2 * inference::ribCount> waveVectors) {
+std::vector<RibTravel> ribTravelsAlong(const PreparedRecording& recording,
+                                       std::span<const float, 2 * inference::ribCount> waveVectors) {
     constexpr double millimetresPerSample = 1000.0 / inference::waveformRateHz;
     if (std::ranges::all_of(waveVectors, [](float value) { return value == 0.0F; })) {
         return {};
     }
-    std::vector<RibWay> ways(recording.motion.size());
-    RibWay way{};
-    for (std::size_t i = 0; i < ways.size(); ++i) {
-        ways[i] = way;
+    std::vector<RibTravel> ribTravels(recording.motion.size());
+    RibTravel way{};
+    for (std::size_t i = 0; i < ribTravels.size(); ++i) {
+        ribTravels[i] = way;
         for (std::size_t rib = 0; rib < way.size(); ++rib) {
             way[rib] += millimetresPerSample * (static_cast<double>(waveVectors[2 * rib]) * recording.motion[i][0] +
                                                 static_cast<double>(waveVectors[2 * rib + 1]) * recording.motion[i][1]);
         }
     }
-    return ways;
+    return ribTravels;
 }
 
 std::vector<double> slidingSpeeds(const PreparedRecording& recording, const Sliding& sliding) {
@@ -129,9 +129,9 @@ TextureFit::TextureFit(ClosedLoop& loop, const PreparedRecording& recording, con
       recording_(recording),
       sliding_(sliding),
       unitWave_(unitWave),
-      ways_(waysAlong(recording, waveVectors)),
+      ribTravels_(ribTravelsAlong(recording, waveVectors)),
       seed_(seed),
-      bins_(SpeedBins::divide(slidingSpeeds(recording, sliding), mostBins)) {
+      bins_(SpeedBins::divide(slidingSpeeds(recording, sliding), maximumBins)) {
     TextureMeter meter(bins_.count());
     measure(meter, unitWave, 0, frameHop);
     recorded_ = meter.figures();
@@ -152,16 +152,17 @@ void TextureFit::measure(TextureMeter& meter, std::span<const float> wave, std::
             for (std::size_t i = start + at; i < start + at + spectrumSamples; ++i) {
                 logSpeed += std::log(recording_.speedMps(i)) / static_cast<double>(spectrumSamples);
             }
-            const std::span<const RibWay> ways =
-                ways_.empty() ? std::span<const RibWay>() : std::span(ways_).subspan(start + at, spectrumSamples);
-            meter.add(bins_.binOf(std::exp(logSpeed)), wave.subspan(at).first<spectrumSamples>(), ways);
+            const std::span<const RibTravel> ribTravels =
+                ribTravels_.empty() ? std::span<const RibTravel>()
+                                    : std::span(ribTravels_).subspan(start + at, spectrumSamples);
+            meter.add(bins_.binOf(std::exp(logSpeed)), wave.subspan(at).first<spectrumSamples>(), ribTravels);
         }
     }
 }
 
 std::vector<std::vector<std::size_t>> TextureFit::startsByBin(std::size_t samples) const {
     constexpr std::size_t step = 50;
-    constexpr double leastSliding = 0.8;
+    constexpr double minimumSliding = 0.8;
     std::vector<std::vector<std::size_t>> starts(bins_.count());
     std::vector<std::size_t> usableBefore(recording_.isUsable.size() + 1);
     for (std::size_t i = 0; i < recording_.isUsable.size(); ++i) {
@@ -172,11 +173,11 @@ std::vector<std::vector<std::size_t>> TextureFit::startsByBin(std::size_t sample
         const std::size_t counted = first + pastSamples + warmSamples;
         const std::uint32_t sliding = sliding_.before[counted + samples] - sliding_.before[counted];
         if (usableBefore[first + whole] - usableBefore[first] == whole &&
-            sliding >= leastSliding * static_cast<double>(samples)) {
+            sliding >= minimumSliding * static_cast<double>(samples)) {
             double logSpeed = 0.0;
             for (std::size_t i = counted; i < counted + samples; ++i) {
                 logSpeed +=
-                    std::log(std::max(recording_.speedMps(i), slowestSlidingMps)) / static_cast<double>(samples);
+                    std::log(std::max(recording_.speedMps(i), minimumSlidingMps)) / static_cast<double>(samples);
             }
             starts[bins_.binOf(std::exp(logSpeed))].push_back(first + pastSamples);
         }
@@ -186,7 +187,7 @@ std::vector<std::vector<std::size_t>> TextureFit::startsByBin(std::size_t sample
 
 std::vector<double> TextureFit::distances(std::span<const Embedding> embeddings, std::size_t chains,
                                           std::uint64_t round) {
-    // A step through each bin's stretches that meets all of them evenly: the golden ratio's.
+    // A step with the golden ratio through each bin's stretches covers all of them evenly.
     constexpr double goldenShare = 0.6180339887498949;
     std::vector<Chain> each;
     for (std::size_t k = 0; k < chains; ++k) {
@@ -223,13 +224,13 @@ std::vector<double> TextureFit::distances(std::span<const Embedding> embeddings,
 
 std::vector<TextureFigures> TextureFit::resynthesis(const Embedding& embedding) {
     constexpr std::size_t hopAt72Hz = 28;
-    constexpr std::size_t mostChains = 96;
-    constexpr std::size_t usualChains = 60;
+    constexpr std::size_t maximumChains = 96;
+    constexpr std::size_t defaultChains = 60;
     std::size_t available = 0;
     for (const auto& starts : starts_) {
         available += starts.size();
     }
-    const std::size_t count = std::min(mostChains, std::max(usualChains, available / 20));
+    const std::size_t count = std::min(maximumChains, std::max(defaultChains, available / 20));
     std::vector<Chain> chains;
     for (std::size_t k = 0; k < count; ++k) {
         const auto& starts = starts_[k % starts_.size()];

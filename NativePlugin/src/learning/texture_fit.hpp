@@ -11,15 +11,15 @@
 
 namespace haptoflow::learning {
 
-/// How far generated figures are from recorded ones, in dB^2: third-octave spectra, level, envelope and ribs, speeds
-/// weighted by how much of the recording is there. Speeds at which nothing was generated do not count.
+/// Distance between generated and recorded statistics, in dB^2: third-octave spectra, level, envelope and ribs, with
+/// speeds weighted by their share of the recording. Speeds without generated samples do not count.
 [[nodiscard]] double textureDistance(std::span<const TextureFigures> recorded,
                                      std::span<const TextureFigures> generated, double bandwidthHz);
 
-/// Compares embeddings by what the network makes of them along the recording's own motion.
+/// Compares embeddings by the waves that the network generates along the recording's own motion.
 class TextureFit {
 public:
-    /// `unitWave`: the recording divided by its level. All of it must outlive the fit.
+    /// `unitWave`: the recording divided by its level. All arguments must outlive the fit.
     TextureFit(ClosedLoop& loop, const PreparedRecording& recording, const Sliding& sliding,
                std::span<const float> unitWave, std::span<const float, 2 * inference::ribCount> waveVectors,
                std::uint64_t seed);
@@ -28,12 +28,13 @@ public:
     [[nodiscard]] std::span<const TextureFigures> recorded() const noexcept { return recorded_; }
     [[nodiscard]] std::span<const float> unitWave() const noexcept { return unitWave_; }
 
-    /// The distance of each embedding, all with the same noise, on `chains` stretches spread over the speeds; another
-    /// `round` takes others.
+    /// The distance of each embedding, all with the same noise, on `chains` stretches distributed over the speeds; each
+    /// `round` uses other stretches.
     [[nodiscard]] std::vector<double> distances(std::span<const Embedding> embeddings, std::size_t chains,
                                                 std::uint64_t round);
 
-    /// What the network makes of an embedding along the whole recording, several times over, at 72 updates a second.
+    /// Statistics of the waves generated for an embedding along the whole recording, several times, at 72 updates per
+    /// second.
     [[nodiscard]] std::vector<TextureFigures> resynthesis(const Embedding& embedding);
 
 private:
@@ -45,7 +46,7 @@ private:
     const Sliding& sliding_;
     std::span<const float> unitWave_;
     /// For each sample of the recording; empty without ribs.
-    std::vector<RibWay> ways_;
+    std::vector<RibTravel> ribTravels_;
     std::uint64_t seed_;
     SpeedBins bins_;
     std::vector<TextureFigures> recorded_;

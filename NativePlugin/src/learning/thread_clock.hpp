@@ -2,8 +2,8 @@
 
 namespace haptoflow::learning {
 
-/// Seconds that the calling thread has worked since some moment; where the platform does not count them, seconds that
-/// have gone by. For differences on one thread.
+/// Processor time of the calling thread in seconds; elapsed time on platforms that do not count it. Only differences on
+/// one thread are meaningful.
 [[nodiscard]] double threadSeconds() noexcept;
 
 }  // namespace haptoflow::learning

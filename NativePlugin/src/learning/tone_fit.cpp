@@ -11,13 +11,13 @@ constexpr double highestHz = 950.0;
 constexpr double bandOctaves = 1.0 / 3.0;
 constexpr double narrowestHz = 7.0;
 constexpr double relativeWidth = 0.12;
-constexpr double largestGainDb = 24.0;
-/// Decibels for each nat of power.
+constexpr double maximumGainDb = 24.0;
+/// Decibels per unit of the natural logarithm of a power.
 constexpr double decibels = 4.342944819032518;
-/// Of frames that overlap as these do, so many are worth one.
+/// Number of overlapping frames with the information of one independent frame.
 constexpr double framesPerIndependent = 2.2;
 constexpr double commonSpreadDb = 10.0;
-constexpr double fewestFrames = 3.0;
+constexpr double minimumFrames = 3.0;
 
 std::vector<double> bandCentres(double bandwidthHz) {
     std::vector<double> centres;
@@ -34,7 +34,7 @@ struct Ratio {
     double variance = 0.0;
 };
 
-/// Recorded over generated power around a frequency.
+/// Ratio of recorded to generated power around a frequency.
 Ratio ratioAt(const TextureFigures& recorded, const TextureFigures& generated, double centreHz) {
     const double width = std::max(narrowestHz, relativeWidth * centreHz);
     double wanted = 0.0;
@@ -59,7 +59,7 @@ Ratio ratioAt(const TextureFigures& recorded, const TextureFigures& generated, d
             .variance = decibels * decibels * framesPerIndependent * independent / bands};
 }
 
-/// Draws one frequency's ratios at several speeds to their mean.
+/// Shrinks one frequency's ratios at several speeds towards their mean.
 std::vector<double> shrunk(const std::vector<Ratio>& ratios) {
     double weights = 0.0;
     double mean = 0.0;
@@ -73,7 +73,7 @@ std::vector<double> shrunk(const std::vector<Ratio>& ratios) {
         const double away = ratio.decibel - mean;
         excess += (away * away - ratio.variance) / static_cast<double>(ratios.size());
     }
-    // Rows are never taken for one and the same: three numbers do not show that.
+    // The lower limit keeps rows from becoming identical, which as few as three numbers cannot justify.
     const double spread = std::clamp(excess, 0.5, 100.0);
     double meanVariance = 0.0;
     for (const Ratio& ratio : ratios) {
@@ -104,7 +104,7 @@ ToneFit fitTone(const SpeedBins& bins, std::span<const TextureFigures> recorded,
     ToneFit fit;
     std::vector<std::size_t> used;
     for (std::size_t bin = 0; bin < bins.count(); ++bin) {
-        if (recorded[bin].frames >= fewestFrames && generated[bin].frames >= fewestFrames) {
+        if (recorded[bin].frames >= minimumFrames && generated[bin].frames >= minimumFrames) {
             used.push_back(bin);
             fit.tone.speedsMps.push_back(bins.centresMps[bin]);
         }
@@ -121,7 +121,7 @@ ToneFit fitTone(const SpeedBins& bins, std::span<const TextureFigures> recorded,
         }
         const std::vector<double> gains = shrunk(ratios);
         for (std::size_t row = 0; row < used.size(); ++row) {
-            fit.tone.gainsDb[row][f] = std::clamp(gains[row], -largestGainDb, largestGainDb);
+            fit.tone.gainsDb[row][f] = std::clamp(gains[row], -maximumGainDb, maximumGainDb);
         }
     }
     for (std::size_t row = 0; row < used.size(); ++row) {

@@ -9,15 +9,15 @@
 namespace haptoflow::learning {
 
 struct ToneFit {
-    /// What makes the network's spectrum the recording's; without speeds where there is nothing to tell.
+    /// The filter from the network's spectrum to the recording's; without speeds if there is not enough data.
     model::ToneTable tone;
-    /// For each speed of the tone: natural logarithm of the recording's RMS over that of the network's wave, both of
-    /// unit level, behind a tone that leaves the network's RMS alone.
+    /// For each speed of the tone, the natural logarithm of the recording's RMS divided by that of the network's wave,
+    /// both of unit level, after a tone that keeps the network's RMS.
     std::vector<double> logLevels;
 };
 
-/// The ratio of the spectra in bands of about a third of an octave. Where frames are few the rows are drawn to their
-/// mean, as far as chance explains what they are away from it. Above `bandwidthHz` the last gain holds.
+/// The ratio of the spectra in bands of about a third of an octave. Rows with few frames are shrunk towards their mean,
+/// as far as chance explains their differences. Above `bandwidthHz` the last gain is used.
 [[nodiscard]] ToneFit fitTone(const SpeedBins& bins, std::span<const TextureFigures> recorded,
                               std::span<const TextureFigures> generated, double bandwidthHz);
 

@@ -19,13 +19,13 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr std::size_t harmonicCount = 6;
-/// Of a fundamental: wavelengths of 8 to 0.4 mm.
-constexpr std::size_t lowestStep = 12;
-constexpr std::size_t highestStep = 250;
-constexpr double lowestPerMm = 1.0 / 8.0;
-constexpr double highestPerMm = 1.0 / 0.4;
-constexpr double leastSpeedRatio = 1.25;
-/// In natural logarithms of the likelihood ratio. Noise alone reaches 15 on none of 38 surfaces without ribs.
+/// Range of a fundamental: wavelengths of 8 to 0.4 mm.
+constexpr std::size_t minimumStep = 12;
+constexpr std::size_t maximumStep = 250;
+constexpr double minimumPerMm = 1.0 / 8.0;
+constexpr double maximumPerMm = 1.0 / 0.4;
+constexpr double minimumSpeedRatio = 1.25;
+/// Threshold of the log likelihood ratio. Noise alone reaches 15 on none of 38 surfaces without ribs.
 constexpr double sure = 20.0;
 constexpr double sureBesideKnown = 24.0;
 constexpr double priceOfAHarmonic = 3.0;
@@ -33,11 +33,11 @@ constexpr double ownLines = 8.0;
 constexpr double ownLinesShare = 0.06;
 constexpr double shareOfFirst = 0.04;
 constexpr double lowHarmonicsShare = 0.3;
-constexpr double leastRatio = 1.6;
-/// Threads cross at right angles more often than not: among equals, that one.
+constexpr double minimumRatio = 1.6;
+/// Preference for perpendicular vectors among equal ones: threads mostly cross at right angles.
 constexpr double crossingBonus = 0.2;
 constexpr double crossingDegrees = 8.0;
-constexpr double leastTurnDegrees = 20.0;
+constexpr double minimumTurnDegrees = 20.0;
 constexpr double degreesPerRadian = 180.0 / std::numbers::pi;
 
 using Harmonics = std::array<double, harmonicCount>;
@@ -46,7 +46,7 @@ double sumOf(const Harmonics& values) {
     return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-/// Of the harmonics that a multiple of the fundamental would lack.
+/// Sum over the harmonics that a multiple of the fundamental does not have.
 double sumBetween(const Harmonics& values, std::size_t divisor) {
     double sum = 0.0;
     for (std::size_t order = 1; order <= harmonicCount; ++order) {
@@ -57,17 +57,17 @@ double sumBetween(const Harmonics& values, std::size_t divisor) {
 
 struct Clearest {
     CyclesPerMm vector{};
-    /// Its audible harmonics.
+    /// Orders of the harmonics inside the band.
     std::vector<std::size_t> orders;
     double score = 0.0;
 };
 
-/// The best fundamental of a map of evidence.
+/// Finds the best fundamental of a map of evidence.
 class FundamentalSearch {
 public:
     explicit FundamentalSearch(LineEvidence evidence) : evidence_(std::move(evidence)) {}
 
-    /// `first`: the score of the first vector where one is known.
+    /// `first`: the score of the first vector, if one is known.
     [[nodiscard]] std::optional<Clearest> clearest(std::span<const CyclesPerMm> known, double first) const {
         constexpr int tries = 6;
         DirectionMap scores = scoresBeside(known);
@@ -83,7 +83,7 @@ public:
             const std::size_t step = fundamentalOf(row, place);
             const Harmonics gains = linesOf(evidence_.gains, row, step);
             const Harmonics ratios = linesOf(evidence_.ratios, row, step);
-            if (*std::ranges::max_element(ratios) >= leastRatio && gains[0] + gains[1] >= lowHarmonicsShare * score) {
+            if (*std::ranges::max_element(ratios) >= minimumRatio && gains[0] + gains[1] >= lowHarmonicsShare * score) {
                 const double length = static_cast<double>(step) * stepPerMm;
                 return Clearest{
                     {length * std::cos(angleOf(row)), length * std::sin(angleOf(row))}, audible(gains), score};
@@ -112,12 +112,12 @@ private:
         }
     }
 
-    /// The sum over the harmonics of each fundamental.
+    /// For each fundamental, the sum over its harmonics.
     [[nodiscard]] DirectionMap scoresBeside(std::span<const CyclesPerMm> known) const {
         DirectionMap scores(evidence_.gains.size());
         for (std::size_t row = 0; row < directionCount; ++row) {
             const double weight = weightBeside(known, angleOf(row));
-            for (std::size_t step = lowestStep; step < highestStep; ++step) {
+            for (std::size_t step = minimumStep; step < maximumStep; ++step) {
                 double score = 0.0;
                 for (std::size_t order = 1; order <= harmonicCount && order * step < stepCount; ++order) {
                     score += std::max(evidence_.gains[row * stepCount + order * step] - priceOfAHarmonic, 0.0);
@@ -134,12 +134,12 @@ private:
             const double turned = std::fmod(std::abs(angle - std::atan2(vector[1], vector[0])), std::numbers::pi);
             const double degrees = degreesPerRadian * std::min(turned, std::numbers::pi - turned);
             const double fromCrossing = (degrees - 90.0) / crossingDegrees;
-            weight *= degrees < leastTurnDegrees ? 0.0 : 1.0 + crossingBonus * std::exp(-fromCrossing * fromCrossing);
+            weight *= degrees < minimumTurnDegrees ? 0.0 : 1.0 + crossingBonus * std::exp(-fromCrossing * fromCrossing);
         }
         return weight;
     }
 
-    /// At the harmonics of a fundamental; 0 beyond the highest wave number.
+    /// Values at the harmonics of a fundamental; 0 above the highest wave number.
     static Harmonics linesOf(const DirectionMap& values, std::size_t row, std::size_t step) {
         Harmonics lines{};
         for (std::size_t order = 1; order <= harmonicCount && order * step < stepCount; ++order) {
@@ -148,7 +148,7 @@ private:
         return lines;
     }
 
-    /// The largest gain beside each harmonic of a fundamental that is known to half a step, less its price.
+    /// The maximum gain near each harmonic of a fundamental that is accurate to half a step, minus a penalty.
     [[nodiscard]] Harmonics gainsNear(std::size_t row, std::size_t step) const {
         Harmonics gains{};
         for (std::size_t order = 1; order <= harmonicCount && order * step + 1 < stepCount; ++order) {
@@ -162,11 +162,12 @@ private:
         return gains;
     }
 
-    /// The fundamental's step. A fraction of it has the same lines, so the largest multiple that keeps them is right;
-    /// and a harmonic may be louder than its fundamental, so the lowest fraction with lines of its own is.
+    /// The step of the fundamental. A fraction of it has the same lines, so that the largest multiple that keeps them
+    /// is right; but a harmonic may be stronger than its fundamental, so that the lowest fraction with lines of its own
+    /// is.
     [[nodiscard]] std::size_t fundamentalOf(std::size_t row, std::size_t step) const {
         for (const std::size_t divisor : {4U, 3U, 2U}) {
-            if (static_cast<double>(divisor * step) * stepPerMm <= highestPerMm) {
+            if (static_cast<double>(divisor * step) * stepPerMm <= maximumPerMm) {
                 const Harmonics gains = gainsNear(row, step);
                 const double all = sumOf(gains);
                 const bool isLost = sumOf(gainsNear(row, divisor * step)) <= 0.6 * all;
@@ -177,7 +178,7 @@ private:
         }
         for (const std::size_t divisor : {4U, 3U, 2U}) {
             for (const std::size_t lower : {step / divisor, (step + divisor - 1) / divisor}) {
-                if (static_cast<double>(lower) * stepPerMm >= lowestPerMm) {
+                if (static_cast<double>(lower) * stepPerMm >= minimumPerMm) {
                     const Harmonics gains = gainsNear(row, lower);
                     if (sumBetween(gains, divisor) > ownLines && gains[0] > ownLines) {
                         return lower;
@@ -199,16 +200,16 @@ Complex turnAt(const PathWindow& window, std::size_t sample, const CyclesPerMm& 
     return std::polar(1.0, 2.0 * std::numbers::pi * (vector[0] * window.xMm[sample] + vector[1] * window.yMm[sample]));
 }
 
-/// The sum of the lines' amplitudes over the windows that hear them.
+/// The sum of the lines' amplitudes over the windows that cover them.
 double amplitudeOf(std::span<const PathWindow> windows, const CyclesPerMm& vector,
                    std::span<const std::size_t> orders) {
     double total = 0.0;
     for (const PathWindow& window : windows) {
-        std::array<bool, harmonicCount> isHeard{};
+        std::array<bool, harmonicCount> isCovered{};
         for (const std::size_t order : orders) {
-            isHeard[order - 1] = hears(window, multiple(vector, order));
+            isCovered[order - 1] = covers(window, multiple(vector, order));
         }
-        if (std::ranges::none_of(isHeard, [](bool each) { return each; })) {
+        if (std::ranges::none_of(isCovered, [](bool each) { return each; })) {
             continue;
         }
         std::array<double, harmonicCount> real{};
@@ -227,13 +228,13 @@ double amplitudeOf(std::span<const PathWindow> windows, const CyclesPerMm& vecto
             }
         }
         for (std::size_t order = 0; order < highest; ++order) {
-            total += isHeard[order] ? std::hypot(real[order], imaginary[order]) : 0.0;
+            total += isCovered[order] ? std::hypot(real[order], imaginary[order]) : 0.0;
         }
     }
     return total;
 }
 
-/// To a fiftieth of the map's step: uphill on the sum of the lines' amplitudes.
+/// Refines a vector to a fiftieth of the map's step by maximising the sum of the lines' amplitudes.
 CyclesPerMm refined(std::span<const PathWindow> windows, CyclesPerMm vector, std::span<const std::size_t> orders) {
     constexpr int rounds = 60;
     double reach = stepPerMm;
@@ -262,7 +263,7 @@ CyclesPerMm refined(std::span<const PathWindow> windows, CyclesPerMm vector, std
     return vector;
 }
 
-/// The lines of a vector must not pass for another one's.
+/// Removes the lines of a vector, so that they are not attributed to another one.
 void takeOut(std::span<PathWindow> windows, const CyclesPerMm& vector) {
     for (PathWindow& window : windows) {
         std::vector<Complex> turns(window.wave.size());
@@ -276,7 +277,7 @@ void takeOut(std::span<PathWindow> windows, const CyclesPerMm& vector) {
                 line[i] *= turns[i];
                 sum += window.wave[i] * std::conj(line[i]);
             }
-            if (hears(window, multiple(vector, order))) {
+            if (covers(window, multiple(vector, order))) {
                 for (std::size_t i = 0; i < line.size(); ++i) {
                     window.wave[i] -= window.hann[i] * 2.0 * (sum / window.hannSum * line[i]).real();
                 }
@@ -291,10 +292,11 @@ bool speedChanges(std::span<const PathWindow> windows) {
         speeds.push_back(window.speedMmps);
     }
     std::ranges::sort(speeds);
-    return speeds[speeds.size() * 9 / 10] >= leastSpeedRatio * speeds[speeds.size() / 10];
+    return speeds[speeds.size() * 9 / 10] >= minimumSpeedRatio * speeds[speeds.size() / 10];
 }
 
-/// The opposite vector is the same ribs: the one whose larger component is positive, to five digits.
+/// Chooses between a vector and its opposite, which describe the same ribs: the larger component is positive, to five
+/// digits.
 WaveVector upward(const CyclesPerMm& vector) {
     const double larger = std::abs(vector[0]) >= std::abs(vector[1]) ? vector[0] : vector[1];
     const double sign = larger > 0.0 ? 1.0 : -1.0;
@@ -304,13 +306,9 @@ WaveVector upward(const CyclesPerMm& vector) {
 
 }  // namespace
 
-double WaveVector::cyclesPerMillimetre() const {
-    return std::hypot(x, y);
-}
-
 std::vector<WaveVector> findWaveVectors(const PreparedRecording& recording, const Sliding& sliding) {
     std::vector<PathWindow> windows = pathWindows(recording, sliding);
-    if (windows.size() < fewestWindows || !speedChanges(windows)) {
+    if (windows.size() < minimumWindows || !speedChanges(windows)) {
         return {};
     }
     std::vector<CyclesPerMm> found;

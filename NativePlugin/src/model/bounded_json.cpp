@@ -9,7 +9,7 @@
 namespace haptoflow::model {
 namespace {
 
-/// Walks the text without building values, so that a hostile nesting costs nothing.
+/// Checks the limits without building values, so that deeply nested text cannot exhaust memory.
 class LimitChecker : public nlohmann::json_sax<nlohmann::json> {
 public:
     explicit LimitChecker(std::string_view document) : document_(document) {}

@@ -6,7 +6,7 @@
 
 namespace haptoflow::model {
 
-/// Whether `text` is a date as YYYY-MM-DD.
+/// True if `text` is a valid date in the form YYYY-MM-DD.
 [[nodiscard]] inline bool isCalendarDate(const std::string& text) {
     const std::string_view pattern = "0000-00-00";
     if (text.size() != pattern.size()) {

@@ -14,7 +14,7 @@ inline constexpr std::size_t blobAlignment = 64;
 inline constexpr std::uint64_t maximumHeaderBytes = 4'194'304;
 inline constexpr std::uint64_t maximumFileBytes = 268'435'456;
 
-/// Where the JSON header lies, once the first 32 bytes and the header's checksum have been verified.
+/// Position of the JSON header, after the first 32 bytes and the header's checksum have been verified.
 struct FileLayout {
     /// The header without the spaces that pad it.
     std::string_view headerText;
@@ -22,8 +22,7 @@ struct FileLayout {
     std::size_t headerEnd = 0;
 };
 
-/// Checks the first 32 bytes and the header's checksum and padding. The result views `file`.
-/// Throws ModelError.
+/// Checks the first 32 bytes and the header's checksum and padding. The result refers to `file`. Throws ModelError.
 [[nodiscard]] FileLayout readLayout(std::span<const std::byte> file);
 
 }  // namespace haptoflow::model

@@ -88,10 +88,10 @@ std::vector<double> HeaderNode::numbers(std::size_t count, double minimum, doubl
     return result;
 }
 
-std::vector<double> HeaderNode::risingNumbers(std::size_t fewest, std::size_t most, double minimum,
+std::vector<double> HeaderNode::risingNumbers(std::size_t minimumCount, std::size_t maximumCount, double minimum,
                                               double maximum) const {
     std::vector<double> result;
-    for (const HeaderNode& node : elements(fewest, most)) {
+    for (const HeaderNode& node : elements(minimumCount, maximumCount)) {
         const double value = node.number(minimum, maximum);
         if (!result.empty() && value <= result.back()) {
             node.refuse("a number above the one before");
@@ -110,7 +110,7 @@ double HeaderNode::number(double minimum, double maximum) const {
 }
 
 std::int64_t HeaderNode::integer(std::int64_t minimum, std::int64_t maximum) const {
-    // A JSON integer above 2^63 - 1 is held as unsigned and would wrap when read as signed.
+    // A JSON integer above 2^63 - 1 is stored as unsigned and would wrap if read as signed.
     const bool representable =
         value_->is_number_integer() &&
         (!value_->is_number_unsigned() || value_->get<std::uint64_t>() <= static_cast<std::uint64_t>(INT64_MAX));

@@ -11,25 +11,25 @@
 
 namespace haptoflow::model {
 
-/// A value of a JSON document (a model's header, a material file) together with its path, so that every refusal can
-/// name the key. Views the JSON value. Each reader throws ModelError: oversized where a count or length is above its
-/// limit, inconsistent otherwise.
+/// A value of a JSON document (a model's header, a material file) with its path, so that every error names the key.
+/// Refers to the JSON value. Each reader throws ModelError: oversized if a count or length is above its limit,
+/// inconsistent otherwise.
 class HeaderNode {
 public:
-    /// `document` is what refusals call the document; it must outlive the node.
+    /// `document` is the document's name in errors; it must outlive the node.
     HeaderNode(const nlohmann::json& value, std::string path, const char* document = "header");
 
     /// The member `key`, which must exist; this node must be an object.
     [[nodiscard]] HeaderNode at(std::string_view key) const;
-    /// The member `key` where there is one; this node must be an object.
+    /// The member `key` if it exists; this node must be an object.
     [[nodiscard]] std::optional<HeaderNode> find(std::string_view key) const;
 
     /// The elements of an array of `minimum` to `maximum` elements.
     [[nodiscard]] std::vector<HeaderNode> elements(std::size_t minimum, std::size_t maximum) const;
     /// An array of exactly `count` numbers, each in [minimum, maximum].
     [[nodiscard]] std::vector<double> numbers(std::size_t count, double minimum, double maximum) const;
-    /// An array of `fewest` to `most` numbers, each in [minimum, maximum] and above the one before.
-    [[nodiscard]] std::vector<double> risingNumbers(std::size_t fewest, std::size_t most, double minimum,
+    /// An array of `minimumCount` to `maximumCount` strictly increasing numbers, each in [minimum, maximum].
+    [[nodiscard]] std::vector<double> risingNumbers(std::size_t minimumCount, std::size_t maximumCount, double minimum,
                                                     double maximum) const;
 
     [[nodiscard]] double number(double minimum, double maximum) const;
@@ -38,11 +38,11 @@ public:
     [[nodiscard]] bool isNull() const;
     /// A string of at most `maximumBytes` bytes without control characters.
     [[nodiscard]] std::string text(std::size_t maximumBytes) const;
-    /// The same, of at least one character.
+    /// A string like that of `text`, with at least one character.
     [[nodiscard]] std::string name(std::size_t maximumBytes) const;
     /// The value as compact JSON; it must be an object.
     [[nodiscard]] std::string objectText() const;
-    /// The value as compact JSON, whatever it is.
+    /// Any value as compact JSON.
     [[nodiscard]] std::string anyText() const;
 
     [[noreturn]] void refuse(const std::string& expectation) const;

@@ -1,4 +1,4 @@
-#include "model/label_header.hpp"
+#include "model/header_entries.hpp"
 
 #include "model/name_index.hpp"
 
@@ -8,8 +8,6 @@
 namespace haptoflow::model {
 
 namespace {
-
-constexpr double maximumSpeedMps = 100.0;
 
 Impact readImpact(const HeaderNode& node) {
     Impact impact;
@@ -28,13 +26,13 @@ LevelTable readLevel(const HeaderNode& node) {
     level.speedsMps = node.at("speeds_mps").risingNumbers(1, LevelTable::maximumSpeeds, 0.0, maximumSpeedMps);
     level.logLevels = node.at("log_levels").numbers(level.speedsMps.size(), -20.0, 20.0);
     level.forceNewtons = node.at("force_newtons").number(0.01, 100.0);
-    level.forceExponent = node.at("force_exponent").number(-4.0, 4.0);
+    level.forceExponent = node.at("force_exponent").number(-maximumLevelExponent, maximumLevelExponent);
     return level;
 }
 
 ToneTable readTone(const HeaderNode& node) {
     ToneTable tone;
-    // Above 0, because rows are interpolated in the logarithm of speed.
+    // Above 0, because the rows are interpolated over the logarithm of speed.
     tone.speedsMps = node.at("speeds_mps").risingNumbers(1, ToneTable::maximumSpeeds, 1e-6, maximumSpeedMps);
     tone.frequenciesHz = node.at("frequencies_hz")
                              .risingNumbers(ToneTable::minimumFrequencies, ToneTable::maximumFrequencies, 10.0, 1000.0);
@@ -51,8 +49,10 @@ ToneTable readTone(const HeaderNode& node) {
 }  // namespace
 
 void readLabelTraits(const HeaderNode& node, Label& label) {
-    label.speedLevelExponent = node.at("level_exponents").at("speed").number(-4.0, 4.0);
-    label.forceLevelExponent = node.at("level_exponents").at("force").number(-4.0, 4.0);
+    label.speedLevelExponent =
+        node.at("level_exponents").at("speed").number(-maximumLevelExponent, maximumLevelExponent);
+    label.forceLevelExponent =
+        node.at("level_exponents").at("force").number(-maximumLevelExponent, maximumLevelExponent);
     label.frequencyExponent = node.at("frequency_exponent").number(0.0, 4.0);
     const HeaderNode wavelength = node.at("wavelength_metres");
     if (node.at("periodic").boolean()) {

@@ -2,8 +2,8 @@
 
 #include "model/bounded_json.hpp"
 #include "model/calendar_date.hpp"
+#include "model/header_entries.hpp"
 #include "model/header_node.hpp"
-#include "model/label_header.hpp"
 #include "model/model_error.hpp"
 #include "model/model_tensors.hpp"
 #include "model/name_index.hpp"
@@ -16,11 +16,7 @@
 namespace haptoflow::model {
 namespace {
 
-constexpr std::size_t textBytes = 4096;
 constexpr std::size_t spaceDigits = 8;
-constexpr double maximumSpeedMps = 100.0;
-constexpr double maximumForceNewtons = 1000.0;
-constexpr double largestMagnitude = 1e6;
 constexpr std::int64_t newestVersion = 1;
 
 void checkFormat(const HeaderNode& root) {
@@ -45,9 +41,9 @@ std::string readSpace(const HeaderNode& node) {
 
 MaterialProvenance readProvenance(const HeaderNode& node) {
     MaterialProvenance provenance;
-    provenance.statement = node.at("statement").text(textBytes);
-    provenance.recordings = node.at("recordings").text(textBytes);
-    provenance.licence = node.at("licence").name(textBytes);
+    provenance.statement = node.at("statement").text(maximumTextBytes);
+    provenance.recordings = node.at("recordings").text(maximumTextBytes);
+    provenance.licence = node.at("licence").name(maximumTextBytes);
     provenance.seconds = node.at("seconds").number(0.0, 1e9);
     const HeaderNode created = node.at("created");
     provenance.created = created.text(nameBytes);
@@ -74,7 +70,7 @@ MaterialSeed readSeed(const HeaderNode& node) {
         std::ranges::copy(phase->numbers(seed.ribPhase.size(), 0.0, 1.0), seed.ribPhase.begin());
     }
     const HeaderNode samples = node.at("samples");
-    std::ranges::transform(samples.numbers(seedSamples, -largestMagnitude, largestMagnitude), seed.samples.begin(),
+    std::ranges::transform(samples.numbers(seedSamples, -maximumMagnitude, maximumMagnitude), seed.samples.begin(),
                            [](double sample) { return static_cast<float>(sample); });
     if (!isUnitRms(seed.samples)) {
         samples.refuse("an RMS of 1 within 1 %");
@@ -92,10 +88,10 @@ MaterialFile readRoot(const HeaderNode& root) {
         name.refuse("text that is not blank");
     }
     if (const auto description = root.find("description")) {
-        material.description = description->text(textBytes);
+        material.description = description->text(maximumTextBytes);
     }
     material.provenance = readProvenance(root.at("provenance"));
-    std::ranges::transform(root.at("embedding").numbers(embeddingSize, -largestMagnitude, largestMagnitude),
+    std::ranges::transform(root.at("embedding").numbers(embeddingSize, -maximumMagnitude, maximumMagnitude),
                            material.embedding.begin(), [](double value) { return static_cast<float>(value); });
     material.speedMps = readRange(root.at("range").at("speed_mps"), maximumSpeedMps);
     material.forceNewtons = readRange(root.at("range").at("force_newtons"), maximumForceNewtons);

@@ -34,7 +34,7 @@ double LevelTable::logLevel(double speedMps, double newtons, double speedExponen
         }
     }
     level += speedExponent * (speed - inside);
-    return level + forceExponent * std::log(std::max(newtons, weakestNewtons) / forceNewtons);
+    return level + forceExponent * std::log(std::max(newtons, minimumForceNewtons) / forceNewtons);
 }
 
 double ToneTable::rowGainDb(std::size_t row, double frequencyHz) const noexcept {

@@ -11,17 +11,16 @@
 namespace haptoflow::model {
 namespace {
 
-constexpr std::size_t largestRank = 8;
-constexpr auto largestLength = static_cast<std::int64_t>(maximumFileBytes);
+constexpr auto maximumLength = static_cast<std::int64_t>(maximumFileBytes);
 
 std::vector<std::int64_t> readShape(const HeaderNode& node) {
     std::vector<std::int64_t> shape;
     std::int64_t product = 1;
-    for (const HeaderNode& dimension : node.elements(1, largestRank)) {
-        shape.push_back(dimension.integer(1, largestLength / 4));
-        // Both factors stay below 2^28, so that the product cannot overflow before it is compared.
+    for (const HeaderNode& dimension : node.elements(1, maximumTensorRank)) {
+        shape.push_back(dimension.integer(1, maximumLength / 4));
+        // Both factors are below 2^28, so that the product does not overflow before the comparison.
         product *= shape.back();
-        if (product > largestLength / 4) {
+        if (product > maximumLength / 4) {
             node.refuse("a tensor that fits into a file of 268435456 bytes");
         }
     }
@@ -45,9 +44,9 @@ Blob readBlob(const HeaderNode& node) {
     blob.name = node.at("name").name(nameBytes);
     const HeaderNode type = node.at("type");
     const std::string word = type.text(nameBytes);
-    blob.bytes = static_cast<std::size_t>(node.at("bytes").integer(1, largestLength));
+    blob.bytes = static_cast<std::size_t>(node.at("bytes").integer(1, maximumLength));
     const HeaderNode offset = node.at("offset");
-    blob.offset = static_cast<std::size_t>(offset.integer(0, largestLength));
+    blob.offset = static_cast<std::size_t>(offset.integer(0, maximumLength));
     if (blob.offset % blobAlignment != 0) {
         offset.refuse("a multiple of 64");
     }
@@ -55,7 +54,7 @@ Blob readBlob(const HeaderNode& node) {
     if (word == "onnx") {
         blob.type = BlobType::onnx;
         const HeaderNode shape = node.at("shape");
-        if (!shape.elements(0, largestRank).empty()) {
+        if (!shape.elements(0, maximumTensorRank).empty()) {
             shape.refuse("[], because the blob is a graph");
         }
         return blob;

@@ -2,7 +2,6 @@
 
 #include <stdexcept>
 #include <string>
-#include <string_view>
 
 namespace haptoflow::model {
 
@@ -11,25 +10,22 @@ enum class ModelStatus {
     unreadable,
     /// The first eight bytes are not the format's magic.
     notAModel,
-    /// Fewer bytes than the file itself announces.
+    /// The file is shorter than the length in its first bytes.
     truncated,
     /// A format version that this reader does not know.
     tooNew,
     /// A length or a count above the format's limits.
     oversized,
-    /// A checksum, a gap or the JSON syntax is broken: the bytes are not those that were written.
+    /// A checksum, a gap or the JSON syntax is wrong: the bytes were modified.
     damaged,
-    /// The bytes are intact, and what they say breaks a rule of the format.
+    /// The bytes are intact but break a rule of the format.
     inconsistent,
 };
 
-/// The status's name as it appears in messages, for example "too new".
-[[nodiscard]] std::string_view statusName(ModelStatus status) noexcept;
-
-/// A model file was refused. The message names the offset or header key and what was expected there.
+/// A model file was refused. The message names the offset or header key and the expected value.
 class ModelError : public std::runtime_error {
 public:
-    ModelError(ModelStatus status, const std::string& message);
+    ModelError(ModelStatus status, const std::string& message) : std::runtime_error(message), status_(status) {}
 
     [[nodiscard]] ModelStatus status() const noexcept { return status_; }
 

@@ -83,10 +83,6 @@ std::uint32_t ModelFile::checksum() const noexcept {
     return crc32(bytes_);
 }
 
-const Label* ModelFile::findLabel(std::string_view name) const noexcept {
-    return findByName(header_.labels, name);
-}
-
 const Tier* ModelFile::findTier(std::string_view name) const noexcept {
     return findByName(header_.tiers, name);
 }

@@ -12,13 +12,13 @@
 
 namespace haptoflow::model {
 
-/// A `.haptoflow` file of version 1, held in memory and verified down to its last byte. Immutable after
-/// construction: any thread may read, any number at once. Spans and views live as long as the object.
+/// A `.haptoflow` file of version 1 in memory, with all of its bytes verified. Immutable, so that any number of threads
+/// may read it at once. Spans and views are valid as long as the object.
 class ModelFile {
 public:
-    /// Takes the bytes of a whole file. Throws ModelError.
+    /// Parses the bytes of a whole file. Throws ModelError.
     [[nodiscard]] static ModelFile parse(std::vector<std::byte> bytes);
-    /// Reads a file. Throws ModelError, whose message then begins with the path.
+    /// Reads a file. Throws ModelError with a message that begins with the path.
     [[nodiscard]] static ModelFile read(const std::filesystem::path& path);
 
     ModelFile(ModelFile&&) noexcept = default;
@@ -28,18 +28,16 @@ public:
     ~ModelFile() = default;
 
     [[nodiscard]] const ModelHeader& header() const noexcept { return header_; }
-    /// The JSON header as it stands in the file, without padding.
+    /// The file's JSON header without padding.
     [[nodiscard]] std::string_view headerText() const noexcept;
     [[nodiscard]] std::size_t byteCount() const noexcept { return bytes_.size(); }
-    /// CRC-32 of the whole file, by which a set of measurements can name the model that it belongs to.
+    /// CRC-32 of the whole file, which identifies the model in stored measurements.
     [[nodiscard]] std::uint32_t checksum() const noexcept;
 
-    /// The label of that name, or null.
-    [[nodiscard]] const Label* findLabel(std::string_view name) const noexcept;
-    /// The tier of that name, or null.
+    /// The tier of this name, or null.
     [[nodiscard]] const Tier* findTier(std::string_view name) const noexcept;
 
-    /// A blob's bytes, aligned to at least 16. Throws std::out_of_range for a name that is not in the header.
+    /// A blob's bytes, aligned to at least 16. Throws std::out_of_range for an unknown name.
     [[nodiscard]] std::span<const std::byte> blob(std::string_view name) const;
     /// The material embedding of header().labels[label].
     [[nodiscard]] std::span<const float, embeddingSize> embedding(std::size_t label) const;

@@ -3,11 +3,10 @@
 #include "model/bounded_json.hpp"
 #include "model/calendar_date.hpp"
 #include "model/crc32.hpp"
+#include "model/header_entries.hpp"
 #include "model/header_node.hpp"
-#include "model/label_header.hpp"
 #include "model/model_blobs.hpp"
 #include "model/name_index.hpp"
-#include "model/tier_header.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -18,15 +17,11 @@
 namespace haptoflow::model {
 namespace {
 
-constexpr std::size_t textBytes = 4096;
-constexpr double maximumSpeedMps = 100.0;
-constexpr double maximumForceNewtons = 1000.0;
-
 Provenance readProvenance(const HeaderNode& node) {
     Provenance provenance;
-    provenance.statement = node.at("statement").name(textBytes);
-    provenance.recordings = node.at("recordings").text(textBytes);
-    provenance.licence = node.at("licence").text(textBytes);
+    provenance.statement = node.at("statement").name(maximumTextBytes);
+    provenance.recordings = node.at("recordings").text(maximumTextBytes);
+    provenance.licence = node.at("licence").text(maximumTextBytes);
     provenance.seed = node.at("seed").integer(INT64_MIN, INT64_MAX);
     provenance.commit = node.at("commit").text(nameBytes);
     provenance.configurationJson = node.at("configuration").anyText();
@@ -77,7 +72,7 @@ void checkFixedValues(const HeaderNode& root) {
     }
 }
 
-/// The blob called `name`, which must be a float32 matrix of `columns` columns.
+/// The blob named `name`, which must be a float32 matrix with `columns` columns.
 const Blob& requireMatrix(const HeaderNode& node, const std::string& name, const std::vector<Blob>& blobs,
                           std::size_t columns) {
     const auto blob = std::find_if(blobs.begin(), blobs.end(), [&](const Blob& each) { return each.name == name; });
@@ -115,7 +110,7 @@ ModelHeader readHeader(std::string_view text) {
 
     ModelHeader header;
     header.name = root.at("name").name(nameBytes);
-    header.description = root.at("description").text(textBytes);
+    header.description = root.at("description").text(maximumTextBytes);
     header.provenance = readProvenance(root.at("provenance"));
     header.peakMps2 = root.at("normalisation").at("peak_mps2").number(1e-9, 1e6);
     const HeaderNode range = root.at("range");

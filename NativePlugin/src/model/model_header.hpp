@@ -20,6 +20,17 @@ inline constexpr std::size_t maximumSeeds = 65'536;
 inline constexpr std::size_t embeddingSize = 64;
 /// A seed holds the segment that sounds and, before it, the segment that counts as its past.
 inline constexpr std::size_t seedSamples = 2 * dsp::segmentSamples;
+/// Bytes of a text that is not a name, such as a description.
+inline constexpr std::size_t maximumTextBytes = 4096;
+/// Limits of motions and of the ranges of labels and materials.
+inline constexpr double maximumSpeedMps = 100.0;
+inline constexpr double maximumForceNewtons = 1000.0;
+/// Exponents of the level laws are within +- this.
+inline constexpr double maximumLevelExponent = 4.0;
+/// Largest magnitude of a number in an embedding or a seed.
+inline constexpr double maximumMagnitude = 1e6;
+/// Dimensions of a tensor, of a blob and of an ONNX graph.
+inline constexpr std::size_t maximumTensorRank = 8;
 
 struct Provenance {
     std::string statement;
@@ -41,18 +52,18 @@ struct TrainedInterval {
 };
 
 struct ImpactMode {
-    /// 0 for none.
+    /// 0 for no mode.
     double frequencyHz = 0.0;
     double decayPerSecond = 0.0;
-    /// m/s^2 for each m/s of the blow.
+    /// Amplitude in m/s^2 per m/s of approach speed.
     double gainPerSecond = 0.0;
 };
 
-/// How a material answers a blow.
+/// A material's response to an impact.
 struct Impact {
     static constexpr std::size_t maximumModes = 2;
     std::array<ImpactMode, maximumModes> modes{};
-    /// Share of the speed that a rebound keeps, 0 to 0.9.
+    /// Share of the speed that remains after a rebound, 0 to 0.9.
     double restitution = 0.0;
 };
 
@@ -70,7 +81,7 @@ struct Label {
     std::string category;
     std::optional<LevelTable> level;
     std::optional<ToneTable> tone;
-    /// Added to the level, whoever gives it.
+    /// Added to every level, from the level graph or from a table.
     double levelOffsetDb = 0.0;
 };
 
@@ -90,26 +101,27 @@ struct Tier {
     int steps = 1;
     std::int64_t parameters = 0;
     TierRepresentation representation = TierRepresentation::raw;
-    /// Dimensions of one latent without the batch; empty unless the representation is latent.
+    /// Dimensions of a latent without the batch; empty unless the representation is latent.
     std::vector<std::int64_t> latentShape;
     /// Measured figures as compact JSON objects.
     std::string accuracyJson;
     std::string costJson;
-    /// How far off the tier was measured to be: its spectral distance and the 90th percentile of its level error,
-    /// added. Empty where one of them was not measured.
+    /// The tier's measured error: its spectral distance plus the 90th percentile of its level error. Empty if one of
+    /// them was not measured.
     std::optional<double> errorDb;
 };
 
-/// Places of the tiers, the least accurate first; of equally accurate ones, that which stands first in the file. Where
-/// a tier was not measured, the order of the file counts for all.
+/// Indices of the tiers, the least accurate first; equally accurate ones in the file's order. If a tier was not
+/// measured, all are in the file's order.
 [[nodiscard]] std::vector<std::size_t> tiersByAccuracy(const std::vector<Tier>& tiers);
 
 struct SeedEntry {
-    /// Index into ModelHeader::labels.
+    /// Index in ModelHeader::labels.
     std::size_t label = 0;
     std::array<double, 2> velocityMps{};
     double forceNewtons = 0.0;
-    /// Turns along each wave vector of the label at the seed's sample 200, the first that sounds; 0 where not given.
+    /// Phase along each wave vector of the label, in cycles, at the seed's sample 200, the first one that is played; 0
+    /// if not given.
     std::array<double, 2> ribPhase{};
 };
 
@@ -124,7 +136,7 @@ struct Blob {
     std::uint32_t crc32 = 0;
 };
 
-/// What the JSON header says, every value checked by itself and against the others; the blobs' bytes are not.
+/// The JSON header; all of its values are checked, individually and against each other. The blobs' bytes are not.
 struct ModelHeader {
     std::string name;
     std::string description;
@@ -134,21 +146,21 @@ struct ModelHeader {
     TrainedInterval forceNewtons;
     std::vector<Label> labels;
     std::vector<Tier> tiers;
-    /// Index into `tiers`.
+    /// Index in `tiers`.
     std::size_t defaultTier = 0;
     std::string seedTensor;
     std::vector<SeedEntry> seeds;
     std::vector<Blob> blobs;
 };
 
-/// Which embeddings the model's networks understand: 8 hexadecimal digits, the CRC-32 over "name:crc;" of each tier in
-/// the file's order, where crc is its field graph's, in lower case.
+/// Identifies the embedding space of the model's networks: 8 hexadecimal digits in lower case, the CRC-32 of
+/// "name:crc;" for each tier in the file's order, where crc is that of its velocity field's graph.
 [[nodiscard]] std::string spaceOf(const ModelHeader& header);
 
-/// Reads the header's text. Throws ModelError naming the key.
+/// Parses the header's text. Throws ModelError that names the key.
 [[nodiscard]] ModelHeader readHeader(std::string_view text);
 
-/// "flow", "average-velocity" or "direct"; and so on: the words of the file.
+/// The file's names of the values: "flow", "average-velocity" or "direct", and so on.
 [[nodiscard]] std::string_view kindName(TierKind kind) noexcept;
 [[nodiscard]] std::string_view solverName(SolverKind solver) noexcept;
 

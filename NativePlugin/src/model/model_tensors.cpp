@@ -9,7 +9,6 @@
 namespace haptoflow::model {
 namespace {
 
-constexpr float largestMagnitude = 1e6F;
 constexpr double seedRmsTolerance = 0.01;
 
 float readFloat(std::span<const std::byte> bytes) {
@@ -35,8 +34,8 @@ std::vector<float> readTensor(std::span<const std::byte> file, const Blob& blob)
     std::vector<float> values(blob.bytes / sizeof(float));
     for (std::size_t index = 0; index < values.size(); ++index) {
         values[index] = readFloat(bytes.subspan(index * sizeof(float), sizeof(float)));
-        // Written so that a NaN, which compares false, is refused too.
-        if (!(std::fabs(values[index]) <= largestMagnitude)) {
+        // In this form the condition is also true for NaN.
+        if (!(std::fabs(values[index]) <= maximumMagnitude)) {
             throw ModelError(ModelStatus::inconsistent, "tensor \"" + blob.name + "\": number " +
                                                             std::to_string(index) +
                                                             " is not finite or above 1e6 in magnitude");

@@ -8,11 +8,11 @@
 
 namespace haptoflow::model {
 
-/// The numbers of a float32 blob of `file`. Throws ModelError (inconsistent) where one is not finite or its
-/// magnitude is above 1e6.
+/// The numbers of a float32 blob of `file`. Throws ModelError (inconsistent) if one is not finite or has a magnitude
+/// above 1e6.
 [[nodiscard]] std::vector<float> readTensor(std::span<const std::byte> file, const Blob& blob);
 
-/// Whether the RMS of `samples` is 1 within 1 %.
+/// True if the RMS of `samples` is 1 within 1 %.
 [[nodiscard]] bool isUnitRms(std::span<const float> samples);
 
 /// Checks that every row of seedSamples numbers has an RMS of 1 within 1 %. Throws ModelError (inconsistent).

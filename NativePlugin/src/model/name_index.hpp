@@ -8,10 +8,10 @@
 
 namespace haptoflow::model {
 
-/// The longest name of a model, label, tier or blob, in bytes.
+/// Maximum length in bytes of the name of a model, label, tier or blob.
 inline constexpr std::size_t nameBytes = 128;
 
-/// Names to positions; refuses a name that is already there.
+/// Maps names to indices; refuses duplicate names.
 class NameIndex {
 public:
     void add(const HeaderNode& node, const std::string& name, std::size_t position) {

@@ -12,7 +12,7 @@
 namespace haptoflow::model {
 namespace {
 
-// The numbers of the fields in onnx.proto that are read, one group for each message.
+// Numbers of the fields in onnx.proto that are read, grouped by message.
 namespace model_field {
 constexpr std::uint32_t irVersion = 1, producerName = 2, producerVersion = 3, domain = 4, modelVersion = 5;
 constexpr std::uint32_t docString = 6, graph = 7, opsetImport = 8, metadata = 14;
@@ -44,11 +44,11 @@ struct Node {
     std::vector<std::span<const std::byte>> attributes;
 };
 
-/// What is known of a value by its name.
+/// What a value of the graph depends on.
 enum class Origin {
-    /// Follows from constants and from the sizes of the inputs.
+    /// Only on constants and on the sizes of the inputs.
     sizes,
-    /// Follows from what the inputs hold.
+    /// On the content of the inputs.
     inputs,
 };
 
@@ -56,7 +56,7 @@ bool isOnnxDomain(std::string_view domain) {
     return domain.empty() || domain == "ai.onnx";
 }
 
-/// Text out of a file for a message: printable, and no longer than a line can hold.
+/// Text from a file in printable form for a message, shortened to fit a line.
 std::string quoted(std::string_view text) {
     std::string result = "\"";
     for (const char letter : text.substr(0, 64)) {
@@ -93,7 +93,7 @@ public:
             }
         }
         if (graphs.size() != 1 || !hasOpset_) {
-            refuse("is not an ONNX model: it needs one graph and the opset that this was exported with");
+            refuse("is not an ONNX model: it must have one graph and an opset");
         }
         readNames(graphs.front());
         readNodes(graphs.front());
@@ -104,7 +104,7 @@ private:
         throw ModelError(ModelStatus::inconsistent, name_ + ": " + message);
     }
 
-    /// Functions, training information, sparse tensors, and whatever later versions of ONNX may run.
+    /// Refuses functions, training information, sparse tensors and fields of later versions of ONNX.
     [[noreturn]] void refuseField(const char* message, std::uint32_t number) const {
         refuse("is not a plain ONNX graph: its " + std::string(message) + " has the field " + std::to_string(number) +
                "; export it for opset 16, without functions, subgraphs or sparse tensors");
@@ -150,7 +150,7 @@ private:
         hasOpset_ = true;
     }
 
-    /// Inputs, initializers and what else stands in the graph beside its nodes.
+    /// Reads everything in the graph but its nodes: inputs, initialisers and their kind.
     void readNames(std::span<const std::byte> graph) {
         std::vector<std::string_view> constants;
         WireReader reader(graph);
@@ -250,14 +250,15 @@ private:
                    "; export it with ONNX's own operators only");
         }
         if (!isAllowedOperator(node.operatorType)) {
-            refuse("uses the operator " + type +
-                   ", which a model file may not: export it with the operators that Documentation~/model-format.md "
-                   "lists");
+            refuse(
+                "uses the operator " + type +
+                ", which model files may not contain: export it with the operators that Documentation~/model-format.md "
+                "lists");
         }
         for (const auto& attribute : node.attributes) {
             checkAttribute(attribute, type);
         }
-        // What a shape says is no content.
+        // The result of the operator Shape depends only on sizes, whatever its input depends on.
         Origin origin = Origin::sizes;
         for (std::size_t index = 0; index < node.inputs.size(); ++index) {
             const std::string_view input = node.inputs[index];
@@ -266,20 +267,20 @@ private:
             }
             const auto found = origins_.find(input);
             if (found == origins_.end()) {
-                refuse("the operator " + type + " reads " + quoted(input) + " before anything made it");
+                refuse("the operator " + type + " reads " + quoted(input) + " before it is defined");
             }
             if (found->second == Origin::inputs) {
                 if (isShapeOperand(node.operatorType, index)) {
                     refuse("the operator " + type +
-                           " takes a size from what the graph's inputs hold; sizes must follow from constants and "
-                           "from the inputs' shapes");
+                           " takes a size from the content of the graph's inputs; sizes must depend only on constants "
+                           "and on the inputs' shapes");
                 }
                 origin = node.operatorType == "Shape" ? origin : Origin::inputs;
             }
         }
         for (const std::string_view output : node.outputs) {
             if (!output.empty() && !origins_.emplace(output, origin).second) {
-                refuse("the name " + quoted(output) + " is given twice");
+                refuse("the name " + quoted(output) + " is defined twice");
             }
         }
     }

@@ -6,8 +6,8 @@
 namespace haptoflow::model {
 namespace {
 
-constexpr auto allowedOperators = std::to_array<std::string_view>({
-    // Arithmetic, number by number.
+constexpr auto operatorNames = std::to_array<std::string_view>({
+    // Arithmetic, element by element.
     "Abs",
     "Add",
     "Ceil",
@@ -26,7 +26,7 @@ constexpr auto allowedOperators = std::to_array<std::string_view>({
     "Sqrt",
     "Sub",
     "Sum",
-    // Functions, number by number.
+    // Functions, element by element.
     "Atan",
     "Cos",
     "Elu",
@@ -44,7 +44,7 @@ constexpr auto allowedOperators = std::to_array<std::string_view>({
     "Softplus",
     "Softsign",
     "Tanh",
-    // Comparisons and choices.
+    // Comparisons and selections.
     "And",
     "Equal",
     "Greater",
@@ -68,7 +68,7 @@ constexpr auto allowedOperators = std::to_array<std::string_view>({
     "MatMul",
     "MaxPool",
     "Softmax",
-    // Sums and extremes.
+    // Reductions.
     "ReduceL1",
     "ReduceL2",
     "ReduceMax",
@@ -99,11 +99,11 @@ constexpr auto allowedOperators = std::to_array<std::string_view>({
 }  // namespace
 
 bool isAllowedOperator(std::string_view name) noexcept {
-    return std::ranges::find(allowedOperators, name) != allowedOperators.end();
+    return std::ranges::find(operatorNames, name) != operatorNames.end();
 }
 
-std::size_t allowedOperatorCount() noexcept {
-    return allowedOperators.size();
+std::span<const std::string_view> allowedOperators() noexcept {
+    return operatorNames;
 }
 
 bool isShapeOperand(std::string_view name, std::size_t input) noexcept {

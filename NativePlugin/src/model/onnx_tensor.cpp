@@ -1,6 +1,7 @@
 #include "model/onnx_tensor.hpp"
 
 #include "model/file_layout.hpp"
+#include "model/model_header.hpp"
 #include "model/wire_reader.hpp"
 
 #include <cstdint>
@@ -13,7 +14,6 @@ namespace {
 constexpr std::uint32_t dimsField = 1, typeField = 2, floatsField = 4, int32sField = 5, int64sField = 7;
 constexpr std::uint32_t nameField = 8, rawField = 9, doublesField = 10, docField = 12, externalField = 13;
 constexpr std::uint32_t locationField = 14, metadataField = 16;
-constexpr std::size_t largestRank = 8;
 
 struct Content {
     std::uint64_t elements = 1;
@@ -25,7 +25,7 @@ struct Content {
     bool isTooLarge = false;
 };
 
-/// Bytes of one number; 0 for a type that graphs of a model file do not hold.
+/// Bytes of one number; 0 for a type that graphs of a model file may not use.
 std::size_t numberBytes(std::uint64_t type) {
     switch (type) {
         case 1:  // float
@@ -51,7 +51,7 @@ std::uint64_t varintsIn(std::span<const std::byte> packed) {
 
 void addDimension(Content& content, std::uint64_t dimension) {
     ++content.rank;
-    // No tensor of a file has more numbers than the file has bytes; a negative dimension is a huge one here.
+    // No tensor has more numbers than the file has bytes. A negative dimension is read as a very large one.
     if (dimension > maximumFileBytes || content.elements * dimension > maximumFileBytes) {
         content.isTooLarge = true;
     } else {
@@ -73,18 +73,18 @@ void addDimensions(Content& content, const WireField& field) {
 std::string problemOf(const Content& content) {
     const std::size_t bytes = numberBytes(content.type);
     if (content.isExternal) {
-        return "lies in another file; export the graph with its weights inside";
+        return "is in another file; export the graph with its weights inside";
     }
     if (bytes == 0) {
         return "is of type " + std::to_string(content.type) + "; expected float, double, int32, int64 or bool";
     }
-    if (content.rank > largestRank) {
+    if (content.rank > maximumTensorRank) {
         return "has " + std::to_string(content.rank) + " dimensions; the limit is 8";
     }
     const bool fits = !content.isTooLarge &&
                       (content.rawBytes ? content.typedNumbers == 0 && *content.rawBytes == content.elements * bytes
                                         : content.typedNumbers == content.elements);
-    return fits ? "" : "does not hold as many numbers as its dimensions say";
+    return fits ? "" : "has another number of values than its dimensions";
 }
 
 }  // namespace

@@ -7,14 +7,14 @@
 
 namespace haptoflow::model {
 
-/// A TensorProto of ONNX, as far as it must be known before a runtime reads it.
+/// The parts of an ONNX TensorProto that are checked before a runtime reads it.
 struct OnnxTensor {
     std::string_view name;
-    /// Empty where the tensor holds what its dimensions promise; otherwise the rest of a sentence that begins with it.
+    /// Empty if the content fits the dimensions; otherwise a sentence's predicate, with the tensor as its subject.
     std::string problem;
 };
 
-/// Reads a TensorProto; its numbers are counted, not read. Throws WireError.
+/// Parses a TensorProto; its numbers are counted but not read. Throws WireError.
 [[nodiscard]] OnnxTensor readOnnxTensor(std::span<const std::byte> bytes);
 
 }  // namespace haptoflow::model

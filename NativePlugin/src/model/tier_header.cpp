@@ -1,4 +1,4 @@
-#include "model/tier_header.hpp"
+#include "model/header_entries.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -67,7 +67,7 @@ std::vector<std::int64_t> readLatentShape(const HeaderNode& node) {
     return shape;
 }
 
-/// The figure of this name, where it is one that an error in dB can have.
+/// The figure of this name, if it is a possible error in dB.
 std::optional<double> errorOf(const nlohmann::json& accuracy, const char* figure) {
     const auto found = accuracy.find(figure);
     if (found == accuracy.end() || !found->is_number()) {

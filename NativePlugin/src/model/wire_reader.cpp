@@ -5,8 +5,8 @@
 namespace haptoflow::model {
 namespace {
 
-constexpr std::size_t longestVarint = 10;
-constexpr std::uint64_t largestFieldNumber = 536'870'911;
+constexpr std::size_t maximumVarintBytes = 10;
+constexpr std::uint64_t maximumFieldNumber = 536'870'911;
 
 }  // namespace
 
@@ -16,7 +16,7 @@ std::optional<WireField> WireReader::next() {
     }
     const std::uint64_t tag = varint();
     const std::uint64_t number = tag >> 3U;
-    if (number < 1 || number > largestFieldNumber) {
+    if (number < 1 || number > maximumFieldNumber) {
         throw WireError("a field has the number " + std::to_string(number));
     }
     WireField field;
@@ -51,7 +51,7 @@ std::optional<std::uint64_t> WireReader::nextPacked() {
 
 std::uint64_t WireReader::varint() {
     std::uint64_t value = 0;
-    for (std::size_t index = 0; index < longestVarint; ++index) {
+    for (std::size_t index = 0; index < maximumVarintBytes; ++index) {
         const auto byte = std::to_integer<std::uint64_t>(take(1).front());
         value |= (byte & 0x7FU) << (7 * index);
         if (byte < 0x80U) {

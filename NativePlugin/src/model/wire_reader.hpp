@@ -9,22 +9,22 @@
 
 namespace haptoflow::model {
 
-/// The bytes are not a protobuf message. The message says what is wrong, not where it was found.
+/// The bytes are not a protobuf message. The message of the error names the problem but not its position.
 class WireError : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
 };
 
-/// The encodings of a field; groups, long given up by protobuf, are refused.
+/// The encodings of a field; groups, which protobuf has deprecated, are refused.
 enum class WireType : std::uint8_t { varint = 0, fixed64 = 1, bytes = 2, fixed32 = 5 };
 
-/// One field of a protobuf message. Views the message.
+/// One field of a protobuf message. Refers to the message.
 struct WireField {
     std::uint32_t number = 0;
     WireType type = WireType::varint;
-    /// Of a varint or a fixed number; 0 otherwise.
+    /// The value of a varint or a fixed number; 0 otherwise.
     std::uint64_t value = 0;
-    /// Of a string, a message or a packed array; empty otherwise.
+    /// The bytes of a string, a message or a packed array; empty otherwise.
     std::span<const std::byte> bytes;
 
     [[nodiscard]] std::string_view text() const noexcept {
@@ -32,8 +32,9 @@ struct WireField {
     }
 };
 
-/// Reads the fields of one protobuf message in their order. Every length is compared with what is left; nothing is
-/// copied, nothing recurses.
+/// Reads the fields of one protobuf message in order. Every length is checked against the remaining bytes; nothing is
+/// copied and nothing recurses. Home-made: the protobuf library would be a large dependency of the plugin, and it
+/// builds the whole message before the message can be checked.
 class WireReader {
 public:
     explicit WireReader(std::span<const std::byte> message) noexcept : rest_(message) {}

@@ -1,5 +1,5 @@
-// Random sequences of calls, right and wrong ones, from several threads at once. What they prove, they prove under the
-// sanitizers: no crash, no race, no leak; and here that every status is a known one and every sample finite.
+// Random sequences of calls, valid and invalid ones, from several threads at once. Under the sanitizers they prove that
+// there is no crash, race or leak; here, that every status is known and every sample finite.
 #include "open_engine.hpp"
 
 #include <algorithm>
@@ -19,7 +19,7 @@
 namespace haptoflow::capi::testing {
 namespace {
 
-/// Handles of one kind that threads share, open ones and stale ones alike.
+/// Handles of one kind that threads share, both open and closed ones.
 template <typename Handle>
 class SharedHandles {
 public:
@@ -27,14 +27,14 @@ public:
         const std::lock_guard lock(mutex_);
         handles_.push_back(handle);
     }
-    /// Mostly one of the newest, many of which are open; otherwise an older one, none, or an invented one.
+    /// Mostly one of the newest handles, many of which are open; otherwise an older one, null, or an invalid one.
     Handle any(std::uint32_t choice) {
         const std::lock_guard lock(mutex_);
         if (handles_.empty() || choice % 11 == 0) {
             return Handle{};
         }
         if (choice % 13 == 0) {
-            // Odd, as none is that a table gives out.
+            // Odd, unlike every handle of a table.
             const std::uint32_t invented = choice | 1U;
             if constexpr (std::is_pointer_v<Handle>) {
                 return reinterpret_cast<Handle>(std::uintptr_t{invented});
@@ -70,8 +70,8 @@ public:
     Storm(StormHandles& handles, const std::vector<char>& modelBytes, std::uint32_t seed)
         : handles_(handles), modelBytes_(modelBytes), random_(seed) {}
 
-    /// At least so many calls, and on until a block of this thread has sounded: on a busy machine the other threads may
-    /// close what this one would have heard. 20 times as many calls are enough for every schedule.
+    /// Makes at least `calls` calls and continues until a block of this thread has sounded, because on a busy machine
+    /// the other threads may close its objects too early. 20 times as many calls are enough for every schedule.
     void run(int calls) {
         for (int call = 0; call < calls || (!hasSounded_ && call < 20 * calls); ++call) {
             check(once());
@@ -81,7 +81,7 @@ public:
     [[nodiscard]] bool hasSounded() const { return hasSounded_; }
 
 private:
-    /// Of so many thousandths of the calls.
+    /// A kind of call and its share of all calls in thousandths.
     struct Kind {
         std::uint32_t share;
         haptoflow_status (Storm::*call)();
@@ -223,7 +223,7 @@ private:
         return kept(status, engine, handles_.engines);
     }
 
-    /// Makes one, cancels or closes one.
+    /// Creates a cancellation, or cancels or closes one.
     haptoflow_status cancel() {
         haptoflow_cancellation* cancellation = nullptr;
         switch (next() % 4) {
@@ -240,7 +240,7 @@ private:
 
     haptoflow_status closeEngine() { return closed(handles_.engines, haptoflow_engine_close); }
 
-    /// The whole file, a part of it, or with a byte changed.
+    /// Opens the whole file, a part of it, or the file with a changed byte.
     haptoflow_status openModel() {
         std::vector<char> bytes = modelBytes_;
         if (oneIn(4)) {
@@ -353,7 +353,7 @@ private:
 
     haptoflow_status useMaterials() {
         haptoflow_engine* engine = handles_.engines.any(next());
-        // A label of the tiny model again, or a text that is cut short.
+        // A valid material of the tiny model, or a text that is cut.
         static const std::string material = [] {
             std::ifstream stream(HAPTOFLOW_TEST_GOLDEN_DIR "/material/ribbed.haptomaterial");
             return std::string(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
@@ -455,10 +455,10 @@ private:
 
 class ApiStormTest : public ::testing::Test {
 protected:
-    /// HAPTOFLOW_TEST_STORM_CALLS: how many calls each thread makes; the soak asks for many.
+    /// Number of calls of each thread, from HAPTOFLOW_TEST_STORM_CALLS; the soak test sets a large one.
     static int callsOfAThread(int usual) {
-        const char* asked = std::getenv("HAPTOFLOW_TEST_STORM_CALLS");
-        return asked != nullptr ? std::atoi(asked) : usual;
+        const char* given = std::getenv("HAPTOFLOW_TEST_STORM_CALLS");
+        return given != nullptr ? std::atoi(given) : usual;
     }
 
     static void storm(int threadCount, int calls) {
@@ -479,9 +479,9 @@ protected:
         }
         for (const Storm& each : storms) {
             EXPECT_TRUE(each.isSound());
-            EXPECT_TRUE(each.hasSounded()) << "a storm of refusals proves little";
+            EXPECT_TRUE(each.hasSounded()) << "a storm without sound proves little";
         }
-        // What the storm left open ends here; what it closed is refused.
+        // Objects that the storm left open are closed here; handles that it closed are refused.
         for (haptoflow_engine* engine : handles.engines.all()) {
             (void)haptoflow_engine_close(&engine);
         }
@@ -500,11 +500,11 @@ protected:
     }
 };
 
-TEST_F(ApiStormTest, AnySequenceOfCallsFromOneThreadIsAnswered) {
+TEST_F(ApiStormTest, EveryCallOfARandomSequenceFromOneThreadReturnsAStatus) {
     storm(1, callsOfAThread(3000));
 }
 
-TEST_F(ApiStormTest, AnySequenceOfCallsFromFourThreadsIsAnswered) {
+TEST_F(ApiStormTest, EveryCallOfRandomSequencesFromFourThreadsReturnsAStatus) {
     storm(4, callsOfAThread(1500));
 }
 

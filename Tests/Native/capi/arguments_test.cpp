@@ -17,11 +17,11 @@ Handle* invented(std::uintptr_t number) {
     return reinterpret_cast<Handle*>(number);
 }
 
-TEST(LibraryApiTest, NamesTheProjectsVersion) {
+TEST(LibraryApiTest, TheVersionIsThatOfTheProject) {
     EXPECT_STREQ(haptoflow_version(), HAPTOFLOW_TEST_VERSION);
 }
 
-TEST(LibraryApiTest, NamesEveryStatusAndOnlyThose) {
+TEST(LibraryApiTest, EveryStatusHasANameAndOtherNumbersHaveNone) {
     EXPECT_STREQ(haptoflow_status_name(HAPTOFLOW_OK), "HAPTOFLOW_OK");
     EXPECT_STREQ(haptoflow_status_name(HAPTOFLOW_MODEL_TOO_NEW), "HAPTOFLOW_MODEL_TOO_NEW");
     EXPECT_STREQ(haptoflow_status_name(HAPTOFLOW_INFERENCE_FAILED), "HAPTOFLOW_INFERENCE_FAILED");
@@ -32,7 +32,7 @@ TEST(LibraryApiTest, NamesEveryStatusAndOnlyThose) {
     }
 }
 
-TEST(LibraryApiTest, KeepsTheMessageOfEachThreadToItself) {
+TEST(LibraryApiTest, EachThreadHasItsOwnMessage) {
     EXPECT_EQ(haptoflow_noise_fill(0, 0, 0, nullptr, 1), HAPTOFLOW_INVALID_ARGUMENT);
     const std::string mine = message();
     std::string theirs = "unset";
@@ -49,7 +49,7 @@ TEST(LibraryApiTest, ASuccessLeavesTheLastMessageInPlace) {
     EXPECT_EQ(message(), before);
 }
 
-TEST(LibraryApiTest, CutsAMessageThatIsTooLong) {
+TEST(LibraryApiTest, AMessageThatIsTooLongIsCut) {
     const std::string path(5000, 'p');
     const haptoflow_model_options options{sizeof(options), nullptr, 0, path.c_str()};
     haptoflow_model* model = nullptr;
@@ -57,7 +57,7 @@ TEST(LibraryApiTest, CutsAMessageThatIsTooLong) {
     EXPECT_EQ(message().size(), 1023U);
 }
 
-TEST(LibraryApiTest, NoiseIsThatOfItsKey) {
+TEST(LibraryApiTest, NoiseDependsOnlyOnItsKey) {
     std::array<float, 4> noise{};
     ASSERT_EQ(haptoflow_noise_fill(1, 2, 3, noise.data(), noise.size()), HAPTOFLOW_OK);
     EXPECT_FLOAT_EQ(noise[0], -1.0514221F);
@@ -65,7 +65,7 @@ TEST(LibraryApiTest, NoiseIsThatOfItsKey) {
     EXPECT_EQ(haptoflow_noise_fill(1, 2, 3, noise.data(), UINT64_MAX), HAPTOFLOW_INVALID_ARGUMENT);
 }
 
-/// Calls of a function, each with one pointer null and everything else as it should be.
+/// Calls of a function, each with one null pointer and otherwise valid arguments.
 struct NullCalls {
     std::string function;
     std::vector<std::function<haptoflow_status()>> calls;
@@ -277,7 +277,7 @@ TEST(ArgumentTest, ClosingANullHandleIsFine) {
 
 class HandleTest : public WithTinyModel {};
 
-TEST_F(HandleTest, InventedHandlesAreRecognisedAndNotFollowed) {
+TEST_F(HandleTest, InvalidHandlesAreDetectedAndNotDereferenced) {
     for (const std::uintptr_t number : {std::uintptr_t{1}, std::uintptr_t{0xDEADBEEF}, ~std::uintptr_t{0}}) {
         uint32_t count = 0;
         EXPECT_EQ(haptoflow_model_label_count(invented<haptoflow_model>(number), &count), HAPTOFLOW_INVALID_ARGUMENT);
@@ -291,7 +291,7 @@ TEST_F(HandleTest, InventedHandlesAreRecognisedAndNotFollowed) {
     }
 }
 
-TEST_F(HandleTest, ACopyOfAClosedHandleIsRecognisedEvenAfterAnotherIsOpened) {
+TEST_F(HandleTest, ACopyOfAClosedHandleIsRefusedEvenAfterAnotherIsOpened) {
     haptoflow_model* first = openTinyModel();
     haptoflow_model* copy = first;
     ASSERT_EQ(haptoflow_model_close(&first), HAPTOFLOW_OK);
@@ -316,7 +316,7 @@ TEST_F(HandleTest, AStructSizeThatWasNeverSetIsRefused) {
     }
 }
 
-TEST_F(HandleTest, ARuntimeWantsExactlyOneSource) {
+TEST_F(HandleTest, ARuntimeNeedsExactlyOneSource) {
     haptoflow_runtime* runtime = nullptr;
     const int notAnApi = 0;
     const haptoflow_runtime_options neither{sizeof(neither), nullptr, nullptr, nullptr, nullptr};

@@ -1,4 +1,4 @@
-/* Uses the header as a C11 program would: what compiles here compiles for every C user. */
+/* Uses the header from a program compiled as C11, as C users do. */
 #include "c11_user.h"
 
 #include "haptoflow/haptoflow.h"

@@ -1,5 +1,5 @@
-// The network on its own output for a long time, at constant input: level and spectrum must stay where they were.
-// HAPTOFLOW_TEST_LOOP_SECONDS sets how long a label runs; the soak asks for ten minutes.
+// The network with its own output as previous waveform, for a long time at constant input: level and spectrum must stay
+// constant. HAPTOFLOW_TEST_LOOP_SECONDS sets the duration for a label; the soak test uses ten minutes.
 #include "open_engine.hpp"
 
 #include <array>
@@ -20,11 +20,11 @@ constexpr std::size_t frameSamples = 400;
 constexpr std::size_t bins = frameSamples / 2;
 
 double loopSeconds() {
-    const char* asked = std::getenv("HAPTOFLOW_TEST_LOOP_SECONDS");
-    return asked != nullptr ? std::strtod(asked, nullptr) : 24.0;
+    const char* given = std::getenv("HAPTOFLOW_TEST_LOOP_SECONDS");
+    return given != nullptr ? std::strtod(given, nullptr) : 24.0;
 }
 
-/// Mean magnitude spectrum, 0 to 1 kHz in steps of 5 Hz, of frames that overlap by half.
+/// Mean magnitude spectrum over frames that overlap by half, 0 to 1 kHz in steps of 5 Hz.
 std::vector<double> meanSpectrum(const std::vector<float>& waveform) {
     static const auto turns = [] {
         std::array<std::complex<double>, frameSamples> table;
@@ -62,7 +62,7 @@ double goodnessOfFit(const std::vector<double>& first, const std::vector<double>
 
 class ClosedLoopTest : public ::testing::TestWithParam<uint32_t> {};
 
-TEST_P(ClosedLoopTest, AtConstantInputLevelAndSpectrumStayWhereTheyWere) {
+TEST_P(ClosedLoopTest, LevelAndSpectrumStayConstantForAConstantInput) {
     OpenEngine open(defaultModelPath, false, HAPTOFLOW_QUALITY_STANDARD, 1, outputHz);
     uint32_t labels = 0;
     ASSERT_EQ(haptoflow_model_label_count(open.model, &labels), HAPTOFLOW_OK);
@@ -92,7 +92,7 @@ TEST_P(ClosedLoopTest, AtConstantInputLevelAndSpectrumStayWhereTheyWere) {
     EXPECT_EQ(open.statistics().underruns, 0U);
     EXPECT_EQ(open.statistics().limited_samples, 0U);
 
-    // The first second still holds the seed.
+    // The first second still contains the seed.
     const auto part = static_cast<std::ptrdiff_t>(2000.0 * std::min(60.0, seconds / 3.0));
     const std::vector<float> first(waveform.begin() + 2000, waveform.begin() + 2000 + part);
     const std::vector<float> last(waveform.end() - part, waveform.end());

@@ -1,4 +1,5 @@
-// Every struct of the header that begins with struct_size, as callers compiled with an older or a newer header have it.
+// Every struct of the header that begins with struct_size, in the sizes of callers compiled with older and newer
+// headers.
 #include "learning_options.hpp"
 #include "open_engine.hpp"
 #include "public_header.hpp"
@@ -15,13 +16,13 @@ namespace haptoflow::capi::testing {
 namespace {
 
 constexpr unsigned char untouched = 0xEE;
-/// The library takes no larger descriptor for one that was filled in.
-constexpr std::size_t largestSize = 4096;
+/// The library refuses larger descriptors as uninitialised.
+constexpr std::size_t maximumSize = 4096;
 
-/// A struct of any size in memory of its own, the rest of which is not its caller's.
+/// A struct of any size in its own memory, followed by bytes that do not belong to the caller.
 class Memory {
 public:
-    explicit Memory(uint32_t structSize) : bytes_(2 * largestSize, untouched) { setSize(structSize); }
+    explicit Memory(uint32_t structSize) : bytes_(2 * maximumSize, untouched) { setSize(structSize); }
     template <typename Descriptor>
     Memory(const Descriptor& content, uint32_t structSize) : Memory(structSize) {
         std::memcpy(bytes_.data(), &content, std::min<std::size_t>(structSize, sizeof(content)));
@@ -34,7 +35,7 @@ public:
         return reinterpret_cast<Descriptor*>(bytes_.data());
     }
     friend bool operator==(const Memory&, const Memory&) = default;
-    /// Those of `first` up to `size`, and nothing behind.
+    /// True if the memory holds the bytes of `first` up to `size` and is unchanged after that.
     [[nodiscard]] bool holds(const Memory& first, std::size_t size) const {
         const std::size_t begin = sizeof(uint32_t);
         return std::equal(bytes_.begin() + begin, bytes_.begin() + static_cast<std::ptrdiff_t>(std::max(size, begin)),
@@ -46,7 +47,7 @@ public:
 private:
     void setSize(uint32_t structSize) { std::memcpy(bytes_.data(), &structSize, sizeof(structSize)); }
 
-    // From operator new, aligned for every struct.
+    // Memory of operator new is aligned for every struct.
     std::vector<unsigned char> bytes_;
 };
 
@@ -54,7 +55,7 @@ private:
 struct Input {
     std::string name;
     std::string function;
-    /// Of the first version's mandatory fields, and of the struct as it is now.
+    /// Sizes of the first version's mandatory fields and of the present struct.
     std::size_t smallest;
     std::size_t full;
     std::function<Memory(uint32_t)> make;
@@ -78,7 +79,7 @@ protected:
         engineOptions_.runtime = open_.runtime;
         engineOptions_.model = open_.model;
         ASSERT_EQ(haptoflow_generator_create(&generatorOptions_, &generator_), HAPTOFLOW_OK) << message();
-        // So that the figures to be read are not zero.
+        // Makes the statistics that are read different from zero.
         for (int update = 0; update < 5; ++update) {
             (void)open_.update(slidingState());
         }
@@ -95,7 +96,7 @@ protected:
                 [content](uint32_t size) { return Memory(content, size); },
                 [call](Memory& memory) { return call(memory.as<Descriptor>()); }};
     }
-    /// Opens, expects a handle where the status says that there is one, and closes it again.
+    /// Opens an object, expects a handle if the status is HAPTOFLOW_OK, and closes it.
     template <typename Options, typename Handle>
     static std::function<haptoflow_status(const Options*)> opening(haptoflow_status (*open)(const Options*, Handle**),
                                                                    haptoflow_status (*close)(Handle**)) {
@@ -209,7 +210,7 @@ TEST_F(DescriptorSizesTest, EveryDescriptorOfTheHeaderIsInATable) {
     EXPECT_EQ(tabled, declaredDescriptors());
 }
 
-TEST_F(DescriptorSizesTest, AnInputOfAnOlderCallerIsTakenAndNothingBehindItIsRead) {
+TEST_F(DescriptorSizesTest, AnInputOfAnOlderCallerIsAcceptedAndNothingBeyondItsEndIsRead) {
     for (const Input& input : inputs()) {
         for (const std::size_t size : {input.smallest, input.full}) {
             Memory given = input.make(static_cast<uint32_t>(size));
@@ -218,12 +219,12 @@ TEST_F(DescriptorSizesTest, AnInputOfAnOlderCallerIsTakenAndNothingBehindItIsRea
             EXPECT_EQ(given, before) << input.function << " changed its input";
         }
     }
-    EXPECT_EQ(open_.statistics().sanitised, 0U) << "an approach speed that the caller never gave was taken";
+    EXPECT_EQ(open_.statistics().sanitised, 0U) << "an approach speed was read beyond the end of the caller's struct";
 }
 
-TEST_F(DescriptorSizesTest, AnInputOfANewerCallerIsTakenAndWhatIsNotKnownIsIgnored) {
+TEST_F(DescriptorSizesTest, AnInputOfANewerCallerIsAcceptedAndItsUnknownFieldsAreIgnored) {
     for (const Input& input : inputs()) {
-        for (const std::size_t size : {input.full + 1, input.full + 8, input.full + 64, largestSize}) {
+        for (const std::size_t size : {input.full + 1, input.full + 8, input.full + 64, maximumSize}) {
             Memory given = input.make(static_cast<uint32_t>(size));
             const Memory before = given;
             EXPECT_EQ(input.call(given), HAPTOFLOW_OK) << input.function << ", " << size << " bytes: " << message();
@@ -232,11 +233,11 @@ TEST_F(DescriptorSizesTest, AnInputOfANewerCallerIsTakenAndWhatIsNotKnownIsIgnor
     }
 }
 
-TEST_F(DescriptorSizesTest, AnInputTooSmallForItsMandatoryFieldsOrNeverSetIsRefused) {
+TEST_F(DescriptorSizesTest, AnInputThatIsTooSmallForItsMandatoryFieldsOrHasNoSizeIsRefused) {
     const std::uint64_t updates = open_.statistics().updates;
     for (const Input& input : inputs()) {
         for (const std::size_t size : {std::size_t{0}, std::size_t{3}, sizeof(uint32_t), input.smallest - 1,
-                                       largestSize + 1, std::size_t{UINT32_MAX}}) {
+                                       maximumSize + 1, std::size_t{UINT32_MAX}}) {
             Memory given = input.make(static_cast<uint32_t>(input.full));
             *given.as<uint32_t>() = static_cast<uint32_t>(size);
             EXPECT_EQ(input.call(given), HAPTOFLOW_INVALID_ARGUMENT) << input.function << ", " << size << " bytes";
@@ -246,7 +247,7 @@ TEST_F(DescriptorSizesTest, AnInputTooSmallForItsMandatoryFieldsOrNeverSetIsRefu
     EXPECT_EQ(open_.statistics().updates, updates) << "a refused state is not published";
 }
 
-TEST_F(DescriptorSizesTest, AnOutputIsFilledAsFarAsTheCallersStructReachesAndItsSizeSaysHowFarThatIs) {
+TEST_F(DescriptorSizesTest, AnOutputIsFilledUpToTheCallersSizeAndReportsTheFilledSize) {
     for (const Output& output : outputs()) {
         Memory whole(static_cast<uint32_t>(output.full));
         ASSERT_EQ(output.call(whole), HAPTOFLOW_OK) << output.name << ": " << message();
@@ -259,10 +260,10 @@ TEST_F(DescriptorSizesTest, AnOutputIsFilledAsFarAsTheCallersStructReachesAndIts
     }
 }
 
-TEST_F(DescriptorSizesTest, AnOutputWhoseSizeWasNeverSetIsRefusedAndUntouched) {
+TEST_F(DescriptorSizesTest, AnOutputWithoutASizeIsRefusedAndUnchanged) {
     for (const Output& output : outputs()) {
         for (const std::size_t size :
-             {std::size_t{0}, std::size_t{1}, std::size_t{3}, largestSize + 1, std::size_t{UINT32_MAX}}) {
+             {std::size_t{0}, std::size_t{1}, std::size_t{3}, maximumSize + 1, std::size_t{UINT32_MAX}}) {
             Memory given(static_cast<uint32_t>(size));
             const Memory before = given;
             EXPECT_EQ(output.call(given), HAPTOFLOW_INVALID_ARGUMENT) << output.name << ", " << size << " bytes";

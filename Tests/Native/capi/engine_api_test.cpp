@@ -10,7 +10,7 @@
 namespace haptoflow::capi::testing {
 namespace {
 
-TEST(EngineApiTest, ATouchOnTheShippedModelSoundsInTheNextBlockAndGoesOnByInference) {
+TEST(EngineApiTest, ATouchOnTheShippedModelSoundsInTheNextBlockAndContinuesWithGeneratedSegments) {
     OpenEngine open(defaultModelPath);
     EXPECT_EQ(peak(open.render(480)), 0.0F);
     open.publish(slidingState());
@@ -21,25 +21,25 @@ TEST(EngineApiTest, ATouchOnTheShippedModelSoundsInTheNextBlockAndGoesOnByInfere
     const haptoflow_voice_statistics statistics = open.statistics();
     EXPECT_EQ(statistics.inferences, 40U);
     EXPECT_EQ(statistics.underruns, 0U);
-    EXPECT_GT(statistics.inference_ms, 40 * 0.05) << "no machine does it in less";
+    EXPECT_GT(statistics.inference_ms, 40 * 0.05) << "no machine is faster";
 }
 
-TEST(EngineApiTest, WithoutWorkerTheSameCallsGiveTheSameSamplesAndAnotherSeedOthers) {
+TEST(EngineApiTest, WithoutWorkerEqualCallsGiveEqualSamplesAndAnotherSeedGivesOthers) {
     const auto play = [](uint64_t seed) {
         OpenEngine open(tinyModelPath, false, HAPTOFLOW_QUALITY_STANDARD, seed);
-        std::vector<float> heard;
+        std::vector<float> output;
         for (int update = 0; update < 30; ++update) {
             const std::vector<float> part = open.update(slidingState());
-            heard.insert(heard.end(), part.begin(), part.end());
+            output.insert(output.end(), part.begin(), part.end());
         }
-        return heard;
+        return output;
     };
     const std::vector<float> first = play(7);
     EXPECT_EQ(first, play(7));
     EXPECT_NE(first, play(8));
 }
 
-TEST(EngineApiTest, TheVoiceWritesItsChannelAndLeavesTheOthersAlone) {
+TEST(EngineApiTest, TheVoiceWritesItsChannelAndLeavesTheOthersUnchanged) {
     OpenEngine open(tinyModelPath);
     open.publish(slidingState());
     std::vector<float> interleaved(std::size_t{4} * 256, 9.0F);
@@ -61,7 +61,7 @@ TEST(EngineApiTest, TheVoiceWritesItsChannelAndLeavesTheOthersAlone) {
     }
 }
 
-TEST(EngineApiTest, CallbackArgumentsThatMakeNoSenseAreRefusedWithoutAMessage) {
+TEST(EngineApiTest, InvalidCallbackArgumentsAreRefusedWithoutAMessage) {
     OpenEngine open(tinyModelPath);
     std::array<float, 8> samples{};
     (void)haptoflow_noise_fill(0, 0, 0, nullptr, 1);
@@ -114,41 +114,41 @@ TEST(EngineApiTest, ClosingTheEngineSilencesAndDestroysItsVoices) {
     EXPECT_EQ(samples, (std::array<float, 64>{}));
 }
 
-/// What a device hears of a voice that somebody takes away while it sounds: blocks until the voice is gone.
-std::vector<float> heardUntilGone(OpenEngine& open, const std::function<void()>& takeAway) {
+/// The blocks of a voice that is removed while it sounds, until it is gone.
+std::vector<float> blocksUntilGone(OpenEngine& open, const std::function<void()>& removeVoice) {
     const haptoflow_voice voice = open.voice;
-    std::vector<float> heard = open.update(slidingState(), 2048);
-    std::thread taker(takeAway);
+    std::vector<float> output = open.update(slidingState(), 2048);
+    std::thread taker(removeVoice);
     for (haptoflow_status status = HAPTOFLOW_OK; status == HAPTOFLOW_OK;) {
         std::array<float, 256> block{};
         status = haptoflow_voice_render(voice, block.data(), 256, 1, 0, 48000.0);
-        heard.insert(heard.end(), block.begin(), block.end());
+        output.insert(output.end(), block.begin(), block.end());
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     taker.join();
-    return heard;
+    return output;
 }
 
 TEST(EngineApiTest, AVoiceDestroyedWhileItSoundsEndsWithoutAStep) {
     OpenEngine open(tinyModelPath);
     const float usual = largestStep(open.update(slidingState(), 2048));
     ASSERT_GT(usual, 0.0F);
-    const auto heard =
-        heardUntilGone(open, [&] { EXPECT_EQ(haptoflow_voice_destroy(&open.voice), HAPTOFLOW_OK) << message(); });
-    EXPECT_EQ(heard.back(), 0.0F);
-    EXPECT_LE(largestStep(heard), 1.5F * usual);
+    const auto output =
+        blocksUntilGone(open, [&] { EXPECT_EQ(haptoflow_voice_destroy(&open.voice), HAPTOFLOW_OK) << message(); });
+    EXPECT_EQ(output.back(), 0.0F);
+    EXPECT_LE(largestStep(output), 1.5F * usual);
 }
 
 TEST(EngineApiTest, AnEngineClosedWhileItsVoiceSoundsEndsItWithoutAStep) {
     OpenEngine open(tinyModelPath);
     const float usual = largestStep(open.update(slidingState(), 2048));
-    const auto heard =
-        heardUntilGone(open, [&] { EXPECT_EQ(haptoflow_engine_close(&open.engine), HAPTOFLOW_OK) << message(); });
-    EXPECT_EQ(heard.back(), 0.0F);
-    EXPECT_LE(largestStep(heard), 1.5F * usual);
+    const auto output =
+        blocksUntilGone(open, [&] { EXPECT_EQ(haptoflow_engine_close(&open.engine), HAPTOFLOW_OK) << message(); });
+    EXPECT_EQ(output.back(), 0.0F);
+    EXPECT_LE(largestStep(output), 1.5F * usual);
 }
 
-TEST(EngineApiTest, SixtyFourVoicesFitEachInItsOwnPlaceAndTheNextIsRefused) {
+TEST(EngineApiTest, SixtyFourVoicesHaveDifferentPlacesAndTheNextIsRefused) {
     OpenEngine open(tinyModelPath);
     std::vector<haptoflow_voice> voices;
     std::set<uint32_t> places;
@@ -188,7 +188,7 @@ TEST(EngineApiTest, DescriptorsOfOlderAndNewerCallersBothWork) {
     statistics.struct_size = offsetof(haptoflow_voice_statistics, inferences);
     ASSERT_EQ(haptoflow_voice_get_statistics(open.voice, &statistics), HAPTOFLOW_OK);
     EXPECT_EQ(statistics.updates, 2U);
-    EXPECT_EQ(statistics.inferences, 0xEEEEEEEEEEEEEEEEU) << "beyond the caller's struct nothing is written";
+    EXPECT_EQ(statistics.inferences, 0xEEEEEEEEEEEEEEEEU) << "nothing is written beyond the caller's struct";
 
     haptoflow_engine_options options{};
     options.struct_size = offsetof(haptoflow_engine_options, update_rate_hz);
@@ -228,17 +228,17 @@ TEST(EngineApiTest, OptionsOutOfRangeAreRefusedByName) {
     haptoflow_voice voice = 0;
     for (const double rateHz : {4000.0, 192001.0, -48000.0, std::nan(""), HUGE_VAL}) {
         EXPECT_EQ(haptoflow_voice_create(open.engine, rateHz, &voice), HAPTOFLOW_INVALID_ARGUMENT) << rateHz;
-        EXPECT_THAT(message(), ::testing::HasSubstr("8000")) << "the message names what is possible";
+        EXPECT_THAT(message(), ::testing::HasSubstr("8000")) << "the message names the supported range";
     }
 }
 
-TEST(EngineApiTest, AnEngineWithAWorkerIsNotSteppedByHand) {
+TEST(EngineApiTest, AnEngineWithAWorkerRefusesSteps) {
     OpenEngine open(tinyModelPath, true);
     EXPECT_EQ(haptoflow_engine_step(open.engine), HAPTOFLOW_INVALID_ARGUMENT);
     EXPECT_THAT(message(), ::testing::HasSubstr("worker"));
 }
 
-TEST(EngineApiTest, QualityNamesATierWhichIsReadableWithItsMeasuredTime) {
+TEST(EngineApiTest, TheTierOfAQualityIsReportedWithItsMeasuredTime) {
     OpenEngine open(tinyModelPath, false, HAPTOFLOW_QUALITY_FINE);
     uint32_t tiers = 0;
     ASSERT_EQ(haptoflow_model_tier_count(open.model, &tiers), HAPTOFLOW_OK);
@@ -273,7 +273,7 @@ TEST(EngineApiTest, PanicSilencesEveryVoiceOfTheProcess) {
     }
 }
 
-TEST(EngineApiTest, TheWorkerServesAVoiceThatIsPublishedAndRenderedAtTheLivePace) {
+TEST(EngineApiTest, TheWorkerServesAVoiceInRealTime) {
     OpenEngine open(tinyModelPath, true);
     for (int update = 0; update < 2000 && open.statistics().inferences < 10; ++update) {
         open.publish(slidingState());

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <iterator>
 #include <memory>
@@ -14,9 +15,10 @@
 namespace haptoflow::capi::testing {
 namespace {
 
-std::set<std::string> exportedSymbols() {
-    const std::unique_ptr<FILE, int (*)(FILE*)> pipe(
-        popen("nm -D --defined-only --format=posix '" HAPTOFLOW_TEST_PLUGIN "'", "r"), pclose);
+/// The symbols that `nm` prints for the plugin with these options.
+std::set<std::string> definedSymbols(const std::string& options) {
+    const std::string command = "nm " + options + " --defined-only --format=posix '" HAPTOFLOW_TEST_PLUGIN "'";
+    const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
     std::set<std::string> symbols;
     char line[4096];
     while (pipe && std::fgets(line, sizeof(line), pipe.get()) != nullptr) {
@@ -33,10 +35,20 @@ TEST(ExportsTest, TheLibraryExportsTheHeadersFunctionsAndUnitysEntryOnly) {
     for (const DeclaredFunction& function : declaredFunctions()) {
         declared.insert(function.name);
     }
-    std::set<std::string> exported = exportedSymbols();
-    EXPECT_EQ(exported.erase("UnityGetAudioEffectDefinitions"), 1U) << "what Unity looks up by name";
+    std::set<std::string> exported = definedSymbols("-D");
+    EXPECT_EQ(exported.erase("UnityGetAudioEffectDefinitions"), 1U) << "Unity looks this function up by name";
     ASSERT_FALSE(declared.empty());
     EXPECT_EQ(exported, declared);
+}
+
+TEST(ExportsTest, TheLibraryContainsTheEngineAndNothingOfTheHeadlessContactModel) {
+    const std::set<std::string> symbols = definedSymbols("");
+    const auto inNamespace = [&](const std::string& mangled) {
+        return std::ranges::count_if(
+            symbols, [&](const std::string& symbol) { return symbol.find(mangled) != std::string::npos; });
+    };
+    ASSERT_GT(inNamespace("9haptoflow6engine"), 0) << "the library is stripped: its own symbols cannot be read";
+    EXPECT_EQ(inNamespace("9haptoflow8headless"), 0);
 }
 
 TEST(ExportsTest, EveryFunctionOfTheHeaderHasACommentWithOneThreadTag) {
@@ -44,7 +56,7 @@ TEST(ExportsTest, EveryFunctionOfTheHeaderHasACommentWithOneThreadTag) {
     const std::regex beginning(R"(\nHAPTOFLOW_API )");
     const auto count = std::distance(std::sregex_iterator(text.begin(), text.end(), beginning), std::sregex_iterator());
     const auto functions = declaredFunctions();
-    EXPECT_EQ(functions.size(), static_cast<std::size_t>(count)) << "a function stands without a comment before it";
+    EXPECT_EQ(functions.size(), static_cast<std::size_t>(count)) << "a function has no comment before it";
     const std::regex tag(R"(\[((any|loader|worker)-thread|publisher|audio-callback)\])");
     for (const DeclaredFunction& function : functions) {
         const auto tags = std::distance(std::sregex_iterator(function.comment.begin(), function.comment.end(), tag),

@@ -30,7 +30,7 @@ std::vector<float> flat(const nlohmann::json& rows) {
     return values;
 }
 
-/// The golden requests as the flat arrays of the C interface, and what they must give.
+/// The golden requests as flat arrays of the C interface, with the expected results.
 struct Golden {
     Golden() {
         std::ifstream stream(HAPTOFLOW_TEST_GOLDEN_DIR "/model/tiny.expected.json");
@@ -99,12 +99,12 @@ protected:
     haptoflow_generator* generator_ = nullptr;
 };
 
-TEST_F(GeneratorApiTest, GeneratesTheGoldenSegments) {
+TEST_F(GeneratorApiTest, TheGoldenSegmentsAreReproduced) {
     createMidpointOfThreeSteps();
     expectGoldenSegments();
 }
 
-TEST_F(GeneratorApiTest, ChangesTheSolverAndGoesBackToTheTiersOwn) {
+TEST_F(GeneratorApiTest, TheSolverCanBeChangedAndResetToTheTiersOwn) {
     create(generatorOptions());
     ASSERT_EQ(haptoflow_generator_set_solver(generator_, HAPTOFLOW_SOLVER_MIDPOINT, 3), HAPTOFLOW_OK);
     expectGoldenSegments();
@@ -118,14 +118,14 @@ TEST_F(GeneratorApiTest, ChangesTheSolverAndGoesBackToTheTiersOwn) {
     EXPECT_EQ(haptoflow_generator_set_solver(generator_, 9, 1), HAPTOFLOW_INVALID_ARGUMENT);
 }
 
-/// A copy of the tiny model whose direct tier returns the rib phase that it is given.
+/// A copy of the tiny model whose direct tier returns its rib phase.
 std::vector<std::byte> ribModelBytes() {
     const model::ModelFile tiny = model::ModelFile::read(tinyModelPath);
     return inference::testing::withGraphs(tiny,
                                           {{"direct_field", inference::testing::ribField("segment", {1, samples})}});
 }
 
-TEST_F(GeneratorApiTest, AStructSizeThatEndsWithinAPointerLeavesThePointerOut) {
+TEST_F(GeneratorApiTest, AStructSizeThatEndsWithinAPointerExcludesThePointer) {
     createMidpointOfThreeSteps();
     const Golden golden;
     std::vector<float> segments(3 * samples);
@@ -140,7 +140,7 @@ TEST_F(GeneratorApiTest, AStructSizeThatEndsWithinAPointerLeavesThePointerOut) {
     }
 }
 
-TEST(GeneratorRibPhaseTest, ThePhasesOfABatchReachTheGraphAndABatchWithoutThemStandsAtZero) {
+TEST(GeneratorRibPhaseTest, TheRibPhasesOfABatchReachTheGraphAndMissingOnesAreZero) {
     const Golden golden;
     const std::vector<std::byte> bytes = ribModelBytes();
     haptoflow_runtime* runtime = openRuntime();
@@ -166,7 +166,7 @@ TEST(GeneratorRibPhaseTest, ThePhasesOfABatchReachTheGraphAndABatchWithoutThemSt
                                inference::testing::secondRibWeight * phases[2 * row + 1];
         ASSERT_NEAR(segments[i] / golden.levels[row], expected, 1e-5F) << i;
     }
-    // A caller that was compiled with a header that did not know of them.
+    // A caller compiled with a header that did not have rib phases.
     batch.struct_size = offsetof(haptoflow_batch, rib_phases);
     ASSERT_EQ(haptoflow_generator_generate(generator, &batch, segments.data()), HAPTOFLOW_OK) << message();
     EXPECT_THAT(segments, ::testing::Each(0.0F));
@@ -216,14 +216,14 @@ TEST_F(GeneratorApiTest, ANewerCallersOptionsWork) {
     EXPECT_EQ(haptoflow_generator_create(&options.known, &generator_), HAPTOFLOW_OK) << message();
 }
 
-TEST_F(GeneratorApiTest, OutlivesItsRuntimeAndItsModel) {
+TEST_F(GeneratorApiTest, AGeneratorOutlivesItsRuntimeAndItsModel) {
     createMidpointOfThreeSteps();
     ASSERT_EQ(haptoflow_model_close(&model_), HAPTOFLOW_OK);
     ASSERT_EQ(haptoflow_runtime_close(&runtime_), HAPTOFLOW_OK);
     expectGoldenSegments();
 }
 
-TEST_F(GeneratorApiTest, ServesThreadsOneAfterTheOther) {
+TEST_F(GeneratorApiTest, AGeneratorServesThreadsOneAfterTheOther) {
     createMidpointOfThreeSteps();
     std::array<std::vector<float>, 3> results;
     std::vector<std::thread> threads;
@@ -247,7 +247,7 @@ TEST_F(GeneratorApiTest, ServesThreadsOneAfterTheOther) {
     EXPECT_EQ(results[0], results[2]);
 }
 
-TEST_F(GeneratorApiTest, ANoiseThatIsNotFiniteIsAnInferenceFailure) {
+TEST_F(GeneratorApiTest, NoiseThatIsNotFiniteIsAnInferenceFailure) {
     createMidpointOfThreeSteps();
     golden_.noise[5] = std::nanf("");
     std::vector<float> segments(3 * samples);
@@ -256,21 +256,21 @@ TEST_F(GeneratorApiTest, ANoiseThatIsNotFiniteIsAnInferenceFailure) {
     EXPECT_THAT(message(), HasSubstr("not finite"));
 }
 
-TEST_F(GeneratorApiTest, RefusesATierThatIsNotThere) {
+TEST_F(GeneratorApiTest, AnUnknownTierIsRefused) {
     const auto options = generatorOptions("ultra");
     EXPECT_EQ(haptoflow_generator_create(&options, &generator_), HAPTOFLOW_INVALID_ARGUMENT);
     EXPECT_THAT(message(), HasSubstr("\"ultra\""));
     EXPECT_EQ(generator_, nullptr);
 }
 
-TEST_F(GeneratorApiTest, RefusesABatchAboveTheLimit) {
+TEST_F(GeneratorApiTest, ABatchAboveTheLimitIsRefused) {
     auto options = generatorOptions();
     options.maximum_batch = HAPTOFLOW_MAXIMUM_BATCH + 1;
     EXPECT_EQ(haptoflow_generator_create(&options, &generator_), HAPTOFLOW_INVALID_ARGUMENT);
 }
 
-TEST(RuntimeApiTest, TakesTheApiBaseOfALibraryThatTheCallerLoaded) {
-    // Never closed: what ONNX Runtime keeps until the end has to be known as its own by then.
+TEST(RuntimeApiTest, TheApiBaseOfALibraryLoadedByTheCallerIsAccepted) {
+    // Never closed, so that a leak checker still knows the library whose memory ONNX Runtime keeps until the end.
     static const auto& library = *new haptoflow::testing::DynamicLibrary(HAPTOFLOW_TEST_ONNXRUNTIME);
     const auto getApiBase = library.function<const OrtApiBase* (*)()>("OrtGetApiBase");
     const haptoflow_runtime_options options{sizeof(options), getApiBase(), nullptr, nullptr, nullptr};
@@ -279,7 +279,7 @@ TEST(RuntimeApiTest, TakesTheApiBaseOfALibraryThatTheCallerLoaded) {
     EXPECT_EQ(haptoflow_runtime_close(&runtime), HAPTOFLOW_OK);
 }
 
-TEST(RuntimeApiTest, NamesTheLibraryThatIsNotThere) {
+TEST(RuntimeApiTest, TheErrorForAMissingLibraryNamesIt) {
     const haptoflow_runtime_options options{sizeof(options), nullptr, "/nowhere/libonnxruntime.so", nullptr, nullptr};
     haptoflow_runtime* runtime = nullptr;
     EXPECT_EQ(haptoflow_runtime_open(&options, &runtime), HAPTOFLOW_RUNTIME_UNAVAILABLE);

@@ -1,7 +1,7 @@
-// What a hand, a scene or a caller can do to a voice, on each tier of the shipped model and on an untrained one:
-// whatever it is, the output is finite, inside +-1, without a step, and silent within a block and 5 ms once contact has
-// ended.
-#include "heard_checks.hpp"
+// Extreme inputs of a hand, a scene or a caller, on each tier of the shipped model and on an untrained one. In every
+// case the output is finite, within +-1 and without a step, and it is silent within a block and 5 ms after the end of
+// contact.
+#include "output_checks.hpp"
 
 #include <array>
 #include <functional>
@@ -19,11 +19,11 @@ struct HardCase {
     /// The contact state of an update.
     std::function<State(uint32_t)> state;
     double updateHz = 72.0;
-    /// Fields have to be counted as sanitised.
-    bool isRuined = false;
-    /// Above 1, so many states are published one after the other, and then one block is rendered.
+    /// True if fields must be counted as sanitised.
+    bool isCorrupted = false;
+    /// If above 1, this many states are published before each block.
     uint32_t statesOfABlock = 1;
-    /// How often a touch has to begin to sound; 0 where nothing may sound at all.
+    /// How often a touch must begin to sound; 0 if nothing may sound.
     uint32_t onsets = 1;
 };
 
@@ -35,19 +35,19 @@ std::function<State(uint32_t)> steady(float speedMps, float forceNewtons) {
     return [=](uint32_t) { return slidingState(speedMps, forceNewtons); };
 }
 
-/// Every third state has `ruin` done to it.
-std::function<State(uint32_t)> ruined(const std::function<void(State&)>& ruin) {
-    return [ruin](uint32_t update) {
+/// States of which every third is changed by `ruin`.
+std::function<State(uint32_t)> corrupted(const std::function<void(State&)>& corrupt) {
+    return [corrupt](uint32_t update) {
         State state = slidingState();
         if (update % 3 == 2) {
-            ruin(state);
+            corrupt(state);
         }
         return state;
     };
 }
 
 std::function<State(uint32_t)> everyField(float value) {
-    return ruined([value](State& state) {
+    return corrupted([value](State& state) {
         state.velocity_mps[0] = value;
         state.velocity_mps[1] = value;
         state.force_newtons = value;
@@ -68,7 +68,7 @@ State blend(std::initializer_list<std::pair<uint32_t, float>> entries) {
 }
 
 std::vector<HardCase> hardCases() {
-    // Speeds that become 0 stop every third update; the first begins, and 28 resume.
+    // Speeds that become 0 stop every third update: the first stop begins a touch, and 28 resume it.
     constexpr uint32_t stops = 29;
     std::vector<HardCase> cases{
         {.name = "VelocityZero", .state = steady(0.0F, 1.0F), .onsets = 0},
@@ -79,12 +79,12 @@ std::vector<HardCase> hardCases() {
         {"OneMillinewton", steady(0.1F, 0.001F)},
         {"FiveNewtons", steady(0.1F, 5.0F)},
         {"AKilonewton", steady(0.1F, 1000.0F)},
-        {.name = "NanInEveryField", .state = everyField(nan), .isRuined = true, .onsets = stops},
-        {.name = "InfinityInEveryField", .state = everyField(infinity), .isRuined = true, .onsets = stops},
-        {.name = "MinusInfinityInEveryField", .state = everyField(-infinity), .isRuined = true, .onsets = stops},
+        {.name = "NanInEveryField", .state = everyField(nan), .isCorrupted = true, .onsets = stops},
+        {.name = "InfinityInEveryField", .state = everyField(infinity), .isCorrupted = true, .onsets = stops},
+        {.name = "MinusInfinityInEveryField", .state = everyField(-infinity), .isCorrupted = true, .onsets = stops},
         {"LargestFloatInEveryField", everyField(std::numeric_limits<float>::max()), 72.0, true},
         {.name = "DenormalsInEveryField", .state = everyField(denormal), .onsets = stops},
-        {"NegativeForce", ruined([](State& state) { state.force_newtons = -3.0F; }), 72.0, true},
+        {"NegativeForce", corrupted([](State& state) { state.force_newtons = -3.0F; }), 72.0, true},
         {"WeightsZero",
          [](uint32_t) {
              return blend({{0, 0.0F}, {1, 0.0F}});
@@ -102,7 +102,7 @@ std::vector<HardCase> hardCases() {
          [](uint32_t) {
              return blend({{4000000000U, 1.0F}, {77777, 1.0F}});
          }},
-        {"LabelCountAboveTheLimit", ruined([](State& state) { state.label_count = 4000000000U; }), 72.0, true},
+        {"LabelCountAboveTheLimit", corrupted([](State& state) { state.label_count = 4000000000U; }), 72.0, true},
         {"NoLabelAtAll", [](uint32_t) { return blend({}); }},
         {"LabelSwitchedEveryUpdate",
          [](uint32_t update) {
@@ -111,7 +111,7 @@ std::vector<HardCase> hardCases() {
         {"DirectionReversedEveryUpdate", [](uint32_t update) { return slidingState(update % 2 == 0 ? 0.3F : -0.3F); }},
         {"SpeedJumpsEveryUpdate", [](uint32_t update) { return slidingState(update % 2 == 0 ? 0.004F : 18.0F); }},
         {"ForceJumpsEveryUpdate", [](uint32_t update) { return slidingState(0.1F, update % 2 == 0 ? 0.01F : 900.0F); }},
-        // Lifted, touching, lifted, touching: of 86 updates 43 are touch-downs.
+        // Lifted and touching alternate: 43 of 86 updates are touch-downs.
         {.name = "ContactToggledEveryUpdate",
          .state =
              [](uint32_t update) {
@@ -121,7 +121,7 @@ std::vector<HardCase> hardCases() {
                  return state;
              },
          .onsets = 43},
-        // Blocks in which the tip comes, goes and comes again, and between them blocks in which it goes, taps and goes.
+        // In one block the tip touches, lifts and touches again; in the next it lifts, taps and lifts.
         {.name = "ContactToggledFourTimesABlock",
          .state =
              [](uint32_t update) {
@@ -152,10 +152,10 @@ std::vector<HardCase> hardCases() {
 
 class HardCaseTest : public ::testing::TestWithParam<std::tuple<Subject, HardCase>> {
 protected:
-    /// What is heard of so many updates of the case; of each it is checked that it is finite and bounded.
+    /// The output of so many updates of the case; checks that each is finite and bounded.
     static std::vector<float> play(OpenEngine& open, const HardCase& hardCase, uint32_t updates) {
         const auto frames = static_cast<uint32_t>(hardCase.statesOfABlock * 48000.0 / hardCase.updateHz);
-        std::vector<float> heard;
+        std::vector<float> output;
         for (uint32_t update = 0; update < updates; update += hardCase.statesOfABlock) {
             std::vector<float> part;
             if (hardCase.statesOfABlock == 1) {
@@ -167,9 +167,9 @@ protected:
                 part = open.render(frames);
                 EXPECT_EQ(haptoflow_engine_step(open.engine), HAPTOFLOW_OK) << message();
             }
-            appendChecked(heard, part, update);
+            appendChecked(output, part, update);
         }
-        return heard;
+        return output;
     }
 };
 
@@ -177,24 +177,24 @@ TEST_P(HardCaseTest, TheOutputIsFiniteBoundedAndEndsWithTheContact) {
     const auto& [subject, hardCase] = GetParam();
     OpenEngine open(*subject.modelPath, false, subject.quality);
     const auto updates = static_cast<uint32_t>(1.2 * hardCase.updateHz);
-    std::vector<float> heard = play(open, hardCase, updates);
+    std::vector<float> output = play(open, hardCase, updates);
     const haptoflow_voice_statistics statistics = open.statistics();
-    EXPECT_EQ(statistics.non_finite_samples, 0U) << "nothing ruined came as far as the limiter";
+    EXPECT_EQ(statistics.non_finite_samples, 0U) << "an invalid number reached the limiter";
     EXPECT_EQ(statistics.failures, 0U);
-    EXPECT_EQ(statistics.sanitised > 0, hardCase.isRuined);
+    EXPECT_EQ(statistics.sanitised > 0, hardCase.isCorrupted);
     if (hardCase.onsets == 0) {
-        EXPECT_EQ(peak(heard), 0.0F);
+        EXPECT_EQ(peak(output), 0.0F);
         EXPECT_EQ(statistics.onsets, 0U);
         EXPECT_EQ(statistics.inferences, 0U);
     } else {
-        EXPECT_GT(peak(heard), silence);
+        EXPECT_GT(peak(output), silence);
         EXPECT_EQ(statistics.onsets, hardCase.onsets);
         EXPECT_GT(statistics.inferences, 0U);
     }
 
-    expectSilenceAfterLiftOff(open, hardCase.state(updates - 1).touch_counter, heard);
+    expectSilenceAfterLiftOff(open, hardCase.state(updates - 1).touch_counter, output);
     EXPECT_EQ(open.statistics().underruns, 0U);
-    expectNoStep(heard);
+    expectNoStep(output);
 }
 
 INSTANTIATE_TEST_SUITE_P(OnModel, HardCaseTest, ::testing::Combine(subjects, ::testing::ValuesIn(hardCases())),

@@ -1,8 +1,8 @@
-// What a scene and a tracker can do, all the way to the sound: the contact model reads it, and a voice of each tier of
-// the shipped model and of an untrained one is told.
-#include "contact/contact_tracker.hpp"
-#include "contact/test_scenes.hpp"
-#include "heard_checks.hpp"
+// Extreme scenes and tracker data, from the contact model to the rendered sound of a voice, on each tier of the shipped
+// model and on an untrained one.
+#include "headless/contact_tracker.hpp"
+#include "headless/test_scenes.hpp"
+#include "output_checks.hpp"
 
 #include <array>
 #include <functional>
@@ -14,16 +14,16 @@
 namespace haptoflow::capi::testing {
 namespace {
 
-using contact::Box;
-using contact::ContactReading;
-using contact::ContactTracker;
-using contact::Scene;
-using contact::TipSample;
-using contact::testing::meshOf;
-using contact::testing::rawBoxMesh;
-using contact::testing::sceneOf;
-using contact::testing::surfaceOf;
-using contact::testing::turned;
+using headless::Box;
+using headless::ContactReading;
+using headless::ContactTracker;
+using headless::Scene;
+using headless::TipSample;
+using headless::testing::meshOf;
+using headless::testing::rawBoxMesh;
+using headless::testing::sceneOf;
+using headless::testing::surfaceOf;
+using headless::testing::turned;
 
 constexpr double updateHz = 90.0;
 constexpr double speedMps = 0.25;
@@ -32,11 +32,11 @@ struct HardScene {
     std::string name;
     Scene scene;
     std::function<TipSample(int)> sample;
-    /// Whether the tip slides, so that something has to be heard.
+    /// True if the tip slides, so that the case must sound.
     bool sounds = true;
 };
 
-/// To and fro over a face that lies at y = 0.1, half a millimetre into it.
+/// A stroke to and fro on a face at y = 0.1, half a millimetre deep.
 glm::dvec3 stroke(double seconds) {
     const double phase = 2.0 * std::numbers::pi * seconds;
     return {0.04 * std::sin(phase), 0.1005, 0.03 * std::cos(0.7 * phase)};
@@ -50,12 +50,12 @@ Scene box(double scale = 1.0) {
     return sceneOf({surfaceOf(Box{scale * glm::dvec3(0.2)})});
 }
 
-/// Every third sample has `ruin` done to it.
-std::function<TipSample(int)> ruined(const std::function<void(TipSample&)>& ruin) {
-    return [ruin](int frame) {
+/// Samples of which every third is changed by `ruin`.
+std::function<TipSample(int)> corrupted(const std::function<void(TipSample&)>& corrupt) {
+    return [corrupt](int frame) {
         TipSample sample = onFace(frame);
         if (frame % 3 == 2) {
-            ruin(sample);
+            corrupt(sample);
         }
         return sample;
     };
@@ -65,7 +65,7 @@ std::function<TipSample(int)> steps(double seconds) {
     return [seconds](int frame) { return TipSample{frame * seconds, stroke(frame / updateHz), {}, {}}; };
 }
 
-/// A tip that trembles by a tenth of a millimetre about a place.
+/// A tip with noise of a tenth of a millimetre around a place.
 std::function<TipSample(int)> trembling(const glm::dvec3& place) {
     return [place](int frame) {
         std::minstd_rand random(static_cast<unsigned>(frame + 1));
@@ -76,16 +76,16 @@ std::function<TipSample(int)> trembling(const glm::dvec3& place) {
     };
 }
 
-contact::testing::RawMesh insideOut() {
-    contact::testing::RawMesh mesh = rawBoxMesh({0.1, 0.1, 0.1});
+headless::testing::RawMesh insideOut() {
+    headless::testing::RawMesh mesh = rawBoxMesh({0.1, 0.1, 0.1});
     for (auto& triangle : mesh.triangles) {
         std::swap(triangle[0], triangle[1]);
     }
     return mesh;
 }
 
-contact::testing::RawMesh withNeedles() {
-    contact::testing::RawMesh mesh = rawBoxMesh({0.1, 0.1, 0.1});
+headless::testing::RawMesh withNeedles() {
+    headless::testing::RawMesh mesh = rawBoxMesh({0.1, 0.1, 0.1});
     const auto whole = mesh.triangles;
     for (const auto& [a, b, c] : whole) {
         mesh.triangles.push_back({a, b, b});
@@ -95,19 +95,19 @@ contact::testing::RawMesh withNeedles() {
 }
 
 std::vector<HardScene> hardScenes() {
-    const auto meshScene = [](const contact::testing::RawMesh& raw) { return sceneOf({surfaceOf(meshOf(raw))}); };
-    contact::Pose longRotation;
+    const auto meshScene = [](const headless::testing::RawMesh& raw) { return sceneOf({surfaceOf(meshOf(raw))}); };
+    headless::Pose longRotation;
     longRotation.rotation = glm::dquat(0.0, 0.0, 7.0, 0.0);
-    contact::Pose noRotation;
+    headless::Pose noRotation;
     noRotation.rotation = glm::dquat(0.0, 0.0, 0.0, 0.0);
-    contact::Pose damaged;
-    damaged.positionMetres = {contact::testing::nan, 0.0, 0.0};
+    headless::Pose damaged;
+    damaged.positionMetres = {headless::testing::nan, 0.0, 0.0};
     const Scene innerCorner =
-        sceneOf({surfaceOf(contact::Plane{}), surfaceOf(contact::Plane{}, {{}, turned(-90.0, {0.0, 0.0, 1.0})})});
+        sceneOf({surfaceOf(headless::Plane{}), surfaceOf(headless::Plane{}, {{}, turned(-90.0, {0.0, 0.0, 1.0})})});
     return {
         {"TimeStandsStill", box(), steps(0.0), false},
         {"TimeRunsBackwards", box(), steps(-1.0 / updateHz), false},
-        {"TimeGoesBackEveryThirdUpdate", box(), ruined([](TipSample& sample) { sample.timeSeconds -= 1.0; })},
+        {"TimeGoesBackEveryThirdUpdate", box(), corrupted([](TipSample& sample) { sample.timeSeconds -= 1.0; })},
         {"StepsOfAMicrosecond", box(), steps(1e-6), false},
         {"StepsOfTenSeconds", box(), steps(10.0), false},
         {"APauseOfTenSeconds", box(),
@@ -116,18 +116,20 @@ std::vector<HardScene> hardScenes() {
              sample.timeSeconds += frame > 50 ? 10.0 : 0.0;
              return sample;
          }},
-        {"TeleportEveryThirdUpdate", box(), ruined([](TipSample& sample) { sample.positionMetres.x += 5.0; })},
+        {"TeleportEveryThirdUpdate", box(), corrupted([](TipSample& sample) { sample.positionMetres.x += 5.0; })},
         {"TeleportOnTheSurface", box(),
          [](int frame) {
              TipSample sample = onFace(frame);
              sample.positionMetres.x += frame % 20 < 10 ? 0.05 : -0.05;
              return sample;
          }},
-        {"PositionsNotFinite", box(), ruined([](TipSample& sample) {
-             sample.positionMetres = {contact::testing::nan, contact::testing::infinity, -contact::testing::infinity};
+        {"PositionsNotFinite", box(), corrupted([](TipSample& sample) {
+             sample.positionMetres = {headless::testing::nan, headless::testing::infinity,
+                                      -headless::testing::infinity};
          })},
-        {"ForcesNotFinite", box(), ruined([](TipSample& sample) { sample.forceNewtons = contact::testing::nan; })},
-        {"TimesNotFinite", box(), ruined([](TipSample& sample) { sample.timeSeconds = contact::testing::infinity; })},
+        {"ForcesNotFinite", box(), corrupted([](TipSample& sample) { sample.forceNewtons = headless::testing::nan; })},
+        {"TimesNotFinite", box(),
+         corrupted([](TipSample& sample) { sample.timeSeconds = headless::testing::infinity; })},
         {"NormalsFlipped", meshScene(insideOut()), onFace},
         {"NormalsZero", meshScene(withNeedles()), onFace},
         {"RotationNotOfUnitLength", sceneOf({surfaceOf(Box{{0.2, 0.2, 0.2}}, longRotation)}), onFace},
@@ -160,7 +162,7 @@ std::vector<HardScene> hardScenes() {
     };
 }
 
-haptoflow_contact_state told(const ContactReading& reading) {
+haptoflow_contact_state contactStateOf(const ContactReading& reading) {
     haptoflow_contact_state state = slidingState();
     state.touching = reading.touching ? 1 : 0;
     state.touch_counter = reading.touchCounter;
@@ -177,23 +179,23 @@ TEST_P(HardSceneTest, TheOutputIsFiniteBoundedAndEndsWithTheContact) {
     const auto& [subject, hardScene] = GetParam();
     OpenEngine open(*subject.modelPath, false, subject.quality);
     ContactTracker tracker(hardScene.scene);
-    std::vector<float> heard;
+    std::vector<float> output;
     haptoflow_contact_state state{};
     for (int frame = 0; frame < static_cast<int>(1.2 * updateHz); ++frame) {
-        state = told(tracker.update(hardScene.sample(frame)));
-        appendChecked(heard, open.update(state, static_cast<uint32_t>(48000.0 / updateHz)),
+        state = contactStateOf(tracker.update(hardScene.sample(frame)));
+        appendChecked(output, open.update(state, static_cast<uint32_t>(48000.0 / updateHz)),
                       static_cast<uint32_t>(frame));
     }
-    EXPECT_GT(state.touch_counter, 0U) << "nothing was touched";
+    EXPECT_GT(state.touch_counter, 0U) << "the tip touched nothing";
     if (hardScene.sounds) {
-        EXPECT_GT(peak(heard), faintestTouch);
+        EXPECT_GT(peak(output), perceptibleLevel);
     }
     const haptoflow_voice_statistics statistics = open.statistics();
     EXPECT_EQ(statistics.non_finite_samples, 0U);
     EXPECT_EQ(statistics.failures, 0U);
-    EXPECT_EQ(statistics.sanitised, 0U) << "the contact model passed something on that is not physical";
-    expectSilenceAfterLiftOff(open, state.touch_counter, heard);
-    expectNoStep(heard);
+    EXPECT_EQ(statistics.sanitised, 0U) << "the contact model returned a number that is out of range";
+    expectSilenceAfterLiftOff(open, state.touch_counter, output);
+    expectNoStep(output);
 }
 
 INSTANTIATE_TEST_SUITE_P(OnModel, HardSceneTest, ::testing::Combine(subjects, ::testing::ValuesIn(hardScenes())),

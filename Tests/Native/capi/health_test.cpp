@@ -10,7 +10,7 @@
 namespace haptoflow::capi::testing {
 namespace {
 
-/// One engine, told things through the C interface alone.
+/// One engine, used through the C interface alone.
 class HealthTest : public ::testing::Test {
 protected:
     OpenEngine open_{tinyModelPath};
@@ -53,17 +53,17 @@ TEST_F(HealthTest, EveryReasonHasANameAndOtherNumbersHaveNone) {
     }
 }
 
-TEST_F(HealthTest, ADeviceThatChangesToARateOutsideTheRangeIsCountedAndNamedAndTheTouchResumesBehindIt) {
+TEST_F(HealthTest, AnUnsupportedDeviceRateIsCountedAndReportedAndTheTouchResumesAfterIt) {
     (void)open_.update(slidingState());
-    std::vector<float> heard = open_.render(960, 4000.0);
-    EXPECT_EQ(peak({heard.end() - 480, heard.end()}), 0.0F);
+    std::vector<float> output = open_.render(960, 4000.0);
+    EXPECT_EQ(peak({output.end() - 480, output.end()}), 0.0F);
     haptoflow_voice_statistics statistics = open_.statistics();
     EXPECT_EQ(statistics.unsupported_rate_blocks, 1U);
     EXPECT_EQ(statistics.device_rate_hz, 4000.0);
     EXPECT_EQ(statistics.is_rate_supported, 0U);
     EXPECT_EQ(statistics.silence, HAPTOFLOW_SILENCE_RATE);
     EXPECT_EQ(statistics.rate_changes, 0U);
-    // Another label, speed and force in the block that brings the rate back.
+    // Another label, speed and force in the block that restores the rate.
     haptoflow_contact_state other = slidingState(-0.3F, 0.4F);
     other.labels[0] = 1;
     EXPECT_GT(peak(open_.update(other)), 0.0F);
@@ -74,7 +74,7 @@ TEST_F(HealthTest, ADeviceThatChangesToARateOutsideTheRangeIsCountedAndNamedAndT
     EXPECT_EQ(statistics.onsets, 1U);
 }
 
-TEST_F(HealthTest, TheStrengthThatWasSetBeforeAPublishedTouchHoldsFromItsFirstSample) {
+TEST_F(HealthTest, AStrengthSetBeforeATouchAppliesFromItsFirstSample) {
     (void)open_.update(slidingState());
     (void)open_.update(liftedState());
     ASSERT_EQ(haptoflow_voice_set_strength(open_.voice, 0.0F), HAPTOFLOW_OK);
@@ -83,7 +83,7 @@ TEST_F(HealthTest, TheStrengthThatWasSetBeforeAPublishedTouchHoldsFromItsFirstSa
     EXPECT_EQ(peak(open_.update(next, 4800)), 0.0F);
 }
 
-TEST_F(HealthTest, NothingHasFailedAtFirstAndTheTextMayBeReadInAnyBuffer) {
+TEST_F(HealthTest, TheFailureTextIsEmptyAtFirstAndFitsAnyBuffer) {
     uint64_t length = 99;
     std::array<char, 4> text{'x', 'x', 'x', 'x'};
     ASSERT_EQ(haptoflow_engine_last_failure(open_.engine, text.data(), text.size(), &length), HAPTOFLOW_OK);
@@ -94,9 +94,9 @@ TEST_F(HealthTest, NothingHasFailedAtFirstAndTheTextMayBeReadInAnyBuffer) {
     EXPECT_EQ(haptoflow_engine_last_failure(nullptr, text.data(), text.size(), &length), HAPTOFLOW_INVALID_ARGUMENT);
 }
 
-TEST_F(HealthTest, AnEngineThatRunsSaysSo) {
+TEST_F(HealthTest, ARunningEngineReportsThatItsWorkerIsAlive) {
     EXPECT_EQ(open_.engineStatistics().worker_is_alive, 1U);
-    EXPECT_EQ(open_.engineStatistics().priority_was_refused, 0U) << "without worker nothing was asked for";
+    EXPECT_EQ(open_.engineStatistics().priority_was_refused, 0U) << "without worker no priority is requested";
 }
 
 }  // namespace

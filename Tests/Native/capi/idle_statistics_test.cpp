@@ -1,4 +1,4 @@
-// What costs nothing: all figures of an engine and its voice after two seconds in which nothing slides.
+// Statistics of an engine and its voice after two seconds in which nothing slides.
 #include "open_engine.hpp"
 
 #include <bit>
@@ -12,7 +12,7 @@ constexpr uint32_t framesOfAnUpdate = 667;
 
 using VoiceFigures = std::array<std::uint64_t, sizeof(haptoflow_voice_statistics) / sizeof(std::uint64_t)>;
 
-/// Without a worker, and with one.
+/// The parameter: without a worker, and with one.
 class IdleStatisticsTest : public ::testing::TestWithParam<bool> {
 protected:
     void play(const haptoflow_contact_state& state) {
@@ -25,7 +25,7 @@ protected:
         }
     }
 
-    /// Whatever is not in `expected` has to be zero, fields that a later version adds included.
+    /// Expects zero in every field that `expected` does not set, including fields added in later versions.
     void expectVoice(haptoflow_voice_statistics expected) const {
         expected.struct_size = sizeof(expected);
         expected.updates = updatesInTwoSeconds;
@@ -64,13 +64,13 @@ protected:
     std::uint64_t wakesAtFirst_ = open_.engineStatistics().wakes;
 };
 
-TEST_P(IdleStatisticsTest, WithoutTouchEveryFigureButUpdatesAndFramesIsZero) {
+TEST_P(IdleStatisticsTest, WithoutTouchAllStatisticsButUpdatesAndFramesAreZero) {
     play(liftedState(0));
     expectVoice({});
     expectIdleEngine();
 }
 
-TEST_P(IdleStatisticsTest, ATouchThatRestsIsSkippedAndEveryOtherFigureIsZero) {
+TEST_P(IdleStatisticsTest, ARestingTouchIsSkippedAndAllOtherStatisticsAreZero) {
     play(slidingState(0.0F, 2.0F));
     haptoflow_voice_statistics expected{};
     expected.skipped = updatesInTwoSeconds;

@@ -1,4 +1,4 @@
-// Learning through the C interface: a material's text, progress, cancellation, recordings of no use.
+// Learning through the C interface: a material's text, progress, cancellation, unusable recordings.
 #include "learning_options.hpp"
 #include "open_engine.hpp"
 
@@ -34,7 +34,7 @@ protected:
     haptoflow_learning* learning_ = nullptr;
 };
 
-TEST_F(LearningApiTest, WhatIsLearntIsRegisteredBesideTheModelsLabels) {
+TEST_F(LearningApiTest, ALearntMaterialIsRegisteredBesideTheModelsLabels) {
     auto given = options();
     given.category = "wood";
     given.licence = "CC BY 4.0";
@@ -93,7 +93,7 @@ TEST_F(LearningApiTest, ProgressRisesAndEndsAtOne) {
     EXPECT_DOUBLE_EQ(shares.back(), 1.0);
 }
 
-TEST_F(LearningApiTest, ACancellationEndsItAndLeavesTheOutputAlone) {
+TEST_F(LearningApiTest, ACancellationEndsLearningAndLeavesTheOutputUnchanged) {
     haptoflow_cancellation* cancellation = nullptr;
     ASSERT_EQ(haptoflow_cancellation_create(&cancellation), HAPTOFLOW_OK);
     auto given = options();
@@ -109,7 +109,7 @@ TEST_F(LearningApiTest, ACancellationEndsItAndLeavesTheOutputAlone) {
     EXPECT_EQ(haptoflow_cancellation_close(&cancellation), HAPTOFLOW_OK);
 }
 
-TEST_F(LearningApiTest, ARecordingOfNoUseIsSaidToBeOne) {
+TEST_F(LearningApiTest, AnUnusableRecordingIsReported) {
     auto given = options();
     given.sample_count = 4000;
     EXPECT_EQ(haptoflow_learn_material(&given, &learning_), HAPTOFLOW_RECORDING_UNUSABLE);
@@ -117,7 +117,7 @@ TEST_F(LearningApiTest, ARecordingOfNoUseIsSaidToBeOne) {
     EXPECT_STREQ(haptoflow_status_name(HAPTOFLOW_RECORDING_UNUSABLE), "HAPTOFLOW_RECORDING_UNUSABLE");
 }
 
-TEST_F(LearningApiTest, ArgumentsOutsideTheirRangesAreNamed) {
+TEST_F(LearningApiTest, ArgumentsOutOfRangeAreRefusedByName) {
     const auto expectRefused = [&](const haptoflow_learning_options& given, const std::string& named) {
         EXPECT_EQ(haptoflow_learn_material(&given, &learning_), HAPTOFLOW_INVALID_ARGUMENT) << named;
         EXPECT_THAT(message(), ::testing::HasSubstr(named));

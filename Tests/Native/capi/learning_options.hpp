@@ -6,7 +6,7 @@
 
 namespace haptoflow::capi::testing {
 
-/// What learns from a made recording, which must outlive the options.
+/// Options for learning from a generated recording, which must outlive them.
 inline haptoflow_learning_options optionsOf(const learning::testing::MadeRecording& made,
                                             const haptoflow_runtime* runtime, const haptoflow_model* model) {
     haptoflow_learning_options options{};

@@ -1,4 +1,4 @@
-// Loading through the C interface: one tier or all, within limits, ended early, with a log.
+// Loading through the C interface: one tier or all, time limits, cancellation, the log.
 #include "open_engine.hpp"
 
 #include "inference/rebuilt_model.hpp"
@@ -76,7 +76,7 @@ protected:
         EXPECT_EQ(haptoflow_engine_tier_times(engine, tier, &times), HAPTOFLOW_OK);
         return times.runs;
     }
-    /// One touch, one segment.
+    /// Publishes and generates one touch with one segment.
     static void slide(haptoflow_engine* engine, haptoflow_voice voice, uint32_t touch) {
         haptoflow_contact_state state = slidingState();
         state.touch_counter = touch;
@@ -92,7 +92,7 @@ protected:
     std::vector<haptoflow_engine*> engines_;
 };
 
-TEST_F(LoadingApiTest, AnEngineOfOneQualityLoadsThatTierAlone) {
+TEST_F(LoadingApiTest, AnEngineWithAFixedQualityLoadsOnlyItsTier) {
     openModel({{"flow_field", model::testing::loopingLevel()}});
     EXPECT_EQ(tierOf(open(engineOptions(HAPTOFLOW_QUALITY_DRAFT))), draftTier);
     for (const haptoflow_quality quality :
@@ -103,7 +103,7 @@ TEST_F(LoadingApiTest, AnEngineOfOneQualityLoadsThatTierAlone) {
     }
 }
 
-TEST_F(LoadingApiTest, AQualityThatTheModelLacksIsTheFirstTheDefaultOrTheMostAccurateTier) {
+TEST_F(LoadingApiTest, AQualityWithoutATierOfItsNameUsesTheFirstTheDefaultOrTheMostAccurateTier) {
     const auto keepTiers = [this](const std::vector<double>& errorsDb, const std::vector<std::string>& names) {
         openModel({}, [&](nlohmann::json& header) {
             nlohmann::json tiers = nlohmann::json::array();
@@ -122,14 +122,14 @@ TEST_F(LoadingApiTest, AQualityThatTheModelLacksIsTheFirstTheDefaultOrTheMostAcc
     EXPECT_EQ(tierFor(HAPTOFLOW_QUALITY_STANDARD), 1U);
     EXPECT_EQ(tierFor(HAPTOFLOW_QUALITY_FINE), 1U);
     keepTiers({1.0, 2.0}, {"draft", "standard"});
-    EXPECT_EQ(tierFor(HAPTOFLOW_QUALITY_FINE), 0U) << "by its figures, not by its place";
+    EXPECT_EQ(tierFor(HAPTOFLOW_QUALITY_FINE), 0U) << "chosen by its figures, not by its position";
     keepTiers({2.0, 3.0, 1.0}, {"small", "medium", "large"});
     EXPECT_EQ(tierFor(HAPTOFLOW_QUALITY_DRAFT), 0U);
     EXPECT_EQ(tierFor(HAPTOFLOW_QUALITY_STANDARD), 1U);
     EXPECT_EQ(tierFor(HAPTOFLOW_QUALITY_FINE), 2U);
 }
 
-TEST_F(LoadingApiTest, AutomaticQualityTakesTheTierThatWasMeasuredToBeTheMostAccurateAndNotTheLast) {
+TEST_F(LoadingApiTest, AutomaticQualityUsesTheMostAccurateTierByItsFiguresAndNotTheLast) {
     openModel({}, [](nlohmann::json& header) {
         header["tiers"].erase(3);
         header["tiers"].erase(3);
@@ -142,7 +142,7 @@ TEST_F(LoadingApiTest, AutomaticQualityTakesTheTierThatWasMeasuredToBeTheMostAcc
     haptoflow_engine_options options = engineOptions(HAPTOFLOW_QUALITY_AUTO);
     options.without_worker = 0;
     options.fixed_lead_ms = 0.0;
-    // 40 ms for graphs that take microseconds.
+    // A budget of 40 ms for graphs that take microseconds.
     options.update_rate_hz = 25.0;
     options.budget_share = 1.0;
     haptoflow_engine* engine = open(options);
@@ -155,7 +155,7 @@ TEST_F(LoadingApiTest, AutomaticQualityTakesTheTierThatWasMeasuredToBeTheMostAcc
     EXPECT_EQ(statistics.tier, standardTier);
 }
 
-TEST_F(LoadingApiTest, AnotherQualityIsLoadedWhenItIsAskedForAndKeepsTheModelsIndex) {
+TEST_F(LoadingApiTest, AnotherQualityIsLoadedOnRequestAndKeepsTheModelsIndex) {
     haptoflow_engine* engine = open(engineOptions(HAPTOFLOW_QUALITY_DRAFT));
     haptoflow_voice voice = 0;
     ASSERT_EQ(haptoflow_voice_create(engine, 48000.0, &voice), HAPTOFLOW_OK);
@@ -201,7 +201,7 @@ TEST_F(LoadingApiTest, AutomaticQualityAfterOneTierMeasuresThemAll) {
     }
 }
 
-TEST_F(LoadingApiTest, QualitiesAskedForByTwoThreadsWhileTheWorkerGeneratesAreLoadedOnce) {
+TEST_F(LoadingApiTest, QualitiesRequestedByTwoThreadsWhileTheWorkerGeneratesAreLoadedOnce) {
     haptoflow_engine_options options = engineOptions(HAPTOFLOW_QUALITY_DRAFT);
     options.without_worker = 0;
     haptoflow_engine* engine = open(options);
@@ -266,7 +266,7 @@ TEST_F(LoadingApiTest, AProbeLimitOutOfRangeIsRefused) {
     }
 }
 
-TEST_F(LoadingApiTest, ALoadThatIsUnderWayEndsWhenItIsCancelled) {
+TEST_F(LoadingApiTest, ARunningLoadEndsWhenItIsCancelled) {
     openModel({{"level", model::testing::slowLevel()}});
     ASSERT_EQ(haptoflow_cancellation_create(&cancellation_), HAPTOFLOW_OK);
     haptoflow_engine_options options = engineOptions(HAPTOFLOW_QUALITY_AUTO);
@@ -280,7 +280,7 @@ TEST_F(LoadingApiTest, ALoadThatIsUnderWayEndsWhenItIsCancelled) {
     canceller.join();
 }
 
-TEST_F(LoadingApiTest, ACancellationCountsForLaterLoadsToo) {
+TEST_F(LoadingApiTest, ACancellationAlsoEndsLaterLoads) {
     ASSERT_EQ(haptoflow_cancellation_create(&cancellation_), HAPTOFLOW_OK);
     haptoflow_engine_options options = engineOptions(HAPTOFLOW_QUALITY_DRAFT);
     options.cancellation = cancellation_;
@@ -295,7 +295,7 @@ TEST_F(LoadingApiTest, ACancellationCountsForLaterLoadsToo) {
     haptoflow_generator* generator = nullptr;
     EXPECT_EQ(haptoflow_generator_create(&generatorOptions, &generator), HAPTOFLOW_CANCELLED);
     EXPECT_EQ(haptoflow_engine_set_quality(engine, HAPTOFLOW_QUALITY_STANDARD), HAPTOFLOW_OK)
-        << "the cancellation was of the creation: " << message();
+        << "the cancellation was for the creation only: " << message();
     EXPECT_EQ(haptoflow_cancellation_cancel(cancellation_), HAPTOFLOW_OK);
 }
 
@@ -322,7 +322,7 @@ struct LogLines {
     std::vector<std::string> texts;
 };
 
-TEST_F(LoadingApiTest, WhatOnnxRuntimeSaysReachesTheLogUntilTheRuntimeIsClosed) {
+TEST_F(LoadingApiTest, MessagesOfOnnxRuntimeReachTheLogUntilTheRuntimeIsClosed) {
     model::testing::OnnxWriter failing = model::testing::levelGraph();
     failing.constant(model::testing::integerTensor("size", {60'000, 60'000}))
         .apply("ConstantOfShape", {"size"}, {"zeros"})
@@ -349,7 +349,7 @@ TEST_F(LoadingApiTest, WhatOnnxRuntimeSaysReachesTheLogUntilTheRuntimeIsClosed) 
     EXPECT_EQ(lines.texts.size(), before);
 }
 
-TEST(VersionMacrosTest, TheHeaderNamesTheVersionOfPackageJson) {
+TEST(VersionMacrosTest, TheHeadersVersionIsThatOfPackageJson) {
     EXPECT_STREQ(HAPTOFLOW_VERSION_TEXT, HAPTOFLOW_TEST_VERSION);
     EXPECT_STREQ(haptoflow_version(), HAPTOFLOW_VERSION_TEXT);
     EXPECT_EQ(std::to_string(HAPTOFLOW_VERSION_MAJOR) + '.' + std::to_string(HAPTOFLOW_VERSION_MINOR) + '.' +

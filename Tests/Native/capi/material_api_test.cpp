@@ -30,7 +30,7 @@ std::string spaceOf(const haptoflow_model* model) {
 
 class MaterialApiTest : public ::testing::Test {
 protected:
-    /// The text of a valid material of the model, as a test changes it.
+    /// The text of a valid material of the model, with changes of the test.
     [[nodiscard]] std::string material(const std::function<void(json&)>& change = {}) const {
         json text = model::testing::validMaterial(spaceOf(open_.model));
         if (change) {
@@ -71,7 +71,7 @@ TEST_F(MaterialApiTest, TheModelsSpaceIsThatOfTheGoldenFile) {
     EXPECT_EQ(spaceOf(open_.model), json::parse(stream).at("spaces").at("tiny").get<std::string>());
 }
 
-TEST_F(MaterialApiTest, ARegisteredMaterialIsCountedDescribedAndFelt) {
+TEST_F(MaterialApiTest, ARegisteredMaterialIsCountedDescribedAndRendered) {
     uint32_t index = 0;
     ASSERT_EQ(add(material(), &index), HAPTOFLOW_OK) << message();
     EXPECT_EQ(index, labels());
@@ -89,7 +89,7 @@ TEST_F(MaterialApiTest, ARegisteredMaterialIsCountedDescribedAndFelt) {
     EXPECT_EQ(open_.statistics().sanitised, 0U);
 }
 
-TEST_F(MaterialApiTest, WhatIsNoMaterialIsRefusedWithItsKeyAndTheIndexStaysAsItWas) {
+TEST_F(MaterialApiTest, AnInvalidMaterialIsRefusedWithItsKeyAndTheIndexStaysUnchanged) {
     uint32_t index = 77;
     EXPECT_EQ(add(material([](json& text) { text["embedding"].erase(0); }), &index), HAPTOFLOW_MATERIAL_INVALID);
     EXPECT_THAT(message(), HasSubstr("material key \"embedding\""));
@@ -110,7 +110,7 @@ TEST_F(MaterialApiTest, WhatIsNoMaterialIsRefusedWithItsKeyAndTheIndexStaysAsItW
     EXPECT_STREQ(haptoflow_status_name(HAPTOFLOW_RECORDING_UNUSABLE), "HAPTOFLOW_RECORDING_UNUSABLE");
 }
 
-TEST_F(MaterialApiTest, AReplacementIsFeltWithTheNextStateAndARefusedOneLeavesTheMaterialAsItWas) {
+TEST_F(MaterialApiTest, AReplacementSoundsWithTheNextStateAndARefusedOneLeavesTheMaterialUnchanged) {
     uint32_t index = 0;
     ASSERT_EQ(add(material([](json& text) { text["level_offset_db"] = -24.0; }), &index), HAPTOFLOW_OK) << message();
     (void)open_.update(on(index));
@@ -137,7 +137,7 @@ TEST_F(MaterialApiTest, AReplacementIsFeltWithTheNextStateAndARefusedOneLeavesTh
     }
 }
 
-TEST_F(MaterialApiTest, SixtyFourMaterialsFitAndOneMoreIsRefused) {
+TEST_F(MaterialApiTest, SixtyFourMaterialsAreAcceptedAndOneMoreIsRefused) {
     uint32_t index = 0;
     for (uint32_t made = 0; made < HAPTOFLOW_MAXIMUM_MATERIALS; ++made) {
         ASSERT_EQ(add(material(), &index), HAPTOFLOW_OK) << message();
@@ -161,11 +161,11 @@ TEST_F(MaterialApiTest, AMaterialWithoutALevelOfItsOwnSoundsAtTheModelsLevel) {
         plain = std::string(info.name) == "plain" ? label : plain;
     }
     for (int update = 0; update < 20; ++update) {
-        EXPECT_EQ(open_.update(on(index)), other.update(on(plain))) << "the twin of a label, bit for bit";
+        EXPECT_EQ(open_.update(on(index)), other.update(on(plain))) << "equals the label that it copies, bit for bit";
     }
 }
 
-TEST_F(MaterialApiTest, NoByteOfAnotherLabelsSoundChangesForMaterialsThatAreRegisteredReplacedOrTouchedBefore) {
+TEST_F(MaterialApiTest, RegisteringReplacingAndTouchingMaterialsChangesNoByteOfOtherLabels) {
     OpenEngine with(defaultModelPath);
     OpenEngine without(defaultModelPath);
     json text = model::testing::validMaterial(spaceOf(with.model));
@@ -190,26 +190,26 @@ TEST_F(MaterialApiTest, NoByteOfAnotherLabelsSoundChangesForMaterialsThatAreRegi
     }
 }
 
-TEST_F(MaterialApiTest, SpatialScaleAndToneOfASurfaceReachTheVoiceAndWhatIsOutOfRangeIsCounted) {
+TEST_F(MaterialApiTest, SpatialScaleAndToneOfASurfaceReachTheVoiceAndValuesOutOfRangeAreCounted) {
     haptoflow_contact_state state = on(0);
     state.spatial_scale = 100.0F;
     state.tone_db_per_octave = -50.0F;
     (void)open_.update(state);
     EXPECT_EQ(open_.statistics().sanitised, 2U);
     EXPECT_GT(tone().runs, 0U);
-    // A program of an earlier header says nothing of either.
+    // A caller of an earlier header sets neither field.
     state.struct_size = offsetof(haptoflow_contact_state, spatial_scale);
     const uint64_t runs = tone().runs;
     for (int update = 0; update < 10; ++update) {
         (void)open_.update(state);
     }
     EXPECT_EQ(open_.statistics().sanitised, 2U);
-    EXPECT_LT(tone().runs, runs + 100U) << "the tone has gone out";
+    EXPECT_LT(tone().runs, runs + 100U) << "the tone has been switched off";
     EXPECT_EQ(tone().is_asked_for, 0U);
 }
 
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-TEST_F(MaterialApiTest, ThousandsOfReplacementsTakeNoMoreMemoryThanOne) {
+TEST_F(MaterialApiTest, ThousandsOfReplacementsUseNoMoreMemoryThanOne) {
     uint32_t index = 0;
     const std::string text = material([](json& each) { each["seeds"] = json(json::array_t(16, each["seeds"][0])); });
     ASSERT_EQ(add(text, &index), HAPTOFLOW_OK) << message();
@@ -227,7 +227,7 @@ TEST_F(MaterialApiTest, ThousandsOfReplacementsTakeNoMoreMemoryThanOne) {
 }
 #endif
 
-TEST_F(MaterialApiTest, WhileSlidersReplaceAMaterialVoicesPublishRenderAndGenerateWithoutAFailure) {
+TEST_F(MaterialApiTest, VoicesPublishRenderAndGenerateWithoutFailureWhileAMaterialIsReplaced) {
     OpenEngine live(tinyModelPath, true);
     uint32_t index = 0;
     const std::string first = material();

@@ -15,7 +15,7 @@ haptoflow_status openBytes(const void* bytes, std::size_t count, haptoflow_model
     return haptoflow_model_open(&options, model);
 }
 
-TEST(ModelApiTest, OpensAModelFromBytesThatMayGoAfterwards) {
+TEST(ModelApiTest, AModelOpenedFromBytesDoesNotNeedThemAfterwards) {
     auto bytes = tinyModelBytes();
     haptoflow_model* model = nullptr;
     ASSERT_EQ(openBytes(bytes.data(), bytes.size(), &model), HAPTOFLOW_OK) << message();
@@ -27,7 +27,7 @@ TEST(ModelApiTest, OpensAModelFromBytesThatMayGoAfterwards) {
     EXPECT_EQ(model, nullptr);
 }
 
-TEST(ModelApiTest, TellsEachWayAFileCanBeWrongApart) {
+TEST(ModelApiTest, EachKindOfInvalidFileHasItsOwnStatus) {
     const auto valid = tinyModelBytes();
     haptoflow_model* model = nullptr;
 
@@ -46,14 +46,14 @@ TEST(ModelApiTest, TellsEachWayAFileCanBeWrongApart) {
     EXPECT_EQ(model, nullptr);
 }
 
-TEST(ModelApiTest, NamesThePathThatCannotBeRead) {
+TEST(ModelApiTest, TheErrorForAnUnreadablePathNamesIt) {
     const haptoflow_model_options options{sizeof(options), nullptr, 0, "/nowhere/a.haptoflow"};
     haptoflow_model* model = nullptr;
     EXPECT_EQ(haptoflow_model_open(&options, &model), HAPTOFLOW_MODEL_UNREADABLE);
     EXPECT_THAT(message(), ::testing::StartsWith("/nowhere/a.haptoflow"));
 }
 
-TEST(ModelApiTest, WantsBytesOrAPathAndNotBoth) {
+TEST(ModelApiTest, EitherBytesOrAPathMustBeGiven) {
     const auto bytes = tinyModelBytes();
     haptoflow_model* model = nullptr;
     const haptoflow_model_options both{sizeof(both), bytes.data(), bytes.size(), tinyModelPath.c_str()};
@@ -64,7 +64,7 @@ TEST(ModelApiTest, WantsBytesOrAPathAndNotBoth) {
 
 class OpenModelTest : public WithTinyModel {};
 
-TEST_F(OpenModelTest, ListsTheLabels) {
+TEST_F(OpenModelTest, TheLabelsAreListed) {
     uint32_t count = 0;
     ASSERT_EQ(haptoflow_model_label_count(model_, &count), HAPTOFLOW_OK);
     ASSERT_EQ(count, 2U);
@@ -84,14 +84,14 @@ TEST_F(OpenModelTest, ListsTheLabels) {
     EXPECT_THAT(message(), ::testing::HasSubstr("2 labels"));
 }
 
-TEST_F(OpenModelTest, GivesTheEmbeddingOfALabel) {
+TEST_F(OpenModelTest, TheEmbeddingOfALabelIsReturned) {
     std::array<float, HAPTOFLOW_EMBEDDING_SIZE> embedding{};
     ASSERT_EQ(haptoflow_model_embedding(model_, 1, embedding.data()), HAPTOFLOW_OK);
     EXPECT_NEAR(embedding[10], std::sin(2.0), 1e-6);
     EXPECT_EQ(haptoflow_model_embedding(model_, 9, embedding.data()), HAPTOFLOW_INVALID_ARGUMENT);
 }
 
-TEST_F(OpenModelTest, ListsTheTiers) {
+TEST_F(OpenModelTest, TheTiersAreListed) {
     uint32_t count = 0;
     ASSERT_EQ(haptoflow_model_tier_count(model_, &count), HAPTOFLOW_OK);
     ASSERT_EQ(count, 5U);
@@ -111,7 +111,7 @@ TEST_F(OpenModelTest, ListsTheTiers) {
     EXPECT_EQ(info.is_default, 1U);
 }
 
-TEST_F(OpenModelTest, FillsAnOlderStructOnlyAsFarAsItReaches) {
+TEST_F(OpenModelTest, AnOlderStructIsFilledOnlyUpToItsSize) {
     haptoflow_label_info info{};
     std::memset(static_cast<void*>(&info), 0x55, sizeof(info));
     info.struct_size = offsetof(haptoflow_label_info, friction_coefficient);
@@ -123,7 +123,7 @@ TEST_F(OpenModelTest, FillsAnOlderStructOnlyAsFarAsItReaches) {
     EXPECT_EQ(std::memcmp(&info.friction_coefficient, untouched.data(), untouched.size()), 0);
 }
 
-TEST_F(OpenModelTest, FillsANewerStructAsFarAsItKnows) {
+TEST_F(OpenModelTest, ANewerStructIsFilledUpToTheLibrarysSize) {
     struct {
         haptoflow_tier_info known;
         std::array<unsigned char, 32> later;
@@ -132,7 +132,7 @@ TEST_F(OpenModelTest, FillsANewerStructAsFarAsItKnows) {
     info.known.struct_size = sizeof(info);
     ASSERT_EQ(haptoflow_model_tier(model_, 1, &info.known), HAPTOFLOW_OK);
     EXPECT_STREQ(info.known.name, "standard");
-    EXPECT_EQ(info.known.struct_size, sizeof(info.known)) << "what was filled";
+    EXPECT_EQ(info.known.struct_size, sizeof(info.known)) << "the number of bytes that were filled";
     EXPECT_THAT(info.later, ::testing::Each(0x55));
 }
 

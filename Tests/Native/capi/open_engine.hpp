@@ -31,8 +31,7 @@ inline haptoflow_contact_state liftedState(uint32_t touchCounter = 1) {
     return state;
 }
 
-/// An engine of a model with one voice. Without worker it is stepped after each update, so that everything it does is
-/// determined.
+/// An engine with one voice. Without a worker it is stepped after each update, so that its output is deterministic.
 class OpenEngine {
 public:
     explicit OpenEngine(const std::string& modelPath, bool hasWorker = false,
@@ -67,14 +66,14 @@ public:
         EXPECT_EQ(haptoflow_voice_render(voice, samples.data(), frames, 1, 0, rateHz), HAPTOFLOW_OK);
         return samples;
     }
-    /// One contact state and what sounds until the next: published, taken, generated, rendered.
+    /// Publishes one contact state, runs inference and returns the output until the next update.
     std::vector<float> update(const haptoflow_contact_state& state, uint32_t frames = 667) {
         publish(state);
-        std::vector<float> heard = render(1);
+        std::vector<float> output = render(1);
         EXPECT_EQ(haptoflow_engine_step(engine), HAPTOFLOW_OK) << message();
         const std::vector<float> rest = render(frames - 1);
-        heard.insert(heard.end(), rest.begin(), rest.end());
-        return heard;
+        output.insert(output.end(), rest.begin(), rest.end());
+        return output;
     }
     [[nodiscard]] haptoflow_voice_statistics statistics() const {
         haptoflow_voice_statistics statistics{};

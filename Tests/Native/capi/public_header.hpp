@@ -11,7 +11,7 @@
 
 namespace haptoflow::capi::testing {
 
-/// The text of haptoflow.h, which says what there is to be tested.
+/// The text of haptoflow.h.
 inline std::string headerText() {
     std::ifstream stream(HAPTOFLOW_TEST_HEADER);
     return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
@@ -19,9 +19,9 @@ inline std::string headerText() {
 
 struct DeclaredFunction {
     std::string name;
-    /// What stands before it.
+    /// The comment before the function.
     std::string comment;
-    /// Parameters that are pointers.
+    /// Number of parameters that are pointers.
     std::size_t pointers = 0;
 };
 

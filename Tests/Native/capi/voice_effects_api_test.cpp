@@ -29,7 +29,7 @@ protected:
     OpenEngine open_{tinyModelPath};
 };
 
-TEST_F(VoiceEffectsApiTest, ALandingThatAsksForItsImpactIsFeltAndCounted) {
+TEST_F(VoiceEffectsApiTest, ALandingThatRequestsItsImpactIsRenderedAndCounted) {
     EXPECT_EQ(peak(open_.update(landing(0))), 0.0F) << "0 is the texture alone";
     EXPECT_EQ(of(HAPTOFLOW_EFFECT_IMPACT).events, 0U);
     haptoflow_contact_state state = landing(HAPTOFLOW_ASKS_FOR_TEXTURE | HAPTOFLOW_ASKS_FOR_IMPACT);
@@ -46,7 +46,7 @@ TEST_F(VoiceEffectsApiTest, ALandingThatAsksForItsImpactIsFeltAndCounted) {
     EXPECT_EQ(edge.prepared + edge.runs + edge.samples + edge.events + edge.is_asked_for, 0U);
 }
 
-TEST_F(VoiceEffectsApiTest, AProgramOfAnEarlierHeaderHearsTheTextureAloneWhateverLiesBehindItsState) {
+TEST_F(VoiceEffectsApiTest, AStateOfAnEarlierHeaderRequestsTheTextureAloneWhateverFollowsItInMemory) {
     struct {
         haptoflow_contact_state state;
     } memory{};
@@ -59,7 +59,7 @@ TEST_F(VoiceEffectsApiTest, AProgramOfAnEarlierHeaderHearsTheTextureAloneWhateve
     EXPECT_GT(of(HAPTOFLOW_EFFECT_TEXTURE).runs, 0U);
 }
 
-TEST_F(VoiceEffectsApiTest, ASurfaceThatAsksForNothingIsSilentAndCostsNothing) {
+TEST_F(VoiceEffectsApiTest, ASurfaceThatRequestsNoEffectIsSilentAndCostsNothing) {
     haptoflow_contact_state state = slidingState(0.3F);
     state.approach_speed_mps = 1.0F;
     state.effects = HAPTOFLOW_ASKS_FOR_NOTHING;
@@ -71,7 +71,7 @@ TEST_F(VoiceEffectsApiTest, ASurfaceThatAsksForNothingIsSilentAndCostsNothing) {
     }
 }
 
-TEST_F(VoiceEffectsApiTest, ARimIsFeltAsOftenAsItIsCounted) {
+TEST_F(VoiceEffectsApiTest, ARimIsRenderedAsOftenAsItIsCounted) {
     haptoflow_contact_state state = slidingState(0.2F);
     state.effects = HAPTOFLOW_ASKS_FOR_EDGE;
     state.edge_height_metres = 0.002F;
@@ -83,7 +83,7 @@ TEST_F(VoiceEffectsApiTest, ARimIsFeltAsOftenAsItIsCounted) {
     EXPECT_EQ(open_.statistics().inferences, 0U);
 }
 
-TEST_F(VoiceEffectsApiTest, AVoicePlaysThroughWhatItAsksForAndThroughNothingElse) {
+TEST_F(VoiceEffectsApiTest, AVoiceUsesOnlyTheProcessorsThatWereSet) {
     EXPECT_EQ(haptoflow_voice_set_delay(open_.voice, 0.01), HAPTOFLOW_OK) << message();
     EXPECT_EQ(haptoflow_voice_set_actuator(open_.voice, "voice-coil", 10), HAPTOFLOW_OK) << message();
     for (int update = 0; update < 20; ++update) {
@@ -102,11 +102,11 @@ TEST_F(VoiceEffectsApiTest, AVoicePlaysThroughWhatItAsksForAndThroughNothingElse
     }
     const uint64_t runs = of(HAPTOFLOW_EFFECT_DELAY).runs;
     (void)open_.update(slidingState());
-    EXPECT_EQ(of(HAPTOFLOW_EFFECT_DELAY).runs, runs) << "switched off means never run";
+    EXPECT_EQ(of(HAPTOFLOW_EFFECT_DELAY).runs, runs) << "a processor that is switched off does not run";
     EXPECT_EQ(of(HAPTOFLOW_EFFECT_DELAY).is_asked_for, 0U);
 }
 
-TEST_F(VoiceEffectsApiTest, AProfileThatIsNoneIsRefusedByKeyAndLeavesTheOldOne) {
+TEST_F(VoiceEffectsApiTest, AnInvalidProfileIsRefusedByKeyAndTheOldOneStays) {
     EXPECT_EQ(haptoflow_voice_set_actuator(open_.voice, "voice-coil", 10), HAPTOFLOW_OK);
     const std::string broken = R"({"name": "x"})";
     EXPECT_EQ(haptoflow_voice_set_actuator(open_.voice, broken.data(), broken.size()), HAPTOFLOW_INVALID_ARGUMENT);
@@ -125,7 +125,7 @@ TEST_F(VoiceEffectsApiTest, DelayAndGuardOutOfRangeAreRefusedByName) {
     }
 }
 
-TEST_F(VoiceEffectsApiTest, TheExposureOfAVoiceIsReadableAndHarmlessWithoutAGuard) {
+TEST_F(VoiceEffectsApiTest, TheExposureOfAVoiceWithoutAGuardIsZeroWithAGainOfOne) {
     haptoflow_exposure exposure{};
     exposure.struct_size = sizeof(exposure);
     EXPECT_EQ(haptoflow_voice_exposure(open_.voice, &exposure), HAPTOFLOW_OK);
@@ -142,7 +142,7 @@ TEST_F(VoiceEffectsApiTest, TheExposureOfAVoiceIsReadableAndHarmlessWithoutAGuar
     EXPECT_LT(exposure.daily_mps2, 0.1);
 }
 
-TEST_F(VoiceEffectsApiTest, ASignalSoundsWhereTheTipMovesInsteadOfEverythingElseAndItsTurnsAreCounted) {
+TEST_F(VoiceEffectsApiTest, ASignalReplacesAllEffectsWhileTheTipMovesAndItsStartsAndStopsAreCounted) {
     ASSERT_EQ(haptoflow_voice_set_delay(open_.voice, 0.01), HAPTOFLOW_OK) << message();
     ASSERT_EQ(haptoflow_voice_set_signal(open_.voice, 200.0, 6.0), HAPTOFLOW_OK) << message();
     haptoflow_contact_state state = landing(HAPTOFLOW_ASKS_FOR_TEXTURE | HAPTOFLOW_ASKS_FOR_IMPACT);
@@ -172,7 +172,7 @@ TEST_F(VoiceEffectsApiTest, ASignalSoundsWhereTheTipMovesInsteadOfEverythingElse
     ASSERT_EQ(haptoflow_voice_signal_statistics(open_.voice, &turns), HAPTOFLOW_OK) << message();
     EXPECT_EQ(turns.starts, 1U);
     EXPECT_EQ(turns.stops, 1U);
-    EXPECT_GT(turns.last_start_latency_seconds, 0.01) << "the delay, and the way to the callback";
+    EXPECT_GT(turns.last_start_latency_seconds, 0.01) << "the delay and the time until the callback";
     EXPECT_GT(turns.last_stop_latency_seconds, 0.01);
     EXPECT_EQ(turns.mean_start_latency_seconds, turns.last_start_latency_seconds);
     EXPECT_EQ(turns.mean_stop_latency_seconds, turns.last_stop_latency_seconds);
@@ -192,7 +192,7 @@ TEST_F(VoiceEffectsApiTest, WithASignalOfAmplitudeZeroTheTextureSoundsAsBefore) 
     EXPECT_EQ(of(HAPTOFLOW_EFFECT_SIGNAL).is_asked_for, 0U);
 }
 
-TEST_F(VoiceEffectsApiTest, ASignalOutOfRangeIsRefusedByNameAndLeavesTheOldOne) {
+TEST_F(VoiceEffectsApiTest, ASignalOutOfRangeIsRefusedByNameAndTheOldOneStays) {
     ASSERT_EQ(haptoflow_voice_set_signal(open_.voice, 20.0, 60.0), HAPTOFLOW_OK) << message();
     const double none = std::numeric_limits<double>::quiet_NaN();
     for (const double frequencyHz : {0.0, 19.9, 500.1, none, std::numeric_limits<double>::infinity()}) {
@@ -211,7 +211,7 @@ TEST_F(VoiceEffectsApiTest, ASignalOutOfRangeIsRefusedByNameAndLeavesTheOldOne) 
     EXPECT_EQ(haptoflow_voice_signal_statistics(open_.voice, nullptr), HAPTOFLOW_INVALID_ARGUMENT);
 }
 
-TEST_F(VoiceEffectsApiTest, AnEffectThatThereIsNotIsRefusedByName) {
+TEST_F(VoiceEffectsApiTest, AnUnknownEffectIsRefusedByName) {
     haptoflow_effect_statistics statistics{};
     statistics.struct_size = sizeof(statistics);
     for (const haptoflow_effect effect : {-1, HAPTOFLOW_EFFECT_COUNT, INT32_MAX}) {

@@ -1,5 +1,5 @@
-// Who is inside a voice when somebody else comes: held there by a sink, which the C interface has no place for. So the
-// table and the rendering behind it are met themselves.
+// Concurrent uses of a voice. A sink holds a thread inside a render, which the C interface does not allow; therefore
+// the tests use the voice table and the rendering functions directly.
 #include "capi/voice_table.hpp"
 #include "capi/voice_rendering.hpp"
 #include "engine/fake_generators.hpp"
@@ -26,7 +26,7 @@ using ::testing::Each;
 
 constexpr std::uint32_t blockFrames = 256;
 
-/// Holds the first who plays samples until it is told to let go.
+/// Blocks the first thread that plays samples until it is released.
 class HoldingSink final : public engine::WaveformSink {
 public:
     void played(std::int64_t /*start*/, std::span<const float> /*samplesMps2*/) noexcept override {
@@ -42,7 +42,7 @@ public:
 
 private:
     std::atomic<bool> hasHeld_{false};
-    // Not latches: on Windows libstdc++ 12 now and then forgets to wake who waits at one.
+    // No latches: with libstdc++ 12 on Windows a waiting thread is sometimes not woken.
     std::promise<void> entered_;
     std::promise<void> leave_;
 };
@@ -66,7 +66,7 @@ protected:
         handle_ = table_.open(std::move(opened));
     }
 
-    /// A block in the second of two channels, out of a buffer that holds nines.
+    /// Renders a block into the second of two channels of a buffer filled with nines.
     haptoflow_status render(std::vector<float>& interleaved) {
         interleaved.assign(std::size_t{blockFrames} * 2, 9.0F);
         return renderInto(table_.use(handle_), {interleaved.data(), blockFrames, 2, 1}, 48000.0);
@@ -80,16 +80,16 @@ protected:
         return samples;
     }
 
-    /// Another thread renders and is held inside; meanwhile a third one closes.
+    /// One thread renders and is blocked inside; meanwhile another one closes the voice.
     void closeDuringARender(const std::function<void()>& close) {
         haptoflow_status status = HAPTOFLOW_INTERNAL_ERROR;
         std::atomic<bool> hasRendered{false};
         std::atomic<bool> hasClosed{false};
         bool closedAfterTheRender = false;
-        std::vector<float> heard(blockFrames);
+        std::vector<float> output(blockFrames);
         std::thread renderer([&] {
             const VoiceTable::Use use = table_.use(handle_);
-            status = renderInto(use, {heard.data(), blockFrames, 1, 0}, 48000.0);
+            status = renderInto(use, {output.data(), blockFrames, 1, 0}, 48000.0);
             hasRendered = true;
         });
         sink_.waitUntilHeld();
@@ -98,12 +98,12 @@ protected:
             closedAfterTheRender = hasRendered;
             hasClosed = true;
         });
-        // Once the handle is gone, only the render is left to wait for.
+        // Once the handle is gone, closing waits only for the render.
         while (table_.use(handle_)) {
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
         }
         std::vector<float> refused;
-        EXPECT_EQ(render(refused), HAPTOFLOW_INVALID_ARGUMENT) << "nobody new gets in";
+        EXPECT_EQ(render(refused), HAPTOFLOW_INVALID_ARGUMENT) << "new renders are refused";
         EXPECT_THAT(channel(refused, 1), Each(0.0F));
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
         EXPECT_FALSE(hasClosed);
@@ -112,7 +112,7 @@ protected:
         renderer.join();
         closer.join();
         EXPECT_EQ(status, HAPTOFLOW_OK);
-        EXPECT_GT(peak(heard), 0.001F) << "the block under way is whole";
+        EXPECT_GT(peak(output), 0.001F) << "the running block is complete";
         EXPECT_TRUE(closedAfterTheRender);
         EXPECT_TRUE(live_.expired());
         EXPECT_EQ(engine_->statistics().voices, 0U);
@@ -125,7 +125,7 @@ protected:
     haptoflow_voice handle_ = 0;
 };
 
-TEST_F(VoiceTableTest, OfTwoThreadsRenderingOneVoiceTheSecondIsBusyWritesSilenceAndIsCounted) {
+TEST_F(VoiceTableTest, ASecondThreadThatRendersAVoiceIsRefusedGetsSilenceAndIsCounted) {
     std::vector<float> first;
     haptoflow_status firstStatus = HAPTOFLOW_INTERNAL_ERROR;
     std::thread other([&] { firstStatus = render(first); });
@@ -133,7 +133,7 @@ TEST_F(VoiceTableTest, OfTwoThreadsRenderingOneVoiceTheSecondIsBusyWritesSilence
     std::vector<float> second;
     EXPECT_EQ(render(second), HAPTOFLOW_BUSY);
     EXPECT_THAT(channel(second, 1), Each(0.0F));
-    EXPECT_THAT(channel(second, 0), Each(9.0F)) << "another channel is not the voice's";
+    EXPECT_THAT(channel(second, 0), Each(9.0F)) << "other channels are unchanged";
     EXPECT_EQ(table_.use(handle_)->refusedCalls, 1U);
     sink_.letGo();
     other.join();
@@ -141,13 +141,13 @@ TEST_F(VoiceTableTest, OfTwoThreadsRenderingOneVoiceTheSecondIsBusyWritesSilence
     EXPECT_GT(peak(channel(first, 1)), 0.001F);
     EXPECT_EQ(table_.use(handle_)->voice->channels.counters.renderedFrames, blockFrames);
 
-    EXPECT_EQ(render(second), HAPTOFLOW_OK) << "the voice is free again";
+    EXPECT_EQ(render(second), HAPTOFLOW_OK) << "the voice can be rendered again";
     EXPECT_GT(peak(channel(second, 1)), 0.001F);
     EXPECT_EQ(table_.use(handle_)->refusedCalls, 1U);
     EXPECT_TRUE(table_.close(handle_));
 }
 
-TEST_F(VoiceTableTest, OfTwoThreadsThatRenderOneVoiceAtTheirOwnPaceEachBlockIsRenderedOnceOrRefused) {
+TEST_F(VoiceTableTest, EachBlockIsRenderedOnceOrRefusedWhenTwoThreadsRenderOneVoice) {
     sink_.letGo();
     std::atomic<std::uint64_t> rendered{0};
     std::atomic<std::uint64_t> refused{0};
@@ -174,11 +174,11 @@ TEST_F(VoiceTableTest, OfTwoThreadsThatRenderOneVoiceAtTheirOwnPaceEachBlockIsRe
     EXPECT_TRUE(table_.close(handle_));
 }
 
-TEST_F(VoiceTableTest, ClosingAVoiceWaitsForTheRenderUnderWay) {
+TEST_F(VoiceTableTest, ClosingAVoiceWaitsForARunningRender) {
     closeDuringARender([this] { EXPECT_TRUE(table_.close(handle_)); });
 }
 
-TEST_F(VoiceTableTest, ClosingAllVoicesOfAnEngineWaitsForTheRenderUnderWay) {
+TEST_F(VoiceTableTest, ClosingAllVoicesOfAnEngineWaitsForARunningRender) {
     closeDuringARender([this] { table_.closeAll(*engine_); });
 }
 

@@ -13,7 +13,7 @@
 namespace haptoflow::capi::testing {
 namespace {
 
-/// 150 Hz that swells twice a second.
+/// A sine of 150 Hz whose amplitude swells twice per second.
 std::vector<float> swellingTone(double rateHz, double seconds) {
     std::vector<float> wave(static_cast<std::size_t>(rateHz * seconds));
     for (std::size_t i = 0; i < wave.size(); ++i) {
@@ -53,7 +53,7 @@ protected:
     haptoflow_wave_features* features_ = nullptr;
 };
 
-TEST_F(WaveFeaturesApiTest, FramesAreThoseOfTheLibrarysOwnFeatures) {
+TEST_F(WaveFeaturesApiTest, FramesEqualThoseOfTheEffectsLibrary) {
     const std::vector<float> wave = swellingTone(2000.0, 1.0);
     create(options(0, 0.005));
     const auto taken = process(wave, 37);
@@ -72,7 +72,7 @@ TEST_F(WaveFeaturesApiTest, FramesAreThoseOfTheLibrarysOwnFeatures) {
     }
 }
 
-TEST_F(WaveFeaturesApiTest, AWaveOf8KilohertzHasTheFramesOfTheSameWaveAt2ThreeSamplesLater) {
+TEST_F(WaveFeaturesApiTest, AWaveAt8KilohertzHasTheFramesOfTheSameWaveAt2KilohertzThreeSamplesLater) {
     create(options(8000, 0.005));
     const auto taken = process(swellingTone(8000.0, 1.0), 111);
     ASSERT_GE(taken.size(), 195U);
@@ -84,7 +84,7 @@ TEST_F(WaveFeaturesApiTest, AWaveOf8KilohertzHasTheFramesOfTheSameWaveAt2ThreeSa
     }
 }
 
-TEST_F(WaveFeaturesApiTest, ADeviceOfOneFrequencyGetsThatOneFromTheNextFrameOn) {
+TEST_F(WaveFeaturesApiTest, ADeviceWithOneFrequencyGetsItFromTheNextFrameOn) {
     create(options());
     (void)process(swellingTone(2000.0, 0.2), 400);
     ASSERT_EQ(haptoflow_wave_features_set_range(features_, 216.0, 216.0), HAPTOFLOW_OK);
@@ -93,7 +93,7 @@ TEST_F(WaveFeaturesApiTest, ADeviceOfOneFrequencyGetsThatOneFromTheNextFrameOn) 
     }
 }
 
-TEST_F(WaveFeaturesApiTest, AResetBeginsAnew) {
+TEST_F(WaveFeaturesApiTest, AResetClearsTheHistory) {
     create(options(4000));
     const auto first = process(swellingTone(4000.0, 0.3), 100);
     ASSERT_EQ(haptoflow_wave_features_reset(features_), HAPTOFLOW_OK);
@@ -104,7 +104,7 @@ TEST_F(WaveFeaturesApiTest, AResetBeginsAnew) {
     }
 }
 
-TEST_F(WaveFeaturesApiTest, FramesWithoutRoomAreLostAndTheWaveGoesOn) {
+TEST_F(WaveFeaturesApiTest, FramesBeyondTheCapacityAreLostAndTheWaveContinues) {
     create(options());
     EXPECT_TRUE(process(swellingTone(2000.0, 0.2), 400, 0).empty());
     const auto taken = process(swellingTone(2000.0, 0.2), 10);

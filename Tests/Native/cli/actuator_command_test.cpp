@@ -27,7 +27,7 @@ using ::testing::StartsWith;
 
 class ActuatorCommandTest : public testing::CommandLineTest {
 protected:
-    /// Half as loud and 0.1 s later, at channel 2 of `channels`.
+    /// Writes the sweep at half the level and 0.1 s later.
     void writeRecording(const std::string& name, int rateHz = 48000) const {
         const Recording sweep = readRecording(at("sweep.wav").string());
         std::vector<float> samples(static_cast<std::size_t>(sweep.rateHz / 10.0));
@@ -40,7 +40,7 @@ protected:
     }
 };
 
-TEST_F(ActuatorCommandTest, ASweepOfADirectWireGivesAFlatProfileAndAPlot) {
+TEST_F(ActuatorCommandTest, ASweepOverADirectWireGivesAFlatProfileAndAPlot) {
     const testing::Finished sweep = run("actuator sweep -o sweep.wav --seconds 3 --level 0.5");
     ASSERT_EQ(sweep.exitCode, 0) << sweep.errors;
     const Recording written = readRecording(at("sweep.wav").string());
@@ -71,13 +71,13 @@ TEST_F(ActuatorCommandTest, ASweepOfADirectWireGivesAFlatProfileAndAPlot) {
     EXPECT_THAT(shown.output, AllOf(HasSubstr("a wire"), HasSubstr("rated level   ")));
 }
 
-TEST_F(ActuatorCommandTest, TheSameSweepIsTheSameFile) {
+TEST_F(ActuatorCommandTest, EqualOptionsGiveEqualSweepFiles) {
     ASSERT_EQ(run("actuator sweep -o one.wav --seconds 1").exitCode, 0);
     ASSERT_EQ(run("actuator sweep -o two.wav --seconds 1").exitCode, 0);
     EXPECT_EQ(read("one.wav"), read("two.wav"));
 }
 
-TEST_F(ActuatorCommandTest, WrongInputFilesAreNamedWithWhatIsWrongAndLeaveNothingBehind) {
+TEST_F(ActuatorCommandTest, WrongInputFilesAreNamedWithTheReasonAndNoOutputRemains) {
     ASSERT_EQ(run("actuator sweep -o sweep.wav --seconds 2").exitCode, 0);
     ASSERT_EQ(run("actuator sweep -o other.wav --seconds 3").exitCode, 0);
     writeRecording("recording.wav");
@@ -91,14 +91,14 @@ TEST_F(ActuatorCommandTest, WrongInputFilesAreNamedWithWhatIsWrongAndLeaveNothin
     EXPECT_THAT(complaintOf("missing.wav --sweep sweep.wav"), HasSubstr("missing.wav: cannot be read"));
     EXPECT_THAT(complaintOf("text.wav --sweep sweep.wav"), HasSubstr("text.wav: cannot be read"));
     EXPECT_THAT(complaintOf("recording.wav --sweep recording.wav"),
-                HasSubstr("recording.wav: does not say which sweep it holds"));
+                HasSubstr("recording.wav: holds no description of its sweep"));
     EXPECT_THAT(complaintOf("recording.wav --sweep other.wav"), HasSubstr("recording.wav: begins 0."));
-    EXPECT_THAT(complaintOf("other.wav --sweep sweep.wav"), HasSubstr("other.wav: does not hold the sweep"));
+    EXPECT_THAT(complaintOf("other.wav --sweep sweep.wav"), HasSubstr("other.wav: does not contain the sweep"));
     EXPECT_THAT(complaintOf("recording.wav --sweep sweep.wav --channel 2"), HasSubstr("has no channel 2; it has 1"));
     EXPECT_EQ(fileCount(), files);
 }
 
-TEST_F(ActuatorCommandTest, WrongWordsAreRefusedWithWhatWasMeant) {
+TEST_F(ActuatorCommandTest, WrongOptionsAreRefusedWithASuggestion) {
     ASSERT_EQ(run("actuator sweep -o sweep.wav --seconds 1").exitCode, 0);
     const auto complaintOf = [this](const std::string& words) {
         const testing::Finished finished = run("actuator " + words);
@@ -118,9 +118,9 @@ TEST_F(ActuatorCommandTest, WrongWordsAreRefusedWithWhatWasMeant) {
     EXPECT_FALSE(exists("a.wav"));
 }
 
-TEST_F(ActuatorCommandTest, AChannelOfSeveralHasToBeNamed) {
+TEST_F(ActuatorCommandTest, TheChannelOfARecordingWithSeveralMustBeNamed) {
     ASSERT_EQ(run("actuator sweep -o sweep.wav --seconds 1").exitCode, 0);
-    // Two channels of 32-bit float: the header of a mono file of twice the rate, read as what it is not.
+    // Two channels of 32-bit float: the header of a mono file with twice the rate, changed to stereo.
     std::string bytes = read("sweep.wav");
     bytes[22] = 2;
     bytes[32] = 8;
@@ -130,7 +130,7 @@ TEST_F(ActuatorCommandTest, AChannelOfSeveralHasToBeNamed) {
     EXPECT_THAT(finished.errors, HasSubstr("has 2 channels; name the sensor's with --channel"));
 }
 
-TEST_F(ActuatorCommandTest, ShowSaysWhatCompensationDoesAndDrawsIt) {
+TEST_F(ActuatorCommandTest, ShowDescribesAndPlotsTheCompensation) {
     const testing::Finished shown = run("actuator show voice-coil --plot coil.svg");
     ASSERT_EQ(shown.exitCode, 0) << shown.errors;
     EXPECT_THAT(shown.output, AllOf(HasSubstr("voice-coil (approximate)"), HasSubstr("160.0 320.0 Hz"),
@@ -146,7 +146,7 @@ TEST_F(ActuatorCommandTest, ShowSaysWhatCompensationDoesAndDrawsIt) {
     EXPECT_THAT(broken.errors, HasSubstr("broken.json: top level: missing key \"name\""));
 }
 
-TEST(TextureDistanceTest, CompensationBringsEveryLabelOfTheShippedModelNearerToWhatWasWanted) {
+TEST(TextureDistanceTest, CompensationReducesTheDistanceOfEveryLabelOfTheShippedModel) {
     const model::ModelFile model = model::ModelFile::read(HAPTOFLOW_TEST_DEFAULT_MODEL);
     const std::vector<TextureDistance> distances =
         textureDistances(model, *effects::ActuatorProfile::builtIn("voice-coil"), {});
@@ -157,7 +157,7 @@ TEST(TextureDistanceTest, CompensationBringsEveryLabelOfTheShippedModelNearerToW
     }
 }
 
-TEST(TextureDistanceTest, AFlatActuatorIsAtNoDistance) {
+TEST(TextureDistanceTest, AFlatActuatorHasNoDistance) {
     const model::ModelFile model = model::ModelFile::read(HAPTOFLOW_TEST_DEFAULT_MODEL);
     for (const TextureDistance& each : textureDistances(model, *effects::ActuatorProfile::builtIn("flat"), {})) {
         EXPECT_NEAR(each.uncompensatedDecibels, 0.0, 1e-9) << each.label;
@@ -165,7 +165,7 @@ TEST(TextureDistanceTest, AFlatActuatorIsAtNoDistance) {
     }
 }
 
-TEST(SvgPlotTest, NamesAreEscapedAndWhatIsNotFiniteIsLeftOut) {
+TEST(SvgPlotTest, NamesAreEscapedAndValuesThatAreNotFiniteAreSkipped) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const std::string drawn = svgPlot("<&\"", {20.0, 100.0, 500.0, 1000.0},
                                       {{.axis = "dB",

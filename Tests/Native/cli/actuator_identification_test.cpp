@@ -21,7 +21,7 @@ using ::testing::HasSubstr;
 
 constexpr double twoPi = 2.0 * std::numbers::pi;
 
-/// A second-order bandpass (peak gain `gain`) at a sample rate.
+/// A second-order bandpass with the peak gain `gain`, at a sample rate.
 class Resonance {
 public:
     Resonance(double hz, double quality, double gain, double rateHz) : rateHz_(rateHz) {
@@ -77,7 +77,7 @@ struct Simulated {
     }
 };
 
-/// The sweep at any time, as the definition has it; independent of ExponentialSweep::samples.
+/// The sweep at any time by its definition; independent of ExponentialSweep::samples.
 double sweepAt(const ExponentialSweep& sweep, double time) {
     if (time < 0.0 || time > sweep.seconds) {
         return 0.0;
@@ -101,13 +101,13 @@ Recording record(const ExponentialSweep& sweep, const Simulated& simulated) {
         const double played = sweepAt(sweep, i / simulated.rateHz - simulated.delaySeconds) / sweep.level;
         const double driven = sweep.level * (played + simulated.secondOrder * played * played +
                                              simulated.thirdOrder * played * played * played);
-        double felt = simulated.isFlat ? driven : 0.0;
+        double response = simulated.isFlat ? driven : 0.0;
         if (!simulated.isFlat) {
             for (Resonance& each : resonances) {
-                felt += each.next(driven);
+                response += each.next(driven);
             }
         }
-        recording.samples.push_back(static_cast<float>(simulated.gain * felt + simulated.noise * normal(random)));
+        recording.samples.push_back(static_cast<float>(simulated.gain * response + simulated.noise * normal(random)));
     }
     return recording;
 }
@@ -159,7 +159,7 @@ TEST(ActuatorIdentificationTest, TheDelayIsFoundToAFractionOfAMillisecond) {
     }
 }
 
-TEST(ActuatorIdentificationTest, AFractionOfASampleOfDelayIsToldApart) {
+TEST(ActuatorIdentificationTest, DelaysThatDifferByAFractionOfASampleAreDistinguished) {
     const auto delayOf = [](double seconds) {
         return identify({.seconds = 4.0}, {.rateHz = 8000.0, .delaySeconds = seconds})
             .profile.measurement->delaySeconds;
@@ -170,7 +170,7 @@ TEST(ActuatorIdentificationTest, AFractionOfASampleOfDelayIsToldApart) {
 }
 
 TEST(ActuatorIdentificationTest, ThePhaseIsTheActuatorsOwnWithoutTheDelay) {
-    // What lies beyond the measured range leaves the delay unknown by this much.
+    // The unmeasured response outside the range makes the delay uncertain by this much.
     constexpr double unknownDelaySeconds = 1e-4;
     for (const double gain : {1.0, -1.0}) {
         const Simulated simulated{.delaySeconds = 0.2003, .gain = gain};
@@ -194,21 +194,22 @@ TEST(ActuatorIdentificationTest, TheResonancesAreFound) {
     EXPECT_NEAR(found.profile.resonancesHz[1], 320.0, 8.0);
 }
 
-TEST(ActuatorIdentificationTest, HarmonicDistortionIsMeasuredAndKeptOutOfTheMagnitude) {
-    // Of a sine, x^2 gives half as its second harmonic, x^3 a quarter as its third and three quarters as itself.
+TEST(ActuatorIdentificationTest, HarmonicDistortionIsMeasuredAndExcludedFromTheMagnitude) {
+    // For a sine, x^2 has a second harmonic of a half; x^3 a third harmonic of a quarter and a fundamental of three
+    // quarters.
     for (const auto& [second, third] : {std::pair{0.1, 0.0}, {0.0, 0.1}, {0.2, 0.1}, {0.01, 0.0}}) {
         const Simulated simulated{.secondOrder = second, .thirdOrder = third, .isFlat = true};
         const Identification found = identify({.seconds = 5.0}, simulated);
         const double fundamental = 1.0 + 0.75 * third;
         const double expected = 100.0 * std::hypot(0.5 * second, 0.25 * third) / fundamental;
-        // The third harmonic is in the sweep's range for fewer fundamentals than the second.
+        // The third harmonic is within the sweep's range for fewer fundamentals than the second.
         EXPECT_NEAR(found.profile.measurement->distortionPercent, expected, 0.12 * expected) << second << ", " << third;
         expectMagnitude(found, simulated, 0.5, "distortion");
     }
     EXPECT_LT(identify({}, {.isFlat = true}).profile.measurement->distortionPercent, 0.05);
 }
 
-TEST(ActuatorIdentificationTest, NoiseMovesTheMagnitudeByLessThanADecibelWhereTheActuatorStandsOutOfIt) {
+TEST(ActuatorIdentificationTest, NoiseChangesTheMagnitudeByLessThanADecibelWhereTheActuatorExceedsIt) {
     const Simulated simulated{.noise = 0.02};
     const Identification found = identify({.seconds = 10.0}, simulated);
     const double peak = peakDecibels(simulated, found.profile);
@@ -225,7 +226,7 @@ TEST(ActuatorIdentificationTest, NoiseMovesTheMagnitudeByLessThanADecibelWhereTh
     EXPECT_GT(identify({.seconds = 10.0}, {}).profile.measurement->signalToNoiseDecibels, 60.0);
 }
 
-TEST(ActuatorIdentificationTest, ShortAndOddSweepsMeasureToo) {
+TEST(ActuatorIdentificationTest, ShortAndUnusualSweepsGiveTheSameProfile) {
     for (const ExponentialSweep& sweep :
          {ExponentialSweep{.seconds = 1.5}, ExponentialSweep{.seconds = 30.0, .fromHz = 15.0, .toHz = 3000.0},
           ExponentialSweep{.seconds = 3.0, .level = 0.9}}) {
@@ -243,7 +244,7 @@ TEST(ActuatorIdentificationTest, ACalibratedSensorGivesTheRatedLevel) {
     EXPECT_NEAR(*identifyActuator(recording, sweep, settings).profile.ratedLevelMps2, 50.0, 1.0);
 }
 
-TEST(ActuatorIdentificationTest, WhatItWritesIsAProfile) {
+TEST(ActuatorIdentificationTest, TheResultIsAValidProfile) {
     const Identification found = identify({.seconds = 4.0}, {});
     const effects::ActuatorProfile read = effects::ActuatorProfile::parse(found.profile.toJson());
     EXPECT_EQ(read.magnitudeDecibels, found.profile.magnitudeDecibels);
@@ -263,7 +264,7 @@ std::string refusalOf(const Recording& recording, const ExponentialSweep& sweep)
     return "not refused";
 }
 
-TEST(ActuatorIdentificationTest, ARecordingThatIsTooShortSaysByHowMuch) {
+TEST(ActuatorIdentificationTest, TheErrorForAShortRecordingStatesTheMissingTime) {
     const ExponentialSweep sweep{.seconds = 4.0};
     Recording recording = record(sweep, {.noise = 0.001});
     const auto secondsLeft = [&](double seconds) {
@@ -291,14 +292,14 @@ TEST(ActuatorIdentificationTest, ASilentOrClippedRecordingIsRefused) {
     EXPECT_THAT(refusalOf(clipped, sweep), HasSubstr("is clipped"));
 }
 
-TEST(ActuatorIdentificationTest, WhatIsNotTheSweepIsRefused) {
+TEST(ActuatorIdentificationTest, ARecordingWithoutTheSweepIsRefused) {
     const ExponentialSweep sweep{.seconds = 4.0};
     Recording recording = record(sweep, {.noise = 0.05, .gain = 1e-6});
-    EXPECT_THAT(refusalOf(recording, sweep), HasSubstr("does not hold the sweep"));
+    EXPECT_THAT(refusalOf(recording, sweep), HasSubstr("does not contain the sweep"));
     const Recording other = record({.seconds = 5.0}, {});
-    EXPECT_THAT(refusalOf(other, sweep), HasSubstr("does not hold the sweep"));
+    EXPECT_THAT(refusalOf(other, sweep), HasSubstr("does not contain the sweep"));
     const Recording elsewhere = record({.seconds = 4.0, .fromHz = 40.0, .toHz = 600.0}, {});
-    EXPECT_THAT(refusalOf(elsewhere, sweep), HasSubstr("does not hold the sweep"));
+    EXPECT_THAT(refusalOf(elsewhere, sweep), HasSubstr("does not contain the sweep"));
     std::mt19937 random(1);
     for (std::size_t i = 0; i < recording.samples.size(); ++i) {
         recording.samples[i] = 0.5F * static_cast<float>(std::sin(twoPi * 100.0 * static_cast<double>(i) / 48000.0));
@@ -320,7 +321,7 @@ TEST(ActuatorIdentificationTest, ARateTooLowForTheSweepIsRefused) {
     EXPECT_THAT(refusalOf(record(sweep, {.rateHz = 8000.0}), sweep), HasSubstr("too low for a sweep to 5000 Hz"));
 }
 
-TEST(ExponentialSweepTest, ItsSamplesAreTheDefinitionAtEveryRate) {
+TEST(ExponentialSweepTest, ItsSamplesFollowTheDefinitionAtEveryRate) {
     const ExponentialSweep sweep{.seconds = 3.0, .fromHz = 20.0, .toHz = 1200.0, .level = 0.5};
     for (const double rateHz : {8000.0, 44100.0, 192000.0}) {
         const std::vector<float> samples = sweep.samples(rateHz);
@@ -333,7 +334,7 @@ TEST(ExponentialSweepTest, ItsSamplesAreTheDefinitionAtEveryRate) {
     }
 }
 
-TEST(ExponentialSweepTest, ItsDescriptionIsReadBackAndAnythingElseIsNot) {
+TEST(ExponentialSweepTest, ItsDescriptionIsReadBackAndOtherTextIsRefused) {
     const ExponentialSweep sweep{.seconds = 3.5, .fromHz = 21.25, .toHz = 1000.0, .level = 0.1};
     const auto read = ExponentialSweep::parse(sweep.describe());
     ASSERT_TRUE(read.has_value());

@@ -39,8 +39,8 @@ Finished runBench(const std::string& words) {
     return testing::runHaptoFlow("bench " + words);
 }
 
-/// The report of a run with next to no events; the tiny model stands in for the paper's architecture too. Each test
-/// asks for what it looks at, because ctest runs each in a process of its own.
+/// The report of a run with few events; the tiny model replaces the paper's architecture, too. Each test runs only the
+/// measurements that it checks, because ctest runs each test in its own process.
 Json reportOf(const std::string& measurements) {
     const std::string only = measurements == "all" ? "" : " --only " + measurements;
     const Finished run =
@@ -76,7 +76,7 @@ TEST(BenchCommandTest, TheReportHasEveryKeyOfTheContract) {
     EXPECT_TRUE(report["notes"].empty()) << report["notes"];
 }
 
-TEST(BenchCommandTest, TheReportSaysOfWhatAndWhereItIsAndNotOnWhichHost) {
+TEST(BenchCommandTest, TheReportNamesModelAndProcessorButNotTheHost) {
     const Json report = reportOf("contact");
     EXPECT_EQ(report["model"]["name"], "tiny");
     EXPECT_EQ(report["model"]["file"], "tiny.haptoflow");
@@ -86,14 +86,14 @@ TEST(BenchCommandTest, TheReportSaysOfWhatAndWhereItIsAndNotOnWhichHost) {
     EXPECT_FALSE(report["machine"]["processor"].get<std::string>().empty());
     std::array<char, 256> host{};
     ASSERT_EQ(gethostname(host.data(), host.size() - 1), 0);
-    // A very short name would be found in any text.
+    // A very short host name would occur in any text.
     if (std::string(host.data()).size() > 3) {
         EXPECT_THAT(report.dump(), Not(HasSubstr(host.data())));
     }
     EXPECT_THAT(report.dump(), Not(HasSubstr(HAPTOFLOW_TEST_GOLDEN_DIR)));
 }
 
-TEST(BenchCommandTest, EachEffectCostsWhatItTakesWhereItIsAskedForAndNeverRunsWhereItIsNot) {
+TEST(BenchCommandTest, EachEffectIsTimedWhereItIsRequestedAndNeverRunsElsewhere) {
     const Json rows = reportOf("effects")["effects"];
     std::vector<std::string> names;
     for (const Json& row : rows) {
@@ -112,7 +112,7 @@ TEST(BenchCommandTest, EachEffectCostsWhatItTakesWhereItIsAskedForAndNeverRunsWh
                                               "exposure guard", "signal"));
 }
 
-TEST(BenchCommandTest, ABlendIsMeasuredBesideOneMaterialOnEveryThreadThatItCosts) {
+TEST(BenchCommandTest, ABlendIsComparedWithOneMaterialOnEveryThread) {
     const Json rows = reportOf("blends")["blends"];
     std::vector<int> materials;
     for (const Json& row : rows) {
@@ -127,7 +127,7 @@ TEST(BenchCommandTest, ABlendIsMeasuredBesideOneMaterialOnEveryThreadThatItCosts
     EXPECT_THAT(materials, ::testing::ElementsAre(1, 2, 4));
 }
 
-TEST(BenchCommandTest, EachOutputIsMeasuredBesideTheVoiceOfAnAudioOutput) {
+TEST(BenchCommandTest, EachOutputIsComparedWithTheVoiceOfAnAudioOutput) {
     const Json rows = reportOf("outputs")["outputs"];
     std::vector<std::string> names;
     for (const Json& row : rows) {
@@ -144,7 +144,7 @@ TEST(BenchCommandTest, EachOutputIsMeasuredBesideTheVoiceOfAnAudioOutput) {
     EXPECT_THAT(names, ::testing::ElementsAre("audio", "controller waveform", "controller parametric", "motor"));
 }
 
-TEST(BenchCommandTest, CallbackRowsAreOfOneTwoAndEightVoicesWithTheirShareOfTheBlock) {
+TEST(BenchCommandTest, TheCallbackHasRowsForOneTwoAndEightVoicesWithTheirShareOfTheBlock) {
     const Json rows = reportOf("callback")["callback_us"];
     ASSERT_EQ(rows.size(), 3U);
     std::vector<int> voices;
@@ -160,7 +160,7 @@ TEST(BenchCommandTest, CallbackRowsAreOfOneTwoAndEightVoicesWithTheirShareOfTheB
     EXPECT_THAT(voices, ::testing::ElementsAre(1, 2, 8));
 }
 
-TEST(BenchCommandTest, EveryKindOfEventBlockHasARowOfItsOwnBesideOrdinaryOnesAndNoneIsDropped) {
+TEST(BenchCommandTest, EveryKindOfEventBlockIsComparedWithOrdinaryBlocksAndNoneIsDropped) {
     const Json report = reportOf("events");
     ASSERT_EQ(report["callback_events_us"].size(), 3U);
     for (const Json& row : report["callback_events_us"]) {
@@ -176,7 +176,7 @@ TEST(BenchCommandTest, EveryKindOfEventBlockHasARowOfItsOwnBesideOrdinaryOnesAnd
     }
 }
 
-TEST(BenchCommandTest, LatenciesHaveARowForEachDeviceWithItsGoalAndTheUsualBlocksFiguresInFront) {
+TEST(BenchCommandTest, LatenciesHaveARowForEachDeviceWithItsGoalAfterTheDefaultBlocksFigures) {
     const Json report = reportOf("latency");
     for (const char* key : {"onset_ms", "contact_to_sound_ms", "stop_ms"}) {
         const Json& section = report[key];
@@ -198,12 +198,13 @@ TEST(BenchCommandTest, LatenciesHaveARowForEachDeviceWithItsGoalAndTheUsualBlock
         const Json& step = report["contact_to_sound_ms"]["rows"][device];
         EXPECT_GE(step["goal"], period + 1.0 - 1e-3);
         EXPECT_LE(step["goal"], step["lead"]["worst"].get<double>() + period + 1.0 + 1e-3);
-        EXPECT_NEAR(step["filter_delay"], 1.2, 0.1) << "the resampler alone: inside the range nothing else filters";
+        EXPECT_NEAR(step["filter_delay"], 1.2, 0.1)
+            << "the delay of the resampler alone: there is no other filter inside the range";
         EXPECT_GE(step["within_goal_and_filters"], step["within_goal"]);
     }
 }
 
-TEST(BenchCommandTest, AStrokeWhoseLabelStepsIsPublishedAtTheUpdateRateForAsLongAsItTouches) {
+TEST(BenchCommandTest, AStrokeWithLabelChangesIsPublishedAtTheUpdateRateWhileItTouches) {
     const bench::Hand hand(model::ModelFile::read(HAPTOFLOW_TEST_DEFAULT_MODEL));
     std::mt19937_64 random(5);
     for (const bench::DeviceShape& shape : bench::BenchPlan::full().devices) {
@@ -219,7 +220,7 @@ TEST(BenchCommandTest, AStrokeWhoseLabelStepsIsPublishedAtTheUpdateRateForAsLong
     }
 }
 
-TEST(BenchCommandTest, EveryQualityIsTimedHotAndPacedAndTheSpeedUpIsTheRatioOfTheMedians) {
+TEST(BenchCommandTest, EveryQualityIsTimedHotAndPacedWithTheSpeedUpAsRatioOfTheMedians) {
     const Json report = reportOf("inference");
     ASSERT_EQ(report["inference_ms"].size(), 5U);
     for (const auto& [name, tier] : report["inference_ms"].items()) {
@@ -231,7 +232,7 @@ TEST(BenchCommandTest, EveryQualityIsTimedHotAndPacedAndTheSpeedUpIsTheRatioOfTh
     EXPECT_EQ(report["speedup_vs_paper_architecture_paced"], report["inference_ms"]["standard"]["paced"]["ratio"]);
 }
 
-TEST(BenchCommandTest, VoicesAreBatchedBesideOneByOneUpToSixtyFour) {
+TEST(BenchCommandTest, BatchesOfVoicesAreComparedWithSingleVoicesUpToSixtyFour) {
     const Json rows = reportOf("voices")["voices"];
     ASSERT_EQ(rows.size(), 7U);
     for (std::size_t row = 0; row < rows.size(); ++row) {
@@ -242,7 +243,7 @@ TEST(BenchCommandTest, VoicesAreBatchedBesideOneByOneUpToSixtyFour) {
     }
 }
 
-TEST(BenchCommandTest, IdleInfersNothingAndWakesNobody) {
+TEST(BenchCommandTest, AnIdleEngineRunsNoInferenceAndDoesNotWakeItsWorker) {
     const Json idle = reportOf("idle")["idle"];
     EXPECT_EQ(idle["inferences"], 0);
     EXPECT_EQ(idle["worker_wakes"], 0);
@@ -250,7 +251,7 @@ TEST(BenchCommandTest, IdleInfersNothingAndWakesNobody) {
     EXPECT_GE(idle["cpu_percent"], 0.0);
 }
 
-TEST(BenchCommandTest, MemoryIsTheSumOfItsPartsAndLoadingIsModelAndEngine) {
+TEST(BenchCommandTest, MemoryIsTheSumOfItsPartsAndLoadingThatOfModelAndEngine) {
     const Json report = reportOf("contact");
     const Json& memory = report["memory"];
     const double parts =
@@ -262,7 +263,7 @@ TEST(BenchCommandTest, MemoryIsTheSumOfItsPartsAndLoadingIsModelAndEngine) {
     expectRatio(report["load"]["ratio"], report["load_ms"], report["load"]["plain_read"]["p50"], "load");
 }
 
-TEST(BenchCommandTest, ContactGrowsFromTenToTenThousandSurfacesAndTheTipTouches) {
+TEST(BenchCommandTest, ContactIsTimedFromTenToTenThousandSurfacesWithATipThatTouches) {
     const Json rows = reportOf("contact")["contact"];
     ASSERT_EQ(rows.size(), 4U);
     int surfaces = 10;
@@ -276,14 +277,14 @@ TEST(BenchCommandTest, ContactGrowsFromTenToTenThousandSurfacesAndTheTipTouches)
     }
 }
 
-TEST(BenchCommandTest, WithoutThePapersModelThereIsANoteAndNoSpeedUp) {
+TEST(BenchCommandTest, WithoutThePapersModelTheReportHasANoteAndNoSpeedUp) {
     const auto path = std::filesystem::temp_directory_path() / "bench_without_paper.json";
     const Finished run = runBench("--only inference --events 1 --model " + tinyModel + " -o '" + path.string() + "'");
     ASSERT_EQ(run.exitCode, 0) << run.errors;
     EXPECT_THAT(run.output,
                 AllOf(HasSubstr("inference, one segment"), HasSubstr("note: speedup_vs_paper_architecture")));
     EXPECT_THAT(run.output, Not(HasSubstr("callback")));
-    EXPECT_EQ(run.errors, "") << "no progress bar where standard error is no terminal";
+    EXPECT_EQ(run.errors, "") << "no progress bar if standard error is not a terminal";
     std::ifstream stream(path);
     const Json report = Json::parse(stream);
     std::filesystem::remove(path);
@@ -294,7 +295,7 @@ TEST(BenchCommandTest, WithoutThePapersModelThereIsANoteAndNoSpeedUp) {
     EXPECT_THAT(report["notes"][0].get<std::string>(), HasSubstr("--paper-model"));
 }
 
-TEST(BenchCommandTest, WrongUseEndsWithTwoAndWrongFilesWithThree) {
+TEST(BenchCommandTest, WrongUseExitsWithTwoAndWrongFilesWithThree) {
     EXPECT_EQ(runBench("--only latncy").exitCode, 2);
     EXPECT_EQ(runBench("--events 0").exitCode, 2);
     const Finished missing = runBench("--model /nowhere/a.haptoflow");
@@ -334,7 +335,7 @@ bench::Recording recordingOf(std::vector<float> samples) {
     return recording;
 }
 
-TEST(BenchLatencyTest, OnsetAndStopAreReadFromTheSamplesWithinSixtyDecibelsOfThePeak) {
+TEST(BenchLatencyTest, OnsetAndStopAreTheFirstAndLastSampleWithinSixtyDecibelsOfThePeak) {
     std::vector<float> samples(100, 0.0F);
     std::fill(samples.begin() + 30, samples.begin() + 60, -0.5F);
     samples[20] = 0.0004F;
@@ -357,7 +358,7 @@ TEST(BenchLatencyTest, OnsetAndStopAreReadFromTheSamplesWithinSixtyDecibelsOfThe
     EXPECT_NEAR(stops.goalSeconds[0], 0.025, 1e-9);
 }
 
-TEST(BenchLatencyTest, ATouchThatNothingIsHeardOfIsCountedAsMissed) {
+TEST(BenchLatencyTest, ASilentTouchIsCountedAsMissed) {
     bench::TouchScript script;
     script.touches = {{.down = 0, .lift = 1}};
     bench::Latencies onsets;
@@ -367,7 +368,7 @@ TEST(BenchLatencyTest, ATouchThatNothingIsHeardOfIsCountedAsMissed) {
     EXPECT_EQ(onsets.missed, 1U);
 }
 
-TEST(BenchLatencyTest, ALabelStepIsHeardWhereTheOutputPassesTheMiddleOfTwoMarks) {
+TEST(BenchLatencyTest, ALabelChangeIsFoundWhereTheOutputPassesTheMiddleOfTwoMarks) {
     constexpr float fullScale = 60.0F;
     std::vector<float> samples(100, bench::MarkingGenerator::markMps2(0) / fullScale);
     std::fill(samples.begin() + 40, samples.end(), bench::MarkingGenerator::markMps2(1) / fullScale);

@@ -23,8 +23,8 @@ struct Finished {
     std::string errors;
 };
 
-/// Runs the command line with these words, quoted for a shell, and with the repository's ONNX Runtime and model;
-/// `before` stands before it in the shell.
+/// Runs the command line with these arguments, quoted for a shell, and with the repository's ONNX Runtime and model;
+/// `before` precedes it in the shell.
 inline Finished runHaptoFlow(const std::string& words, const std::string& before = "") {
     const auto errors = std::filesystem::temp_directory_path() /
                         ("haptoflow_" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) +
@@ -49,8 +49,8 @@ inline Finished runHaptoFlow(const std::string& words, const std::string& before
     return run;
 }
 
-/// A folder with a scene (a wooden floor without a stiffness of its own), a stroke that slides over it for 0.3 s, and
-/// what a test puts there; gone with the test.
+/// A temporary folder with a scene (a wooden floor without stiffness), a stroke that slides over it for 0.3 s, and the
+/// files of a test.
 class CommandLineTest : public ::testing::Test {
 protected:
     void SetUp() override {

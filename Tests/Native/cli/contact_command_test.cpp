@@ -1,21 +1,16 @@
 #include "contact_command.hpp"
 
+#include "command_line.hpp"
 #include "exit_codes.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
-
-#ifndef _WIN32
-#include <sys/wait.h>
-#endif
 
 namespace haptoflow::cli {
 namespace {
@@ -49,20 +44,20 @@ double numberOf(const std::string& headerLine, const std::string& line, const st
     throw std::out_of_range(name);
 }
 
-contact::Scene tableScene(const std::string& name) {
-    contact::Scene scene;
-    scene.surfaces.push_back({name, contact::Plane{}, {}, std::nullopt, {{"wood", 1.0}}, 1000.0, {1.0, 0.0, 0.0}});
+headless::Scene tableScene(const std::string& name) {
+    headless::Scene scene;
+    scene.surfaces.push_back({name, headless::Plane{}, {}, std::nullopt, {{"wood", 1.0}}, 1000.0, {1.0, 0.0, 0.0}});
     scene.updateRateHz = 100.0;
     return scene;
 }
 
-std::string statesOf(const contact::Scene& scene, const std::string& strokeText) {
+std::string statesOf(const headless::Scene& scene, const std::string& strokeText) {
     std::ostringstream output;
     writeContactStates(output, scene, parseStroke(strokeText, "stroke.csv"), "stroke.csv", {});
     return output.str();
 }
 
-TEST(ContactCommandTest, OneLinePerFrameInTheOrderOfTheHeader) {
+TEST(ContactCommandTest, EveryFrameIsALineInTheOrderOfTheHeader) {
     const auto lines = linesOf(statesOf(tableScene("table"), "t,x,y,z\n0,0,0.0005,0\n0.1,0.02,0.0005,0\n"));
     ASSERT_EQ(lines.size(), 12U);
     EXPECT_EQ(lines[0], header);
@@ -76,67 +71,37 @@ TEST(ContactCommandTest, WithoutTouchTheSurfaceIsEmptyAndNamesWithCommasAreQuote
                 HasSubstr("0,\"a, \"\"b\"\"\",1,1,"));
 }
 
-class ContactProgramTest : public ::testing::Test {
+class ContactProgramTest : public testing::CommandLineTest {
 protected:
-    void SetUp() override {
-        folder_ = std::filesystem::temp_directory_path() /
-                  ("haptoflow_contact_program_" +
-                   std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
-        std::filesystem::create_directories(folder_);
-        write("scene.json", R"({"surfaces": [{"name": "table", "shape": {"plane": {}}, "material": "wood"}]})");
-        write("stroke.csv", "t,x,y,z\n0,0,0.0005,0\n0.1,0.02,0.0005,0\n");
-    }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
-
-    void write(const std::string& name, const std::string& text) const {
-        std::ofstream(folder_ / name, std::ios::binary) << text;
-    }
-    [[nodiscard]] std::string read(const std::string& name) const {
-        std::ifstream file(folder_ / name, std::ios::binary);
-        std::ostringstream text;
-        text << file.rdbuf();
-        return text.str();
-    }
-    [[nodiscard]] std::string at(const std::string& name) const {
-        return std::string(1, '"').append((folder_ / name).string()).append(1, '"');
-    }
-
-    /// Runs the program; its exit code.
-    [[nodiscard]] int run(const std::string& words) const {
-        const std::string command =
-            "\"" HAPTOFLOW_TEST_CLI "\" " + words + " >" + at("out.txt") + " 2>" + at("err.txt");
-        const int status = std::system(command.c_str());  // NOLINT(concurrency-mt-unsafe,cert-env33-c)
-#ifdef _WIN32
-        return status;
-#else
-        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-#endif
+    /// `contact` of the scene and a stroke that slides for 0.1 s, with more words.
+    [[nodiscard]] testing::Finished contact(const std::string& words = "") const {
+        return run("contact scene.json --stroke stroke.csv " + words);
     }
 
 private:
-    std::filesystem::path folder_;
+    void SetUp() override {
+        CommandLineTest::SetUp();
+        write("stroke.csv", "t,x,y,z\n0,0,0.0005,0\n0.1,0.02,0.0005,0\n");
+    }
 };
 
-TEST_F(ContactProgramTest, PrintsStatesAndWritesTheSameToAFile) {
-    ASSERT_EQ(run("contact " + at("scene.json") + " --stroke " + at("stroke.csv")), exitDone) << read("err.txt");
-    const std::string printed = read("out.txt");
-    EXPECT_EQ(linesOf(printed).size(), 11U);
-    ASSERT_EQ(run("contact " + at("scene.json") + " --stroke " + at("stroke.csv") + " -o " + at("states.csv")),
-              exitDone);
-    EXPECT_EQ(read("states.csv"), printed);
-    EXPECT_EQ(read("out.txt"), "");
+TEST_F(ContactProgramTest, ItPrintsTheStatesAndWritesTheSameTextToAFile) {
+    const auto printed = contact();
+    ASSERT_EQ(printed.exitCode, exitDone) << printed.errors;
+    EXPECT_EQ(linesOf(printed.output).size(), 11U);
+    const auto written = contact("-o states.csv");
+    ASSERT_EQ(written.exitCode, exitDone) << written.errors;
+    EXPECT_EQ(read("states.csv"), printed.output);
+    EXPECT_EQ(written.output, "");
 }
 
-TEST_F(ContactProgramTest, DefaultStiffnessAndMaximumForceActOnTheForce) {
-    ASSERT_EQ(run("contact " + at("scene.json") + " --stroke " + at("stroke.csv") + " --default-stiffness 2000"),
-              exitDone);
-    EXPECT_THAT(linesOf(read("out.txt"))[1], HasSubstr("0.0005,0,0,0,1"));
-    ASSERT_EQ(run("contact " + at("scene.json") + " --stroke " + at("stroke.csv") + " --maximum-force 0.125"),
-              exitDone);
-    EXPECT_THAT(linesOf(read("out.txt"))[1], HasSubstr("0.0005,0,0,0,0.125"));
+TEST_F(ContactProgramTest, DefaultStiffnessAndMaximumForceChangeTheForce) {
+    EXPECT_THAT(linesOf(contact("--default-stiffness 2000").output).at(1), HasSubstr("0.0005,0,0,0,1"));
+    EXPECT_THAT(linesOf(contact("--default-stiffness 2000 --maximum-force 0.125").output).at(1),
+                HasSubstr("0.0005,0,0,0,0.125"));
 }
 
-TEST_F(ContactProgramTest, ASurfaceWithoutStiffnessPressesBackWithItsLabelsAsInRender) {
+TEST_F(ContactProgramTest, ASurfaceWithoutStiffnessHasThatOfItsLabelsAsInRender) {
     struct Spring {
         double forceNewtons;
         double depthMetres;
@@ -144,8 +109,9 @@ TEST_F(ContactProgramTest, ASurfaceWithoutStiffnessPressesBackWithItsLabelsAsInR
     const auto springOn = [this](const std::string& material) {
         write("scene.json",
               R"({"surfaces": [{"name": "table", "shape": {"plane": {}}, "material": )" + material + "}]}");
-        EXPECT_EQ(run("contact " + at("scene.json") + " --stroke " + at("stroke.csv")), exitDone) << read("err.txt");
-        const std::vector<std::string> lines = linesOf(read("out.txt"));
+        const auto states = contact();
+        EXPECT_EQ(states.exitCode, exitDone) << states.errors;
+        const std::vector<std::string> lines = linesOf(states.output);
         return Spring{numberOf(lines.at(0), lines.at(1), "force_n"),
                       numberOf(lines.at(0), lines.at(1), "penetration_m")};
     };
@@ -157,49 +123,51 @@ TEST_F(ContactProgramTest, ASurfaceWithoutStiffnessPressesBackWithItsLabelsAsInR
     }
 }
 
-TEST_F(ContactProgramTest, WithAModelOfTheUsersOwnItsLabelsGiveTheStiffness) {
+TEST_F(ContactProgramTest, TheLabelsOfAGivenModelSetTheStiffness) {
     write("scene.json", R"({"surfaces": [{"name": "table", "shape": {"plane": {}}, "material": "rueld"}]})");
-    const std::string words = "contact " + at("scene.json") + " --stroke " + at("stroke.csv");
-    EXPECT_EQ(run(words), exitBadInput);
-    EXPECT_THAT(read("err.txt"), HasSubstr("'rueld', which the model does not know"));
-    EXPECT_EQ(run(words + " --default-stiffness 2000"), exitDone) << read("err.txt");
-    EXPECT_EQ(run(words + " --default-stiffness 2000 --model x.haptoflow"), exitUsage);
-    EXPECT_EQ(run(words + " --model " HAPTOFLOW_TEST_GOLDEN_DIR "/model/tiny.haptoflow"), exitBadInput);
+    const auto unknown = contact();
+    EXPECT_EQ(unknown.exitCode, exitBadInput);
+    EXPECT_THAT(unknown.errors, HasSubstr("'rueld', which the model does not know"));
+    EXPECT_EQ(contact("--default-stiffness 2000").exitCode, exitDone);
+    EXPECT_EQ(contact("--default-stiffness 2000 --model x.haptoflow").exitCode, exitUsage);
+    EXPECT_EQ(contact("--model " + testing::tinyModel).exitCode, exitBadInput);
     write("scene.json", R"({"surfaces": [{"name": "table", "shape": {"plane": {}}, "material": "ruled"}]})");
-    EXPECT_EQ(run(words + " --model " HAPTOFLOW_TEST_GOLDEN_DIR "/model/tiny.haptoflow"), exitDone) << read("err.txt");
-    EXPECT_THAT(linesOf(read("out.txt")).at(1), HasSubstr(",0.0005,0,0,0,0.3"));
+    const auto known = contact("--model " + testing::tinyModel);
+    EXPECT_EQ(known.exitCode, exitDone) << known.errors;
+    EXPECT_THAT(linesOf(known.output).at(1), HasSubstr(",0.0005,0,0,0,0.3"));
 }
 
 TEST_F(ContactProgramTest, AnOutputThatIsAnInputIsRefusedAndALinkIsFollowed) {
-    const std::string words = "contact " + at("scene.json") + " --stroke " + at("stroke.csv") + " -o ";
     const std::string scene = read("scene.json");
-    EXPECT_EQ(run(words + at("scene.json")), exitUsage);
-    EXPECT_THAT(read("err.txt"), HasSubstr("is the same file as the scene"));
-    EXPECT_EQ(run(words + at("stroke.csv")), exitUsage);
+    const auto overwriting = contact("-o scene.json");
+    EXPECT_EQ(overwriting.exitCode, exitUsage);
+    EXPECT_THAT(overwriting.errors, HasSubstr("is the same file as the scene"));
+    EXPECT_EQ(contact("-o stroke.csv").exitCode, exitUsage);
     EXPECT_EQ(read("scene.json"), scene);
-    std::filesystem::create_symlink("states.csv", at("link.csv").substr(1, at("link.csv").size() - 2));
-    EXPECT_EQ(run(words + at("link.csv")), exitDone) << read("err.txt");
+    std::filesystem::create_symlink("states.csv", at("link.csv"));
+    EXPECT_EQ(contact("-o link.csv").exitCode, exitDone);
     EXPECT_EQ(linesOf(read("states.csv")).size(), 11U);
 }
 
-TEST_F(ContactProgramTest, WrongWordsAreUsageAndWrongFilesAreInput) {
-    EXPECT_EQ(run("contact " + at("scene.json")), exitUsage);
-    EXPECT_EQ(run("contact " + at("scene.json") + " --stroke " + at("stroke.csv") + " --default-stiffness -1"),
-              exitUsage);
-    EXPECT_EQ(run("contact " + at("scene.json") + " --stroke " + at("missing.csv")), exitBadInput);
-    EXPECT_THAT(read("err.txt"), HasSubstr("missing.csv: cannot be opened"));
+TEST_F(ContactProgramTest, WrongOptionsAreUsageErrorsAndWrongFilesAreInputErrors) {
+    EXPECT_EQ(run("contact scene.json").exitCode, exitUsage);
+    EXPECT_EQ(contact("--default-stiffness -1").exitCode, exitUsage);
+    const auto missing = run("contact scene.json --stroke missing.csv");
+    EXPECT_EQ(missing.exitCode, exitBadInput);
+    EXPECT_THAT(missing.errors, HasSubstr("missing.csv: cannot be opened"));
     write("stroke.csv", "t,x,y,z\n0,0,0\n");
-    EXPECT_EQ(run("contact " + at("scene.json") + " --stroke " + at("stroke.csv")), exitBadInput);
-    EXPECT_THAT(read("err.txt"), HasSubstr("stroke.csv:2: expected 4 values"));
+    const auto shortLine = contact();
+    EXPECT_EQ(shortLine.exitCode, exitBadInput);
+    EXPECT_THAT(shortLine.errors, HasSubstr("stroke.csv:2: expected 4 values"));
     write("stroke.csv", "t,x,y,z\n0,0,0,0\n");
-    EXPECT_EQ(run("contact " + at("scene.json") + " --stroke " + at("stroke.csv") + " -o " + at("no/such/folder.csv")),
-              exitBadInput);
+    EXPECT_EQ(contact("-o no/such/folder.csv").exitCode, exitBadInput);
 }
 
-TEST_F(ContactProgramTest, HelpSaysWhatTheFilesAreAndGivesAnExample) {
-    ASSERT_EQ(run("contact --help"), exitDone);
-    EXPECT_THAT(read("out.txt"), HasSubstr("haptoflow contact scene.json --stroke stroke.csv"));
-    EXPECT_THAT(read("out.txt"), HasSubstr("t,x,y,z[,force][,qx,qy,qz,qw]"));
+TEST_F(ContactProgramTest, HelpDescribesTheFilesAndGivesAnExample) {
+    const auto help = run("contact --help");
+    ASSERT_EQ(help.exitCode, exitDone);
+    EXPECT_THAT(help.output, HasSubstr("haptoflow contact scene.json --stroke stroke.csv"));
+    EXPECT_THAT(help.output, HasSubstr("t,x,y,z[,force][,qx,qy,qz,qw]"));
 }
 
 }  // namespace

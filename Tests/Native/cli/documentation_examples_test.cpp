@@ -1,4 +1,4 @@
-// Every command line of `haptoflow` that the documentation shows is run, with the files that its page shows.
+// Runs every command line of `haptoflow` in the documentation, with the files of its page.
 #include "command_line.hpp"
 
 #include "learning/made_recording.hpp"
@@ -28,7 +28,7 @@ std::string textOf(const fs::path& path) {
     return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-/// The blocks between lines of ``` followed by `language`.
+/// The code blocks of this language.
 std::vector<std::string> blocksOf(const std::string& page, const std::string& language) {
     std::vector<std::string> blocks;
     const std::string fence = "\n```";
@@ -49,7 +49,7 @@ std::vector<std::string> blocksOf(const std::string& page, const std::string& la
 const std::regex example(
     R"((^|\n|`)((?:\S*/)?haptoflow (?:render|contact|inspect|actuator|bench|learn)(?: [^`\n#]+)))");
 
-/// Command lines of a text: in blocks, and between backquotes where they have words beside the command.
+/// The command lines of a text: in blocks, and between backquotes if they have arguments.
 std::vector<std::string> examplesOf(const std::string& text) {
     std::vector<std::string> examples;
     for (auto found = std::sregex_iterator(text.begin(), text.end(), example); found != std::sregex_iterator();
@@ -83,7 +83,7 @@ protected:
         fs::copy_file(HAPTOFLOW_TEST_DEFAULT_MODEL, at("default.haptoflow"));
     }
 
-    /// The files that a page shows or tells to make, under the names that its examples use.
+    /// Creates the files that a page shows or describes, with the names that its examples use.
     void makeFilesOf(const fs::path& page, const std::string& text) const {
         const std::vector<std::string> scenes = blocksOf(text, "json");
         const std::vector<std::string> strokes = blocksOf(text, "csv");
@@ -96,12 +96,12 @@ protected:
                 fs::copy_file(entry.path(), at(entry.path().filename().string()), fs::copy_options::overwrite_existing);
             }
         }
-        // Getting started: the first by its `cp`, the others by the training tools.
+        // Getting started: the first is copied by its `cp`, the others come from the training tools.
         fs::copy_file(repository / "Samples~/HeadlessScenes/tracing.scene.json", at("desk.scene.json"),
                       fs::copy_options::overwrite_existing);
         fs::copy_file(repository / "Samples~/HeadlessScenes/tracing.stroke.csv", at("desk.stroke.csv"),
                       fs::copy_options::overwrite_existing);
-        // Actuator profiles: by the sweep that the page writes, recorded over a wire, and what comes of it.
+        // Actuator profiles: from the sweep that the page writes, recorded over a wire.
         ASSERT_EQ(run("actuator sweep -o sweep.wav").exitCode, 0);
         fs::copy_file(at("sweep.wav"), at("recording.wav"), fs::copy_options::overwrite_existing);
         fs::copy_file(repository / "NativePlugin/profiles/voice-coil.json", at("pen.json"),
@@ -114,7 +114,7 @@ protected:
         }
     }
 
-    /// Those that the page on materials of one's own is about, and a floor of what is learnt from the first.
+    /// Creates the recordings of the page on own materials, and a scene with the material learnt from the first.
     void makeRecordings() const {
         const learning::testing::MadeRecording made({}, {.seconds = 10.5});
         std::ostringstream table;
@@ -138,12 +138,12 @@ protected:
         command = std::regex_replace(command, std::regex(" MODEL\\b"), " default.haptoflow");
         command = std::regex_replace(command, std::regex(" PROFILE\\b"), " voice-coil");
         if (command.starts_with("bench") && command.find("--help") == std::string::npos) {
-            // What it measures is measured elsewhere: here, that the words are understood and lead to an end.
+            // Other tests check the measurements; this one checks that the options are valid.
             command += " --events 1 --quiet --quick";
         }
         const bool learns = command.starts_with("learn") && command.find("--help") == std::string::npos;
         if (learns) {
-            // How near a whole fit comes is tested elsewhere. What is noted of a recording is the recording's doing.
+            // Other tests check the quality of a whole fit. Notes about a recording are expected here.
             command += " --seconds-limit 1.5 --quiet";
         }
         const testing::Finished finished = run(command);

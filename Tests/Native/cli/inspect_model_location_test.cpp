@@ -13,7 +13,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// Sets or removes an environment variable for the length of a test.
+/// Sets or removes an environment variable for the duration of a test.
 class Environment {
 public:
     Environment(const char* name, const std::optional<std::string>& value) : name_(name) {
@@ -50,7 +50,7 @@ std::string refusalOf(Action action) {
     return {};
 }
 
-TEST(ModelLocationTest, AGivenModelWins) {
+TEST(ModelLocationTest, AGivenModelIsUsedFirst) {
     const Environment model("HAPTOFLOW_MODEL", HAPTOFLOW_TEST_GOLDEN_DIR "/model/tiny.haptoflow");
     EXPECT_EQ(findModel("mine.haptoflow"), "mine.haptoflow");
 }
@@ -61,15 +61,15 @@ TEST(ModelLocationTest, TheEnvironmentNamesTheModel) {
     EXPECT_EQ(readModel(findModel("")).header().name, "tiny");
 }
 
-TEST(ModelLocationTest, AModelOfTheEnvironmentThatIsNotThereIsRefusedByNameOfTheVariable) {
+TEST(ModelLocationTest, AMissingModelOfTheEnvironmentIsRefusedWithTheVariable) {
     const Environment model("HAPTOFLOW_MODEL", "/nowhere/a.haptoflow");
     const std::string refusal = refusalOf([] { return findModel(""); });
     EXPECT_THAT(refusal, HasSubstr("/nowhere/a.haptoflow"));
     EXPECT_THAT(refusal, HasSubstr("HAPTOFLOW_MODEL"));
 }
 
-TEST(ModelLocationTest, WithoutAnyRuntimeThePlacesAndTheRemedyAreNamed) {
-    // The test program lies deeper in the build folder than the command line does: no place fits it.
+TEST(ModelLocationTest, TheErrorForAMissingRuntimeNamesThePlacesAndTheRemedy) {
+    // The test program is deeper in the build folder than the command line, so that none of the places exists.
     const Environment runtime("HAPTOFLOW_ONNXRUNTIME", std::nullopt);
     const std::string refusal = refusalOf([] { return findOnnxRuntime(); });
     EXPECT_THAT(refusal, HasSubstr("HAPTOFLOW_ONNXRUNTIME (not set)"));
@@ -78,17 +78,17 @@ TEST(ModelLocationTest, WithoutAnyRuntimeThePlacesAndTheRemedyAreNamed) {
     EXPECT_THAT(refusal, HasSubstr("`npm run build`"));
 }
 
-TEST(ModelLocationTest, OpensTheRuntimeOfTheEnvironment) {
+TEST(ModelLocationTest, TheRuntimeOfTheEnvironmentIsOpened) {
     const Environment runtime("HAPTOFLOW_ONNXRUNTIME", HAPTOFLOW_TEST_ONNXRUNTIME);
     EXPECT_FALSE(openRuntime()->version().empty());
 }
 
-TEST(ModelLocationTest, ARuntimeThatIsNotALibraryIsABadInput) {
+TEST(ModelLocationTest, ARuntimeThatIsNotALibraryIsAnInputError) {
     const Environment runtime("HAPTOFLOW_ONNXRUNTIME", HAPTOFLOW_TEST_GOLDEN_DIR "/model/tiny.haptoflow");
     EXPECT_THAT(refusalOf([] { return openRuntime(); }), HasSubstr("tiny.haptoflow: cannot be loaded"));
 }
 
-TEST(ModelLocationTest, AModelThatIsRefusedIsABadInput) {
+TEST(ModelLocationTest, AModelThatIsRefusedIsAnInputError) {
     EXPECT_THAT(refusalOf([] { return readModel("/nowhere/a.haptoflow"); }), HasSubstr("no such file"));
 }
 

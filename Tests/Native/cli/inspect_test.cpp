@@ -21,7 +21,7 @@ using ::testing::HasSubstr;
 using testing::Finished;
 using testing::tinyModel;
 
-/// What `haptoflow inspect` answers; what it complains of is part of the output.
+/// The output of `haptoflow inspect`, including its errors.
 Finished inspect(const std::string& words) {
     Finished run = testing::runHaptoFlow("inspect " + words);
     run.output += run.errors;
@@ -33,7 +33,7 @@ std::string bytesOf(const std::string& path) {
     return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-/// A file in the temporary folder, gone with the test.
+/// A temporary file for one test.
 class ScratchFile {
 public:
     explicit ScratchFile(const std::string& content)
@@ -52,7 +52,7 @@ private:
     std::string path_;
 };
 
-TEST(InspectTest, ShowsProvenanceLabelsAndTiersInWords) {
+TEST(InspectTest, ProvenanceLabelsAndTiersAreShownAsText) {
     const Finished run = inspect(tinyModel);
     EXPECT_EQ(run.exitCode, 0) << run.output;
     for (const char* part :
@@ -62,7 +62,7 @@ TEST(InspectTest, ShowsProvenanceLabelsAndTiersInWords) {
     }
 }
 
-TEST(InspectTest, PrintsTheHeaderWithSizeAndChecksumAsJson) {
+TEST(InspectTest, TheHeaderIsPrintedWithSizeAndChecksumAsJson) {
     const Finished run = inspect(tinyModel + " --json");
     ASSERT_EQ(run.exitCode, 0) << run.output;
     const nlohmann::json report = nlohmann::json::parse(run.output);
@@ -73,13 +73,13 @@ TEST(InspectTest, PrintsTheHeaderWithSizeAndChecksumAsJson) {
     EXPECT_EQ(report["file"]["crc32"].get<std::string>().size(), 8U);
 }
 
-TEST(InspectTest, RefusesAMissingFileAndNamesIt) {
+TEST(InspectTest, AMissingFileIsRefusedByName) {
     const Finished run = inspect("/nowhere/a.haptoflow");
     EXPECT_EQ(run.exitCode, 3);
     EXPECT_THAT(run.output, HasSubstr("/nowhere/a.haptoflow: there is no such file"));
 }
 
-TEST(InspectTest, RefusesADamagedFileAndNamesTheChecksum) {
+TEST(InspectTest, ADamagedFileIsRefusedWithItsChecksum) {
     std::string content = bytesOf(tinyModel);
     ASSERT_GT(content.size(), 1000U);
     content[200] = static_cast<char>(content[200] ^ 4);
@@ -90,14 +90,14 @@ TEST(InspectTest, RefusesADamagedFileAndNamesTheChecksum) {
     EXPECT_THAT(run.output, HasSubstr("checksum at byte 24"));
 }
 
-TEST(InspectTest, RefusesAFileOfAnotherKind) {
+TEST(InspectTest, AFileOfAnotherKindIsRefused) {
     const ScratchFile file("RIFF....WAVEfmt and so on, long enough to be looked at");
     const Finished run = inspect(file.path());
     EXPECT_EQ(run.exitCode, 3);
     EXPECT_THAT(run.output, HasSubstr("not a .haptoflow file"));
 }
 
-TEST(InspectTest, RefusesToRunWithoutAFile) {
+TEST(InspectTest, ACallWithoutAFileIsRefused) {
     EXPECT_EQ(inspect("").exitCode, 2);
 }
 

@@ -1,4 +1,4 @@
-// `haptoflow learn`: recordings of every form become material files that render takes.
+// `haptoflow learn`: recordings of every format become material files that render uses.
 #include "command_line.hpp"
 
 #include "learning/made_recording.hpp"
@@ -34,7 +34,7 @@ constexpr double rateHz = 4000.0;
 
 class LearnCommandTest : public testing::CommandLineTest {
 protected:
-    /// time_s, acceleration_mps2, velocity and force of a made recording.
+    /// time_s, acceleration_mps2, velocity and force of a generated recording.
     [[nodiscard]] static std::string csvOf(
         const MadeRecording& made,
         const std::string& columns = "time_s,acceleration_mps2,velocity_x_mps,velocity_y_mps,force_newtons") {
@@ -55,7 +55,7 @@ protected:
         writer.close();
     }
 
-    /// On the tiny model, whose networks are quick.
+    /// Learns with the tiny model, whose networks are fast.
     [[nodiscard]] Finished learn(const std::string& words) const {
         return run("learn " + words + " --model '" + testing::tinyModel + "'");
     }
@@ -65,14 +65,14 @@ protected:
         const Finished finished = learn(words + " -o refused.haptomaterial");
         EXPECT_EQ(finished.exitCode, exitCode) << finished.errors;
         EXPECT_THAT(finished.errors, HasSubstr(said));
-        EXPECT_EQ(fileCount(), files) << "something was left behind";
+        EXPECT_EQ(fileCount(), files) << "a file remained";
     }
 
     const MadeRecording made_{{}, {}};
     const std::string csv_ = csvOf(made_);
 };
 
-TEST_F(LearnCommandTest, ATableBecomesAMaterialFileAndAReportOfTheSameBytesEachTime) {
+TEST_F(LearnCommandTest, ATableGivesAMaterialFileAndAReportWithEqualBytesEachTime) {
     write("denim.csv", csv_);
     const Finished first = learn("denim.csv --report denim.report.json --licence 'CC BY 4.0' --category fabric");
     ASSERT_EQ(first.exitCode, 0) << first.errors;
@@ -89,7 +89,7 @@ TEST_F(LearnCommandTest, ATableBecomesAMaterialFileAndAReportOfTheSameBytesEachT
     EXPECT_EQ(read("denim.haptomaterial"), before);
 }
 
-TEST_F(LearnCommandTest, OfRibsItSaysTheirDistanceAndByWhatAngleTheMaterialIsTurned) {
+TEST_F(LearnCommandTest, TheDistanceOfRibsAndTheAngleOfTheMaterialAreReported) {
     write("ribbed.csv", csvOf(MadeRecording({.ribs = {0.8, 0.45}, .ribShare = 0.5}, {})));
     const Finished finished = learn("ribbed.csv --report ribbed.report.json --quiet");
     ASSERT_EQ(finished.exitCode, 0) << finished.errors;
@@ -98,7 +98,7 @@ TEST_F(LearnCommandTest, OfRibsItSaysTheirDistanceAndByWhatAngleTheMaterialIsTur
     EXPECT_NEAR(nlohmann::json::parse(read("ribbed.report.json"))["turn_degrees"].get<double>(), 29.36, 1.0);
 }
 
-TEST_F(LearnCommandTest, AWavWithASidecarIsScaledAndNamedByIt) {
+TEST_F(LearnCommandTest, TheSidecarOfAWavScalesAndNamesIt) {
     writeWav("mat.wav", made_, 50.0F);
     write("mat.json", R"({"label": "Doormat", "full_scale_mps2": 50, "speed_mps": 0.08, "force_newtons": 0.8,
                           "licence": "CC0", "source": "our hall"})");
@@ -112,7 +112,7 @@ TEST_F(LearnCommandTest, AWavWithASidecarIsScaledAndNamedByIt) {
     EXPECT_DOUBLE_EQ(material.speedMps[1], 0.08);
 }
 
-TEST_F(LearnCommandTest, DefaultsOfTheFolderHoldWhereTheSidecarSaysNothingAndTheCommandLineHoldsBeforeBoth) {
+TEST_F(LearnCommandTest, TheCommandLineReplacesTheSidecarAndTheSidecarReplacesTheFoldersDefaults) {
     writeWav("mat.wav", made_, 50.0F);
     write("recordings.json", R"({"full_scale_mps2": 10, "velocity_mps": [0.0, 0.1], "force_newtons": 0.5})");
     write("mat.json", R"({"full_scale_mps2": 50, "speed_mps": 0.2})");
@@ -123,7 +123,7 @@ TEST_F(LearnCommandTest, DefaultsOfTheFolderHoldWhereTheSidecarSaysNothingAndThe
     EXPECT_DOUBLE_EQ(recording.constantForceNewtons, 1.5);
 }
 
-TEST_F(LearnCommandTest, PositionsOfASlowTrackerGiveTheSpeedAndUnevenTimesAreMadeEven) {
+TEST_F(LearnCommandTest, PositionsOfASlowTrackerGiveTheSpeedAndUnevenTimesAreResampled) {
     std::ostringstream text;
     text
         << "time_s,acceleration_x_g,acceleration_y_g,acceleration_z_g,position_x_mm,position_y_mm,force_millinewtons\n";
@@ -150,7 +150,7 @@ TEST_F(LearnCommandTest, PositionsOfASlowTrackerGiveTheSpeedAndUnevenTimesAreMad
                 0.3 * 9.80665 / std::numbers::sqrt2, 0.05);
 }
 
-TEST_F(LearnCommandTest, AMotionFileHasAClockOfItsOwn) {
+TEST_F(LearnCommandTest, AMotionFileHasItsOwnTimes) {
     write("felt.csv", csvOf(made_, "time_s,acceleration_mps2,a,b,c"));
     write("felt.json", R"({"motion": "felt.motion.csv"})");
     std::string motion = "time_s,speed_mmps,force_newtons\n";
@@ -165,7 +165,7 @@ TEST_F(LearnCommandTest, AMotionFileHasAClockOfItsOwn) {
     EXPECT_THAT(recording.notes[0], HasSubstr("columns a, b, c are not known and are ignored"));
 }
 
-TEST_F(LearnCommandTest, AGapInTheTimesAndCellsWithoutANumberAreNoNumbers) {
+TEST_F(LearnCommandTest, GapsInTheTimesAndCellsWithoutANumberAreMissingSamples) {
     std::ostringstream text;
     text << "time_s,acceleration_mps2,speed_mps,force_newtons\n";
     for (int i = 0; i < 20'000; ++i) {
@@ -180,7 +180,7 @@ TEST_F(LearnCommandTest, AGapInTheTimesAndCellsWithoutANumberAreNoNumbers) {
     EXPECT_FLOAT_EQ(recording.forceNewtons[4000], 1.0F);
 }
 
-TEST_F(LearnCommandTest, WhatIsWrongIsNamedWithFileColumnOrKeyAndARemedy) {
+TEST_F(LearnCommandTest, ErrorsNameTheFileTheColumnOrKeyAndARemedy) {
     expectRefused("none.csv", "none.csv: does not exist");
     write("table.parquet", "PAR1");
     expectRefused("table.parquet", "expected a recording that ends with .csv or .wav");
@@ -217,7 +217,7 @@ TEST_F(LearnCommandTest, WhatIsWrongIsNamedWithFileColumnOrKeyAndARemedy) {
     expectRefused("n.wav --full-scale-mps2 50", "n.wav: not read as WAV");
 }
 
-TEST_F(LearnCommandTest, UnitsThatTheNumbersContradictAreAskedFor) {
+TEST_F(LearnCommandTest, ErrorsForImplausibleNumbersSuggestAUnit) {
     MadeRecording fast = made_;
     std::ranges::transform(fast.velocity, fast.velocity.begin(), [](float value) { return 1000.0F * value; });
     write("fast.csv", csvOf(fast));
@@ -231,7 +231,7 @@ TEST_F(LearnCommandTest, UnitsThatTheNumbersContradictAreAskedFor) {
     expectRefused("g.csv", "acceleration_x rests at 1, which looks like g");
 }
 
-TEST_F(LearnCommandTest, WordsThatContradictTheFileAreWrongUsage) {
+TEST_F(LearnCommandTest, OptionsThatContradictTheFileAreUsageErrors) {
     write("denim.csv", csv_);
     expectRefused("denim.csv --speed-mps 0.1", "--speed-mps: denim.csv has a motion of its own", 2);
     expectRefused("denim.csv --force-newtons 1", "--force-newtons: denim.csv has a force of its own", 2);
@@ -241,7 +241,7 @@ TEST_F(LearnCommandTest, WordsThatContradictTheFileAreWrongUsage) {
     EXPECT_EQ(read("denim.csv"), csv_);
 }
 
-TEST_F(LearnCommandTest, HelpTeachesWithExamples) {
+TEST_F(LearnCommandTest, HelpGivesExamples) {
     const Finished help = run("learn --help");
     EXPECT_EQ(help.exitCode, 0);
     EXPECT_THAT(help.output, HasSubstr("haptoflow learn denim.csv -o denim.haptomaterial"));
@@ -270,14 +270,14 @@ std::vector<double> bandsOf(const std::vector<float>& wave) {
     return bands;
 }
 
-/// At 2 kHz, without its first and last 0.3 s.
+/// The wave at 2 kHz without its first and last 0.3 s.
 std::vector<float> middleAt2kHz(const std::vector<float>& wave, double waveRateHz) {
     const std::vector<double> all = learning::bandPassed(
         learning::resampledTo2kHz({.first = wave.data(), .stride = 1, .count = wave.size()}, waveRateHz));
     return {all.begin() + 600, all.end() - 600};
 }
 
-TEST_F(LearnCommandTest, WhatIsLearntSoundsAsItWasRecordedAtASpeedThatIsAskedFor) {
+TEST_F(LearnCommandTest, ALearntMaterialRendersLikeItsRecordingAtAGivenSpeed) {
     const MadeSurface surface{.levelAtReference = 2.0, .speedExponent = 0.8, .resonanceHz = 240.0};
     write("tile.csv", csvOf(MadeRecording(surface, {.seconds = 12.0})));
     const Finished learnt = run("learn tile.csv --quiet");
@@ -290,8 +290,8 @@ TEST_F(LearnCommandTest, WhatIsLearntSoundsAsItWasRecordedAtASpeedThatIsAskedFor
             "--rate 8000 --quiet");
     ASSERT_EQ(rendered.exitCode, 0) << rendered.errors;
 
-    // The truth: the same surface at 90 mm/s, but for its force, which swings there by half.
-    const MadeRecording truth(surface, {.seconds = 12.0, .slowestMps = 0.09, .fastestMps = 0.09}, rateHz, 99);
+    // The reference: the same surface at 90 mm/s; only its force varies by half.
+    const MadeRecording truth(surface, {.seconds = 12.0, .minimumSpeedMps = 0.09, .maximumSpeedMps = 0.09}, rateHz, 99);
     std::vector<float> heard = readRecording(at("tile.wav").string()).samples;
     std::ranges::transform(heard, heard.begin(), [](float value) { return 200.0F * value; });
     const std::vector<double> found = bandsOf(middleAt2kHz(heard, 8000.0));

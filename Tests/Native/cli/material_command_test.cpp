@@ -10,7 +10,7 @@
 #include <functional>
 #include <string>
 
-// Materials beside the model: in scenes, by --material, and in inspect.
+// Material files in scenes, with --material, and in inspect.
 
 namespace haptoflow::cli {
 namespace {
@@ -61,7 +61,7 @@ protected:
     std::string space_;
 };
 
-TEST_F(MaterialCommandTest, ASceneNamesAMaterialFileByItsPathBesideTheSceneWhereverTheUserStands) {
+TEST_F(MaterialCommandTest, AMaterialPathInASceneIsRelativeToTheScene) {
     writeScene("denim.haptomaterial");
     const json report = rendered();
     EXPECT_GT(report.at("rms_mps2").get<double>(), 0.01);
@@ -75,19 +75,19 @@ TEST_F(MaterialCommandTest, ASceneNamesAMaterialFileByItsPathBesideTheSceneWhere
     EXPECT_EQ(read("again.wav"), read("felt.wav"));
 }
 
-TEST_F(MaterialCommandTest, AMaterialFileIsAKeyOfABlend) {
+TEST_F(MaterialCommandTest, AMaterialFileCanBeAKeyOfABlend) {
     writeScene({{"denim.haptomaterial", 0.5}, {"wood", 0.5}});
     EXPECT_GT(rendered().at("rms_mps2").get<double>(), 0.01);
 }
 
-TEST_F(MaterialCommandTest, TheNameOfAMaterialGivenBesideTheSceneCountsAsALabel) {
+TEST_F(MaterialCommandTest, TheNameOfAMaterialOnTheCommandLineCountsAsALabel) {
     writeMaterial("second.haptomaterial", [](json& material) { material["name"] = "canvas"; });
     writeScene("denim");
     (void)rendered("--material second.haptomaterial --material denim.haptomaterial");
     const std::string byName = read("felt.wav");
     writeScene("denim.haptomaterial");
     (void)rendered();
-    EXPECT_EQ(read("felt.wav"), byName) << "the same material, whoever names it";
+    EXPECT_EQ(read("felt.wav"), byName) << "the same material by each name";
     const Finished contact = run("contact scene.json --stroke stroke.csv --material denim.haptomaterial");
     EXPECT_EQ(contact.exitCode, 0) << contact.errors;
 }
@@ -100,7 +100,7 @@ TEST_F(MaterialCommandTest, TheStiffnessOfAMaterialIsThatOfItsSurface) {
     EXPECT_NE(forces(), soft);
 }
 
-TEST_F(MaterialCommandTest, WhatIsNotAUsableMaterialIsRefusedWithSceneSurfaceFileAndKey) {
+TEST_F(MaterialCommandTest, AnUnusableMaterialIsRefusedWithSceneSurfaceFileAndKey) {
     writeScene("corduroi.haptomaterial");
     expectRefused("", 3, "scene.json: surface 'floor': corduroi.haptomaterial: there is no such file");
     writeMaterial("broken.haptomaterial", [](json& material) { material["tone"]["gains_db"].erase(0); });
@@ -117,13 +117,13 @@ TEST_F(MaterialCommandTest, WhatIsNotAUsableMaterialIsRefusedWithSceneSurfaceFil
     expectRefused("--material nowhere.haptomaterial", 3, "nowhere.haptomaterial: there is no such file");
 }
 
-TEST_F(MaterialCommandTest, SpatialScaleAndToneOfASurfaceAreHeardAndTheirRangesAreSaid) {
+TEST_F(MaterialCommandTest, SpatialScaleAndToneOfASurfaceAreRenderedAndTheirRangesAreNamed) {
     writeScene("corduroy");
     (void)rendered();
     const std::string plain = read("felt.wav");
     writeScene("corduroy", {{"spatial_scale", 1.0}, {"tone_db_per_octave", 0.0}});
     (void)rendered();
-    EXPECT_EQ(read("felt.wav"), plain) << "a scale of 1 and no tilt are nothing";
+    EXPECT_EQ(read("felt.wav"), plain) << "a scale of 1 and no tilt change nothing";
     writeScene("corduroy", {{"spatial_scale", 2.0}});
     (void)rendered();
     EXPECT_NE(read("felt.wav"), plain);
@@ -136,7 +136,7 @@ TEST_F(MaterialCommandTest, SpatialScaleAndToneOfASurfaceAreHeardAndTheirRangesA
     expectRefused("", 3, "surfaces[0].tone_db_per_octave: expected dB from -12 to 12");
 }
 
-TEST_F(MaterialCommandTest, InspectSaysWhatAMaterialFileIs) {
+TEST_F(MaterialCommandTest, InspectShowsAMaterialFile) {
     const Finished shown = run("inspect denim.haptomaterial");
     EXPECT_EQ(shown.exitCode, 0) << shown.errors;
     EXPECT_THAT(shown.output, AllOf(HasSubstr("denim"), HasSubstr(space_), HasSubstr("10.5 s"),

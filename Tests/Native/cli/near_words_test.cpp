@@ -14,7 +14,7 @@ using ::testing::ElementsAre;
 
 const std::vector<std::string> labels{"wood", "plywood", "stone", "metal", "metal mesh", "fur", "rubber"};
 
-TEST(NearWordsTest, ALetterTooManyTooFewWrongOrSwappedIsOneApart) {
+TEST(NearWordsTest, AnAddedMissingWrongOrSwappedLetterIsADistanceOfOne) {
     EXPECT_EQ(lettersApart("wood", "wood"), 0U);
     EXPECT_EQ(lettersApart("wod", "wood"), 1U);
     EXPECT_EQ(lettersApart("woood", "wood"), 1U);
@@ -25,12 +25,12 @@ TEST(NearWordsTest, ALetterTooManyTooFewWrongOrSwappedIsOneApart) {
     EXPECT_EQ(lettersApart("stone", "metal"), lettersApart("metal", "stone"));
 }
 
-TEST(NearWordsTest, CapitalsUnderscoresAndHyphensDoNotCount) {
+TEST(NearWordsTest, CapitalsUnderscoresAndHyphensAreIgnored) {
     EXPECT_EQ(lettersApart("Metal_Mesh", "metal mesh"), 0U);
     EXPECT_EQ(lettersApart("METAL-MESH", "metal mesh"), 0U);
 }
 
-TEST(NearWordsTest, TheNearestComesFirstAndOfEquallyNearOnesTheOneThatHoldsTheWord) {
+TEST(NearWordsTest, TheNearestIsFirstAndAmongEquallyNearOnesTheOneThatContainsTheWord) {
     EXPECT_THAT(nearestWords("wod", labels, 3), ElementsAre("wood", "fur", "plywood"));
     EXPECT_THAT(nearestWords("Wood", labels, 1), ElementsAre("wood"));
     EXPECT_THAT(nearestWords("mesh", std::array<std::string, 2>{"carpeting", "mesh wire"}, 2),
@@ -39,11 +39,11 @@ TEST(NearWordsTest, TheNearestComesFirstAndOfEquallyNearOnesTheOneThatHoldsTheWo
     EXPECT_THAT(nearestWords("wood", {}, 3), ElementsAre());
 }
 
-TEST(NearWordsTest, AWordThatIsFarFromAllMeansNone) {
-    EXPECT_EQ(meantWord("stoen", labels), "stone");
-    EXPECT_EQ(meantWord("xylophone", labels), "");
-    EXPECT_EQ(meantWord("", labels), "");
-    EXPECT_EQ(meantWord("wood", {}), "");
+TEST(NearWordsTest, AWordThatIsFarFromAllHasNoSuggestion) {
+    EXPECT_EQ(likelyWord("stoen", labels), "stone");
+    EXPECT_EQ(likelyWord("xylophone", labels), "");
+    EXPECT_EQ(likelyWord("", labels), "");
+    EXPECT_EQ(likelyWord("wood", {}), "");
 }
 
 TEST(NearWordsTest, TheQuestionListsTheWords) {

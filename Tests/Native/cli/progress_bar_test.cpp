@@ -9,7 +9,7 @@
 namespace haptoflow::cli {
 namespace {
 
-TEST(ProgressTest, WithoutATerminalALineIsSaidEachTenSeconds) {
+TEST(ProgressTest, WithoutATerminalALineIsPrintedEveryTenSeconds) {
     double nowSeconds = 100.0;
     std::vector<std::string> lines;
     const ProgressBar bar = progressLines(
@@ -21,7 +21,7 @@ TEST(ProgressTest, WithoutATerminalALineIsSaidEachTenSeconds) {
     EXPECT_THAT(lines, ::testing::ElementsAre("render: 20 %", "render: 40 %", "render: 60 %", "render: 80 %"));
 }
 
-TEST(ProgressTest, AShortRunSaysNothing) {
+TEST(ProgressTest, AShortRunPrintsNothing) {
     double nowSeconds = 0.0;
     const ProgressBar bar = progressLines(
         "render", [&nowSeconds] { return nowSeconds; }, [](const std::string& line) { ADD_FAILURE() << line; });

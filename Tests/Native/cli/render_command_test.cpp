@@ -39,7 +39,7 @@ protected:
         return rendered.exitCode == 0 ? nlohmann::json::parse(read("felt.json")) : nlohmann::json::object();
     }
 
-    /// That the words are refused as wrong usage, with such words in the message, and leave nothing behind.
+    /// Expects a usage error with this text in the message and no output file.
     void expectUsage(const std::string& words, const std::string& message) const {
         const std::size_t before = fileCount();
         const Finished rendered = render(words);
@@ -49,7 +49,7 @@ protected:
     }
 };
 
-TEST_F(RenderCommandTest, AnOutputThatIsAnInputIsRefusedByWhateverNameAndTheInputStaysAsItWas) {
+TEST_F(RenderCommandTest, AnOutputThatIsAnInputIsRefusedUnderAnyNameAndTheInputStaysUnchanged) {
     fs::create_symlink(at("scene.json"), at("link.wav"));
     fs::create_hard_link(at("stroke.csv"), at("other name.wav"));
     fs::copy_file(tinyModel, at("model.wav"));
@@ -67,8 +67,8 @@ TEST_F(RenderCommandTest, AnOutputThatIsAnInputIsRefusedByWhateverNameAndTheInpu
     EXPECT_EQ(fs::file_size(at("model.wav")), fs::file_size(tinyModel));
 }
 
-TEST_F(RenderCommandTest, AModelWhoseGraphsCannotBeLoadedIsABadInputFileNamedByTierAndGraph) {
-    // Whole by its checksums, and without a graph that ONNX Runtime could run.
+TEST_F(RenderCommandTest, AModelWhoseGraphsCannotBeLoadedIsAnInputErrorWithTierAndGraph) {
+    // The checksums are correct, but ONNX Runtime could run none of the graphs.
     const std::vector<std::byte> bytes = model::testing::ModelBuilder{}.build();
     write("broken.haptoflow", {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     write("oak.json", R"({"surfaces": [{"name": "floor", "shape": {"plane": {}}, "material": "oak"}]})");
@@ -78,14 +78,14 @@ TEST_F(RenderCommandTest, AModelWhoseGraphsCannotBeLoadedIsABadInputFileNamedByT
     EXPECT_FALSE(exists("felt.wav"));
 }
 
-TEST_F(RenderCommandTest, TwoOutputsOfOneNameAreRefused) {
+TEST_F(RenderCommandTest, TwoOutputsWithOneNameAreRefused) {
     expectUsage("-o felt.wav --waveform felt.wav", "is the same file as --waveform");
     expectUsage("-o felt.wav --report ./felt.wav", "is the same file as --report");
     fs::create_symlink("felt.wav", at("link.wav"));
     expectUsage("-o felt.wav --waveform link.wav", "is the same file as --waveform");
 }
 
-TEST_F(RenderCommandTest, ALinkIsFollowedAndStays) {
+TEST_F(RenderCommandTest, ALinkIsFollowedAndKept) {
     write("target.wav", "old");
     fs::create_symlink("target.wav", at("link.wav"));
     fs::create_symlink("to come.wav", at("dangling.wav"));
@@ -104,7 +104,7 @@ TEST_F(RenderCommandTest, ALinkToADeviceStaysALink) {
     EXPECT_TRUE(fs::is_character_file(at("nowhere.wav")));
 }
 
-TEST_F(RenderCommandTest, APipeIsWrittenToAndStaysAPipe) {
+TEST_F(RenderCommandTest, APipeIsWrittenAndStaysAPipe) {
     ASSERT_EQ(render("-o felt.wav").exitCode, 0);
     ASSERT_EQ(mkfifo(at("pipe").c_str(), 0600), 0);
     const Finished piped = testing::runHaptoFlow("render scene.json --stroke stroke.csv -o pipe; wait",
@@ -113,7 +113,7 @@ TEST_F(RenderCommandTest, APipeIsWrittenToAndStaysAPipe) {
     EXPECT_TRUE(fs::is_fifo(at("pipe")));
 }
 
-TEST_F(RenderCommandTest, StandardOutputTakesTheWaveFile) {
+TEST_F(RenderCommandTest, TheWaveFileCanBeWrittenToStandardOutput) {
     ASSERT_EQ(render("-o felt.wav").exitCode, 0);
     EXPECT_TRUE(render("-o /dev/stdout").output == read("felt.wav"));
 }
@@ -126,7 +126,7 @@ TEST_F(RenderCommandTest, AnOlderFileIsReplacedWithItsPermissions) {
     EXPECT_EQ(fs::status(at("felt.wav")).permissions(), fs::perms::owner_read | fs::perms::owner_write);
 }
 
-TEST_F(RenderCommandTest, ARenderThatFailsLeavesNothingBehindAndTheOldFileAsItWas) {
+TEST_F(RenderCommandTest, ARenderThatFailsLeavesNoFileAndTheOldOneUnchanged) {
     write("felt.wav", "old");
     write("felt.wav.part", "somebody else's");
     const std::size_t before = fileCount();
@@ -139,7 +139,7 @@ TEST_F(RenderCommandTest, ARenderThatFailsLeavesNothingBehindAndTheOldFileAsItWa
     EXPECT_EQ(read("felt.wav.part"), "somebody else's");
 }
 
-TEST_F(RenderCommandTest, ARenderThatIsStoppedLeavesNothingBehind) {
+TEST_F(RenderCommandTest, ARenderThatIsStoppedLeavesNoFile) {
     write("stroke.csv", "t,x,y,z\n0,0,0.5,0\n9000,0.03,0.5,0\n");
     const std::size_t before = fileCount();
     const Finished stopped = testing::runHaptoFlow(
@@ -151,7 +151,7 @@ TEST_F(RenderCommandTest, ARenderThatIsStoppedLeavesNothingBehind) {
     EXPECT_EQ(fileCount(), before);
 }
 
-TEST_F(RenderCommandTest, AFolderInPlaceOfAFileIsABadInput) {
+TEST_F(RenderCommandTest, AFolderInPlaceOfAFileIsAnInputError) {
     fs::create_directory(at("folder"));
     for (const char* words :
          {"render folder --stroke stroke.csv -o felt.wav", "render scene.json --stroke folder -o felt.wav",
@@ -164,7 +164,7 @@ TEST_F(RenderCommandTest, AFolderInPlaceOfAFileIsABadInput) {
     }
 }
 
-TEST_F(RenderCommandTest, NumbersThatAreNoneOrOutOfRangeAreUsage) {
+TEST_F(RenderCommandTest, InvalidNumbersAndNumbersOutOfRangeAreUsageErrors) {
     for (const char* option : {"--rate", "--full-scale", "--lead-ms"}) {
         for (const char* value : {"nan", "-nan", "NaN", "inf", "-1", "1e400", "0x10000", "12,5", "wood"}) {
             expectUsage(std::string("-o felt.wav ") + option + "=" + value, std::string(option) + ": expected a");
@@ -177,7 +177,7 @@ TEST_F(RenderCommandTest, NumbersThatAreNoneOrOutOfRangeAreUsage) {
     }
 }
 
-TEST_F(RenderCommandTest, ASeedIsTakenAsItIsOrRefused) {
+TEST_F(RenderCommandTest, ASeedIsUsedExactlyOrRefused) {
     for (const char* seed : {"-1", "18446744073709551616", "99999999999999999999999", "1e3", "0x10", "1.5", "+1"}) {
         expectUsage(std::string("-o felt.wav --seed=") + seed, "--seed: expected a whole number from 0 to");
     }
@@ -188,14 +188,14 @@ TEST_F(RenderCommandTest, ASeedIsTakenAsItIsOrRefused) {
     EXPECT_TRUE(read("largest.wav") != read("ten.wav"));
 }
 
-TEST_F(RenderCommandTest, AnotherKindOfSoundFileThanWavIsRefusedWithTheNameThatWouldDo) {
+TEST_F(RenderCommandTest, ASoundFileOtherThanWavIsRefusedWithAValidName) {
     expectUsage("-o felt.mp3", "only WAV is written, not '.mp3'; did you mean felt.wav?");
     expectUsage("-o felt.wav --waveform raw.flac", "did you mean raw.wav?");
     EXPECT_EQ(render("-o FELT.WAV").exitCode, 0);
     EXPECT_EQ(render("-o felt").exitCode, 0);
 }
 
-TEST_F(RenderCommandTest, AMisspeltCommandOptionOrQualityNamesTheOneThatWasMeant) {
+TEST_F(RenderCommandTest, AMisspeltCommandOptionOrQualityIsRefusedWithASuggestion) {
     const Finished command = run("redner scene.json --stroke stroke.csv -o felt.wav");
     EXPECT_EQ(command.exitCode, 2);
     EXPECT_THAT(command.errors, HasSubstr("there is no command 'redner'; did you mean 'render'?"));
@@ -208,7 +208,7 @@ TEST_F(RenderCommandTest, AMisspeltCommandOptionOrQualityNamesTheOneThatWasMeant
     expectUsage("-o felt.wav --quality Standart", "did you mean 'standard'? This model has draft, standard");
 }
 
-TEST_F(RenderCommandTest, AnUnknownLabelNamesTheNearestThreeAndWhereAllAreListed) {
+TEST_F(RenderCommandTest, AnUnknownLabelIsRefusedWithTheNearestThreeAndTheListOfAll) {
     for (const auto& [written, meant] : {std::pair{"wod", "'wood'"},
                                          {"Wood", "'wood'"},
                                          {"metal_mesh", "'metal mesh'"},
@@ -228,7 +228,7 @@ TEST_F(RenderCommandTest, AnUnknownLabelNamesTheNearestThreeAndWhereAllAreListed
     EXPECT_FALSE(exists("felt.wav"));
 }
 
-TEST_F(RenderCommandTest, SolverAndStepsAreRefusedWhereTheTierIsEvaluatedOnce) {
+TEST_F(RenderCommandTest, SolverAndStepsAreRefusedForATierThatIsEvaluatedOnce) {
     expectUsage("-o felt.wav --solver midpoint --steps 4",
                 "--solver and --steps have no effect on the tier 'standard', which is evaluated once");
     expectUsage("-o felt.wav --quality draft --solver euler --steps 1", "no effect on the tier 'draft'");
@@ -238,7 +238,7 @@ TEST_F(RenderCommandTest, SolverAndStepsAreRefusedWhereTheTierIsEvaluatedOnce) {
     EXPECT_TRUE(report["steps"].is_null());
 }
 
-TEST_F(RenderCommandTest, TheReportSaysTheSolverThatTheTierObeyed) {
+TEST_F(RenderCommandTest, TheReportNamesTheSolverThatWasUsed) {
     write("scene.json", R"({"surfaces": [{"name": "floor", "shape": {"plane": {}}, "material": "plain"}]})");
     const std::string tiny = "--model '" + tinyModel + "' ";
     const nlohmann::json own = reportOf(tiny);
@@ -255,7 +255,7 @@ TEST_F(RenderCommandTest, TheReportSaysTheSolverThatTheTierObeyed) {
     EXPECT_EQ(average["steps"], 3);
 }
 
-TEST_F(RenderCommandTest, AStrokeThatNeverTouchesSaysSo) {
+TEST_F(RenderCommandTest, AStrokeThatNeverTouchesGivesANote) {
     write("stroke.csv", "t,x,y,z\n0,0,0.5,0\n0.3,0.03,0.5,0\n");
     const Finished rendered = render("-o felt.wav --report felt.json");
     EXPECT_EQ(rendered.exitCode, 0);
@@ -264,7 +264,7 @@ TEST_F(RenderCommandTest, AStrokeThatNeverTouchesSaysSo) {
     EXPECT_EQ(nlohmann::json::parse(read("felt.json"))["touches"], 0);
 }
 
-TEST_F(RenderCommandTest, TapsThatMakeNoSoundAreCountedAndSaidAndASlideIsNot) {
+TEST_F(RenderCommandTest, SilentTapsAreCountedInANoteAndSlidesAreNot) {
     write("stroke.csv",
           "t,x,y,z\n0,0,0.01,0\n0.1,0,0.0005,0\n0.2,0,0.0005,0\n0.3,0,0.01,0\n"
           "0.4,0,0.0005,0\n0.5,0,0.0005,0\n0.6,0,0.01,0\n0.7,0,0.0005,0\n1.0,0.05,0.0005,0\n1.1,0.05,0.01,0\n");
@@ -276,7 +276,7 @@ TEST_F(RenderCommandTest, TapsThatMakeNoSoundAreCountedAndSaidAndASlideIsNot) {
     EXPECT_EQ(report["missed_touches"], 0);
 }
 
-TEST_F(RenderCommandTest, TapsBetweenTwoFramesAreCountedAndSaid) {
+TEST_F(RenderCommandTest, TapsBetweenTwoFramesAreCountedInANote) {
     write("scene.json",
           R"({"surfaces": [{"name": "floor", "shape": {"plane": {}}, "material": "wood"}], "update_rate": 10})");
     write("stroke.csv",
@@ -292,7 +292,7 @@ TEST_F(RenderCommandTest, AnOrdinaryStrokeIsRenderedWithoutANote) {
     EXPECT_EQ(rendered.errors, "");
 }
 
-TEST_F(RenderCommandTest, AStrokeThatNoWaveFileCouldHoldIsRefusedBeforeRendering) {
+TEST_F(RenderCommandTest, AStrokeTooLongForAWaveFileIsRefusedBeforeRendering) {
     write("scene.json",
           R"({"surfaces": [{"name": "floor", "shape": {"plane": {}}, "material": "wood"}], "update_rate": 1})");
     write("stroke.csv", "t,x,y,z\n0,0,0.5,0\n100000,0.03,0.5,0\n");
@@ -303,7 +303,7 @@ TEST_F(RenderCommandTest, AStrokeThatNoWaveFileCouldHoldIsRefusedBeforeRendering
     EXPECT_FALSE(exists("felt.wav"));
 }
 
-/// Peak memory in KiB of a render in a process of its own.
+/// Peak memory in KiB of a render in its own process.
 long peakKibibytes(const fs::path& folder, const std::vector<std::string>& words) {
     const pid_t child = fork();
     if (child == 0) {

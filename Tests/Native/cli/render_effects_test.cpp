@@ -43,18 +43,18 @@ protected:
     }
 };
 
-TEST_F(RenderEffectsTest, ATapIsSilentUnlessItsImpactIsAskedFor) {
+TEST_F(RenderEffectsTest, ATapIsSilentUnlessItsImpactIsRequested) {
     const nlohmann::json texture = reportOf("--stroke taps.csv -o plain.wav");
     EXPECT_EQ(texture.at("effects"), nlohmann::json::object());
     EXPECT_LT(texture.at("peak").get<double>(), 1e-3);
     const nlohmann::json impact = reportOf("--stroke taps.csv -o struck.wav --effects texture,impact,edge");
     EXPECT_EQ(impact.at("effects").at("impact").at("events"), 3);
     EXPECT_GT(impact.at("effects").at("impact").at("samples"), 1000);
-    EXPECT_FALSE(impact.at("effects").contains("edge")) << "an effect without an event never ran";
+    EXPECT_FALSE(impact.at("effects").contains("edge")) << "an effect without an event does not run";
     EXPECT_GT(impact.at("peak").get<double>(), 0.02);
 }
 
-TEST_F(RenderEffectsTest, AskingForTheTextureAloneGivesTheSameBytesAsAskingForNothing) {
+TEST_F(RenderEffectsTest, RequestingTheTextureAloneGivesTheSameBytesAsTheDefault) {
     ASSERT_EQ(run("render scene.json --stroke stroke.csv -o plain.wav").exitCode, 0);
     ASSERT_EQ(run("render scene.json --stroke stroke.csv -o asked.wav --effects texture").exitCode, 0);
     EXPECT_EQ(read("plain.wav"), read("asked.wav"));
@@ -62,7 +62,7 @@ TEST_F(RenderEffectsTest, AskingForTheTextureAloneGivesTheSameBytesAsAskingForNo
     EXPECT_EQ(read("plain.wav"), read("flat.wav")) << "a flat actuator needs no compensation";
 }
 
-TEST_F(RenderEffectsTest, ALastLandingRingsToItsEnd) {
+TEST_F(RenderEffectsTest, TheLastImpactIsRenderedToItsEnd) {
     write("last.csv", "t,x,y,z\n0,0,0.021,0\n0.0525,0,0,0\n0.06,0,0,0\n0.1,0,0.03,0\n");
     ASSERT_EQ(run("render scene.json --stroke last.csv -o struck.wav --effects impact").exitCode, 0);
     const std::vector<float> samples = wave("struck.wav");
@@ -70,7 +70,7 @@ TEST_F(RenderEffectsTest, ALastLandingRingsToItsEnd) {
     EXPECT_LT(std::abs(samples.back()), 1e-5F);
 }
 
-TEST_F(RenderEffectsTest, ADelayedRenderIsTheSameLater) {
+TEST_F(RenderEffectsTest, ADelayedRenderEqualsTheOriginalShiftedInTime) {
     ASSERT_EQ(run("render scene.json --stroke stroke.csv -o plain.wav").exitCode, 0);
     ASSERT_EQ(run("render scene.json --stroke stroke.csv -o late.wav --delay-ms 100").exitCode, 0);
     const std::vector<float> plain = wave("plain.wav");
@@ -80,18 +80,18 @@ TEST_F(RenderEffectsTest, ADelayedRenderIsTheSameLater) {
     for (std::size_t i = 0; i + 4800 < late.size() && i < plain.size(); ++i) {
         difference = std::max(difference, std::abs(static_cast<double>(late[i + 4800] - plain[i])));
     }
-    // The delay stands before the limiter's look-ahead and the gates, which open and close on either side of it.
+    // The delay is before the limiter's look-ahead and the gates, which open and close at other samples.
     EXPECT_LT(difference, 0.02 * static_cast<double>(std::ranges::max(plain)));
 }
 
-TEST_F(RenderEffectsTest, AVoiceCoilIsCompensatedForAndTheReportSaysSo) {
+TEST_F(RenderEffectsTest, AVoiceCoilIsCompensatedAndReported) {
     const nlohmann::json report = reportOf("--stroke stroke.csv -o coil.wav --actuator voice-coil");
     EXPECT_GT(report.at("effects").at("compensation").at("samples"), 10000);
     ASSERT_EQ(run("render scene.json --stroke stroke.csv -o plain.wav").exitCode, 0);
     EXPECT_NE(read("coil.wav"), read("plain.wav"));
 }
 
-TEST_F(RenderEffectsTest, AJsonOutputHoldsAFrameEveryFiveMillisecondsAndNeedsNoWav) {
+TEST_F(RenderEffectsTest, AJsonOutputHasAFrameEveryFiveMillisecondsAndNeedsNoWav) {
     ASSERT_EQ(run("render scene.json --stroke taps.csv -o motor.json --effects impact").exitCode, 0);
     EXPECT_FALSE(exists("felt.wav"));
     const nlohmann::json motor = nlohmann::json::parse(read("motor.json"));
@@ -112,7 +112,7 @@ TEST_F(RenderEffectsTest, AJsonOutputHoldsAFrameEveryFiveMillisecondsAndNeedsNoW
     }
 }
 
-TEST_F(RenderEffectsTest, TheFramesSayHowFarTheirIntensityIsFromTheWaves) {
+TEST_F(RenderEffectsTest, TheFramesReportTheErrorOfTheirIntensity) {
     ASSERT_EQ(run("render scene.json --stroke stroke.csv -o motor.json").exitCode, 0);
     const nlohmann::json errors = nlohmann::json::parse(read("motor.json")).at("intensity_error_db");
     for (const char* played : {"frames", "motor_160_hz"}) {
@@ -131,7 +131,7 @@ TEST_F(RenderEffectsTest, BothKindsOfOutputAreWrittenByOneRender) {
     EXPECT_TRUE(exists("motor.json"));
 }
 
-TEST_F(RenderEffectsTest, WrongWordsAreRefusedByNameAndLeaveNothingBehind) {
+TEST_F(RenderEffectsTest, WrongOptionsAreRefusedByNameAndLeaveNoFile) {
     const std::size_t before = fileCount();
     const auto expectError = [this](int exitCode, const std::string& words, const std::string& message) {
         const Finished rendered = run("render scene.json --stroke stroke.csv " + words);

@@ -35,7 +35,7 @@ json goodScene() {
         "stylus": {"tip_radius": 0.002}, "update_rate": 120})");
 }
 
-/// What the reader says about the good scene after `change`.
+/// The reader's error for the valid scene after `change`.
 template <typename Change>
 std::string complaintAfter(Change&& change) {
     json document = goodScene();
@@ -90,39 +90,39 @@ std::string documentation(const std::string& name) {
     return readText(std::filesystem::path(HAPTOFLOW_TEST_DOCUMENTATION_DIR) / name);
 }
 
-TEST(SceneFileTest, EveryKeyOfASceneArrives) {
-    const contact::Scene scene = parseScene(goodScene(), "scene.json");
+TEST(SceneFileTest, EveryKeyOfASceneIsRead) {
+    const headless::Scene scene = parseScene(goodScene(), "scene.json");
     ASSERT_EQ(scene.surfaces.size(), 5U);
     EXPECT_DOUBLE_EQ(scene.tipRadiusMetres, 0.002);
     EXPECT_DOUBLE_EQ(scene.updateRateHz, 120.0);
-    const contact::Surface& desk = scene.surfaces[0];
+    const headless::SceneSurface& desk = scene.surfaces[0];
     EXPECT_EQ(desk.name, "desk");
-    EXPECT_EQ(std::get<contact::Box>(desk.shape).sizeMetres, glm::dvec3(0.4, 0.02, 0.3));
+    EXPECT_EQ(std::get<headless::Box>(desk.shape).sizeMetres, glm::dvec3(0.4, 0.02, 0.3));
     EXPECT_EQ(desk.pose.positionMetres, glm::dvec3(0.1, 0.2, 0.3));
     EXPECT_EQ(desk.pose.rotation, glm::dquat(1.0, 0.0, 0.0, 0.0));
     EXPECT_EQ(desk.grain, glm::dvec3(0.0, 0.0, 1.0));
     EXPECT_DOUBLE_EQ(desk.stiffnessNewtonsPerMetre.value_or(0.0), 800.0);
     EXPECT_EQ(desk.material, (std::vector<std::pair<std::string, double>>{{"wood", 1.0}}));
-    const contact::Surface& ball = scene.surfaces[1];
+    const headless::SceneSurface& ball = scene.surfaces[1];
     EXPECT_EQ(ball.material, (std::vector<std::pair<std::string, double>>{{"cork", 0.75}, {"wood", 0.25}}));
     ASSERT_TRUE(ball.motion);
     EXPECT_TRUE(ball.motion->loops());
     EXPECT_DOUBLE_EQ(ball.motion->poseAt(0.5).positionMetres.x, 0.5);
     EXPECT_FALSE(ball.stiffnessNewtonsPerMetre);
-    EXPECT_DOUBLE_EQ(std::get<contact::Capsule>(scene.surfaces[2].shape).heightMetres, 0.1);
-    EXPECT_FALSE(std::get<std::shared_ptr<const contact::TriangleMesh>>(scene.surfaces[4].shape)->isClosed());
+    EXPECT_DOUBLE_EQ(std::get<headless::Capsule>(scene.surfaces[2].shape).heightMetres, 0.1);
+    EXPECT_FALSE(std::get<std::shared_ptr<const headless::TriangleMesh>>(scene.surfaces[4].shape)->isClosed());
 }
 
 TEST(SceneFileTest, StylusAndUpdateRateHaveDefaults) {
     json document = goodScene();
     document.erase("stylus");
     document.erase("update_rate");
-    const contact::Scene scene = parseScene(document, "scene.json");
+    const headless::Scene scene = parseScene(document, "scene.json");
     EXPECT_DOUBLE_EQ(scene.tipRadiusMetres, 0.001);
     EXPECT_DOUBLE_EQ(scene.updateRateHz, 90.0);
 }
 
-TEST(SceneFileTest, WrongValuesAreNamedByFilePathAndExpectation) {
+TEST(SceneFileTest, ErrorsForWrongValuesNameFilePathAndExpectedValue) {
     const std::vector<std::tuple<std::string, json, std::string, std::string>> mistakes{
         {"/surfaces/0/shape/box/size", {0.4, 0.0, 0.3}, "surfaces[0].shape.box.size", "edge lengths"},
         {"/surfaces/0/shape/box/size", {0.4, -0.1, 0.3}, "surfaces[0].shape.box.size", "edge lengths"},
@@ -139,7 +139,7 @@ TEST(SceneFileTest, WrongValuesAreNamedByFilePathAndExpectation) {
         {"/surfaces/0/grain", {0, 0, 0}, "surfaces[0].grain", "direction"},
         {"/surfaces/0/stiffness", -1, "surfaces[0].stiffness", "N/m"},
         {"/surfaces/0/name", "", "surfaces[0].name", "a name"},
-        {"/surfaces/1/name", "desk", "surfaces[1].name", "no other surface"},
+        {"/surfaces/1/name", "desk", "surfaces[1].name", "all other surfaces"},
         {"/surfaces/0/material", 3, "surfaces[0].material", "a label"},
         {"/surfaces/0/material", {{"wood", -1}}, "surfaces[0].material.wood", "weight"},
         {"/surfaces/0/material", {{"wood", 0}}, "surfaces[0].material", "above 0"},
@@ -170,7 +170,7 @@ TEST(SceneFileTest, WrongValuesAreNamedByFilePathAndExpectation) {
     }
 }
 
-TEST(SceneFileTest, UnknownAndMissingKeysAreNamedWithTheKnownOnes) {
+TEST(SceneFileTest, ErrorsForUnknownAndMissingKeysNameTheKnownOnes) {
     EXPECT_THAT(complaintAbout("/surfaces/0/colour", "red"),
                 AllOf(HasSubstr("surfaces[0]: unknown key \"colour\""), HasSubstr("material, stiffness")));
     EXPECT_THAT(complaintAbout("/surfaces/0/shape/box/radius", 1), HasSubstr("surfaces[0].shape.box: unknown key"));
@@ -182,7 +182,7 @@ TEST(SceneFileTest, UnknownAndMissingKeysAreNamedWithTheKnownOnes) {
     EXPECT_THAT(complaintAfter([](json& document) { document = json::array(); }), HasSubstr("top level: expected"));
 }
 
-TEST(SceneFileTest, BrokenJsonIsNamedByLineAndColumn) {
+TEST(SceneFileTest, ErrorsForInvalidJsonNameLineAndColumn) {
     EXPECT_THAT(complaintAboutText("{\n  \"surfaces\": [\n    {,}\n"), HasSubstr(".json:3:6: not valid JSON"));
     EXPECT_THAT(complaintAboutText(""), HasSubstr(".json:1:1: not valid JSON"));
     EXPECT_THAT(complaintAboutText("{\"surfaces\": NaN}"), HasSubstr("not valid JSON"));
@@ -190,12 +190,12 @@ TEST(SceneFileTest, BrokenJsonIsNamedByLineAndColumn) {
     EXPECT_THAT(complaintAboutText("{\"name\": \"\xff\"}"), HasSubstr("not valid JSON"));
 }
 
-TEST(SceneFileTest, AKeyThatStandsTwiceIsAnError) {
+TEST(SceneFileTest, ADuplicateKeyIsAnError) {
     EXPECT_THAT(complaintAboutText(R"({"update_rate": 90, "update_rate": 72})"),
-                HasSubstr("\"update_rate\" stands twice"));
+                HasSubstr("\"update_rate\" occurs twice"));
 }
 
-TEST(SceneFileTest, AFileThatIsNotThereIsNamed) {
+TEST(SceneFileTest, TheErrorForAMissingFileNamesIt) {
     EXPECT_THROW(static_cast<void>(readSceneFile("no/such/scene.json")), InputError);
 }
 
@@ -243,7 +243,7 @@ TEST(SceneFileTest, EverySceneOfTheDocumentationIsRead) {
          begin = page.find("```json\n", begin)) {
         begin += 8;
         const std::size_t end = page.find("```", begin);
-        const contact::Scene scene = parseScene(json::parse(page.substr(begin, end - begin)), "scene-and-stroke.md");
+        const headless::Scene scene = parseScene(json::parse(page.substr(begin, end - begin)), "scene-and-stroke.md");
         EXPECT_FALSE(scene.surfaces.empty());
         ++scenes;
         begin = end;

@@ -28,7 +28,7 @@ std::string complaintAbout(const std::string& text) {
     return "no complaint";
 }
 
-TEST(StrokeFileTest, EveryColumnArrives) {
+TEST(StrokeFileTest, EveryColumnIsRead) {
     const Stroke stroke = parseStroke(
         "t,x,y,z,force,qx,qy,qz,qw\n"
         "0.5,1e-3,-2,+3,0.7,0,0,0,2\n"
@@ -43,21 +43,21 @@ TEST(StrokeFileTest, EveryColumnArrives) {
     EXPECT_EQ(stroke.samples[1].orientation, glm::dquat(0.0, 0.0, 1.0, 0.0));
 }
 
-TEST(StrokeFileTest, OptionalColumnsMayBeLeftOut) {
+TEST(StrokeFileTest, OptionalColumnsMayBeMissing) {
     EXPECT_FALSE(parseStroke("t,x,y,z\n0,0,0,0\n", "s").samples[0].forceNewtons);
     EXPECT_FALSE(parseStroke("t,x,y,z\n0,0,0,0\n", "s").samples[0].orientation);
     EXPECT_TRUE(parseStroke("t,x,y,z,qx,qy,qz,qw\n0,0,0,0,0,0,0,1\n", "s").samples[0].orientation);
     EXPECT_TRUE(parseStroke("t,x,y,z,force\n0,0,0,0,1\n", "s").samples[0].forceNewtons);
 }
 
-TEST(StrokeFileTest, WindowsLineEndsByteOrderMarkSpacesAndTrailingEmptyLinesAreFine) {
+TEST(StrokeFileTest, WindowsLineEndsByteOrderMarkSpacesAndTrailingEmptyLinesAreAccepted) {
     const Stroke stroke = parseStroke("\xEF\xBB\xBFt, x, y, z\r\n 0 ,1 ,2,\t3\r\n1,1,2,3\r\n\r\n  \r\n", "stroke.csv");
     ASSERT_EQ(stroke.samples.size(), 2U);
     EXPECT_EQ(stroke.samples[0].positionMetres, glm::dvec3(1.0, 2.0, 3.0));
     EXPECT_EQ(parseStroke("t,x,y,z\n0,1,2,3", "stroke.csv").samples.size(), 1U);
 }
 
-TEST(StrokeFileTest, MistakesAreNamedByFileLineAndColumn) {
+TEST(StrokeFileTest, ErrorsNameFileLineAndColumn) {
     EXPECT_THAT(complaintAbout(""), HasSubstr("stroke.csv:1: expected the header t,x,y,z"));
     EXPECT_THAT(complaintAbout("t,x,y\n"), HasSubstr("stroke.csv:1: expected the header"));
     EXPECT_THAT(complaintAbout("t;x;y;z\n0;0;0;0\n"), HasSubstr("commas between the names, found \"t;x;y;z\""));
@@ -90,9 +90,9 @@ protected:
     [[nodiscard]] char do_decimal_point() const override { return ','; }
 };
 
-TEST(StrokeFileTest, NumbersNeedAPointWhateverTheLocale) {
+TEST(StrokeFileTest, NumbersNeedADecimalPointInEveryLocale) {
     const std::locale before = std::locale::global(std::locale(std::locale::classic(), new CommaDecimals));
-    // Where the system has it, the C library's locale too.
+    // Also in the C library's locale, if the system has it.
     std::setlocale(LC_NUMERIC, "de_DE.UTF-8");
     const Stroke stroke = parseStroke("t,x,y,z\n0.25,0,0,0\n", "s");
     std::locale::global(before);
@@ -100,13 +100,13 @@ TEST(StrokeFileTest, NumbersNeedAPointWhateverTheLocale) {
     EXPECT_DOUBLE_EQ(stroke.samples[0].timeSeconds, 0.25);
 }
 
-TEST(StrokeFileTest, TheTipBetweenSamplesLiesOnTheStraightLineAndTurnsTheShortWay) {
+TEST(StrokeFileTest, TheTipBetweenSamplesIsOnAStraightLineAndTurnsTheShorterWay) {
     const Stroke stroke = parseStroke(
         "t,x,y,z,force,qx,qy,qz,qw\n"
         "1,0,0,0,1,0,0,0,1\n"
         "2,4,0,0,3,0,-1,0,0\n",
         "s");
-    const contact::TipSample tip = sampleStroke(stroke, 1.25);
+    const headless::TipSample tip = sampleStroke(stroke, 1.25);
     EXPECT_DOUBLE_EQ(tip.timeSeconds, 1.25);
     EXPECT_DOUBLE_EQ(tip.positionMetres.x, 1.0);
     EXPECT_DOUBLE_EQ(tip.forceNewtons.value_or(0.0), 1.5);
@@ -117,7 +117,7 @@ TEST(StrokeFileTest, TheTipBetweenSamplesLiesOnTheStraightLineAndTurnsTheShortWa
     EXPECT_DOUBLE_EQ(sampleStroke(stroke, 9.0).timeSeconds, 9.0);
 }
 
-TEST(StrokeFileTest, OfSamplesAtTheSameTimeTheLastCounts) {
+TEST(StrokeFileTest, TheLastOfSeveralSamplesAtTheSameTimeIsUsed) {
     const Stroke stroke = parseStroke("t,x,y,z\n0,0,0,0\n1,1,0,0\n1,5,0,0\n2,6,0,0\n", "s");
     EXPECT_DOUBLE_EQ(sampleStroke(stroke, 1.0).positionMetres.x, 5.0);
     EXPECT_NEAR(sampleStroke(stroke, 0.999999).positionMetres.x, 1.0, 1e-5);

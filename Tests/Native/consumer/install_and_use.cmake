@@ -1,9 +1,9 @@
-# Installs the build, moves the installed tree elsewhere (nothing in it may remember where it was installed), builds the
-# outside project against it and runs it.
+# Installs the build, moves the installed tree (it must not contain its path), builds the project in outside/ against it
+# and runs the program.
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT result EQUAL 0)
-    message(FATAL_ERROR "${ARGN}\n${output}\nended with ${result}")
+    message(FATAL_ERROR "${ARGN}\n${output}\nexited with ${result}")
   endif()
   set(output "${output}" PARENT_SCOPE)
 endfunction()

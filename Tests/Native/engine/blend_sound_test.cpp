@@ -21,7 +21,9 @@ namespace {
 class BlendSoundTest : public ::testing::Test {
 protected:
     [[nodiscard]] LabelWeight part(const std::string& label, float weight) const {
-        return {static_cast<std::uint32_t>(model_.findLabel(label) - model_.header().labels.data()), weight};
+        return {static_cast<std::uint32_t>(std::ranges::find(model_.header().labels, label, &model::Label::name) -
+                                           model_.header().labels.begin()),
+                weight};
     }
 
     /// The waveform played while a tip slides over a blend, without the touch-down.

@@ -7,7 +7,7 @@
 namespace haptoflow::learning {
 namespace {
 
-/// A valley a hundred times as long as wide, askew, its floor at (1, -2, 0.5, 0).
+/// A rotated ellipsoid, a hundred times longer than wide, with its minimum at (1, -2, 0.5, 0).
 double valley(const std::vector<double>& point) {
     const double a = point[0] - 1.0 + point[1] + 2.0;
     const double b = point[0] - 1.0 - (point[1] + 2.0);
@@ -27,19 +27,19 @@ std::vector<double> minimised(std::uint64_t seed, int generations) {
     return strategy.mean();
 }
 
-TEST(EvolutionStrategyTest, FindsTheFloorOfALongAskewValley) {
+TEST(EvolutionStrategyTest, TheMinimumOfARotatedEllipsoidIsFound) {
     const std::vector<double> found = minimised(3, 200);
     EXPECT_LT(valley(found), 1e-6);
     EXPECT_NEAR(found[0], 1.0, 1e-2);
     EXPECT_NEAR(found[1], -2.0, 1e-2);
 }
 
-TEST(EvolutionStrategyTest, EqualSeedsGiveEqualPointsAndOthersDoNot) {
+TEST(EvolutionStrategyTest, EqualSeedsGiveEqualPointsAndOtherSeedsOtherPoints) {
     EXPECT_EQ(minimised(5, 20), minimised(5, 20));
     EXPECT_NE(minimised(5, 20), minimised(6, 20));
 }
 
-TEST(EvolutionStrategyTest, RefusesNoCoordinates) {
+TEST(EvolutionStrategyTest, AStartWithoutCoordinatesIsRefused) {
     EXPECT_THROW(EvolutionStrategy({}, 0.5, 10, 1), std::invalid_argument);
 }
 

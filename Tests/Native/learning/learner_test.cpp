@@ -47,8 +47,8 @@ protected:
     }
 
     /// The segment that the network generates after a seed's first 200 samples, at the seed's own motion.
-    std::vector<float> goneOn(const model::MaterialFile& material, const model::MaterialSeed& seed,
-                              std::uint32_t draw) {
+    std::vector<float> continuation(const model::MaterialFile& material, const model::MaterialSeed& seed,
+                                    std::uint32_t draw) {
         constexpr std::size_t half = inference::segmentSamples;
         std::vector<float> noise(half);
         std::vector<float> played(half);
@@ -73,7 +73,7 @@ protected:
         inference::defaultSolver(model_.header().tiers[model_.header().defaultTier]), 64};
 };
 
-/// Of the ribs along the material's first axis, of samples that follow one another at the seed's speed.
+/// Fundamental of the ribs along the material's first axis, in consecutive samples at the seed's speed.
 std::complex<double> fundamentalOf(std::span<const float> wave, const model::MaterialFile& material,
                                    const model::MaterialSeed& seed) {
     const double turns = 1000.0 / inference::waveformRateHz * material.embedding[60] * seed.velocityMps[0];
@@ -109,7 +109,7 @@ TEST_F(LearnerTest, EqualSeedsGiveEqualBytesAndAnotherSeedAnotherMaterial) {
     EXPECT_NE(learn(made.view(), settings).materialJson, first);
 }
 
-TEST_F(LearnerTest, TheFitComesNearerThanTheNearestLabelAndTheToneNearerStill) {
+TEST_F(LearnerTest, TheFitImprovesOnTheNearestLabelAndTheToneOnTheFit) {
     const MadeRecording made({.resonanceHz = 260.0}, {});
     LearningSettings settings = brief();
     settings.segmentBudget = 14'000;
@@ -120,7 +120,7 @@ TEST_F(LearnerTest, TheFitComesNearerThanTheNearestLabelAndTheToneNearerStill) {
     EXPECT_GT(report.generations, 5U);
 }
 
-TEST_F(LearnerTest, ASeedBehindTheToneSoundsAsItWasRecorded) {
+TEST_F(LearnerTest, ASeedWithTheToneEqualsTheRecording) {
     const MadeRecording made({.resonanceHz = 90.0}, {}, 2000.0);
     const LearntMaterial learnt = learn(made.view(), brief());
     const model::MaterialFile material = model::parseMaterial(learnt.materialJson);
@@ -141,7 +141,7 @@ TEST_F(LearnerTest, ASeedBehindTheToneSoundsAsItWasRecorded) {
         }
         heard.push_back(sum);
     }
-    // Somewhere in the recording stands the same wave.
+    // The same wave must occur somewhere in the recording.
     double best = 0.0;
     for (std::size_t start = 0; start + heard.size() <= made.acceleration.size(); ++start) {
         double product = 0.0;
@@ -158,7 +158,7 @@ TEST_F(LearnerTest, ASeedBehindTheToneSoundsAsItWasRecorded) {
     EXPECT_GT(best, 0.97);
 }
 
-TEST_F(LearnerTest, RibsOfTheRecordingStandAcrossTheMaterialsFirstAxisAndMakeItPeriodic) {
+TEST_F(LearnerTest, RibsAreAcrossTheMaterialsFirstAxisAndMakeItPeriodic) {
     const MadeRecording made({.ribs = {0.8, 0.45}, .ribShare = 0.5}, {});
     const LearntMaterial learnt = learn(made.view(), brief());
     const model::MaterialFile material = model::parseMaterial(learnt.materialJson);
@@ -171,30 +171,30 @@ TEST_F(LearnerTest, RibsOfTheRecordingStandAcrossTheMaterialsFirstAxisAndMakeItP
     EXPECT_DOUBLE_EQ(material.label.frequencyExponent, 1.0);
 }
 
-TEST_F(LearnerTest, ATouchThatBeginsFromASeedGoesOnWithTheRibsInPlace) {
+TEST_F(LearnerTest, ATouchThatStartsFromASeedContinuesTheRibsInPhase) {
     const MadeRecording made({.resonanceHz = 400.0, .ribs = {0.8, 0.45}, .ribShare = 0.9},
-                             {.seconds = 12.0, .slowestMps = 0.05, .fastestMps = 0.15, .strokeSeconds = 0.7});
+                             {.seconds = 12.0, .minimumSpeedMps = 0.05, .maximumSpeedMps = 0.15, .strokeSeconds = 0.7});
     const LearntMaterial learnt = learn(made.view(), brief());
     const model::MaterialFile material = model::parseMaterial(learnt.materialJson);
     ASSERT_GE(material.seeds.size(), 4U);
-    // How far what is played has its ribs where the recording has them, 1 for all of it, -1 half a rib off.
-    const auto likeness = [&](double shiftTurns) {
+    // Similarity of the ribs played and recorded: 1 for equal phases, -1 for a difference of half a rib.
+    const auto similarity = [&](double shiftTurns) {
         double together = 0.0;
         double most = 0.0;
         for (model::MaterialSeed seed : material.seeds) {
             const std::complex<double> recorded = fundamentalOf(std::span(seed.samples).subspan(200), material, seed);
             seed.ribPhase[0] = std::fmod(seed.ribPhase[0] + shiftTurns, 1.0);
             for (std::uint32_t draw = 0; draw < 16; ++draw) {
-                const std::complex<double> played = fundamentalOf(goneOn(material, seed, draw), material, seed);
+                const std::complex<double> played = fundamentalOf(continuation(material, seed, draw), material, seed);
                 together += (played * std::conj(recorded)).real();
                 most += std::abs(played) * std::abs(recorded);
             }
         }
         return together / most;
     };
-    const double placed = likeness(0.0);
+    const double placed = similarity(0.0);
     EXPECT_GT(placed, 0.6);
-    EXPECT_LT(likeness(0.5), 0.5 * placed) << "the network does not follow the phase";
+    EXPECT_LT(similarity(0.5), 0.5 * placed) << "the network does not follow the phase";
 }
 
 TEST_F(LearnerTest, SeedsOfASurfaceWithoutRibsHaveNoPhase) {
@@ -208,7 +208,7 @@ TEST_F(LearnerTest, SeedsOfASurfaceWithoutRibsHaveNoPhase) {
     }
 }
 
-TEST_F(LearnerTest, WaveVectorsThatAreGivenAreTakenAndNoneAreLookedFor) {
+TEST_F(LearnerTest, GivenWaveVectorsReplaceTheEstimation) {
     const MadeRecording made({.ribs = {0.8, 0.45}, .ribShare = 0.5}, {});
     LearningSettings settings = brief();
     settings.segmentBudget = 1000;
@@ -220,7 +220,7 @@ TEST_F(LearnerTest, WaveVectorsThatAreGivenAreTakenAndNoneAreLookedFor) {
     EXPECT_FALSE(model::parseMaterial(learn(made.view(), settings).materialJson).label.wavelengthMetres.has_value());
 }
 
-TEST_F(LearnerTest, AMissingStretchIsLeftOutAndSaidSo) {
+TEST_F(LearnerTest, AMissingStretchIsExcludedAndReported) {
     MadeRecording made({}, {.seconds = 12.0});
     for (std::size_t i = 10'000; i < 10'400; ++i) {
         made.acceleration[i] = std::numeric_limits<float>::quiet_NaN();
@@ -232,8 +232,8 @@ TEST_F(LearnerTest, AMissingStretchIsLeftOutAndSaidSo) {
     EXPECT_THAT(report.warnings, ::testing::Contains(HasSubstr("was left out")));
 }
 
-TEST_F(LearnerTest, OneConstantConditionIsLearntWithAWarning) {
-    MadeRecording made({}, {.slowestMps = 0.08, .fastestMps = 0.08});
+TEST_F(LearnerTest, AConstantMotionIsLearntWithAWarning) {
+    MadeRecording made({}, {.minimumSpeedMps = 0.08, .maximumSpeedMps = 0.08});
     made.velocity.clear();
     made.force.clear();
     made.constantVelocity = {0.08, 0.0};
@@ -247,7 +247,7 @@ TEST_F(LearnerTest, OneConstantConditionIsLearntWithAWarning) {
     EXPECT_GE(material.seeds.size(), 4U);
 }
 
-TEST_F(LearnerTest, ALevelThatNoLabelComesNearIsSuspectedAndAnAbsurdOneRefused) {
+TEST_F(LearnerTest, AnUnusualLevelGivesAWarningAndAnImpossibleOneIsRefused) {
     MadeRecording made({}, {});
     const auto scaled = [&](float gain) {
         MadeRecording result = made;
@@ -272,19 +272,19 @@ TEST_F(LearnerTest, ACancelledFitEndsAtTheNextGeneration) {
     LearningSettings settings = brief();
     settings.segmentBudget = 1'000'000;
     settings.cancellation = &cancellation;
-    int told = 0;
+    int reports = 0;
     settings.progress = [&](double share, const char*) {
         EXPECT_GE(share, 0.0);
         EXPECT_LE(share, 1.0);
-        if (share > 0.2 && ++told == 2) {
+        if (share > 0.2 && ++reports == 2) {
             cancellation.cancel();
         }
     };
     EXPECT_THROW((void)learn(made.view(), settings), inference::LoadCancelled);
-    EXPECT_EQ(told, 2);
+    EXPECT_EQ(reports, 2);
 }
 
-TEST_F(LearnerTest, ALimitOfSecondsEndsTheFitWithWhatItHas) {
+TEST_F(LearnerTest, ATimeLimitEndsTheFitWithItsBestResult) {
     const MadeRecording made({}, {});
     LearningSettings settings = brief();
     settings.segmentBudget = 1'000'000;
@@ -294,7 +294,7 @@ TEST_F(LearnerTest, ALimitOfSecondsEndsTheFitWithWhatItHas) {
     EXPECT_NO_THROW((void)model::parseMaterial(learnt.materialJson));
 }
 
-TEST_F(LearnerTest, NamesThatNoMaterialCanHaveAreRefusedBeforeAnythingIsLearnt) {
+TEST_F(LearnerTest, InvalidNamesAreRefusedBeforeLearning) {
     const MadeRecording made({}, {});
     LearningSettings settings = brief();
     for (const std::string& name : {std::string(), std::string("Denim"), std::string(129, 'a'), std::string("\xFF")}) {
@@ -303,7 +303,7 @@ TEST_F(LearnerTest, NamesThatNoMaterialCanHaveAreRefusedBeforeAnythingIsLearnt) 
     }
 }
 
-TEST_F(LearnerTest, AModelOfThreeLabelsIsEnough) {
+TEST_F(LearnerTest, AModelWithThreeLabelsIsEnough) {
     const model::ModelFile tiny = model::ModelFile::read(HAPTOFLOW_TEST_GOLDEN_DIR "/model/tiny.haptoflow");
     const model::Tier& tier = tiny.header().tiers[tiny.header().defaultTier];
     inference::OnnxSegmentGenerator generator(inference::Runtime::open(HAPTOFLOW_TEST_ONNXRUNTIME), tiny, tier.name,

@@ -28,7 +28,7 @@ double errorDb(const LevelLaw& law, const MadeSurface& surface, double speed, do
     return decibelsPerNat * (law.logLevel(speed, force) - truth);
 }
 
-TEST(LevelLawTest, APowerLawIsFoundWithinHalfADecibelAndGoesOnBeyondTheRecordedSpeeds) {
+TEST(LevelLawTest, APowerLawIsFoundWithinHalfADecibelAndContinuesBeyondTheRecordedSpeeds) {
     const MadeSurface surface{.speedExponent = 0.7, .forceExponent = 0.35};
     const LevelLaw law = lawOf(MadeRecording(surface, {}));
     for (const double speed : {0.035, 0.06, 0.1, 0.2}) {
@@ -46,16 +46,16 @@ TEST(LevelLawTest, AJumpOf14DecibelsIsFollowedInsideTheRecordedRange) {
     EXPECT_NEAR(errorDb(law, surface, 0.12, 0.8), 0.0, 1.5);
 }
 
-TEST(LevelLawTest, OneSpeedLeavesTheExponentsToThePrior) {
-    MadeRecording made({.speedExponent = 0.0}, {.slowestMps = 0.08, .fastestMps = 0.0801});
+TEST(LevelLawTest, WithOneSpeedTheExponentsAreThoseOfThePrior) {
+    MadeRecording made({.speedExponent = 0.0}, {.minimumSpeedMps = 0.08, .maximumSpeedMps = 0.0801});
     const LevelLaw law = lawOf(made, {.speedMean = 0.75, .speedSpread = 0.1, .forceMean = 0.2, .forceSpread = 0.1});
     EXPECT_EQ(law.table.speedsMps.size(), 1U);
     EXPECT_NEAR(law.speedExponent, 0.75, 0.05);
     EXPECT_NEAR(law.table.speedsMps[0], 0.08, 0.002);
 }
 
-TEST(LevelLawTest, TheTableKeepsTheMaterialFilesLimits) {
-    const LevelLaw law = lawOf(MadeRecording({}, {.seconds = 60.0, .slowestMps = 0.006, .fastestMps = 1.0}));
+TEST(LevelLawTest, TheTableIsWithinTheMaterialFilesLimits) {
+    const LevelLaw law = lawOf(MadeRecording({}, {.seconds = 60.0, .minimumSpeedMps = 0.006, .maximumSpeedMps = 1.0}));
     EXPECT_LE(law.table.speedsMps.size(), 16U);
     EXPECT_TRUE(std::ranges::is_sorted(law.table.speedsMps));
     EXPECT_EQ(law.table.speedsMps.size(), law.table.logLevels.size());

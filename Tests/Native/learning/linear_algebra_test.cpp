@@ -18,7 +18,7 @@ SymmetricMatrix example() {
     return matrix;
 }
 
-TEST(LinearAlgebraTest, EigenvectorsAreStretchedByTheirValuesTheLargestFirst) {
+TEST(LinearAlgebraTest, EigenvectorsAreScaledByTheirValuesInDecreasingOrder) {
     const SymmetricMatrix matrix = example();
     const EigenDecomposition axes = decompose(matrix);
     ASSERT_EQ(axes.values.size(), 3U);
@@ -35,13 +35,13 @@ TEST(LinearAlgebraTest, EigenvectorsAreStretchedByTheirValuesTheLargestFirst) {
     }
 }
 
-TEST(LinearAlgebraTest, ASolutionGivesTheRightSideBack) {
+TEST(LinearAlgebraTest, ASolutionReproducesTheRightSide) {
     const std::vector<double> x = solvePositive(example(), {1.0, 2.0, 3.0});
     EXPECT_NEAR(4.0 * x[0] + x[1] - 0.5 * x[2], 1.0, 1e-12);
     EXPECT_NEAR(-0.5 * x[0] + 0.25 * x[1] + 2.0 * x[2], 3.0, 1e-12);
 }
 
-TEST(LinearAlgebraTest, ASingularMatrixStillGivesFiniteNumbers) {
+TEST(LinearAlgebraTest, ASingularMatrixGivesFiniteNumbers) {
     SymmetricMatrix matrix(2);
     matrix.at(0, 0) = 1.0;
     for (const double value : solvePositive(matrix, {1.0, 0.0})) {

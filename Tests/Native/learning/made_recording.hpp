@@ -11,33 +11,33 @@
 
 namespace haptoflow::learning::testing {
 
-/// A surface that a test makes: noise through a resonance, its level a power of speed and force, ribs where wanted.
+/// A synthetic surface: noise through a resonance, with a level that is a power of speed and force, and optional ribs.
 struct MadeSurface {
     double levelAtReference = 1.5;
     double speedExponent = 0.9;
     double forceExponent = 0.3;
     double resonanceHz = 180.0;
-    /// Cycles per millimetre; zero for none.
+    /// Wave vector in cycles per millimetre; zero for none.
     std::array<double, 2> ribs{};
     std::array<double, 2> otherRibs{};
-    /// Of the level, in each partial of the ribs.
+    /// Share of the level in each partial of the ribs.
     double ribShare = 0.9;
-    /// Gain of the level where the speed is above it.
+    /// Gain of the level above this speed.
     double stepMps = 0.0;
     double stepGain = 1.0;
 };
 
 struct MadeMotion {
     double seconds = 10.0;
-    double slowestMps = 0.03;
-    double fastestMps = 0.25;
-    /// The direction goes round while the tip moves; false: along the first axis.
+    double minimumSpeedMps = 0.03;
+    double maximumSpeedMps = 0.25;
+    /// True if the direction rotates while the tip moves, false for motion along the first axis.
     bool turns = true;
-    /// For so long speed and direction stay before they change; 0 for a motion that changes all the time.
+    /// Time for which speed and direction are constant; 0 for a motion that changes all the time.
     double strokeSeconds = 0.0;
 };
 
-/// A recording with the memory that its spans look at.
+/// A recording that owns the memory of its spans.
 class MadeRecording {
 public:
     MadeRecording(const MadeSurface& surface, const MadeMotion& motion, double rateHz = 4000.0, unsigned seed = 7)
@@ -49,7 +49,7 @@ public:
         const double radius = std::exp(-0.5 * turn);
         const double first = 2.0 * radius * std::cos(turn);
         const double second = -radius * radius;
-        // Of this resonance, so that the wave's RMS is 1.
+        // The resonance's gain for a wave with an RMS of 1.
         const double gain =
             std::sqrt((1.0 + second) * ((1.0 - second) * (1.0 - second) - first * first) / (1.0 - second));
         double one = 0.0;
@@ -60,7 +60,8 @@ public:
             const double moment =
                 motion.strokeSeconds > 0.0 ? motion.strokeSeconds * std::floor(time / motion.strokeSeconds) : time;
             const double share = 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * moment / 2.3);
-            const double speed = motion.slowestMps * std::pow(motion.fastestMps / motion.slowestMps, share);
+            const double speed =
+                motion.minimumSpeedMps * std::pow(motion.maximumSpeedMps / motion.minimumSpeedMps, share);
             const double direction = motion.turns ? 0.9 * moment : 0.0;
             const double pressed = 0.8 + 0.4 * std::sin(2.0 * std::numbers::pi * time / 1.7);
             velocity.push_back(static_cast<float>(speed * std::cos(direction)));

@@ -10,14 +10,14 @@
 namespace haptoflow::learning {
 namespace {
 
-TEST(MaterialFrameTest, TheClearestRibsLieAcrossTheFirstAxisAndTheSecondPointUpward) {
+TEST(MaterialFrameTest, TheMostDistinctRibsAreAcrossTheFirstAxisAndTheSecondVectorPointsUpward) {
     const std::vector<WaveVector> vectors{{.x = 0.0, .y = 0.8}, {.x = 0.5, .y = 0.0}};
     const MaterialFrame frame = MaterialFrame::across(vectors);
     EXPECT_NEAR(frame.turnRadians, 0.5 * std::numbers::pi, 1e-12);
     EXPECT_EQ(frame.waveNumbers, (std::array<float, 4>{0.8F, 0.0F, 0.0F, 0.5F}));
 }
 
-TEST(MaterialFrameTest, ATurnedMotionCrossesAsManyRibsAsBeforeAndKeepsItsForce) {
+TEST(MaterialFrameTest, ARotatedMotionCrossesTheSameNumberOfRibsAndKeepsItsForce) {
     const std::vector<WaveVector> vectors{{.x = 0.6, .y = -0.45}};
     const MaterialFrame frame = MaterialFrame::across(vectors);
     PreparedRecording recording;
@@ -29,14 +29,14 @@ TEST(MaterialFrameTest, ATurnedMotionCrossesAsManyRibsAsBeforeAndKeepsItsForce) 
     EXPECT_EQ(turned[2], 1.5F);
 }
 
-TEST(MaterialFrameTest, WithoutRibsNothingIsTurned) {
+TEST(MaterialFrameTest, WithoutRibsTheMotionIsNotRotated) {
     const std::vector<WaveVector> none{{.x = 0.0, .y = 0.0}};
     const MaterialFrame frame = MaterialFrame::across(none);
     EXPECT_EQ(frame.turnRadians, 0.0);
     EXPECT_EQ(frame.waveNumbers, (std::array<float, 4>{}));
 }
 
-TEST(MaterialFrameTest, AZeroVectorBeforeARealOneIsPassedOver) {
+TEST(MaterialFrameTest, AZeroVectorBeforeARealOneIsSkipped) {
     const std::vector<WaveVector> vectors{{.x = 0.0, .y = 0.0}, {.x = 0.0, .y = 0.5}};
     EXPECT_EQ(MaterialFrame::across(vectors).waveNumbers, (std::array<float, 4>{0.5F, 0.0F, 0.0F, 0.0F}));
 }

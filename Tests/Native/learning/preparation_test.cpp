@@ -40,7 +40,7 @@ PreparedRecording prepared(const std::vector<float>& wave, double rateHz) {
                              .constantForceNewtons = 1.0});
 }
 
-TEST(PreparationTest, ATouchableToneKeepsItsLevelAndItsTimeAtAnyRate) {
+TEST(PreparationTest, ASineInsideTheBandKeepsItsLevelAndTimeAtAnyRate) {
     for (const double rateHz : {1000.0, 1666.0, 2000.0, 6024.1, 44'100.0, 192'000.0}) {
         const PreparedRecording recording = prepared(tone(150.0, rateHz, 4.0), rateHz);
         EXPECT_NEAR(rmsInside(recording.wave), std::numbers::sqrt2 / 2.0, 0.005) << rateHz;
@@ -51,12 +51,12 @@ TEST(PreparationTest, ATouchableToneKeepsItsLevelAndItsTimeAtAnyRate) {
     }
 }
 
-TEST(PreparationTest, WhatA2KilohertzWaveCannotHoldIsTakenOutAndNotFoldedBack) {
+TEST(PreparationTest, FrequenciesAbove1KilohertzAreRemovedAndNotAliased) {
     EXPECT_LT(rmsInside(prepared(tone(1500.0, 8000.0, 4.0), 8000.0).wave), 0.001);
     EXPECT_LT(rmsInside(prepared(tone(3.0, 8000.0, 4.0), 8000.0).wave), 0.001);
 }
 
-TEST(PreparationTest, OneMovingAxisOfThreeComesBackUnchanged) {
+TEST(PreparationTest, OneMovingAxisOfThreeIsReturnedUnchanged) {
     const std::vector<float> wave = tone(120.0, 2000.0, 2.0);
     std::array<std::vector<double>, 3> axes;
     axes[0].assign(wave.size(), 0.0);
@@ -68,7 +68,7 @@ TEST(PreparationTest, OneMovingAxisOfThreeComesBackUnchanged) {
     }
 }
 
-TEST(PreparationTest, ThreeAxesTogetherKeepTheirEnergyEvenWhereTheyCancel) {
+TEST(PreparationTest, ThreeAxesKeepTheirEnergyEvenWhereTheyCancel) {
     std::array<std::vector<double>, 3> axes;
     std::vector<float> noise(8000);
     double energy = 0.0;
@@ -91,7 +91,7 @@ TEST(PreparationTest, ThreeAxesTogetherKeepTheirEnergyEvenWhereTheyCancel) {
     EXPECT_NEAR(10.0 * std::log10(found / energy), 0.0, 0.5);
 }
 
-TEST(PreparationTest, AMissingSampleCostsItsNeighbourhoodAndNothingElse) {
+TEST(PreparationTest, AMissingSampleExcludesOnlyTheSamplesAroundIt) {
     MadeRecording made({}, {});
     const PreparedRecording whole = prepareRecording(made.view());
     EXPECT_EQ(std::ranges::count(whole.isUsable, 0), 0);
@@ -112,7 +112,7 @@ TEST(PreparationTest, AMissingSampleCostsItsNeighbourhoodAndNothingElse) {
     }
 }
 
-TEST(PreparationTest, AFrozenSensorIsLeftOut) {
+TEST(PreparationTest, AFrozenSensorIsExcluded) {
     MadeRecording made({}, {});
     std::fill_n(made.acceleration.begin() + 12'000, 800, made.acceleration[12'000]);
     const PreparedRecording recording = prepareRecording(made.view());

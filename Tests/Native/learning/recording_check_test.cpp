@@ -28,7 +28,7 @@ void prepareAndFind(const Recording& recording) {
     (void)findSliding(prepareRecording(recording), header());
 }
 
-TEST(RecordingCheckTest, AWholeRecordingIsTaken) {
+TEST(RecordingCheckTest, AUsableRecordingIsAccepted) {
     const MadeRecording made({}, {});
     EXPECT_NO_THROW(prepareAndFind(made.view()));
 }
@@ -53,14 +53,14 @@ TEST(RecordingCheckTest, SamplesAtTheEndOfTheRangeAreClipped) {
     EXPECT_THAT([&] { prepareAndFind(made.view()); }, ThrowsMessage<RecordingUnusable>(HasSubstr("is clipped")));
 }
 
-TEST(RecordingCheckTest, MostlyNumbersThatAreNotFiniteAreRefused) {
+TEST(RecordingCheckTest, ARecordingThatIsMostlyNotFiniteIsRefused) {
     MadeRecording made({}, {});
     std::fill_n(made.acceleration.begin(), made.acceleration.size() * 3 / 5, std::numeric_limits<float>::quiet_NaN());
     EXPECT_THAT([&] { prepareAndFind(made.view()); },
                 ThrowsMessage<RecordingUnusable>(HasSubstr("is not finite in 60 %")));
 }
 
-TEST(RecordingCheckTest, ATipThatRestsShowsNothing) {
+TEST(RecordingCheckTest, ARecordingOfARestingTipIsRefused) {
     MadeRecording made({}, {});
     made.velocity.clear();
     made.constantVelocity = {0.001, 0.0};
@@ -68,7 +68,7 @@ TEST(RecordingCheckTest, ATipThatRestsShowsNothing) {
                 ThrowsMessage<RecordingUnusable>(HasSubstr("the tip never moves")));
 }
 
-TEST(RecordingCheckTest, ASpeedThatNoHandReachesIsAskedForItsUnit) {
+TEST(RecordingCheckTest, TheErrorForAnImpossibleSpeedSuggestsAUnit) {
     MadeRecording made({}, {});
     for (float& value : made.velocity) {
         value *= 1000.0F;
@@ -84,7 +84,7 @@ TEST(RecordingCheckTest, ASpeedBeyondTheModelIsRefused) {
                 ThrowsMessage<RecordingUnusable>(HasSubstr("the model was trained up to 1.5 m/s")));
 }
 
-TEST(RecordingCheckTest, NoForceIsRefusedAndAForceInMillinewtonsToo) {
+TEST(RecordingCheckTest, NoForceAndAForceInMillinewtonsAreRefused) {
     MadeRecording made({}, {});
     made.force.clear();
     EXPECT_THAT([&] { prepareAndFind(made.view()); }, ThrowsMessage<RecordingUnusable>(HasSubstr("give the force")));
@@ -92,7 +92,7 @@ TEST(RecordingCheckTest, NoForceIsRefusedAndAForceInMillinewtonsToo) {
     EXPECT_THAT([&] { prepareAndFind(made.view()); }, ThrowsMessage<RecordingUnusable>(HasSubstr("millinewtons?")));
 }
 
-TEST(RecordingCheckTest, SizesAndRatesThatDoNotFitAreArguments) {
+TEST(RecordingCheckTest, SizesAndRatesThatDoNotFitAreInvalidArguments) {
     const MadeRecording made({}, {});
     Recording recording = made.view();
     recording.axisCount = 2;

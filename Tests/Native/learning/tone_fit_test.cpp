@@ -15,7 +15,7 @@ SpeedBins threeBins() {
     return bins;
 }
 
-/// Flat, of mean square 1, times `gainDb` of the frequency.
+/// A flat spectrum with a mean square of 1, multiplied by `gainDb` of the frequency.
 template <typename Gain>
 TextureFigures spectrum(double frames, Gain gainDb) {
     TextureFigures figures;
@@ -36,7 +36,7 @@ double rising(double hertz) {
     return 3.0 * std::log2(std::max(hertz, 20.0) / 150.0);
 }
 
-TEST(ToneFitTest, ATiltIsFoundAndTheNetworksLevelStays) {
+TEST(ToneFitTest, ATiltIsFoundAndTheNetworksLevelIsKept) {
     const std::vector<TextureFigures> generated(3, spectrum(200.0, flat));
     const std::vector<TextureFigures> recorded(3, spectrum(200.0, rising));
     const ToneFit fit = fitTone(threeBins(), recorded, generated, 950.0);
@@ -53,7 +53,7 @@ TEST(ToneFitTest, ATiltIsFoundAndTheNetworksLevelStays) {
     }
 }
 
-TEST(ToneFitTest, ANetworkThatIsTooQuietIsRaisedByTheLevel) {
+TEST(ToneFitTest, TheLevelOfANetworkThatIsTooQuietIsRaised) {
     const std::vector<TextureFigures> generated(3, spectrum(200.0, [](double) { return -6.0; }));
     const std::vector<TextureFigures> recorded(3, spectrum(200.0, flat));
     for (const double logLevel : fitTone(threeBins(), recorded, generated, 950.0).logLevels) {
@@ -61,7 +61,7 @@ TEST(ToneFitTest, ANetworkThatIsTooQuietIsRaisedByTheLevel) {
     }
 }
 
-TEST(ToneFitTest, AFewFramesAreDrawnToTheOtherSpeeds) {
+TEST(ToneFitTest, ASpeedWithFewFramesIsShrunkTowardsTheOthers) {
     const std::vector<TextureFigures> generated(3, spectrum(400.0, flat));
     const auto outlier = [](double hertz) { return hertz > 180.0 && hertz < 230.0 ? 5.0 : 0.0; };
     std::vector<TextureFigures> recorded(3, spectrum(400.0, flat));
@@ -74,7 +74,7 @@ TEST(ToneFitTest, AFewFramesAreDrawnToTheOtherSpeeds) {
     EXPECT_LT(gainOf(4.0), 0.8 * gainOf(400.0));
 }
 
-TEST(ToneFitTest, SpeedsWithoutFramesAreLeftOutAndGainsKeepTheFilesLimits) {
+TEST(ToneFitTest, SpeedsWithoutFramesAreExcludedAndGainsAreWithinTheFilesLimits) {
     std::vector<TextureFigures> recorded(3, spectrum(100.0, [](double hertz) { return hertz < 300.0 ? 90.0 : -90.0; }));
     recorded[0].frames = 0.0;
     const std::vector<TextureFigures> generated(3, spectrum(100.0, flat));
@@ -87,7 +87,7 @@ TEST(ToneFitTest, SpeedsWithoutFramesAreLeftOutAndGainsKeepTheFilesLimits) {
     }
 }
 
-TEST(ToneFitTest, BeyondTheRecordingsBandTheLastGainHolds) {
+TEST(ToneFitTest, TheLastGainIsUsedBeyondTheRecordingsBand) {
     const std::vector<TextureFigures> figures(3, spectrum(100.0, flat));
     const ToneFit fit = fitTone(threeBins(), figures, figures, 475.0);
     EXPECT_NEAR(fit.tone.frequenciesHz.back(), 475.0, 1e-9);

@@ -7,85 +7,85 @@ namespace {
 
 using Json = nlohmann::json;
 
-TEST(BlobTest, RefusesABlobWithoutAnyOneOfItsKeys) {
+TEST(BlobTest, ABlobWithAMissingKeyIsRefused) {
     for (const char* key : {"name", "type", "shape", "offset", "bytes", "crc32"}) {
         expectBlobRefusal([key](Json& blobs) { blobs[1].erase(key); }, key);
     }
 }
 
-TEST(BlobTest, RefusesMoreBlobsThanTheLimit) {
+TEST(BlobTest, MoreBlobsThanTheLimitAreRefused) {
     ModelBuilder builder;
     builder.blobs.assign(maximumBlobs + 1, {"a", "onnx", {}, Bytes(1)});
     expectRefusal(builder.build(), ModelStatus::oversized, "the limit is 1024");
 }
 
-TEST(BlobTest, RefusesAnEmptyName) {
+TEST(BlobTest, AnEmptyNameIsRefused) {
     expectBlobRefusal([](Json& blobs) { blobs[3]["name"] = ""; }, "blobs[3].name");
 }
 
-TEST(BlobTest, RefusesTheSameNameTwice) {
+TEST(BlobTest, ADuplicateNameIsRefused) {
     expectBlobRefusal([](Json& blobs) { blobs[3]["name"] = "field"; }, "appears twice");
 }
 
-TEST(BlobTest, RefusesATypeThatItDoesNotKnow) {
+TEST(BlobTest, AnUnknownTypeIsRefused) {
     expectBlobRefusal([](Json& blobs) { blobs[0]["type"] = "float16"; }, "\"float32\"");
 }
 
-TEST(BlobTest, RefusesAnOffsetThatIsNotAMultipleOf64) {
+TEST(BlobTest, AnOffsetThatIsNotAMultipleOf64IsRefused) {
     expectBlobRefusal([](Json& blobs) { blobs[2]["offset"] = blobs[2]["offset"].get<int>() + 4; }, "blobs[2].offset");
 }
 
-TEST(BlobTest, RefusesABlobInsideTheHeader) {
+TEST(BlobTest, ABlobInsideTheHeaderIsRefused) {
     expectBlobRefusal([](Json& blobs) { blobs[0]["offset"] = 64; }, "overlaps");
 }
 
-TEST(BlobTest, RefusesBlobsThatOverlap) {
+TEST(BlobTest, OverlappingBlobsAreRefused) {
     expectBlobRefusal([](Json& blobs) { blobs[1]["offset"] = blobs[0]["offset"]; }, "overlaps");
 }
 
-TEST(BlobTest, RefusesABlobThatReachesBeyondTheFile) {
+TEST(BlobTest, ABlobBeyondTheEndOfTheFileIsRefused) {
     expectBlobRefusal([](Json& blobs) { blobs[3]["bytes"] = 38; }, "beyond the end");
     expectBlobRefusal([](Json& blobs) { blobs[3]["offset"] = 64 * 1024 * 1024; }, "beyond the end");
 }
 
-TEST(BlobTest, RefusesLengthsThatWouldWrapAround) {
+TEST(BlobTest, LengthsThatWouldOverflowAreRefused) {
     for (const Json& value : {Json(UINT64_MAX), Json(INT64_MIN), Json(-64), Json(INT64_MAX - 63), Json(1e300)}) {
         expectBlobRefusal([&value](Json& blobs) { blobs[2]["offset"] = value; }, "blobs[2].offset");
         expectBlobRefusal([&value](Json& blobs) { blobs[2]["bytes"] = value; }, "blobs[2].bytes");
     }
 }
 
-TEST(BlobTest, RefusesAnEmptyBlob) {
+TEST(BlobTest, AnEmptyBlobIsRefused) {
     expectBlobRefusal([](Json& blobs) { blobs[2]["bytes"] = 0; }, "blobs[2].bytes");
 }
 
-TEST(BlobTest, RefusesAShapeThatDisagreesWithTheBytes) {
+TEST(BlobTest, AShapeThatDoesNotMatchTheLengthIsRefused) {
     expectBlobRefusal([](Json& blobs) { blobs[0]["shape"] = {3, 64}; }, "blobs[0].bytes");
 }
 
-TEST(BlobTest, RefusesDimensionsWhoseProductWouldWrapAround) {
+TEST(BlobTest, DimensionsWhoseProductWouldOverflowAreRefused) {
     expectBlobRefusal([](Json& blobs) { blobs[0]["shape"] = {1LL << 26, 1LL << 26, 1LL << 26}; }, "blobs[0].shape");
     expectBlobRefusal([](Json& blobs) { blobs[0]["shape"] = {1LL << 33, 1LL << 31}; }, "blobs[0].shape[0]");
     expectBlobRefusal([](Json& blobs) { blobs[0]["shape"] = {0, 64}; }, "blobs[0].shape[0]");
     expectBlobRefusal([](Json& blobs) { blobs[0]["shape"] = {-2, -64}; }, "blobs[0].shape[0]");
 }
 
-TEST(BlobTest, RefusesATensorWithoutShapeAndAGraphWithOne) {
+TEST(BlobTest, ATensorWithoutAShapeAndAGraphWithOneAreRefused) {
     expectBlobRefusal([](Json& blobs) { blobs[0]["shape"] = Json::array(); }, "blobs[0].shape");
     expectBlobRefusal([](Json& blobs) { blobs[2]["shape"] = {100}; }, "blobs[2].shape");
 }
 
-TEST(BlobTest, RefusesABlobThatDoesNotMatchItsChecksum) {
+TEST(BlobTest, ABlobThatDoesNotMatchItsChecksumIsRefused) {
     Bytes file = ModelBuilder().build();
     file.back() ^= std::byte{1};
     expectRefusal(file, ModelStatus::damaged, "\"level\"");
 }
 
-TEST(BlobTest, RefusesAChecksumThatIsNot32Bits) {
+TEST(BlobTest, AChecksumThatIsNot32BitsIsRefused) {
     expectBlobRefusal([](Json& blobs) { blobs[0]["crc32"] = 1LL << 32; }, "blobs[0].crc32");
 }
 
-TEST(BlobTest, RefusesGapsThatAreNotZero) {
+TEST(BlobTest, GapsThatAreNotZeroAreRefused) {
     ModelBuilder builder;
     std::size_t gap = 0;
     builder.editLaidOut = [&gap](Json& header) { gap = header["blobs"][3]["offset"].get<std::size_t>() - 1; };
@@ -94,7 +94,7 @@ TEST(BlobTest, RefusesGapsThatAreNotZero) {
     expectRefusal(file, ModelStatus::damaged, "byte " + std::to_string(gap));
 }
 
-TEST(BlobTest, RefusesBytesAfterTheLastBlobThatAreNotZero) {
+TEST(BlobTest, BytesAfterTheLastBlobThatAreNotZeroAreRefused) {
     Bytes file = ModelBuilder().build();
     file.push_back(std::byte{7});
     writeUnsigned(file, 16, 8, file.size());
@@ -102,17 +102,17 @@ TEST(BlobTest, RefusesBytesAfterTheLastBlobThatAreNotZero) {
     expectRefusal(file, ModelStatus::damaged, "not zero");
 }
 
-TEST(BlobTest, AcceptsBlobsListedInAnyOrder) {
+TEST(BlobTest, BlobsMayBeListedInAnyOrder) {
     ModelBuilder builder;
     builder.editLaidOut = [](Json& header) { std::reverse(header["blobs"].begin(), header["blobs"].end()); };
     EXPECT_NO_THROW((void)ModelFile::parse(builder.build()));
 }
 
-TEST(BlobTest, RefusesAModelWithoutAnEmbedding) {
+TEST(BlobTest, AModelWithoutAnEmbeddingIsRefused) {
     expectBlobRefusal([](Json& blobs) { blobs[0]["name"] = "embeddings"; }, "\"embedding\"");
 }
 
-TEST(TensorTest, RefusesNumbersThatAreNotFinite) {
+TEST(TensorTest, NumbersThatAreNotFiniteAreRefused) {
     for (const float value : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
                               -std::numeric_limits<float>::infinity(), 1e7F}) {
         ModelBuilder builder;
@@ -123,7 +123,7 @@ TEST(TensorTest, RefusesNumbersThatAreNotFinite) {
     }
 }
 
-TEST(TensorTest, RefusesASeedWhoseRmsIsNotOne) {
+TEST(TensorTest, ASeedWhoseRmsIsNotOneIsRefused) {
     ModelBuilder builder;
     std::vector<float> seeds(3 * seedSamples, 1.0F);
     std::fill(seeds.begin() + 2 * seedSamples, seeds.end(), 1.02F);
@@ -131,13 +131,13 @@ TEST(TensorTest, RefusesASeedWhoseRmsIsNotOne) {
     expectRefusal(builder.build(), ModelStatus::inconsistent, "seed 2 has an RMS");
 }
 
-TEST(TensorTest, RefusesASilentSeed) {
+TEST(TensorTest, ASilentSeedIsRefused) {
     ModelBuilder builder;
     builder.blobs[1].bytes = Bytes(3 * seedSamples * sizeof(float));
     expectRefusal(builder.build(), ModelStatus::inconsistent, "seed 0 has an RMS");
 }
 
-TEST(TensorTest, ChecksTensorsThatNothingNames) {
+TEST(TensorTest, UnusedTensorsAreChecked) {
     ModelBuilder builder;
     builder.blobs.push_back({"extra", "float32", {1}, bytesOf({std::numeric_limits<float>::quiet_NaN()})});
     expectRefusal(builder.build(), ModelStatus::inconsistent, "\"extra\"");

@@ -11,21 +11,21 @@ Bytes validFile() {
     return ModelBuilder().build();
 }
 
-TEST(FileLayoutTest, RefusesAnEmptyFileAsTruncated) {
+TEST(FileLayoutTest, AnEmptyFileIsTruncated) {
     expectRefusal({}, ModelStatus::truncated, "0 bytes");
 }
 
-TEST(FileLayoutTest, RefusesAnotherMagicAsNotAModel) {
+TEST(FileLayoutTest, AFileWithAnotherMagicIsNotAModel) {
     Bytes file = validFile();
     file[7] = std::byte{'X'};
     expectRefusal(file, ModelStatus::notAModel, "HAPTFLOW");
 }
 
-TEST(FileLayoutTest, RefusesAShortFileOfAnotherKindAsNotAModel) {
+TEST(FileLayoutTest, AShortFileOfAnotherKindIsNotAModel) {
     expectRefusal({std::byte{'R'}, std::byte{'I'}, std::byte{'F'}, std::byte{'F'}}, ModelStatus::notAModel, "HAPTFLOW");
 }
 
-TEST(FileLayoutTest, RefusesEveryShorterLengthOfAValidFile) {
+TEST(FileLayoutTest, AValidFileCutAtAnyLengthIsRefused) {
     const Bytes file = validFile();
     for (std::size_t length = 0; length < file.size(); length += 13) {
         expectRefusal(Bytes(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(length)), ModelStatus::truncated,
@@ -33,100 +33,100 @@ TEST(FileLayoutTest, RefusesEveryShorterLengthOfAValidFile) {
     }
 }
 
-TEST(FileLayoutTest, RefusesAnAppendedByte) {
+TEST(FileLayoutTest, AnAppendedByteIsRefused) {
     Bytes file = validFile();
     file.push_back(std::byte{0});
     expectRefusal(file, ModelStatus::inconsistent, "appended");
 }
 
-TEST(FileLayoutTest, RefusesANewerVersionAndNamesTheRemedy) {
+TEST(FileLayoutTest, ANewerVersionIsRefusedWithTheRemedy) {
     Bytes file = validFile();
     writeUnsigned(file, versionOffset, 4, 2);
     resealPrefix(file);
     expectRefusal(file, ModelStatus::tooNew, "update HaptoFlow");
 }
 
-TEST(FileLayoutTest, RefusesVersionZero) {
+TEST(FileLayoutTest, VersionZeroIsRefused) {
     Bytes file = validFile();
     writeUnsigned(file, versionOffset, 4, 0);
     resealPrefix(file);
     expectRefusal(file, ModelStatus::inconsistent, "version 0");
 }
 
-TEST(FileLayoutTest, CallsAFlippedVersionBitDamagedNotNewer) {
+TEST(FileLayoutTest, AFileWithAFlippedVersionBitIsDamagedAndNotNewer) {
     Bytes file = validFile();
     file[versionOffset] ^= std::byte{0x40};
     expectRefusal(file, ModelStatus::damaged, "checksum at byte 28");
 }
 
-TEST(FileLayoutTest, RefusesAHeaderLengthAboveTheLimit) {
+TEST(FileLayoutTest, AHeaderLengthAboveTheLimitIsRefused) {
     Bytes file = validFile();
     writeUnsigned(file, headerLengthOffset, 4, 4'194'305);
     resealPrefix(file);
     expectRefusal(file, ModelStatus::oversized, "4194305");
 }
 
-TEST(FileLayoutTest, RefusesAHeaderLengthBelowTwo) {
+TEST(FileLayoutTest, AHeaderLengthBelowTwoIsRefused) {
     Bytes file = validFile();
     writeUnsigned(file, headerLengthOffset, 4, 1);
     resealPrefix(file);
     expectRefusal(file, ModelStatus::inconsistent, "header length 1");
 }
 
-TEST(FileLayoutTest, RefusesAHeaderThatReachesBeyondTheFile) {
+TEST(FileLayoutTest, AHeaderBeyondTheEndOfTheFileIsRefused) {
     Bytes file = validFile();
     writeUnsigned(file, headerLengthOffset, 4, 4'194'272);
     resealPrefix(file);
     expectRefusal(file, ModelStatus::inconsistent, "inside the file");
 }
 
-TEST(FileLayoutTest, RefusesAHeaderThatEndsOffAMultipleOf64) {
+TEST(FileLayoutTest, AHeaderThatDoesNotEndOnAMultipleOf64IsRefused) {
     Bytes file = validFile();
     writeUnsigned(file, headerLengthOffset, 4, readUnsigned(file, headerLengthOffset, 4) - 1);
     resealHeader(file);
     expectRefusal(file, ModelStatus::inconsistent, "multiple of 64");
 }
 
-TEST(FileLayoutTest, RefusesAFileLengthAboveTheLimit) {
+TEST(FileLayoutTest, AFileLengthAboveTheLimitIsRefused) {
     Bytes file = validFile();
     writeUnsigned(file, fileLengthOffset, 8, 268'435'457);
     resealPrefix(file);
     expectRefusal(file, ModelStatus::oversized, "268435457");
 }
 
-TEST(FileLayoutTest, RefusesAFileLengthAtTheEdgeOf64Bits) {
+TEST(FileLayoutTest, AFileLengthOfTheLargest64BitNumberIsRefused) {
     Bytes file = validFile();
     writeUnsigned(file, fileLengthOffset, 8, ~std::uint64_t{0});
     resealPrefix(file);
     expectRefusal(file, ModelStatus::oversized, "18446744073709551615");
 }
 
-TEST(FileLayoutTest, RefusesAFileLengthBelowTheFirstPart) {
+TEST(FileLayoutTest, AFileLengthBelowThatOfTheFirstPartIsRefused) {
     Bytes file = validFile();
     writeUnsigned(file, fileLengthOffset, 8, 3);
     resealPrefix(file);
     expectRefusal(file, ModelStatus::inconsistent, "says 3 bytes");
 }
 
-TEST(FileLayoutTest, RefusesAHeaderThatDoesNotMatchItsChecksum) {
+TEST(FileLayoutTest, AHeaderThatDoesNotMatchItsChecksumIsRefused) {
     Bytes file = validFile();
     file[40] ^= std::byte{1};
     expectRefusal(file, ModelStatus::damaged, "checksum at byte 24");
 }
 
-TEST(FileLayoutTest, RefusesPaddingOtherThanSpaces) {
+TEST(FileLayoutTest, PaddingOtherThanSpacesIsRefused) {
     ModelBuilder builder;
     builder.editText = [](std::string& text) { text.back() = '\n'; };
     expectRefusal(builder.build(), ModelStatus::inconsistent, "spaces");
 }
 
-TEST(FileLayoutTest, RefusesAHeaderOfSpacesOnly) {
+TEST(FileLayoutTest, AHeaderOfSpacesOnlyIsRefused) {
     ModelBuilder builder;
     builder.editText = [](std::string& text) { text.assign(text.size(), ' '); };
     expectRefusal(builder.build(), ModelStatus::inconsistent, "one object");
 }
 
-TEST(FileLayoutTest, RefusesAHeaderThatIsAnArray) {
+TEST(FileLayoutTest, AHeaderThatIsAnArrayIsRefused) {
     ModelBuilder builder;
     builder.editText = [](std::string& text) { text = "[]" + std::string(text.size() - 2, ' '); };
     expectRefusal(builder.build(), ModelStatus::inconsistent, "one object");

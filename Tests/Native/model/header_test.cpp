@@ -5,53 +5,53 @@ namespace {
 
 using Json = nlohmann::json;
 
-TEST(HeaderTest, RefusesAHeaderWithoutAnyOneOfItsKeys) {
+TEST(HeaderTest, AHeaderWithAMissingKeyIsRefused) {
     for (const char* key : {"name", "description", "provenance", "sample_rate_hz", "segment_samples", "normalisation",
                             "range", "embedding_size", "labels", "tiers", "default_tier", "seed_bank"}) {
         expectHeaderRefusal([key](Json& header) { header.erase(key); }, '"' + std::string(key) + '"');
     }
 }
 
-TEST(HeaderTest, RefusesProvenanceWithoutAnyOneOfItsKeys) {
+TEST(HeaderTest, ProvenanceWithAMissingKeyIsRefused) {
     for (const char* key : {"statement", "recordings", "licence", "seed", "commit", "configuration", "created"}) {
         expectHeaderRefusal([key](Json& header) { header["provenance"].erase(key); }, key);
     }
 }
 
-TEST(HeaderTest, IgnoresKeysThatItDoesNotKnow) {
+TEST(HeaderTest, UnknownKeysAreIgnored) {
     ModelBuilder builder;
     builder.header["written_later"] = {1, 2, 3};
     builder.header["labels"][0]["smell"] = "pine";
     EXPECT_NO_THROW((void)ModelFile::parse(builder.build()));
 }
 
-TEST(HeaderTest, RefusesAnEmptyName) {
+TEST(HeaderTest, AnEmptyNameIsRefused) {
     expectHeaderRefusal([](Json& header) { header["name"] = ""; }, "not empty");
 }
 
-TEST(HeaderTest, RefusesANameOfTheWrongType) {
+TEST(HeaderTest, ANameOfTheWrongTypeIsRefused) {
     expectHeaderRefusal([](Json& header) { header["name"] = 3; }, "\"name\": expected a string");
 }
 
-TEST(HeaderTest, RefusesControlCharactersInText) {
+TEST(HeaderTest, ControlCharactersInTextAreRefused) {
     expectHeaderRefusal([](Json& header) { header["description"] = "a\u001b[2Jb"; }, "control characters");
 }
 
-TEST(HeaderTest, RefusesANameAboveTheLimit) {
+TEST(HeaderTest, ANameAboveTheLimitIsRefused) {
     expectHeaderRefusal([](Json& header) { header["name"] = std::string(129, 'a'); }, "the limit is 128",
                         ModelStatus::oversized);
 }
 
-TEST(HeaderTest, RefusesAnEmptyStatementOfProvenance) {
+TEST(HeaderTest, AnEmptyStatementOfProvenanceIsRefused) {
     expectHeaderRefusal([](Json& header) { header["provenance"]["statement"] = ""; }, "provenance.statement");
 }
 
-TEST(HeaderTest, RefusesASeedOfTrainingThatIsNotAnInteger) {
+TEST(HeaderTest, ATrainingSeedThatIsNotAnIntegerIsRefused) {
     expectHeaderRefusal([](Json& header) { header["provenance"]["seed"] = 1.5; }, "provenance.seed");
     expectHeaderRefusal([](Json& header) { header["provenance"]["seed"] = UINT64_MAX; }, "provenance.seed");
 }
 
-TEST(HeaderTest, AcceptsAnEmptyDateAndRefusesAnInventedOne) {
+TEST(HeaderTest, AnEmptyDateIsAcceptedAndAnInvalidOneRefused) {
     ModelBuilder builder;
     builder.header["provenance"]["created"] = "";
     EXPECT_NO_THROW((void)ModelFile::parse(builder.build()));
@@ -60,41 +60,41 @@ TEST(HeaderTest, AcceptsAnEmptyDateAndRefusesAnInventedOne) {
     }
 }
 
-TEST(HeaderTest, RefusesAnotherSampleRate) {
+TEST(HeaderTest, AnotherSampleRateIsRefused) {
     expectHeaderRefusal([](Json& header) { header["sample_rate_hz"] = 4000; }, "sample_rate_hz");
 }
 
-TEST(HeaderTest, RefusesAnotherSegmentLength) {
+TEST(HeaderTest, AnotherSegmentLengthIsRefused) {
     expectHeaderRefusal([](Json& header) { header["segment_samples"] = 199; }, "segment_samples");
 }
 
-TEST(HeaderTest, RefusesAnotherEmbeddingSize) {
+TEST(HeaderTest, AnotherEmbeddingSizeIsRefused) {
     expectHeaderRefusal([](Json& header) { header["embedding_size"] = 32; }, "embedding_size");
 }
 
-TEST(HeaderTest, RefusesAnotherUnit) {
+TEST(HeaderTest, AnotherUnitIsRefused) {
     expectHeaderRefusal([](Json& header) { header["normalisation"]["unit"] = "g"; }, "m/s^2");
 }
 
-TEST(HeaderTest, RefusesAPeakThatIsNotPositive) {
+TEST(HeaderTest, APeakThatIsNotPositiveIsRefused) {
     expectHeaderRefusal([](Json& header) { header["normalisation"]["peak_mps2"] = 0; }, "peak_mps2");
 }
 
-TEST(HeaderTest, RefusesARangeWithoutWidth) {
+TEST(HeaderTest, ARangeWithoutWidthIsRefused) {
     expectHeaderRefusal([](Json& header) { header["range"]["speed_mps"] = {0.2, 0.2}; }, "range.speed_mps");
     expectHeaderRefusal([](Json& header) { header["range"]["force_newtons"] = {3.0, 1.0}; }, "range.force_newtons");
 }
 
-TEST(HeaderTest, RefusesANegativeOrAbsurdRange) {
+TEST(HeaderTest, ANegativeOrTooLargeRangeIsRefused) {
     expectHeaderRefusal([](Json& header) { header["range"]["speed_mps"] = {-0.1, 0.2}; }, "range.speed_mps[0]");
     expectHeaderRefusal([](Json& header) { header["range"]["force_newtons"] = {0.1, 1e9}; }, "range.force_newtons[1]");
 }
 
-TEST(HeaderTest, RefusesARangeOfThreeNumbers) {
+TEST(HeaderTest, ARangeOfThreeNumbersIsRefused) {
     expectHeaderRefusal([](Json& header) { header["range"]["speed_mps"] = {0.1, 0.2, 0.3}; }, "an array of 2 numbers");
 }
 
-TEST(HeaderTest, RefusesPercentilesThatFall) {
+TEST(HeaderTest, DecreasingPercentilesAreRefused) {
     expectHeaderRefusal(
         [](Json& header) {
             header["range"]["speed_percentiles_mps"] = {0.1, 0.05, 0.2, 0.3, 0.4};
@@ -102,7 +102,7 @@ TEST(HeaderTest, RefusesPercentilesThatFall) {
         "rising order");
 }
 
-TEST(HeaderTest, RefusesFourPercentiles) {
+TEST(HeaderTest, FourPercentilesAreRefused) {
     expectHeaderRefusal(
         [](Json& header) {
             header["range"]["force_percentiles_newtons"] = {1, 2, 3, 4};
@@ -110,24 +110,24 @@ TEST(HeaderTest, RefusesFourPercentiles) {
         "force_percentiles_newtons");
 }
 
-TEST(HeaderTest, RefusesADefaultTierThatIsNotThere) {
+TEST(HeaderTest, AnUnknownDefaultTierIsRefused) {
     expectHeaderRefusal([](Json& header) { header["default_tier"] = "fine"; }, "default_tier");
 }
 
-TEST(HeaderTest, RefusesMeasurementsThatAreNotAnObject) {
+TEST(HeaderTest, MeasurementsThatAreNotAnObjectAreRefused) {
     expectHeaderRefusal([](Json& header) { header["measurements"] = 5; }, "measurements");
 }
 
-TEST(HeaderTest, RefusesSeedsOfAnotherLength) {
+TEST(HeaderTest, SeedsOfAnotherLengthAreRefused) {
     expectHeaderRefusal([](Json& header) { header["seed_bank"]["samples"] = 200; }, "seed_bank.samples");
 }
 
-TEST(HeaderTest, RefusesASeedOfALabelThatIsNotThere) {
+TEST(HeaderTest, ASeedOfAnUnknownLabelIsRefused) {
     expectHeaderRefusal([](Json& header) { header["seed_bank"]["entries"][1]["label"] = "felt"; },
                         "seed_bank.entries[1].label");
 }
 
-TEST(HeaderTest, RefusesASeedWithAnAbsurdVelocityOrForce) {
+TEST(HeaderTest, ASeedWithVelocityOrForceOutOfRangeIsRefused) {
     expectHeaderRefusal(
         [](Json& header) {
             header["seed_bank"]["entries"][0]["velocity_mps"] = {0.0, 1e6};
@@ -137,7 +137,7 @@ TEST(HeaderTest, RefusesASeedWithAnAbsurdVelocityOrForce) {
                         "entries[0].force_newtons");
 }
 
-TEST(HeaderTest, ReadsTheRibPhaseOfASeedAndTakesZeroWhereThereIsNone) {
+TEST(HeaderTest, TheRibPhaseOfASeedIsReadAndAMissingOneIsZero) {
     ModelBuilder builder;
     builder.header["seed_bank"]["entries"][1]["rib_phase"] = {0.25, 0.875};
     const ModelFile model = ModelFile::parse(builder.build());
@@ -145,7 +145,7 @@ TEST(HeaderTest, ReadsTheRibPhaseOfASeedAndTakesZeroWhereThereIsNone) {
     EXPECT_EQ(model.header().seeds[1].ribPhase, (std::array<double, 2>{0.25, 0.875}));
 }
 
-TEST(HeaderTest, RefusesARibPhaseThatIsNotTwoNumbersFromZeroToOne) {
+TEST(HeaderTest, ARibPhaseThatIsNotTwoNumbersFromZeroToOneIsRefused) {
     expectHeaderRefusal([](Json& header) { header["seed_bank"]["entries"][0]["rib_phase"] = {0.5}; },
                         "\"seed_bank.entries[0].rib_phase\": expected an array of 2 numbers");
     expectHeaderRefusal(
@@ -157,19 +157,19 @@ TEST(HeaderTest, RefusesARibPhaseThatIsNotTwoNumbersFromZeroToOne) {
                         "entries[2].rib_phase");
 }
 
-TEST(HeaderTest, RefusesASeedBankWithFewerEntriesThanRows) {
+TEST(HeaderTest, ASeedBankWithFewerEntriesThanRowsIsRefused) {
     expectHeaderRefusal([](Json& header) { header["seed_bank"]["entries"].erase(2); }, "as many entries");
 }
 
-TEST(HeaderTest, RefusesASeedTensorThatIsNotThere) {
+TEST(HeaderTest, AMissingSeedTensorIsRefused) {
     expectHeaderRefusal([](Json& header) { header["seed_bank"]["tensor"] = "nothing"; }, "\"nothing\"");
 }
 
-TEST(HeaderTest, RefusesASeedTensorOfAnotherWidth) {
+TEST(HeaderTest, ASeedTensorOfAnotherWidthIsRefused) {
     expectHeaderRefusal([](Json& header) { header["seed_bank"]["tensor"] = "embedding"; }, "[rows, 400]");
 }
 
-TEST(HeaderTest, RefusesMoreSeedsThanTheLimit) {
+TEST(HeaderTest, MoreSeedsThanTheLimitAreRefused) {
     expectHeaderRefusal(
         [](Json& header) { header["seed_bank"]["entries"] = Json(Json::array_t(maximumSeeds + 1, Json(0))); },
         "the limit is 65536", ModelStatus::oversized);

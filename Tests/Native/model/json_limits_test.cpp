@@ -20,31 +20,31 @@ std::string nested(int levels) {
     return text + std::string(static_cast<std::size_t>(levels - 1), ']') + '}';
 }
 
-TEST(JsonLimitsTest, RefusesJsonThatEndsEarlyAsDamaged) {
+TEST(JsonLimitsTest, JsonThatEndsEarlyIsDamaged) {
     ModelBuilder builder;
     replaceHeader(builder, R"({"name": })");
     expectRefusal(builder.build(), ModelStatus::damaged, "valid JSON");
 }
 
-TEST(JsonLimitsTest, RefusesASecondValueAfterTheObject) {
+TEST(JsonLimitsTest, ASecondValueAfterTheObjectIsRefused) {
     ModelBuilder builder;
     replaceHeader(builder, R"({} {})");
     expectRefusal(builder.build(), ModelStatus::damaged, "valid JSON");
 }
 
-TEST(JsonLimitsTest, RefusesTextThatIsNotUtf8) {
+TEST(JsonLimitsTest, TextThatIsNotUtf8IsRefused) {
     ModelBuilder builder;
     replaceHeader(builder, "{\"name\": \"\xFF\xFE\"}");
     expectRefusal(builder.build(), ModelStatus::damaged, "valid JSON");
 }
 
-TEST(JsonLimitsTest, RefusesNumbersThatNoDoubleHolds) {
+TEST(JsonLimitsTest, NumbersBeyondTheRangeOfDoubleAreRefused) {
     ModelBuilder builder;
     replaceHeader(builder, R"({"name": 1e999})");
     expectRefusal(builder.build(), ModelStatus::damaged, "valid JSON");
 }
 
-TEST(JsonLimitsTest, RefusesNanAndInfinity) {
+TEST(JsonLimitsTest, NanAndInfinityAreRefused) {
     for (const char* word : {"NaN", "Infinity", "-Infinity"}) {
         ModelBuilder builder;
         replaceHeader(builder, std::string(R"({"sample_rate_hz": )") + word + "}");
@@ -52,24 +52,24 @@ TEST(JsonLimitsTest, RefusesNanAndInfinity) {
     }
 }
 
-TEST(JsonLimitsTest, RefusesAKeyGivenTwice) {
+TEST(JsonLimitsTest, ADuplicateKeyIsRefused) {
     ModelBuilder builder;
     replaceHeader(builder, R"({"name": "a", "name": "b"})");
     expectRefusal(builder.build(), ModelStatus::inconsistent, "\"name\" twice");
 }
 
-TEST(JsonLimitsTest, AcceptsTheSameKeyInDifferentObjects) {
+TEST(JsonLimitsTest, TheSameKeyInDifferentObjectsIsAccepted) {
     EXPECT_NO_THROW((void)parseBoundedJson(R"({"a": {"a": 1}, "b": [{"a": 1}, {"a": 2}]})"));
 }
 
-TEST(JsonLimitsTest, AcceptsTheDeepestNestingAndRefusesOneMore) {
+TEST(JsonLimitsTest, TheMaximumNestingIsAcceptedAndOneLevelMoreRefused) {
     EXPECT_NO_THROW((void)parseBoundedJson(nested(maximumJsonDepth)));
     ModelBuilder builder;
     replaceHeader(builder, nested(maximumJsonDepth + 1));
     expectRefusal(builder.build(), ModelStatus::oversized, "deeper than 32");
 }
 
-TEST(JsonLimitsTest, RefusesAMillionOpenBracketsBeforeBuildingAnything) {
+TEST(JsonLimitsTest, AMillionOpenBracketsAreRefusedBeforeAnyValueIsBuilt) {
     const std::string text = "{\"a\":" + std::string(1'000'000, '[');
     EXPECT_THROW((void)parseBoundedJson(text), ModelError);
 }

@@ -16,56 +16,56 @@ void expectTierRefusal(const char* key, const Json& value, const std::string& pa
     expectHeaderRefusal([&](Json& header) { header["tiers"][1][key] = value; }, part);
 }
 
-TEST(LabelTest, RefusesALabelWithoutAnyOneOfItsKeys) {
+TEST(LabelTest, ALabelWithAMissingKeyIsRefused) {
     for (const char* key : {"name", "embedding_row", "level_exponents", "frequency_exponent", "periodic",
                             "wavelength_metres", "stiffness_newtons_per_metre", "friction_coefficient", "category"}) {
         expectHeaderRefusal([key](Json& header) { header["labels"][1].erase(key); }, key);
     }
 }
 
-TEST(LabelTest, RefusesAModelWithoutLabels) {
+TEST(LabelTest, AModelWithoutLabelsIsRefused) {
     expectHeaderRefusal([](Json& header) { header["labels"] = Json::array(); }, "labels");
 }
 
-TEST(LabelTest, RefusesMoreLabelsThanTheLimit) {
+TEST(LabelTest, MoreLabelsThanTheLimitAreRefused) {
     expectHeaderRefusal([](Json& header) { header["labels"] = Json(Json::array_t(maximumLabels + 1, Json(0))); },
                         "the limit is 4096", ModelStatus::oversized);
 }
 
-TEST(LabelTest, RefusesTheSameNameTwice) {
+TEST(LabelTest, ADuplicateNameIsRefused) {
     expectLabelRefusal("name", "metal mesh", "appears twice");
 }
 
-TEST(LabelTest, RefusesAnEmptyOrUpperCaseName) {
+TEST(LabelTest, AnEmptyOrUpperCaseNameIsRefused) {
     expectLabelRefusal("name", "", "labels[0].name");
     expectLabelRefusal("name", "Oak", "lower case");
 }
 
-TEST(LabelTest, RefusesAnEmbeddingRowOutsideTheTensor) {
+TEST(LabelTest, AnEmbeddingRowOutsideTheTensorIsRefused) {
     expectLabelRefusal("embedding_row", 2, "labels[0].embedding_row");
     expectLabelRefusal("embedding_row", -1, "labels[0].embedding_row");
     expectLabelRefusal("embedding_row", 0.5, "labels[0].embedding_row");
 }
 
-TEST(LabelTest, RefusesExponentsOutOfRange) {
+TEST(LabelTest, ExponentsOutOfRangeAreRefused) {
     expectLabelRefusal("level_exponents", {{"speed", 5.0}, {"force", 0.0}}, "level_exponents.speed");
     expectLabelRefusal("level_exponents", {{"speed", 0.0}, {"force", -5.0}}, "level_exponents.force");
     expectLabelRefusal("frequency_exponent", -0.1, "frequency_exponent");
 }
 
-TEST(LabelTest, RefusesAPeriodicLabelWithoutWavelength) {
+TEST(LabelTest, APeriodicLabelWithoutWavelengthIsRefused) {
     expectLabelRefusal("periodic", true, "wavelength_metres");
 }
 
-TEST(LabelTest, RefusesAWavelengthOfALabelThatIsNotPeriodic) {
+TEST(LabelTest, AWavelengthOfALabelThatIsNotPeriodicIsRefused) {
     expectLabelRefusal("wavelength_metres", 0.001, "not periodic");
 }
 
-TEST(LabelTest, RefusesAWavelengthOfZero) {
+TEST(LabelTest, AWavelengthOfZeroIsRefused) {
     expectHeaderRefusal([](Json& header) { header["labels"][1]["wavelength_metres"] = 0; }, "wavelength_metres");
 }
 
-TEST(LabelTest, RefusesStiffnessAndFrictionOutOfRange) {
+TEST(LabelTest, StiffnessAndFrictionOutOfRangeAreRefused) {
     expectLabelRefusal("stiffness_newtons_per_metre", 0, "stiffness_newtons_per_metre");
     expectLabelRefusal("stiffness_newtons_per_metre", 1e7, "stiffness_newtons_per_metre");
     expectLabelRefusal("friction_coefficient", -0.1, "friction_coefficient");
@@ -75,7 +75,7 @@ Json oneMode() {
     return {{"frequency_hz", 180.0}, {"decay_per_second", 75.0}, {"gain_per_second", 170.0}};
 }
 
-TEST(LabelTest, ReadsHowALabelAnswersALandingAndNothingWhereTheFileSaysNothing) {
+TEST(LabelTest, TheImpactOfALabelIsReadAndAMissingOneIsEmpty) {
     ModelBuilder builder;
     Json second = oneMode();
     second["frequency_hz"] = 640.0;
@@ -91,7 +91,7 @@ TEST(LabelTest, ReadsHowALabelAnswersALandingAndNothingWhereTheFileSaysNothing) 
     EXPECT_FALSE(model.header().labels[1].impact);
 }
 
-TEST(LabelTest, RefusesALandingOutOfRange) {
+TEST(LabelTest, AnImpactOutOfRangeIsRefused) {
     const auto refused = [](const char* key, const Json& value, const char* named) {
         Json impact = {{"modes", Json::array({oneMode()})}, {"restitution", 0.2}};
         if (impact.contains(key)) {
@@ -118,66 +118,66 @@ TEST(LabelTest, RefusesALandingOutOfRange) {
     expectLabelRefusal("impact", Json::object(), "modes");
 }
 
-TEST(LabelTest, RefusesAnEmptyCategory) {
+TEST(LabelTest, AnEmptyCategoryIsRefused) {
     expectLabelRefusal("category", "", "labels[0].category");
 }
 
-TEST(TierTest, RefusesATierWithoutAnyOneOfItsKeys) {
+TEST(TierTest, ATierWithAMissingKeyIsRefused) {
     for (const char* key :
          {"name", "kind", "field", "level", "solver", "steps", "parameters", "representation", "accuracy", "cost"}) {
         expectHeaderRefusal([key](Json& header) { header["tiers"][0].erase(key); }, key);
     }
 }
 
-TEST(TierTest, RefusesAModelWithoutTiers) {
+TEST(TierTest, AModelWithoutTiersIsRefused) {
     expectHeaderRefusal([](Json& header) { header["tiers"] = Json::array(); }, "tiers");
 }
 
-TEST(TierTest, RefusesMoreTiersThanTheLimit) {
+TEST(TierTest, MoreTiersThanTheLimitAreRefused) {
     expectHeaderRefusal([](Json& header) { header["tiers"] = Json(Json::array_t(maximumTiers + 1, Json(0))); },
                         "the limit is 64", ModelStatus::oversized);
 }
 
-TEST(TierTest, RefusesTheSameNameTwice) {
+TEST(TierTest, ADuplicateNameIsRefused) {
     expectTierRefusal("name", "draft", "appears twice");
 }
 
-TEST(TierTest, RefusesAKindThatItDoesNotKnow) {
+TEST(TierTest, AnUnknownKindIsRefused) {
     expectTierRefusal("kind", "diffusion", "\"average-velocity\"");
 }
 
-TEST(TierTest, RefusesASolverThatItDoesNotKnow) {
+TEST(TierTest, AnUnknownSolverIsRefused) {
     expectTierRefusal("solver", "rk45", "\"heun\"");
 }
 
-TEST(TierTest, RefusesStepsOutsideOneToSixteen) {
+TEST(TierTest, StepsOutsideOneToSixteenAreRefused) {
     expectTierRefusal("steps", 0, "tiers[1].steps");
     expectTierRefusal("steps", 17, "tiers[1].steps");
 }
 
-TEST(TierTest, RefusesANegativeNumberOfParameters) {
+TEST(TierTest, ANegativeNumberOfParametersIsRefused) {
     expectTierRefusal("parameters", -1, "tiers[1].parameters");
 }
 
-TEST(TierTest, RefusesGraphsThatAreNotThere) {
+TEST(TierTest, UnknownGraphsAreRefused) {
     expectTierRefusal("field", "nothing", "tiers[1].field");
     expectTierRefusal("level", "nothing", "tiers[1].level");
 }
 
-TEST(TierTest, RefusesATensorWhereAGraphBelongs) {
+TEST(TierTest, ATensorInPlaceOfAGraphIsRefused) {
     expectTierRefusal("field", "embedding", "type \"onnx\"");
 }
 
-TEST(TierTest, RefusesFiguresThatAreNotAnObject) {
+TEST(TierTest, FiguresThatAreNotAnObjectAreRefused) {
     expectTierRefusal("accuracy", 0.5, "tiers[1].accuracy");
     expectTierRefusal("cost", Json::array(), "tiers[1].cost");
 }
 
-TEST(TierTest, RefusesARepresentationThatItDoesNotKnow) {
+TEST(TierTest, AnUnknownRepresentationIsRefused) {
     expectTierRefusal("representation", "spectrum", "\"latent\"");
 }
 
-TEST(TierTest, ReadsALatentTier) {
+TEST(TierTest, ALatentTierIsRead) {
     ModelBuilder builder;
     Json& tier = builder.header["tiers"][1];
     tier["representation"] = "latent";
@@ -190,7 +190,7 @@ TEST(TierTest, ReadsALatentTier) {
     EXPECT_EQ(model.header().tiers[1].decoder, "field");
 }
 
-TEST(TierTest, RefusesALatentTierWithoutShapeEncoderOrDecoder) {
+TEST(TierTest, ALatentTierWithoutShapeEncoderOrDecoderIsRefused) {
     for (const char* key : {"latent_shape", "encoder", "decoder"}) {
         expectHeaderRefusal(
             [key](Json& header) {
@@ -205,7 +205,7 @@ TEST(TierTest, RefusesALatentTierWithoutShapeEncoderOrDecoder) {
     }
 }
 
-TEST(TierTest, RefusesALatentThatIsEmptyOrHuge) {
+TEST(TierTest, AnEmptyOrTooLargeLatentIsRefused) {
     for (const Json& shape : {Json::array(), Json::array({0}), Json::array({4096, 4096, 4096})}) {
         expectHeaderRefusal(
             [&shape](Json& header) {
@@ -238,16 +238,16 @@ TEST(TierAccuracyTest, TheSmallestSumOfSpectralDistanceAndLevelErrorIsTheMostAcc
     using Order = std::vector<std::size_t>;
     EXPECT_EQ(orderOf({measured(3.0, 1.0), measured(2.0, 1.0), measured(1.0, 1.0)}), (Order{0, 1, 2}));
     EXPECT_EQ(orderOf({measured(1.26, 0.98), measured(1.195, 0.76), measured(1.1925, 1.01)}), (Order{0, 2, 1}))
-        << "a spectrum that is nearer by nothing does not make up for the level";
+        << "a negligibly better spectrum does not outweigh the level";
     EXPECT_EQ(orderOf({measured(1.0, 0.5), measured(1.0, 1.0), measured(2.0, 1.0)}), (Order{2, 1, 0}));
 }
 
-TEST(TierAccuracyTest, EquallyAccurateTiersStandAsInTheFile) {
+TEST(TierAccuracyTest, EquallyAccurateTiersKeepTheFilesOrder) {
     using Order = std::vector<std::size_t>;
     EXPECT_EQ(orderOf({measured(1.0, 1.0), measured(1.0, 1.0), measured(3.0, 1.0)}), (Order{2, 0, 1}));
 }
 
-TEST(TierAccuracyTest, WhereATierWasNotMeasuredTheOrderOfTheFileCountsForAll) {
+TEST(TierAccuracyTest, AllTiersKeepTheFilesOrderIfOneWasNotMeasured) {
     using Order = std::vector<std::size_t>;
     const Json best = measured(1.0, 1.0);
     for (const Json& unknown :

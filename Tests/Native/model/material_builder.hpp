@@ -12,7 +12,7 @@
 
 namespace haptoflow::model::testing {
 
-/// A seed of RMS 1 that is a tone.
+/// A seed with an RMS of 1: a sine.
 inline nlohmann::json validSeed(double frequencyHz = 100.0) {
     std::vector<double> samples(seedSamples);
     for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -22,7 +22,7 @@ inline nlohmann::json validSeed(double frequencyHz = 100.0) {
     return {{"velocity_mps", {0.1, 0.0}}, {"force_newtons", 1.0}, {"rib_phase", {0.25, 0.0}}, {"samples", samples}};
 }
 
-/// A valid material of a space, with every key that there is; tests change it.
+/// A valid material of an embedding space, with all keys.
 inline nlohmann::json validMaterial(const std::string& space) {
     nlohmann::json json = {
         {"format", "haptoflow-material"},

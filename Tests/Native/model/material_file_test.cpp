@@ -27,7 +27,7 @@ Json readJson(const std::string& path) {
     return Json::parse(stream);
 }
 
-/// That the material is refused with a message that holds `part`.
+/// Expects that the material is refused with a message that contains `part`.
 void expectRefusal(const Json& material, const std::string& part) {
     try {
         (void)parseMaterial(material.dump());
@@ -37,7 +37,7 @@ void expectRefusal(const Json& material, const std::string& part) {
     }
 }
 
-/// The same of a valid material with one value changed.
+/// Expects the same for a valid material with one changed value.
 void expectRefused(const std::string& pointer, const Json& value, const std::string& part) {
     Json material = validMaterial("0123abcd");
     material[Json::json_pointer(pointer)] = value;
@@ -66,7 +66,7 @@ TEST(MaterialFileTest, EveryKeyOfAFileIsRead) {
     EXPECT_NEAR(material.seeds[0].samples[5], std::sqrt(2.0), 1e-6);
 }
 
-TEST(MaterialFileTest, WhatIsOptionalMayBeLeftOutAndUnknownKeysAreIgnored) {
+TEST(MaterialFileTest, OptionalKeysMayBeMissingAndUnknownKeysAreIgnored) {
     Json json = validMaterial("0123abcd");
     for (const char* key : {"description", "impact", "level", "tone", "level_offset_db", "seeds"}) {
         json.erase(key);
@@ -78,7 +78,7 @@ TEST(MaterialFileTest, WhatIsOptionalMayBeLeftOutAndUnknownKeysAreIgnored) {
     EXPECT_TRUE(material.seeds.empty());
 }
 
-TEST(MaterialFileTest, AFileWithoutAnyOneOfItsOtherKeysIsRefusedByItsName) {
+TEST(MaterialFileTest, AFileWithAMissingMandatoryKeyIsRefusedWithTheKey) {
     for (const char* key : {"format", "version", "space", "name", "category", "provenance", "embedding", "range",
                             "level_exponents", "frequency_exponent", "periodic", "wavelength_metres",
                             "stiffness_newtons_per_metre", "friction_coefficient"}) {
@@ -88,7 +88,7 @@ TEST(MaterialFileTest, AFileWithoutAnyOneOfItsOtherKeysIsRefusedByItsName) {
     }
 }
 
-TEST(MaterialFileTest, ABadValueIsRefusedByItsKey) {
+TEST(MaterialFileTest, AnInvalidValueIsRefusedWithItsKey) {
     expectRefused("/format", "haptoflow", "material key \"format\": expected \"haptoflow-material\"");
     expectRefused("/version", 2, "update HaptoFlow");
     expectRefused("/version", 0, "version");
@@ -111,7 +111,7 @@ TEST(MaterialFileTest, ABadValueIsRefusedByItsKey) {
     expectRefused("/seeds", Json(Json::array_t(17, validSeed())), "the limit is 16");
 }
 
-TEST(MaterialFileTest, ABadLevelToneOrOffsetIsRefusedByItsKeyAlsoInAModel) {
+TEST(MaterialFileTest, AnInvalidLevelToneOrOffsetIsRefusedWithItsKeyAlsoInAModel) {
     const auto refused = [](const std::string& pointer, const Json& value, const std::string& part) {
         expectRefused(pointer, value, part);
         ModelBuilder builder;
@@ -149,7 +149,7 @@ TEST(MaterialFileTest, ABadLevelToneOrOffsetIsRefusedByItsKeyAlsoInAModel) {
     refused("/level_offset_db", nullptr, "level_offset_db");
 }
 
-TEST(MaterialFileTest, EveryRefusalOfTheGoldenFilesNamesItsKey) {
+TEST(MaterialFileTest, EveryErrorOfTheGoldenFilesNamesItsKey) {
     const Json golden = readJson(goldenFolder + "invalid.json");
     const Json whole = readJson(goldenFolder + golden.at("of").get<std::string>());
     EXPECT_NO_THROW((void)parseMaterial(whole.dump()));
@@ -157,12 +157,12 @@ TEST(MaterialFileTest, EveryRefusalOfTheGoldenFilesNamesItsKey) {
     for (const Json& each : golden.at("cases")) {
         const auto key = each.at("key").get<std::string>();
         SCOPED_TRACE(each.at("name").get<std::string>());
-        // A member that is missing is named apart from the object that lacks it.
+        // The message for a missing member names the member, not the object's path.
         expectRefusal(whole.patch(each.at("patch")), key.substr(key.rfind('.') + 1));
     }
 }
 
-TEST(MaterialFileTest, TheGoldenFilesAreReadAndTheirSpacesAreThoseOfTheirModels) {
+TEST(MaterialFileTest, TheGoldenFilesAreReadAndTheirSpacesEqualThoseOfTheirModels) {
     const Json golden = readJson(goldenFolder + "expected.json");
     const ModelFile tiny = ModelFile::read(HAPTOFLOW_TEST_GOLDEN_DIR "/model/tiny.haptoflow");
     const ModelFile shipped = ModelFile::read(HAPTOFLOW_TEST_DEFAULT_MODEL);
@@ -198,7 +198,7 @@ TEST(MaterialFileTest, ATextAboveTheLimitIsRefusedBeforeItIsRead) {
     }
 }
 
-TEST(MaterialFileTest, AFileThatIsNotThereOrNotOneIsRefusedWithItsPath) {
+TEST(MaterialFileTest, AMissingFileAndAFolderAreRefusedWithTheirPath) {
     const auto refusal = [](const std::string& path) -> std::string {
         try {
             (void)readMaterial(path);
@@ -213,9 +213,9 @@ TEST(MaterialFileTest, AFileThatIsNotThereOrNotOneIsRefusedWithItsPath) {
     EXPECT_THAT(refusal(HAPTOFLOW_TEST_GOLDEN_DIR "/model/tiny.haptoflow"), HasSubstr("is not valid JSON"));
 }
 
-// Run under the sanitizers, these show that no byte of a file is trusted.
+// Under the sanitizers these tests show that invalid bytes cause no undefined behaviour.
 
-TEST(MaterialMutationTest, AFileCutShortAnywhereIsRefused) {
+TEST(MaterialMutationTest, AFileCutAtAnyLengthIsRefused) {
     const std::string text = validMaterial("0123abcd").dump();
     for (std::size_t length = 0; length < text.size(); ++length) {
         EXPECT_THROW((void)parseMaterial(std::string_view(text).substr(0, length)), MaterialError) << length;
@@ -249,7 +249,7 @@ TEST(MaterialMutationTest, AFileWithChangedBytesIsRefusedOrReadable) {
     EXPECT_GT(refused, 100);
 }
 
-TEST(MaterialMutationTest, AnyValueInThePlaceOfAnotherIsRefusedOrReadable) {
+TEST(MaterialMutationTest, AFileWithAnExchangedValueIsRefusedOrReadable) {
     const Json whole = validMaterial("0123abcd");
     const Json flat = whole.flatten();
     const std::vector<Json> values{

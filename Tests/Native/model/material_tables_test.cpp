@@ -7,7 +7,7 @@
 namespace haptoflow::model {
 namespace {
 
-TEST(MaterialTablesTest, APlaceIsHeldAtTheEndsAndBetweenThemItIsAShareOfTheLogarithms) {
+TEST(MaterialTablesTest, APlaceIsInterpolatedOverLogarithmsAndLimitedToTheEnds) {
     const double rising[]{0.01, 0.1, 0.4};
     for (const double value : {-1.0, 0.0, 0.005, 0.01, std::nan("")}) {
         EXPECT_EQ(placeInLog(rising, value).lower, 0U) << value;
@@ -23,7 +23,7 @@ TEST(MaterialTablesTest, APlaceIsHeldAtTheEndsAndBetweenThemItIsAShareOfTheLogar
     }
 }
 
-TEST(MaterialTablesTest, ALevelIsTheTablesAtItsSpeedsAndAPowerOfSpeedBeyondThemAndOfForceEverywhere) {
+TEST(MaterialTablesTest, ALevelFollowsTheTableAndPowerLawsBeyondItsSpeedsAndOverForce) {
     const LevelTable table{
         .speedsMps = {0.05, 0.2}, .logLevels = {1.0, 2.0}, .forceNewtons = 0.5, .forceExponent = 0.4};
     EXPECT_DOUBLE_EQ(table.logLevel(0.05, 0.5, 0.9), 1.0);
@@ -36,14 +36,14 @@ TEST(MaterialTablesTest, ALevelIsTheTablesAtItsSpeedsAndAPowerOfSpeedBeyondThemA
     EXPECT_DOUBLE_EQ(table.logLevel(0.05, 0.0, 0.9), table.logLevel(0.05, 0.02, 0.9));
 }
 
-TEST(MaterialTablesTest, ALevelOfOneSpeedGoesOnFromItInBothDirections) {
+TEST(MaterialTablesTest, ALevelOfOneSpeedFollowsAPowerLawInBothDirections) {
     const LevelTable table{.speedsMps = {0.1}, .logLevels = {-1.0}, .forceNewtons = 1.0, .forceExponent = 0.0};
     EXPECT_DOUBLE_EQ(table.logLevel(0.1, 3.0, 1.0), -1.0);
     EXPECT_NEAR(table.logLevel(0.2, 3.0, 1.0), -1.0 + std::log(0.2005 / 0.1005), 1e-12);
     EXPECT_NEAR(table.logLevel(0.02, 3.0, 1.0), -1.0 + std::log(0.0205 / 0.1005), 1e-12);
 }
 
-TEST(MaterialTablesTest, AToneIsTheMeanInDecibelsOfTheFourGainsAround) {
+TEST(MaterialTablesTest, AToneIsInterpolatedInDecibelsBetweenFourGains) {
     const ToneTable tone{
         .speedsMps = {0.05, 0.2}, .frequenciesHz = {50.0, 200.0, 800.0}, .gainsDb = {{0.0, 4.0, 6.0}, {2.0, 8.0, 0.0}}};
     EXPECT_DOUBLE_EQ(tone.gainDb(0.05, 200.0), 4.0);

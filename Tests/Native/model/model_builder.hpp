@@ -35,12 +35,12 @@ inline std::uint64_t readUnsigned(const Bytes& file, std::size_t offset, std::si
     return value;
 }
 
-/// Makes the checksum of bytes 0 to 27 true again.
+/// Corrects the checksum of bytes 0 to 27.
 inline void resealPrefix(Bytes& file) {
     writeUnsigned(file, 28, 4, crc32(std::span(file).first(28)));
 }
 
-/// Makes the checksums of the header and of bytes 0 to 27 true again.
+/// Corrects the checksums of the header and of bytes 0 to 27.
 inline void resealHeader(Bytes& file) {
     const auto length = std::min<std::uint64_t>(readUnsigned(file, 12, 4), file.size() - 32);
     writeUnsigned(file, 24, 4, crc32(std::span(file).subspan(32, static_cast<std::size_t>(length))));
@@ -62,16 +62,16 @@ struct BlobContent {
     Bytes bytes;
 };
 
-/// Writes `.haptoflow` files in memory. A new builder holds a small valid model (two labels, two tiers, three seeds,
-/// graphs that no runtime would load); tests change `header` or `blobs` and build.
+/// Builds `.haptoflow` files in memory. A new builder holds a small valid model (two labels, two tiers, three seeds,
+/// graphs that no runtime could load); tests change `header` or `blobs` before building.
 class ModelBuilder {
 public:
-    /// Everything but "blobs".
+    /// The header without "blobs".
     nlohmann::json header = validHeader();
     std::vector<BlobContent> blobs = validBlobs();
-    /// Changes the header once "blobs" is in it, with offsets and checksums of the blobs as they will lie.
+    /// Changes the header after "blobs" has been added with final offsets and checksums.
     std::function<void(nlohmann::json&)> editLaidOut;
-    /// Changes the header's text, not its length.
+    /// Changes the header's text without changing its length.
     std::function<void(std::string&)> editText;
 
     [[nodiscard]] Bytes build() const {
@@ -94,7 +94,7 @@ public:
         }
         std::string text = laidOut.dump();
         if (text.size() > headerEnd - 32) {
-            throw std::length_error("the edited header outgrew its place");
+            throw std::length_error("the changed header does not fit into its space");
         }
         text.resize(headerEnd - 32, ' ');
         if (editText) {

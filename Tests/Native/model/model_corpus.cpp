@@ -5,7 +5,7 @@
 #include <iostream>
 #include <stdexcept>
 
-// Writes the files that the fuzzers start from into the folder named on the command line.
+// Writes the initial corpus of the fuzzers into the folder named on the command line.
 
 namespace {
 

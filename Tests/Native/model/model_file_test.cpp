@@ -36,7 +36,7 @@ private:
     std::filesystem::path path_;
 };
 
-TEST(ModelFileTest, ReadsEveryValueOfAValidModel) {
+TEST(ModelFileTest, EveryValueOfAValidModelIsRead) {
     const ModelFile model = ModelFile::parse(ModelBuilder().build());
     const ModelHeader& header = model.header();
 
@@ -75,7 +75,7 @@ TEST(ModelFileTest, ReadsEveryValueOfAValidModel) {
     EXPECT_DOUBLE_EQ(header.seeds[1].forceNewtons, 2.0);
 }
 
-TEST(ModelFileTest, GivesTheEmbeddingRowThatALabelNames) {
+TEST(ModelFileTest, ALabelsEmbeddingIsTheRowThatItNames) {
     ModelBuilder builder;
     builder.header["labels"][0]["embedding_row"] = 1;
     const ModelFile model = ModelFile::parse(builder.build());
@@ -84,7 +84,7 @@ TEST(ModelFileTest, GivesTheEmbeddingRowThatALabelNames) {
     EXPECT_THROW((void)model.embedding(2), std::out_of_range);
 }
 
-TEST(ModelFileTest, GivesSeedsRowByRow) {
+TEST(ModelFileTest, SeedsAreReturnedRowByRow) {
     ModelBuilder builder;
     std::vector<float> seeds(3 * seedSamples, 1.0F);
     seeds[seedSamples] = -1.0F;
@@ -96,7 +96,7 @@ TEST(ModelFileTest, GivesSeedsRowByRow) {
     EXPECT_THROW((void)model.seed(3), std::out_of_range);
 }
 
-TEST(ModelFileTest, GivesBlobsByName) {
+TEST(ModelFileTest, BlobsAreFoundByName) {
     const ModelFile model = ModelFile::parse(ModelBuilder().build());
     EXPECT_EQ(model.blob("field").size(), 100U);
     EXPECT_EQ(model.blob("field")[99], std::byte{0x5A});
@@ -104,17 +104,14 @@ TEST(ModelFileTest, GivesBlobsByName) {
     EXPECT_THROW((void)model.blob("nothing"), std::out_of_range);
 }
 
-TEST(ModelFileTest, FindsLabelsAndTiersByName) {
+TEST(ModelFileTest, TiersAreFoundByName) {
     const ModelFile model = ModelFile::parse(ModelBuilder().build());
-    ASSERT_NE(model.findLabel("metal mesh"), nullptr);
-    EXPECT_EQ(model.findLabel("metal mesh"), &model.header().labels[1]);
-    EXPECT_EQ(model.findLabel("felt"), nullptr);
     ASSERT_NE(model.findTier("draft"), nullptr);
     EXPECT_EQ(model.findTier("draft")->steps, 1);
     EXPECT_EQ(model.findTier("fine"), nullptr);
 }
 
-TEST(ModelFileTest, StaysValidWhenMoved) {
+TEST(ModelFileTest, AModelStaysValidWhenItIsMoved) {
     ModelFile first = ModelFile::parse(ModelBuilder().build());
     const ModelFile second = std::move(first);
     EXPECT_EQ(second.blob("field")[0], std::byte{0x5A});
@@ -122,14 +119,14 @@ TEST(ModelFileTest, StaysValidWhenMoved) {
     EXPECT_FLOAT_EQ(second.embedding(1)[0], 0.64F);
 }
 
-TEST(ModelFileTest, ReturnsTheHeaderTextWithoutPadding) {
+TEST(ModelFileTest, TheHeaderTextHasNoPadding) {
     const ModelFile model = ModelFile::parse(ModelBuilder().build());
     EXPECT_EQ(model.headerText().front(), '{');
     EXPECT_EQ(model.headerText().back(), '}');
     EXPECT_EQ(nlohmann::json::parse(model.headerText())["name"], "test model");
 }
 
-TEST(ModelFileTest, ReadsAFileFromDisk) {
+TEST(ModelFileTest, AFileIsReadFromDisk) {
     const TemporaryFile file("valid.haptoflow");
     const Bytes bytes = ModelBuilder().build();
     file.write(bytes);
@@ -138,7 +135,7 @@ TEST(ModelFileTest, ReadsAFileFromDisk) {
     EXPECT_EQ(model.checksum(), crc32(bytes));
 }
 
-TEST(ModelFileTest, NamesThePathOfAMissingFile) {
+TEST(ModelFileTest, TheErrorForAMissingFileNamesItsPath) {
     const TemporaryFile file("missing.haptoflow");
     try {
         (void)ModelFile::read(file.path());
@@ -149,7 +146,7 @@ TEST(ModelFileTest, NamesThePathOfAMissingFile) {
     }
 }
 
-TEST(ModelFileTest, NamesThePathOfADamagedFileAndKeepsItsStatus) {
+TEST(ModelFileTest, TheErrorForADamagedFileNamesItsPathAndKeepsItsStatus) {
     const TemporaryFile file("damaged.haptoflow");
     Bytes bytes = ModelBuilder().build();
     bytes[50] ^= std::byte{2};
@@ -163,7 +160,7 @@ TEST(ModelFileTest, NamesThePathOfADamagedFileAndKeepsItsStatus) {
     }
 }
 
-TEST(ModelFileTest, RefusesAFolder) {
+TEST(ModelFileTest, AFolderIsRefused) {
     try {
         (void)ModelFile::read(std::filesystem::temp_directory_path());
         FAIL() << "a folder was read";
@@ -172,7 +169,7 @@ TEST(ModelFileTest, RefusesAFolder) {
     }
 }
 
-TEST(ModelFileTest, RefusesAHugeFileWithoutReadingIt) {
+TEST(ModelFileTest, AFileAboveTheLimitIsRefusedWithoutReadingIt) {
     const TemporaryFile file("huge.haptoflow");
     file.write({});
     std::filesystem::resize_file(file.path(), 268'435'457);
@@ -184,7 +181,7 @@ TEST(ModelFileTest, RefusesAHugeFileWithoutReadingIt) {
     }
 }
 
-TEST(ModelFileTest, ReadsTheFileThatPythonWrote) {
+TEST(ModelFileTest, AFileWrittenByPythonIsRead) {
     const ModelFile model = ModelFile::read(HAPTOFLOW_TEST_GOLDEN_DIR "/model/tiny.haptoflow");
     EXPECT_EQ(model.header().name, "tiny");
     ASSERT_EQ(model.header().labels.size(), 2U);

@@ -30,7 +30,7 @@ void tryFile(Bytes file) {
     }
 }
 
-/// Gives every blob whose place makes sense its true checksum, where the header still fits.
+/// Corrects the checksums of all blobs with a valid position, if the header still fits.
 void resealBlobs(Bytes& file) {
     const auto headerLength = static_cast<std::size_t>(testing::readUnsigned(file, 12, 4));
     if (headerLength > file.size() - prefixBytes) {

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <map>
 
-// Deterministic mutations of a valid file. Run under the sanitizers they show that no byte of a file is trusted; run
-// without, that every mutant is either refused with a ModelError or readable through every accessor.
+// Deterministic mutations of a valid file. Under the sanitizers they show that invalid bytes cause no undefined
+// behaviour; otherwise, that every mutant is either refused with a ModelError or readable through every accessor.
 
 namespace haptoflow::model::testing {
 namespace {
@@ -39,7 +39,7 @@ double touchEverything(const ModelFile& model) {
     return sum;
 }
 
-/// What became of the mutants; the tests ask that both kinds occur where both must.
+/// Numbers of refused and accepted mutants; tests require both kinds where both must occur.
 struct Outcome {
     int accepted = 0;
     std::map<ModelStatus, int> refused;
@@ -64,7 +64,7 @@ void tryMutant(Bytes file, Outcome& outcome) {
     }
 }
 
-/// Replaces every checksum by the true one, so that a mutant gets as far as its contents carry it.
+/// Corrects all checksums, so that a mutant is refused only for its content.
 Bytes reseal(Bytes file) {
     if (file.size() >= prefixBytes) {
         resealHeader(file);
@@ -148,7 +148,7 @@ void mutateJson(Json& root, Random& random) {
         }
         case 3:
             if (node.is_number_integer()) {
-                // Unsigned, for an earlier change may have left a number at the edge of its type.
+                // Unsigned arithmetic, because an earlier change may have left the largest number of its type.
                 node = static_cast<std::int64_t>(node.get<std::uint64_t>() + random.below(129) - 64U);
                 return;
             }
@@ -159,7 +159,7 @@ void mutateJson(Json& root, Random& random) {
     }
 }
 
-TEST(MutationTest, EveryChangedByteIsNoticed) {
+TEST(MutationTest, EveryChangedByteIsDetected) {
     const Bytes valid = ModelBuilder().build();
     Random random(1);
     Outcome outcome;
@@ -173,7 +173,7 @@ TEST(MutationTest, EveryChangedByteIsNoticed) {
     EXPECT_EQ(outcome.refusals(), mutants);
 }
 
-TEST(MutationTest, ChangedHeaderBytesBehindTrueChecksumsAreRefusedOrReadable) {
+TEST(MutationTest, ChangedHeaderBytesWithCorrectChecksumsAreRefusedOrReadable) {
     const Bytes valid = ModelBuilder().build();
     const std::size_t textBytes = ModelFile::parse(valid).headerText().size();
     Random random(2);
@@ -190,7 +190,7 @@ TEST(MutationTest, ChangedHeaderBytesBehindTrueChecksumsAreRefusedOrReadable) {
     EXPECT_GT(outcome.refused[ModelStatus::inconsistent], 0);
 }
 
-TEST(MutationTest, ChangedHeaderValuesBehindTrueChecksumsAreRefusedOrReadable) {
+TEST(MutationTest, ChangedHeaderValuesWithCorrectChecksumsAreRefusedOrReadable) {
     Random random(3);
     Outcome outcome;
     ModelBuilder builder;
@@ -205,7 +205,7 @@ TEST(MutationTest, ChangedHeaderValuesBehindTrueChecksumsAreRefusedOrReadable) {
             tryMutant(builder.build(), outcome);
             ++built;
         } catch (const std::length_error&) {
-            // A mutant whose header outgrew the room that the builder leaves is no file.
+            // The mutant's header does not fit into the space that the builder leaves: skip it.
         }
     }
     EXPECT_GT(built, 9'000);
@@ -214,7 +214,7 @@ TEST(MutationTest, ChangedHeaderValuesBehindTrueChecksumsAreRefusedOrReadable) {
     EXPECT_GT(outcome.refused[ModelStatus::oversized], 0);
 }
 
-TEST(MutationTest, ChangedLengthsAndOffsetsBehindTrueChecksumsAreRefusedOrReadable) {
+TEST(MutationTest, ChangedLengthsAndOffsetsWithCorrectChecksumsAreRefusedOrReadable) {
     const Bytes valid = ModelBuilder().build();
     Random random(4);
     Outcome outcome;
@@ -236,7 +236,7 @@ TEST(MutationTest, ChangedLengthsAndOffsetsBehindTrueChecksumsAreRefusedOrReadab
     EXPECT_GT(outcome.refused[ModelStatus::oversized], 0);
 }
 
-TEST(MutationTest, ChangedTensorsBehindTrueChecksumsAreRefusedOrReadable) {
+TEST(MutationTest, ChangedTensorsWithCorrectChecksumsAreRefusedOrReadable) {
     Random random(5);
     Outcome outcome;
     for (int index = 0; index < 4000; ++index) {

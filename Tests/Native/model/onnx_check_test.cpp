@@ -14,7 +14,7 @@
 #include <iterator>
 #include <set>
 
-// What is read of a graph before ONNX Runtime sees it.
+// Checks of a graph before ONNX Runtime loads it.
 
 namespace haptoflow::model::testing {
 namespace {
@@ -26,7 +26,7 @@ void expectGraphRefusal(const Bytes& bytes, const std::string& part, ModelStatus
         checkOnnxModel(bytes, graphName);
         ADD_FAILURE() << "the graph was accepted; expected a refusal that mentions: " << part;
     } catch (const ModelError& error) {
-        EXPECT_EQ(statusName(error.status()), statusName(status)) << error.what();
+        EXPECT_EQ(error.status(), status) << error.what();
         EXPECT_THAT(error.what(), ::testing::StartsWith(graphName));
         EXPECT_THAT(error.what(), ::testing::HasSubstr(part));
     }
@@ -41,7 +41,7 @@ OnnxWriter plainLevel() {
     return levelGraph().apply("Identity", {"weighted"}, {"log_level"});
 }
 
-TEST(OnnxCheckTest, AcceptsEveryGraphOfTheShippedModel) {
+TEST(OnnxCheckTest, EveryGraphOfTheShippedModelIsAccepted) {
     const ModelFile model = ModelFile::read(HAPTOFLOW_TEST_DEFAULT_MODEL);
     int graphs = 0;
     for (const Blob& blob : model.header().blobs) {
@@ -50,10 +50,11 @@ TEST(OnnxCheckTest, AcceptsEveryGraphOfTheShippedModel) {
             ++graphs;
         }
     }
-    EXPECT_EQ(graphs, static_cast<int>(model.header().tiers.size()) + 1) << "a field for each tier, and the level";
+    EXPECT_EQ(graphs, static_cast<int>(model.header().tiers.size()) + 1)
+        << "a velocity field for each tier, and the level graph";
 }
 
-TEST(OnnxCheckTest, AcceptsEveryKindOfTierOfTheTinyModel) {
+TEST(OnnxCheckTest, EveryKindOfTierOfTheTinyModelIsAccepted) {
     const ModelFile model = ModelFile::read(HAPTOFLOW_TEST_GOLDEN_DIR "/model/tiny.haptoflow");
     for (const Tier& tier : model.header().tiers) {
         for (const std::string& graph : {tier.field, tier.level, tier.encoder, tier.decoder}) {
@@ -65,11 +66,12 @@ TEST(OnnxCheckTest, AcceptsEveryKindOfTierOfTheTinyModel) {
 }
 
 TEST(OnnxCheckTest, ALoopIsRefusedByNameWithTheRemedy) {
-    expectGraphRefusal(loopingLevel(), "uses the operator \"Loop\", which a model file may not: export it with the");
+    expectGraphRefusal(loopingLevel(),
+                       "uses the operator \"Loop\", which model files may not contain: export it with the");
     expectGraphRefusal(loopingLevel(), "Documentation~/model-format.md");
 }
 
-TEST(OnnxCheckTest, OperatorsThatHoldGraphsOrMakeSizesOfValuesAreNotInTheList) {
+TEST(OnnxCheckTest, OperatorsThatContainGraphsOrDeriveSizesFromValuesAreNotInTheList) {
     for (const char* type :
          {"Loop", "Scan", "If", "SequenceMap", "Tile", "Range", "Resize", "Upsample", "OneHot", "NonZero", "EyeLike",
           "RandomNormal", "StringNormalizer", "Optional", "", "loop", "Loop "}) {
@@ -94,13 +96,13 @@ TEST(OnnxCheckTest, ADomainOtherThanOnnxIsRefusedWhereItIsImportedAndWhereItIsUs
     EXPECT_NO_THROW(checkOnnxModel(plainLevel().model(16, "ai.onnx").written(), graphName));
 }
 
-TEST(OnnxCheckTest, AnotherOpsetIsRefusedWithTheOneThatIsMeant) {
+TEST(OnnxCheckTest, AnotherOpsetIsRefusedWithTheExpectedOne) {
     expectGraphRefusal(plainLevel().model(17), "opset 17; export it for opset 16");
     expectGraphRefusal(plainLevel().model(0), "opset 0");
     expectGraphRefusal(WireWriter().message(7, plainLevel().graph), "is not an ONNX model");
 }
 
-TEST(OnnxCheckTest, FunctionsTrainingAndWhateverLaterVersionsRunAreRefused) {
+TEST(OnnxCheckTest, FunctionsTrainingAndFieldsOfLaterVersionsAreRefused) {
     for (const std::uint32_t field : {20U, 25U, 26U, 99U}) {
         expectGraphRefusal(plainLevel().model().message(field, WireWriter()),
                            "its model has the field " + std::to_string(field));
@@ -111,22 +113,22 @@ TEST(OnnxCheckTest, FunctionsTrainingAndWhateverLaterVersionsRunAreRefused) {
 }
 
 TEST(OnnxCheckTest, NoGraphAndTwoGraphsAreRefused) {
-    expectGraphRefusal(WireWriter().message(8, OnnxWriter::opsetOf(16, "")), "needs one graph");
-    expectGraphRefusal(plainLevel().model().message(7, plainLevel().graph), "needs one graph");
-    expectGraphRefusal(Bytes{}, "needs one graph");
+    expectGraphRefusal(WireWriter().message(8, OnnxWriter::opsetOf(16, "")), "must have one graph");
+    expectGraphRefusal(plainLevel().model().message(7, plainLevel().graph), "must have one graph");
+    expectGraphRefusal(Bytes{}, "must have one graph");
 }
 
-TEST(OnnxCheckTest, ATensorThatLiesInAnotherFileIsRefused) {
+TEST(OnnxCheckTest, ATensorInAnotherFileIsRefused) {
     const WireWriter entry = WireWriter().text(1, "location").text(2, "/etc/passwd");
     const Bytes four(4);
     for (const WireWriter& tensor : {rawTensor("w", onnxFloat, {1}, four).message(13, entry),
                                      rawTensor("w", onnxFloat, {1}, four).number(14, 1)}) {
-        expectGraphRefusal(plainLevel().constant(tensor).model(), "the tensor \"w\" lies in another file");
+        expectGraphRefusal(plainLevel().constant(tensor).model(), "the tensor \"w\" is in another file");
     }
 }
 
-TEST(OnnxCheckTest, ATensorThatDoesNotHoldWhatItsDimensionsSayIsRefused) {
-    const std::string part = "does not hold as many numbers as its dimensions say";
+TEST(OnnxCheckTest, ATensorThatDoesNotMatchItsDimensionsIsRefused) {
+    const std::string part = "has another number of values than its dimensions";
     for (const Dimensions& dimensions :
          {Dimensions{3}, Dimensions{2, 2}, Dimensions{-1}, Dimensions{0}, Dimensions{1000000000, 1000000000},
           Dimensions{std::int64_t{1} << 62, 4}, Dimensions{INT64_MIN}}) {
@@ -138,7 +140,7 @@ TEST(OnnxCheckTest, ATensorThatDoesNotHoldWhatItsDimensionsSayIsRefused) {
         checkOnnxModel(plainLevel().constant(rawTensor("w", onnxFloat, {2}, Bytes(8))).model().written(), graphName));
 }
 
-TEST(OnnxCheckTest, NumbersOutsideTheRawBytesAreCountedToo) {
+TEST(OnnxCheckTest, NumbersOutsideTheRawBytesAreCounted) {
     const auto tensor = [](std::uint64_t type, std::int64_t count) {
         return WireWriter().number(1, static_cast<std::uint64_t>(count)).number(2, type).text(8, "w");
     };
@@ -149,7 +151,7 @@ TEST(OnnxCheckTest, NumbersOutsideTheRawBytesAreCountedToo) {
     }
     for (const WireWriter& wrong :
          {tensor(onnxFloat, 3).bytes(4, Bytes(8)), tensor(onnxInt64, 4).bytes(7, packed), tensor(onnxInt64, 1)}) {
-        EXPECT_THAT(readOnnxTensor(wrong.written()).problem, ::testing::HasSubstr("as many numbers"));
+        EXPECT_THAT(readOnnxTensor(wrong.written()).problem, ::testing::HasSubstr("another number of values"));
     }
 }
 
@@ -158,35 +160,38 @@ TEST(OnnxCheckTest, TensorsOfTextAndOfUnknownTypesAreRefused) {
     expectGraphRefusal(plainLevel().constant(rawTensor("w", 99, {1}, Bytes(4))).model(), "is of type 99");
 }
 
-TEST(OnnxCheckTest, AnAttributesTensorIsCheckedLikeAnInitializer) {
+TEST(OnnxCheckTest, ATensorInAnAttributeIsCheckedLikeAnInitialiser) {
     const WireWriter attribute =
         WireWriter().text(1, "value").message(5, rawTensor("", onnxFloat, {9}, Bytes(4))).number(20, 4);
-    expectGraphRefusal(levelGraph().apply("Constant", {}, {"c"}, {attribute}).model(), "as many numbers");
+    expectGraphRefusal(levelGraph().apply("Constant", {}, {"c"}, {attribute}).model(), "another number of values");
 }
 
-TEST(OnnxCheckTest, ASizeThatDependsOnWhatAnInputHoldsIsRefused) {
+TEST(OnnxCheckTest, ASizeThatDependsOnTheContentOfAnInputIsRefused) {
     for (const char* type : {"ConstantOfShape", "Expand", "Pad", "Reshape", "Slice"}) {
         OnnxWriter writer = levelGraph();
         writer.apply("Cast", {"weighted"}, {"size"}, {integerAttribute("to", 7)});
         const Names inputs = std::string(type) == "ConstantOfShape" ? Names{"size"} : Names{"weighted", "size"};
-        expectGraphRefusal(writer.apply(type, inputs, {"log_level"}).model(),
-                           std::string("the operator \"") + type + "\" takes a size from what the graph's inputs hold");
+        expectGraphRefusal(
+            writer.apply(type, inputs, {"log_level"}).model(),
+            std::string("the operator \"") + type + "\" takes a size from the content of the graph's inputs");
     }
 }
 
-TEST(OnnxCheckTest, ASizeThatFollowsFromAnInputsShapeIsFine) {
+TEST(OnnxCheckTest, ASizeThatDependsOnTheShapeOfAnInputIsAccepted) {
     OnnxWriter writer = levelGraph();
     writer.apply("Shape", {"weighted"}, {"shape"}).apply("ConstantOfShape", {"shape"}, {"zeros"});
     EXPECT_NO_THROW(
         checkOnnxModel(writer.apply("Add", {"weighted", "zeros"}, {"log_level"}).model().written(), graphName));
 }
 
-TEST(OnnxCheckTest, ANameThatIsReadBeforeItIsMadeOrMadeTwiceIsRefused) {
+TEST(OnnxCheckTest, ANameThatIsUsedBeforeItsDefinitionOrDefinedTwiceIsRefused) {
     expectGraphRefusal(levelGraph().apply("Add", {"weighted", "later"}, {"log_level"}).model(),
-                       "\"Add\" reads \"later\" before anything made it");
-    expectGraphRefusal(levelGraph().apply("Add", {"log_level", "weighted"}, {"log_level"}).model(), "before anything");
-    expectGraphRefusal(levelGraph().apply("Identity", {"motion"}, {"weighted"}).model(), "\"weighted\" is given twice");
-    expectGraphRefusal(levelGraph().apply("Identity", {"weighted"}, {"motion"}).model(), "\"motion\" is given twice");
+                       "\"Add\" reads \"later\" before it is defined");
+    expectGraphRefusal(levelGraph().apply("Add", {"log_level", "weighted"}, {"log_level"}).model(),
+                       "before it is defined");
+    expectGraphRefusal(levelGraph().apply("Identity", {"motion"}, {"weighted"}).model(),
+                       "\"weighted\" is defined twice");
+    expectGraphRefusal(levelGraph().apply("Identity", {"weighted"}, {"motion"}).model(), "\"motion\" is defined twice");
 }
 
 TEST(OnnxCheckTest, TooManyOperatorsOrTensorsAreRefusedBeforeTheyAreRead) {
@@ -202,7 +207,7 @@ TEST(OnnxCheckTest, TooManyOperatorsOrTensorsAreRefusedBeforeTheyAreRead) {
     expectGraphRefusal(tensors.model(), "more than 65536 inputs and tensors", ModelStatus::oversized);
 }
 
-TEST(OnnxCheckTest, AMessageShowsNothingOfAFileThatATerminalWouldObey) {
+TEST(OnnxCheckTest, AMessageContainsNoControlCharactersOfAFile) {
     expectGraphRefusal(levelGraph().apply("\x1b[2J\n" + std::string(500, 'x'), {"weighted"}, {"log_level"}).model(),
                        "uses the operator \"?[2J?" + std::string(59, 'x') + "\", which");
 }
@@ -216,13 +221,11 @@ TEST(OnnxCheckTest, TheDocumentationListsTheOperatorsAndNoOthers) {
     const std::size_t first = text.find("```\n", begin) + 4;
     std::istringstream words(text.substr(first, text.find("```", first) - first));
     std::set<std::string> listed{std::istream_iterator<std::string>(words), {}};
-    EXPECT_EQ(listed.size(), allowedOperatorCount());
-    for (const std::string& type : listed) {
-        EXPECT_TRUE(isAllowedOperator(type)) << type;
-    }
+    const std::span<const std::string_view> allowed = allowedOperators();
+    EXPECT_EQ(listed, std::set<std::string>(allowed.begin(), allowed.end()));
 }
 
-TEST(WireReaderTest, ReadsEveryEncoding) {
+TEST(WireReaderTest, EveryEncodingIsRead) {
     const Bytes bytes{std::byte{0x08}, std::byte{0xAC}, std::byte{0x02}, std::byte{0x11}, std::byte{1},
                       std::byte{0},    std::byte{0},    std::byte{0},    std::byte{0},    std::byte{0},
                       std::byte{0},    std::byte{0x80}, std::byte{0x1A}, std::byte{2},    std::byte{'o'},
@@ -238,7 +241,7 @@ TEST(WireReaderTest, ReadsEveryEncoding) {
     EXPECT_FALSE(reader.next().has_value());
 }
 
-TEST(WireReaderTest, RefusesLengthsBeyondTheEndLongNumbersAndWhatProtobufDoesNotHave) {
+TEST(WireReaderTest, LengthsBeyondTheEndLongNumbersAndUnknownEncodingsAreRefused) {
     const auto refuse = [](std::initializer_list<int> values, const std::string& part) {
         Bytes bytes;
         for (const int value : values) {
@@ -263,7 +266,7 @@ TEST(WireReaderTest, RefusesLengthsBeyondTheEndLongNumbersAndWhatProtobufDoesNot
     refuse({0x02, 0}, "the number 0");
 }
 
-/// The shipped level graph, which has constants, initializers and attributes, and a made one.
+/// The shipped level graph, which has constants, initialisers and attributes, and a generated one.
 std::vector<Bytes> seedGraphs() {
     const ModelFile model = ModelFile::read(HAPTOFLOW_TEST_DEFAULT_MODEL);
     const auto level = model.blob("level");
@@ -292,7 +295,7 @@ TEST(OnnxMutationTest, ChangedBytesAreRefusedOrReadToTheEnd) {
         for (int index = 0; index < 6000; ++index) {
             Bytes bytes = valid;
             for (std::size_t change = 0; change <= random.below(4); ++change) {
-                // The front holds structure, the rest mostly weights.
+                // The first bytes hold the structure, the rest mostly weights.
                 const std::size_t end = random.below(2) == 0 ? std::min<std::size_t>(bytes.size(), 4000) : bytes.size();
                 bytes[random.below(end)] = static_cast<std::byte>(random.below(256));
             }
@@ -302,14 +305,14 @@ TEST(OnnxMutationTest, ChangedBytesAreRefusedOrReadToTheEnd) {
     }
 }
 
-TEST(OnnxMutationTest, GraphsCutOffOrPutTogetherAreRefusedOrReadToTheEnd) {
+TEST(OnnxMutationTest, CutAndJoinedGraphsAreRefusedOrReadToTheEnd) {
     Random random(7);
     const std::vector<Bytes> valid = seedGraphs();
     GraphOutcome outcome;
     for (std::size_t length = 0; length < valid[1].size(); ++length) {
         outcome.tryGraph(Bytes(valid[1].begin(), valid[1].begin() + static_cast<std::ptrdiff_t>(length)));
     }
-    EXPECT_EQ(outcome.accepted, 0) << "the opset stands last";
+    EXPECT_EQ(outcome.accepted, 0) << "the opset is at the end";
     for (int index = 0; index < 4000; ++index) {
         const Bytes& first = valid[random.below(valid.size())];
         const Bytes& second = valid[random.below(valid.size())];

@@ -58,7 +58,7 @@ inline WireWriter graphAttribute(std::string_view name, const WireWriter& graph)
     return WireWriter().text(1, name).message(6, graph).number(20, 5);
 }
 
-/// A TensorProto whose numbers stand as raw bytes.
+/// A TensorProto with its numbers as raw bytes.
 inline WireWriter rawTensor(std::string_view name, std::uint64_t type, const Dimensions& dimensions, const Bytes& raw) {
     WireWriter tensor;
     for (const std::int64_t dimension : dimensions) {
@@ -78,10 +78,10 @@ inline WireWriter integerTensor(std::string_view name, const std::vector<std::in
     return rawTensor(name, onnxInt64, {static_cast<std::int64_t>(values.size())}, raw);
 }
 
-/// Collects a graph as ONNX has it; `model` wraps it.
+/// Builds an ONNX graph; `model` returns the complete file.
 class OnnxWriter {
 public:
-    /// A float tensor of a free batch and these dimensions.
+    /// Adds a float input with a free batch dimension followed by these dimensions.
     OnnxWriter& input(std::string_view name, const Dimensions& behindBatch) {
         graph.message(11, value(name, behindBatch));
         return *this;
@@ -113,7 +113,7 @@ public:
         graph.message(1, node);
         return *this;
     }
-    /// The whole file; `opset` is a field of ModelProto.
+    /// The complete file; `opset` is a field of ModelProto.
     [[nodiscard]] WireWriter model(std::uint64_t opset = 16, std::string_view domain = "") const {
         return WireWriter().number(1, 8).message(7, graph).message(8, opsetOf(opset, domain));
     }
@@ -135,8 +135,8 @@ private:
     }
 };
 
-/// A level graph: log_level = motion * weights, which further operators may change. `last` is what log_level is made
-/// of.
+/// A level graph, log_level = motion * weights, that tests extend by further operators. `last` is the operator that
+/// computes log_level.
 inline OnnxWriter levelGraph() {
     OnnxWriter writer;
     writer.input("motion", {3}).output("log_level", {1});
@@ -144,7 +144,7 @@ inline OnnxWriter levelGraph() {
     return writer.apply("MatMul", {"motion", "weights"}, {"weighted"});
 }
 
-/// A level graph that repeats an operator more often than anybody can wait for.
+/// A level graph that loops so often that it would never end.
 inline Bytes loopingLevel() {
     OnnxWriter body;
     body.apply("Identity", {"go"}, {"goes"}).apply("Add", {"x", "x"}, {"y"});
@@ -155,8 +155,8 @@ inline Bytes loopingLevel() {
         .written();
 }
 
-/// A level graph of allowed operators and a few kilobytes that multiplies matrices of 1000 rows 1000 times: half a
-/// minute for a fast machine.
+/// A level graph of a few kilobytes with allowed operators only, which multiplies matrices of 1000 rows 1000 times:
+/// half a minute on a fast machine.
 inline Bytes slowLevel() {
     OnnxWriter writer = levelGraph();
     writer.constant(integerTensor("size", {1000, 1000}));

@@ -5,7 +5,7 @@
 
 namespace haptoflow::model::testing {
 
-/// Numbers that are the same on every platform (SplitMix64).
+/// Random numbers that are equal on every platform (SplitMix64).
 class Random {
 public:
     explicit Random(std::uint64_t seed) : state_(seed) {}

@@ -19,12 +19,12 @@ inline void expectRefusal(Bytes file, ModelStatus status, const std::string& par
         (void)ModelFile::parse(std::move(file));
         ADD_FAILURE() << "the file was accepted; expected a refusal that mentions: " << part;
     } catch (const ModelError& error) {
-        EXPECT_EQ(statusName(error.status()), statusName(status)) << error.what();
+        EXPECT_EQ(error.status(), status) << error.what();
         EXPECT_THAT(error.what(), ::testing::HasSubstr(part));
     }
 }
 
-/// The same for the valid model with a changed header; all checksums are true.
+/// Expects the same for the valid model with a changed header and correct checksums.
 inline void expectHeaderRefusal(const std::function<void(nlohmann::json&)>& change, const std::string& part,
                                 ModelStatus status = ModelStatus::inconsistent) {
     ModelBuilder builder;
@@ -32,7 +32,7 @@ inline void expectHeaderRefusal(const std::function<void(nlohmann::json&)>& chan
     expectRefusal(builder.build(), status, part);
 }
 
-/// The same for the header's list of blobs.
+/// Expects the same for a change of the header's list of blobs.
 inline void expectBlobRefusal(const std::function<void(nlohmann::json& blobs)>& change, const std::string& part,
                               ModelStatus status = ModelStatus::inconsistent) {
     ModelBuilder builder;

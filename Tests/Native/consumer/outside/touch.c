@@ -1,4 +1,4 @@
-/* Slides over the model's first label for half a second and says how strong it felt. */
+/* Slides over the model's first label for half a second and prints the level. */
 #include <haptoflow/haptoflow.h>
 
 #include <math.h>

@@ -1,0 +1,96 @@
+#pragma once
+
+#include "headless/broad_phase.hpp"
+#include "headless/contact_transitions.hpp"
+#include "headless/contact_types.hpp"
+#include "headless/scene.hpp"
+#include "headless/tangent_frame.hpp"
+#include "headless/tip_history.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace haptoflow::headless {
+
+/// Tracks one stylus tip in a scene and reports, frame by frame, what it touches. Not thread-safe.
+///
+/// A touch begins when the tip sphere penetrates a surface and ends when the gap exceeds `releaseDistanceMetres`. Among
+/// several surfaces the deepest contact wins, but another surface replaces the touched one only if it is deeper by
+/// `switchMarginMetres`. Inside a box or a closed mesh the normal is that of the nearest face; the face of the previous
+/// frame is kept with the same margin, so that the normal does not flip back and forth. Among equally deep surfaces the
+/// first one of the scene wins.
+///
+/// A frame computes distances only for surfaces near the tip (see BroadPhase) and allocates nothing.
+class ContactTracker {
+public:
+    /// Copies the scene. Throws std::invalid_argument if a setting, the tip radius or a shape is out of range.
+    explicit ContactTracker(Scene scene, ContactSettings settings = {});
+
+    /// Processes the next frame. A sample with an unusable position keeps the last one for `lostSeconds`. If the time
+    /// stands still, only the geometry is updated. If it goes backwards, or after a pause or a teleport, the history is
+    /// dropped, so that the velocity is zero until the next frame.
+    ContactReading update(const TipSample& sample);
+
+    [[nodiscard]] const ContactStatistics& statistics() const noexcept { return statistics_; }
+    [[nodiscard]] const Scene& scene() const noexcept { return scene_; }
+
+private:
+    struct Candidate {
+        std::size_t surface = 0;
+        SurfacePoint local;
+        Pose pose;
+        double penetrationMetres = 0.0;
+
+        /// A total order, so that the result does not depend on the order of the search.
+        [[nodiscard]] bool isDeeperThan(const Candidate& other) const noexcept {
+            return penetrationMetres > other.penetrationMetres ||
+                   (penetrationMetres == other.penetrationMetres && surface < other.surface);
+        }
+    };
+    struct Nearby {
+        std::optional<Candidate> current;
+        std::optional<Candidate> deepest;
+    };
+
+    [[nodiscard]] bool acceptSample(const TipSample& sample);
+    void forgetContinuity() noexcept;
+    [[nodiscard]] std::optional<Candidate> query(std::size_t surface);
+    [[nodiscard]] std::optional<SurfacePoint> closestPoint(std::size_t surface, const glm::dvec3& localTip) const;
+    [[nodiscard]] Nearby findNearby();
+    [[nodiscard]] std::optional<Candidate> chooseContact();
+    template <typename Visit>
+    void visitWithinReach(Visit&& visit) const;
+    [[nodiscard]] PosedPlace restingPlace(const PosedPlace& place, const glm::dvec3& restingTip) const;
+    [[nodiscard]] bool isCaught(std::size_t reference, const Pose& referencePose, const glm::dvec3& restingTip) const;
+    void noteTransition(PosedPlace place, const glm::dvec3& velocityMps);
+    void noteSlideOff();
+    void countEdge(double heightMetres) noexcept;
+    [[nodiscard]] ContactReading describe(const Candidate& contact, bool touchDown, const TipSample& sample);
+    [[nodiscard]] ContactReading idle() const noexcept;
+
+    Scene scene_;
+    ContactSettings settings_;
+    BroadPhase broadPhase_;
+    std::vector<double> stiffnessNewtonsPerMetre_;
+    std::vector<TangentFrame> frames_;
+    TipHistory history_;
+    ContactStatistics statistics_;
+
+    double nowSeconds_ = 0.0;
+    double stepSeconds_ = 0.0;
+    bool started_ = false;
+    std::optional<glm::dvec3> tipMetres_;
+    double tipSeconds_ = 0.0;
+
+    std::optional<std::size_t> touched_;
+    std::optional<glm::dvec3> localNormal_;
+    std::uint32_t touchCounter_ = 0;
+    double approachSpeedMps_ = 0.0;
+    ContactTransitions transitions_;
+    std::uint32_t landingCounter_ = 0;
+    std::uint32_t edgeCounter_ = 0;
+    double edgeHeightMetres_ = 0.0;
+};
+
+}  // namespace haptoflow::headless

@@ -1,0 +1,208 @@
+#include "contact_golden.hpp"
+
+#include "scene_file.hpp"
+
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace haptoflow::headless::golden {
+namespace {
+
+using nlohmann::json;
+
+/// Visits every setting of the file with its name.
+template <typename Settings, typename Visit>
+void visitSettings(Settings& settings, Visit&& visit) {
+    visit("maximum_force_newtons", settings.maximumForceNewtons);
+    visit("default_stiffness_newtons_per_metre", settings.defaultStiffnessNewtonsPerMetre);
+    visit("release_distance_metres", settings.releaseDistanceMetres);
+    visit("switch_margin_metres", settings.switchMarginMetres);
+    visit("open_mesh_depth_metres", settings.openMeshDepthMetres);
+    visit("lost_seconds", settings.lostSeconds);
+    visit("velocity_window_seconds", settings.velocity.windowSeconds);
+    visit("velocity_hold_seconds", settings.velocity.holdSeconds);
+    visit("velocity_stop_seconds", settings.velocity.stopSeconds);
+    visit("velocity_longest_gap_seconds", settings.velocity.maximumGapSeconds);
+    visit("velocity_shortest_step_seconds", settings.velocity.minimumStepSeconds);
+    visit("velocity_smallest_move_metres", settings.velocity.minimumMoveMetres);
+    visit("velocity_fastest_mps", settings.velocity.maximumSpeedMps);
+    visit("velocity_shortest_jump_seconds", settings.velocity.minimumJumpSeconds);
+}
+
+ContactSettings settingsOf(const Case& testCase) {
+    ContactSettings settings;
+    visitSettings(settings, [&](const char* name, double& value) { value = testCase.settings.at(name).get<double>(); });
+    settings.stiffnessOfLabel = [stiffness = testCase.labelStiffness.get<std::map<std::string, double>>()](
+                                    std::string_view label) -> std::optional<double> {
+        const auto found = stiffness.find(std::string(label));
+        return found == stiffness.end() ? std::nullopt : std::optional(found->second);
+    };
+    return settings;
+}
+
+json numberOrNull(double value) {
+    return std::isfinite(value) ? json(value) : json(nullptr);
+}
+
+double numberOrNaN(const json& value) {
+    return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
+}
+
+json sampleToJson(const TipSample& sample) {
+    return {numberOrNull(sample.timeSeconds), numberOrNull(sample.positionMetres.x),
+            numberOrNull(sample.positionMetres.y), numberOrNull(sample.positionMetres.z),
+            sample.forceNewtons ? json(*sample.forceNewtons) : json(nullptr)};
+}
+
+/// The pose of every moving surface at every sample, for readers without motions.
+json movingPoses(const Case& testCase, const Scene& scene) {
+    json all = json::array();
+    for (std::size_t index = 0; index < scene.surfaces.size(); ++index) {
+        if (!scene.surfaces[index].motion) {
+            continue;
+        }
+        json poses = json::array();
+        for (const TipSample& sample : testCase.samples) {
+            const Pose pose = scene.surfaces[index].poseAt(sample.timeSeconds);
+            poses.push_back({pose.positionMetres.x, pose.positionMetres.y, pose.positionMetres.z, pose.rotation.x,
+                             pose.rotation.y, pose.rotation.z, pose.rotation.w});
+        }
+        all.push_back({{"surface_index", index}, {"poses", std::move(poses)}});
+    }
+    return all;
+}
+
+std::string rows(const json& array, const std::string& indent) {
+    std::string text = "[";
+    for (std::size_t row = 0; row < array.size(); ++row) {
+        text += (row == 0 ? "\n" : ",\n") + indent + array[row].dump();
+    }
+    return text + "]";
+}
+
+std::string caseText(const Case& testCase) {
+    const Outcome outcome = play(testCase);
+    const Scene scene = cli::parseScene(testCase.scene, testCase.name);
+    json samples = json::array();
+    for (const TipSample& sample : testCase.samples) {
+        samples.push_back(sampleToJson(sample));
+    }
+    json readings = json::array();
+    for (const ContactReading& reading : outcome.readings) {
+        readings.push_back(rowOf(reading));
+    }
+    std::string poses;
+    for (const json& surface : movingPoses(testCase, scene)) {
+        poses += (poses.empty() ? "" : ", ") + std::string("{\"surface_index\": ") + surface["surface_index"].dump() +
+                 ", \"columns\": [\"px\", \"py\", \"pz\", \"qx\", \"qy\", \"qz\", \"qw\"], \"poses\": " +
+                 rows(surface["poses"], "        ") + "}";
+    }
+    return "    {\"name\": " + json(testCase.name).dump() + ",\n      \"scene\": " + testCase.scene.dump() +
+           ",\n      \"settings\": " + testCase.settings.dump() +
+           ",\n      \"label_stiffness\": " + testCase.labelStiffness.dump() +
+           ",\n      \"stroke\": {\"columns\": [\"t\", \"x\", \"y\", \"z\", \"force\"], \"samples\": " +
+           rows(samples, "        ") + "},\n      \"surface_poses\": [" + poses +
+           "],\n      \"expected\": {\"columns\": " + json(readingColumns()).dump() +
+           ", \"readings\": " + rows(readings, "        ") +
+           "},\n      \"statistics\": " + statisticsToJson(outcome.statistics).dump() + "}";
+}
+
+}  // namespace
+
+json settingsToJson(const ContactSettings& settings) {
+    json document = json::object();
+    visitSettings(settings, [&](const char* name, const double& value) { document[name] = value; });
+    return document;
+}
+
+Outcome play(const Case& testCase) {
+    ContactTracker tracker(cli::parseScene(testCase.scene, testCase.name), settingsOf(testCase));
+    Outcome outcome;
+    for (const TipSample& sample : testCase.samples) {
+        outcome.readings.push_back(tracker.update(sample));
+    }
+    outcome.statistics = tracker.statistics();
+    return outcome;
+}
+
+const std::vector<std::string>& readingColumns() {
+    static const std::vector<std::string> columns{"t",
+                                                  "surface_index",
+                                                  "touching",
+                                                  "touch_counter",
+                                                  "px",
+                                                  "py",
+                                                  "pz",
+                                                  "nx",
+                                                  "ny",
+                                                  "nz",
+                                                  "penetration_m",
+                                                  "vx_mps",
+                                                  "vy_mps",
+                                                  "approach_mps",
+                                                  "force_n",
+                                                  "landing_counter",
+                                                  "edge_counter",
+                                                  "edge_height_m"};
+    return columns;
+}
+
+std::vector<double> rowOf(const ContactReading& reading) {
+    return {reading.timeSeconds,
+            static_cast<double>(reading.surfaceIndex),
+            reading.touching ? 1.0 : 0.0,
+            static_cast<double>(reading.touchCounter),
+            reading.pointMetres.x,
+            reading.pointMetres.y,
+            reading.pointMetres.z,
+            reading.normal.x,
+            reading.normal.y,
+            reading.normal.z,
+            reading.penetrationMetres,
+            reading.tangentialVelocityMps.x,
+            reading.tangentialVelocityMps.y,
+            reading.approachSpeedMps,
+            reading.forceNewtons,
+            static_cast<double>(reading.landingCounter),
+            static_cast<double>(reading.edgeCounter),
+            reading.edgeHeightMetres};
+}
+
+json statisticsToJson(const ContactStatistics& statistics) {
+    return {{"samples", statistics.samples},
+            {"sanitised_samples", statistics.sanitisedSamples},
+            {"teleports", statistics.teleports},
+            {"clock_restarts", statistics.clockRestarts},
+            {"touch_downs", statistics.touchDowns}};
+}
+
+Case caseFromJson(const json& document) {
+    Case testCase{document.at("name").get<std::string>(),
+                  document.at("scene"),
+                  document.at("settings"),
+                  document.at("label_stiffness"),
+                  {}};
+    for (const json& row : document.at("stroke").at("samples")) {
+        TipSample sample{numberOrNaN(row.at(0)),
+                         {numberOrNaN(row.at(1)), numberOrNaN(row.at(2)), numberOrNaN(row.at(3))},
+                         std::nullopt,
+                         std::nullopt};
+        if (!row.at(4).is_null()) {
+            sample.forceNewtons = row.at(4).get<double>();
+        }
+        testCase.samples.push_back(sample);
+    }
+    return testCase;
+}
+
+std::string fileText(const std::vector<Case>& cases) {
+    std::string text = "{\"format\": " + json(fileFormat).dump() + ", \"version\": " + std::to_string(fileVersion) +
+                       ",\n  \"cases\": [\n";
+    for (std::size_t index = 0; index < cases.size(); ++index) {
+        text += caseText(cases[index]) + (index + 1 < cases.size() ? ",\n" : "\n");
+    }
+    return text + "  ]\n}\n";
+}
+
+}  // namespace haptoflow::headless::golden

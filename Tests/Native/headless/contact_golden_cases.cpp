@@ -1,0 +1,166 @@
+#include "contact_golden.hpp"
+#include "test_scenes.hpp"
+
+#include <limits>
+#include <numbers>
+
+namespace haptoflow::headless::golden {
+namespace {
+
+using nlohmann::json;
+using testing::sampledPath;
+
+constexpr double frameRateHz = 90.0;
+
+json sceneWith(json surfaces, double tipRadiusMetres) {
+    return {
+        {"surfaces", std::move(surfaces)}, {"stylus", {{"tip_radius", tipRadiusMetres}}}, {"update_rate", frameRateHz}};
+}
+
+json surfaceWith(const std::string& name, json shape, json material = "wood") {
+    return {{"name", name}, {"shape", std::move(shape)}, {"material", std::move(material)}};
+}
+
+Case caseOf(const std::string& name, json scene, std::vector<TipSample> samples) {
+    return {name, std::move(scene), settingsToJson({}), json::object(), std::move(samples)};
+}
+
+Case boxEdge() {
+    const json box = surfaceWith("box", {{"box", {{"size", {0.1, 0.04, 0.06}}}}});
+    const double lift = 0.0036;
+    return caseOf("over the edge of a box and down its side", sceneWith({box}, 0.004),
+                  sampledPath(0.8, frameRateHz, [&](double time) {
+                      const double path = 0.08 * time - 0.03;
+                      const double angle = std::clamp(path / lift, 0.0, 0.5 * std::numbers::pi);
+                      return glm::dvec3(
+                          0.05 + std::min(0.0, path) + lift * std::sin(angle),
+                          0.02 + lift * std::cos(angle) - std::max(0.0, path - 0.5 * std::numbers::pi * lift),
+                          0.004 * time);
+                  }));
+}
+
+Case deepInsideBox() {
+    json box = surfaceWith("box", {{"box", {{"size", {0.1, 0.1, 0.1}}}}});
+    box["rotation"] = {0.1, 0.2, 0.3, 0.9};
+    box["grain"] = {1.0, 2.0, 0.5};
+    return caseOf("deep inside a turned box, from one face's side to another's", sceneWith({box}, 0.001),
+                  sampledPath(0.6, frameRateHz, [](double time) {
+                      const double path = 0.15 * time;
+                      const Pose pose = sanitised({{0.0, 0.0, 0.0}, {0.9, 0.1, 0.2, 0.3}});
+                      return pose.pointToWorld({path - 0.045, 0.035, 0.0004 * std::sin(90.0 * time)});
+                  }));
+}
+
+Case spherePole() {
+    json sphere = surfaceWith("ball", {{"sphere", {{"radius", 0.05}}}});
+    sphere["grain"] = {0.0, 1.0, 0.0};
+    sphere["position"] = {0.2, 0.3, -0.1};
+    return caseOf("over the grain's pole of a sphere", sceneWith({sphere}, 0.002),
+                  sampledPath(1.0, frameRateHz, [](double time) {
+                      const double angle = 2.4 * (time - 0.5);
+                      return glm::dvec3(0.2 + 0.051 * std::sin(angle), 0.3 + 0.051 * std::cos(angle), -0.0995);
+                  }));
+}
+
+Case movingPlate() {
+    json plate = surfaceWith("plate", {{"box", {{"size", {0.4, 0.02, 0.4}}}}});
+    plate["motion"] = {
+        {"loop", true},
+        {"keyframes",
+         {{{"t", 0.0}, {"position", {0.0, 0.0, 0.0}}, {"rotation", {0.0, 0.0, 0.0, 1.0}}},
+          {{"t", 0.4}, {"position", {0.05, 0.002, 0.0}}, {"rotation", {0.0, 0.5, 0.0, 0.8660254037844386}}},
+          {{"t", 0.8}, {"position", {0.0, 0.0, 0.03}}, {"rotation", {0.0, 0.2, 0.0, 0.9797958971132712}}},
+          {{"t", 1.2}, {"position", {0.0, 0.0, 0.0}}, {"rotation", {0.0, 0.0, 0.0, 1.0}}}}}};
+    return caseOf("a drawing tip on a plate that slides and turns", sceneWith({plate}, 0.003),
+                  sampledPath(1.5, frameRateHz, [](double time) {
+                      return glm::dvec3(0.08 * std::cos(5.0 * time), 0.0122, 0.06 * std::sin(7.0 * time));
+                  }));
+}
+
+Case meshAndBlend() {
+    const testing::RawMesh raw = testing::rawTorus(0.06, 0.02, 12, 8);
+    json vertices = json::array();
+    for (const glm::dvec3& vertex : raw.vertices) {
+        vertices.push_back({vertex.x, vertex.y, vertex.z});
+    }
+    json ring = surfaceWith("ring", {{"mesh", {{"vertices", vertices}, {"triangles", raw.triangles}}}},
+                            {{"wood", 3.0}, {"cork", 1.0}, {"unknown", 1.0}});
+    Case result = caseOf("round a torus mesh with a blend of labels", sceneWith({ring}, 0.002),
+                         sampledPath(1.0, frameRateHz, [](double time) {
+                             const double around = 3.0 * time;
+                             const double along = 2.0 + 4.0 * time;
+                             const double distance = 0.06 + 0.0205 * std::cos(along);
+                             return glm::dvec3(distance * std::cos(around), 0.0205 * std::sin(along),
+                                               distance * std::sin(around));
+                         }));
+    result.labelStiffness = {{"wood", 900.0}, {"cork", 300.0}};
+    return result;
+}
+
+Case trackerHold() {
+    const json table = surfaceWith("table", {{"plane", json::object()}});
+    return caseOf("a tracker at two thirds of the frame rate, then a stop", sceneWith({table}, 0.001),
+                  sampledPath(1.0, frameRateHz, [](double time) {
+                      const double tick = std::floor(60.0 * std::min(time, 0.6) + 0.2) / 60.0;
+                      return glm::dvec3(0.3 * tick, 0.0004, 0.1 * tick);
+                  }));
+}
+
+Case brokenTracking() {
+    const json table = surfaceWith("table", {{"plane", json::object()}});
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    Case result = caseOf("a teleport, lost tracking, a clock that restarts, a measured force",
+                         sceneWith({table}, 0.001), sampledPath(1.0, frameRateHz, [](double time) {
+                             return glm::dvec3(0.25 * time + (time > 0.3 ? 2.0 : 0.0), 0.0005, 0.0);
+                         }));
+    for (std::size_t frame = 45; frame < 60; ++frame) {
+        result.samples[frame].positionMetres.y = frame % 2 == 0 ? nan : 1e20;
+    }
+    result.samples[50].timeSeconds = nan;
+    for (std::size_t frame = 75; frame < result.samples.size(); ++frame) {
+        result.samples[frame].timeSeconds -= 0.5;
+        result.samples[frame].forceNewtons = 0.1 * static_cast<double>(frame - 70);
+    }
+    result.samples[80].forceNewtons = -1.0;
+    result.samples[82].timeSeconds = result.samples[81].timeSeconds;
+    result.samples[84].timeSeconds = result.samples[83].timeSeconds + 1e-6;
+    return result;
+}
+
+Case seamAndTaps() {
+    json left = surfaceWith("left", {{"box", {{"size", {0.1, 0.1, 0.1}}}}}, "wood");
+    left["position"] = {-0.05, -0.05, 0.0};
+    left["stiffness"] = 1200.0;
+    json right = surfaceWith("right", {{"capsule", {{"radius", 0.03}, {"height", 0.2}}}}, "cork");
+    right["position"] = {0.03, -0.029, 0.0};
+    right["rotation"] = {0.7071067811865476, 0.0, 0.0, 0.7071067811865476};
+    return caseOf("taps and slides across the seam of a box and a lying capsule", sceneWith({left, right}, 0.002),
+                  sampledPath(1.6, frameRateHz, [](double time) {
+                      return glm::dvec3(0.05 * std::sin(4.0 * time), 0.0028 + 0.0022 * std::cos(19.0 * time),
+                                        0.01 * time);
+                  }));
+}
+
+Case stepsAndWall() {
+    json low = surfaceWith("low", {{"box", {{"size", {0.1, 0.02, 0.1}}}}}, "wood");
+    low["position"] = {-0.05, -0.01, 0.0};
+    json high = surfaceWith("high", {{"box", {{"size", {0.1, 0.02, 0.1}}}}}, "metal");
+    high["position"] = {0.05, -0.0097, 0.0};
+    json wall = surfaceWith("wall", {{"box", {{"size", {0.02, 0.1, 0.1}}}}}, "stone");
+    wall["position"] = {0.09, 0.04, 0.0};
+    // To and fro over the step, against the wall, and finally off the low plate's rim.
+    return caseOf("over a step, against a wall, back and off the rim", sceneWith({low, high, wall}, 0.001),
+                  sampledPath(2.4, frameRateHz, [](double time) {
+                      const double x = time < 1.0 ? -0.04 + 0.13 * time : 0.09 - 0.17 * (time - 1.0);
+                      return glm::dvec3(x, 0.0002 + 0.0002 * std::sin(31.0 * time), 0.01 * time);
+                  }));
+}
+
+}  // namespace
+
+std::vector<Case> goldenCases() {
+    return {boxEdge(),     deepInsideBox(),  spherePole(),  movingPlate(), meshAndBlend(),
+            trackerHold(), brokenTracking(), seamAndTaps(), stepsAndWall()};
+}
+
+}  // namespace haptoflow::headless::golden

@@ -1,0 +1,42 @@
+#include "contact_golden.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+namespace haptoflow::headless {
+namespace {
+
+TEST(ContactGoldenTest, EveryReadingOfTheGoldenFileIsReproduced) {
+    const std::string path = std::string(HAPTOFLOW_TEST_GOLDEN_DIR) + "/contact/contact-states.json";
+    std::ifstream file(path, std::ios::binary);
+    ASSERT_TRUE(file) << path << " is missing: see the README.md beside it";
+    const nlohmann::json document = nlohmann::json::parse(file);
+    ASSERT_EQ(document.at("format"), golden::fileFormat);
+    ASSERT_EQ(document.at("version"), golden::fileVersion);
+    ASSERT_GE(document.at("cases").size(), 8U);
+    for (const nlohmann::json& entry : document.at("cases")) {
+        const golden::Case testCase = golden::caseFromJson(entry);
+        SCOPED_TRACE(testCase.name);
+        const golden::Outcome outcome = golden::play(testCase);
+        const nlohmann::json& expected = entry.at("expected");
+        ASSERT_EQ(expected.at("columns"), golden::readingColumns());
+        ASSERT_GE(expected.at("readings").size(), 50U);
+        ASSERT_EQ(expected.at("readings").size(), outcome.readings.size());
+        for (std::size_t frame = 0; frame < outcome.readings.size(); ++frame) {
+            const std::vector<double> actual = golden::rowOf(outcome.readings[frame]);
+            const auto wanted = expected.at("readings")[frame].get<std::vector<double>>();
+            ASSERT_EQ(wanted.size(), actual.size());
+            for (std::size_t column = 0; column < actual.size(); ++column) {
+                EXPECT_NEAR(actual[column], wanted[column], 1e-9)
+                    << "frame " << frame << ", " << golden::readingColumns()[column];
+            }
+        }
+        EXPECT_EQ(golden::statisticsToJson(outcome.statistics), entry.at("statistics"));
+        EXPECT_GT(outcome.statistics.touchDowns, 0U);
+    }
+}
+
+}  // namespace
+}  // namespace haptoflow::headless

@@ -1,0 +1,151 @@
+#include "headless/shape.hpp"
+
+#include "test_scenes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace haptoflow::headless {
+namespace {
+
+SurfacePoint query(const Shape& shape, const glm::dvec3& point, std::optional<glm::dvec3> previousNormal = {}) {
+    QueryOptions options;
+    options.previousNormal = previousNormal;
+    const std::optional<SurfacePoint> found = closestSurfacePoint(shape, point, options);
+    EXPECT_TRUE(found.has_value());
+    return found.value_or(SurfacePoint{});
+}
+
+void expectNear(const glm::dvec3& actual, const glm::dvec3& expected, double tolerance = 1e-12) {
+    EXPECT_NEAR(actual.x, expected.x, tolerance);
+    EXPECT_NEAR(actual.y, expected.y, tolerance);
+    EXPECT_NEAR(actual.z, expected.z, tolerance);
+}
+
+TEST(ShapeTest, TheNearestPointOfAPlaneIsStraightBelow) {
+    const SurfacePoint found = query(Plane{}, {3.0, 0.25, -2.0});
+    expectNear(found.pointMetres, {3.0, 0.0, -2.0});
+    expectNear(found.normal, {0.0, 1.0, 0.0});
+    EXPECT_DOUBLE_EQ(found.signedDistanceMetres, 0.25);
+}
+
+TEST(ShapeTest, TheNearestPointOfABoxIsOnAFaceAnEdgeOrACorner) {
+    const Box box{{2.0, 4.0, 6.0}};
+    const SurfacePoint face = query(box, {1.5, 0.5, 0.5});
+    expectNear(face.pointMetres, {1.0, 0.5, 0.5});
+    expectNear(face.normal, {1.0, 0.0, 0.0});
+    EXPECT_DOUBLE_EQ(face.signedDistanceMetres, 0.5);
+    const SurfacePoint edge = query(box, {1.3, 2.4, 0.0});
+    expectNear(edge.pointMetres, {1.0, 2.0, 0.0});
+    expectNear(edge.normal, {0.6, 0.8, 0.0});
+    EXPECT_NEAR(edge.signedDistanceMetres, 0.5, 1e-12);
+    const SurfacePoint corner = query(box, {2.0, 4.0, 5.0});
+    expectNear(corner.pointMetres, {1.0, 2.0, 3.0});
+    expectNear(corner.normal, {1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0});
+    EXPECT_NEAR(corner.signedDistanceMetres, 3.0, 1e-12);
+}
+
+TEST(ShapeTest, TheNormalInsideABoxIsThatOfTheNearestFace) {
+    const SurfacePoint found = query(Box{{2.0, 2.0, 2.0}}, {0.1, -0.2, 0.7});
+    expectNear(found.pointMetres, {0.1, -0.2, 1.0});
+    expectNear(found.normal, {0.0, 0.0, 1.0});
+    EXPECT_NEAR(found.signedDistanceMetres, -0.3, 1e-12);
+}
+
+TEST(ShapeTest, TheFaceOfThePreviousFrameIsKeptUntilAnotherIsNearerByTheMargin) {
+    const Box box{{0.1, 0.1, 0.1}};
+    const glm::dvec3 up(0.0, 1.0, 0.0);
+    // 10.0 mm below the top, 9.7 mm from the side, then 9.4 mm.
+    expectNear(query(box, {0.0403, 0.0400, 0.0}, up).normal, up);
+    expectNear(query(box, {0.0403, 0.0400, 0.0}).normal, {1.0, 0.0, 0.0});
+    expectNear(query(box, {0.0406, 0.0400, 0.0}, up).normal, {1.0, 0.0, 0.0});
+}
+
+TEST(ShapeTest, JitterAboutABoxDiagonalChangesTheFaceAtMostOnce) {
+    const Box box{{0.1, 0.1, 0.1}};
+    std::optional<glm::dvec3> previous;
+    int changes = 0;
+    for (int frame = 0; frame < 200; ++frame) {
+        const double jitter = (frame % 2 == 0 ? 1.0 : -1.0) * 0.0002;
+        const SurfacePoint found = query(box, {0.03 + jitter, 0.03 - jitter, 0.0}, previous);
+        changes += previous && glm::dot(*previous, found.normal) < 0.9 ? 1 : 0;
+        previous = found.normal;
+    }
+    EXPECT_LE(changes, 1);
+}
+
+TEST(ShapeTest, TheNearestPointOfASphereIsOnTheRadiusInsideAndOutside) {
+    const SurfacePoint outside = query(Sphere{2.0}, {0.0, 0.0, -3.0});
+    expectNear(outside.pointMetres, {0.0, 0.0, -2.0});
+    EXPECT_NEAR(outside.signedDistanceMetres, 1.0, 1e-12);
+    const SurfacePoint inside = query(Sphere{2.0}, {0.5, 0.0, 0.0});
+    expectNear(inside.normal, {1.0, 0.0, 0.0});
+    EXPECT_NEAR(inside.signedDistanceMetres, -1.5, 1e-12);
+}
+
+TEST(ShapeTest, TheCentreOfASphereKeepsThePreviousNormal) {
+    const glm::dvec3 previous = glm::normalize(glm::dvec3(1.0, 2.0, 3.0));
+    expectNear(query(Sphere{2.0}, glm::dvec3(0.0), previous).normal, previous);
+    expectNear(query(Sphere{2.0}, glm::dvec3(0.0)).normal, {0.0, 1.0, 0.0});
+    EXPECT_DOUBLE_EQ(query(Sphere{2.0}, glm::dvec3(0.0)).signedDistanceMetres, -2.0);
+}
+
+TEST(ShapeTest, ACapsuleIsACylinderWithRoundCapsWithinTheTotalHeight) {
+    const Capsule capsule{0.5, 3.0};
+    expectNear(query(capsule, {0.0, 2.0, 0.0}).pointMetres, {0.0, 1.5, 0.0});
+    const SurfacePoint wall = query(capsule, {0.0, 0.7, 2.0});
+    expectNear(wall.pointMetres, {0.0, 0.7, 0.5});
+    EXPECT_NEAR(wall.signedDistanceMetres, 1.5, 1e-12);
+    const SurfacePoint axis = query(capsule, {0.0, 0.7, 0.0}, glm::dvec3(0.0, 0.8, 0.6));
+    expectNear(axis.normal, {0.0, 0.0, 1.0});
+    EXPECT_DOUBLE_EQ(axis.signedDistanceMetres, -0.5);
+}
+
+TEST(ShapeTest, TheNormalHasUnitLengthAndPointsFromTheContactToTheTipAtEveryScale) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> spread(-2.0, 2.0);
+    for (const double scale : {1e-6, 1e-3, 1.0, 1e6}) {
+        const std::vector<Shape> shapes{Box{glm::dvec3(1.0, 2.0, 0.5) * scale}, Sphere{scale},
+                                        Capsule{0.4 * scale, 2.0 * scale}, Plane{},
+                                        testing::meshOf(testing::rawTorus(scale, 0.4 * scale, 24, 12))};
+        for (const Shape& shape : shapes) {
+            for (int trial = 0; trial < 300; ++trial) {
+                const glm::dvec3 point = scale * glm::dvec3(spread(random), spread(random), spread(random));
+                const SurfacePoint found = query(shape, point);
+                EXPECT_NEAR(glm::length(found.normal), 1.0, 1e-12);
+                expectNear(found.pointMetres + found.normal * found.signedDistanceMetres, point, 1e-9 * scale);
+            }
+        }
+    }
+}
+
+TEST(ShapeTest, EdgesCornersAndCentresGiveFiniteUnitNormals) {
+    const std::shared_ptr<const TriangleMesh> mesh = testing::meshOf(testing::rawBoxMesh({0.5, 0.5, 0.5}));
+    const std::vector<glm::dvec3> points{{0.5, 0.5, 0.0}, {0.5, 0.5, 0.5},  {-0.5, -0.5, -0.5}, {0.0, 0.0, 0.0},
+                                         {0.5, 0.0, 0.0}, {0.0, -0.5, 0.5}, {0.5, 0.25, 0.25}};
+    for (const Shape& shape : {Shape(Box{}), Shape(Sphere{}), Shape(Capsule{}), Shape(Plane{}), Shape(mesh)}) {
+        for (const glm::dvec3& point : points) {
+            const SurfacePoint found = query(shape, point);
+            EXPECT_NEAR(glm::length(found.normal), 1.0, 1e-12);
+            EXPECT_TRUE(std::isfinite(found.signedDistanceMetres));
+        }
+    }
+}
+
+TEST(ShapeTest, TheBoundingSphereContainsTheWholeShape) {
+    std::mt19937 random(11);
+    std::normal_distribution<double> normal;
+    for (const Shape& shape : {Shape(Box{{1.0, 2.0, 0.5}}), Shape(Sphere{0.7}), Shape(Capsule{0.4, 2.0}),
+                               Shape(testing::meshOf(testing::rawTorus(1.0, 0.4, 24, 12)))}) {
+        const BoundingSphere bounds = boundingSphere(shape);
+        for (int trial = 0; trial < 300; ++trial) {
+            const glm::dvec3 far(4.0 * normal(random), 4.0 * normal(random), 4.0 * normal(random));
+            const glm::dvec3 onSurface = query(shape, far).pointMetres;
+            EXPECT_LE(glm::distance(onSurface, bounds.centreMetres), bounds.radiusMetres * (1.0 + 1e-12));
+        }
+    }
+}
+
+}  // namespace
+}  // namespace haptoflow::headless
