@@ -1,6 +1,6 @@
 #nullable enable
 using System;
-using System.Globalization;
+using System.Collections.Generic;
 using System.IO;
 using HaptoFlow.Files;
 using HaptoFlow.Model;
@@ -26,11 +26,13 @@ namespace HaptoFlow.Alignment
         {
             Double3 place = pose.PositionMetres;
             Rotation turn = pose.Rotation;
-            string text = string.Format(CultureInfo.InvariantCulture,
-                "{{\"format\": \"{0}\", \"version\": {1}, \"position_m\": [{2:R}, {3:R}, {4:R}], " +
-                "\"rotation_xyzw\": [{5:R}, {6:R}, {7:R}, {8:R}]}}\n",
-                Format, Version, place.X, place.Y, place.Z, turn.X, turn.Y, turn.Z, turn.W);
-            WholeFile.Write(path, text);
+            WholeFile.Write(path, JsonText.Of(new Dictionary<string, object?>
+            {
+                ["format"] = Format,
+                ["version"] = Version,
+                ["position_m"] = new[] { place.X, place.Y, place.Z },
+                ["rotation_xyzw"] = new[] { turn.X, turn.Y, turn.Z, turn.W },
+            }) + "\n");
         }
 
         /// <summary>False where there is no such file, or none that can be used.</summary>

@@ -125,9 +125,7 @@ namespace HaptoFlow.Recordings
             {
                 return "";
             }
-            return found.Value.Content is string text
-                ? text.Trim()
-                : throw Failure(found, key, "a text in quotes");
+            return found.Value.Text?.Trim() ?? throw Failure(found, key, "a text in quotes");
         }
 
         private double? Number(string key, double lowest, double highest, string expected)
@@ -136,7 +134,7 @@ namespace HaptoFlow.Recordings
             {
                 return null;
             }
-            return found.Value.Content is double number && number >= lowest && number <= highest
+            return found.Value.Number is { } number && number >= lowest && number <= highest
                 ? number
                 : throw Failure(found, key, expected);
         }
@@ -147,8 +145,8 @@ namespace HaptoFlow.Recordings
             {
                 return null;
             }
-            double[] pair = (found.Value.Content as List<JsonValue>)?.Select(each => each.Content).OfType<double>()
-                .ToArray() ?? Array.Empty<double>();
+            double[] pair = found.Value.Elements?.Select(each => each.Number).OfType<double>().ToArray() ??
+                Array.Empty<double>();
             return pair.Length == 2 && Math.Sqrt(pair[0] * pair[0] + pair[1] * pair[1]) <= FastestMps
                 ? (pair[0], pair[1])
                 : throw Failure(found, key, "[vx, vy] in metres a second, 10 at most (a thousandth of mm/s)");

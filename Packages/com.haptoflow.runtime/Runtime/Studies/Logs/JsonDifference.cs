@@ -12,12 +12,11 @@ namespace HaptoFlow.Studies
         /// have are a difference too.</returns>
         public static (string Path, string Was, string Is)? Find(JsonValue was, JsonValue now)
         {
-            if (was.Content is IReadOnlyDictionary<string, JsonValue> members &&
-                now.Content is IReadOnlyDictionary<string, JsonValue> others)
+            if (was.IsObject && now.IsObject)
             {
-                return OfMembers(members, others, now.Path);
+                return OfMembers(was.AsObject(), now.AsObject(), now.Path);
             }
-            if (was.Content is IReadOnlyList<JsonValue> elements && now.Content is IReadOnlyList<JsonValue> present)
+            if (was.Elements is { } elements && now.Elements is { } present)
             {
                 return OfElements(elements, present, now.Path);
             }
