@@ -14,8 +14,8 @@ namespace HaptoFlow.Alignment
     {
         private const string Format = "haptoflow pose";
         private const int Version = 1;
-        private const int LongestFile = 4096;
-        private const double LargestMetres = 1000.0;
+        private const int MaximumFileBytes = 4096;
+        private const double MaximumMetres = 1000.0;
 
         // A quaternion of six decimals is so close to length 1.
         private const double LengthTolerance = 1e-3;
@@ -47,7 +47,7 @@ namespace HaptoFlow.Alignment
             }
             try
             {
-                if (new FileInfo(path).Length > LongestFile)
+                if (new FileInfo(path).Length > MaximumFileBytes)
                 {
                     throw new FormatException("the file is longer than a pose can be");
                 }
@@ -70,7 +70,7 @@ namespace HaptoFlow.Alignment
             {
                 throw new FormatException($"this is no \"{Format}\" of version {Version}");
             }
-            double[] place = Numbers(document["position_m"], 3, LargestMetres);
+            double[] place = Numbers(document["position_m"], 3, MaximumMetres);
             double[] turn = Numbers(document["rotation_xyzw"], 4, 1.0 + LengthTolerance);
             double length = Math.Sqrt(turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2] + turn[3] * turn[3]);
             if (!(Math.Abs(length - 1.0) <= LengthTolerance))

@@ -38,10 +38,10 @@ namespace HaptoFlow.Alignment
     internal static class ThreePointFit
     {
         /// <summary>Sides shorter than this turn millimetres of touching error into a visible tilt.</summary>
-        public const double ShortestSideMetres = 0.02;
+        public const double MinimumSideMetres = 0.02;
 
         /// <summary>A triangle that is flatter says nothing of the turn around its longest side.</summary>
-        public const double SmallestHeightMetres = 0.01;
+        public const double MinimumHeightMetres = 0.01;
 
         /// <summary>Beyond this a touched triangle is not the object's.</summary>
         public const double LargestErrorMetres = 0.01;
@@ -149,15 +149,15 @@ namespace HaptoFlow.Alignment
                 longest = Math.Max(longest, side);
                 shortest = Math.Min(shortest, side);
             }
-            if (shortest < ShortestSideMetres)
+            if (shortest < MinimumSideMetres)
             {
                 return $"two {which} points are only {Millimetres(shortest)} apart, " +
-                    $"{Millimetres(ShortestSideMetres)} are needed. {remedy}";
+                    $"{Millimetres(MinimumSideMetres)} are needed. {remedy}";
             }
             double height = Double3.Cross(points[1] - points[0], points[2] - points[0]).Length / longest;
-            return height < SmallestHeightMetres
+            return height < MinimumHeightMetres
                 ? $"the {which} points lie almost on one line: the third is {Millimetres(height)} beside it, " +
-                    $"{Millimetres(SmallestHeightMetres)} are needed. {remedy}"
+                    $"{Millimetres(MinimumHeightMetres)} are needed. {remedy}"
                 : null;
         }
 

@@ -35,7 +35,7 @@ namespace HaptoFlow.Contact
 
         /// <summary>A move longer than this in so much time is a teleport. The fastest speed itself is none, however
         /// its times and places are rounded.</summary>
-        public double LongestMoveMetres(double seconds) =>
+        public double MaximumMoveMetres(double seconds) =>
             (1.0 + 1e-6) * FastestMps * Math.Max(seconds, ShortestJumpSeconds);
     }
 

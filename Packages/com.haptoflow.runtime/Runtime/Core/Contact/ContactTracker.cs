@@ -19,7 +19,7 @@ namespace HaptoFlow.Contact
     internal sealed class ContactTracker
     {
         // A pause must not let carried tangent axes turn further than a slow frame would.
-        private const double LongestFrameSeconds = 0.05;
+        private const double MaximumFrameSeconds = 0.05;
 
         private readonly RelativeVelocity relativeVelocity = new RelativeVelocity();
         private readonly TipHistory history;
@@ -129,7 +129,7 @@ namespace HaptoFlow.Contact
                 nowSeconds = sample.TimeSeconds;
             }
             verdict = Force?.Update(nowSeconds, sample.ForceNewtons) ?? ForceVerdict.Unknown;
-            stepSeconds = started ? Vectors.Clamp(nowSeconds - before, 0.0, LongestFrameSeconds) : 0.0;
+            stepSeconds = started ? Vectors.Clamp(nowSeconds - before, 0.0, MaximumFrameSeconds) : 0.0;
             started = started || timeUsable;
             if (positionUsable)
             {

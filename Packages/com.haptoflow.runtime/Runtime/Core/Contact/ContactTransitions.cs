@@ -39,17 +39,17 @@ namespace HaptoFlow.Contact
         private const double FaceCosine = 0.766;
 
         // A lower step is none: tracking and meshes are no more exact.
-        private const double LowestStepMetres = 0.0001;
+        private const double MinimumStepMetres = 0.0001;
 
         // Of the rim under a tip of any radius.
-        private const double LowestRimMetres = 0.0005;
+        private const double MinimumRimMetres = 0.0005;
 
         // The reference stays behind by this way, and by the longer one, for a few frames, while the normal turns: a
         // slow tip that rolls over a rim turns by little from frame to frame, and a fast one may be seen in the middle
         // of it.
         private const double ShortWayMetres = 0.002;
         private const double LongWayMetres = 0.006;
-        private const int MostFramesBehind = 2;
+        private const int MaximumFramesBehind = 2;
 
         // The cosine of 5 degrees.
         private const double SteadyCosine = 0.9962;
@@ -135,7 +135,7 @@ namespace HaptoFlow.Contact
             double step = StepBetween(before, here);
             bool landed = false;
             double height = 0.0;
-            if (turned || (isOther && step >= LowestStepMetres))
+            if (turned || (isOther && step >= MinimumStepMetres))
             {
                 if (approachSpeedMps >= LandingSpeedMps)
                 {
@@ -192,7 +192,7 @@ namespace HaptoFlow.Contact
         {
             double gap = before.HeightOf(here.Point);
             return Double3.Dot(before.Normal, here.Normal) < -FaceCosine && gap >= -FlatnessMetres &&
-                gap <= Math.Max(2.0 * tipRadiusMetres, LowestRimMetres);
+                gap <= Math.Max(2.0 * tipRadiusMetres, MinimumRimMetres);
         }
 
         private static bool IsConvex(in Place before, in Place here) =>
@@ -203,7 +203,7 @@ namespace HaptoFlow.Contact
         private static double StepBetween(in Place before, in Place here) =>
             0.5 * Math.Abs(before.HeightOf(here.Point) - here.HeightOf(before.Point));
 
-        private static double RimHeightMetres(double tipRadiusMetres) => Math.Max(tipRadiusMetres, LowestRimMetres);
+        private static double RimHeightMetres(double tipRadiusMetres) => Math.Max(tipRadiusMetres, MinimumRimMetres);
 
         private Place ReferencePlace(in ContactCandidate now, double nowSeconds)
         {
@@ -223,8 +223,8 @@ namespace HaptoFlow.Contact
             }
             // On a round surface each of two places lies as far below the other's plane, in the middle of a rim it does
             // not.
-            bool isRound = StepBetween(before, here) < LowestStepMetres;
-            return way > LongWayMetres && (isRound || ++framesBehind > MostFramesBehind);
+            bool isRound = StepBetween(before, here) < MinimumStepMetres;
+            return way > LongWayMetres && (isRound || ++framesBehind > MaximumFramesBehind);
         }
 
         private void MoveReference(in ContactCandidate now, bool armed)

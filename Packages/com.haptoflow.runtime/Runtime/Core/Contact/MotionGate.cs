@@ -18,7 +18,7 @@ namespace HaptoFlow.Contact
         public const double RestsMps = 0.015;
 
         // A tracker slower than the frame rate repeats positions.
-        private const double LongestRepeatSeconds = 0.03;
+        private const double MaximumRepeatSeconds = 0.03;
         private const double SmallestMoveMetres = 1e-7;
         private const double ShortestStepSeconds = 0.0005;
 
@@ -51,7 +51,7 @@ namespace HaptoFlow.Contact
                 return Moves;
             }
             double moved = Double3.Distance(pointMetres, measuredMetres);
-            bool isRepeat = moved < SmallestMoveMetres && passed < LongestRepeatSeconds;
+            bool isRepeat = moved < SmallestMoveMetres && passed < MaximumRepeatSeconds;
             if (passed >= ShortestStepSeconds && !isRepeat)
             {
                 Measure(nowSeconds, pointMetres);

@@ -70,7 +70,7 @@ namespace HaptoFlow.Contact
             double age = timesSeconds[0] - timeSeconds;
             bool wanted = age <= settings.WindowSeconds || count < 2 ||
                 (count < FewestMeasurements && age <= SparseWindows * settings.WindowSeconds);
-            double longestMetres = settings.LongestMoveMetres(timesSeconds[count - 1] - timeSeconds);
+            double longestMetres = settings.MaximumMoveMetres(timesSeconds[count - 1] - timeSeconds);
             return wanted && Double3.Distance(place, placesMetres[count - 1]) <= longestMetres;
         }
 

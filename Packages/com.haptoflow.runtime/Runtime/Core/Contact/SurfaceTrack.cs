@@ -10,7 +10,7 @@ namespace HaptoFlow.Contact
         public const int Capacity = 64;
 
         // How many of its own steps a surface is carried on beyond the last place it was seen at.
-        private const double FurthestExtrapolation = 1.5;
+        private const double MaximumExtrapolation = 1.5;
 
         private readonly double[] timesSeconds = new double[Capacity];
         private readonly RigidPose[] poses = new RigidPose[Capacity];
@@ -82,7 +82,7 @@ namespace HaptoFlow.Contact
             int right = after == Count ? after - 1 : after;
             double from = TimeAt(right - 1);
             double share = (timeSeconds - from) / (TimeAt(right) - from);
-            share = share > 1.0 + FurthestExtrapolation ? 1.0 + FurthestExtrapolation : share;
+            share = share > 1.0 + MaximumExtrapolation ? 1.0 + MaximumExtrapolation : share;
             return RigidPose.Between(Recorded(right - 1), Recorded(right), share);
         }
 

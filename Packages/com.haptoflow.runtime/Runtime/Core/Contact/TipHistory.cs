@@ -90,7 +90,7 @@ namespace HaptoFlow.Contact
             {
                 return Start(TipStep.Resumed, timeSeconds, positionMetres);
             }
-            if (moved > Settings.LongestMoveMetres(sinceMeasured))
+            if (moved > Settings.MaximumMoveMetres(sinceMeasured))
             {
                 return Start(TipStep.Teleported, timeSeconds, positionMetres);
             }

@@ -14,7 +14,7 @@ namespace HaptoFlow.Model
     public sealed class JsonValue
     {
         // A double holds every whole number up to here exactly.
-        private const double LargestExactInteger = 9007199254740992.0;
+        private const double MaximumExactInteger = 9007199254740992.0;
 
         private readonly JToken token;
 
@@ -80,7 +80,7 @@ namespace HaptoFlow.Model
         {
             long whole when whole >= 0 => (ulong)whole,
             BigInteger whole when whole.Sign >= 0 && whole <= ulong.MaxValue => (ulong)whole,
-            double real when real >= 0.0 && real <= LargestExactInteger && real == Math.Floor(real) => (ulong)real,
+            double real when real >= 0.0 && real <= MaximumExactInteger && real == Math.Floor(real) => (ulong)real,
             _ => throw Expected("a whole number from 0 to 2^64 - 1"),
         };
 

@@ -8,14 +8,14 @@ namespace HaptoFlow.Numerics
     {
         /// <summary>Beyond this a coordinate, in metres or seconds, counts as damaged: its square must stay finite.
         /// </summary>
-        public const double LargestCoordinate = 1e12;
+        public const double MaximumCoordinate = 1e12;
 
         public static bool IsFinite(double value) => !double.IsNaN(value) && !double.IsInfinity(value);
 
-        /// <summary>Finite and not beyond <see cref="LargestCoordinate"/>.</summary>
-        public static bool IsUsable(double value) => Math.Abs(value) <= LargestCoordinate;
+        /// <summary>Finite and not beyond <see cref="MaximumCoordinate"/>.</summary>
+        public static bool IsUsable(double value) => Math.Abs(value) <= MaximumCoordinate;
 
-        /// <summary>Finite and not beyond <see cref="LargestCoordinate"/>.</summary>
+        /// <summary>Finite and not beyond <see cref="MaximumCoordinate"/>.</summary>
         public static bool IsUsable(Double3 vector) => IsUsable(vector.X) && IsUsable(vector.Y) && IsUsable(vector.Z);
 
         /// <summary>The vector at length 1; the fallback where it has no direction (zero or not finite). Right from

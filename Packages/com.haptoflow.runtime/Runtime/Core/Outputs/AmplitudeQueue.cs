@@ -11,14 +11,14 @@ namespace HaptoFlow.Outputs
         public const double LongestSeconds = 0.1;
 
         private const double FrameSeconds = 0.008;
-        private const int MostSamples = (int)(LongestSeconds * WaveHistory.RateHz);
+        private const int MaximumSamples = (int)(LongestSeconds * WaveHistory.RateHz);
         private const double DurationShare = 1.5;
         private const double DurationMarginSeconds = 0.01;
 
         private readonly IAmplitudeSink sink;
-        private readonly WaveFeatures features = new WaveFeatures(FrameSeconds, MostSamples);
+        private readonly WaveFeatures features = new WaveFeatures(FrameSeconds, MaximumSamples);
         private readonly WaveFrame[] frames;
-        private readonly float[] window = new float[MostSamples];
+        private readonly float[] window = new float[MaximumSamples];
         private double dueSeconds = double.NegativeInfinity;
         private double saidSeconds;
         private long analysed;

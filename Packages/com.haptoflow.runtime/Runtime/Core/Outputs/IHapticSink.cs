@@ -23,7 +23,7 @@ namespace HaptoFlow.Outputs
         /// <param name="maximumSamples">See <see cref="MaximumSamples"/>.</param>
         /// <param name="minFrequencyHz">See <see cref="MinFrequencyHz"/>.</param>
         /// <param name="maxFrequencyHz">See <see cref="MaxFrequencyHz"/>.</param>
-        /// <param name="leastDepthSeconds">See <see cref="LeastDepthSeconds"/>.</param>
+        /// <param name="leastDepthSeconds">See <see cref="MinimumDepthSeconds"/>.</param>
         public HapticSinkCapabilities(double rateHz, int maximumSamples = int.MaxValue, double minFrequencyHz = 0.0,
             double maxFrequencyHz = 0.0, double leastDepthSeconds = 0.0)
         {
@@ -31,7 +31,7 @@ namespace HaptoFlow.Outputs
             MaximumSamples = maximumSamples;
             MinFrequencyHz = minFrequencyHz;
             MaxFrequencyHz = maxFrequencyHz;
-            LeastDepthSeconds = leastDepthSeconds;
+            MinimumDepthSeconds = leastDepthSeconds;
         }
 
         /// <summary>Waveform: samples a second. Otherwise the most submissions a second; 0 for one with every frame.
@@ -49,13 +49,13 @@ namespace HaptoFlow.Outputs
         public double MaxFrequencyHz { get; }
 
         /// <summary>What the first submission has to last at least, in s.</summary>
-        public double LeastDepthSeconds { get; }
+        public double MinimumDepthSeconds { get; }
 
         /// <inheritdoc/>
         public bool Equals(HapticSinkCapabilities other) =>
             RateHz.Equals(other.RateHz) && MaximumSamples == other.MaximumSamples &&
             MinFrequencyHz.Equals(other.MinFrequencyHz) && MaxFrequencyHz.Equals(other.MaxFrequencyHz) &&
-            LeastDepthSeconds.Equals(other.LeastDepthSeconds);
+            MinimumDepthSeconds.Equals(other.MinimumDepthSeconds);
 
         /// <inheritdoc/>
         public override bool Equals(object? other) => other is HapticSinkCapabilities same && Equals(same);

@@ -11,19 +11,19 @@ namespace HaptoFlow.Outputs
         public const double PointSeconds = 0.005;
 
         private const double WorstDrift = 0.006;
-        private const double MostDoubtSeconds = 0.003;
+        private const double MaximumUncertaintySeconds = 0.003;
         private const int PointSamples = (int)(PointSeconds * WaveHistory.RateHz);
 
         // Of one submission; twice as many are remembered, for a stream that begins anew.
-        private const int MostPoints = 64;
+        private const int MaximumPoints = 64;
 
         private readonly IParametricSink sink;
         private readonly WaveFeatures features = new WaveFeatures(PointSeconds, PointSamples);
         private readonly float[] stretch = new float[PointSamples];
-        private readonly ParametricPoint[] amplitudes = new ParametricPoint[MostPoints + 1];
-        private readonly ParametricPoint[] frequencies = new ParametricPoint[MostPoints + 1];
-        private readonly ParametricTransient[] transients = new ParametricTransient[MostPoints + 1];
-        private readonly WaveFrame[] frames = new WaveFrame[2 * MostPoints];
+        private readonly ParametricPoint[] amplitudes = new ParametricPoint[MaximumPoints + 1];
+        private readonly ParametricPoint[] frequencies = new ParametricPoint[MaximumPoints + 1];
+        private readonly ParametricTransient[] transients = new ParametricTransient[MaximumPoints + 1];
+        private readonly WaveFrame[] frames = new WaveFrame[2 * MaximumPoints];
         private readonly WaveFrame[] completed;
 
         // Point n stands at the end of stretch n - 1 of the wave, counted from its origin.
@@ -62,7 +62,7 @@ namespace HaptoFlow.Outputs
                 Begin(nowSeconds, sentPoint);
                 Send(nowSeconds, true, 0f);
             }
-            else if (WorstDrift * since > MostDoubtSeconds)
+            else if (WorstDrift * since > MaximumUncertaintySeconds)
             {
                 ++statistics.Alignments;
                 Begin(nowSeconds, anchorPoint + (long)Math.Round(since / PointSeconds));
@@ -107,10 +107,10 @@ namespace HaptoFlow.Outputs
             double ahead = Pace.DepthSeconds + IntervalSeconds;
             if (starts)
             {
-                ahead = Math.Max(ahead, Capabilities.LeastDepthSeconds);
+                ahead = Math.Max(ahead, Capabilities.MinimumDepthSeconds);
                 sentPoint = anchorPoint;
             }
-            long last = Math.Min(sentPoint + MostPoints,
+            long last = Math.Min(sentPoint + MaximumPoints,
                 anchorPoint + (long)Math.Ceiling((since + ahead) / PointSeconds));
             if (last <= sentPoint)
             {

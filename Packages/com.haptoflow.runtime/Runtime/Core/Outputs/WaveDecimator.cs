@@ -9,10 +9,10 @@ namespace HaptoFlow.Outputs
     {
         // 60 dB with a transition from 0.4 to 0.6 of the device's rate take this many of its samples on each side.
         private const double FullHalfWidthSamples = 9.0;
-        private const double LeastHalfWidthSamples = 1.5;
+        private const double MinimumHalfWidthSamples = 1.5;
 
         // A low rate pays with a wider transition rather than with more delay.
-        private const double LongestDelaySeconds = 0.012;
+        private const double MaximumDelaySeconds = 0.012;
         private const double KaiserBeta = 5.65;
         private const int PhasesPerSample = 64;
 
@@ -26,7 +26,7 @@ namespace HaptoFlow.Outputs
             // Above the wave's own rate nothing folds: there it only reads between samples.
             double widest = Math.Max(1.0, Step);
             double halfSamples = Math.Min(FullHalfWidthSamples,
-                Math.Max(LeastHalfWidthSamples, LongestDelaySeconds * WaveHistory.RateHz / widest));
+                Math.Max(MinimumHalfWidthSamples, MaximumDelaySeconds * WaveHistory.RateHz / widest));
             halfWidth = (int)Math.Ceiling(halfSamples * widest);
             kernel = new float[halfWidth * PhasesPerSample + 2];
             double cutoff = 1.0 / widest;

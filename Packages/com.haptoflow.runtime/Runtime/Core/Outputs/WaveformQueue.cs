@@ -18,8 +18,8 @@ namespace HaptoFlow.Outputs
 
         // No clock in a controller is further off than this.
         private const double WorstDrift = 0.006;
-        private const double LeastDoubtSeconds = 0.001;
-        private const double MostDoubtSeconds = 0.003;
+        private const double MinimumUncertaintySeconds = 0.001;
+        private const double MaximumUncertaintySeconds = 0.003;
         private const double QuietSeconds = 0.004;
         private const float QuietShare = 0.2f;
         private const double SearchForSmallSeconds = 0.0025;
@@ -203,11 +203,11 @@ namespace HaptoFlow.Outputs
         private bool MustAlign(double sinceSeconds)
         {
             double doubt = WorstDrift * sinceSeconds;
-            if (doubt < LeastDoubtSeconds)
+            if (doubt < MinimumUncertaintySeconds)
             {
                 return false;
             }
-            if (doubt >= MostDoubtSeconds)
+            if (doubt >= MaximumUncertaintySeconds)
             {
                 return true;
             }

@@ -9,7 +9,7 @@ namespace HaptoFlow.Recordings
     internal static class RecordingChecks
     {
         private const double SlowestMps = 0.0005;
-        private const double StrongestRmsMps2 = 40.0 * ColumnForms.GravityMps2;
+        private const double MaximumRmsMps2 = 40.0 * ColumnForms.GravityMps2;
 
         private static readonly Dictionary<string, string> OtherUnit = new Dictionary<string, string>
         {
@@ -44,10 +44,10 @@ namespace HaptoFlow.Recordings
                 throw RecordingError.Of(file, Inv($"{column} rests at {rest:0.00}, which looks like g"),
                     "m/s^2 (9.8 at rest); name the columns with _g where they are in g");
             }
-            if (rms > StrongestRmsMps2)
+            if (rms > MaximumRmsMps2)
             {
                 throw RecordingError.Of(file, Inv($"{column} has an RMS of {rms:0} m/s^2"),
-                    Inv($"at most {StrongestRmsMps2:0}: check the unit, or full_scale_mps2 of a WAV file"));
+                    Inv($"at most {MaximumRmsMps2:0}: check the unit, or full_scale_mps2 of a WAV file"));
             }
         }
 

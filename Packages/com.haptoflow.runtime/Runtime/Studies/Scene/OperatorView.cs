@@ -19,7 +19,7 @@ namespace HaptoFlow.Studies
         private const float Width = 620f;
         private const float Margin = 10f;
         private const float ButtonWidth = 80f;
-        private const int LargestParticipant = 999;
+        private const int MaximumParticipant = 999;
 
         private static readonly (string Caption, int Step)[] Steps =
         {
@@ -100,7 +100,7 @@ namespace HaptoFlow.Studies
             {
                 if (Button(place++, top, caption))
                 {
-                    Participant = Math.Max(1, Math.Min(LargestParticipant, Participant + step));
+                    Participant = Math.Max(1, Math.Min(MaximumParticipant, Participant + step));
                     Write();
                 }
             }

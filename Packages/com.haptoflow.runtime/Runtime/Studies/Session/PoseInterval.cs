@@ -36,7 +36,7 @@ namespace HaptoFlow.Studies
         /// <param name="seconds">Time.unscaledDeltaTime.</param>
         public void Add(double seconds)
         {
-            if (seconds > 0.0 && seconds < SessionClock.LongestFrameSeconds)
+            if (seconds > 0.0 && seconds < SessionClock.MaximumFrameSeconds)
             {
                 ring[next] = seconds;
                 next = (next + 1) % Frames;

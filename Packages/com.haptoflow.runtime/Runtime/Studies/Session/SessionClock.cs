@@ -6,7 +6,7 @@ namespace HaptoFlow.Studies
     internal sealed class SessionClock
     {
         /// <summary>No frame takes longer while somebody takes part.</summary>
-        public const double LongestFrameSeconds = 1.0;
+        public const double MaximumFrameSeconds = 1.0;
 
         private double lastSeconds = double.NaN;
 
@@ -21,7 +21,7 @@ namespace HaptoFlow.Studies
             double passed = nowSeconds - lastSeconds;
             bool isFirst = double.IsNaN(lastSeconds);
             lastSeconds = nowSeconds;
-            bool isSteady = passed >= 0.0 && passed <= LongestFrameSeconds;
+            bool isSteady = passed >= 0.0 && passed <= MaximumFrameSeconds;
             if (counts && isSteady)
             {
                 ElapsedSeconds += passed;
