@@ -221,7 +221,7 @@ namespace HaptoFlow
             }
         }
 
-        private void Awake() => SceneOutputs.Woke(this);
+        private void Awake() => SceneOutputs.OnOutputAwake(this);
 
         private void OnEnable()
         {

@@ -8,8 +8,8 @@ using HaptoFlow.Numerics;
 
 namespace HaptoFlow.Alignment
 {
-    /// <summary>A pose in a small file of its own: metres and a unit quaternion as JSON. It is written whole or not at
-    /// all, and nothing that it says is trusted. Any thread that may touch files.</summary>
+    /// <summary>A pose in a small JSON file: metres and a unit quaternion. Writing is atomic, and every value is
+    /// checked on reading. Any thread that may access files.</summary>
     internal static class SavedPose
     {
         private const string Format = "haptoflow pose";
@@ -17,7 +17,7 @@ namespace HaptoFlow.Alignment
         private const int MaximumFileBytes = 4096;
         private const double MaximumMetres = 1000.0;
 
-        // A quaternion of six decimals is so close to length 1.
+        // Rounding to six decimals changes the length of a quaternion by less than this.
         private const double LengthTolerance = 1e-3;
 
         /// <exception cref="IOException">The file cannot be written.</exception>
@@ -35,8 +35,8 @@ namespace HaptoFlow.Alignment
             }) + "\n");
         }
 
-        /// <summary>False where there is no such file, or none that can be used.</summary>
-        /// <param name="problem">What is wrong with a file that is there; null where it is not.</param>
+        /// <summary>False where there is no such file, or it cannot be used.</summary>
+        /// <param name="problem">What is wrong with the file; null without a file.</param>
         public static bool TryRead(string path, out RigidPose pose, out string? problem)
         {
             pose = RigidPose.Identity;
@@ -49,7 +49,7 @@ namespace HaptoFlow.Alignment
             {
                 if (new FileInfo(path).Length > MaximumFileBytes)
                 {
-                    throw new FormatException("the file is longer than a pose can be");
+                    throw new FormatException("the file is longer than 4096 bytes");
                 }
                 pose = Parse(JsonValue.Parse(File.ReadAllText(path)));
                 return true;
@@ -68,7 +68,7 @@ namespace HaptoFlow.Alignment
         {
             if (document["format"].AsText() != Format || document["version"].AsInteger() != Version)
             {
-                throw new FormatException($"this is no \"{Format}\" of version {Version}");
+                throw new FormatException($"this is not a \"{Format}\" of version {Version}");
             }
             double[] place = Numbers(document["position_m"], 3, MaximumMetres);
             double[] turn = Numbers(document["rotation_xyzw"], 4, 1.0 + LengthTolerance);

@@ -6,8 +6,8 @@ using System.Linq;
 
 namespace HaptoFlow.Model
 {
-    /// <summary>A table of a JSON document whose every value is checked as it is read: messages name the key and what
-    /// was expected, in the same words as the other readers'.</summary>
+    /// <summary>An object of a JSON document whose values are checked as they are read. Messages name the key and what
+    /// was expected, in the same form as the native library's.</summary>
     internal sealed class CheckedTable
     {
         private readonly IReadOnlyDictionary<string, JsonValue> members;
@@ -19,7 +19,7 @@ namespace HaptoFlow.Model
             this.path = path;
         }
 
-        /// <summary>The key is there, and not null.</summary>
+        /// <summary>True where the key exists and is not null.</summary>
         public bool Has(string key) => members.TryGetValue(key, out JsonValue? value) && !value.IsNull;
 
         public FormatException Failure(string key, string expected, string remark = "")
@@ -29,7 +29,7 @@ namespace HaptoFlow.Model
             return new FormatException($"'{NameOf(key)}' {found}: expected {expected}{tail}");
         }
 
-        /// <param name="otherwise">What a missing key stands for; null where it must be there.</param>
+        /// <param name="otherwise">Value of a missing key; null where the key is required.</param>
         public string Text(string key, string? otherwise = null)
         {
             string? value = members.ContainsKey(key) ? members[key].Text : otherwise;
@@ -77,7 +77,7 @@ namespace HaptoFlow.Model
             return values;
         }
 
-        /// <summary>Checks rows of numbers of the same length.</summary>
+        /// <summary>Checks rows of numbers of equal length.</summary>
         public void CheckRows(string key, int rows, int columns, double low, double high)
         {
             if (!(Value(key)?.Elements is { } values) || values.Count != rows)

@@ -4,7 +4,7 @@ using System.Linq;
 
 namespace HaptoFlow.Model
 {
-    /// <summary>Which numbers a material file may hold; the specification is in own-materials.md.</summary>
+    /// <summary>Limits of the numbers in a material file, as specified in own-materials.md.</summary>
     internal static class MaterialRules
     {
         public const double MostOffsetDecibels = 24.0;

@@ -5,7 +5,7 @@ using System.Linq;
 
 namespace HaptoFlow.Recordings
 {
-    /// <summary>Refuses numbers that say that their name has another unit, and a sensor that is dead.</summary>
+    /// <summary>Rejects numbers that indicate a wrong unit in a column's name, and signals of a dead sensor.</summary>
     internal static class RecordingChecks
     {
         private const double SlowestMps = 0.0005;
@@ -30,7 +30,7 @@ namespace HaptoFlow.Recordings
             string column = acceleration.Columns[0];
             if (rms.Equals(0.0))
             {
-                throw RecordingError.Of(file, $"{column} stays the same", "a sensor that is never quite still");
+                throw RecordingError.Of(file, $"{column} stays the same", "a signal that changes: check the sensor");
             }
             bool isG = column.EndsWith("_g", StringComparison.Ordinal);
             double restInG = rest / ColumnForms.GravityMps2;
