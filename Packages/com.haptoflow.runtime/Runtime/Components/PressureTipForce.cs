@@ -1,5 +1,6 @@
 #nullable enable
-using UnityEngine;\nusing UnityEngine.Serialization;
+using UnityEngine;
+using UnityEngine.Serialization;
 
 namespace HaptoFlow
 {

@@ -10,7 +10,8 @@ namespace HaptoFlow.Model
     /// without the native library. Any thread.</summary>
     public sealed class MaterialFile
     {
-        /// <summary>Number of an embedding's components that describe the texture; the last four are wave vectors.</summary>
+        /// <summary>Number of an embedding's components that describe the texture; the last four are wave
+        /// vectors.</summary>
         public const int TextureNumbers = 60;
 
         /// <summary>Maximum length of the text in UTF-8.</summary>

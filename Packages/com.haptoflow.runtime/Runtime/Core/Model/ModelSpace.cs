@@ -24,7 +24,8 @@ namespace HaptoFlow.Model
             this.embeddings = embeddings;
         }
 
-        /// <summary>Eight hexadecimal digits, equal for all models with the same networks, whatever their labels.</summary>
+        /// <summary>Eight hexadecimal digits, equal for all models with the same networks, whatever their
+        /// labels.</summary>
         public string Id { get; }
 
         /// <param name="file">The whole .haptoflow file.</param>
@@ -52,7 +53,8 @@ namespace HaptoFlow.Model
         /// <param name="label">Index into the model's labels.</param>
         public IReadOnlyList<float> Embedding(int label) => embeddings[label];
 
-        /// <summary>The label whose embedding is nearest, ignoring wave vectors; empty for a model without labels.</summary>
+        /// <summary>The label whose embedding is nearest, ignoring wave vectors; empty for a model without
+        /// labels.</summary>
         /// <param name="embedding">At least <see cref="MaterialFile.TextureNumbers"/> numbers.</param>
         public string NearestLabel(IReadOnlyList<double> embedding)
         {

@@ -70,7 +70,8 @@ namespace HaptoFlow
                 : 0.0;
             bool hasLimits = reported.MaxFrequencyHz > reported.MinFrequencyHz && reported.MinFrequencyHz > 0f;
             capabilitiesOfController = new HapticSinkCapabilities(rateHz, 500,
-                hasLimits ? reported.MinFrequencyHz : DefaultMinFrequencyHz, hasLimits ? reported.MaxFrequencyHz : DefaultMaxFrequencyHz,
+                hasLimits ? reported.MinFrequencyHz : DefaultMinFrequencyHz,
+                hasLimits ? reported.MaxFrequencyHz : DefaultMaxFrequencyHz,
                 reported.MinimumFirstFrameDuration / NanosecondsPerSecond);
         }
 

@@ -53,7 +53,8 @@ namespace HaptoFlow
 
         public bool TryGetCapabilities(out HapticSinkCapabilities capabilities)
         {
-            bool supportsBuffers = device.TryGetCapabilities(out HapticCapabilities reported) && reported.supportsBuffer &&
+            bool supportsBuffers = device.TryGetCapabilities(out HapticCapabilities reported) &&
+                reported.supportsBuffer &&
                 reported.bufferFrequencyHz > 0u && reported.bufferMaxSize > 0u && reported.numChannels > 0u;
             capabilities = new HapticSinkCapabilities(reported.bufferFrequencyHz,
                 (int)Math.Min(reported.bufferMaxSize, 4000u));
