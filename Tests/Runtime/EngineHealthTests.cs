@@ -15,10 +15,10 @@ namespace HaptoFlow.Tests
         {
             var health = new EngineHealth();
             // Statistics as they are before the library fills them: nobody is alive.
-            Assert.That(health.Judge(default, "the graph of tier draft failed"),
+            Assert.That(health.MessageFor(default, "the graph of tier draft failed"),
                 Does.Contain("(the graph of tier draft failed)").And.Contain("Haptics.Restart"));
-            Assert.That(health.Judge(default, "again"), Is.Null);
-            Assert.That(new EngineHealth().Judge(default, ""), Does.Not.Contain("("));
+            Assert.That(health.MessageFor(default, "again"), Is.Null);
+            Assert.That(new EngineHealth().MessageFor(default, ""), Does.Not.Contain("("));
         }
 
         [UnityTest]

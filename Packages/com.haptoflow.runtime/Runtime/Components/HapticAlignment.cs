@@ -1,6 +1,7 @@
 #nullable enable
 using System;
 using System.Collections.Generic;
+using System.Globalization;
 using HaptoFlow.Alignment;
 using HaptoFlow.Contact;
 using HaptoFlow.Numerics;
@@ -228,8 +229,8 @@ namespace HaptoFlow
             transform.SetPositionAndRotation(fit.Pose.PositionMetres.ToVector(), ToQuaternion(fit.Pose.Rotation));
             ForgetMotion();
             SaveOrDelete();
-            ShowMessage(FormattableString.Invariant($"Aligned; {1000f * ErrorMetres:0.0} mm of error at the worst " +
-                $"mark."));
+            string error = (1000f * ErrorMetres).ToString("0.0", CultureInfo.InvariantCulture);
+            ShowMessage($"Aligned; {error} mm of error at the worst mark.");
         }
 
         private string NextInstruction() => stylus == null

@@ -5,11 +5,12 @@ using HaptoFlow.Model;
 
 namespace HaptoFlow.Studies
 {
-    /// <summary>The first place where two JSON values differ.</summary>
+    /// <summary>Finds the first difference between two JSON values. JToken.DeepEquals does not say where they
+    /// differ.</summary>
     internal static class JsonDifference
     {
-        /// <returns>The place and both values; null where they are equal. Members of the second that the first does not
-        /// have are a difference too.</returns>
+        /// <returns>Path and both values; null where they are equal. A member that only one of the objects has is a
+        /// difference.</returns>
         public static (string Path, string Was, string Is)? Find(JsonValue was, JsonValue now)
         {
             if (was.IsObject && now.IsObject)
@@ -32,7 +33,7 @@ namespace HaptoFlow.Studies
             {
                 if (!was.TryGetValue(member.Key, out JsonValue? before))
                 {
-                    return (member.Value.Path, "not there", JsonText.Of(member.Value));
+                    return (member.Value.Path, "missing", JsonText.Of(member.Value));
                 }
                 (string, string, string)? difference = Find(before, member.Value);
                 if (difference != null)
@@ -44,7 +45,7 @@ namespace HaptoFlow.Studies
             {
                 if (!now.ContainsKey(member.Key))
                 {
-                    return (member.Value.Path, JsonText.Of(member.Value), "not there");
+                    return (member.Value.Path, JsonText.Of(member.Value), "missing");
                 }
             }
             return null;

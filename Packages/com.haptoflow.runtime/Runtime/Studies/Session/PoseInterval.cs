@@ -3,8 +3,8 @@ using System;
 
 namespace HaptoFlow.Studies
 {
-    /// <summary>Measures how long a frame takes: the time between two poses of the pen. The median of the last frames
-    /// counts, so that one that was late does not. Main thread; no garbage.</summary>
+    /// <summary>Measures the interval between two poses of the pen: the median of the last frames, so that a late frame
+    /// does not count. Main thread; no garbage.</summary>
     public sealed class PoseInterval
     {
         private const int Frames = 128;
@@ -14,10 +14,10 @@ namespace HaptoFlow.Studies
         private int count;
         private int next;
 
-        /// <summary>Frames that count by now, at most 128.</summary>
+        /// <summary>Number of frames measured, at most 128.</summary>
         public int Count => count;
 
-        /// <summary>Half of the last frames took less, in ms; 0 before the first.</summary>
+        /// <summary>Median of the last frames, in ms; 0 before the first.</summary>
         public double MedianMilliseconds
         {
             get
@@ -32,8 +32,8 @@ namespace HaptoFlow.Studies
             }
         }
 
-        /// <summary>One more frame; what is no time is left out.</summary>
-        /// <param name="seconds">Time.unscaledDeltaTime.</param>
+        /// <summary>Adds a frame; an invalid duration is ignored.</summary>
+        /// <param name="seconds">Duration of the frame: Time.unscaledDeltaTime.</param>
         public void Add(double seconds)
         {
             if (seconds > 0.0 && seconds < SessionClock.MaximumFrameSeconds)
