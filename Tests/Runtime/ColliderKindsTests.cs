@@ -10,7 +10,7 @@ namespace HaptoFlow.Tests
     public sealed class ColliderKindsTests : SceneTest
     {
         [UnityTest]
-        public IEnumerator ABoxWithOffsetScaleAndRotation()
+        public IEnumerator ABoxWithOffsetScaleAndRotationIsTouchedAtItsSurface()
         {
             HapticSurface surface = Tagged<BoxCollider>("wood", box =>
             {
@@ -24,7 +24,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ASphereOfTheLargestScale()
+        public IEnumerator ASphereHasTheRadiusOfItsLargestScale()
         {
             HapticSurface surface = Tagged<SphereCollider>("wood", sphere => sphere.radius = 0.05f);
             surface.transform.localScale = new Vector3(1f, 2f, 1f);
@@ -32,7 +32,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ACapsuleAlongX()
+        public IEnumerator ACapsuleAlongXIsTouchedAtItsSide()
         {
             HapticSurface surface = Tagged<CapsuleCollider>("wood", capsule =>
             {
@@ -45,7 +45,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ACapsuleAlongZAtItsCap()
+        public IEnumerator ACapsuleAlongZIsTouchedAtItsCap()
         {
             HapticSurface surface = Tagged<CapsuleCollider>("wood", capsule =>
             {
@@ -57,7 +57,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ACharacterStandsUprightWhateverItsTransformSays()
+        public IEnumerator ACharacterControllerStaysUprightWhateverItsRotation()
         {
             HapticSurface surface = Tagged<CharacterController>("wood", character =>
             {
@@ -94,7 +94,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AGutterMeshFloorAndWall()
+        public IEnumerator AGutterMeshIsTouchedAtItsFloorAndItsWall()
         {
             HapticSurface surface = Tagged<MeshCollider>("wood", mesh => mesh.sharedMesh = TestMeshes.Gutter());
             IEnumerator floor = Presses(surface, Vector3.zero, Vector3.up);

@@ -11,7 +11,7 @@ namespace HaptoFlow.Tests
     public sealed class EngineHealthTests : SceneTest
     {
         [Test]
-        public void AWorkerThatEndedIsToldOnceWithItsFailure()
+        public void AnEndedWorkerIsReportedOnceWithItsFailure()
         {
             var health = new EngineHealth();
             // Statistics as they are before the library fills them: nobody is alive.
@@ -22,7 +22,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AHealthyEngineIsToldOfNeverAndHasNoFailure()
+        public IEnumerator AHealthyEngineReportsNoFailure()
         {
             FinishLoading();
             Board();
@@ -39,7 +39,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AQualityWhoseTierIsNotLoadedIsLoadedBesideTheFrames()
+        public IEnumerator TheTierOfANewQualityIsLoadedOnAnotherThread()
         {
             FinishLoading();
             HapticEngine engine = HapticSession.Current.Engine!;
@@ -55,7 +55,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ALoadingThatIsShutDownEndsWithoutAnError()
+        public IEnumerator ShuttingDownDuringLoadingCausesNoError()
         {
             HaptoFlowSettings.Active.Quality = HapticQuality.Auto;
             HapticSession loading = HapticSession.Current;

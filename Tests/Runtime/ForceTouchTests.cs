@@ -32,7 +32,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void SensorNoiseSmallerThanTheGapTouchesOnceHoweverSlowlyThePenComesDownAndLifts()
+        public void SensorNoiseBelowTheHysteresisCausesOneTouchHoweverSlowThePenIs()
         {
             var random = new Random(7);
             int touches = 0;
@@ -75,7 +75,7 @@ namespace HaptoFlow.Tests
         [TestCase(double.PositiveInfinity)]
         [TestCase(double.NegativeInfinity)]
         [TestCase(-0.5)]
-        public void AForceThatIsNoMeasurementCountsAsADropout(double broken)
+        public void AnInvalidForceCountsAsADropout(double broken)
         {
             Assert.That(After(broken), Is.EqualTo(ForceVerdict.Unknown));
             After(1.0);
@@ -89,14 +89,14 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void APenThatNeverMeasuredIsUnknown()
+        public void APenWithoutAMeasurementIsUnknown()
         {
             Assert.That(After(null), Is.EqualTo(ForceVerdict.Unknown));
             Assert.That(touch.Update(double.NaN, null), Is.EqualTo(ForceVerdict.Unknown));
         }
 
         [Test]
-        public void AClockThatRunsBackwardsOrBreaksHoldsNothingForEver()
+        public void AForceIsNotHeldForeverWhenTheClockRunsBackwardsOrBreaks()
         {
             After(1.0);
             now = 5.0;
@@ -108,7 +108,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void NearIsMeasuredOnBothSidesAndATouchedSurfaceStaysNearForLonger()
+        public void TheNearDistanceAppliesOnBothSidesAndIsLongerForATouchedSurface()
         {
             Assert.That(touch.IsNear(0.02, false), Is.True);
             Assert.That(touch.IsNear(-0.02, false), Is.True);

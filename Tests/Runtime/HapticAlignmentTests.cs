@@ -46,7 +46,7 @@ namespace HaptoFlow.Tests
         public void LeaveNoFile() => new AlignmentFile(name).Delete(board);
 
         [UnityTest]
-        public IEnumerator ThreeRestsOfAPressingPenPutTheBoardOntoTheDesk()
+        public IEnumerator ThreeRestsOfAPressingPenAlignTheBoardWithTheDesk()
         {
             yield return null;
             alignment.Begin();
@@ -61,7 +61,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator APenWithoutForceTakesPointsWhenAsked()
+        public IEnumerator APenWithoutForceTakesPointsByCallingTakePoint()
         {
             stylus.Force = null;
             yield return null;
@@ -77,7 +77,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AScaledBoardBelowAMovedParentIsPutThereToo()
+        public IEnumerator AScaledBoardBelowAMovedParentIsAlignedToo()
         {
             GameObject parent = Make("rig");
             parent.transform.SetPositionAndRotation(
@@ -91,7 +91,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator TheBoardsJumpIsNotFeltAsSpeed()
+        public IEnumerator TheJumpOfAnAlignmentDoesNotCountAsSpeed()
         {
             FinishLoading();
             Output(out _);
@@ -119,7 +119,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator UndoTakesBackAPointThenTheWholeAlignment()
+        public IEnumerator UndoRemovesAPointAndLaterTheWholeAlignment()
         {
             Vector3 before = board.transform.position;
             yield return null;
@@ -139,7 +139,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ATriangleThatIsNotTheMarkedOneMovesNothingAndSaysWhy()
+        public IEnumerator ATouchedTriangleThatDiffersIsRefusedWithAReason()
         {
             Vector3 before = board.transform.position;
             stylus.Force = null;
@@ -158,7 +158,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator TheNextSessionsBoardIsWhereThisOneWasPut()
+        public IEnumerator TheNextSessionRestoresTheAlignment()
         {
             yield return TakeAll();
             HapticSurface next = Board();
@@ -177,7 +177,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator WithoutAStylusItSaysSoAndMarksWithoutPoseAreRefused()
+        public IEnumerator AMissingStylusIsReportedAndMarksWithoutAPoseAreRefused()
         {
             alignment.Stylus = null;
             yield return null;

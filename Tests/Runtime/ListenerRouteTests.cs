@@ -14,7 +14,7 @@ namespace HaptoFlow.Tests
         private const float Audible = 0.001f;
 
         [UnityTest]
-        public IEnumerator AListenerChannelWithoutAChannelLeavesTheGamesSoundAloneAndSaysSo()
+        public IEnumerator AListenerRouteWithoutAChannelIsSilentAndLogsAnError()
         {
             FinishLoading();
             LogAssert.Expect(LogType.Error, new Regex("Ears is silent: .*Choose a channel"));
@@ -34,7 +34,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator TakingTheChannelAwayFromARunningListenerChannelIsRefusedToo()
+        public IEnumerator RemovingTheChannelOfARunningListenerRouteLogsAnError()
         {
             FinishLoading();
             LogAssert.Expect(LogType.Error, new Regex("Ears is silent"));
@@ -50,7 +50,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator APausedListenerAtVolumeZeroLeavesWhatIsFelt()
+        public IEnumerator APausedListenerAtVolumeZeroDoesNotSilenceTheHaptics()
         {
             FinishLoading();
             Board();

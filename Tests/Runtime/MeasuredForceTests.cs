@@ -16,7 +16,7 @@ namespace HaptoFlow.Tests
         private FixedForce force = null!;
 
         [UnityTest]
-        public IEnumerator APressingPenTouchesTheSurfaceThatIsMillimetresAwayAndSlidesOverIt()
+        public IEnumerator APressingPenTouchesAndSlidesOverASurfaceMillimetresAway()
         {
             FinishLoading();
             HapticSurface board = Board();
@@ -72,7 +72,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator LiftingOffEndsTheTouchInTheSameFrameAndPressingAgainIsANewOne()
+        public IEnumerator LiftingEndsTheTouchInTheSameFrameAndPressingAgainStartsANewOne()
         {
             Board();
             HapticStylus stylus = Pen(_ => new Vector3(0f, 0.006f, 0f));
@@ -89,7 +89,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator TrackingErrorsOfMillimetresLeaveOneTouch()
+        public IEnumerator TrackingErrorsOfMillimetresDoNotInterruptATouch()
         {
             Board();
             var random = new System.Random(11);
@@ -103,7 +103,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator SlidingFromOneSurfaceToTheNextIsOneTouchThatTellsOfTheChange()
+        public IEnumerator SlidingBetweenSurfacesIsOneTouchAndRaisesSurfaceChanged()
         {
             HapticSurface left = Board("wood");
             HapticSurface right = Board("fur");
@@ -126,7 +126,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AShortDropoutIsBridgedAndALongOneLeavesItToGeometry()
+        public IEnumerator AShortDropoutIsBridgedAndAfterALongOneGeometryDecides()
         {
             Board();
             HapticStylus stylus = Pen(_ => new Vector3(0f, 0.006f, 0f));
@@ -144,7 +144,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ABrokenForceIsNeverFelt()
+        public IEnumerator AnInvalidForceIsNeverPublished()
         {
             Board();
             HapticStylus stylus = Pen(_ => new Vector3(0f, 0.006f, 0f));
@@ -173,7 +173,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ThresholdsChangedWhileItRunsCountAtOnceAndImpossibleOnesAreMadePossible()
+        public IEnumerator ChangedThresholdsApplyAtOnceAndInvalidOnesAreCorrected()
         {
             Board();
             HapticStylus stylus = Pen(_ => new Vector3(0f, 0.006f, 0f));

@@ -12,7 +12,7 @@ namespace HaptoFlow.Tests
         private const double RateHz = 90.0;
 
         [Test]
-        public void AMotionIsSeenInItsFirstFrameAndItsEndInTheNext()
+        public void MotionIsDetectedInItsFirstFrameAndItsEndOneFrameLater()
         {
             var gate = new MotionGate();
             for (int frame = 0; frame < 90; ++frame)
@@ -28,7 +28,7 @@ namespace HaptoFlow.Tests
         [TestCase(0.0)]
         [TestCase(0.03)]
         [TestCase(0.05)]
-        public void TrackerNoiseAndTremorAtRestAreNoMotionAndDoNotBreakOne(double noiseMillimetres)
+        public void TrackerNoiseAndTremorNeitherStartNorInterruptAMotion(double noiseMillimetres)
         {
             var random = new Random(1);
             var gate = new MotionGate();
@@ -52,7 +52,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void ATrackerThatRepeatsAPositionDoesNotBreakAMotionButAPenThatStandsStillEndsIt()
+        public void ARepeatedPositionDoesNotInterruptAMotionButARestingPenEndsIt()
         {
             var gate = new MotionGate();
             for (int frame = 0; frame < 60; ++frame)
@@ -70,7 +70,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void LiftingEndsTheMotionAndATouchElsewhereIsNone()
+        public void LiftingEndsTheMotionAndATouchElsewhereIsNotAMotion()
         {
             var gate = new MotionGate();
             gate.Update(0.0, true, new Double3(0.0, 0.0, 0.0));
@@ -81,7 +81,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void AClockThatGoesBackOrStandsStillChangesNothing()
+        public void AClockThatRunsBackwardsOrStandsStillChangesNothing()
         {
             var gate = new MotionGate();
             gate.Update(5.0, true, new Double3(0.0, 0.0, 0.0));

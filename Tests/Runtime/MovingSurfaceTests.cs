@@ -44,7 +44,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ATipThatRidesOnABodyFeelsNoSpeed()
+        public IEnumerator ATipAtRestOnAMovingBodyHasNoVelocity()
         {
             HapticSurface board = Board();
             PlatformMover.On(board.gameObject, RigidbodyInterpolation.Interpolate, seconds =>
@@ -63,7 +63,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ATurningBoardIsFeltWithItsSpeedAtTheTip()
+        public IEnumerator ATurningBoardGivesItsSpeedAtTheTip()
         {
             HapticSurface board = Board();
             var turner = board.gameObject.AddComponent<Turner>();
@@ -92,7 +92,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ASurfaceWhoseMotionIsNotFeltCountsAsAtRest()
+        public IEnumerator ASurfaceWithoutOwnMotionCountsAsAtRest()
         {
             HapticSurface board = Board();
             board.FeelOwnMotion = false;
@@ -108,7 +108,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator FixedUpdatesFollowTheTipToo()
+        public IEnumerator TheTipIsTrackedInFixedUpdatesToo()
         {
             Board();
             HapticStylus stylus = StylusAlong(seconds => new Vector3(0.05f * (float)seconds, 0.001f, 0f));

@@ -29,7 +29,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void APoseComesBackExactlyAlsoOverAnOlderOne()
+        public void ASavedPoseIsReadBackExactlyAlsoAfterOverwriting()
         {
             SavedPose.Write(path, RigidPose.Identity);
             var pose = new RigidPose(new Double3(0.1, -1.0 / 3.0, 1e-9), new Rotation(0.1, 0.2, -0.3, 0.9).Unit);
@@ -42,7 +42,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void AMissingFileIsNoProblem()
+        public void AMissingFileIsNotAnError()
         {
             Assert.That(SavedPose.TryRead(path, out _, out string? problem), Is.False);
             Assert.That(problem, Is.Null);
@@ -60,7 +60,7 @@ namespace HaptoFlow.Tests
             "\"rotation_xyzw\": [0, 0, 0, 0]}")]
         [TestCase("{\"format\": \"haptoflow pose\", \"version\": 1, \"position_m\": [0, 0, 0], " +
             "\"rotation_xyzw\": [0, 0, 0, 1]")]
-        public void ABrokenFileIsRefusedByItsNameWithTheRemedy(string text)
+        public void ADamagedFileIsRefusedWithItsNameAndTheRemedy(string text)
         {
             Directory.CreateDirectory(Path.GetDirectoryName(path)!);
             File.WriteAllText(path, text);
@@ -69,7 +69,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void AnEndlessFileIsNotRead()
+        public void ATooLongFileIsNotRead()
         {
             Directory.CreateDirectory(Path.GetDirectoryName(path)!);
             File.WriteAllText(path, new string(' ', 5000));

@@ -15,7 +15,7 @@ namespace HaptoFlow.Tests
         private const float Audible = 0.001f;
 
         [UnityTest]
-        public IEnumerator AnAuthorsOutputThatAppearsTakesOverFromTheOneThatWasMade()
+        public IEnumerator AnAuthorsOutputReplacesTheCreatedOne()
         {
             FinishLoading();
             Board();
@@ -30,7 +30,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AnOutputThatWasMadeDoesNotOutliveItsScene()
+        public IEnumerator ACreatedOutputIsDestroyedWithItsScene()
         {
             FinishLoading();
             Board();
@@ -44,7 +44,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator TheAssignedOutputSwitchedOffIsSilenceAndNoOtherIsMade()
+        public IEnumerator ADisabledAssignedOutputIsSilentAndNoneIsCreated()
         {
             FinishLoading();
             Board();
@@ -64,7 +64,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator TheScenesOnlyOutputSwitchedOffIsSilenceAndNoOtherIsMade()
+        public IEnumerator ADisabledOnlyOutputOfASceneIsSilentAndNoneIsCreated()
         {
             FinishLoading();
             Board();
@@ -77,7 +77,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AnOutputOnAnInactiveObjectIsSilenceUntilItIsActive()
+        public IEnumerator AnOutputOnAnInactiveObjectIsSilentUntilItIsActive()
         {
             FinishLoading();
             Board();
@@ -94,7 +94,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ADestroyedOutputIsReplacedByOneThatIsMade()
+        public IEnumerator ADestroyedOutputIsReplacedByACreatedOne()
         {
             FinishLoading();
             Board();
@@ -111,7 +111,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AnAuthorsOutputThatWakesSwitchedOffSilencesTheOneThatWasMade()
+        public IEnumerator ADisabledOutputOfTheAuthorSilencesTheCreatedOne()
         {
             FinishLoading();
             Board();

@@ -11,7 +11,7 @@ namespace HaptoFlow.Tests
     public sealed class StylusEventsTests : SceneTest
     {
         [UnityTest]
-        public IEnumerator TheInspectorsEventsTellOfASlideOverTwoSurfacesAndOfItsEnd()
+        public IEnumerator TheInspectorEventsReportASlideOverTwoSurfacesAndItsEnd()
         {
             HapticSurface left = Board("wood");
             HapticSurface right = Board("fur");
@@ -35,7 +35,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AHandlerThatSwitchesTheStylusOffHearsNoMoreOfThatTouchButItsEnd()
+        public IEnumerator AHandlerThatDisablesTheStylusReceivesOnlyTheEndOfTheTouch()
         {
             Board();
             HapticStylus stylus = StylusAlong(_ => new Vector3(0f, 0.001f, 0f));

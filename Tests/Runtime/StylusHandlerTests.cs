@@ -10,7 +10,7 @@ namespace HaptoFlow.Tests
     public sealed class StylusHandlerTests : SceneTest
     {
         [UnityTest]
-        public IEnumerator AStylusThatIsSwitchedOffByItsFirstTouchLeavesNoVoiceBehind()
+        public IEnumerator AStylusDisabledByItsFirstTouchLeavesNoVoiceOpen()
         {
             FinishLoading();
             Board();
@@ -25,7 +25,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AStylusThatIsDestroyedByItsFirstTouchLeavesNoVoiceBehind()
+        public IEnumerator AStylusDestroyedByItsFirstTouchLeavesNoVoiceOpen()
         {
             FinishLoading();
             Board();
@@ -39,7 +39,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AStylusThatIsSwitchedOffAndOnByAHandlerStartsAnew()
+        public IEnumerator AStylusDisabledAndEnabledByAHandlerStartsANewTouch()
         {
             FinishLoading();
             Board();
@@ -65,7 +65,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ASurfaceThatIsDestroyedByItsFirstTouchIsNotPublished()
+        public IEnumerator ASurfaceDestroyedByItsFirstTouchIsNotPublished()
         {
             FinishLoading();
             Board();

@@ -10,10 +10,10 @@ namespace HaptoFlow.Tests
     public sealed class SurfaceEffectsTests : SceneTest
     {
         [UnityTest]
-        public IEnumerator ASurfaceWithImpactsAsksForThem() => Land(true);
+        public IEnumerator ASurfaceWithImpactsPlaysThem() => Land(true);
 
         [UnityTest]
-        public IEnumerator ASurfaceWithoutImpactsDoesNot() => Land(false);
+        public IEnumerator ASurfaceWithoutImpactsPlaysNone() => Land(false);
 
         private IEnumerator Land(bool isAskedFor)
         {
@@ -35,7 +35,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ATipThatSlidesOffTheRimOfABoardIsFeltOnce()
+        public IEnumerator SlidingOffTheRimOfABoardPlaysOneEdge()
         {
             FinishLoading();
             Board();
@@ -53,7 +53,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ALiftIsNoEdge()
+        public IEnumerator LiftingPlaysNoEdge()
         {
             FinishLoading();
             Board();
@@ -70,7 +70,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ASlideAgainstAWallLandsWithinTheTouch()
+        public IEnumerator SlidingAgainstAWallPlaysALandingWithinTheTouch()
         {
             FinishLoading();
             Board();
@@ -94,7 +94,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void AMaterialHasAllEffectsOfItsSurfaceUntilItIsToldOtherwise()
+        public void AMaterialHasAllEffectsByDefault()
         {
             var description = new MaterialDescription();
             Assert.That(

@@ -28,7 +28,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator TheOwnCopyBeginsAsTheSharedOneIs()
+        public IEnumerator TheOwnCopyStartsEqualToTheSharedMaterial()
         {
             HapticMaterial shared = Shared();
             HapticSurface board = Board("fur");
@@ -47,7 +47,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ReadingTheMaterialLeavesTheSurfaceItsSharedMaterial()
+        public IEnumerator ReadingSharedDescriptionKeepsTheSharedMaterial()
         {
             HapticMaterial shared = Shared();
             HapticSurface board = Board();
@@ -63,7 +63,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator FeatureScaleAndToneStayWithinTheirRanges()
+        public IEnumerator FeatureScaleAndToneAreLimitedToTheirRanges()
         {
             var material = new MaterialDescription();
             Assert.That(material.FeatureScale, Is.EqualTo(1f), "features as they are");

@@ -16,7 +16,7 @@ namespace HaptoFlow.Tests
         };
 
         [Test]
-        public void ExactTouchesGiveThePoseBackForAThousandRandomPosesAndTriangles()
+        public void ExactTouchesReproduceThePoseForAThousandRandomPosesAndTriangles()
         {
             var random = new Random(5);
             for (int round = 0; round < 1000; ++round)
@@ -44,7 +44,7 @@ namespace HaptoFlow.Tests
         [TestCase(0.0, 0.0, 0.0, 1.0)]
         [TestCase(0.5, 0.5, 0.5, 0.5)]
         [TestCase(-0.70710678, 0.0, 0.70710678, 0.0)]
-        public void HalfTurnsAreFoundToo(double x, double y, double z, double w)
+        public void RotationsByHalfATurnAreFoundToo(double x, double y, double z, double w)
         {
             var pose = new RigidPose(new Double3(1.0, 2.0, 3.0), new Rotation(x, y, z, w));
             AlignmentFit fit = Solve(Marks, Marks.Select(pose.PointToWorld).ToArray());
@@ -76,7 +76,7 @@ namespace HaptoFlow.Tests
 
         [TestCase(1.0)]
         [TestCase(-1.0)]
-        public void TheTipsRadiusIsTakenOffOnTheSideWhereThePenWas(double side)
+        public void TheTipRadiusIsSubtractedOnThePensSide(double side)
         {
             var outward = new Double3(0.0, side, 0.0);
             Double3[] touched = Marks.Select(mark => mark + 0.002 * outward).ToArray();
@@ -85,7 +85,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void TrianglesThatSayNothingOfAPoseAreRefusedWithTheReason()
+        public void TrianglesThatDoNotDetermineAPoseAreRefusedWithTheReason()
         {
             Refused(new[] { Marks[0], Marks[1], new Double3(0.2, 0.0, 0.009) }, Marks, "marked points lie almost on one");
             Refused(Marks, new[] { Marks[0], Marks[1], new Double3(0.2, 0.0, 0.0) }, "touched points lie almost on one");
@@ -97,7 +97,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void PointsTouchedInAnotherOrderAreNamedAsThat() => Refused(
+        public void PointsTouchedInAnotherOrderAreReportedAsSuch() => Refused(
             Marks, new[] { Marks[1], Marks[0], Marks[2] }, "in the order of their numbers");
 
         private static void Refused(Double3[] marks, Double3[] touched, string part) =>

@@ -18,7 +18,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void ARestingPenGivesItsMeanPlaceOnceUntilItLifts()
+        public void ARestingPenGivesItsMeanPositionOncePerRest()
         {
             int taken = 0;
             Double3 found = default;
@@ -53,7 +53,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void ABrokenSampleStartsTheRestAnew()
+        public void AnInvalidSampleRestartsTheRest()
         {
             for (int frame = 0; frame < 20; ++frame)
             {
@@ -64,7 +64,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void OnePressBeforeTheFirstPointDoesNotCountWhereALiftIsAwaited()
+        public void APressBeforeTheFirstLiftTakesNoPoint()
         {
             point.AwaitLift();
             Assert.That(Rest(Double3.Zero), Is.False);

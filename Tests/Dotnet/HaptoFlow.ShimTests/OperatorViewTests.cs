@@ -38,7 +38,7 @@ namespace HaptoFlow.ShimTests
             Assert.That(text, Does.Contain("participant P07, study latency, trial 1 of 8 (practice)"));
             Assert.That(text, Does.Contain("press Next to begin"));
             Assert.That(text, Does.Contain("turn-on, 50 ms"));
-            Assert.That(text, Does.Contain("disk: every answer is written"));
+            Assert.That(text, Does.Contain("disk: every answer is saved"));
         }
 
         [Test]

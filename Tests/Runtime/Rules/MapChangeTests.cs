@@ -10,7 +10,7 @@ namespace HaptoFlow.Tests
     public sealed class MapChangeTests : MapTest
     {
         [UnityTest]
-        public IEnumerator ATagAndALayerThatChangeWhileTouchingAreFeltInTheNextFrame()
+        public IEnumerator AChangeOfTagOrLayerDuringATouchAppliesInTheNextFrame()
         {
             FinishLoading();
             BoxCollider box = Bare();
@@ -34,7 +34,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ARendererMaterialThatChangesIsFeltAndAScriptsOwnCopyOfItIsTheSame()
+        public IEnumerator AChangedRendererMaterialAppliesAndItsInstanceMatchesTheSameRule()
         {
             FinishLoading();
             BoxCollider box = Bare();
@@ -58,7 +58,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AMapThatChangesOrGoesWhileTouchingIsFollowed()
+        public IEnumerator AChangedOrDestroyedMapAppliesDuringATouch()
         {
             FinishLoading();
             Bare();
@@ -101,7 +101,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AMaterialDestroyedWhileTouchingBreaksNothing()
+        public IEnumerator AMaterialDestroyedDuringATouchCausesNoError()
         {
             FinishLoading();
             Bare();
@@ -118,7 +118,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ANewNameCountsAfterARefresh()
+        public IEnumerator ANewNameAppliesAfterARefresh()
         {
             FinishLoading();
             BoxCollider box = Bare();
@@ -134,7 +134,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ASurfaceThatComesAndGoesUnderTheTipTakesOverAndGivesBack()
+        public IEnumerator AHapticSurfaceAddedDuringATouchAppliesUntilItIsRemoved()
         {
             FinishLoading();
             BoxCollider box = Bare();
@@ -152,7 +152,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator OfFiveHundredCollidersThatRulesNameTheTouchedOneIsFelt()
+        public IEnumerator TheTouchedOneOfFiveHundredCollidersWithRulesIsFelt()
         {
             FinishLoading();
             for (int index = 0; index < 500; ++index)
@@ -172,7 +172,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator DestroyedCollidersAreNotKeptForEver()
+        public IEnumerator DestroyedCollidersAreRemovedFromTheCache()
         {
             FinishLoading();
             Map.DefaultMaterial = Feeling("wood");

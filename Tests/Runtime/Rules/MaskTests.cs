@@ -13,7 +13,7 @@ namespace HaptoFlow.Tests
         private MeshCollider floor = null!;
 
         [UnityTest]
-        public IEnumerator AChannelMixesAMaterialInByItsBrightness()
+        public IEnumerator AChannelBlendsItsMaterialByBrightness()
         {
             FinishLoading();
             HapticMaskMap mask = Mask(4, 1, 0, 85, 170, 255);
@@ -33,7 +33,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ASurfaceMayHaveAMaskToo()
+        public IEnumerator AHapticSurfaceCanHaveAMask()
         {
             FinishLoading();
             HapticMaskMap mask = Mask(2, 1, 0, 255);
@@ -65,7 +65,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ChannelsThatTogetherAreMoreThanOneLeaveNothingOfWhatIsUnder()
+        public IEnumerator ChannelsWithASumAboveOneReplaceTheMaterialBelow()
         {
             FinishLoading();
             HapticMaskMap mask = Mask(1, 1, 255);
@@ -80,7 +80,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AMaskOverNothingIsFeltWhereItsChannelsSaySo()
+        public IEnumerator AMaskWithoutAMaterialBelowIsFeltWhereItsChannelsHaveOne()
         {
             FinishLoading();
             HapticMaskMap mask = Mask(2, 1, 0, 255);
@@ -118,7 +118,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator WhereThereIsNoTextureCoordinateTheMaterialUnderTheMaskIsFelt()
+        public IEnumerator WithoutATextureCoordinateTheMaterialBelowTheMaskIsFelt()
         {
             FinishLoading();
             HapticMaskMap mask = Mask(1, 1, 255);
@@ -133,7 +133,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator StrangeNumbersInAMaskBreakNothing()
+        public IEnumerator ExtremeNumbersInAMaskGiveValidResults()
         {
             FinishLoading();
             HapticMaskMap mask = Mask(2, 2, 0, 255, 255, 0);

@@ -78,7 +78,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ARendererAboveOrBelowTheColliderCountsWhereItHasNoneAndATrailDoesNot()
+        public IEnumerator AColliderWithoutRendererUsesOneAboveOrBelowItButNoTrail()
         {
             FinishLoading();
             Material oak = Paint("Oak");
@@ -104,7 +104,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AContactThatIsOverStillSaysWhyAlsoWhenItsMapIsGone()
+        public IEnumerator AnEndedContactStillNamesItsRuleAlsoAfterItsMapWasDestroyed()
         {
             FinishLoading();
             Bare();
@@ -116,11 +116,11 @@ namespace HaptoFlow.Tests
             yield return null;
             HapticContact contact = stylus.Contact;
             Object.DestroyImmediate(map);
-            Assert.That(contact.Explain(), Is.EqualTo("a map that is gone"));
+            Assert.That(contact.Explain(), Is.EqualTo("a deleted map"));
         }
 
         [UnityTest]
-        public IEnumerator TheFirstRuleThatMatchesCountsAlsoWhereItSaysNothing()
+        public IEnumerator TheFirstMatchingRuleAppliesAlsoWithoutAMaterial()
         {
             FinishLoading();
             Bare();
@@ -139,7 +139,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator WhatNoRuleMatchesFeelsLikeTheDefault()
+        public IEnumerator AColliderThatNoRuleMatchesGetsTheDefaultMaterial()
         {
             FinishLoading();
             Bare();
@@ -153,7 +153,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AnExplicitSurfaceWinsOverEveryRuleWhileItIsOn()
+        public IEnumerator AnEnabledHapticSurfaceTakesPrecedenceOverEveryRule()
         {
             FinishLoading();
             HapticSurface board = Board("glass");
@@ -172,7 +172,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator TheMapsOfASceneAreAskedBeforeTheProjectsInTheirOrder()
+        public IEnumerator TheMapsOfASceneAreTriedInOrderBeforeTheProjectsMap()
         {
             FinishLoading();
             Bare();
@@ -198,7 +198,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator StiffnessStrengthAndOwnMotionAreThoseOfTheRulesMaterial()
+        public IEnumerator StiffnessStrengthAndOwnMotionComeFromTheRulesMaterial()
         {
             FinishLoading();
             BoxCollider box = Bare();
@@ -221,7 +221,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator APenDoesNotFeelItselfNorWhoHoldsItByARule()
+        public IEnumerator ARuleDoesNotMakeAPenTouchItselfOrItsHolder()
         {
             FinishLoading();
             Map.DefaultMaterial = Feeling("rubber");
@@ -236,7 +236,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator SlidingBetweenCollidersThatRulesNameChangesTheSurface()
+        public IEnumerator SlidingBetweenCollidersWithRulesRaisesSurfaceChanged()
         {
             FinishLoading();
             Bare("Left").center = new Vector3(-0.2f, -0.01f, 0f);

@@ -10,7 +10,7 @@ namespace HaptoFlow.Tests
     public sealed class SubmeshTests : MapTest
     {
         [UnityTest]
-        public IEnumerator EachSubmeshFeelsByItsOwnRule()
+        public IEnumerator EachSubmeshHasTheMaterialOfItsRule()
         {
             FinishLoading();
             MeshCollider mesh = TwoHalves();
@@ -26,7 +26,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator EachSubmeshFeelsByTheMaterialThatItIsDrawnWith()
+        public IEnumerator EachSubmeshIsMatchedByItsRendererMaterial()
         {
             FinishLoading();
             MeshCollider mesh = TwoHalves();
@@ -44,7 +44,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator TheTipFeelsTheOtherMaterialWhereItCrossesTheBorderWithinOneTouch()
+        public IEnumerator CrossingTheBorderOfTwoSubmeshesChangesTheMaterialWithinOneTouch()
         {
             FinishLoading();
             MeshCollider mesh = TwoHalves();
@@ -66,7 +66,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ASubmeshThatFeelsLikeNothingIsSilentAndItsNeighbourIsNot()
+        public IEnumerator ASubmeshWithoutMaterialIsSilentAndItsNeighbourIsNot()
         {
             FinishLoading();
             MeshCollider mesh = TwoHalves();
@@ -92,7 +92,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AMeshThatIsNotReadableFeelsLikeItsFirstSubmesh()
+        public IEnumerator AnUnreadableMeshHasTheMaterialOfItsFirstSubmesh()
         {
             FinishLoading();
             MeshCollider mesh = TwoHalves();

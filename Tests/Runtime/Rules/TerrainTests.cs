@@ -17,7 +17,7 @@ namespace HaptoFlow.Tests
         private TerrainCollider terrain = null!;
 
         [UnityTest]
-        public IEnumerator HalfWoodAndHalfCorduroyArriveAsTwoLabelsOfHalfTheWeight()
+        public IEnumerator HalfWoodAndHalfCorduroyGiveTwoLabelsOfEqualWeight()
         {
             FinishLoading();
             Terrain("grass", "rock");
@@ -60,7 +60,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator OfSixLayersTheFourHeaviestLabelsArriveAndTheirWeightsAddUpToOne()
+        public IEnumerator TheFourHeaviestOfSixLayersAreKeptWithWeightsThatSumToOne()
         {
             FinishLoading();
             string[] labels = { "wood", "stone", "glass", "fur", "rubber", "jute" };
@@ -79,7 +79,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator LayersOfOneMaterialAreOneLabelAndALayerOfNothingWeakens()
+        public IEnumerator LayersOfOneMaterialMergeAndALayerWithoutMaterialWeakensTheRest()
         {
             FinishLoading();
             Terrain("grass", "moss", "water");
@@ -97,7 +97,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ScaleToneAndStiffnessOfAMixtureLieBetweenThoseOfItsMaterials()
+        public IEnumerator ScaleToneAndStiffnessOfABlendLieBetweenThoseOfItsMaterials()
         {
             FinishLoading();
             Terrain("grass", "rock");
@@ -125,7 +125,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator PaintingAtRunTimeIsFelt()
+        public IEnumerator PaintingTheTerrainAtRunTimeChangesTheMaterial()
         {
             FinishLoading();
             Terrain("grass", "rock");
@@ -141,7 +141,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ALargeTerrainIsKeptSmallerAndFeelsTheSame()
+        public IEnumerator WeightsOfALargeTerrainAreStoredAtALowerResolution()
         {
             FinishLoading();
             Terrain("a", "b", "c", "d", "e");
@@ -184,7 +184,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ATerrainWithoutLayersFeelsByTheRulesForItsObject()
+        public IEnumerator ATerrainWithoutLayersMatchesTheRulesForItsObject()
         {
             FinishLoading();
             Terrain();

@@ -50,7 +50,7 @@ namespace HaptoFlow.Tests
             row.Split(',')[StudyKind.Latency.Columns.ToList().IndexOf(column)];
 
         [Test]
-        public void EveryTrialIsAskedOnceAndTheSessionIsFinishedInItsSidecar()
+        public void EveryTrialIsRunOnceAndTheSidecarMarksTheSessionFinished()
         {
             while (session.Phase != StudyPhase.Finished)
             {
@@ -65,7 +65,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void TimesCountFromTheQuestionAndFromTheBeginningWithoutPauses()
+        public void TimesAreMeasuredFromTheQuestionAndFromTheStartWithoutPauses()
         {
             PassFor(100.0);
             AnswerOne();
@@ -90,7 +90,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void AnAnswerTwiceAQuestionTwiceAndAnAnswerWithoutQuestionRecordNothing()
+        public void RepeatedAnswersAndAnswersWithoutAQuestionAreNotRecorded()
         {
             Assert.That(session.Answer(StudyFolder.Yes()), Is.False);
             session.Ask();
@@ -106,7 +106,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void APauseInTheMiddleBeginsTheTrialAgainAsAFurtherAttempt()
+        public void APauseDuringATrialRestartsItAsAFurtherAttempt()
         {
             session.Continue();
             PassFor(1.0);
@@ -126,7 +126,7 @@ namespace HaptoFlow.Tests
         [TestCase(-500.0)]
         [TestCase(3.0)]
         [TestCase(1e9)]
-        public void AClockThatJumpsInTheMiddlePausesAndTheTimeIsLeftOut(double seconds)
+        public void AClockJumpDuringATrialPausesTheSessionAndIsNotCounted(double seconds)
         {
             AnswerOne();
             PassFor(1.0);
@@ -140,7 +140,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void ACrashInTheMiddleOfATrialLosesNoneAndRepeatsNone()
+        public void ACrashDuringATrialNeitherLosesNorRepeatsAnswers()
         {
             AnswerOne();
             AnswerOne();
@@ -163,7 +163,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void ACrashBehindTheLastAnswerLeavesOnlyTheEndToBeWritten()
+        public void AfterACrashBehindTheLastAnswerOnlyTheEndIsWritten()
         {
             for (int trial = 0; trial < 7; ++trial)
             {
@@ -181,7 +181,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void AFullDiskPausesUntilItTakesTheRowAndTheNextTrialWaits()
+        public void AFullDiskPausesTheSessionUntilTheRowIsWritten()
         {
             session.Continue();
             session.Ask();
@@ -202,7 +202,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void AClockThatGoesBackWhileTheDiskIsFullDoesNotPutOffTheNextAttempt()
+        public void AClockThatRunsBackwardsDoesNotDelayTheNextWriteAttempt()
         {
             session.Continue();
             session.Ask();
@@ -216,7 +216,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void WhoeverListensIsToldOfEveryChange()
+        public void ChangedIsRaisedAtEveryChange()
         {
             string told = "";
             session.Changed += changed => told += changed.Phase + " ";

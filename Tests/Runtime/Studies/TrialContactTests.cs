@@ -12,7 +12,7 @@ namespace HaptoFlow.Tests
     public sealed class TrialContactTests : SceneTest
     {
         [Test]
-        public void PathTimeSpeedAndForceAreTheStrokes()
+        public void PathTimeSpeedAndForceAreMeasuredOverTheStroke()
         {
             Board();
             // 0.15 m/s, 1 mm below the surface for a tip of 2 mm: the sphere cuts 3 mm deep.
@@ -31,7 +31,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void SettingOffAndStoppingAreCountedAlsoWhereThePenLifts()
+        public void StartsAndStopsAreCountedAlsoWhenThePenLifts()
         {
             Board();
             HapticStylus stylus = StylusAlong(Stops);
@@ -49,7 +49,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void OfAStrokeOverTwoSurfacesOnlyTheChosenOneCounts()
+        public void OnlyTheChosenSurfaceOfAStrokeCounts()
         {
             HapticSurface left = Board();
             HapticSurface right = Board("fur");
@@ -84,7 +84,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void WhatIsDisposedCountsNoMore()
+        public void ADisposedContactStopsCounting()
         {
             Board();
             var contact = new TrialContact(Circling());

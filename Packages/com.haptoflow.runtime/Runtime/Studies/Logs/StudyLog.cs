@@ -192,7 +192,7 @@ namespace HaptoFlow.Studies
             if (!files.Exists(path))
             {
                 throw new StudyException(
-                    $"{path}: is missing but its sidecar exists; restore it,  {AnotherParticipant}");
+                    $"{path}: is missing but its sidecar exists; restore it, {AnotherParticipant}");
             }
             if (!files.Exists(sidecar))
             {
@@ -201,7 +201,7 @@ namespace HaptoFlow.Studies
                 return isBare
                     ? NewLog(files, path, description, content)
                     : throw new StudyException(
-                        $"{sidecar}: is missing but its table exists; restore it,  {AnotherParticipant}");
+                        $"{sidecar}: is missing but its table exists; restore it, {AnotherParticipant}");
             }
             SidecarState state = Checked(sidecar, () => Resumable(files, sidecar, description));
             LogTable table = Checked(path, () => LogTable.Read(description.Plan, files.Read(path)));
@@ -237,7 +237,7 @@ namespace HaptoFlow.Studies
             {
                 (string path, string before, string after) = difference.Value;
                 throw new StudyException($"{sidecar}: the session was begun with {path} = {before}, but the " +
-                    $"value is now {after}; restore it,  {AnotherParticipant}");
+                    $"value is now {after}; restore it, {AnotherParticipant}");
             }
         }
 
