@@ -7,14 +7,14 @@ using UnityEngine.TestTools;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>What the running scene learns of its engine's health.</summary>
+    /// <summary>Reports about the health of the engine in a running scene.</summary>
     public sealed class EngineHealthTests : SceneTest
     {
         [Test]
         public void AnEndedWorkerIsReportedOnceWithItsFailure()
         {
             var health = new EngineHealth();
-            // Statistics as they are before the library fills them: nobody is alive.
+            // Empty statistics: the worker is not alive.
             Assert.That(health.MessageFor(default, "the graph of tier draft failed"),
                 Does.Contain("(the graph of tier draft failed)").And.Contain("Haptics.Restart"));
             Assert.That(health.MessageFor(default, "again"), Is.Null);
@@ -65,7 +65,7 @@ namespace HaptoFlow.Tests
             Assert.That(loading.Problem, Is.Null);
             Assert.That(HapticSession.Existing, Is.Null);
             FinishLoading();
-            Assert.That(Haptics.IsReady, Is.True, "the next one loads");
+            Assert.That(Haptics.IsReady, Is.True, "the next engine loads");
             Haptics.SetQuality(HapticQuality.Draft);
             Haptics.Restart();
             yield return null;

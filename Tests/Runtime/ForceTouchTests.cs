@@ -5,7 +5,7 @@ using NUnit.Framework;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>The decision by force alone, without scene and geometry.</summary>
+    /// <summary>The force detector alone, without scene and geometry.</summary>
     public sealed class ForceTouchTests
     {
         private const double FrameSeconds = 1.0 / 90.0;
@@ -59,7 +59,7 @@ namespace HaptoFlow.Tests
             now += 0.1;
             Assert.That(After(null), Is.EqualTo(ForceVerdict.Unknown));
             Assert.That(touch.ForceNewtons, Is.Zero);
-            Assert.That(After(0.03), Is.EqualTo(ForceVerdict.Lifted), "the touch before does not go on");
+            Assert.That(After(0.03), Is.EqualTo(ForceVerdict.Lifted), "the previous touch has ended");
         }
 
         [Test]

@@ -8,7 +8,7 @@ using UnityEngine.TestTools;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>A virtual board is put onto a real desk by touching three points of it.</summary>
+    /// <summary>A virtual board is aligned with a real desk by touching three of its points.</summary>
     public sealed class HapticAlignmentTests : SceneTest
     {
         private static readonly Vector3[] Corners =
@@ -96,12 +96,12 @@ namespace HaptoFlow.Tests
             FinishLoading();
             Output(out _);
             stylus.TouchBy = TouchDecision.MeasuredForce;
-            // Off by little: the pen touches the board before, while and after it moves.
+            // The board is only slightly misplaced: the pen touches it before, while and after it moves.
             board.transform.SetPositionAndRotation(deskPosition + new Vector3(0.008f, 0.006f, 0f), deskRotation);
             yield return null;
             alignment.Begin();
             float fastest = 0f;
-            // The board moves while the pen rests on the third mark; coming down on it is a movement of the hand.
+            // The board moves while the pen rests on the third mark; lowering the pen is a real motion of the hand.
             void Watch(HapticStylus _, in HapticContact contact) => fastest = alignment.IsTaking
                 ? 0f
                 : Mathf.Max(fastest, contact.TangentialVelocity.magnitude);
@@ -173,7 +173,7 @@ namespace HaptoFlow.Tests
             HapticSurface third = Board();
             third.gameObject.AddComponent<HapticAlignment>().SaveName = name;
             yield return null;
-            Assert.That(third.transform.position.magnitude, Is.LessThan(1e-6f), "what was undone is not kept");
+            Assert.That(third.transform.position.magnitude, Is.LessThan(1e-6f), "an undone alignment is not saved");
         }
 
         [UnityTest]
@@ -201,7 +201,7 @@ namespace HaptoFlow.Tests
             Assert.That(alignment.IsTaking, Is.False, alignment.Message);
         }
 
-        /// <summary>Comes down on a corner of the real desk, presses for half a second, lifts.</summary>
+        /// <summary>Lowers the pen onto a corner of the real desk, presses for half a second, and lifts it.</summary>
         private IEnumerator Rest(int corner)
         {
             hand = TipOn(corner) + 0.05f * Vector3.up;
@@ -214,7 +214,7 @@ namespace HaptoFlow.Tests
             yield return Frames(2);
         }
 
-        /// <summary>The tip's centre is a tip radius above the desk.</summary>
+        /// <summary>The tip's centre is one tip radius above the desk.</summary>
         private Vector3 TipOn(int corner) => deskPosition +
             deskRotation * (Corners[corner] + stylus.TipRadiusMetres * Vector3.up);
 

@@ -6,7 +6,7 @@ using UnityEngine.TestTools;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>Colliders that come, go and change owners below a surface, without anybody calling Refresh.</summary>
+    /// <summary>Colliders that are added, removed or moved below a surface without calling Refresh.</summary>
     public sealed class HierarchyTests : SceneTest
     {
         private HapticSurface parent = null!;

@@ -12,7 +12,7 @@ using Object = UnityEngine.Object;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>Haptic Materials that carry their embedding, in a running scene.</summary>
+    /// <summary>Haptic Materials with an embedding of their own, in a running scene.</summary>
     public sealed class LearntMaterialTests : SceneTest
     {
         private const int LabelCount = 20;

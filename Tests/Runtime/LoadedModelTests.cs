@@ -11,7 +11,7 @@ using Object = UnityEngine.Object;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>Models that are loaded beside the one in use, and used in its place.</summary>
+    /// <summary>Models that are loaded in addition to the one in use, and replace it.</summary>
     public sealed class LoadedModelTests : SceneTest
     {
         private const int RateHz = 48000;

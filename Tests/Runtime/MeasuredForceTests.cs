@@ -7,8 +7,8 @@ using UnityEngine.TestTools;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>A pen on a real object under a virtual one: its force decides, not some millimetres of tracking.
-    /// </summary>
+    /// <summary>A pen on a real object below a virtual one: the force decides, despite tracking errors of
+    /// millimetres.</summary>
     public sealed class MeasuredForceTests : SceneTest
     {
         private const float Audible = 0.001f;
@@ -137,7 +137,7 @@ namespace HaptoFlow.Tests
             Assert.That(stylus.IsTouching, Is.True);
             Assert.That(stylus.Contact.ForceNewtons, Is.EqualTo(1f).Within(1e-6f));
             yield return Frames(20);
-            Assert.That(stylus.IsTouching, Is.False, "by geometry it is 4 mm above");
+            Assert.That(stylus.IsTouching, Is.False, "by geometry the tip is 4 mm above the surface");
             force.HasNews = true;
             yield return Frames(1);
             Assert.That(stylus.IsTouching, Is.True);

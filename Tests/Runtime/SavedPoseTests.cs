@@ -6,7 +6,7 @@ using NUnit.Framework;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>A pose in a file comes back as it was, and a broken file moves nothing.</summary>
+    /// <summary>A saved pose is read back unchanged, and a damaged file is refused.</summary>
     public sealed class SavedPoseTests
     {
         private string folder = "";
@@ -38,7 +38,8 @@ namespace HaptoFlow.Tests
             Assert.That(problem, Is.Null);
             Assert.That(read.PositionMetres, Is.EqualTo(pose.PositionMetres));
             Assert.That(read.Rotation.W, Is.EqualTo(pose.Rotation.W).Within(1e-15));
-            Assert.That(Directory.GetFiles(Path.GetDirectoryName(path)!), Has.Length.EqualTo(1), "nothing is left over");
+            Assert.That(Directory.GetFiles(Path.GetDirectoryName(path)!), Has.Length.EqualTo(1), "no temporary file " +
+                "remains");
         }
 
         [Test]

@@ -9,7 +9,7 @@ using Object = UnityEngine.Object;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>Which output a stylus plays on when outputs come, go and are switched off.</summary>
+    /// <summary>The output that a stylus plays on when outputs are added, removed and disabled.</summary>
     public sealed class SceneOutputsTests : SceneTest
     {
         private const float Audible = 0.001f;
@@ -21,11 +21,11 @@ namespace HaptoFlow.Tests
             Board();
             HapticStylus stylus = Circling();
             yield return Frames(30);
-            Assert.That(Outputs(), Has.Length.EqualTo(1), "one was made");
+            Assert.That(Outputs(), Has.Length.EqualTo(1), "one was created");
             AudioTap tap = Output(out HapticOutput authors);
             yield return Frames(40);
             Assert.That(tap.Peak(), Is.GreaterThan(Audible));
-            Assert.That(Outputs(), Is.EqualTo(new[] { authors }), "the one that was made is gone");
+            Assert.That(Outputs(), Is.EqualTo(new[] { authors }), "the created one is destroyed");
             Assert.That(stylus.TryGetStatistics(out _), Is.True);
         }
 
@@ -56,7 +56,7 @@ namespace HaptoFlow.Tests
             output.enabled = false;
             yield return Frames(10);
             Assert.That(Outputs(), Is.EqualTo(new[] { output }));
-            Assert.That(stylus.TryGetStatistics(out _), Is.False, "a stylus that cannot be heard has no voice");
+            Assert.That(stylus.TryGetStatistics(out _), Is.False, "a stylus without output has no voice");
             output.enabled = true;
             tap.Restart();
             yield return Frames(40);

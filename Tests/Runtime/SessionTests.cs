@@ -123,7 +123,7 @@ namespace HaptoFlow.Tests
             yield return null;
         }
 
-        /// <summary>Touches, lifts and touches again: whatever is wrong must be said once.</summary>
+        /// <summary>Touches, lifts and touches again: an error must be logged only once.</summary>
         private IEnumerator TouchTwice()
         {
             Board();
@@ -137,7 +137,7 @@ namespace HaptoFlow.Tests
             Assert.That(log.Began, Is.EqualTo(2));
         }
 
-        /// <summary>Counts what is logged as a warning while it lives.</summary>
+        /// <summary>Counts the warnings that are logged during its lifetime.</summary>
         private sealed class WarningCount : IDisposable
         {
             public WarningCount() => Application.logMessageReceived += Receive;

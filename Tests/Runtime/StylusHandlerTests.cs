@@ -6,7 +6,7 @@ using UnityEngine.TestTools;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>Handlers that do the unexpected while a stylus tells of a touch.</summary>
+    /// <summary>Event handlers that disable or destroy objects during a touch.</summary>
     public sealed class StylusHandlerTests : SceneTest
     {
         [UnityTest]

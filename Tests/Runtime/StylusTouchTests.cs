@@ -9,7 +9,7 @@ namespace HaptoFlow.Tests
 {
     public sealed class StylusTouchTests : SceneTest
     {
-        // Below, the tip of 2 mm cuts 1 mm into the board.
+        // At this height the tip of 2 mm radius cuts 1 mm into the board.
         private const float Pressed = 0.001f;
         private const float Lifted = 0.05f;
 

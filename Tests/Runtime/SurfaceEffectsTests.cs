@@ -6,7 +6,7 @@ using UnityEngine.TestTools;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>What a surface asks for reaches the voice, and nothing else runs.</summary>
+    /// <summary>The effects of a surface reach the voice, and no other effect runs.</summary>
     public sealed class SurfaceEffectsTests : SceneTest
     {
         [UnityTest]
@@ -90,7 +90,7 @@ namespace HaptoFlow.Tests
             Assert.That(stylus.Contact.TouchCounter, Is.EqualTo(1u));
             Assert.That(stylus.Contact.ApproachSpeedMps, Is.EqualTo(0.2f).Within(0.02f));
             Assert.That(stylus.TryGetEffectStatistics(HapticEffect.Impact, out EffectStatistics impact), Is.True);
-            Assert.That(impact.Events, Is.EqualTo(1UL), "the board was entered without speed");
+            Assert.That(impact.Events, Is.EqualTo(1UL), "the tip entered the board without speed");
         }
 
         [Test]

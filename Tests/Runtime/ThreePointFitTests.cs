@@ -7,7 +7,7 @@ using NUnit.Framework;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>The pose that takes three marked points to where they were touched.</summary>
+    /// <summary>The pose that maps three marked points to the places where they were touched.</summary>
     public sealed class ThreePointFitTests
     {
         private static readonly Double3[] Marks =
@@ -28,7 +28,7 @@ namespace HaptoFlow.Tests
                 AlignmentFit fit = Solve(marks, marks.Select(pose.PointToWorld).ToArray());
                 if (fit.Refusal != null)
                 {
-                    Assert.That(fit.Refusal, Does.Contain("marked points"), "only a bad triangle is refused");
+                    Assert.That(fit.Refusal, Does.Contain("marked points"), "only an unusable triangle is refused");
                     continue;
                 }
                 Assert.That(fit.LargestErrorMetres, Is.LessThan(1e-9));
@@ -87,8 +87,10 @@ namespace HaptoFlow.Tests
         [Test]
         public void TrianglesThatDoNotDetermineAPoseAreRefusedWithTheReason()
         {
-            Refused(new[] { Marks[0], Marks[1], new Double3(0.2, 0.0, 0.009) }, Marks, "marked points lie almost on one");
-            Refused(Marks, new[] { Marks[0], Marks[1], new Double3(0.2, 0.0, 0.0) }, "touched points lie almost on one");
+            Refused(new[] { Marks[0], Marks[1], new Double3(0.2, 0.0, 0.009) }, Marks, "marked points lie almost on " +
+                "one");
+            Refused(Marks, new[] { Marks[0], Marks[1], new Double3(0.2, 0.0, 0.0) }, "touched points lie almost on " +
+                "one");
             Refused(Marks, new[] { Marks[0], Marks[0], Marks[2] }, "two touched points are only 0.0 mm apart");
             Refused(new[] { Marks[0], new Double3(0.015, 0.0, 0.0), Marks[2] }, Marks, "only 15.0 mm apart");
             Refused(Marks, new[] { Marks[0], new Double3(double.NaN, 0.0, 0.0), Marks[2] }, "touched point 2 is not a");

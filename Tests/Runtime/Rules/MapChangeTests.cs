@@ -6,7 +6,7 @@ using UnityEngine.TestTools;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>Maps, objects and assets that change or go while a tip touches.</summary>
+    /// <summary>Maps, objects and assets that change or are destroyed during a touch.</summary>
     public sealed class MapChangeTests : MapTest
     {
         [UnityTest]
@@ -29,7 +29,7 @@ namespace HaptoFlow.Tests
             box.gameObject.layer = 4;
             yield return null;
             Assert.That(FeltAlone(stylus), Is.EqualTo("glass"));
-            Assert.That(log.Began, Is.EqualTo(1), "one touch all along");
+            Assert.That(log.Began, Is.EqualTo(1), "the touch is not interrupted");
             Assert.That(log.Ended, Is.Zero);
         }
 
@@ -54,7 +54,7 @@ namespace HaptoFlow.Tests
             Material own = Keep(new Material(ice) { name = "Ice (Instance)" });
             renderer.sharedMaterial = own;
             yield return null;
-            Assert.That(FeltAlone(stylus), Is.EqualTo("glass"), "as Renderer.material makes one");
+            Assert.That(FeltAlone(stylus), Is.EqualTo("glass"), "an instance made by Renderer.material");
         }
 
         [UnityTest]
@@ -76,7 +76,7 @@ namespace HaptoFlow.Tests
             HaptoFlowSettings.Active.MaterialMap = other;
             yield return null;
             Assert.That(FeltAlone(stylus), Is.EqualTo("fur"));
-            Assert.That(log.Began, Is.EqualTo(1), "the touch goes on");
+            Assert.That(log.Began, Is.EqualTo(1), "the touch is not interrupted");
             Object.DestroyImmediate(other);
             yield return null;
             Assert.That(stylus.IsTouching, Is.False);

@@ -11,7 +11,7 @@ using SurfacePhysics = UnityEngine.PhysicMaterial;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>Which rule of which map says what a collider without a surface feels like.</summary>
+    /// <summary>The rules and maps that assign a material to a collider without a surface.</summary>
     public sealed class MaterialMapTests : MapTest
     {
         [UnityTest]
@@ -88,7 +88,7 @@ namespace HaptoFlow.Tests
             HapticStylus stylus = Resting();
             yield return null;
             yield return null;
-            Assert.That(stylus.IsTouching, Is.False, "a trail is not what the object looks like");
+            Assert.That(stylus.IsTouching, Is.False, "the renderer of a trail is ignored");
             GameObject below = Make("Look");
             below.transform.SetParent(box.transform, false);
             below.AddComponent<SkinnedMeshRenderer>().sharedMaterial = oak;
@@ -100,7 +100,7 @@ namespace HaptoFlow.Tests
             box.transform.SetParent(above.transform, true);
             HapticMaterialMap.Refresh();
             yield return null;
-            Assert.That(stylus.IsTouching, Is.False, "the nearest above comes before what is below");
+            Assert.That(stylus.IsTouching, Is.False, "a renderer above takes precedence over one below");
         }
 
         [UnityTest]

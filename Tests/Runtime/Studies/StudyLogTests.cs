@@ -9,7 +9,7 @@ using NUnit.Framework;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>The logs of a study survive what happens to files, and are never overwritten.</summary>
+    /// <summary>The logs of a study survive file errors and are never overwritten.</summary>
     public sealed class StudyLogTests
     {
         private StudyFolder folder = null!;
@@ -51,7 +51,7 @@ namespace HaptoFlow.Tests
             Assert.That(sidecar["study"].AsText(), Is.EqualTo("latency"));
             Assert.That(sidecar["participant"].AsInteger(), Is.EqualTo(7));
             Assert.That(sidecar["session"].AsText(), Is.EqualTo(log.Session));
-            Assert.That(sidecar["seed"].AsUnsigned64(), Is.EqualTo((1ul << 63) + 5), "also above what a double holds");
+            Assert.That(sidecar["seed"].AsUnsigned64(), Is.EqualTo((1ul << 63) + 5), "exact above 2^53");
             Assert.That(sidecar["simulated"].AsBoolean(), Is.False);
             Assert.That(sidecar["created"].AsText(), Does.Match("^\\d{4}-\\d\\d-\\d\\dT\\d\\d:\\d\\d:\\d\\dZ$"));
             Assert.That(sidecar["finished"].AsBoolean(), Is.False);
@@ -109,7 +109,7 @@ namespace HaptoFlow.Tests
             Assert.That(log.Problem, Does.Contain(log.CsvPath).And.Contain("No space left on device"));
             Assert.That(log.HasPending, Is.True);
             Assert.That(log.Answered, Is.EqualTo(1));
-            Assert.That(() => log.Append(StudyFolder.Yes()), Throws.InvalidOperationException, "no row overtakes it");
+            Assert.That(() => log.Append(StudyFolder.Yes()), Throws.InvalidOperationException, "rows keep their order");
             folder.Files.Failure = null;
             Assert.That(log.TryWritePending(), Is.True);
             Assert.That(log.Problem, Is.Null);

@@ -6,7 +6,7 @@ using NUnit.Framework;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>Orders of trials: balanced within and across participants, and the same for the same seed.</summary>
+    /// <summary>Orders of trials: balanced within and across participants, and reproducible from the seed.</summary>
     public sealed class StudyPlanTests
     {
         private static readonly double[] Levels = Enumerable.Range(0, 11).Select(step => 50.0 + 20.0 * step).ToArray();
@@ -89,7 +89,7 @@ namespace HaptoFlow.Tests
                 Assert.That(conditions.Take(11).Distinct().Count(), Is.EqualTo(1));
                 Assert.That(conditions.Skip(11).Distinct().Count(), Is.EqualTo(1));
                 Assert.That(plan.Trials.Where(trial => trial.RestBefore).Select(trial => trial.Trial),
-                    Is.EqualTo(new[] { 5, 16 }), "the practice ends, the condition changes");
+                    Is.EqualTo(new[] { 5, 16 }), "after the practice, and where the condition changes");
             }
         }
 

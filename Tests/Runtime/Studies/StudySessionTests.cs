@@ -7,7 +7,7 @@ using NUnit.Framework;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>A session asks every trial once, in order, whatever interrupts it.</summary>
+    /// <summary>A session runs every trial once, in order, despite interruptions.</summary>
     public sealed class StudySessionTests
     {
         private const double Frame = 0.01;
@@ -36,7 +36,7 @@ namespace HaptoFlow.Tests
             }
         }
 
-        /// <summary>A task of two seconds, an answer after half a second.</summary>
+        /// <summary>A task of two seconds and an answer after half a second.</summary>
         private void AnswerOne()
         {
             session.Continue();
@@ -116,11 +116,11 @@ namespace HaptoFlow.Tests
             PassFor(1.0);
             session.Ask();
             session.PauseHere();
-            Assert.That(session.Answer(StudyFolder.Yes()), Is.False, "the question is gone");
+            Assert.That(session.Answer(StudyFolder.Yes()), Is.False, "the question is closed");
             AnswerOne();
             Assert.That((Field(folder.Rows[0], "trial"), Field(folder.Rows[0], "attempt")), Is.EqualTo(("1", "3")));
             Assert.That(double.Parse(Field(folder.Rows[0], "elapsed_seconds")), Is.EqualTo(4.5).Within(0.011));
-            Assert.That(session.Attempt, Is.EqualTo(1), "the next trial begins for the first time");
+            Assert.That(session.Attempt, Is.EqualTo(1), "the next trial is at its first attempt");
         }
 
         [TestCase(-500.0)]
@@ -159,7 +159,7 @@ namespace HaptoFlow.Tests
                 Is.EqualTo(new[] { "1", "1", "2", "1", "1", "1", "1", "1" }));
             double[] elapsed = folder.Rows.Select(row => double.Parse(Field(row, "elapsed_seconds"))).ToArray();
             Assert.That(elapsed, Is.Ordered);
-            Assert.That(elapsed[2], Is.EqualTo(7.5).Within(0.03), "it goes on from the last row");
+            Assert.That(elapsed[2], Is.EqualTo(7.5).Within(0.03), "the time continues from the last row");
         }
 
         [Test]
@@ -192,7 +192,7 @@ namespace HaptoFlow.Tests
             PassFor(5.0);
             Assert.That(session.Phase, Is.EqualTo(StudyPhase.Disk));
             Assert.That(session.Problem, Does.Contain("No space left on device"));
-            Assert.That(session.Trial!.Trial, Is.EqualTo(1), "the next trial waits");
+            Assert.That(session.Trial!.Trial, Is.EqualTo(1), "the next trial has not started");
             Assert.That(folder.Files.Attempts - attempts, Is.InRange(4, 6), "about once a second");
             folder.Files.Failure = null;
             PassFor(1.5);
@@ -218,10 +218,10 @@ namespace HaptoFlow.Tests
         [Test]
         public void ChangedIsRaisedAtEveryChange()
         {
-            string told = "";
-            session.Changed += changed => told += changed.Phase + " ";
+            string phases = "";
+            session.Changed += changed => phases += changed.Phase + " ";
             AnswerOne();
-            Assert.That(told, Is.EqualTo("Task Question Task "));
+            Assert.That(phases, Is.EqualTo("Task Question Task "));
         }
     }
 }

@@ -4,7 +4,7 @@ using NUnit.Framework;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>What a delay level needs beside what the system has.</summary>
+    /// <summary>The delay that must be added to the system's for a delay level.</summary>
     public sealed class SystemDelayTests
     {
         private static readonly SystemDelay System = new SystemDelay(13.9, 0.0, 10.7, 5.0);

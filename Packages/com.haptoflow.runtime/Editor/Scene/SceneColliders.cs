@@ -10,7 +10,7 @@ namespace HaptoFlow.Editor
     internal static class SceneColliders
     {
         /// <summary>A kind of collider that a tip can feel.</summary>
-        public static bool CanBeFelt(Collider collider) => !collider.isTrigger && ColliderProbe.IsFeltKind(collider);
+        public static bool CanBeFelt(Collider collider) => !collider.isTrigger && ColliderProbe.IsSupportedKind(collider);
 
         /// <summary>The surface whose material the collider has; null for an untagged one.</summary>
         public static HapticSurface? SurfaceOf(Collider collider)
