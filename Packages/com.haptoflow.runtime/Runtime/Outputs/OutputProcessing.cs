@@ -82,8 +82,7 @@ namespace HaptoFlow
             {
                 voice.SetActuator(null);
                 Debug.LogError($"HaptoFlow: {owner.name} plays uncompensated: {profile!.name} is not an actuator " +
-                    $"profile " +
-                    $"({refusal.Message}).", owner);
+                    $"profile ({refusal.Message}).", owner);
             }
         }
 

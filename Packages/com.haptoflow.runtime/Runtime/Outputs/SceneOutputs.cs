@@ -93,8 +93,7 @@ namespace HaptoFlow
         {
             made = HapticOutput.Make();
             Debug.Log("HaptoFlow: the scene has no Haptic Output, so one was created that plays on every channel of " +
-                "the " +
-                "audio device. Add one to choose a channel.", asker);
+                "the audio device. Add one to choose a channel.", asker);
             return made;
         }
 

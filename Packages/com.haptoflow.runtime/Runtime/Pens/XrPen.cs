@@ -184,9 +184,8 @@ namespace HaptoFlow
             {
                 stylus.gameObject.SetActive(false);
             }
-            Debug.LogWarning("HaptoFlow: an XR Pen is inactive because this project does not use the Input System:  " +
-                "install " +
-                "that package and choose it in Project Settings > Player > Active Input Handling.", this);
+            Debug.LogWarning("HaptoFlow: an XR Pen is inactive because this project does not use the Input System: " +
+                "install that package and choose it in Project Settings > Player > Active Input Handling.", this);
         }
 #endif
     }

@@ -19,8 +19,7 @@ namespace HaptoFlow
         private List<HapticMaterialRule> rules = new List<HapticMaterialRule>();
 
         [SerializeField, Tooltip("The material where no rule matches. Leave it empty to try the next map; without " +
-            "one " +
-            "the object is not felt.")]
+            "one the object is not felt.")]
         private HapticMaterial? defaultMaterial;
 
         /// <summary>The rules in order: the first that matches applies.</summary>

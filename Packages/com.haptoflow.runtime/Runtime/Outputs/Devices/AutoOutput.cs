@@ -80,8 +80,7 @@ namespace HaptoFlow
                 ? "plays the waveform, which the device supports"
                 : "drives the motor with the envelope, since the device does not support waveforms";
             Debug.Log($"HaptoFlow: {(Stylus != null ? Stylus.name : name)} is felt through {sink.Name} ({held} " +
-                $"hand): " +
-                $"{reason}Auto Output {chosen}.", this);
+                $"hand): {reason}Auto Output {chosen}.", this);
         }
     }
 }

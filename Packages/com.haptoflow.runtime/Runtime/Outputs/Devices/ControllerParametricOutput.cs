@@ -15,8 +15,8 @@ namespace HaptoFlow
     public sealed class ControllerParametricOutput : DeviceOutput
     {
         [SerializeField, Tooltip("Parametric haptics are experimental at Meta: the store does not accept " +
-            "applications " +
-            "that use them, and experimental features must be enabled on the headset. Nothing plays until this is on.")]
+            "applications that use them, and experimental features must be enabled on the headset. Nothing plays " +
+            "until this is on.")]
         private bool useExperimentalFeature;
 
         /// <summary>Nothing plays while this is false. Set it before the output is enabled.</summary>
@@ -34,8 +34,8 @@ namespace HaptoFlow
                 return;
             }
             Debug.LogWarning($"HaptoFlow: {name} is silent: parametric haptics are experimental at Meta, and the " +
-                $"store " +
-                "does not accept applications that use them. Switch on Use Experimental Feature to play anyway.", this);
+                "store does not accept applications that use them. Switch on Use Experimental Feature to play " +
+                "anyway.", this);
         }
     }
 }

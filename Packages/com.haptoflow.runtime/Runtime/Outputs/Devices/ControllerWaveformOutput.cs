@@ -14,9 +14,8 @@ namespace HaptoFlow
     public sealed class ControllerWaveformOutput : DeviceOutput
     {
         [SerializeField, Tooltip("Queues each submission behind the last one instead of replacing it. Switch it on " +
-            "for a " +
-            "controller that buzzes at the frame rate; a frame that comes late then ends the vibration without a " +
-            "fade.")]
+            "for a controller that buzzes at the frame rate; a frame that comes late then ends the vibration without " +
+            "a fade.")]
         private bool queueSubmissions;
 
         /// <summary>True to queue each submission behind the last one instead of replacing it. Set it before the output

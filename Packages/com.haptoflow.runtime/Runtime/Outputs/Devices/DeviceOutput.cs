@@ -31,8 +31,7 @@ namespace HaptoFlow
         private bool muted;
 
         [SerializeField, Min(0.1f), Tooltip("The acceleration that drives the device at its full amplitude, in " +
-            "m/s^2. " +
-            "Lower it where textures feel too weak.")]
+            "m/s^2. Lower it where textures feel too weak.")]
         private float fullScaleMps2 = DefaultFullScaleMps2;
 
         private readonly VoiceSource source = new VoiceSource();

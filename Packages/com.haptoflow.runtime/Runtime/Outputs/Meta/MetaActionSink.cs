@@ -30,9 +30,8 @@ namespace HaptoFlow
             {
                 controller.Fail();
                 Debug.LogWarning($"HaptoFlow: MX Ink does not vibrate: Meta's SDK has no haptic action \"{Action}\" " +
-                    "that " +
-                    "is bound to the pen (Project Settings > Meta XR > Input Actions). HaptoFlow tries again when " +
-                    "the session or the controllers change.");
+                    "that is bound to the pen (Project Settings > Meta XR > Input Actions). HaptoFlow tries again " +
+                    "when the session or the controllers change.");
             }
             return done;
         }
