@@ -21,10 +21,12 @@ namespace HaptoFlow.Samples.LatencyStudy
         [SerializeField, Tooltip("The delays between pen and vibration, in ms, each once.")]
         private double[] levelsMilliseconds = { 50, 70, 90, 110, 130, 150, 170, 190, 210, 230, 250 };
 
-        [SerializeField, Range(20f, 500f), Tooltip("The frequency of the vibration, in Hz.")]
+        [SerializeField, Range((float)HapticVoice.MinimumSignalHz, (float)HapticVoice.MaximumSignalHz)]
+        [Tooltip("The frequency of the vibration, in Hz.")]
         private float toneHertz = 200f;
 
-        [SerializeField, Range(0.1f, 60f), Tooltip("The peak of the vibration, in m/s^2. Choose the level at the " +
+        [SerializeField, Range(0.1f, (float)HapticVoice.MaximumSignalMps2)]
+        [Tooltip("The peak of the vibration, in m/s^2. Choose the level at the " +
             "amplifier, and leave this as it is for all participants.")]
         private float toneMps2 = 20f;
 
