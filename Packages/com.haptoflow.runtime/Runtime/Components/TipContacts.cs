@@ -29,7 +29,7 @@ namespace HaptoFlow
         private bool hasWarned;
         private long update;
 
-        /// <param name="stylus">The stylus, whose own colliders are not felt by rules.</param>
+        /// <param name="stylus">The stylus, whose own colliders the rules must not match.</param>
         public TipContacts(ContactSettings settings, double tipRadiusMetres, Transform stylus)
         {
             this.stylus = stylus;

@@ -66,9 +66,6 @@ namespace HaptoFlow
         /// <summary>Number of submeshes of a mesh collider or of layers of a terrain; 1 for other colliders.</summary>
         public int Parts { get; } = 1;
 
-        /// <summary>Number of materials of the object's renderer; 0 without a renderer.</summary>
-        public int RendererMaterialCount => rendererMaterials.Length;
-
         /// <summary>The renderer's material of a submesh; the first for colliders that are not meshes.</summary>
         public Material? RendererMaterialOf(int part) =>
             part < rendererMaterials.Length ? rendererMaterials[part] : null;
