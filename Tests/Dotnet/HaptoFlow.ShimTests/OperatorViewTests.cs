@@ -98,7 +98,7 @@ namespace HaptoFlow.ShimTests
             folder.Files.Failure = new IOException("No space left on device");
             session.Answer(StudyFolder.Yes());
             PassFor(0.3);
-            Assert.That(Text(), Does.Contain("NOT WRITTEN").And.Contain("No space left on device"));
+            Assert.That(Text(), Does.Contain("NOT SAVED").And.Contain("No space left on device"));
             Assert.That(Buttons(), Is.Empty);
         }
 
