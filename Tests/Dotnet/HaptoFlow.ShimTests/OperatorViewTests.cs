@@ -51,7 +51,7 @@ namespace HaptoFlow.ShimTests
             Press("Pause");
             Assert.That((session.Phase, session.Attempt), Is.EqualTo((StudyPhase.Paused, 2)));
             PassFor(0.3);
-            Assert.That(Text(), Does.Contain("attempt 2").And.Contain("the trial begins again with Next"));
+            Assert.That(Text(), Does.Contain("attempt 2").And.Contain("Next restarts the trial"));
         }
 
         [Test]
