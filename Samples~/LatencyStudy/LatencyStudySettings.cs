@@ -19,11 +19,13 @@ namespace HaptoFlow.Samples.LatencyStudy
             "once.")]
         private double[] levelsMilliseconds = { 50, 70, 90, 110, 130, 150, 170, 190, 210, 230, 250 };
 
-        [SerializeField, Range(20f, 500f), Tooltip("The vibration is a sine of this frequency, in Hz.")]
+        [SerializeField, Range((float)HapticVoice.MinimumSignalHz, (float)HapticVoice.MaximumSignalHz)]
+        [Tooltip("The vibration is a sine of this frequency, in Hz.")]
         private float toneHertz = 200f;
 
-        [SerializeField, Range(0.1f, 60f), Tooltip("The vibration has this peak, in m/s^2. Set the level at " +
-            "the amplifier, and leave this value the same for all participants.")]
+        [SerializeField, Range(0.1f, (float)HapticVoice.MaximumSignalMps2)]
+        [Tooltip("The vibration has this peak, in m/s^2. Set the level at the amplifier, and leave this value the " +
+            "same for all participants.")]
         private float toneMps2 = 20f;
 
         [SerializeField, Min(1f), Tooltip("The marker moves at this speed, in mm/s.")]

@@ -155,6 +155,23 @@ test('an optional assembly without version define is found', () => complains('as
 test('the test runner outside of tests is found', () => complains('assembly references', { 'Runtime/Felt.asmdef': edited({ references: ['UnityEngine.TestRunner'] }) }, /UNITY_INCLUDE_TESTS/));
 test('a runtime assembly that uses an editor assembly is found', () => complains('assembly references', { 'Runtime/Felt.asmdef': edited({ references: ['Felt.Editor'] }) }, /for players cannot use one for the editor/));
 test('a package assembly that uses a sample\'s is found', () => complains('assembly references', { 'Runtime/Felt.asmdef': edited({ references: ['Felt.Touch'] }) }, /may not have imported/));
+const withJson = (fields) => edited({ overrideReferences: true, precompiledReferences: ['Newtonsoft.Json.dll'], ...fields });
+test('a precompiled library whose package is no dependency is found', () => {
+  complains('precompiled references', { 'Runtime/Felt.asmdef': withJson({}) }, /expected com\.unity\.nuget\.newtonsoft-json among the dependencies/);
+});
+test('a precompiled library that no package is known to bring is found', () => {
+  complains('precompiled references', { 'Runtime/Felt.asmdef': withJson({ precompiledReferences: ['Other.dll'] }) }, /no package is known/);
+});
+test('precompiled references that Unity does not read are found', () => {
+  complains('precompiled references', { 'Runtime/Felt.asmdef': withJson({ overrideReferences: false }) }, /expected "overrideReferences": true/);
+});
+test('the test framework outside of tests is found', () => {
+  complains('precompiled references', { 'Runtime/Felt.asmdef': withJson({ precompiledReferences: ['nunit.framework.dll'] }) }, /UNITY_INCLUDE_TESTS/);
+});
+test('a precompiled library of a dependency is fine', () => {
+  const dependencies = { 'com.example.runtime': '0.4.9', 'com.unity.nuget.newtonsoft-json': '3.2.1' };
+  assert.deepEqual(checkPackage(packageWith({ 'package.json': edited({ dependencies }), 'Runtime/Felt.asmdef': withJson({}) })), []);
+});
 test('a script that no assembly compiles is found', () => {
   complains('scripts in assemblies', { 'Stray.cs': 'class Stray { }', 'Stray.cs.meta': meta(902, 'MonoImporter:') }, /^Stray\.cs: no assembly definition/);
 });

@@ -6,11 +6,11 @@ using UnityEngine.TestTools;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>A tip of 2 mm that presses 1 mm into each kind of collider.</summary>
+    /// <summary>A tip of 2 mm radius that presses 1 mm into each kind of collider.</summary>
     public sealed class ColliderKindsTests : SceneTest
     {
         [UnityTest]
-        public IEnumerator ABoxWithOffsetScaleAndRotation()
+        public IEnumerator ABoxWithOffsetScaleAndRotationIsTouchedAtItsSurface()
         {
             HapticSurface surface = Tagged<BoxCollider>("wood", box =>
             {
@@ -19,12 +19,12 @@ namespace HaptoFlow.Tests
             });
             surface.transform.localScale = new Vector3(2f, 0.5f, 1f);
             surface.transform.rotation = Quaternion.AngleAxis(90f, Vector3.forward);
-            // The box's top, at local y = 0.15 * 0.5, now faces -x.
+            // The top of the box, at local y = 0.15 * 0.5, faces -x.
             return Presses(surface, new Vector3(-0.075f, 0f, 0f), Vector3.left);
         }
 
         [UnityTest]
-        public IEnumerator ASphereOfTheLargestScale()
+        public IEnumerator ASphereHasTheRadiusOfItsLargestScale()
         {
             HapticSurface surface = Tagged<SphereCollider>("wood", sphere => sphere.radius = 0.05f);
             surface.transform.localScale = new Vector3(1f, 2f, 1f);
@@ -32,7 +32,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ACapsuleAlongX()
+        public IEnumerator ACapsuleAlongXIsTouchedAtItsSide()
         {
             HapticSurface surface = Tagged<CapsuleCollider>("wood", capsule =>
             {
@@ -45,7 +45,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ACapsuleAlongZAtItsCap()
+        public IEnumerator ACapsuleAlongZIsTouchedAtItsCap()
         {
             HapticSurface surface = Tagged<CapsuleCollider>("wood", capsule =>
             {
@@ -57,7 +57,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ACharacterStandsUprightWhateverItsTransformSays()
+        public IEnumerator ACharacterControllerStaysUprightWhateverItsRotation()
         {
             HapticSurface surface = Tagged<CharacterController>("wood", character =>
             {
@@ -94,7 +94,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AGutterMeshFloorAndWall()
+        public IEnumerator AGutterMeshIsTouchedAtItsFloorAndItsWall()
         {
             HapticSurface surface = Tagged<MeshCollider>("wood", mesh => mesh.sharedMesh = TestMeshes.Gutter());
             IEnumerator floor = Presses(surface, Vector3.zero, Vector3.up);
@@ -140,7 +140,7 @@ namespace HaptoFlow.Tests
             Assert.That(stylus.IsTouching, Is.False);
         }
 
-        /// <summary>The tip comes down along the normal, presses 1 mm, then 12 mm.</summary>
+        /// <summary>Moves the tip along the normal and presses 1 mm, then 12 mm deep.</summary>
         private IEnumerator Presses(HapticSurface surface, Vector3 point, Vector3 normal, float fromMetres = 0.03f)
         {
             HapticStylus stylus = StylusAlong(seconds =>

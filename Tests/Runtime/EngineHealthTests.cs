@@ -7,22 +7,22 @@ using UnityEngine.TestTools;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>What the running scene learns of its engine's health.</summary>
+    /// <summary>Reports about the health of the engine in a running scene.</summary>
     public sealed class EngineHealthTests : SceneTest
     {
         [Test]
-        public void AWorkerThatEndedIsToldOnceWithItsFailure()
+        public void AnEndedWorkerIsReportedOnceWithItsFailure()
         {
             var health = new EngineHealth();
-            // Statistics as they are before the library fills them: nobody is alive.
-            Assert.That(health.Judge(default, "the graph of tier draft failed"),
+            // Empty statistics: the worker is not alive.
+            Assert.That(health.MessageFor(default, "the graph of tier draft failed"),
                 Does.Contain("(the graph of tier draft failed)").And.Contain("Haptics.Restart"));
-            Assert.That(health.Judge(default, "again"), Is.Null);
-            Assert.That(new EngineHealth().Judge(default, ""), Does.Not.Contain("("));
+            Assert.That(health.MessageFor(default, "again"), Is.Null);
+            Assert.That(new EngineHealth().MessageFor(default, ""), Does.Not.Contain("("));
         }
 
         [UnityTest]
-        public IEnumerator AHealthyEngineIsToldOfNeverAndHasNoFailure()
+        public IEnumerator AHealthyEngineReportsNoFailure()
         {
             FinishLoading();
             Board();
@@ -39,7 +39,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AQualityWhoseTierIsNotLoadedIsLoadedBesideTheFrames()
+        public IEnumerator TheTierOfANewQualityIsLoadedOnAnotherThread()
         {
             FinishLoading();
             HapticEngine engine = HapticSession.Current.Engine!;
@@ -55,7 +55,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ALoadingThatIsShutDownEndsWithoutAnError()
+        public IEnumerator ShuttingDownDuringLoadingCausesNoError()
         {
             HaptoFlowSettings.Active.Quality = HapticQuality.Auto;
             HapticSession loading = HapticSession.Current;
@@ -65,7 +65,7 @@ namespace HaptoFlow.Tests
             Assert.That(loading.Problem, Is.Null);
             Assert.That(HapticSession.Existing, Is.Null);
             FinishLoading();
-            Assert.That(Haptics.IsReady, Is.True, "the next one loads");
+            Assert.That(Haptics.IsReady, Is.True, "the next engine loads");
             Haptics.SetQuality(HapticQuality.Draft);
             Haptics.Restart();
             yield return null;

@@ -5,7 +5,7 @@ using NUnit.Framework;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>The decision by force alone, without scene and geometry.</summary>
+    /// <summary>The force detector alone, without scene and geometry.</summary>
     public sealed class ForceTouchTests
     {
         private const double FrameSeconds = 1.0 / 90.0;
@@ -32,7 +32,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void SensorNoiseSmallerThanTheGapTouchesOnceHoweverSlowlyThePenComesDownAndLifts()
+        public void SensorNoiseBelowTheHysteresisCausesOneTouchHoweverSlowThePenIs()
         {
             var random = new Random(7);
             int touches = 0;
@@ -59,7 +59,7 @@ namespace HaptoFlow.Tests
             now += 0.1;
             Assert.That(After(null), Is.EqualTo(ForceVerdict.Unknown));
             Assert.That(touch.ForceNewtons, Is.Zero);
-            Assert.That(After(0.03), Is.EqualTo(ForceVerdict.Lifted), "the touch before does not go on");
+            Assert.That(After(0.03), Is.EqualTo(ForceVerdict.Lifted), "the previous touch has ended");
         }
 
         [Test]
@@ -75,7 +75,7 @@ namespace HaptoFlow.Tests
         [TestCase(double.PositiveInfinity)]
         [TestCase(double.NegativeInfinity)]
         [TestCase(-0.5)]
-        public void AForceThatIsNoMeasurementCountsAsADropout(double broken)
+        public void AnInvalidForceCountsAsADropout(double broken)
         {
             Assert.That(After(broken), Is.EqualTo(ForceVerdict.Unknown));
             After(1.0);
@@ -89,14 +89,14 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void APenThatNeverMeasuredIsUnknown()
+        public void APenWithoutAMeasurementIsUnknown()
         {
             Assert.That(After(null), Is.EqualTo(ForceVerdict.Unknown));
             Assert.That(touch.Update(double.NaN, null), Is.EqualTo(ForceVerdict.Unknown));
         }
 
         [Test]
-        public void AClockThatRunsBackwardsOrBreaksHoldsNothingForEver()
+        public void AForceIsNotHeldForeverWhenTheClockRunsBackwardsOrBreaks()
         {
             After(1.0);
             now = 5.0;
@@ -108,7 +108,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void NearIsMeasuredOnBothSidesAndATouchedSurfaceStaysNearForLonger()
+        public void TheNearDistanceAppliesOnBothSidesAndIsLongerForATouchedSurface()
         {
             Assert.That(touch.IsNear(0.02, false), Is.True);
             Assert.That(touch.IsNear(-0.02, false), Is.True);

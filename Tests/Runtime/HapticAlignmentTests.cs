@@ -8,7 +8,7 @@ using UnityEngine.TestTools;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>A virtual board is put onto a real desk by touching three points of it.</summary>
+    /// <summary>A virtual board is aligned with a real desk by touching three of its points.</summary>
     public sealed class HapticAlignmentTests : SceneTest
     {
         private static readonly Vector3[] Corners =
@@ -46,7 +46,7 @@ namespace HaptoFlow.Tests
         public void LeaveNoFile() => new AlignmentFile(name).Delete(board);
 
         [UnityTest]
-        public IEnumerator ThreeRestsOfAPressingPenPutTheBoardOntoTheDesk()
+        public IEnumerator ThreeRestsOfAPressingPenAlignTheBoardWithTheDesk()
         {
             yield return null;
             alignment.Begin();
@@ -61,7 +61,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator APenWithoutForceTakesPointsWhenAsked()
+        public IEnumerator APenWithoutForceTakesPointsByCallingTakePoint()
         {
             stylus.Force = null;
             yield return null;
@@ -77,7 +77,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AScaledBoardBelowAMovedParentIsPutThereToo()
+        public IEnumerator AScaledBoardBelowAMovedParentIsAlignedToo()
         {
             GameObject parent = Make("rig");
             parent.transform.SetPositionAndRotation(
@@ -91,17 +91,17 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator TheBoardsJumpIsNotFeltAsSpeed()
+        public IEnumerator TheJumpOfAnAlignmentDoesNotCountAsSpeed()
         {
             FinishLoading();
             Output(out _);
             stylus.TouchBy = TouchDecision.MeasuredForce;
-            // Off by little: the pen touches the board before, while and after it moves.
+            // The board is only slightly misplaced: the pen touches it before, while and after it moves.
             board.transform.SetPositionAndRotation(deskPosition + new Vector3(0.008f, 0.006f, 0f), deskRotation);
             yield return null;
             alignment.Begin();
             float fastest = 0f;
-            // The board moves while the pen rests on the third mark; coming down on it is a movement of the hand.
+            // The board moves while the pen rests on the third mark; lowering the pen is a real motion of the hand.
             void Watch(HapticStylus _, in HapticContact contact) => fastest = alignment.IsTaking
                 ? 0f
                 : Mathf.Max(fastest, contact.TangentialVelocity.magnitude);
@@ -119,7 +119,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator UndoTakesBackAPointThenTheWholeAlignment()
+        public IEnumerator UndoRemovesAPointAndLaterTheWholeAlignment()
         {
             Vector3 before = board.transform.position;
             yield return null;
@@ -139,7 +139,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ATriangleThatIsNotTheMarkedOneMovesNothingAndSaysWhy()
+        public IEnumerator ATouchedTriangleThatDiffersIsRefusedWithAReason()
         {
             Vector3 before = board.transform.position;
             stylus.Force = null;
@@ -158,7 +158,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator TheNextSessionsBoardIsWhereThisOneWasPut()
+        public IEnumerator TheNextSessionRestoresTheAlignment()
         {
             yield return TakeAll();
             HapticSurface next = Board();
@@ -173,11 +173,11 @@ namespace HaptoFlow.Tests
             HapticSurface third = Board();
             third.gameObject.AddComponent<HapticAlignment>().SaveName = name;
             yield return null;
-            Assert.That(third.transform.position.magnitude, Is.LessThan(1e-6f), "what was undone is not kept");
+            Assert.That(third.transform.position.magnitude, Is.LessThan(1e-6f), "an undone alignment is not saved");
         }
 
         [UnityTest]
-        public IEnumerator WithoutAStylusItSaysSoAndMarksWithoutPoseAreRefused()
+        public IEnumerator AMissingStylusIsReportedAndMarksWithoutAPoseAreRefused()
         {
             alignment.Stylus = null;
             yield return null;
@@ -201,7 +201,7 @@ namespace HaptoFlow.Tests
             Assert.That(alignment.IsTaking, Is.False, alignment.Message);
         }
 
-        /// <summary>Comes down on a corner of the real desk, presses for half a second, lifts.</summary>
+        /// <summary>Lowers the pen onto a corner of the real desk, presses for half a second, and lifts it.</summary>
         private IEnumerator Rest(int corner)
         {
             hand = TipOn(corner) + 0.05f * Vector3.up;
@@ -214,7 +214,7 @@ namespace HaptoFlow.Tests
             yield return Frames(2);
         }
 
-        /// <summary>The tip's centre is a tip radius above the desk.</summary>
+        /// <summary>The tip's centre is one tip radius above the desk.</summary>
         private Vector3 TipOn(int corner) => deskPosition +
             deskRotation * (Corners[corner] + stylus.TipRadiusMetres * Vector3.up);
 

@@ -65,7 +65,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator WhatAnOutputProcessesRunsAndNothingElse()
+        public IEnumerator OnlyTheStagesThatAnOutputUsesRun()
         {
             FinishLoading();
             Board();
@@ -99,7 +99,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AProfileThatIsNoneIsLeftOutWithAnError()
+        public IEnumerator AnInvalidProfileIsSkippedWithAnError()
         {
             FinishLoading();
             Board();
@@ -107,7 +107,7 @@ namespace HaptoFlow.Tests
             var asset = new TextAsset("{\"name\": 7}") { name = "Broken" };
             output.Processing.Actuator = OutputActuator.Profile;
             output.Processing.Profile = asset;
-            LogAssert.Expect(LogType.Error, new Regex("Output plays uncompensated: Broken is no actuator profile"));
+            LogAssert.Expect(LogType.Error, new Regex("Output plays uncompensated: Broken is not an actuator profile"));
             HapticStylus stylus = Circling();
             for (int frame = 0; frame < 45; ++frame)
             {
@@ -125,7 +125,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator MutedIsSilentAndCostsNoInference()
+        public IEnumerator AMutedOutputIsSilentAndCostsNoInference()
         {
             FinishLoading();
             Board();
@@ -160,7 +160,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator PanicSilencesUntilTheNextTouchDown()
+        public IEnumerator PanicSilencesTheOutputUntilTheNextTouchDown()
         {
             FinishLoading();
             Board();
@@ -192,7 +192,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator APausedApplicationIsSilentAndComesBack()
+        public IEnumerator APausedApplicationIsSilentAndSoundsAgainAfterwards()
         {
             FinishLoading();
             Board();
@@ -224,7 +224,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AChangedDevicePlaysOnAtItsOwnRate()
+        public IEnumerator AfterADeviceChangeTheOutputPlaysAtTheNewRate()
         {
             FinishLoading();
             Board();
@@ -256,7 +256,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AnExclusiveChannelCarriesNothingElse()
+        public IEnumerator AnExclusiveChannelCarriesOnlyTheHaptics()
         {
             FinishLoading();
             Board();
@@ -328,7 +328,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ASceneWithoutOutputGetsOneWithOneLogLine()
+        public IEnumerator ASceneWithoutOutputGetsOneAndLogsIt()
         {
             FinishLoading();
             LogAssert.Expect(LogType.Log, new Regex("the scene has no Haptic Output"));

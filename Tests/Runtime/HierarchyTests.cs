@@ -6,7 +6,7 @@ using UnityEngine.TestTools;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>Colliders that come, go and change owners below a surface, without anybody calling Refresh.</summary>
+    /// <summary>Colliders that are added, removed or moved below a surface without calling Refresh.</summary>
     public sealed class HierarchyTests : SceneTest
     {
         private HapticSurface parent = null!;
@@ -92,7 +92,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AColliderThatMovesBelowAnotherSurfaceIsThatOnes()
+        public IEnumerator AColliderMovedBelowAnotherSurfaceBelongsToIt()
         {
             HapticSurface other = Tagged<SphereCollider>("fur", sphere => sphere.center = new Vector3(0f, 9f, 0f));
             GameObject cube = Cube();
@@ -106,7 +106,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ChildrenCountOrNotAsSoonAsTheSurfaceSaysSo()
+        public IEnumerator IncludeChildrenAppliesAtOnce()
         {
             Cube().transform.SetParent(parent.transform, false);
             yield return null;

@@ -12,7 +12,7 @@ using Object = UnityEngine.Object;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>Haptic Materials that carry their embedding, in a running scene.</summary>
+    /// <summary>Haptic Materials with an embedding of their own, in a running scene.</summary>
     public sealed class LearntMaterialTests : SceneTest
     {
         private const int LabelCount = 20;
@@ -49,7 +49,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ALearntMaterialIsFeltBesideTheLabels()
+        public IEnumerator ALearntMaterialIsFeltInAdditionToTheLabels()
         {
             FinishLoading();
             HapticSurface board = Board("fur");
@@ -69,7 +69,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator WhileItIsOnItsWayItsLabelIsFelt()
+        public IEnumerator TheLabelIsFeltWhileTheMaterialIsBeingRegistered()
         {
             HapticSurface board = Board("wood");
             board.SharedMaterial = Learnt("glass", "fur");
@@ -81,7 +81,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator WhatSurfacesNeedIsRegisteredBeforeItIsTouched()
+        public IEnumerator MaterialsOfSurfacesAreRegisteredBeforeTheyAreTouched()
         {
             HapticSurface before = Board();
             before.SharedMaterial = Learnt("glass", "fur");
@@ -109,7 +109,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator TheOwnCopyOfALearntMaterialIsStillLearntAndBlendsWithLabels()
+        public IEnumerator ACopyOfALearntMaterialStaysLearntAndBlendsWithLabels()
         {
             FinishLoading();
             HapticMaterial shared = Learnt("glass", "fur");
@@ -151,7 +151,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AnotherModelMakesItFeltAgainAndTheOldOneRefusesIt()
+        public IEnumerator AModelOfTheMaterialsSpaceRegistersItAndAnotherRefusesIt()
         {
             HapticSurface board = Board();
             board.SharedMaterial = Learnt("glass", "fur");
@@ -166,7 +166,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AnotherTextTakesThePlaceOfTheFirstWhileItIsTouched()
+        public IEnumerator ANewTextReplacesTheMaterialDuringATouch()
         {
             FinishLoading();
             HapticMaterial material = Learnt("glass", "fur", ("stiffness_newtons_per_metre", 300.0));
@@ -190,7 +190,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AMaterialThatIsDestroyedWhileItIsTouchedLeavesTheSurfaceItsOwn()
+        public IEnumerator AfterItsMaterialIsDestroyedDuringATouchASurfaceUsesItsOwnDescription()
         {
             FinishLoading();
             HapticMaterial material = Learnt("glass", "fur");
@@ -215,7 +215,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator OfSeventyMaterialsSixAreRefusedByTheLimitAndAFreedPlaceIsTakenAgain()
+        public IEnumerator SixOfSeventyMaterialsExceedTheLimitAndAFreedIndexIsReused()
         {
             FinishLoading();
             LogAssert.ignoreFailingMessages = true;
@@ -243,7 +243,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AMaterialThatGoesWhileItIsOnItsWayGivesItsPlaceBack()
+        public IEnumerator AMaterialDestroyedDuringRegistrationFreesItsIndex()
         {
             FinishLoading();
             foreach (int _ in Enumerable.Range(0, 80))
@@ -262,7 +262,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AnEngineThatIsClosedWhileMaterialsAreOnTheirWayWaitsForThem()
+        public IEnumerator ClosingAnEngineWaitsForRegistrationsUnderWay()
         {
             FinishLoading();
             foreach (int number in Enumerable.Range(0, 20))
@@ -278,7 +278,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ARuleThatLeadsToALearntMaterialIsPreparedAndFelt()
+        public IEnumerator ALearntMaterialOfARuleIsRegisteredAndFelt()
         {
             HapticMaterial material = Learnt("glass", "fur");
             GameObject plate = Make("Plate");
@@ -302,7 +302,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void ATextThatIsNoneIsRefusedByItsKeyAndChangesNothing()
+        public void AnInvalidTextIsRefusedByItsKeyAndChangesNothing()
         {
             HapticMaterial material = Learnt("glass", "fur");
             string before = material.Learnt;

@@ -8,13 +8,13 @@ using UnityEngine.TestTools;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>What haptics and the rest of a game's sound do to each other.</summary>
+    /// <summary>Interactions of the haptics with the rest of a game's sound.</summary>
     public sealed class ListenerRouteTests : SceneTest
     {
         private const float Audible = 0.001f;
 
         [UnityTest]
-        public IEnumerator AListenerChannelWithoutAChannelLeavesTheGamesSoundAloneAndSaysSo()
+        public IEnumerator AListenerRouteWithoutAChannelIsSilentAndLogsAnError()
         {
             FinishLoading();
             LogAssert.Expect(LogType.Error, new Regex("Ears is silent: .*Choose a channel"));
@@ -30,11 +30,11 @@ namespace HaptoFlow.Tests
             tap.Restart();
             yield return Frames(40);
             Assert.That(tap.Peak(0), Is.EqualTo(0.25f).Within(1e-6f));
-            Assert.That(tap.Peak(1), Is.Not.EqualTo(0.25f).Within(1e-6f), "the haptics have their channel");
+            Assert.That(tap.Peak(1), Is.Not.EqualTo(0.25f).Within(1e-6f), "the channel carries the haptics");
         }
 
         [UnityTest]
-        public IEnumerator TakingTheChannelAwayFromARunningListenerChannelIsRefusedToo()
+        public IEnumerator RemovingTheChannelOfARunningListenerRouteLogsAnError()
         {
             FinishLoading();
             LogAssert.Expect(LogType.Error, new Regex("Ears is silent"));
@@ -50,7 +50,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator APausedListenerAtVolumeZeroLeavesWhatIsFelt()
+        public IEnumerator APausedListenerAtVolumeZeroDoesNotSilenceTheHaptics()
         {
             FinishLoading();
             Board();
@@ -67,7 +67,7 @@ namespace HaptoFlow.Tests
             yield return null;
             tap.Restart();
             yield return Frames(10);
-            Assert.That(tap.Blocks, Is.Zero, "asked to obey, the source pauses with the listener");
+            Assert.That(tap.Blocks, Is.Zero, "with ObeyListener the source pauses with the listener");
             Assert.That(output.GetComponent<AudioSource>().ignoreListenerVolume, Is.False);
             AudioListener.pause = false;
             AudioListener.volume = 1f;

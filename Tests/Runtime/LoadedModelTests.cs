@@ -11,7 +11,7 @@ using Object = UnityEngine.Object;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>Models that are loaded beside the one in use, and used in its place.</summary>
+    /// <summary>Models that are loaded in addition to the one in use, and replace it.</summary>
     public sealed class LoadedModelTests : SceneTest
     {
         private const int RateHz = 48000;
@@ -27,7 +27,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AModelIsLoadedBesideTheOneInUseWhichGoesOn()
+        public IEnumerator AModelIsLoadedInAdditionWhileTheOneInUsePlays()
         {
             Board();
             AudioTap tap = Output(out _);
@@ -45,7 +45,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AModelInUseGeneratesWhatThePenFeelsAndTheOneBeforeRests()
+        public IEnumerator TheModelInUseGeneratesAndThePreviousOneRests()
         {
             other.FinishLoading();
             HapticEngine before = HapticSession.Current.Engine!;
@@ -70,7 +70,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AModelThatCannotBeLoadedSaysWhyAndTheSceneKeepsItsHaptics()
+        public IEnumerator AModelThatCannotBeLoadedReportsWhyAndTheSceneKeepsItsHaptics()
         {
             using HapticLoadedModel damaged = Haptics.Load(EditedModel.Damaged(), HapticQuality.Draft);
             damaged.FinishLoading();
@@ -83,7 +83,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AModelThatIsDisposedInUseLeavesThePenToTheSettings()
+        public IEnumerator AfterDisposingTheModelInUseTheSettingsModelIsUsed()
         {
             other.FinishLoading();
             Board();
@@ -104,7 +104,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ARestartGoesBackToTheSettingsAndKeepsLoadedModels()
+        public IEnumerator ARestartUsesTheSettingsModelAndKeepsLoadedModels()
         {
             other.FinishLoading();
             other.Use();
@@ -119,7 +119,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator WhereTheApplicationEndsLoadedModelsAreClosedToo()
+        public IEnumerator LoadedModelsAreClosedWhenTheApplicationEnds()
         {
             HapticSession.ShutDown();
             Assert.That(other.Problem, Is.EqualTo("the model was closed"));
@@ -129,7 +129,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ALearntMaterialIsPreparedForEachModelOfItsSpaceAndRefusedWithAReasonByOthers()
+        public IEnumerator ALearntMaterialIsRegisteredByModelsOfItsSpaceAndRefusedByOthers()
         {
             LogAssert.Expect(LogType.Warning, new Regex("felt as its label \"fur\": .*learnt for another model"));
             using HapticLoadedModel foreign = Haptics.Load(EditedModel.OfAnotherSpace(), HapticQuality.Draft);
@@ -162,7 +162,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AModelThatIsClosedWhileItIsMeasuredEndsTheMeasurement()
+        public IEnumerator ClosingAModelEndsItsMeasurement()
         {
             other.FinishLoading();
             Task<HapticModelDelay> measuring = other.MeasureDelay(RateHz, BlockFrames);

@@ -7,8 +7,8 @@ using UnityEngine.TestTools;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>A pen on a real object under a virtual one: its force decides, not some millimetres of tracking.
-    /// </summary>
+    /// <summary>A pen on a real object below a virtual one: the force decides, despite tracking errors of
+    /// millimetres.</summary>
     public sealed class MeasuredForceTests : SceneTest
     {
         private const float Audible = 0.001f;
@@ -16,7 +16,7 @@ namespace HaptoFlow.Tests
         private FixedForce force = null!;
 
         [UnityTest]
-        public IEnumerator APressingPenTouchesTheSurfaceThatIsMillimetresAwayAndSlidesOverIt()
+        public IEnumerator APressingPenTouchesAndSlidesOverASurfaceMillimetresAway()
         {
             FinishLoading();
             HapticSurface board = Board();
@@ -72,7 +72,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator LiftingOffEndsTheTouchInTheSameFrameAndPressingAgainIsANewOne()
+        public IEnumerator LiftingEndsTheTouchInTheSameFrameAndPressingAgainStartsANewOne()
         {
             Board();
             HapticStylus stylus = Pen(_ => new Vector3(0f, 0.006f, 0f));
@@ -89,7 +89,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator TrackingErrorsOfMillimetresLeaveOneTouch()
+        public IEnumerator TrackingErrorsOfMillimetresDoNotInterruptATouch()
         {
             Board();
             var random = new System.Random(11);
@@ -103,7 +103,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator SlidingFromOneSurfaceToTheNextIsOneTouchThatTellsOfTheChange()
+        public IEnumerator SlidingBetweenSurfacesIsOneTouchAndRaisesSurfaceChanged()
         {
             HapticSurface left = Board("wood");
             HapticSurface right = Board("fur");
@@ -126,7 +126,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AShortDropoutIsBridgedAndALongOneLeavesItToGeometry()
+        public IEnumerator AShortDropoutIsBridgedAndAfterALongOneGeometryDecides()
         {
             Board();
             HapticStylus stylus = Pen(_ => new Vector3(0f, 0.006f, 0f));
@@ -137,14 +137,14 @@ namespace HaptoFlow.Tests
             Assert.That(stylus.IsTouching, Is.True);
             Assert.That(stylus.Contact.ForceNewtons, Is.EqualTo(1f).Within(1e-6f));
             yield return Frames(20);
-            Assert.That(stylus.IsTouching, Is.False, "by geometry it is 4 mm above");
+            Assert.That(stylus.IsTouching, Is.False, "by geometry the tip is 4 mm above the surface");
             force.HasNews = true;
             yield return Frames(1);
             Assert.That(stylus.IsTouching, Is.True);
         }
 
         [UnityTest]
-        public IEnumerator ABrokenForceIsNeverFelt()
+        public IEnumerator AnInvalidForceIsNeverPublished()
         {
             Board();
             HapticStylus stylus = Pen(_ => new Vector3(0f, 0.006f, 0f));
@@ -173,7 +173,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ThresholdsChangedWhileItRunsCountAtOnceAndImpossibleOnesAreMadePossible()
+        public IEnumerator ChangedThresholdsApplyAtOnceAndInvalidOnesAreCorrected()
         {
             Board();
             HapticStylus stylus = Pen(_ => new Vector3(0f, 0.006f, 0f));

@@ -6,19 +6,19 @@ using NUnit.Framework;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>When a signal begins and ends with a hand that trembles and a tracker that is noisy.</summary>
+    /// <summary>Start and end of a signal with a trembling hand and a noisy tracker.</summary>
     public sealed class MotionGateTests
     {
         private const double RateHz = 90.0;
 
         [Test]
-        public void AMotionIsSeenInItsFirstFrameAndItsEndInTheNext()
+        public void MotionIsDetectedInItsFirstFrameAndItsEndOneFrameLater()
         {
             var gate = new MotionGate();
             for (int frame = 0; frame < 90; ++frame)
             {
                 double moved = Math.Min(Math.Max(0, frame - 30), 30) * 0.15 / RateHz;
-                // The smallest noise that is told from a tracker that repeats itself.
+                // The smallest noise that can be distinguished from a tracker that repeats positions.
                 double noise = frame % 2 * 1e-6;
                 bool moves = gate.Update(frame / RateHz, true, new Double3(moved + noise, 0.0, 0.0));
                 Assert.That(moves, Is.EqualTo(frame > 30 && frame <= 60), $"frame {frame}");
@@ -28,7 +28,7 @@ namespace HaptoFlow.Tests
         [TestCase(0.0)]
         [TestCase(0.03)]
         [TestCase(0.05)]
-        public void TrackerNoiseAndTremorAtRestAreNoMotionAndDoNotBreakOne(double noiseMillimetres)
+        public void TrackerNoiseAndTremorNeitherStartNorInterruptAMotion(double noiseMillimetres)
         {
             var random = new Random(1);
             var gate = new MotionGate();
@@ -39,20 +39,20 @@ namespace HaptoFlow.Tests
                 double seconds = frame / RateHz;
                 double cycle = seconds % 2.0;
                 double way = 0.15 * (Math.Floor(seconds / 2.0) + Math.Min(cycle, 1.0));
-                // A tremor of 0.15 mm at 9 Hz: 8.5 mm/s at its fastest.
+                // A tremor of 0.15 mm at 9 Hz has a peak speed of 8.5 mm/s.
                 double tremor = 0.00015 * Math.Sin(2.0 * Math.PI * 9.0 * seconds);
                 bool moves = gate.Update(seconds, true, new Double3(way + Noise(random), 0.0, tremor + Noise(random)));
                 changes += moves != before ? 1 : 0;
                 before = moves;
             }
-            Assert.That(changes, Is.EqualTo(2 * 20).Within(1), "it sets off and stops once in two seconds");
+            Assert.That(changes, Is.EqualTo(2 * 20).Within(1), "one start and one stop in two seconds");
 
             double Noise(Random source) => 0.001 * noiseMillimetres *
                 Math.Sqrt(-2.0 * Math.Log(1.0 - source.NextDouble())) * Math.Cos(2.0 * Math.PI * source.NextDouble());
         }
 
         [Test]
-        public void ATrackerThatRepeatsAPositionDoesNotBreakAMotionButAPenThatStandsStillEndsIt()
+        public void ARepeatedPositionDoesNotInterruptAMotionButARestingPenEndsIt()
         {
             var gate = new MotionGate();
             for (int frame = 0; frame < 60; ++frame)
@@ -70,7 +70,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void LiftingEndsTheMotionAndATouchElsewhereIsNone()
+        public void LiftingEndsTheMotionAndATouchElsewhereIsNotAMotion()
         {
             var gate = new MotionGate();
             gate.Update(0.0, true, new Double3(0.0, 0.0, 0.0));
@@ -81,7 +81,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void AClockThatGoesBackOrStandsStillChangesNothing()
+        public void AClockThatRunsBackwardsOrStandsStillChangesNothing()
         {
             var gate = new MotionGate();
             gate.Update(5.0, true, new Double3(0.0, 0.0, 0.0));

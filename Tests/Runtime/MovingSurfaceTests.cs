@@ -19,7 +19,7 @@ namespace HaptoFlow.Tests
         public IEnumerator AnInterpolatedBodyKeepsTheRelativeSpeedWithinFivePercent() =>
             RelativeSpeed(RigidbodyInterpolation.Interpolate);
 
-        /// <summary>A tip at rest over a board that slides by at 0.2 m/s, at the frame rates of headsets.</summary>
+        /// <summary>A tip at rest over a board that moves at 0.2 m/s, at the frame rates of headsets.</summary>
         private IEnumerator RelativeSpeed(RigidbodyInterpolation interpolation)
         {
             foreach (double rate in FrameRatesHz)
@@ -35,7 +35,8 @@ namespace HaptoFlow.Tests
                 for (int frame = 0; frame < 40; ++frame)
                 {
                     yield return null;
-                    Assert.That(stylus.Contact.FirstVelocityMps, Is.EqualTo(-0.2f).Within(0.01f), $"{rate} Hz, frame {frame}");
+                    Assert.That(stylus.Contact.FirstVelocityMps, Is.EqualTo(-0.2f).Within(0.01f), $"{rate} Hz, " +
+                        $"frame {frame}");
                     Assert.That(stylus.Contact.SecondVelocityMps, Is.EqualTo(0f).Within(0.01f));
                 }
                 UnityEngine.Object.DestroyImmediate(stylus.gameObject);
@@ -44,7 +45,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ATipThatRidesOnABodyFeelsNoSpeed()
+        public IEnumerator ATipAtRestOnAMovingBodyHasNoVelocity()
         {
             HapticSurface board = Board();
             PlatformMover.On(board.gameObject, RigidbodyInterpolation.Interpolate, seconds =>
@@ -63,7 +64,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ATurningBoardIsFeltWithItsSpeedAtTheTip()
+        public IEnumerator ATurningBoardGivesItsSpeedAtTheTip()
         {
             HapticSurface board = Board();
             var turner = board.gameObject.AddComponent<Turner>();
@@ -73,7 +74,7 @@ namespace HaptoFlow.Tests
             {
                 yield return null;
             }
-            // 90 degrees a second on an arm of 10 cm.
+            // 90 degrees per second at a distance of 10 cm.
             Assert.That(stylus.Contact.TangentialVelocity.magnitude, Is.EqualTo(0.1f * 0.5f * Mathf.PI).Within(0.004f));
         }
 
@@ -92,7 +93,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ASurfaceWhoseMotionIsNotFeltCountsAsAtRest()
+        public IEnumerator ASurfaceWithoutOwnMotionCountsAsAtRest()
         {
             HapticSurface board = Board();
             board.FeelOwnMotion = false;
@@ -108,7 +109,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator FixedUpdatesFollowTheTipToo()
+        public IEnumerator TheTipIsTrackedInFixedUpdatesToo()
         {
             Board();
             HapticStylus stylus = StylusAlong(seconds => new Vector3(0.05f * (float)seconds, 0.001f, 0f));

@@ -6,7 +6,7 @@ using NUnit.Framework;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>A pose in a file comes back as it was, and a broken file moves nothing.</summary>
+    /// <summary>A saved pose is read back unchanged, and a damaged file is refused.</summary>
     public sealed class SavedPoseTests
     {
         private string folder = "";
@@ -29,7 +29,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void APoseComesBackExactlyAlsoOverAnOlderOne()
+        public void ASavedPoseIsReadBackExactlyAlsoAfterOverwriting()
         {
             SavedPose.Write(path, RigidPose.Identity);
             var pose = new RigidPose(new Double3(0.1, -1.0 / 3.0, 1e-9), new Rotation(0.1, 0.2, -0.3, 0.9).Unit);
@@ -38,11 +38,12 @@ namespace HaptoFlow.Tests
             Assert.That(problem, Is.Null);
             Assert.That(read.PositionMetres, Is.EqualTo(pose.PositionMetres));
             Assert.That(read.Rotation.W, Is.EqualTo(pose.Rotation.W).Within(1e-15));
-            Assert.That(Directory.GetFiles(Path.GetDirectoryName(path)!), Has.Length.EqualTo(1), "nothing is left over");
+            Assert.That(Directory.GetFiles(Path.GetDirectoryName(path)!), Has.Length.EqualTo(1), "no temporary file " +
+                "remains");
         }
 
         [Test]
-        public void AMissingFileIsNoProblem()
+        public void AMissingFileIsNotAnError()
         {
             Assert.That(SavedPose.TryRead(path, out _, out string? problem), Is.False);
             Assert.That(problem, Is.Null);
@@ -60,7 +61,7 @@ namespace HaptoFlow.Tests
             "\"rotation_xyzw\": [0, 0, 0, 0]}")]
         [TestCase("{\"format\": \"haptoflow pose\", \"version\": 1, \"position_m\": [0, 0, 0], " +
             "\"rotation_xyzw\": [0, 0, 0, 1]")]
-        public void ABrokenFileIsRefusedByItsNameWithTheRemedy(string text)
+        public void ADamagedFileIsRefusedWithItsNameAndTheRemedy(string text)
         {
             Directory.CreateDirectory(Path.GetDirectoryName(path)!);
             File.WriteAllText(path, text);
@@ -69,7 +70,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void AnEndlessFileIsNotRead()
+        public void ATooLongFileIsNotRead()
         {
             Directory.CreateDirectory(Path.GetDirectoryName(path)!);
             File.WriteAllText(path, new string(' ', 5000));

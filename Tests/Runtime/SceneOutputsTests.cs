@@ -9,28 +9,28 @@ using Object = UnityEngine.Object;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>Which output a stylus plays on when outputs come, go and are switched off.</summary>
+    /// <summary>The output that a stylus plays on when outputs are added, removed and disabled.</summary>
     public sealed class SceneOutputsTests : SceneTest
     {
         private const float Audible = 0.001f;
 
         [UnityTest]
-        public IEnumerator AnAuthorsOutputThatAppearsTakesOverFromTheOneThatWasMade()
+        public IEnumerator AnAuthorsOutputReplacesTheCreatedOne()
         {
             FinishLoading();
             Board();
             HapticStylus stylus = Circling();
             yield return Frames(30);
-            Assert.That(Outputs(), Has.Length.EqualTo(1), "one was made");
+            Assert.That(Outputs(), Has.Length.EqualTo(1), "one was created");
             AudioTap tap = Output(out HapticOutput authors);
             yield return Frames(40);
             Assert.That(tap.Peak(), Is.GreaterThan(Audible));
-            Assert.That(Outputs(), Is.EqualTo(new[] { authors }), "the one that was made is gone");
+            Assert.That(Outputs(), Is.EqualTo(new[] { authors }), "the created one is destroyed");
             Assert.That(stylus.TryGetStatistics(out _), Is.True);
         }
 
         [UnityTest]
-        public IEnumerator AnOutputThatWasMadeDoesNotOutliveItsScene()
+        public IEnumerator ACreatedOutputIsDestroyedWithItsScene()
         {
             FinishLoading();
             Board();
@@ -44,7 +44,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator TheAssignedOutputSwitchedOffIsSilenceAndNoOtherIsMade()
+        public IEnumerator ADisabledAssignedOutputIsSilentAndNoneIsCreated()
         {
             FinishLoading();
             Board();
@@ -56,7 +56,7 @@ namespace HaptoFlow.Tests
             output.enabled = false;
             yield return Frames(10);
             Assert.That(Outputs(), Is.EqualTo(new[] { output }));
-            Assert.That(stylus.TryGetStatistics(out _), Is.False, "a stylus that cannot be heard has no voice");
+            Assert.That(stylus.TryGetStatistics(out _), Is.False, "a stylus without output has no voice");
             output.enabled = true;
             tap.Restart();
             yield return Frames(40);
@@ -64,7 +64,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator TheScenesOnlyOutputSwitchedOffIsSilenceAndNoOtherIsMade()
+        public IEnumerator ADisabledOnlyOutputOfASceneIsSilentAndNoneIsCreated()
         {
             FinishLoading();
             Board();
@@ -77,7 +77,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AnOutputOnAnInactiveObjectIsSilenceUntilItIsActive()
+        public IEnumerator AnOutputOnAnInactiveObjectIsSilentUntilItIsActive()
         {
             FinishLoading();
             Board();
@@ -94,7 +94,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ADestroyedOutputIsReplacedByOneThatIsMade()
+        public IEnumerator ADestroyedOutputIsReplacedByACreatedOne()
         {
             FinishLoading();
             Board();
@@ -111,7 +111,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AnAuthorsOutputThatWakesSwitchedOffSilencesTheOneThatWasMade()
+        public IEnumerator ADisabledOutputOfTheAuthorSilencesTheCreatedOne()
         {
             FinishLoading();
             Board();

@@ -11,9 +11,9 @@ namespace HaptoFlow.Tests
     public sealed class SessionTests : SceneTest
     {
         [UnityTest]
-        public IEnumerator WithoutAModelTheSceneGoesOnAndOneLineSaysWhy()
+        public IEnumerator WithoutAModelTheSceneRunsOnAndLogsOneError()
         {
-            LogAssert.Expect(LogType.Error, new Regex("goes on without haptics: no model is chosen.*Project Settings"));
+            LogAssert.Expect(LogType.Error, new Regex("runs without haptics: no model is chosen.*Project Settings"));
             HaptoFlowSettings.Active.Model = null;
             yield return TouchTwice();
             Assert.That(Haptics.IsReady, Is.False);
@@ -21,9 +21,9 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ADamagedModelIsNamedOnceAndTheSceneGoesOn()
+        public IEnumerator ADamagedModelLogsOneErrorAndTheSceneRunsOn()
         {
-            LogAssert.Expect(LogType.Error, new Regex("goes on without haptics: .*checksum"));
+            LogAssert.Expect(LogType.Error, new Regex("runs without haptics: .*checksum"));
             byte[] damaged = (byte[])DefaultModel.Asset().File.Clone();
             damaged[100] ^= 1;
             HaptoFlowSettings.Active.Model = HapticModelAsset.Create(damaged);
@@ -32,7 +32,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AnUnknownLabelIsWarnedOfOnceWithNearMatchesAndIsNotFelt()
+        public IEnumerator AnUnknownLabelIsNotFeltAndWarnsOnceWithSimilarNames()
         {
             FinishLoading();
             using var warnings = new WarningCount();
@@ -50,7 +50,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator TwoLabelsBlend()
+        public IEnumerator TwoLabelsAreBlendedByWeight()
         {
             FinishLoading();
             HapticSurface board = Board("wood");
@@ -84,7 +84,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ARestartedEngineIsTakenUpByTheStylus()
+        public IEnumerator TheStylusUsesARestartedEngine()
         {
             FinishLoading();
             Board();
@@ -114,7 +114,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator QualityCanBeChangedWhileItRuns()
+        public IEnumerator QualityCanBeChangedDuringATouch()
         {
             FinishLoading();
             Haptics.SetQuality(HapticQuality.Fine);
@@ -123,7 +123,7 @@ namespace HaptoFlow.Tests
             yield return null;
         }
 
-        /// <summary>Touches, lifts and touches again: whatever is wrong must be said once.</summary>
+        /// <summary>Touches, lifts and touches again: an error must be logged only once.</summary>
         private IEnumerator TouchTwice()
         {
             Board();
@@ -137,7 +137,7 @@ namespace HaptoFlow.Tests
             Assert.That(log.Began, Is.EqualTo(2));
         }
 
-        /// <summary>Counts what is logged as a warning while it lives.</summary>
+        /// <summary>Counts the warnings that are logged during its lifetime.</summary>
         private sealed class WarningCount : IDisposable
         {
             public WarningCount() => Application.logMessageReceived += Receive;

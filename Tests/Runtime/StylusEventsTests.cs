@@ -7,11 +7,11 @@ using UnityEngine.TestTools;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>UnityEvents tell what the C# events tell.</summary>
+    /// <summary>The UnityEvents are raised together with the C# events.</summary>
     public sealed class StylusEventsTests : SceneTest
     {
         [UnityTest]
-        public IEnumerator TheInspectorsEventsTellOfASlideOverTwoSurfacesAndOfItsEnd()
+        public IEnumerator TheInspectorEventsReportASlideOverTwoSurfacesAndItsEnd()
         {
             HapticSurface left = Board("wood");
             HapticSurface right = Board("fur");
@@ -19,39 +19,39 @@ namespace HaptoFlow.Tests
             right.transform.position = new Vector3(0.2f, 0f, 0f);
             HapticStylus stylus = StylusAlong(seconds => new Vector3(
                 0.4f * (float)seconds - 0.1f, seconds < 0.5 ? 0.0005f : 0.1f, 0f));
-            var told = new List<string>();
+            var received = new List<string>();
             int moved = 0;
-            stylus.Events.TouchBegan.AddListener(surface => told.Add("began " + surface.name));
-            stylus.Events.SurfaceChanged.AddListener(surface => told.Add("changed " + surface.name));
-            stylus.Events.TouchEnded.AddListener(surface => told.Add("ended " + surface.name));
+            stylus.Events.TouchBegan.AddListener(surface => received.Add("began " + surface.name));
+            stylus.Events.SurfaceChanged.AddListener(surface => received.Add("changed " + surface.name));
+            stylus.Events.TouchEnded.AddListener(surface => received.Add("ended " + surface.name));
             stylus.Events.TouchMoved.AddListener(_ => ++moved);
             var log = new TouchLog(stylus);
             for (int frame = 0; frame < 60; ++frame)
             {
                 yield return null;
             }
-            Assert.That(told, Is.EqualTo(new[] { "began wood", "changed fur", "ended fur" }));
+            Assert.That(received, Is.EqualTo(new[] { "began wood", "changed fur", "ended fur" }));
             Assert.That(moved, Is.EqualTo(log.Moved).And.GreaterThan(20));
         }
 
         [UnityTest]
-        public IEnumerator AHandlerThatSwitchesTheStylusOffHearsNoMoreOfThatTouchButItsEnd()
+        public IEnumerator AHandlerThatDisablesTheStylusReceivesOnlyTheEndOfTheTouch()
         {
             Board();
             HapticStylus stylus = StylusAlong(_ => new Vector3(0f, 0.001f, 0f));
-            var told = new List<string>();
+            var received = new List<string>();
             stylus.Events.TouchBegan.AddListener(_ =>
             {
-                told.Add("began");
+                received.Add("began");
                 stylus.enabled = false;
             });
-            stylus.Events.TouchMoved.AddListener(_ => told.Add("moved"));
-            stylus.Events.TouchEnded.AddListener(_ => told.Add("ended"));
+            stylus.Events.TouchMoved.AddListener(_ => received.Add("moved"));
+            stylus.Events.TouchEnded.AddListener(_ => received.Add("ended"));
             for (int frame = 0; frame < 5; ++frame)
             {
                 yield return null;
             }
-            Assert.That(told, Is.EqualTo(new[] { "began", "ended" }));
+            Assert.That(received, Is.EqualTo(new[] { "began", "ended" }));
         }
     }
 }

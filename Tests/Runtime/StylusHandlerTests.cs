@@ -6,11 +6,11 @@ using UnityEngine.TestTools;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>Handlers that do the unexpected while a stylus tells of a touch.</summary>
+    /// <summary>Event handlers that disable or destroy objects during a touch.</summary>
     public sealed class StylusHandlerTests : SceneTest
     {
         [UnityTest]
-        public IEnumerator AStylusThatIsSwitchedOffByItsFirstTouchLeavesNoVoiceBehind()
+        public IEnumerator AStylusDisabledByItsFirstTouchLeavesNoVoiceOpen()
         {
             FinishLoading();
             Board();
@@ -25,7 +25,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AStylusThatIsDestroyedByItsFirstTouchLeavesNoVoiceBehind()
+        public IEnumerator AStylusDestroyedByItsFirstTouchLeavesNoVoiceOpen()
         {
             FinishLoading();
             Board();
@@ -39,7 +39,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AStylusThatIsSwitchedOffAndOnByAHandlerStartsAnew()
+        public IEnumerator AStylusDisabledAndEnabledByAHandlerStartsANewTouch()
         {
             FinishLoading();
             Board();
@@ -65,7 +65,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ASurfaceThatIsDestroyedByItsFirstTouchIsNotPublished()
+        public IEnumerator ASurfaceDestroyedByItsFirstTouchIsNotPublished()
         {
             FinishLoading();
             Board();

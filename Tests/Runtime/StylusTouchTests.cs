@@ -9,7 +9,7 @@ namespace HaptoFlow.Tests
 {
     public sealed class StylusTouchTests : SceneTest
     {
-        // Below, the tip of 2 mm cuts 1 mm into the board.
+        // At this height the tip of 2 mm radius cuts 1 mm into the board.
         private const float Pressed = 0.001f;
         private const float Lifted = 0.05f;
 
@@ -59,7 +59,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator StiffnessComesFromTheLabelWhereTheSurfaceSaysNothing()
+        public IEnumerator StiffnessComesFromTheLabelWhereTheSurfaceHasNone()
         {
             FinishLoading();
             HapticSurface board = Board("wood");
@@ -75,7 +75,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AMeasuredForceTakesThePlaceOfTheSpring()
+        public IEnumerator AMeasuredForceReplacesTheSpringForce()
         {
             Board();
             HapticStylus stylus = StylusAlong(_ => new Vector3(0f, Pressed, 0f));
@@ -91,7 +91,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator TheDeepestSurfaceWinsAndKeepsTheTipByAMargin()
+        public IEnumerator TheDeepestSurfaceIsTouchedAndKeptByAMargin()
         {
             HapticSurface low = Board("wood");
             HapticSurface high = Board("fur");
@@ -109,7 +109,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ATeleportIsNoStroke()
+        public IEnumerator ATeleportGivesNoVelocity()
         {
             Board();
             HapticStylus stylus = StylusAlong(seconds =>
@@ -146,7 +146,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator CollidersOfChildrenCountUnlessTheyBelongToAnotherSurface()
+        public IEnumerator CollidersOfChildrenBelongToTheSurfaceUnlessAnotherHasThem()
         {
             HapticSurface parent = Tagged<SphereCollider>("wood", sphere => sphere.center = new Vector3(0f, 5f, 0f));
             GameObject child = Make("child");

@@ -6,14 +6,14 @@ using UnityEngine.TestTools;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>What a surface asks for reaches the voice, and nothing else runs.</summary>
+    /// <summary>The effects of a surface reach the voice, and no other effect runs.</summary>
     public sealed class SurfaceEffectsTests : SceneTest
     {
         [UnityTest]
-        public IEnumerator ASurfaceWithImpactsAsksForThem() => Land(true);
+        public IEnumerator ASurfaceWithImpactsPlaysThem() => Land(true);
 
         [UnityTest]
-        public IEnumerator ASurfaceWithoutImpactsDoesNot() => Land(false);
+        public IEnumerator ASurfaceWithoutImpactsPlaysNone() => Land(false);
 
         private IEnumerator Land(bool isAskedFor)
         {
@@ -35,7 +35,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ATipThatSlidesOffTheRimOfABoardIsFeltOnce()
+        public IEnumerator SlidingOffTheRimOfABoardPlaysOneEdge()
         {
             FinishLoading();
             Board();
@@ -53,7 +53,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ALiftIsNoEdge()
+        public IEnumerator LiftingPlaysNoEdge()
         {
             FinishLoading();
             Board();
@@ -70,7 +70,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ASlideAgainstAWallLandsWithinTheTouch()
+        public IEnumerator SlidingAgainstAWallPlaysALandingWithinTheTouch()
         {
             FinishLoading();
             Board();
@@ -90,11 +90,11 @@ namespace HaptoFlow.Tests
             Assert.That(stylus.Contact.TouchCounter, Is.EqualTo(1u));
             Assert.That(stylus.Contact.ApproachSpeedMps, Is.EqualTo(0.2f).Within(0.02f));
             Assert.That(stylus.TryGetEffectStatistics(HapticEffect.Impact, out EffectStatistics impact), Is.True);
-            Assert.That(impact.Events, Is.EqualTo(1UL), "the board was entered without speed");
+            Assert.That(impact.Events, Is.EqualTo(1UL), "the tip entered the board without speed");
         }
 
         [Test]
-        public void AMaterialHasAllEffectsOfItsSurfaceUntilItIsToldOtherwise()
+        public void AMaterialHasAllEffectsByDefault()
         {
             var description = new MaterialDescription();
             Assert.That(

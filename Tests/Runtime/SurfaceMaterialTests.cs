@@ -6,7 +6,7 @@ using UnityEngine.TestTools;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>Own and shared materials, as Renderer.material and Renderer.sharedMaterial have it.</summary>
+    /// <summary>Own and shared materials behave like Renderer.material and Renderer.sharedMaterial.</summary>
     public sealed class SurfaceMaterialTests : SceneTest
     {
         [UnityTest]
@@ -28,7 +28,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator TheOwnCopyBeginsAsTheSharedOneIs()
+        public IEnumerator TheOwnCopyStartsEqualToTheSharedMaterial()
         {
             HapticMaterial shared = Shared();
             HapticSurface board = Board("fur");
@@ -42,12 +42,12 @@ namespace HaptoFlow.Tests
             Assert.That(own.Strength, Is.EqualTo(0.5f));
             Assert.That(own.FeatureScale, Is.EqualTo(2f));
             Assert.That(own.ToneDbPerOctave, Is.EqualTo(-3f));
-            Assert.That(board.Material, Is.SameAs(own), "asked again, it is the same copy");
+            Assert.That(board.Material, Is.SameAs(own), "a second read returns the same copy");
             yield return null;
         }
 
         [UnityTest]
-        public IEnumerator ReadingTheMaterialLeavesTheSurfaceItsSharedMaterial()
+        public IEnumerator ReadingSharedDescriptionKeepsTheSharedMaterial()
         {
             HapticMaterial shared = Shared();
             HapticSurface board = Board();
@@ -63,10 +63,10 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator FeatureScaleAndToneStayWithinTheirRanges()
+        public IEnumerator FeatureScaleAndToneAreLimitedToTheirRanges()
         {
             var material = new MaterialDescription();
-            Assert.That(material.FeatureScale, Is.EqualTo(1f), "features as they are");
+            Assert.That(material.FeatureScale, Is.EqualTo(1f), "the default leaves features unchanged");
             Assert.That(material.ToneDbPerOctave, Is.Zero, "no tilt");
             material.FeatureScale = 9f;
             material.ToneDbPerOctave = 40f;

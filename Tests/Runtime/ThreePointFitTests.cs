@@ -7,7 +7,7 @@ using NUnit.Framework;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>The pose that takes three marked points to where they were touched.</summary>
+    /// <summary>The pose that maps three marked points to the places where they were touched.</summary>
     public sealed class ThreePointFitTests
     {
         private static readonly Double3[] Marks =
@@ -16,7 +16,7 @@ namespace HaptoFlow.Tests
         };
 
         [Test]
-        public void ExactTouchesGiveThePoseBackForAThousandRandomPosesAndTriangles()
+        public void ExactTouchesReproduceThePoseForAThousandRandomPosesAndTriangles()
         {
             var random = new Random(5);
             for (int round = 0; round < 1000; ++round)
@@ -28,7 +28,7 @@ namespace HaptoFlow.Tests
                 AlignmentFit fit = Solve(marks, marks.Select(pose.PointToWorld).ToArray());
                 if (fit.Refusal != null)
                 {
-                    Assert.That(fit.Refusal, Does.Contain("marked points"), "only a bad triangle is refused");
+                    Assert.That(fit.Refusal, Does.Contain("marked points"), "only an unusable triangle is refused");
                     continue;
                 }
                 Assert.That(fit.LargestErrorMetres, Is.LessThan(1e-9));
@@ -44,7 +44,7 @@ namespace HaptoFlow.Tests
         [TestCase(0.0, 0.0, 0.0, 1.0)]
         [TestCase(0.5, 0.5, 0.5, 0.5)]
         [TestCase(-0.70710678, 0.0, 0.70710678, 0.0)]
-        public void HalfTurnsAreFoundToo(double x, double y, double z, double w)
+        public void RotationsByHalfATurnAreFoundToo(double x, double y, double z, double w)
         {
             var pose = new RigidPose(new Double3(1.0, 2.0, 3.0), new Rotation(x, y, z, w));
             AlignmentFit fit = Solve(Marks, Marks.Select(pose.PointToWorld).ToArray());
@@ -76,7 +76,7 @@ namespace HaptoFlow.Tests
 
         [TestCase(1.0)]
         [TestCase(-1.0)]
-        public void TheTipsRadiusIsTakenOffOnTheSideWhereThePenWas(double side)
+        public void TheTipRadiusIsSubtractedOnThePensSide(double side)
         {
             var outward = new Double3(0.0, side, 0.0);
             Double3[] touched = Marks.Select(mark => mark + 0.002 * outward).ToArray();
@@ -85,10 +85,12 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void TrianglesThatSayNothingOfAPoseAreRefusedWithTheReason()
+        public void TrianglesThatDoNotDetermineAPoseAreRefusedWithTheReason()
         {
-            Refused(new[] { Marks[0], Marks[1], new Double3(0.2, 0.0, 0.009) }, Marks, "marked points lie almost on one");
-            Refused(Marks, new[] { Marks[0], Marks[1], new Double3(0.2, 0.0, 0.0) }, "touched points lie almost on one");
+            Refused(new[] { Marks[0], Marks[1], new Double3(0.2, 0.0, 0.009) }, Marks, "marked points lie almost on " +
+                "one");
+            Refused(Marks, new[] { Marks[0], Marks[1], new Double3(0.2, 0.0, 0.0) }, "touched points lie almost on " +
+                "one");
             Refused(Marks, new[] { Marks[0], Marks[0], Marks[2] }, "two touched points are only 0.0 mm apart");
             Refused(new[] { Marks[0], new Double3(0.015, 0.0, 0.0), Marks[2] }, Marks, "only 15.0 mm apart");
             Refused(Marks, new[] { Marks[0], new Double3(double.NaN, 0.0, 0.0), Marks[2] }, "touched point 2 is not a");
@@ -97,7 +99,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void PointsTouchedInAnotherOrderAreNamedAsThat() => Refused(
+        public void PointsTouchedInAnotherOrderAreReportedAsSuch() => Refused(
             Marks, new[] { Marks[1], Marks[0], Marks[2] }, "in the order of their numbers");
 
         private static void Refused(Double3[] marks, Double3[] touched, string part) =>

@@ -18,7 +18,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void ARestingPenGivesItsMeanPlaceOnceUntilItLifts()
+        public void ARestingPenGivesItsMeanPositionOncePerRest()
         {
             int taken = 0;
             Double3 found = default;
@@ -33,7 +33,7 @@ namespace HaptoFlow.Tests
             }
             Assert.That(taken, Is.EqualTo(1));
             Assert.That(Double3.Distance(found, new Double3(1.0, 2.0, 3.0)), Is.LessThan(1e-4));
-            Assert.That(Rest(new Double3(1.0, 2.0, 3.0)), Is.False, "it did not lift");
+            Assert.That(Rest(new Double3(1.0, 2.0, 3.0)), Is.False, "the pen was not lifted");
             point.Update(now += 0.01, default, false, out _);
             Assert.That(Rest(new Double3(1.0, 2.0, 3.0)), Is.True);
         }
@@ -53,7 +53,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void ABrokenSampleStartsTheRestAnew()
+        public void AnInvalidSampleRestartsTheRest()
         {
             for (int frame = 0; frame < 20; ++frame)
             {
@@ -64,7 +64,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void OnePressBeforeTheFirstPointDoesNotCountWhereALiftIsAwaited()
+        public void APressBeforeTheFirstLiftTakesNoPoint()
         {
             point.AwaitLift();
             Assert.That(Rest(Double3.Zero), Is.False);

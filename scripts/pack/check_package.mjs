@@ -1,4 +1,4 @@
-import { checkAssemblyNames, checkNamespaces, checkPlatforms, checkReferences, checkScriptsBelong } from './rules/assemblies.mjs';
+import { checkAssemblyNames, checkNamespaces, checkPlatforms, checkPrecompiled, checkReferences, checkScriptsBelong } from './rules/assemblies.mjs';
 import { checkAnchors, checkAssetGuids, checkSceneScripts } from './rules/assets.mjs';
 import { checkLinks } from './rules/links.mjs';
 import { checkManifest } from './rules/manifest.mjs';
@@ -18,6 +18,7 @@ export const rules = {
   importers: checkImporters,
   'assembly names': checkAssemblyNames,
   'assembly references': checkReferences,
+  'precompiled references': checkPrecompiled,
   'scripts in assemblies': checkScriptsBelong,
   namespaces: checkNamespaces,
   'assembly platforms': checkPlatforms,

@@ -9,7 +9,7 @@ namespace HaptoFlow.MissingLibraryTests
     public sealed class MissingLibraryTests : SceneTest
     {
         [Test]
-        public void TheSceneGoesOnAndOneLineSaysWhichPackagesToInstall()
+        public void TheSceneRunsOnAndOneErrorNamesThePackagesToInstall()
         {
             Board();
             AudioTap tap = Output(out HapticOutput output);
@@ -24,7 +24,7 @@ namespace HaptoFlow.MissingLibraryTests
             Assert.That(Haptics.IsReady, Is.False);
             string[] errors = Log.Lines.Where(line => line.Type == LogType.Error).Select(line => line.Text).ToArray();
             Assert.That(errors, Has.Length.EqualTo(1));
-            Assert.That(errors[0], Does.Contain("goes on without haptics").And.Contain("com.github.asus4.onnxruntime"));
+            Assert.That(errors[0], Does.Contain("runs without haptics").And.Contain("com.github.asus4.onnxruntime"));
             output.Muted = true;
             output.Panic();
             Haptics.Panic();
@@ -37,7 +37,7 @@ namespace HaptoFlow.MissingLibraryTests
         }
 
         [Test]
-        public void TheBindingSaysThatTheLibraryIsMissing()
+        public void TheBindingReportsAMissingLibrary()
         {
             var refusal = Assert.Throws<HaptoFlowException>(() => OnnxRuntime.LibraryVersion());
             Assert.That(refusal!.Status, Is.EqualTo(HaptoFlowStatus.LibraryUnavailable));

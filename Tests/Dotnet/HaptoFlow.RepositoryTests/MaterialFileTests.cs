@@ -1,9 +1,9 @@
 using System;
-using System.Collections.Generic;
 using System.IO;
 using System.Linq;
 using HaptoFlow.Model;
 using HaptoFlow.Tests.Support;
+using Newtonsoft.Json.Linq;
 using NUnit.Framework;
 
 namespace HaptoFlow.RepositoryTests
@@ -56,7 +56,7 @@ namespace HaptoFlow.RepositoryTests
             Assert.That(invalid["cases"].AsArray(), Has.Count.GreaterThan(20));
             foreach (JsonValue each in invalid["cases"].AsArray())
             {
-                string broken = JsonText.Of(Patched(JsonValue.Parse(sound), each["patch"]));
+                string broken = Patched(sound, JsonText.Of(each["patch"]));
                 var refusal = Assert.Throws<HaptoFlowException>(() => MaterialFile.Read(broken), each["name"].AsText());
                 Assert.That(refusal!.Status, Is.EqualTo(HaptoFlowStatus.MaterialInvalid));
                 Assert.That(refusal.Message, Does.Contain($"'{each["key"].AsText()}'"), each["name"].AsText());
@@ -93,44 +93,36 @@ namespace HaptoFlow.RepositoryTests
 
         private static string Golden(string name) => RepositoryFiles.In("Tests", "Golden", "material", name);
 
-        /// <summary>Applies JSON Patch (RFC 6902), as far as the file uses it: replace and remove.</summary>
-        private static object? Patched(JsonValue document, JsonValue patch)
+        /// <summary>Applies a JSON Patch (RFC 6902) of operations "replace" and "remove", those that the file uses.
+        /// </summary>
+        private static string Patched(string text, string patch)
         {
-            object? root = Plain(document);
-            foreach (JsonValue step in patch.AsArray())
+            JToken document = JToken.Parse(text);
+            foreach (JToken step in JArray.Parse(patch))
             {
-                string[] keys = step["path"].AsText().Split('/').Skip(1).ToArray();
-                object holder = keys.SkipLast(1).Aggregate(root!, (place, key) => place is List<object?> list
-                    ? list[int.Parse(key)]!
-                    : ((Dictionary<string, object?>)place)[key]!);
-                bool removes = step["op"].AsText() == "remove";
-                object? value = removes ? null : Plain(step["value"]);
-                if (holder is List<object?> elements)
+                string[] keys = ((string)step["path"]!).Split('/').Skip(1).ToArray();
+                JToken found = keys.Aggregate(document, (place, key) =>
+                    place is JArray array ? array[int.Parse(key)] : place[key] ?? AddedTo((JObject)place, key));
+                if ((string?)step["op"] != "remove")
                 {
-                    int index = int.Parse(keys[^1]);
-                    elements.RemoveAt(index);
-                    if (!removes)
-                    {
-                        elements.Insert(index, value);
-                    }
-                    continue;
+                    found.Replace(step["value"]!);
                 }
-                var members = (Dictionary<string, object?>)holder;
-                members.Remove(keys[^1]);
-                if (!removes)
+                else if (found.Parent is JProperty property)
                 {
-                    members[keys[^1]] = value;
+                    property.Remove();
+                }
+                else
+                {
+                    found.Remove();
                 }
             }
-            return root;
+            return document.ToString();
         }
 
-        private static object? Plain(JsonValue value) => value.Content switch
+        private static JToken AddedTo(JObject place, string key)
         {
-            List<JsonValue> list => list.Select(Plain).ToList(),
-            Dictionary<string, JsonValue> members =>
-                members.ToDictionary(member => member.Key, member => Plain(member.Value)),
-            _ => value.Content,
-        };
+            place.Add(key, null);
+            return place[key]!;
+        }
     }
 }

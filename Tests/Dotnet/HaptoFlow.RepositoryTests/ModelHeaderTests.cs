@@ -84,41 +84,6 @@ namespace HaptoFlow.RepositoryTests
             }
         }
 
-        [TestCase("{\"a\": 1, \"a\": 2}", "\"a\" is there twice")]
-        [TestCase("{\"a\": 01}", "expected '}'")]
-        [TestCase("[1, 2", "expected ']'")]
-        [TestCase("{\"a\": \"\u0001\"}", "control character")]
-        [TestCase("[1] x", "text after")]
-        [TestCase("[1e999]", "out of range")]
-        public void InvalidJsonIsRefusedWithItsPosition(string text, string expected)
-        {
-            var refusal = Assert.Throws<FormatException>(() => JsonValue.Parse(text));
-            Assert.That(refusal!.Message, Does.Contain("at character").And.Contain(expected));
-        }
-
-        [Test]
-        public void NestingBeyondThirtyTwoLevelsIsRefused()
-        {
-            string deepest = new string('[', 32) + new string(']', 32);
-            Assert.That(() => JsonValue.Parse(deepest), Throws.Nothing);
-            Assert.That(() => JsonValue.Parse("[" + deepest + "]"), Throws.TypeOf<FormatException>());
-            Assert.That(() => JsonValue.Parse(new string('[', 100_000)), Throws.TypeOf<FormatException>());
-        }
-
-        [Test]
-        public void JsonTextNumbersAndPathsAreReadExactly()
-        {
-            JsonValue value = JsonValue.Parse("{\"text\": \"\\u00e9\\n\\\"\", \"list\": [-1.5e-3, true, null]}");
-            Assert.That(value["text"].AsText(), Is.EqualTo("é\n\""));
-            Assert.That(value["list"][0].AsNumber(), Is.EqualTo(-0.0015));
-            Assert.That(value["list"][1].AsBoolean(), Is.True);
-            Assert.That(value["list"][2].IsNull, Is.True);
-            Assert.That(() => value["list"][1].AsText(),
-                Throws.TypeOf<FormatException>().With.Message.EqualTo("list[1] is not a string"));
-            Assert.That(() => value["gone"],
-                Throws.TypeOf<FormatException>().With.Message.EqualTo("the document has no key \"gone\""));
-        }
-
         [Test]
         public void NearMatchesFindMisspeltAndPartialNames()
         {

@@ -52,7 +52,7 @@ namespace HaptoFlow.ShimTests
             Assert.That(OVRInput.Waves.All(wave => wave.Mask == OVRInput.Controller.RTouch && wave.RateHz == 2000f));
             Assert.That(OVRInput.Waves.Max(wave => wave.Samples.Max(Math.Abs)), Is.GreaterThan(0.01f));
             Assert.That(All<HapticOutput>(), Is.Empty, "no audio output is made");
-            Assert.That(CountMessages(LogType.Log, "the scene names no output, and Auto Output plays the wave"), Is.EqualTo(1));
+            Assert.That(CountMessages(LogType.Log, "the scene assigns no output, and Auto Output plays the waveform"), Is.EqualTo(1));
             Assert.That(OVRInput.FailedCalls, Is.Zero);
         }
 

@@ -38,7 +38,7 @@ namespace HaptoFlow.ShimTests
             Assert.That(text, Does.Contain("participant P07, study latency, trial 1 of 8 (practice)"));
             Assert.That(text, Does.Contain("press Next to begin"));
             Assert.That(text, Does.Contain("turn-on, 50 ms"));
-            Assert.That(text, Does.Contain("disk: every answer is written"));
+            Assert.That(text, Does.Contain("disk: every answer is saved"));
         }
 
         [Test]
@@ -51,7 +51,7 @@ namespace HaptoFlow.ShimTests
             Press("Pause");
             Assert.That((session.Phase, session.Attempt), Is.EqualTo((StudyPhase.Paused, 2)));
             PassFor(0.3);
-            Assert.That(Text(), Does.Contain("attempt 2").And.Contain("the trial begins again with Next"));
+            Assert.That(Text(), Does.Contain("attempt 2").And.Contain("Next restarts the trial"));
         }
 
         [Test]
@@ -98,7 +98,7 @@ namespace HaptoFlow.ShimTests
             folder.Files.Failure = new IOException("No space left on device");
             session.Answer(StudyFolder.Yes());
             PassFor(0.3);
-            Assert.That(Text(), Does.Contain("NOT WRITTEN").And.Contain("No space left on device"));
+            Assert.That(Text(), Does.Contain("NOT SAVED").And.Contain("No space left on device"));
             Assert.That(Buttons(), Is.Empty);
         }
 

@@ -6,7 +6,7 @@ using System.Runtime.InteropServices;
 
 namespace HaptoFlow.Tests.Support
 {
-    /// <summary>Does what Unity's plugin importer does in the editor: leads each library name to its file.</summary>
+    /// <summary>Resolves library names to files, as Unity's plugin importer does in the editor.</summary>
     internal static class NativeLibraries
     {
         [ModuleInitializer]
@@ -30,6 +30,7 @@ namespace HaptoFlow.Tests.Support
         private static IntPtr Load(string path) => File.Exists(path)
             ? NativeLibrary.Load(path)
             : throw new FileNotFoundException(
-                $"{path} is not there: run `npm ci` and `npm run build`, or set HAPTOFLOW_NATIVE_DIR to a native build", path);
+                $"{path} is missing: run `npm ci` and `npm run build`, or set HAPTOFLOW_NATIVE_DIR to a native " +
+                    $"build", path);
     }
 }

@@ -4,7 +4,7 @@ using System.Runtime.CompilerServices;
 
 namespace HaptoFlow.Tests.Support
 {
-    /// <summary>Files of the repository that tests read.</summary>
+    /// <summary>Paths of repository files that tests read.</summary>
     internal static class RepositoryFiles
     {
         public static string Root { get; } = Path.GetFullPath(Path.Combine(Path.GetDirectoryName(ThisFile())!, "..", "..", ".."));
@@ -21,7 +21,7 @@ namespace HaptoFlow.Tests.Support
                 ? In("node_modules", "com.github.asus4.onnxruntime", "Plugins", "macOS", "arm64", "libonnxruntime.dylib")
                 : In("node_modules", "com.github.asus4.onnxruntime", "Plugins", "Linux", "x64", "libonnxruntime.so");
 
-        /// <summary>Real strokes, which are no part of the repository; null where they are not there.</summary>
+        /// <summary>Recorded strokes, which are not part of the repository; null where they are missing.</summary>
         public static string? RealStrokes
         {
             get

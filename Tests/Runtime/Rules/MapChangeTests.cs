@@ -6,11 +6,11 @@ using UnityEngine.TestTools;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>Maps, objects and assets that change or go while a tip touches.</summary>
+    /// <summary>Maps, objects and assets that change or are destroyed during a touch.</summary>
     public sealed class MapChangeTests : MapTest
     {
         [UnityTest]
-        public IEnumerator ATagAndALayerThatChangeWhileTouchingAreFeltInTheNextFrame()
+        public IEnumerator AChangeOfTagOrLayerDuringATouchAppliesInTheNextFrame()
         {
             FinishLoading();
             BoxCollider box = Bare();
@@ -29,12 +29,12 @@ namespace HaptoFlow.Tests
             box.gameObject.layer = 4;
             yield return null;
             Assert.That(FeltAlone(stylus), Is.EqualTo("glass"));
-            Assert.That(log.Began, Is.EqualTo(1), "one touch all along");
+            Assert.That(log.Began, Is.EqualTo(1), "the touch is not interrupted");
             Assert.That(log.Ended, Is.Zero);
         }
 
         [UnityTest]
-        public IEnumerator ARendererMaterialThatChangesIsFeltAndAScriptsOwnCopyOfItIsTheSame()
+        public IEnumerator AChangedRendererMaterialAppliesAndItsInstanceMatchesTheSameRule()
         {
             FinishLoading();
             BoxCollider box = Bare();
@@ -54,11 +54,11 @@ namespace HaptoFlow.Tests
             Material own = Keep(new Material(ice) { name = "Ice (Instance)" });
             renderer.sharedMaterial = own;
             yield return null;
-            Assert.That(FeltAlone(stylus), Is.EqualTo("glass"), "as Renderer.material makes one");
+            Assert.That(FeltAlone(stylus), Is.EqualTo("glass"), "an instance made by Renderer.material");
         }
 
         [UnityTest]
-        public IEnumerator AMapThatChangesOrGoesWhileTouchingIsFollowed()
+        public IEnumerator AChangedOrDestroyedMapAppliesDuringATouch()
         {
             FinishLoading();
             Bare();
@@ -76,7 +76,7 @@ namespace HaptoFlow.Tests
             HaptoFlowSettings.Active.MaterialMap = other;
             yield return null;
             Assert.That(FeltAlone(stylus), Is.EqualTo("fur"));
-            Assert.That(log.Began, Is.EqualTo(1), "the touch goes on");
+            Assert.That(log.Began, Is.EqualTo(1), "the touch is not interrupted");
             Object.DestroyImmediate(other);
             yield return null;
             Assert.That(stylus.IsTouching, Is.False);
@@ -101,7 +101,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AMaterialDestroyedWhileTouchingBreaksNothing()
+        public IEnumerator AMaterialDestroyedDuringATouchCausesNoError()
         {
             FinishLoading();
             Bare();
@@ -118,7 +118,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ANewNameCountsAfterARefresh()
+        public IEnumerator ANewNameAppliesAfterARefresh()
         {
             FinishLoading();
             BoxCollider box = Bare();
@@ -134,7 +134,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ASurfaceThatComesAndGoesUnderTheTipTakesOverAndGivesBack()
+        public IEnumerator AHapticSurfaceAddedDuringATouchAppliesUntilItIsRemoved()
         {
             FinishLoading();
             BoxCollider box = Bare();
@@ -152,7 +152,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator OfFiveHundredCollidersThatRulesNameTheTouchedOneIsFelt()
+        public IEnumerator TheTouchedOneOfFiveHundredCollidersWithRulesIsFelt()
         {
             FinishLoading();
             for (int index = 0; index < 500; ++index)
@@ -172,7 +172,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator DestroyedCollidersAreNotKeptForEver()
+        public IEnumerator DestroyedCollidersAreRemovedFromTheCache()
         {
             FinishLoading();
             Map.DefaultMaterial = Feeling("wood");

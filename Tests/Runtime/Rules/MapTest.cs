@@ -7,7 +7,8 @@ using Object = UnityEngine.Object;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>A scene whose project has a map without rules; assets that tests make are gone afterwards.</summary>
+    /// <summary>A scene whose project has a map without rules. Assets created by a test are destroyed after
+    /// it.</summary>
     public abstract class MapTest : SceneTest
     {
         private readonly List<Object> assets = new List<Object>();
@@ -63,7 +64,7 @@ namespace HaptoFlow.Tests
             return paint;
         }
 
-        /// <summary>A board as <see cref="SceneTest.Board"/> makes it, without a surface.</summary>
+        /// <summary>A board like that of <see cref="SceneTest.Board"/>, without a surface.</summary>
         internal BoxCollider Bare(string name = "Plank")
         {
             var box = Make(name).AddComponent<BoxCollider>();
@@ -72,10 +73,10 @@ namespace HaptoFlow.Tests
             return box;
         }
 
-        /// <summary>A stylus that rests 1 mm deep in the board.</summary>
+        /// <summary>A stylus at rest 1 mm deep in the board.</summary>
         internal HapticStylus Resting(float x = 0f, float z = 0f) => StylusAlong(_ => new Vector3(x, 0.001f, z));
 
-        /// <summary>The labels that the tip feels with their weights, heaviest first.</summary>
+        /// <summary>The labels at the tip with their weights, in order of weight.</summary>
         internal static List<(string Label, float Weight)> Felt(HapticStylus stylus)
         {
             var felt = new List<(string, float)>();

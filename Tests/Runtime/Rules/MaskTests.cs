@@ -7,13 +7,13 @@ using UnityEngine.TestTools;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>Materials by a mask at the texture coordinates of the place that is touched.</summary>
+    /// <summary>Materials from a mask at the texture coordinates of the touched place.</summary>
     public sealed class MaskTests : MapTest
     {
         private MeshCollider floor = null!;
 
         [UnityTest]
-        public IEnumerator AChannelMixesAMaterialInByItsBrightness()
+        public IEnumerator AChannelBlendsItsMaterialByBrightness()
         {
             FinishLoading();
             HapticMaskMap mask = Mask(4, 1, 0, 85, 170, 255);
@@ -33,7 +33,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ASurfaceMayHaveAMaskToo()
+        public IEnumerator AHapticSurfaceCanHaveAMask()
         {
             FinishLoading();
             HapticMaskMap mask = Mask(2, 1, 0, 255);
@@ -65,7 +65,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ChannelsThatTogetherAreMoreThanOneLeaveNothingOfWhatIsUnder()
+        public IEnumerator ChannelsWithASumAboveOneReplaceTheMaterialBelow()
         {
             FinishLoading();
             HapticMaskMap mask = Mask(1, 1, 255);
@@ -80,7 +80,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AMaskOverNothingIsFeltWhereItsChannelsSaySo()
+        public IEnumerator AMaskWithoutAMaterialBelowIsFeltWhereItsChannelsHaveOne()
         {
             FinishLoading();
             HapticMaskMap mask = Mask(2, 1, 0, 255);
@@ -110,15 +110,15 @@ namespace HaptoFlow.Tests
             yield return null;
             yield return null;
             Assert.That(FeltAlone(first), Is.EqualTo("glass"));
-            Assert.That(FeltAlone(second), Is.EqualTo("wood"), "the second time over");
+            Assert.That(FeltAlone(second), Is.EqualTo("wood"), "the mask repeats");
             Assert.That(FeltAlone(last), Is.EqualTo("glass"));
             mask.SetPixels(2, 1, Grey(0, 255), false);
             yield return null;
-            Assert.That(FeltAlone(second), Is.EqualTo("glass"), "the edge goes on");
+            Assert.That(FeltAlone(second), Is.EqualTo("glass"), "the edge texel extends");
         }
 
         [UnityTest]
-        public IEnumerator WhereThereIsNoTextureCoordinateTheMaterialUnderTheMaskIsFelt()
+        public IEnumerator WithoutATextureCoordinateTheMaterialBelowTheMaskIsFelt()
         {
             FinishLoading();
             HapticMaskMap mask = Mask(1, 1, 255);
@@ -133,7 +133,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator StrangeNumbersInAMaskBreakNothing()
+        public IEnumerator ExtremeNumbersInAMaskGiveValidResults()
         {
             FinishLoading();
             HapticMaskMap mask = Mask(2, 2, 0, 255, 255, 0);
@@ -173,7 +173,7 @@ namespace HaptoFlow.Tests
             Map.Rules[0].Mask = mask;
         }
 
-        /// <summary>What the mask makes of the rule's material at a place on the floor.</summary>
+        /// <summary>The material that the mask gives with the rule's material at a place on the floor.</summary>
         private FeltMaterial At(HapticMaskMap mask, float x)
         {
             Physics.SyncTransforms();
@@ -186,7 +186,7 @@ namespace HaptoFlow.Tests
             return felt;
         }
 
-        /// <summary>20 x 20 cm at y = 0; texture coordinates run from 0 to 1 along x and z.</summary>
+        /// <summary>20 x 20 cm at y = 0, with texture coordinates from 0 to 1 along x and z.</summary>
         private MeshCollider Floor()
         {
             Mesh mesh = Keep(new Mesh

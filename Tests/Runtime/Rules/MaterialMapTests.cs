@@ -11,7 +11,7 @@ using SurfacePhysics = UnityEngine.PhysicMaterial;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>Which rule of which map says what a collider without a surface feels like.</summary>
+    /// <summary>The rules and maps that assign a material to a collider without a surface.</summary>
     public sealed class MaterialMapTests : MapTest
     {
         [UnityTest]
@@ -78,7 +78,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ARendererAboveOrBelowTheColliderCountsWhereItHasNoneAndATrailDoesNot()
+        public IEnumerator AColliderWithoutRendererUsesOneAboveOrBelowItButNoTrail()
         {
             FinishLoading();
             Material oak = Paint("Oak");
@@ -88,7 +88,7 @@ namespace HaptoFlow.Tests
             HapticStylus stylus = Resting();
             yield return null;
             yield return null;
-            Assert.That(stylus.IsTouching, Is.False, "a trail is not what the object looks like");
+            Assert.That(stylus.IsTouching, Is.False, "the renderer of a trail is ignored");
             GameObject below = Make("Look");
             below.transform.SetParent(box.transform, false);
             below.AddComponent<SkinnedMeshRenderer>().sharedMaterial = oak;
@@ -100,11 +100,11 @@ namespace HaptoFlow.Tests
             box.transform.SetParent(above.transform, true);
             HapticMaterialMap.Refresh();
             yield return null;
-            Assert.That(stylus.IsTouching, Is.False, "the nearest above comes before what is below");
+            Assert.That(stylus.IsTouching, Is.False, "a renderer above takes precedence over one below");
         }
 
         [UnityTest]
-        public IEnumerator AContactThatIsOverStillSaysWhyAlsoWhenItsMapIsGone()
+        public IEnumerator AnEndedContactStillNamesItsRuleAlsoAfterItsMapWasDestroyed()
         {
             FinishLoading();
             Bare();
@@ -116,11 +116,11 @@ namespace HaptoFlow.Tests
             yield return null;
             HapticContact contact = stylus.Contact;
             Object.DestroyImmediate(map);
-            Assert.That(contact.Explain(), Is.EqualTo("a map that is gone"));
+            Assert.That(contact.Explain(), Is.EqualTo("a deleted map"));
         }
 
         [UnityTest]
-        public IEnumerator TheFirstRuleThatMatchesCountsAlsoWhereItSaysNothing()
+        public IEnumerator TheFirstMatchingRuleAppliesAlsoWithoutAMaterial()
         {
             FinishLoading();
             Bare();
@@ -139,7 +139,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator WhatNoRuleMatchesFeelsLikeTheDefault()
+        public IEnumerator AColliderThatNoRuleMatchesGetsTheDefaultMaterial()
         {
             FinishLoading();
             Bare();
@@ -153,7 +153,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AnExplicitSurfaceWinsOverEveryRuleWhileItIsOn()
+        public IEnumerator AnEnabledHapticSurfaceTakesPrecedenceOverEveryRule()
         {
             FinishLoading();
             HapticSurface board = Board("glass");
@@ -172,7 +172,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator TheMapsOfASceneAreAskedBeforeTheProjectsInTheirOrder()
+        public IEnumerator TheMapsOfASceneAreTriedInOrderBeforeTheProjectsMap()
         {
             FinishLoading();
             Bare();
@@ -198,7 +198,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator StiffnessStrengthAndOwnMotionAreThoseOfTheRulesMaterial()
+        public IEnumerator StiffnessStrengthAndOwnMotionComeFromTheRulesMaterial()
         {
             FinishLoading();
             BoxCollider box = Bare();
@@ -221,7 +221,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator APenDoesNotFeelItselfNorWhoHoldsItByARule()
+        public IEnumerator ARuleDoesNotMakeAPenTouchItselfOrItsHolder()
         {
             FinishLoading();
             Map.DefaultMaterial = Feeling("rubber");
@@ -236,7 +236,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator SlidingBetweenCollidersThatRulesNameChangesTheSurface()
+        public IEnumerator SlidingBetweenCollidersWithRulesRaisesSurfaceChanged()
         {
             FinishLoading();
             Bare("Left").center = new Vector3(-0.2f, -0.01f, 0f);

@@ -24,7 +24,7 @@ namespace HaptoFlow.Tests
         [TestCase("*rug", "rug (1)")]
         [TestCase("a*b*c", "acb")]
         [TestCase("*ab", "aba")]
-        public void APatternLeavesOtherNamesAlone(string pattern, string name) =>
+        public void APatternDoesNotMatchOtherNames(string pattern, string name) =>
             Assert.That(NamePattern.Matches(pattern, name), Is.False);
     }
 }

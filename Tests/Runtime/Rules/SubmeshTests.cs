@@ -6,11 +6,11 @@ using UnityEngine.TestTools;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>Several materials on one mesh, told apart by the triangle that is touched.</summary>
+    /// <summary>Several materials on one mesh, distinguished by the touched triangle.</summary>
     public sealed class SubmeshTests : MapTest
     {
         [UnityTest]
-        public IEnumerator EachSubmeshFeelsByItsOwnRule()
+        public IEnumerator EachSubmeshHasTheMaterialOfItsRule()
         {
             FinishLoading();
             MeshCollider mesh = TwoHalves();
@@ -26,7 +26,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator EachSubmeshFeelsByTheMaterialThatItIsDrawnWith()
+        public IEnumerator EachSubmeshIsMatchedByItsRendererMaterial()
         {
             FinishLoading();
             MeshCollider mesh = TwoHalves();
@@ -44,7 +44,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator TheTipFeelsTheOtherMaterialWhereItCrossesTheBorderWithinOneTouch()
+        public IEnumerator CrossingTheBorderOfTwoSubmeshesChangesTheMaterialWithinOneTouch()
         {
             FinishLoading();
             MeshCollider mesh = TwoHalves();
@@ -66,7 +66,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ASubmeshThatFeelsLikeNothingIsSilentAndItsNeighbourIsNot()
+        public IEnumerator ASubmeshWithoutMaterialIsSilentAndItsNeighbourIsNot()
         {
             FinishLoading();
             MeshCollider mesh = TwoHalves();
@@ -81,7 +81,7 @@ namespace HaptoFlow.Tests
                 yield return null;
             }
             Assert.That(stylus.TryGetStatistics(out VoiceStatistics silent), Is.True);
-            Assert.That(silent.Inferences, Is.Zero, "nothing is felt on the left");
+            Assert.That(silent.Inferences, Is.Zero, "the left submesh has no material");
             side = 1f;
             for (int frame = 0; frame < 30; ++frame)
             {
@@ -92,7 +92,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AMeshThatIsNotReadableFeelsLikeItsFirstSubmesh()
+        public IEnumerator AnUnreadableMeshHasTheMaterialOfItsFirstSubmesh()
         {
             FinishLoading();
             MeshCollider mesh = TwoHalves();
@@ -105,7 +105,7 @@ namespace HaptoFlow.Tests
             Assert.That(FeltAlone(right), Is.EqualTo("wood"));
         }
 
-        /// <summary>A floor at y = 0 of 20 x 20 cm: submesh 0 left of x = 0, submesh 1 right of it.</summary>
+        /// <summary>A floor of 20 x 20 cm at y = 0: submesh 0 left of x = 0, submesh 1 right of it.</summary>
         private MeshCollider TwoHalves()
         {
             var mesh = Keep(new Mesh

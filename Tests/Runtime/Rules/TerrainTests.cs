@@ -8,7 +8,7 @@ using UnityEngine.TestTools;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>A terrain feels like its layers, mixed as they are painted at the place that is touched.</summary>
+    /// <summary>A terrain has the materials of its layers, blended as they are painted at the touched place.</summary>
     public sealed class TerrainTests : MapTest
     {
         private const int Resolution = 17;
@@ -17,7 +17,7 @@ namespace HaptoFlow.Tests
         private TerrainCollider terrain = null!;
 
         [UnityTest]
-        public IEnumerator HalfWoodAndHalfCorduroyArriveAsTwoLabelsOfHalfTheWeight()
+        public IEnumerator HalfWoodAndHalfCorduroyGiveTwoLabelsOfEqualWeight()
         {
             FinishLoading();
             Terrain("grass", "rock");
@@ -32,7 +32,7 @@ namespace HaptoFlow.Tests
             Assert.That(Felt(middle).Select(each => each.Label), Is.EquivalentTo(new[] { "wood", "corduroy" }));
             Assert.That(Felt(middle).Select(each => each.Weight), Is.All.EqualTo(0.5f).Within(0.01f));
             Assert.That(WeightOf(left, "wood"), Is.EqualTo(0.95f).Within(0.01f));
-            Assert.That(Felt(quarter)[0].Label, Is.EqualTo("wood"), "the heaviest comes first");
+            Assert.That(Felt(quarter)[0].Label, Is.EqualTo("wood"), "labels are sorted by weight");
             Assert.That(WeightOf(quarter, "corduroy"), Is.EqualTo(0.25f).Within(0.01f));
             Assert.That(quarter.Contact.Explain(), Is.EqualTo("rule 1 of \"Project\": terrain layer \"grass\""));
         }
@@ -60,7 +60,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator OfSixLayersTheFourHeaviestLabelsArriveAndTheirWeightsAddUpToOne()
+        public IEnumerator TheFourHeaviestOfSixLayersAreKeptWithWeightsThatSumToOne()
         {
             FinishLoading();
             string[] labels = { "wood", "stone", "glass", "fur", "rubber", "jute" };
@@ -79,7 +79,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator LayersOfOneMaterialAreOneLabelAndALayerOfNothingWeakens()
+        public IEnumerator LayersOfOneMaterialMergeAndALayerWithoutMaterialWeakensTheRest()
         {
             FinishLoading();
             Terrain("grass", "moss", "water");
@@ -93,11 +93,11 @@ namespace HaptoFlow.Tests
             Assert.That(Felt(stylus), Has.Count.EqualTo(1));
             Assert.That(WeightOf(stylus, "fur"), Is.EqualTo(1f));
             FeltMaterial felt = FeltColliders.Resolve(terrain)!.At(PlaceOf(stylus), HapticSession.Current);
-            Assert.That(felt.Strength, Is.EqualTo(0.4f).Within(0.01f), "half of it is water, which is nothing");
+            Assert.That(felt.Strength, Is.EqualTo(0.4f).Within(0.01f), "the other half has no material");
         }
 
         [UnityTest]
-        public IEnumerator ScaleToneAndStiffnessOfAMixtureLieBetweenThoseOfItsMaterials()
+        public IEnumerator ScaleToneAndStiffnessOfABlendLieBetweenThoseOfItsMaterials()
         {
             FinishLoading();
             Terrain("grass", "rock");
@@ -125,7 +125,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator PaintingAtRunTimeIsFelt()
+        public IEnumerator PaintingTheTerrainAtRunTimeChangesTheMaterial()
         {
             FinishLoading();
             Terrain("grass", "rock");
@@ -141,14 +141,14 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ALargeTerrainIsKeptSmallerAndFeelsTheSame()
+        public IEnumerator WeightsOfALargeTerrainAreStoredAtALowerResolution()
         {
             FinishLoading();
             Terrain("a", "b", "c", "d", "e");
             terrain.terrainData!.alphamapResolution = 2048;
             AddRule(0, "wood");
             AddRule(1, "stone");
-            // 21 MB at a byte a layer and texel; a fine chessboard of the first two layers on the right half.
+            // 21 MB at one byte per layer and texel; a fine chessboard of the first two layers on the right half.
             var map = new float[2048, 2048, layers.Length];
             for (int z = 0; z < 2048; ++z)
             {
@@ -184,7 +184,7 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ATerrainWithoutLayersFeelsByTheRulesForItsObject()
+        public IEnumerator ATerrainWithoutLayersMatchesTheRulesForItsObject()
         {
             FinishLoading();
             Terrain();
@@ -204,7 +204,7 @@ namespace HaptoFlow.Tests
         private void AddRule(int layer, string label) =>
             Map.Add(HapticMaterialRule.ForTerrainLayer(layers[layer], Feeling(label)));
 
-        /// <summary>A flat square metre around the origin.</summary>
+        /// <summary>A flat square of 1 m around the origin.</summary>
         private void Terrain(params string[] names)
         {
             layers = names.Select(name => Keep(new TerrainLayer { name = name })).ToArray();
@@ -220,7 +220,7 @@ namespace HaptoFlow.Tests
             terrain = owner.GetComponent<TerrainCollider>();
         }
 
-        /// <param name="weights">Of the layers, by the place on the terrain from 0 to 1.</param>
+        /// <param name="weights">Weights of the layers at a place on the terrain, with coordinates from 0 to 1.</param>
         private void Paint(System.Func<float, float, float[]> weights)
         {
             var map = new float[Resolution, Resolution, layers.Length];

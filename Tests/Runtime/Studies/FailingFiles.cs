@@ -6,18 +6,18 @@ using HaptoFlow.Studies;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>A disk that fails when it is told to.</summary>
+    /// <summary>A file system whose writes can be made to fail.</summary>
     internal sealed class FailingFiles : IStudyFiles
     {
         private readonly DiskFiles disk = new DiskFiles();
 
-        /// <summary>Writing fails with this; null for a disk that works.</summary>
+        /// <summary>The error of every write; null for a disk that works.</summary>
         public Exception? Failure { get; set; }
 
-        /// <summary>Bytes of a line that still fit when a write fails.</summary>
+        /// <summary>Number of bytes of a line that are written before a failure.</summary>
         public int RoomBytes { get; set; }
 
-        /// <summary>Writes that were tried.</summary>
+        /// <summary>Number of attempts to write.</summary>
         public int Attempts { get; private set; }
 
         public IReadOnlyList<string> Find(string folder, string pattern) => disk.Find(folder, pattern);

@@ -6,7 +6,7 @@ using HaptoFlow.Studies;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>A folder of its own with the logs of a small latency study.</summary>
+    /// <summary>A temporary folder with the logs of a small latency study.</summary>
     internal sealed class StudyFolder : IDisposable
     {
         public string Path { get; } = System.IO.Path.Combine(
@@ -36,7 +36,7 @@ namespace HaptoFlow.Tests
 
         public static TrialRecord Yes() => new TrialRecord().Set("answer", "yes");
 
-        /// <summary>A session that answered some trials and was then cut off.</summary>
+        /// <summary>Creates a session that was interrupted after some answers.</summary>
         public void Leave(int answered)
         {
             StudyLog log = Open();

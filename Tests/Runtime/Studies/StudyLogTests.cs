@@ -9,7 +9,7 @@ using NUnit.Framework;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>The logs of a study survive what happens to files, and are never overwritten.</summary>
+    /// <summary>The logs of a study survive file errors and are never overwritten.</summary>
     public sealed class StudyLogTests
     {
         private StudyFolder folder = null!;
@@ -21,7 +21,7 @@ namespace HaptoFlow.Tests
         public void RemoveIt() => folder.Dispose();
 
         [Test]
-        public void EveryAnswerIsOnDiskWhenAppendReturnsAndTheColumnsAreTheSchemas()
+        public void EveryAnswerIsOnDiskWhenAppendReturnsWithTheColumnsOfTheSchema()
         {
             StudyLog log = folder.Open();
             Assert.That(Path.GetFileName(folder.Csv), Does.Match("^latency-P07-[0-9a-f]{8}\\.csv$"));
@@ -42,7 +42,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void TheSidecarSaysStudyDeviceDelaySettingsAndPlan()
+        public void TheSidecarContainsStudyDeviceDelaySettingsAndPlan()
         {
             StudyLog log = folder.Open(StudyFolder.Description(seed: (1ul << 63) + 5));
             JsonValue sidecar = JsonValue.Parse(File.ReadAllText(folder.Sidecar));
@@ -51,7 +51,7 @@ namespace HaptoFlow.Tests
             Assert.That(sidecar["study"].AsText(), Is.EqualTo("latency"));
             Assert.That(sidecar["participant"].AsInteger(), Is.EqualTo(7));
             Assert.That(sidecar["session"].AsText(), Is.EqualTo(log.Session));
-            Assert.That(sidecar["seed"].AsUnsigned64(), Is.EqualTo((1ul << 63) + 5), "also above what a double holds");
+            Assert.That(sidecar["seed"].AsUnsigned64(), Is.EqualTo((1ul << 63) + 5), "exact above 2^53");
             Assert.That(sidecar["simulated"].AsBoolean(), Is.False);
             Assert.That(sidecar["created"].AsText(), Does.Match("^\\d{4}-\\d\\d-\\d\\dT\\d\\d:\\d\\d:\\d\\dZ$"));
             Assert.That(sidecar["finished"].AsBoolean(), Is.False);
@@ -70,7 +70,7 @@ namespace HaptoFlow.Tests
         [TestCase("8,")]
         [TestCase("3,practice,turn-off,50,1,2,3,4,5,yes,1,30,1,1,1,1,0,1")]
         [TestCase("\0\0\0\0\0\0")]
-        public void ALastRowThatACrashCutOffIsDroppedAndItsTrialIsAskedAgain(string torn)
+        public void AnIncompleteLastRowIsDroppedAndItsTrialRepeated(string torn)
         {
             folder.Leave(answered: 2);
             File.AppendAllText(folder.Csv, torn);
@@ -85,7 +85,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void AnInterruptionMoreAtTheSameTrialIsAnAttemptMore()
+        public void EachInterruptionAtATrialAddsAnAttempt()
         {
             folder.Leave(answered: 2);
             folder.Open();
@@ -98,7 +98,7 @@ namespace HaptoFlow.Tests
         [TestCase(0)]
         [TestCase(17)]
         [TestCase(int.MaxValue)]
-        public void AFullDiskKeepsTheRowAndSaysSoUntilItIsWrittenOnce(int roomBytes)
+        public void ARowIsKeptAndReportedUntilAFullDiskAcceptsIt(int roomBytes)
         {
             StudyLog log = folder.Open();
             log.Append(StudyFolder.Yes());
@@ -109,7 +109,7 @@ namespace HaptoFlow.Tests
             Assert.That(log.Problem, Does.Contain(log.CsvPath).And.Contain("No space left on device"));
             Assert.That(log.HasPending, Is.True);
             Assert.That(log.Answered, Is.EqualTo(1));
-            Assert.That(() => log.Append(StudyFolder.Yes()), Throws.InvalidOperationException, "no row overtakes it");
+            Assert.That(() => log.Append(StudyFolder.Yes()), Throws.InvalidOperationException, "rows keep their order");
             folder.Files.Failure = null;
             Assert.That(log.TryWritePending(), Is.True);
             Assert.That(log.Problem, Is.Null);
@@ -117,7 +117,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void ADiskThatIsFullAtTheEndLeavesTheSessionOpenUntilTheSidecarSaysFinished()
+        public void ADiskThatIsFullAtTheEndLeavesTheSessionOpenUntilTheSidecarIsWritten()
         {
             folder.Leave(answered: 8);
             StudyLog log = folder.Open();
@@ -131,21 +131,21 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void AFolderThatCannotBeWrittenToIsRefusedByName()
+        public void AFolderThatIsNotWritableIsRefusedByName()
         {
             folder.Files.Failure = new UnauthorizedAccessException("Access to the path is denied.");
             Assert.That(() => folder.Open(), Throws.TypeOf<StudyException>().With.Message.StartsWith(folder.Path).And
-                .Message.Contains("name a folder that can be written to"));
+                .Message.Contains("choose a writable folder"));
         }
 
         [TestCase("a\0b")]
         [TestCase("")]
-        public void AFolderThatIsNoPathIsRefused(string path) => Assert.That(
+        public void AnInvalidFolderPathIsRefused(string path) => Assert.That(
             () => StudyLog.Open(path, StudyFolder.Description(), folder.Files),
-            Throws.TypeOf<StudyException>().With.Message.Contains("settings' folder"));
+            Throws.TypeOf<StudyException>().With.Message.Contains("choose a writable folder"));
 
         [Test]
-        public void AFileInThePlaceOfTheFolderIsRefusedByTheRealDiskToo()
+        public void AFileInPlaceOfTheFolderIsRefusedByTheFileSystem()
         {
             string blocked = Path.Combine(folder.Path, "not a folder");
             Directory.CreateDirectory(folder.Path);
@@ -167,7 +167,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void ASessionBegunWithOtherSettingsIsRefusedByTheKeyWithBothValues()
+        public void ASessionWithOtherSettingsIsRefusedWithKeyAndBothValues()
         {
             folder.Leave(answered: 2);
             byte[] before = File.ReadAllBytes(folder.Sidecar);
@@ -188,7 +188,7 @@ namespace HaptoFlow.Tests
 
         private void AssertRefused(StudyDescription other, string was, string now) => Assert.That(
             () => folder.Open(other), Throws.TypeOf<StudyException>().With.Message.StartsWith(folder.Sidecar).And
-                .Message.Contains(was).And.Message.Contains("would go on with " + now));
+                .Message.Contains(was).And.Message.Contains("the value is now " + now));
 
         [TestCase("trial,block\n1,practice\n", "line 1")]
         [TestCase("", "line 1")]
@@ -230,7 +230,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void OneFileOfTwoIsRefusedWhereAnAnswerMayBeLost()
+        public void AMissingFileOfTheTwoIsRefusedWhereAnswersMayBeLost()
         {
             folder.Leave(answered: 1);
             string sidecar = folder.Sidecar;
@@ -244,7 +244,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void ACrashBetweenTheTwoFilesOfANewSessionLeavesOneThatCanBegin()
+        public void ASessionCanStartAfterACrashBetweenItsTwoFiles()
         {
             folder.Leave(answered: 0);
             string csv = folder.Csv;
@@ -264,7 +264,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void ATableThatAnotherProgramChangedWhileTheStudyRunsIsNotWrittenOver()
+        public void ATableChangedByAnotherProgramDuringTheStudyIsNotOverwritten()
         {
             StudyLog log = folder.Open();
             log.Append(StudyFolder.Yes());
@@ -280,7 +280,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void NamesWithCommasAndColumnsThatAreNotThereAreRefused()
+        public void NamesWithCommasAndUnknownColumnsAreRefused()
         {
             Assert.That(() => new TrialRecord().Set("answer", "yes,no"), Throws.ArgumentException);
             Assert.That(() => folder.Open().Append(new TrialRecord().Set("rating", 3)), Throws.ArgumentException);

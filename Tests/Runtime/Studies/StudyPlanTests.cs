@@ -6,7 +6,7 @@ using NUnit.Framework;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>Orders of trials: balanced within and across participants, and the same for the same seed.</summary>
+    /// <summary>Orders of trials: balanced within and across participants, and reproducible from the seed.</summary>
     public sealed class StudyPlanTests
     {
         private static readonly double[] Levels = Enumerable.Range(0, 11).Select(step => 50.0 + 20.0 * step).ToArray();
@@ -18,7 +18,7 @@ namespace HaptoFlow.Tests
         [TestCase(5)]
         [TestCase(6)]
         [TestCase(11)]
-        public void EachTreatmentStandsAtEachPlaceAndFollowsEachOtherEquallyOften(int count)
+        public void EachTreatmentIsAtEachPositionAndFollowsEachOtherEquallyOften(int count)
         {
             int[][] rows = WilliamsDesign.Rows(count);
             int repeats = count % 2 == 0 ? 1 : 2;
@@ -48,7 +48,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void ASampleIsChangedWhereverTheMaterialIsAnotherThanBeforeAndNowhereElse()
+        public void TheSampleChangesExactlyWhereTheMaterialChanges()
         {
             StudyPlan plan = StudyPlan.Similarity(7, 5, Materials, Methods);
             Assert.That(plan.Trials[0].ChangesSample, Is.False);
@@ -62,7 +62,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void EveryLevelComesOnceUnderEachConditionAfterFourPracticeTrials(
+        public void EveryLevelOccursOnceInEachConditionAfterFourPracticeTrials(
             [Values(1, 2, 23, 24, 1000)] int participant, [Values(0ul, 1ul, ulong.MaxValue)] ulong seed)
         {
             StudyPlan plan = StudyPlan.Latency(participant, seed, Levels);
@@ -79,7 +79,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void HalfOfTheParticipantsBeginWithTurnOnAndTheConditionsDoNotMix()
+        public void HalfOfTheParticipantsBeginWithTurnOnAndConditionsAreNotMixed()
         {
             for (int participant = 1; participant <= 24; ++participant)
             {
@@ -89,7 +89,7 @@ namespace HaptoFlow.Tests
                 Assert.That(conditions.Take(11).Distinct().Count(), Is.EqualTo(1));
                 Assert.That(conditions.Skip(11).Distinct().Count(), Is.EqualTo(1));
                 Assert.That(plan.Trials.Where(trial => trial.RestBefore).Select(trial => trial.Trial),
-                    Is.EqualTo(new[] { 5, 16 }), "the practice ends, the condition changes");
+                    Is.EqualTo(new[] { 5, 16 }), "after the practice, and where the condition changes");
             }
         }
 
@@ -98,7 +98,7 @@ namespace HaptoFlow.Tests
         [TestCase(7, 14, 2, 2)]
         [TestCase(4, 4, 1, 1)]
         [TestCase(6, 24, 4, 4)]
-        public void EachLevelStandsEquallyOftenAtEachPlaceOfEachCondition(
+        public void EachLevelIsEquallyOftenAtEachPositionOfEachCondition(
             int levels, int participants, int fewest, int most)
         {
             double[] delays = Levels.Take(levels).ToArray();
@@ -118,7 +118,7 @@ namespace HaptoFlow.Tests
         [TestCase(6, 4, 24, 6)]
         [TestCase(3, 3, 36, 12)]
         [TestCase(2, 6, 12, 2)]
-        public void EachMethodStandsEquallyOftenAtEachPlaceOfEachMaterial(
+        public void EachMethodIsEquallyOftenAtEachPositionOfEachMaterial(
             int materials, int methods, int participants, int each)
         {
             string[] first = Enumerable.Range(0, materials).Select(index => $"material {index}").ToArray();
@@ -138,7 +138,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void EachMaterialComesWithAllItsMethodsOneAfterAnotherAndARestAfterTwelveTrials()
+        public void AllMethodsOfAMaterialAreConsecutiveWithARestAfterTwelveTrials()
         {
             for (int participant = 1; participant <= 12; ++participant)
             {
@@ -165,15 +165,15 @@ namespace HaptoFlow.Tests
             Is.Not.EqualTo(StudyPlan.Latency(1, 1, Levels).Trials.Select(trial => trial.DelayMilliseconds)));
 
         [Test]
-        public void LevelsAndNamesThatCannotBePlannedAreRefusedByName()
+        public void InvalidLevelsAndNamesAreRefusedByName()
         {
             Assert.That(() => StudyPlan.Latency(0, 1, Levels), Refusal("participant 0"));
             Assert.That(() => StudyPlan.Latency(1, 1, new double[0]), Refusal("levels_ms"));
-            Assert.That(() => StudyPlan.Latency(1, 1, new[] { 50.0, 70.5, 70.5 }), Refusal("70.5 ms is there twice"));
-            Assert.That(() => StudyPlan.Latency(1, 1, new[] { double.NaN }), Refusal("NaN ms is no delay"));
-            Assert.That(() => StudyPlan.Latency(1, 1, new[] { -20.0 }), Refusal("-20 ms is no delay"));
-            Assert.That(() => StudyPlan.Similarity(1, 1, new[] { "a,b" }, Methods), Refusal("\"a,b\" cannot stand"));
-            Assert.That(() => StudyPlan.Similarity(1, 1, Materials, new[] { "x", "x" }), Refusal("is there twice"));
+            Assert.That(() => StudyPlan.Latency(1, 1, new[] { 50.0, 70.5, 70.5 }), Refusal("70.5 ms occurs twice"));
+            Assert.That(() => StudyPlan.Latency(1, 1, new[] { double.NaN }), Refusal("NaN ms is not a delay"));
+            Assert.That(() => StudyPlan.Latency(1, 1, new[] { -20.0 }), Refusal("-20 ms is not a delay"));
+            Assert.That(() => StudyPlan.Similarity(1, 1, new[] { "a,b" }, Methods), Refusal("\"a,b\" is not valid"));
+            Assert.That(() => StudyPlan.Similarity(1, 1, Materials, new[] { "x", "x" }), Refusal("occurs twice"));
             Assert.That(() => StudyPlan.Similarity(1, 1, Materials, new[] { " " }), Refusal("methods"));
         }
 

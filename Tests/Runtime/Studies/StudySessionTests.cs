@@ -7,7 +7,7 @@ using NUnit.Framework;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>A session asks every trial once, in order, whatever interrupts it.</summary>
+    /// <summary>A session runs every trial once, in order, despite interruptions.</summary>
     public sealed class StudySessionTests
     {
         private const double Frame = 0.01;
@@ -36,7 +36,7 @@ namespace HaptoFlow.Tests
             }
         }
 
-        /// <summary>A task of two seconds, an answer after half a second.</summary>
+        /// <summary>A task of two seconds and an answer after half a second.</summary>
         private void AnswerOne()
         {
             session.Continue();
@@ -50,7 +50,7 @@ namespace HaptoFlow.Tests
             row.Split(',')[StudyKind.Latency.Columns.ToList().IndexOf(column)];
 
         [Test]
-        public void EveryTrialIsAskedOnceAndTheSessionIsFinishedInItsSidecar()
+        public void EveryTrialIsRunOnceAndTheSidecarMarksTheSessionFinished()
         {
             while (session.Phase != StudyPhase.Finished)
             {
@@ -65,7 +65,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void TimesCountFromTheQuestionAndFromTheBeginningWithoutPauses()
+        public void TimesAreMeasuredFromTheQuestionAndFromTheStartWithoutPauses()
         {
             PassFor(100.0);
             AnswerOne();
@@ -90,7 +90,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void AnAnswerTwiceAQuestionTwiceAndAnAnswerWithoutQuestionRecordNothing()
+        public void RepeatedAnswersAndAnswersWithoutAQuestionAreNotRecorded()
         {
             Assert.That(session.Answer(StudyFolder.Yes()), Is.False);
             session.Ask();
@@ -106,7 +106,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void APauseInTheMiddleBeginsTheTrialAgainAsAFurtherAttempt()
+        public void APauseDuringATrialRestartsItAsAFurtherAttempt()
         {
             session.Continue();
             PassFor(1.0);
@@ -116,17 +116,17 @@ namespace HaptoFlow.Tests
             PassFor(1.0);
             session.Ask();
             session.PauseHere();
-            Assert.That(session.Answer(StudyFolder.Yes()), Is.False, "the question is gone");
+            Assert.That(session.Answer(StudyFolder.Yes()), Is.False, "the question is closed");
             AnswerOne();
             Assert.That((Field(folder.Rows[0], "trial"), Field(folder.Rows[0], "attempt")), Is.EqualTo(("1", "3")));
             Assert.That(double.Parse(Field(folder.Rows[0], "elapsed_seconds")), Is.EqualTo(4.5).Within(0.011));
-            Assert.That(session.Attempt, Is.EqualTo(1), "the next trial begins for the first time");
+            Assert.That(session.Attempt, Is.EqualTo(1), "the next trial is at its first attempt");
         }
 
         [TestCase(-500.0)]
         [TestCase(3.0)]
         [TestCase(1e9)]
-        public void AClockThatJumpsInTheMiddlePausesAndTheTimeIsLeftOut(double seconds)
+        public void AClockJumpDuringATrialPausesTheSessionAndIsNotCounted(double seconds)
         {
             AnswerOne();
             PassFor(1.0);
@@ -140,7 +140,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void ACrashInTheMiddleOfATrialLosesNoneAndRepeatsNone()
+        public void ACrashDuringATrialNeitherLosesNorRepeatsAnswers()
         {
             AnswerOne();
             AnswerOne();
@@ -159,11 +159,11 @@ namespace HaptoFlow.Tests
                 Is.EqualTo(new[] { "1", "1", "2", "1", "1", "1", "1", "1" }));
             double[] elapsed = folder.Rows.Select(row => double.Parse(Field(row, "elapsed_seconds"))).ToArray();
             Assert.That(elapsed, Is.Ordered);
-            Assert.That(elapsed[2], Is.EqualTo(7.5).Within(0.03), "it goes on from the last row");
+            Assert.That(elapsed[2], Is.EqualTo(7.5).Within(0.03), "the time continues from the last row");
         }
 
         [Test]
-        public void ACrashBehindTheLastAnswerLeavesOnlyTheEndToBeWritten()
+        public void AfterACrashBehindTheLastAnswerOnlyTheEndIsWritten()
         {
             for (int trial = 0; trial < 7; ++trial)
             {
@@ -181,7 +181,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void AFullDiskPausesUntilItTakesTheRowAndTheNextTrialWaits()
+        public void AFullDiskPausesTheSessionUntilTheRowIsWritten()
         {
             session.Continue();
             session.Ask();
@@ -192,7 +192,7 @@ namespace HaptoFlow.Tests
             PassFor(5.0);
             Assert.That(session.Phase, Is.EqualTo(StudyPhase.Disk));
             Assert.That(session.Problem, Does.Contain("No space left on device"));
-            Assert.That(session.Trial!.Trial, Is.EqualTo(1), "the next trial waits");
+            Assert.That(session.Trial!.Trial, Is.EqualTo(1), "the next trial has not started");
             Assert.That(folder.Files.Attempts - attempts, Is.InRange(4, 6), "about once a second");
             folder.Files.Failure = null;
             PassFor(1.5);
@@ -202,7 +202,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void AClockThatGoesBackWhileTheDiskIsFullDoesNotPutOffTheNextAttempt()
+        public void AClockThatRunsBackwardsDoesNotDelayTheNextWriteAttempt()
         {
             session.Continue();
             session.Ask();
@@ -216,12 +216,12 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void WhoeverListensIsToldOfEveryChange()
+        public void ChangedIsRaisedAtEveryChange()
         {
-            string told = "";
-            session.Changed += changed => told += changed.Phase + " ";
+            string phases = "";
+            session.Changed += changed => phases += changed.Phase + " ";
             AnswerOne();
-            Assert.That(told, Is.EqualTo("Task Question Task "));
+            Assert.That(phases, Is.EqualTo("Task Question Task "));
         }
     }
 }

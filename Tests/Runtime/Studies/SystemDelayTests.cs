@@ -4,7 +4,7 @@ using NUnit.Framework;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>What a delay level needs beside what the system has.</summary>
+    /// <summary>The delay that must be added to the system's for a delay level.</summary>
     public sealed class SystemDelayTests
     {
         private static readonly SystemDelay System = new SystemDelay(13.9, 0.0, 10.7, 5.0);
@@ -18,7 +18,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void LevelsOutOfReachAreRefusedByNameWithThePartsOfTheSystemDelay()
+        public void UnreachableLevelsAreRefusedWithThePartsOfTheSystemDelay()
         {
             var slow = new SystemDelay(13.9, 0.0, 21.3, 25.0);
             Assert.That(() => slow.CheckReaches(new[] { 50.0, 60.0, 70.0, 570.0 }), Throws.TypeOf<StudyException>().With
@@ -32,12 +32,12 @@ namespace HaptoFlow.Tests
         [TestCase(double.NaN)]
         [TestCase(-1.0)]
         [TestCase(double.PositiveInfinity)]
-        public void APartThatIsNoTimeIsRefusedByName(double milliseconds) => Assert.That(
+        public void AnInvalidPartIsRefusedByName(double milliseconds) => Assert.That(
             () => new SystemDelay(1.0, 1.0, 1.0, milliseconds),
             Throws.TypeOf<StudyException>().With.Message.StartsWith("device_ms"));
 
         [Test]
-        public void AFrameThatWasLateDoesNotChangeThePoseInterval()
+        public void ALateFrameDoesNotChangeThePoseInterval()
         {
             var interval = new PoseInterval();
             for (int frame = 0; frame < 200; ++frame)

@@ -8,14 +8,14 @@ using UnityShim;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>What a stylus did during a trial, of a stroke whose length, time and force are known.</summary>
+    /// <summary>Statistics of a trial for a stroke of known length, time and force.</summary>
     public sealed class TrialContactTests : SceneTest
     {
         [Test]
-        public void PathTimeSpeedAndForceAreTheStrokes()
+        public void PathTimeSpeedAndForceAreMeasuredOverTheStroke()
         {
             Board();
-            // 0.15 m/s, 1 mm below the surface for a tip of 2 mm: the sphere cuts 3 mm deep.
+            // 0.15 m/s, 1 mm below the surface with a tip of 2 mm radius: the penetration depth is 3 mm.
             HapticStylus stylus = StylusAlong(seconds => new Vector3(-0.15f + 0.15f * (float)seconds, 0.001f, 0f));
             FinishLoading();
             World.Frames(10);
@@ -31,25 +31,25 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void SettingOffAndStoppingAreCountedAlsoWhereThePenLifts()
+        public void StartsAndStopsAreCountedAlsoWhenThePenLifts()
         {
             Board();
             HapticStylus stylus = StylusAlong(Stops);
             FinishLoading();
             using var contact = new TrialContact(stylus);
             World.Frames(45);
-            Assert.That((contact.Starts, contact.Stops), Is.EqualTo((1, 0)), "it slides");
+            Assert.That((contact.Starts, contact.Stops), Is.EqualTo((1, 0)), "the tip slides");
             World.Frames(45);
             Assert.That((contact.Starts, contact.Stops), Is.EqualTo((1, 1)), "it rests");
             World.Frames(45);
-            Assert.That((contact.Starts, contact.Stops), Is.EqualTo((2, 1)), "it slides again");
+            Assert.That((contact.Starts, contact.Stops), Is.EqualTo((2, 1)), "the tip slides again");
             World.Frames(45);
-            Assert.That((contact.Starts, contact.Stops), Is.EqualTo((2, 2)), "it has lifted");
+            Assert.That((contact.Starts, contact.Stops), Is.EqualTo((2, 2)), "the tip was lifted");
             Assert.That(contact.ContactSeconds, Is.EqualTo(1.5).Within(0.05));
         }
 
         [Test]
-        public void OfAStrokeOverTwoSurfacesOnlyTheChosenOneCounts()
+        public void OnlyTheChosenSurfaceOfAStrokeCounts()
         {
             HapticSurface left = Board();
             HapticSurface right = Board("fur");
@@ -84,7 +84,7 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void WhatIsDisposedCountsNoMore()
+        public void ADisposedContactStopsCounting()
         {
             Board();
             var contact = new TrialContact(Circling());

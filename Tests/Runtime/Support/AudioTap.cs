@@ -4,7 +4,7 @@ using UnityEngine;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>Listens to the filters above it on the same object.</summary>
+    /// <summary>Records the output of the filters above it on the same object.</summary>
     internal sealed class AudioTap : MonoBehaviour
     {
         private const int MostChannels = 8;
@@ -12,13 +12,13 @@ namespace HaptoFlow.Tests
         private volatile int blocks;
         private volatile int broken;
 
-        /// <summary>Blocks heard since the last <see cref="Restart"/>.</summary>
+        /// <summary>Blocks received since the last <see cref="Restart"/>.</summary>
         public int Blocks => blocks;
 
-        /// <summary>Samples that were not finite or beyond +-1.</summary>
+        /// <summary>Samples that are not finite or beyond +-1.</summary>
         public int BrokenSamples => broken;
 
-        /// <summary>Largest magnitude since the last <see cref="Restart"/>.</summary>
+        /// <summary>Peak magnitude since the last <see cref="Restart"/>.</summary>
         public float Peak(int channel = 0) => peaks[channel];
 
         public void Restart()

@@ -3,7 +3,7 @@ using UnityEngine;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>The model that the package brings.</summary>
+    /// <summary>The model of the package.</summary>
     internal static class DefaultModel
     {
 #if HAPTOFLOW_OUTSIDE_UNITY

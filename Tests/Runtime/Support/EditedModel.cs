@@ -6,12 +6,12 @@ using HaptoFlow.Model;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>The package's model with another header of the same length, under checksums that fit.</summary>
+    /// <summary>The package's model with a modified header of the same length and valid checksums.</summary>
     internal static class EditedModel
     {
         private const int HeaderStart = 32;
 
-        /// <summary>Every label sounds like another one.</summary>
+        /// <summary>A model in which every label has another label's sound.</summary>
         public static HapticModelAsset WithLabelsReversed() => With(header =>
         {
             string[] parts = header.Split("\"embedding_row\":");
@@ -24,10 +24,10 @@ namespace HaptoFlow.Tests
             return string.Join("\"embedding_row\":", parts).Replace("\":  ", "\": ");
         });
 
-        /// <summary>Its embeddings mean something else: what was learnt for the package's model is refused.</summary>
+        /// <summary>A model of another space: materials learnt for the package's model are refused.</summary>
         public static HapticModelAsset OfAnotherSpace() => With(header => header.Replace("\"draft\"", "\"rough\""));
 
-        /// <summary>Its parts do not match their checksums.</summary>
+        /// <summary>A model whose parts do not match their checksums.</summary>
         public static HapticModelAsset Damaged()
         {
             byte[] file = (byte[])DefaultModel.Asset().File.Clone();

@@ -3,8 +3,8 @@ using UnityEngine;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>Takes the worker's place, one round after every frame, so that a test hears the same on every machine.
-    /// </summary>
+    /// <summary>Steps the engine once after every frame in place of the worker, so that results do not depend on the
+    /// machine.</summary>
     [DefaultExecutionOrder(2000)]
     internal sealed class EngineStepper : MonoBehaviour
     {

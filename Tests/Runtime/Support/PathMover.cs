@@ -4,7 +4,7 @@ using UnityEngine;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>Carries an object along a path from seconds since its first frame to a place.</summary>
+    /// <summary>Moves an object along a path, given as a function of the seconds since its first frame.</summary>
     internal sealed class PathMover : MonoBehaviour
     {
         private double beganSeconds = double.NaN;

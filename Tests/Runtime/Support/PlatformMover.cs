@@ -4,7 +4,7 @@ using UnityEngine;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>Moves a kinematic body as games move platforms: at physics steps.</summary>
+    /// <summary>Moves a kinematic body at physics steps, as games move platforms.</summary>
     internal sealed class PlatformMover : MonoBehaviour
     {
         private Rigidbody body = null!;

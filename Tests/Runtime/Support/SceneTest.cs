@@ -7,13 +7,13 @@ using Object = UnityEngine.Object;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>A scene with listener, tagged objects and styluses, gone after each test. Its engine has no worker: it
-    /// is stepped once a frame.</summary>
+    /// <summary>A scene with listener, tagged objects and styluses, destroyed after each test. Its engine has no worker
+    /// and is stepped once a frame.</summary>
     public abstract class SceneTest
     {
         private readonly List<Object> made = new List<Object>();
 
-        /// <summary>Turns the engine's crank; to be destroyed by tests whose engine has a worker.</summary>
+        /// <summary>Steps the engine; tests whose engine has a worker destroy it.</summary>
         internal EngineStepper Stepper { get; private set; } = null!;
 
         [SetUp]
@@ -76,11 +76,11 @@ namespace HaptoFlow.Tests
             box.center = new Vector3(0f, -0.01f, 0f);
         });
 
-        /// <summary>Draws a circle of 5 cm on the board, 1 mm deep, at 0.2 m/s.</summary>
+        /// <summary>A circle of 5 cm radius on the board, 1 mm deep, at 0.2 m/s.</summary>
         internal HapticStylus Circling() => StylusAlong(seconds => new Vector3(
             0.05f * (float)Math.Cos(4.0 * seconds), 0.001f, 0.05f * (float)Math.Sin(4.0 * seconds)));
 
-        /// <summary>A stylus with a tip of 2 mm that follows a path.</summary>
+        /// <summary>A stylus with a tip of 2 mm radius that follows a path.</summary>
         internal HapticStylus StylusAlong(Func<double, Vector3> path)
         {
             GameObject owner = Make("Stylus");
@@ -89,7 +89,7 @@ namespace HaptoFlow.Tests
             return owner.AddComponent<HapticStylus>();
         }
 
-        /// <summary>An output on an object of its own, with a tap that hears it.</summary>
+        /// <summary>An output on an object of its own, with a tap that records it.</summary>
         internal AudioTap Output(out HapticOutput output)
         {
             GameObject owner = Make("Output");
@@ -97,7 +97,7 @@ namespace HaptoFlow.Tests
             return owner.AddComponent<AudioTap>();
         }
 
-        /// <summary>Outside Unity; inside, frames come as they come.</summary>
+        /// <summary>Sets the frame rate outside Unity; Unity runs at its own.</summary>
         internal static void SetFrameRate(double hertz)
         {
 #if HAPTOFLOW_OUTSIDE_UNITY

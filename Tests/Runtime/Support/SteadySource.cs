@@ -3,7 +3,7 @@ using UnityEngine;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>What other sources would play, on every channel.</summary>
+    /// <summary>A constant signal on every channel, in place of other sources.</summary>
     internal sealed class SteadySource : MonoBehaviour
     {
         private void OnAudioFilterRead(float[] data, int channels)

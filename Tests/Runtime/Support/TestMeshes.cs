@@ -6,7 +6,7 @@ namespace HaptoFlow.Tests
 {
     internal static class TestMeshes
     {
-        /// <summary>A closed box around the origin, fronts outward.</summary>
+        /// <summary>A closed box around the origin with outward front faces.</summary>
         public static Mesh Box(float size)
         {
             float half = 0.5f * size;
@@ -24,7 +24,7 @@ namespace HaptoFlow.Tests
                 });
         }
 
-        /// <summary>A gutter along z, open upwards: its floor at y = 0 is 2 cm wide, its walls are 2 cm high.</summary>
+        /// <summary>A gutter along z, open upwards: a floor of 2 cm at y = 0 and walls of 2 cm.</summary>
         public static Mesh Gutter()
         {
             var vertices = new List<Vector3>();

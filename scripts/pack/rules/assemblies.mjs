@@ -12,6 +12,12 @@ const optionalAssemblies = {
   'Oculus.VR': 'com.meta.xr.sdk.core',
 };
 
+/** Precompiled libraries that an assembly may reference, and the package that brings each; null for Unity's test framework. */
+const precompiledLibraries = {
+  'Newtonsoft.Json.dll': 'com.unity.nuget.newtonsoft-json',
+  'nunit.framework.dll': null,
+};
+
 /** The assembly definitions of a package: {file, folder, definition}. Files that are not JSON are reported by another rule. */
 export function assembliesOf(files) {
   return files.endingIn('.asmdef').flatMap((file) => {
@@ -56,6 +62,21 @@ export function checkReferences(files) {
       const wanted = reference.startsWith('GUID:') ? byGuid.get(reference.slice('GUID:'.length)) : byName.get(reference);
       const why = wanted ? whyNotTo(assembly, wanted) : whyNotOutside(assembly, reference, dependencies);
       return why ? [`${assembly.file}: reference "${reference}": ${why}`] : [];
+    }),
+  );
+}
+
+/** Precompiled libraries come from a dependency of the package, and Unity reads their list only where "overrideReferences" is set. */
+export function checkPrecompiled(files) {
+  const dependencies = Object.keys(readDependencies(files));
+  return assembliesOf(files).flatMap(({ file, definition }) =>
+    (definition.precompiledReferences ?? []).flatMap((library) => {
+      const complain = (why) => [`${file}: precompiled reference "${library}": ${why}`];
+      if (definition.overrideReferences !== true) return complain('expected "overrideReferences": true');
+      if (!(library in precompiledLibraries)) return complain('no package is known that brings it');
+      const needed = precompiledLibraries[library];
+      if (needed === null) return isTest({ definition }) ? [] : complain(`expected "${testConstraint}" among "defineConstraints"`);
+      return dependencies.includes(needed) ? [] : complain(`expected ${needed} among the dependencies in package.json`);
     }),
   );
 }

@@ -10,7 +10,7 @@ namespace HaptoFlow.Editor
     internal static class SceneColliders
     {
         /// <summary>Whether the collider is of a kind that a tip can feel.</summary>
-        public static bool CanBeFelt(Collider collider) => !collider.isTrigger && ColliderProbe.IsFeltKind(collider);
+        public static bool CanBeFelt(Collider collider) => !collider.isTrigger && ColliderProbe.IsSupportedKind(collider);
 
         /// <summary>The surface that a collider belongs to; null for an untagged collider.</summary>
         public static HapticSurface? SurfaceOf(Collider collider)

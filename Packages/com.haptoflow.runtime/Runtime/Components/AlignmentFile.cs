@@ -7,13 +7,14 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>Where an alignment is kept between sessions: a file of its own in the player's persistent folder. Main
+    /// <summary>The file in the player's persistent folder that keeps an alignment between sessions. Main
     /// thread.</summary>
     internal readonly struct AlignmentFile
     {
         private readonly string path;
 
-        /// <param name="name">Of the alignment; what no file name may hold becomes an underscore.</param>
+        /// <param name="name">Name of the alignment. Characters other than letters, digits and hyphens become
+        /// underscores.</param>
         public AlignmentFile(string name)
         {
             char[] letters = name.ToCharArray();
@@ -43,8 +44,8 @@ namespace HaptoFlow
             }
             catch (Exception error) when (error is IOException || error is UnauthorizedAccessException)
             {
-                Debug.LogWarning($"HaptoFlow: {path}: {error.Message}; the alignment holds until the application " +
-                    "ends, make the folder writable to keep it.", context);
+                Debug.LogWarning($"HaptoFlow: {path}: {error.Message}; the alignment is lost when the " +
+                    "application ends; make the folder writable to keep it.", context);
             }
         }
 

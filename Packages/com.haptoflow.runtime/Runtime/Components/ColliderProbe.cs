@@ -6,18 +6,19 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>What a probe needs to know of the tip.</summary>
+    /// <summary>State of the tip that a search for the closest point needs.</summary>
     internal readonly struct ProbeQuestion
     {
         public readonly Double3 TipMetres;
 
-        /// <summary>Surfaces farther away play no part.</summary>
+        /// <summary>Surfaces farther away are ignored.</summary>
         public readonly double ReachMetres;
 
-        /// <summary>Of the last frame's contact with this collider, in its local frame.</summary>
+        /// <summary>Normal of the last frame's contact with this collider, in the collider's local frame; null without
+        /// one.</summary>
         public readonly Double3? PreviousLocalNormal;
 
-        /// <summary>Where the tip was a frame ago.</summary>
+        /// <summary>Position of the tip in the last frame.</summary>
         public readonly Double3 PreviousTipMetres;
 
         public readonly double FaceMarginMetres;
@@ -33,30 +34,29 @@ namespace HaptoFlow
         }
     }
 
-    /// <summary>The place on a collider nearest to the tip, where the collider is drawn: the physics engine may still
-    /// have it where it was a step ago. Main thread, no garbage.</summary>
+    /// <summary>Finds the point of a collider that is closest to the tip, at the pose where the collider is drawn; the
+    /// physics engine may still hold the pose of the last physics step. Main thread, no garbage.</summary>
     internal static class ColliderProbe
     {
-        /// <summary>A kind of collider that a tip can feel.</summary>
-        public static bool IsFeltKind(Collider collider) =>
+        /// <summary>True for the kinds of collider that a tip can touch.</summary>
+        public static bool IsSupportedKind(Collider collider) =>
             collider is BoxCollider || collider is SphereCollider || collider is CapsuleCollider ||
             collider is CharacterController || collider is MeshCollider || collider is TerrainCollider;
 
-        /// <summary>Where the collider's local frame is. Character controllers and terrains stand upright whatever
-        /// their
-        /// transform says.</summary>
+        /// <summary>Pose of the collider's local frame. Character controllers and terrains stay upright whatever the
+        /// rotation of their transform.</summary>
         public static RigidPose PoseOf(Collider collider) =>
             collider is CharacterController || collider is TerrainCollider
             ? Conversions.PoseOf(collider.transform.position, Quaternion.identity)
             : Conversions.PoseOf(collider.transform);
 
-        /// <summary>False where nothing is near enough, or the collider is of a kind that cannot be felt.</summary>
+        /// <summary>False where no point is within reach, or the kind of collider is not supported.</summary>
         public static bool TryClosest(
             Collider collider, in RigidPose pose, in ProbeQuestion question, out SurfacePoint found) =>
             TryClosest(collider, pose, question, out found, out _);
 
-        /// <summary>False where nothing is near enough, or the collider is of a kind that cannot be felt.</summary>
-        /// <param name="hit">Of the ray that found the place; null where no ray did.</param>
+        /// <summary>False where no point is within reach, or the kind of collider is not supported.</summary>
+        /// <param name="hit">The ray hit that found the point; null where no ray was needed.</param>
         public static bool TryClosest(Collider collider, in RigidPose pose, in ProbeQuestion question,
             out SurfacePoint found, out RaycastHit? hit)
         {
@@ -115,7 +115,7 @@ namespace HaptoFlow
             double radius = capsule.radius * size.With(axis, 0.0).Largest;
             Double3 centre = Centre(capsule.center, scale);
             Double3? previous = question.PreviousLocalNormal;
-            // The formula's capsule lies along y: swapping two coordinates takes it there and back.
+            // Shapes.OnCapsule expects the axis along y: swap that coordinate before and after.
             SurfacePoint upright = Shapes.OnCapsule(radius, capsule.height * size[axis], Swapped(tip - centre, axis),
                 previous.HasValue ? Swapped(previous.Value, axis) : (Double3?)null);
             return new SurfacePoint(Swapped(upright.PointMetres, axis) + centre, Swapped(upright.Normal, axis),

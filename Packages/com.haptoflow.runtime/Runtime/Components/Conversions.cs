@@ -4,6 +4,7 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
+    /// <summary>Conversions between Unity's single precision and the contact model's double precision.</summary>
     internal static class Conversions
     {
         public static Double3 ToDouble(this Vector3 vector) => new Double3(vector.x, vector.y, vector.z);

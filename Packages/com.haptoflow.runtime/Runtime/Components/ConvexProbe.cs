@@ -5,14 +5,15 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>The nearest place on a convex mesh for a tip outside of it: the physics engine knows it exactly, where
-    /// the mesh is drawn.</summary>
+    /// <summary>The closest point of a convex mesh to a tip outside of it, at the pose where the mesh is drawn. The
+    /// physics engine computes it exactly.</summary>
     internal static class ConvexProbe
     {
-        // Nearer, the direction to the nearest place is mostly rounding: rays give the face's own normal.
-        private const double LeastDistanceMetres = 1e-4;
+        // At smaller distances rounding dominates the direction to the closest point; rays then give the face's own
+        // normal.
+        private const double MinimumDistanceMetres = 1e-4;
 
-        /// <summary>False for a tip inside the mesh or on it.</summary>
+        /// <summary>False for a tip inside the mesh or on its surface.</summary>
         public static bool TryOutside(
             MeshCollider mesh, in RigidPose pose, in ProbeQuestion question, out SurfacePoint found)
         {
@@ -22,7 +23,7 @@ namespace HaptoFlow
             Double3 point = pose.PointToLocal(nearest.ToDouble());
             double distance = Double3.Distance(tip, point);
             found = new SurfacePoint(point, Vectors.UnitOr(tip - point, Double3.Up), distance);
-            return distance > LeastDistanceMetres;
+            return distance > MinimumDistanceMetres;
         }
     }
 }

@@ -6,15 +6,15 @@ using System.Threading;
 
 namespace HaptoFlow
 {
-    /// <summary>Plays a made-up stroke on an engine at the pace of an audio device, into nothing, and reads by how much
-    /// its segments lead.</summary>
+    /// <summary>Measures the lead of an engine's segments: feeds it a synthetic stroke in real time, in blocks of the
+    /// audio device's size, and discards the samples.</summary>
     internal sealed class DelayProbe
     {
-        // More than the segments whose distances the engine remembers.
+        // More segments than the engine's statistics of inference times cover.
         private const int Segments = 160;
-        private const double MostSeconds = 10.0;
+        private const double MaximumSeconds = 10.0;
 
-        // The engine guesses before it has seen some.
+        // Leads before this many segments are the engine's initial estimate, not measurements.
         private const int GuessedSegments = 16;
         private const float SpeedMps = 0.1f;
         private const float ForceNewtons = 0.5f;
@@ -31,13 +31,13 @@ namespace HaptoFlow
             this.engine = engine;
             this.sampleRateHz = sampleRateHz;
             this.blockFrames = Math.Max(1, blockFrames);
-            this.updateRateHz = updateRateHz > 0.0 ? updateRateHz : 72.0;
+            this.updateRateHz = updateRateHz > 0.0 ? updateRateHz : HapticEngineOptions.DefaultUpdateRateHz;
             this.hasWorker = hasWorker;
         }
 
-        /// <summary>Takes a few seconds. A thread of its own.</summary>
-        /// <exception cref="HaptoFlowException">The engine gives no voice.</exception>
-        /// <exception cref="OperationCanceledException">It was cancelled.</exception>
+        /// <summary>Blocks for up to ten seconds: call it from a thread of its own.</summary>
+        /// <exception cref="HaptoFlowException">No voice is free.</exception>
+        /// <exception cref="OperationCanceledException"><paramref name="cancelled"/> was cancelled.</exception>
         public HapticModelDelay Measure(CancellationToken cancelled)
         {
             using HapticVoice voice = engine.OpenVoice(sampleRateHz);
@@ -47,7 +47,7 @@ namespace HaptoFlow
             double publishSeconds = 0.0;
             double renderSeconds = 0.0;
             VoiceStatistics statistics = default;
-            while (statistics.Inferences < Segments && clock.Elapsed.TotalSeconds < MostSeconds)
+            while (statistics.Inferences < Segments && clock.Elapsed.TotalSeconds < MaximumSeconds)
             {
                 cancelled.ThrowIfCancellationRequested();
                 double now = clock.Elapsed.TotalSeconds;
@@ -70,14 +70,14 @@ namespace HaptoFlow
                     renderSeconds += blockFrames / (double)sampleRateHz;
                     voice.Render(block, 1, 0, sampleRateHz);
                 }
-                // A sleep may take 15 ms, longer than a block.
+                // Thread.Sleep may take 15 ms, longer than a block.
                 Thread.Yield();
             }
-            // A stall of this machine lengthens the lead for a while; half of the time it was no longer than this.
+            // The median: a stall of this machine lengthens the lead of some segments.
             leads.Sort();
             uint lead = leads.Count > 0 ? leads[leads.Count / 2] : statistics.LeadSamples;
             double leadMilliseconds = 0.5 * lead;
-            // The voice closes with a block; somebody has to render it.
+            // A voice closes only after a further block was rendered.
             voice.SetMuted(true);
             voice.Render(block, 1, 0, sampleRateHz);
             return new HapticModelDelay(leadMilliseconds, engine.Times((int)engine.Statistics().Tier));

@@ -7,14 +7,14 @@ using UnityEngine.XR;
 
 namespace HaptoFlow
 {
-    /// <summary>How often a second the display shows a frame. Main thread; makes garbage.</summary>
+    /// <summary>The refresh rate of the display, in Hz. Main thread; makes garbage.</summary>
     internal static class DisplayRate
     {
         private const double LowestHz = 1.0;
         private const double HighestHz = 1000.0;
 
-        /// <summary>Of the headset where one runs, else of the screen.</summary>
-        /// <returns>False where neither says: then <paramref name="hertz"/> is 0.</returns>
+        /// <summary>The rate of the running headset, else of the screen.</summary>
+        /// <returns>False where neither reports a rate; <paramref name="hertz"/> is then 0.</returns>
         public static bool TryGet(out double hertz) => TryGetHeadset(out hertz) || TryGetScreen(out hertz);
 
         private static bool TryGetHeadset(out double hertz)

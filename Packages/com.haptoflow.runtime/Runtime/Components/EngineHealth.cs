@@ -2,36 +2,37 @@
 
 namespace HaptoFlow
 {
-    /// <summary>Looks once a second whether an engine still generates. Main thread; no garbage while it does.</summary>
+    /// <summary>Checks once a second that an engine's worker thread is alive. Main thread; no garbage while it
+    /// is.</summary>
     internal sealed class EngineHealth
     {
         private const double PeriodSeconds = 1.0;
 
         private double nextSeconds = double.NegativeInfinity;
-        private bool told;
+        private bool reported;
 
-        /// <summary>What to tell of a worker that has ended, once; null otherwise.</summary>
-        public string? Examine(double nowSeconds, HapticEngine engine)
+        /// <summary>The message for a worker that has ended, returned once; null otherwise.</summary>
+        public string? Check(double nowSeconds, HapticEngine engine)
         {
-            if (told || nowSeconds < nextSeconds)
+            if (reported || nowSeconds < nextSeconds)
             {
                 return null;
             }
             nextSeconds = nowSeconds + PeriodSeconds;
             EngineStatistics statistics = engine.Statistics();
-            return Judge(statistics, statistics.WorkerIsAlive ? "" : engine.LastFailure());
+            return MessageFor(statistics, statistics.WorkerIsAlive ? "" : engine.LastFailure());
         }
 
-        /// <summary>What there is to tell of such statistics, once; null for nothing.</summary>
-        internal string? Judge(in EngineStatistics statistics, string lastFailure)
+        /// <summary>The message for statistics of a worker that has ended, returned once; null otherwise.</summary>
+        internal string? MessageFor(in EngineStatistics statistics, string lastFailure)
         {
-            if (told || statistics.WorkerIsAlive)
+            if (reported || statistics.WorkerIsAlive)
             {
                 return null;
             }
-            told = true;
+            reported = true;
             string cause = lastFailure.Length > 0 ? $" ({lastFailure})" : "";
-            return $"the thread that generates has ended{cause}; Haptics.Restart starts it anew";
+            return $"the engine's worker thread has ended{cause}; call Haptics.Restart";
         }
     }
 }

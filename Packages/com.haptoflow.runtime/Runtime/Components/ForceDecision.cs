@@ -5,85 +5,88 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>What decides that a stylus touches.</summary>
+    /// <summary>What decides whether a stylus touches.</summary>
     public enum TouchDecision
     {
-        /// <summary>The tip sphere cuts into a tagged surface: for objects that are only virtual.</summary>
+        /// <summary>The tip sphere cuts into a tagged surface. For objects that exist only virtually.</summary>
         Geometry,
 
-        /// <summary>The force that the stylus measures on its tip, near a tagged surface: for a real object under the
-        /// virtual one, where tracking and alignment are some millimetres off. While no force is measured, geometry
-        /// decides.</summary>
+        /// <summary>The force that the stylus measures on its tip, near a tagged surface. For a real object below the
+        /// virtual one, where tracking and alignment are wrong by some millimetres. While no force is measured,
+        /// geometry decides.</summary>
         MeasuredForce,
     }
 
-    /// <summary>When a measured force is a touch. Main thread.</summary>
+    /// <summary>Thresholds that turn a measured force into touch-down and lift-off. Main thread.</summary>
     [Serializable]
     public sealed class ForceDecision
     {
-        private const float LeastNewtons = 0.001f;
-        private const float LeastMetres = 0.001f;
+        private const float MinimumNewtons = 0.001f;
+        private const float MinimumMetres = 0.001f;
 
-        // Colliders farther away are not asked for.
-        private const float MostMetres = 0.04f;
-        private const float MostOfPress = 0.9f;
+        // Physics queries do not look for colliders farther away than this.
+        private const float MaximumMetres = 0.04f;
+        private const float MaximumReleaseShare = 0.9f;
 
-        [SerializeField, Min(LeastNewtons), Tooltip("A touch begins at this force, in newtons.")]
+        [SerializeField, Min(MinimumNewtons), Tooltip("A touch begins when the measured force reaches this value, " +
+            "in newtons.")]
         private float pressNewtons = (float)ForceTouchSettings.DefaultPressNewtons;
 
-        [SerializeField, Min(0f), Tooltip("A touch ends at this force, in newtons: below the press force by more " +
-            "than the sensor's noise.")]
+        [SerializeField, Min(0f), Tooltip("A touch ends when the measured force falls to this value, in newtons. " +
+            "Keep it below the press force by more than the sensor's noise.")]
         private float releaseNewtons = (float)ForceTouchSettings.DefaultReleaseNewtons;
 
-        [SerializeField, Range(LeastMetres, MostMetres), Tooltip("How far from a tagged surface, on either side, the " +
-            "pressing tip may be, in metres: more than tracking and alignment are off.")]
+        [SerializeField, Range(MinimumMetres, MaximumMetres), Tooltip("A pressing tip touches a tagged surface " +
+            "within this distance on either side, in metres. Choose it larger than the error of tracking and " +
+            "alignment.")]
         private float nearMetres = (float)ForceTouchSettings.DefaultNearMetres;
 
-        private ForceTouch? touch;
+        private ForceTouch? detector;
 
         /// <summary>A touch begins at this force, in newtons; 0.001 or more.</summary>
         public float PressNewtons
         {
             get => pressNewtons;
-            set => Change(ref pressNewtons, Mathf.Max(LeastNewtons, value));
+            set => Change(ref pressNewtons, Mathf.Max(MinimumNewtons, value));
         }
 
-        /// <summary>A touch ends at this force, in newtons; at most nine tenths of the press force count.</summary>
+        /// <summary>A touch ends at this force, in newtons. Values above nine tenths of the press force are treated as
+        /// nine tenths of it.</summary>
         public float ReleaseNewtons
         {
             get => releaseNewtons;
             set => Change(ref releaseNewtons, Mathf.Max(0f, value));
         }
 
-        /// <summary>How far from a tagged surface the pressing tip may be, in metres, 0.001 to 0.04.</summary>
+        /// <summary>Largest distance between the pressing tip and a tagged surface, in metres, 0.001 to 0.04.</summary>
         public float NearMetres
         {
             get => nearMetres;
-            set => Change(ref nearMetres, Mathf.Clamp(value, LeastMetres, MostMetres));
+            set => Change(ref nearMetres, Mathf.Clamp(value, MinimumMetres, MaximumMetres));
         }
 
-        /// <summary>The decision with these thresholds; the same object until a threshold changes.</summary>
-        internal ForceTouch Touch() => touch ??= NewTouch();
+        /// <summary>The detector with these thresholds; the same object until a threshold changes.</summary>
+        internal ForceTouch Detector() => detector ??= NewDetector();
 
-        /// <summary>A further decision with the same thresholds.</summary>
-        internal ForceTouch NewTouch()
+        /// <summary>A further detector with the same thresholds.</summary>
+        internal ForceTouch NewDetector()
         {
-            float press = Mathf.Max(LeastNewtons, pressNewtons);
+            float press = Mathf.Max(MinimumNewtons, pressNewtons);
             return new ForceTouch(new ForceTouchSettings
             {
                 PressNewtons = press,
-                ReleaseNewtons = Mathf.Clamp(releaseNewtons, 0f, MostOfPress * press),
-                NearMetres = Mathf.Clamp(nearMetres, LeastMetres, MostMetres),
+                ReleaseNewtons = Mathf.Clamp(releaseNewtons, 0f, MaximumReleaseShare * press),
+                NearMetres = Mathf.Clamp(nearMetres, MinimumMetres, MaximumMetres),
             });
         }
 
-        /// <summary>The Inspector wrote into the fields.</summary>
-        internal void Forget() => touch = null;
+        /// <summary>Drops the detector after the Inspector has written into the fields.</summary>
+        internal void ResetDetector() => detector = null;
 
         private void Change(ref float field, float value)
         {
             field = value;
-            touch = null;
+            detector = null;
         }
     }
 }

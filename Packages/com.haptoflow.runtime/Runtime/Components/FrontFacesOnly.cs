@@ -4,9 +4,9 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>While it lives, rays hit the fronts of meshes only: with Physics.queriesHitBackfaces, a hit back turns
-    /// its normal around and feels like a front. The project's setting is put back at the end. Main thread, no garbage.
-    /// </summary>
+    /// <summary>Makes rays hit only the front faces of meshes while it exists. With Physics.queriesHitBackfaces a hit
+    /// on a back face has an inverted normal and would count as a front. Dispose restores the project's setting. Main
+    /// thread, no garbage.</summary>
     internal readonly struct FrontFacesOnly : IDisposable
     {
         private readonly bool hitBackFaces;

@@ -1,6 +1,7 @@
 #nullable enable
 using System;
 using System.Collections.Generic;
+using System.Globalization;
 using HaptoFlow.Alignment;
 using HaptoFlow.Contact;
 using HaptoFlow.Numerics;
@@ -8,11 +9,11 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>Puts this object onto a real one: the pen touches three marked points of the real object, and this one
-    /// moves there.</summary>
-    /// <remarks>A pen that measures its tip force takes each point by resting on it; for others,
-    /// <see cref="TakePoint"/> is called where the tip is. The pose is kept under <see cref="SaveName"/> and relative
-    /// to the parent: it holds as long as the tracking space stays where it was.</remarks>
+    /// <summary>Moves this object onto a real one after the pen has touched three marked points of the real
+    /// object.</summary>
+    /// <remarks>With a pen that measures its tip force, resting on a mark takes the point; with other pens, call <see
+    /// cref="TakePoint"/> while the tip is on the mark. The pose is saved under <see cref="SaveName"/>, relative to the
+    /// parent: it stays valid as long as the tracking space does.</remarks>
     [AddComponentMenu("HaptoFlow/Haptic Alignment")]
     [HelpURL(HelpPages.Components + "haptic-alignment")]
     [DefaultExecutionOrder(1100)]
@@ -24,26 +25,29 @@ namespace HaptoFlow
         [SerializeField, Tooltip("The pen that touches the real object.")]
         private HapticStylus? stylus;
 
-        [SerializeField, Tooltip("Three points of this object that can be found on the real one, in local space and " +
-            "in the order in which they are touched. Different distances between them tell a wrong order.")]
+        [SerializeField, Tooltip("Three points of this object that can be found on the real one, in local space, in " +
+            "the order in which the pen touches them. Unequal distances let the alignment detect a wrong order.")]
         private Vector3[] marks =
         {
             new Vector3(-0.1f, 0f, -0.075f), new Vector3(0.1f, 0f, -0.075f), new Vector3(-0.1f, 0f, 0.075f),
         };
 
-        [SerializeField, Tooltip("Out of the object at the marks, in local space: the side that the pen touches.")]
+        [SerializeField, Tooltip("The direction out of the object at the marks, in local space: the side that the " +
+            "pen touches.")]
         private Vector3 outward = new Vector3(0f, 1f, 0f);
 
-        [SerializeField, Tooltip("The pose is kept between sessions under this name; empty to keep nothing.")]
+        [SerializeField, Tooltip("The name under which the pose is saved between sessions. Leave it empty to save " +
+            "nothing.")]
         private string saveName = "";
 
         private readonly List<Double3> touched = new List<Double3>(PointCount);
-        private readonly TouchedPoint rest = new TouchedPoint();
-        private ForceTouch? force;
+        private readonly TouchedPoint restingPoint = new TouchedPoint();
+        private ForceTouch? pressDetector;
         private RigidPose? poseBefore;
         private bool wasAligned;
 
-        /// <summary>Something of what this component shows changed. Main thread.</summary>
+        /// <summary>Raised when <see cref="Message"/> or another property of this component changed. Main
+        /// thread.</summary>
         public event Action<HapticAlignment>? Changed;
 
         /// <summary>The pen that touches the real object.</summary>
@@ -56,39 +60,40 @@ namespace HaptoFlow
         /// <summary>Three points in local space, in the order in which they are touched.</summary>
         public IReadOnlyList<Vector3> Marks => marks;
 
-        /// <summary>Out of the object at the marks, in local space.</summary>
+        /// <summary>Direction out of the object at the marks, in local space.</summary>
         public Vector3 Outward
         {
             get => outward;
             set => outward = value;
         }
 
-        /// <summary>The pose is kept under this name and restored when the component starts; empty for neither.
-        /// </summary>
+        /// <summary>Name under which the pose is saved; it is restored when the component starts. Empty to save
+        /// nothing.</summary>
         public string SaveName
         {
             get => saveName;
             set => saveName = value ?? "";
         }
 
-        /// <summary>Points are being taken.</summary>
+        /// <summary>True between <see cref="Begin"/> and the third point.</summary>
         public bool IsTaking { get; private set; }
 
-        /// <summary>The object is where three touches put it, in this session or in the one that kept its pose.
-        /// </summary>
+        /// <summary>True after three points aligned the object, in this session or in the one that saved the
+        /// pose.</summary>
         public bool IsAligned { get; private set; }
 
-        /// <summary>0 to 3.</summary>
+        /// <summary>Points taken so far, 0 to 3.</summary>
         public int PointsTaken => touched.Count;
 
-        /// <summary>The last alignment's largest distance between a mark and where it was touched, in metres.</summary>
+        /// <summary>The largest distance between a mark and the place where it was touched, in metres, of the last
+        /// alignment.</summary>
         public float ErrorMetres { get; private set; }
 
-        /// <summary>What to do next, or what came of it: one line for the user.</summary>
+        /// <summary>One line for the user: what to do next, or the result.</summary>
         public string Message { get; private set; } = "";
 
-        /// <summary>Chooses the points to touch.</summary>
-        /// <exception cref="ArgumentException">They give no pose; the message says why.</exception>
+        /// <summary>Sets the points to touch.</summary>
+        /// <exception cref="ArgumentException">The points do not determine a pose; the message says why.</exception>
         public void SetMarks(Vector3 first, Vector3 second, Vector3 third)
         {
             var chosen = new[] { first, second, third };
@@ -100,17 +105,17 @@ namespace HaptoFlow
             marks = chosen;
         }
 
-        /// <summary>Starts taking points, from the first.</summary>
+        /// <summary>Starts taking points, beginning with the first.</summary>
         public void Begin()
         {
             touched.Clear();
-            rest.AwaitLift();
-            force = stylus != null ? stylus.ForceDecision.NewTouch() : null;
+            restingPoint.AwaitLift();
+            pressDetector = stylus != null ? stylus.ForceDecision.NewDetector() : null;
             IsTaking = true;
-            Tell(WhatNext());
+            ShowMessage(NextInstruction());
         }
 
-        /// <summary>Takes the place where the tip is now as the next point.</summary>
+        /// <summary>Takes the present position of the tip as the next point.</summary>
         /// <exception cref="InvalidOperationException">No points are being taken, or there is no stylus.</exception>
         public void TakePoint()
         {
@@ -118,19 +123,19 @@ namespace HaptoFlow
             {
                 throw new InvalidOperationException("HaptoFlow: " + (IsTaking
                     ? "the alignment has no stylus"
-                    : "a point is taken after Begin"));
+                    : "call Begin before TakePoint"));
             }
             Take(stylus.TipPosition.ToDouble());
         }
 
-        /// <summary>While points are taken: forgets the last one, or stops where there is none. Afterwards: puts the
-        /// object back where it was before the last alignment.</summary>
+        /// <summary>While points are being taken: discards the last one, or cancels where there is none. Afterwards:
+        /// restores the pose before the last alignment.</summary>
         public void Undo()
         {
             if (IsTaking && touched.Count > 0)
             {
                 touched.RemoveAt(touched.Count - 1);
-                Tell(WhatNext());
+                ShowMessage(NextInstruction());
             }
             else if (IsTaking)
             {
@@ -141,8 +146,8 @@ namespace HaptoFlow
                 MoveTo(poseBefore.Value);
                 poseBefore = null;
                 IsAligned = wasAligned;
-                KeepOrForget();
-                Tell("The object is back where it was.");
+                SaveOrDelete();
+                ShowMessage("The object is back where it was.");
             }
         }
 
@@ -153,11 +158,11 @@ namespace HaptoFlow
             {
                 IsTaking = false;
                 touched.Clear();
-                Tell("The object stays where it was.");
+                ShowMessage("The object stays where it was.");
             }
         }
 
-        /// <summary>Deletes the kept pose; the object stays where it is.</summary>
+        /// <summary>Deletes the saved pose; the object stays where it is.</summary>
         public void ForgetSaved()
         {
             if (saveName.Length > 0)
@@ -166,7 +171,7 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>Where a mark is now, in world space.</summary>
+        /// <summary>Present position of a mark, in world space.</summary>
         /// <param name="index">0 to 2.</param>
         public Vector3 MarkPosition(int index) => transform.TransformPoint(marks[index]);
 
@@ -177,7 +182,7 @@ namespace HaptoFlow
                 poseBefore = LocalPose();
                 MoveTo(saved);
                 IsAligned = true;
-                Tell("The object is where it was aligned last.");
+                ShowMessage("The object is at the pose of the last alignment.");
             }
         }
 
@@ -185,7 +190,7 @@ namespace HaptoFlow
 
         private void LateUpdate()
         {
-            if (!IsTaking || stylus == null || force == null)
+            if (!IsTaking || stylus == null || pressDetector == null)
             {
                 return;
             }
@@ -193,8 +198,8 @@ namespace HaptoFlow
             TipForceSource? source = stylus.Force;
             float newtons = 0f;
             bool measures = source != null && source.isActiveAndEnabled && source.TryMeasure(out newtons);
-            bool pressed = force.Update(nowSeconds, measures ? newtons : (double?)null) == ForceVerdict.Pressed;
-            if (rest.Update(nowSeconds, stylus.TipPosition.ToDouble(), pressed, out Double3 place))
+            bool pressed = pressDetector.Update(nowSeconds, measures ? newtons : (double?)null) == ForceVerdict.Pressed;
+            if (restingPoint.Update(nowSeconds, stylus.TipPosition.ToDouble(), pressed, out Double3 place))
             {
                 Take(place);
             }
@@ -205,7 +210,7 @@ namespace HaptoFlow
             touched.Add(place);
             if (touched.Count < PointCount)
             {
-                Tell(WhatNext());
+                ShowMessage(NextInstruction());
                 return;
             }
             AlignmentFit fit = ThreePointFit.Solve(
@@ -213,7 +218,7 @@ namespace HaptoFlow
             touched.Clear();
             if (fit.Refusal != null)
             {
-                Tell($"Not aligned: {fit.Refusal}.");
+                ShowMessage($"Not aligned: {fit.Refusal}.");
                 return;
             }
             IsTaking = false;
@@ -223,11 +228,12 @@ namespace HaptoFlow
             IsAligned = true;
             transform.SetPositionAndRotation(fit.Pose.PositionMetres.ToVector(), ToQuaternion(fit.Pose.Rotation));
             ForgetMotion();
-            KeepOrForget();
-            Tell(FormattableString.Invariant($"Aligned; {1000f * ErrorMetres:0.0} mm are left at the worst mark."));
+            SaveOrDelete();
+            string error = (1000f * ErrorMetres).ToString("0.0", CultureInfo.InvariantCulture);
+            ShowMessage($"Aligned; {error} mm of error at the worst mark.");
         }
 
-        private string WhatNext() => stylus == null
+        private string NextInstruction() => stylus == null
             ? "The alignment has no stylus."
             : stylus.Force != null
                 ? $"Rest the pen on mark {touched.Count + 1} of {PointCount}, still, then lift it."
@@ -248,7 +254,7 @@ namespace HaptoFlow
             ForgetMotion();
         }
 
-        // The object was not moved by anybody's hand: its jump must not be felt as speed.
+        // The object jumped without being moved by hand: the styluses must not take the jump for speed.
         private static void ForgetMotion()
         {
             foreach (HapticStylus each in FindObjectsByType<HapticStylus>(
@@ -258,8 +264,9 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>An object that nobody aligned is where its author put it, in the next session too.</summary>
-        private void KeepOrForget()
+        /// <summary>Saves the pose of an aligned object; deletes the file of one that is back at its author's
+        /// pose.</summary>
+        private void SaveOrDelete()
         {
             if (!IsAligned)
             {
@@ -271,7 +278,7 @@ namespace HaptoFlow
             }
         }
 
-        private void Tell(string message)
+        private void ShowMessage(string message)
         {
             Message = message;
             Changed?.Invoke(this);

@@ -3,13 +3,13 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>What a stylus touches, in world space: metres, m/s, newtons.</summary>
+    /// <summary>A touch of a stylus, in world space: metres, m/s, newtons.</summary>
     public readonly struct HapticContact
     {
         private readonly FeltCollider? byRules;
         private readonly int part;
 
-        internal HapticContact(NearbySurface touched, in FeltMaterial felt, in Contact.ContactReading reading)
+        internal HapticContact(NearbyCollider touched, in FeltMaterial felt, in Contact.ContactReading reading)
         {
             Surface = touched.Surface;
             byRules = touched.ByRules;
@@ -29,54 +29,54 @@ namespace HaptoFlow
             TouchCounter = reading.TouchCounter;
         }
 
-        /// <summary>The surface that is touched; null where the collider has none and is felt by the rules of a
-        /// <see cref="HapticMaterialMap"/>.</summary>
+        /// <summary>The touched surface; null where the collider has none and a <see cref="HapticMaterialMap"/> assigns
+        /// its material.</summary>
         public HapticSurface? Surface { get; }
 
-        /// <summary>What the place is made of, to be read; of several materials the one with the most weight. Null
-        /// where the place feels like nothing, or like nothing that the model knows.</summary>
+        /// <summary>The material at the touched place, for reading; of several materials the one with the largest
+        /// weight. Null where the place has no material that the model knows.</summary>
         public MaterialDescription? Material { get; }
 
-        /// <summary>The collider that is touched.</summary>
+        /// <summary>The touched collider.</summary>
         public Collider Collider { get; }
 
-        /// <summary>On the surface.</summary>
+        /// <summary>The contact point, on the surface.</summary>
         public Vector3 Point { get; }
 
-        /// <summary>Unit length, out of the surface.</summary>
+        /// <summary>Unit normal, pointing out of the surface.</summary>
         public Vector3 Normal { get; }
 
-        /// <summary>How deep the tip sphere cuts into the surface, 0 or more.</summary>
+        /// <summary>Penetration depth of the tip sphere, 0 or more.</summary>
         public float PenetrationMetres { get; }
 
-        /// <summary>The first tangent axis, fixed to the surface: along its grain.</summary>
+        /// <summary>The first tangent axis, fixed to the surface along its grain.</summary>
         public Vector3 FirstAxis { get; }
 
-        /// <summary>The second tangent axis: first x second = normal.</summary>
+        /// <summary>The second tangent axis; first x second = normal.</summary>
         public Vector3 SecondAxis { get; }
 
-        /// <summary>Of the tip relative to the surface, along the first axis.</summary>
+        /// <summary>Velocity of the tip relative to the surface along the first axis.</summary>
         public float FirstVelocityMps { get; }
 
-        /// <summary>Of the tip relative to the surface, along the second axis.</summary>
+        /// <summary>Velocity of the tip relative to the surface along the second axis.</summary>
         public float SecondVelocityMps { get; }
 
-        /// <summary>Of the tip relative to the surface, along it, in world space, m/s.</summary>
+        /// <summary>Tangential velocity of the tip relative to the surface, in world space, m/s.</summary>
         public Vector3 TangentialVelocity => FirstAxis * FirstVelocityMps + SecondAxis * SecondVelocityMps;
 
-        /// <summary>Along the normal: of the spring model, or measured.</summary>
+        /// <summary>Normal force: from the spring model, or measured.</summary>
         public float ForceNewtons { get; }
 
-        /// <summary>Into the surface, at touch-down.</summary>
+        /// <summary>Speed into the surface at touch-down.</summary>
         public float ApproachSpeedMps { get; }
 
-        /// <summary>Counts the stylus's touch-downs.</summary>
+        /// <summary>Number of touch-downs of the stylus so far.</summary>
         public uint TouchCounter { get; }
 
-        /// <summary>The labels of the place with their weights.</summary>
+        /// <summary>The labels at the touched place with their weights.</summary>
         internal LabelBlend Labels { get; }
 
-        /// <summary>Why the place feels as it does, for people: which surface or which rule of which map says so. Makes
+        /// <summary>Names the surface, or the rule and its map, that gives the place its material. For people; makes
         /// garbage.</summary>
         public string Explain()
         {
@@ -87,12 +87,12 @@ namespace HaptoFlow
             return byRules?.Explain(part) ?? "";
         }
 
-        /// <summary>On another surface; without surfaces, on another collider.</summary>
+        /// <summary>True where the touch moved to another surface; without surfaces, to another collider.</summary>
         internal bool IsElsewhere(in HapticContact before) =>
             !ReferenceEquals(Surface, before.Surface) ||
             (Surface is null && !ReferenceEquals(Collider, before.Collider));
     }
 
-    /// <summary>Called on the main thread.</summary>
+    /// <summary>Handles an event of a stylus's touch. Called on the main thread.</summary>
     public delegate void HapticContactHandler(HapticStylus stylus, in HapticContact contact);
 }

@@ -5,9 +5,9 @@ using System.Threading.Tasks;
 
 namespace HaptoFlow
 {
-    /// <summary>A model that is loaded beside the one in use, so that it can take over from one frame to the next: see
-    /// <see cref="Haptics.Load"/>. It costs the memory of an engine, and no time while nobody uses it. Main thread.
-    /// </summary>
+    /// <summary>A model loaded in addition to the one in use, so that it can replace it between two frames: see <see
+    /// cref="Haptics.Load"/>. It costs the memory of an engine, and no time while it is not in use. Main
+    /// thread.</summary>
     public sealed class HapticLoadedModel : IDisposable
     {
         private readonly HapticSession session;
@@ -25,7 +25,7 @@ namespace HaptoFlow
         /// <summary>The asset that was loaded.</summary>
         public HapticModelAsset Model { get; }
 
-        /// <summary>It is loaded and can be used.</summary>
+        /// <summary>True when the model is loaded and can be used.</summary>
         public bool IsReady
         {
             get
@@ -35,7 +35,7 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>Why it cannot be used; null while it is being loaded, and where nothing is wrong.</summary>
+        /// <summary>Why the model cannot be used; null while it loads and where there is no error.</summary>
         public string? Problem
         {
             get
@@ -45,35 +45,35 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>Styluses feel by this model.</summary>
+        /// <summary>True while styluses use this model.</summary>
         public bool IsInUse => !session.IsClosed && ReferenceEquals(HapticSession.Existing, session);
 
-        /// <summary>Names of the model's labels; empty before it is ready.</summary>
+        /// <summary>Names of the model's labels; empty until the model is ready.</summary>
         public IReadOnlyList<string> Labels => session.Labels.All;
 
-        /// <summary>Name of the tier that generates; empty before the model is ready. Makes garbage.</summary>
+        /// <summary>Name of the tier in use; empty until the model is ready. Makes garbage.</summary>
         public string TierName => session.Engine == null
             ? ""
             : Model.Header.Tiers[(int)session.Engine.Statistics().Tier].Name;
 
-        /// <summary>Styluses feel by this model from their next update on. What sounds meanwhile fades within a block
-        /// and 5 ms while the new model begins, so that nothing clicks; nothing is loaded, and nobody waits. An output
-        /// by the mixer effect has one voice at a time: there, change while nothing is touched.</summary>
+        /// <summary>Makes styluses use this model from their next update. The old voices fade within a block and 5 ms
+        /// while the new ones begin, so nothing clicks; nothing is loaded and the call does not wait. The mixer effect
+        /// has one voice at a time: with it, change models while nothing is touched.</summary>
         /// <exception cref="InvalidOperationException">The model is not ready.</exception>
         public void Use()
         {
             if (!IsReady)
             {
                 throw new InvalidOperationException(
-                    "HaptoFlow: a loaded model is used when it is ready: " + (Problem ?? "it is still being loaded"));
+                    "HaptoFlow: a loaded model can be used only when it is ready: " + (Problem ?? "it is still " +
+                        "being loaded"));
             }
             session.Use();
         }
 
-        /// <summary>Has a learnt material registered before it is touched, by another thread.</summary>
-        /// <param name="refusal">Why the model cannot make it felt as it was learnt; null where nothing is wrong yet.
-        /// </param>
-        /// <returns>It is felt as it was learnt. False also while it is being registered.</returns>
+        /// <summary>Registers a learnt material on another thread before it is touched.</summary>
+        /// <param name="refusal">Why the engine refused the material; null where it did not.</param>
+        /// <returns>True when the material is registered. False also while registration is under way.</returns>
         public bool TryPrepare(HapticMaterial material, out string? refusal)
         {
             refusal = null;
@@ -86,27 +86,26 @@ namespace HaptoFlow
             return isFelt;
         }
 
-        /// <summary>Measures by how much this model's sound comes after the motion, with a voice that nobody hears: a
-        /// few seconds of one core. The audio device should play as it will later; nothing should be touched meanwhile.
-        /// </summary>
-        /// <param name="sampleRateHz">Of the audio device.</param>
-        /// <param name="blockFrames">Of the audio device.</param>
-        /// <returns>Fails with a <see cref="HaptoFlowException"/> where no voice is free, and is cancelled where the
-        /// model is closed.</returns>
+        /// <summary>Measures the lead of this model with a voice that is not played. Takes a few seconds of one core.
+        /// Run it with the audio device in its final state and while nothing is touched.</summary>
+        /// <param name="sampleRateHz">Sample rate of the audio device.</param>
+        /// <param name="blockFrames">Block size of the audio device.</param>
+        /// <returns>A task that fails with a <see cref="HaptoFlowException"/> where no voice is free, and is cancelled
+        /// when the model is closed.</returns>
         /// <exception cref="InvalidOperationException">The model is not ready.</exception>
         public Task<HapticModelDelay> MeasureDelay(int sampleRateHz, int blockFrames)
         {
             if (!IsReady)
             {
-                throw new InvalidOperationException("HaptoFlow: a loaded model is measured when it is ready");
+                throw new InvalidOperationException("HaptoFlow: a loaded model can be measured only when it is ready");
             }
             return session.MeasureDelay(sampleRateHz, blockFrames);
         }
 
-        /// <summary>Closes the model's engine. Where it is in use, the model of the settings takes over.</summary>
+        /// <summary>Closes the model's engine. If it is in use, styluses return to the model of the settings.</summary>
         public void Dispose() => session.Unload();
 
-        /// <summary>Waits until loading has ended, well or not.</summary>
+        /// <summary>Waits until loading has succeeded or failed.</summary>
         internal void FinishLoading() => session.FinishLoading();
     }
 }

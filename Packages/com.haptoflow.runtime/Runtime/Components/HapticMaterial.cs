@@ -6,8 +6,8 @@ using Object = UnityEngine.Object;
 
 namespace HaptoFlow
 {
-    /// <summary>What a surface is made of, by the names of a model's labels: a retrained model does not shuffle scenes.
-    /// </summary>
+    /// <summary>What a surface is made of. Labels are stored by name, so a retrained model with another order of labels
+    /// does not change scenes.</summary>
     [Serializable]
     public sealed class MaterialDescription
     {
@@ -15,56 +15,58 @@ namespace HaptoFlow
         internal const float LargestFeatureScale = 4f;
         internal const float MostToneDbPerOctave = 12f;
 
-        [SerializeField, Tooltip("A label of the model.")]
+        [SerializeField, Tooltip("The name of a label of the model.")]
         private string label = "wood";
 
         [SerializeField]
-        [Tooltip("A Haptic Material that was learnt from a recording, in the place of the label; none for the label.")]
+        [Tooltip("A Haptic Material learnt from a recording, used instead of the label. Leave it empty to use the " +
+            "label.")]
         private HapticMaterial? learnt;
 
-        // The asset that this describes, where there is one.
+        // The asset that contains this description; null for a surface's own.
         [NonSerialized]
         private HapticMaterial? owner;
 
-        [SerializeField, Tooltip("A second label to blend with; empty for none.")]
+        [SerializeField, Tooltip("The name of a second label to blend with. Leave it empty for none.")]
         private string secondLabel = "";
 
-        [SerializeField, Range(0f, 1f), Tooltip("0: the first label alone. 1: the second alone.")]
+        [SerializeField, Range(0f, 1f), Tooltip("The weight of the second label: 0 for the first label alone, 1 for " +
+            "the second alone.")]
         private float blend;
 
-        [SerializeField, Min(0f), Tooltip("Of the spring model, in N/m. 0: what the model says of the label.")]
+        [SerializeField, Min(0f), Tooltip("The stiffness of the spring model, in N/m. 0 uses the model's value of " +
+            "the label.")]
         private float stiffnessNewtonsPerMetre;
 
-        [SerializeField, Range(0f, 1f), Tooltip("Gain of the output while this is touched.")]
+        [SerializeField, Range(0f, 1f), Tooltip("The gain of the output while this material is touched.")]
         private float strength = 1f;
 
         [SerializeField, Range(SmallestFeatureScale, LargestFeatureScale)]
-        [Tooltip("The material's features, its ribs included, are this many times as large. 1 leaves them as they " +
-            "are.")]
+        [Tooltip("The factor on the size of the material's features, ribs included. 1 leaves them unchanged.")]
         private float featureScale = 1f;
 
         [SerializeField, Range(-MostToneDbPerOctave, MostToneDbPerOctave)]
-        [Tooltip("The spectrum is tilted about 150 Hz by this many dB an octave: above 0 is brighter, below 0 darker.")]
+        [Tooltip("The tilt of the spectrum about 150 Hz, in dB per octave. Positive is brighter, negative is darker.")]
         private float toneDbPerOctave;
 
-        [SerializeField, Tooltip("The tip feels the material's texture while it slides.")]
+        [SerializeField, Tooltip("Plays the material's texture while the tip slides.")]
         private bool texture = true;
 
-        [SerializeField, Tooltip("The tip feels a landing, as hard as it was fast.")]
+        [SerializeField, Tooltip("Plays an impact at touch-down, stronger for a faster tip.")]
         private bool impact = true;
 
-        [SerializeField, Tooltip("The tip feels rims, and the crossing to a rougher or smoother label.")]
+        [SerializeField, Tooltip("Plays an edge at rims, and where the tip crosses to a rougher or smoother label.")]
         private bool edge = true;
 
-        /// <summary>A label of the model, by name.</summary>
+        /// <summary>Name of a label of the model.</summary>
         public string Label
         {
             get => label;
             set => Change(ref label, value);
         }
 
-        /// <summary>A Haptic Material that carries its embedding, felt in the place of <see cref="Label"/>; null for
-        /// the label. The description of such an asset is made of the asset itself.</summary>
+        /// <summary>A Haptic Material with an embedding of its own, used instead of <see cref="Label"/>; null for the
+        /// label. For the description inside such an asset this is the asset itself.</summary>
         public HapticMaterial? Learnt
         {
             get => owner != null && owner.IsLearnt ? owner : learnt != null && learnt.IsLearnt ? learnt : null;
@@ -75,14 +77,14 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>Empty for none.</summary>
+        /// <summary>Name of a second label to blend with; empty for none.</summary>
         public string SecondLabel
         {
             get => secondLabel;
             set => Change(ref secondLabel, value);
         }
 
-        /// <summary>0: the first label alone. 1: the second alone.</summary>
+        /// <summary>Weight of the second label: 0 for the first label alone, 1 for the second alone.</summary>
         public float Blend
         {
             get => blend;
@@ -93,7 +95,7 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>0: what the model says of the label.</summary>
+        /// <summary>Stiffness of the spring model, in N/m; 0 for the model's value of the label.</summary>
         public float StiffnessNewtonsPerMetre
         {
             get => stiffnessNewtonsPerMetre;
@@ -104,33 +106,32 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>0 to 1.</summary>
+        /// <summary>Gain of the output while this material is touched, 0 to 1.</summary>
         public float Strength
         {
             get => strength;
             set => strength = Mathf.Clamp01(value);
         }
 
-        /// <summary>How many times as large the material's features are, ribs included: 0.25 to 4. The level stays that
-        /// of the tip's speed.</summary>
+        /// <summary>Feature scale: factor on the size of the material's features, ribs included, 0.25 to 4. The level
+        /// stays that of the tip's speed.</summary>
         public float FeatureScale
         {
             get => featureScale;
             set => featureScale = Mathf.Clamp(value, SmallestFeatureScale, LargestFeatureScale);
         }
 
-        /// <summary>Tilt of the spectrum about 150 Hz, in dB an octave, -12 to 12: above 0 is brighter, below 0 darker.
-        /// </summary>
+        /// <summary>Tilt of the spectrum about 150 Hz, in dB per octave, -12 to 12; positive is brighter, negative
+        /// darker.</summary>
         public float ToneDbPerOctave
         {
             get => toneDbPerOctave;
             set => toneDbPerOctave = Mathf.Clamp(value, -MostToneDbPerOctave, MostToneDbPerOctave);
         }
 
-        /// <summary>Which effects this has: any of <see cref="HapticEffects.Texture"/>,
-        /// <see cref="HapticEffects.Impact"/> and <see cref="HapticEffects.Edge"/>;
-        /// <see cref="HapticEffects.Nothing"/> for none of them. An effect that no surface asks for costs
-        /// nothing.</summary>
+        /// <summary>The effects of this material: any of <see cref="HapticEffects.Texture"/>, <see
+        /// cref="HapticEffects.Impact"/> and <see cref="HapticEffects.Edge"/>, or <see cref="HapticEffects.Nothing"/>.
+        /// An effect that no surface has costs nothing.</summary>
         public HapticEffects Effects
         {
             get
@@ -141,19 +142,19 @@ namespace HaptoFlow
             }
             set
             {
-                HapticEffects asked = value == HapticEffects.Unspecified ? HapticEffects.Texture : value;
-                texture = (asked & HapticEffects.Texture) != 0;
-                impact = (asked & HapticEffects.Impact) != 0;
-                edge = (asked & HapticEffects.Edge) != 0;
+                HapticEffects effects = value == HapticEffects.Unspecified ? HapticEffects.Texture : value;
+                texture = (effects & HapticEffects.Texture) != 0;
+                impact = (effects & HapticEffects.Impact) != 0;
+                edge = (effects & HapticEffects.Edge) != 0;
             }
         }
 
-        /// <summary>One more at each change that matters to whoever looked the labels up.</summary>
+        /// <summary>Increases with each change that invalidates a cached <see cref="MaterialLookUp"/>.</summary>
         internal int Version { get; private set; }
 
-        internal void Touch() => ++Version;
+        internal void MarkChanged() => ++Version;
 
-        internal void BelongTo(HapticMaterial asset) => owner = asset;
+        internal void SetOwner(HapticMaterial asset) => owner = asset;
 
         internal void CopyFrom(MaterialDescription other)
         {
@@ -178,8 +179,8 @@ namespace HaptoFlow
         }
     }
 
-    /// <summary>A material that several surfaces share: labels of the model, or one that was learnt from a recording
-    /// and carries its embedding.</summary>
+    /// <summary>A material that several surfaces share: made of labels of the model, or learnt from a recording and
+    /// carrying its own embedding.</summary>
     [CreateAssetMenu(menuName = "HaptoFlow/Haptic Material", fileName = "HapticMaterial", order = 1)]
     [HelpURL(HelpPages.Components + "haptic-material")]
     public sealed class HapticMaterial : ScriptableObject
@@ -187,33 +188,33 @@ namespace HaptoFlow
         [SerializeField]
         private MaterialDescription description = new MaterialDescription();
 
-        // The text of a .haptomaterial file, as the engine takes it.
+        // The text of a .haptomaterial file, as the engine reads it.
         [SerializeField, HideInInspector]
         private string learnt = "";
 
         private readonly MaterialLookUp lookUp = new MaterialLookUp();
 
-        /// <summary>What the surfaces that share this are made of.</summary>
+        /// <summary>What the surfaces that share this material are made of.</summary>
         public MaterialDescription Description
         {
             get
             {
-                description.BelongTo(this);
+                description.SetOwner(this);
                 return description;
             }
         }
 
-        /// <summary>It was learnt from a recording, and is felt in the place of its description's label wherever the
-        /// model is the one that it was learnt for.</summary>
+        /// <summary>True for a material learnt from a recording. It is used instead of its description's label wherever
+        /// the model has the space that it was learnt for.</summary>
         public bool IsLearnt => learnt.Length > 0;
 
-        /// <summary>The text of its material file; empty where it is made of labels alone.</summary>
+        /// <summary>The text of its material file; empty for a material made of labels alone.</summary>
         public string Learnt => learnt;
 
-        /// <summary>Makes a material of a material file's text. Main thread.</summary>
-        /// <param name="text">Of a whole .haptomaterial file.</param>
-        /// <param name="label">A label of the model, felt where the material cannot be: usually the nearest.</param>
-        /// <exception cref="HaptoFlowException">The text is none; the message names the key.</exception>
+        /// <summary>Creates a material from the text of a material file. Main thread.</summary>
+        /// <param name="text">The whole .haptomaterial file.</param>
+        /// <param name="label">The label used where the material cannot be: usually the nearest.</param>
+        /// <exception cref="HaptoFlowException">The text is not a material file; the message names the key.</exception>
         public static HapticMaterial Create(string text, string label)
         {
             string name = MaterialFile.Read(text).Name;
@@ -224,10 +225,10 @@ namespace HaptoFlow
             return material;
         }
 
-        /// <summary>Carries another material from now on; where it is touched, that is felt as soon as the engine has
-        /// it. Main thread.</summary>
-        /// <param name="text">Of a whole .haptomaterial file; empty for the description's labels alone.</param>
-        /// <exception cref="HaptoFlowException">The text is none; the message names the key.</exception>
+        /// <summary>Replaces the learnt material; where it is touched, the change is felt as soon as the engine has
+        /// registered it. Main thread.</summary>
+        /// <param name="text">The whole .haptomaterial file; empty for the description's labels alone.</param>
+        /// <exception cref="HaptoFlowException">The text is not a material file; the message names the key.</exception>
         public void Carry(string text)
         {
             if (text.Length > 0)
@@ -238,20 +239,20 @@ namespace HaptoFlow
             Announce();
         }
 
-        /// <summary>The labels as the engine takes them, looked up again only when something changed.</summary>
-        /// <param name="user">Who is named where the model does not know a label.</param>
+        /// <summary>The labels and their weights for the engine, looked up again only after a change.</summary>
+        /// <param name="user">Object that a warning about an unknown label names.</param>
         internal MaterialLookUp LookUp(HapticSession session, Object user) => lookUp.Of(Description, session, user);
 
         private void Announce()
         {
-            description.Touch();
-            HapticSession.TellOfChange(this);
+            description.MarkChanged();
+            HapticSession.OnMaterialChanged(this);
         }
 
         private void OnEnable() => Announce();
 
         private void OnValidate() => Announce();
 
-        private void OnDestroy() => HapticSession.TellOfEnd(this);
+        private void OnDestroy() => HapticSession.OnMaterialDestroyed(this);
     }
 }

@@ -5,7 +5,7 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>A .haptoflow model as an asset: its bytes, as the importer found them.</summary>
+    /// <summary>A .haptoflow model as an asset: the bytes of the file, unchanged.</summary>
     [HelpURL(HelpPages.Components + "haptic-model")]
     public sealed class HapticModelAsset : ScriptableObject
     {
@@ -14,15 +14,15 @@ namespace HaptoFlow
 
         private ModelHeader? header;
 
-        /// <summary>Bytes of the whole file. Not to be changed.</summary>
+        /// <summary>The bytes of the whole file. Do not modify.</summary>
         public byte[] File => file;
 
-        /// <summary>What the file says about itself; read once.</summary>
-        /// <exception cref="HaptoFlowException">The bytes are no usable model; the message says why.</exception>
+        /// <summary>The header of the file; parsed once.</summary>
+        /// <exception cref="HaptoFlowException">The bytes are not a usable model; the message says why.</exception>
         public ModelHeader Header => header ??= ModelHeader.Read(file);
 
-        /// <summary>For importers and programs that load models of their own.</summary>
-        /// <param name="bytes">Of a whole .haptoflow file; kept.</param>
+        /// <summary>Creates an asset, for importers and for programs that load models themselves.</summary>
+        /// <param name="bytes">The whole .haptoflow file; the array is kept, not copied.</param>
         public static HapticModelAsset Create(byte[] bytes)
         {
             var asset = CreateInstance<HapticModelAsset>();

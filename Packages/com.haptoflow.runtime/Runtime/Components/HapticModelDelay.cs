@@ -2,8 +2,8 @@
 
 namespace HaptoFlow
 {
-    /// <summary>By how much a model's sound comes after the motion, measured on this machine with a voice that nobody
-    /// hears.</summary>
+    /// <summary>The delay between motion and sound that a model causes on this machine, measured with a voice that is
+    /// not played.</summary>
     public readonly struct HapticModelDelay
     {
         internal HapticModelDelay(double leadMilliseconds, in TierTimes inference)
@@ -14,17 +14,17 @@ namespace HaptoFlow
             Runs = inference.Runs;
         }
 
-        /// <summary>From a contact state to the first sample generated from it: inference, and the blocks of the audio
-        /// device that pass meanwhile. The device's own buffer, amplifier and actuator come on top.</summary>
+        /// <summary>Time from a contact state to the first sample generated from it: inference and the audio blocks
+        /// that pass meanwhile. The device's buffer, the amplifier and the actuator add to it.</summary>
         public double LeadMilliseconds { get; }
 
-        /// <summary>Half of the runs of the network took less.</summary>
+        /// <summary>Median time of an inference.</summary>
         public double InferenceMedianMilliseconds { get; }
 
-        /// <summary>Of a hundred runs 99 took less.</summary>
+        /// <summary>99th percentile of the time of an inference.</summary>
         public double InferencePercentile99Milliseconds { get; }
 
-        /// <summary>Runs behind the figures.</summary>
+        /// <summary>Number of inferences measured.</summary>
         public ulong Runs { get; }
     }
 }

@@ -8,31 +8,31 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>An engine of the running application. That of the settings is loaded in the background when the first
-    /// stylus wakes; others are loaded beside it, and one of them may be in use in its place. All are closed when the
-    /// application ends. Main thread, but for what says otherwise.</summary>
+    /// <summary>An engine of the running application. The one of the settings is loaded in the background when the
+    /// first stylus is enabled; others can be loaded in addition, and one of them can replace it. All are closed when
+    /// the application quits. Main thread unless a member says otherwise.</summary>
     internal sealed class HapticSession
     {
-        private static readonly List<HapticSession> Beside = new List<HapticSession>();
-        private static HapticSession? ofSettings;
-        private static HapticSession? inPlaceOfSettings;
-        private static int versions;
+        private static readonly List<HapticSession> AdditionalSessions = new List<HapticSession>();
+        private static HapticSession? settingsSession;
+        private static HapticSession? replacingSession;
+        private static int lastLabelsVersion;
 
         private readonly Task<Loaded> loading;
         private readonly HapticCancellation? cancellation;
         private readonly CancellationTokenSource closing = new CancellationTokenSource();
         private readonly EngineHealth health = new EngineHealth();
         private QualityChange? qualityChange;
-        private readonly bool isBeside;
+        private readonly bool isAdditional;
         private Task<HapticModelDelay>? measuring;
         private bool reported;
 
         private HapticSession(
-            HaptoFlowSettings settings, HapticModelAsset? model, HapticQuality quality, bool isBeside)
+            HaptoFlowSettings settings, HapticModelAsset? model, HapticQuality quality, bool isAdditional)
         {
-            LabelsVersion = ++versions;
+            LabelsVersion = ++lastLabelsVersion;
             Settings = settings;
-            this.isBeside = isBeside;
+            this.isAdditional = isAdditional;
             if (model == null)
             {
                 loading = Task.FromException<Loaded>(new HaptoFlowException(HaptoFlowStatus.InvalidArgument,
@@ -50,27 +50,27 @@ namespace HaptoFlow
         }
 
         /// <summary>The session in use; starts that of the settings where there is none.</summary>
-        public static HapticSession Current => inPlaceOfSettings ?? (ofSettings ??= OfSettings());
+        public static HapticSession Current => replacingSession ?? (settingsSession ??= NewSettingsSession());
 
-        /// <summary>Null where no stylus has woken yet.</summary>
-        public static HapticSession? Existing => inPlaceOfSettings ?? ofSettings;
+        /// <summary>Null until the first stylus is enabled.</summary>
+        public static HapticSession? Existing => replacingSession ?? settingsSession;
 
-        /// <summary>Of engines without worker, for whoever steps them: rendering and tests outside of real
-        /// time.</summary>
+        /// <summary>Options of engines without worker threads, for rendering and tests that step them outside real
+        /// time; null in applications.</summary>
         public static HapticEngineOptions? OptionsInstead { get; set; }
 
         public HaptoFlowSettings Settings { get; }
 
-        /// <summary>Contact states a second that the engine was told to expect.</summary>
+        /// <summary>Rate of contact states that the engine was configured for, in Hz.</summary>
         public double UpdateRateHz { get; }
 
-        /// <summary>The engine generates by itself; without a worker somebody has to step it.</summary>
+        /// <summary>True where the engine has a worker thread; otherwise the caller steps the engine.</summary>
         public bool HasWorker { get; }
 
-        /// <summary>It was closed: by whoever loaded it, or because the application ends.</summary>
+        /// <summary>True after the session was closed by its owner or by the end of the application.</summary>
         public bool IsClosed { get; private set; }
 
-        /// <summary>Another number whenever the labels may be others.</summary>
+        /// <summary>Changes whenever the indices of labels may have changed.</summary>
         public int LabelsVersion { get; private set; }
 
         /// <summary>Null while loading, and where loading failed.</summary>
@@ -79,18 +79,19 @@ namespace HaptoFlow
         /// <summary>Empty while loading, and where loading failed.</summary>
         public ModelLabels Labels { get; private set; } = new ModelLabels(Array.Empty<ModelLabel>());
 
-        /// <summary>Why there are no haptics; null where nothing is wrong.</summary>
+        /// <summary>Why there are no haptics; null where there is no error.</summary>
         public string? Problem { get; private set; }
 
         /// <summary>Null while loading, and where loading failed.</summary>
         public LearntMaterials? Learnt => Labels.Learnt;
 
-        /// <summary>Takes over what was loaded meanwhile. Once a frame; no garbage when nothing happened.</summary>
+        /// <summary>Takes over the result of loading once it is complete. Call once a frame; no garbage when nothing
+        /// changed.</summary>
         public void Poll()
         {
             if (reported)
             {
-                Watch();
+                CheckRunningEngine();
                 return;
             }
             if (!loading.IsCompleted)
@@ -103,53 +104,53 @@ namespace HaptoFlow
                 Engine = loading.Result.Engine;
                 Labels = loading.Result.Labels;
                 Labels.Learnt = new LearntMaterials(Engine, loading.Result.Space, Labels.All.Count);
-                LabelsVersion = ++versions;
+                LabelsVersion = ++lastLabelsVersion;
                 SurfaceRegistry.PrepareAll(this);
                 MaterialMaps.PrepareAll(this);
                 return;
             }
             Exception cause = loading.Exception!.GetBaseException();
             Problem = cause.Message;
-            // Whoever loads a model beside the one in use is told by its Problem, and the scene keeps its haptics.
-            if (!isBeside)
+            // The owner of an additional model reads its Problem; the scene keeps its haptics.
+            if (!isAdditional)
             {
-                Debug.LogError($"HaptoFlow: the scene goes on without haptics: {cause.Message}");
+                Debug.LogError($"HaptoFlow: the scene runs without haptics: {cause.Message}");
             }
         }
 
-        /// <summary>Loads a model beside the one in use.</summary>
+        /// <summary>Loads a model in addition to the one in use.</summary>
         public static HapticSession Load(HapticModelAsset model, HapticQuality quality)
         {
             var session = new HapticSession(HaptoFlowSettings.Active, model, quality, true);
-            Beside.Add(session);
+            AdditionalSessions.Add(session);
             return session;
         }
 
-        /// <summary>From now on styluses feel by this session, in the place of that of the settings.</summary>
+        /// <summary>Makes styluses use this session instead of that of the settings.</summary>
         public void Use()
         {
-            inPlaceOfSettings = this;
+            replacingSession = this;
             SurfaceRegistry.PrepareAll(this);
             MaterialMaps.PrepareAll(this);
         }
 
-        /// <summary>From now on styluses feel by the session of the settings.</summary>
-        public static void UseSettings() => inPlaceOfSettings = null;
+        /// <summary>Makes styluses use the session of the settings.</summary>
+        public static void UseSettings() => replacingSession = null;
 
-        /// <summary>Closes a session that was loaded beside the one of the settings.</summary>
+        /// <summary>Closes a session that was loaded in addition to that of the settings.</summary>
         public void Unload()
         {
-            if (Beside.Remove(this))
+            if (AdditionalSessions.Remove(this))
             {
-                if (ReferenceEquals(inPlaceOfSettings, this))
+                if (ReferenceEquals(replacingSession, this))
                 {
-                    inPlaceOfSettings = null;
+                    replacingSession = null;
                 }
                 Close();
             }
         }
 
-        /// <summary>Changes the quality of a running engine. A tier that has to be loaded first is loaded by another
+        /// <summary>Changes the quality of a running engine. A tier that is not loaded yet is loaded on another
         /// thread.</summary>
         public void SetQuality(HapticQuality quality)
         {
@@ -159,10 +160,10 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>Waits until the quality that was asked for last is there, or was refused.</summary>
+        /// <summary>Waits until the last requested change of quality has succeeded or failed.</summary>
         public void FinishQualityChange() => qualityChange?.Finish();
 
-        /// <summary>Has what a description needs registered before it is touched.</summary>
+        /// <summary>Registers the learnt material of a description before it is touched.</summary>
         public void Prepare(MaterialDescription description)
         {
             HapticMaterial? material = description.Learnt;
@@ -172,7 +173,7 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>A material may carry another text, or none.</summary>
+        /// <summary>Registers the new text of a material, or removes a material that has none.</summary>
         private void ChangeLearnt(HapticMaterial material)
         {
             if (!material.IsLearnt)
@@ -185,24 +186,24 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>A material is gone: whoever is made of it is looked up again.</summary>
+        /// <summary>Removes a material from the engine; labels of its users are looked up again.</summary>
         private void ForgetLearnt(HapticMaterial material)
         {
             if (Learnt?.Forget(material) == true)
             {
-                LabelsVersion = ++versions;
+                LabelsVersion = ++lastLabelsVersion;
             }
         }
 
-        /// <summary>Waits until all materials that were asked for are registered, or were refused.</summary>
+        /// <summary>Waits until all requested materials are registered or refused.</summary>
         public void FinishRegistrations()
         {
             Learnt?.Finish();
-            LabelsVersion = ++versions;
+            LabelsVersion = ++lastLabelsVersion;
         }
 
-        /// <summary>Has another thread measure by how much this engine's sound comes after the motion. A second call
-        /// while it measures returns what is under way.</summary>
+        /// <summary>Measures this engine's lead on another thread. A second call during the measurement returns the
+        /// same task.</summary>
         public Task<HapticModelDelay> MeasureDelay(int sampleRateHz, int blockFrames)
         {
             if (measuring == null || measuring.IsCompleted)
@@ -213,60 +214,60 @@ namespace HaptoFlow
             return measuring;
         }
 
-        /// <summary>Waits until loading has ended, well or not.</summary>
+        /// <summary>Waits until loading has succeeded or failed.</summary>
         public void FinishLoading()
         {
             ((IAsyncResult)loading).AsyncWaitHandle.WaitOne();
             Poll();
         }
 
-        /// <summary>A material may carry another text, or none: every engine is told.</summary>
-        public static void TellOfChange(HapticMaterial material)
+        /// <summary>Passes a changed material on to every engine.</summary>
+        public static void OnMaterialChanged(HapticMaterial material)
         {
-            ofSettings?.ChangeLearnt(material);
-            foreach (HapticSession each in Beside)
+            settingsSession?.ChangeLearnt(material);
+            foreach (HapticSession each in AdditionalSessions)
             {
                 each.ChangeLearnt(material);
             }
         }
 
-        /// <summary>A material is gone: every engine is told.</summary>
-        public static void TellOfEnd(HapticMaterial material)
+        /// <summary>Removes a destroyed material from every engine.</summary>
+        public static void OnMaterialDestroyed(HapticMaterial material)
         {
-            ofSettings?.ForgetLearnt(material);
-            foreach (HapticSession each in Beside)
+            settingsSession?.ForgetLearnt(material);
+            foreach (HapticSession each in AdditionalSessions)
             {
                 each.ForgetLearnt(material);
             }
         }
 
-        /// <summary>Closes the engine of the settings and leaves those that were loaded beside it. The next stylus that
-        /// asks starts it anew.</summary>
+        /// <summary>Closes the engine of the settings and leaves the additional ones open. The next stylus starts it
+        /// again.</summary>
         public static void Restart()
         {
-            HapticSession? ending = ofSettings;
-            ofSettings = null;
-            inPlaceOfSettings = null;
+            HapticSession? ending = settingsSession;
+            settingsSession = null;
+            replacingSession = null;
             ending?.Close();
         }
 
-        /// <summary>Closes every engine. The next stylus that asks starts anew.</summary>
+        /// <summary>Closes every engine. The next stylus starts that of the settings again.</summary>
         public static void ShutDown()
         {
             Restart();
-            HapticSession[] ending = Beside.ToArray();
-            Beside.Clear();
+            HapticSession[] ending = AdditionalSessions.ToArray();
+            AdditionalSessions.Clear();
             Array.ForEach(ending, each => each.Close());
         }
 
-        private static HapticSession OfSettings()
+        private static HapticSession NewSettingsSession()
         {
             HaptoFlowSettings settings = HaptoFlowSettings.Active;
             return new HapticSession(settings, settings.Model, settings.Quality, false);
         }
 
-        /// <summary>Ends a loading that is under way and waits for it: a process or an application domain must not end
-        /// beneath it.</summary>
+        /// <summary>Cancels loading and waits for it: native code must not run on when the process or the application
+        /// domain ends.</summary>
         private void Close()
         {
             IsClosed = true;
@@ -282,13 +283,13 @@ namespace HaptoFlow
             }
             Engine = null;
             Labels.Learnt = null;
-            // Nobody is left to be told of a loading that was cancelled.
+            // A cancelled loading is not an error to report.
             reported = true;
             cancellation?.Dispose();
             closing.Dispose();
         }
 
-        private void Watch()
+        private void CheckRunningEngine()
         {
             if (Engine == null)
             {
@@ -296,25 +297,25 @@ namespace HaptoFlow
             }
             if (Learnt!.Poll())
             {
-                LabelsVersion = ++versions;
+                LabelsVersion = ++lastLabelsVersion;
             }
             string? failure = qualityChange?.TakeFailure();
             if (failure != null)
             {
-                Debug.LogWarning($"HaptoFlow: the quality stays as it was: {failure}");
+                Debug.LogWarning($"HaptoFlow: the quality was not changed: {failure}");
             }
-            // An engine that nobody feels is looked at when it is used.
-            string? death = ReferenceEquals(this, Existing)
-                ? health.Examine(Time.unscaledTimeAsDouble, Engine)
+            // The worker of an engine that is not in use is checked when it is used.
+            string? workerFailure = ReferenceEquals(this, Existing)
+                ? health.Check(Time.unscaledTimeAsDouble, Engine)
                 : null;
-            if (death != null)
+            if (workerFailure != null)
             {
-                Problem = death;
-                Debug.LogError($"HaptoFlow: nothing is felt from now on: {death}");
+                Problem = workerFailure;
+                Debug.LogError($"HaptoFlow: haptics have stopped: {workerFailure}");
             }
         }
 
-        /// <summary>Null where there is no native library: loading says so.</summary>
+        /// <summary>Null without the native library; loading then reports the error.</summary>
         private static HapticCancellation? NewCancellation()
         {
             try
@@ -347,7 +348,7 @@ namespace HaptoFlow
         }
 
         [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.SubsystemRegistration)]
-        private static void Begin()
+        private static void OnSubsystemRegistration()
         {
             ShutDown();
             Application.quitting -= ShutDown;

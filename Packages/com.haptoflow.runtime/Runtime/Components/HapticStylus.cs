@@ -5,52 +5,55 @@ using UnityEngine.Events;
 
 namespace HaptoFlow
 {
-    /// <summary>When a stylus looks at its tip.</summary>
+    /// <summary>When a stylus samples its tip.</summary>
     public enum StylusUpdate
     {
-        /// <summary>Once a rendered frame, after scripts have moved things.</summary>
+        /// <summary>Once a rendered frame, after scripts have moved objects.</summary>
         RenderedFrames,
 
         /// <summary>At every physics step.</summary>
         FixedUpdates,
     }
 
-    /// <summary>Follows a tip, finds the surface it touches, and makes that surface felt.</summary>
+    /// <summary>Tracks a tip, finds the surface it touches and plays that surface's vibration.</summary>
     [AddComponentMenu("HaptoFlow/Haptic Stylus")]
     [DefaultExecutionOrder(1000)]
     [HelpURL(HelpPages.Components + "haptic-stylus")]
     public sealed class HapticStylus : MonoBehaviour
     {
-        [SerializeField, Tooltip("Centre of the tip; empty for this object.")]
+        [SerializeField, Tooltip("The transform at the centre of the tip. Leave it empty for this object.")]
         private Transform? tip;
 
-        [SerializeField, Min(0f), Tooltip("Of the tip sphere, in metres.")]
+        [SerializeField, Min(0f), Tooltip("The radius of the tip sphere, in metres.")]
         private float tipRadiusMetres = 0.002f;
 
-        [SerializeField, Tooltip("Layers whose colliders can be felt.")]
+        [SerializeField, Tooltip("The layers whose colliders the tip can touch.")]
         private LayerMask layers = ~0;
 
-        [SerializeField]
+        [SerializeField, Tooltip("When the stylus samples its tip: once a rendered frame, or at every physics step.")]
         private StylusUpdate update = StylusUpdate.RenderedFrames;
 
-        [SerializeField, Tooltip("The stylus's own tip force; empty for the spring model f = k d.")]
+        [SerializeField, Tooltip("The source of the measured tip force. Leave it empty to use the spring model " +
+            "(force = stiffness x penetration depth).")]
         private TipForceSource? force;
 
-        [SerializeField, Tooltip("What decides that the tip touches. Measured Force is for a real object under the " +
-            "virtual one, and needs a tip force.")]
+        [SerializeField, Tooltip("What decides whether the tip touches. Measured Force is for a real object below " +
+            "the virtual one and needs a source of the tip force.")]
         private TouchDecision touchBy = TouchDecision.Geometry;
 
         [SerializeField]
         private ForceDecision forceDecision = new ForceDecision();
 
-        [SerializeField, Tooltip("Where the wave goes; empty for the scene's output, or one that is made.")]
+        [SerializeField, Tooltip("The output that plays the vibration. Leave it empty to use the scene's output or " +
+            "to create one.")]
         private HapticOutput? output;
 
         [SerializeField, Tooltip("The hand that holds the stylus. Outputs that vibrate in a hand need it; an XR Pen " +
-            "sets it.")]
+            "sets it by itself.")]
         private HapticHand hand = HapticHand.None;
 
-        [SerializeField, Range(0f, 1f)]
+        [SerializeField, Range(0f, 1f), Tooltip("The gain of this stylus, multiplied with the surface's and the " +
+            "output's.")]
         private float strength = 1f;
 
         [SerializeField]
@@ -58,31 +61,31 @@ namespace HaptoFlow
 
         private TipContacts? contacts;
         private StylusVoices? voices;
-        private bool following;
+        private bool isActive;
         private bool touching;
         private HapticContact contact;
 
-        /// <summary>The tip touched something. Main thread.</summary>
+        /// <summary>The tip touched a surface. Main thread.</summary>
         public event HapticContactHandler? TouchBegan;
 
-        /// <summary>The touch goes on; once an update. Main thread.</summary>
+        /// <summary>Raised once an update while the touch continues. Main thread.</summary>
         public event HapticContactHandler? TouchMoved;
 
-        /// <summary>The tip slid from one surface to another, or between colliders that are felt by rules, without
-        /// lifting; the contact is the new one. Main thread.</summary>
+        /// <summary>The tip slid from one surface to another, or between colliders with materials of a <see
+        /// cref="HapticMaterialMap"/>, without lifting; the contact is the new one. Main thread.</summary>
         public event HapticContactHandler? SurfaceChanged;
 
         /// <summary>The touch ended; the contact is the last one. Main thread.</summary>
         public event HapticContactHandler? TouchEnded;
 
-        /// <summary>Centre of the tip; null for this object.</summary>
+        /// <summary>Transform at the centre of the tip; null for this object.</summary>
         public Transform? Tip
         {
             get => tip;
             set => tip = value;
         }
 
-        /// <summary>Of the tip sphere, 0 or more.</summary>
+        /// <summary>Radius of the tip sphere, in metres, 0 or more.</summary>
         public float TipRadiusMetres
         {
             get => tipRadiusMetres;
@@ -96,42 +99,42 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>Layers whose colliders can be felt.</summary>
+        /// <summary>Layers whose colliders the tip can touch.</summary>
         public LayerMask Layers
         {
             get => layers;
             set => layers = value;
         }
 
-        /// <summary>When the stylus looks at its tip.</summary>
+        /// <summary>When the stylus samples its tip.</summary>
         public StylusUpdate UpdateMode
         {
             get => update;
             set => update = value;
         }
 
-        /// <summary>Null for the spring model.</summary>
+        /// <summary>Source of the measured tip force; null for the spring model.</summary>
         public TipForceSource? Force
         {
             get => force;
             set => force = value;
         }
 
-        /// <summary>What decides that the tip touches.</summary>
+        /// <summary>What decides whether the tip touches.</summary>
         public TouchDecision TouchBy
         {
             get => touchBy;
             set => touchBy = value;
         }
 
-        /// <summary>When a measured force is a touch; counts with <see cref="TouchDecision.MeasuredForce"/>.</summary>
+        /// <summary>Thresholds of a measured force; used with <see cref="TouchDecision.MeasuredForce"/>.</summary>
         public ForceDecision ForceDecision => forceDecision;
 
-        /// <summary>The events for wiring in the Inspector.</summary>
+        /// <summary>Events for wiring in the Inspector.</summary>
         public HapticStylusEvents Events => events;
 
-        /// <summary>The audio output where the wave goes; null for the scene's. Outputs that vibrate in a hand
-        /// (<see cref="DeviceOutput"/>) name their stylus instead, so that one stylus may have several.</summary>
+        /// <summary>The audio output of the stylus; null for the scene's. Outputs that vibrate in a hand (<see
+        /// cref="DeviceOutput"/>) reference their stylus instead, so one stylus can have several.</summary>
         public HapticOutput? Output
         {
             get => output;
@@ -145,49 +148,49 @@ namespace HaptoFlow
             set => hand = value;
         }
 
-        /// <summary>Gain, 0 to 1, on top of the surface's and the output's.</summary>
+        /// <summary>Gain, 0 to 1, multiplied with the surface's and the output's.</summary>
         public float Strength
         {
             get => strength;
             set => strength = Mathf.Clamp01(value);
         }
 
-        /// <summary>The tip touches something that can be felt.</summary>
+        /// <summary>True while the tip touches a surface.</summary>
         public bool IsTouching => touching;
 
-        /// <summary>What is touched, or was last.</summary>
+        /// <summary>The present touch, or the last one.</summary>
         public HapticContact Contact => contact;
 
-        /// <summary>What had to be put right in the tip's samples.</summary>
+        /// <summary>Corrections that the contact model made to the tip's samples.</summary>
         public ContactStatistics ContactStatistics => contacts?.Tracker.Statistics ?? default;
 
-        /// <summary>False while the stylus has no voice: before the model is loaded, or without one.</summary>
+        /// <summary>False while the stylus has no voice: before the model is loaded, or without a free voice.</summary>
         public bool TryGetStatistics(out VoiceStatistics statistics)
         {
             statistics = default;
             return voices != null && voices.TryGetStatistics(out statistics);
         }
 
-        /// <summary>What one stage of the stylus's voice did. False while the stylus has no voice.</summary>
+        /// <summary>Statistics of one effect of the stylus's voice. False while the stylus has no voice.</summary>
         public bool TryGetEffectStatistics(HapticEffect effect, out EffectStatistics statistics)
         {
             statistics = default;
             return voices != null && voices.TryGetEffectStatistics(effect, out statistics);
         }
 
-        /// <summary>How late the signal of the stylus's output began and ended. False while the stylus has no voice.
-        /// </summary>
+        /// <summary>Delays of the onsets and ends of the signal of the stylus's output. False while the stylus has no
+        /// voice.</summary>
         public bool TryGetSignalStatistics(out SignalStatistics statistics)
         {
             statistics = default;
             return voices != null && voices.TryGetSignalStatistics(out statistics);
         }
 
-        /// <summary>Silence at once; sounds again with the next touch-down.</summary>
+        /// <summary>Silences the stylus at once; it sounds again with the next touch-down.</summary>
         public void Panic() => voices?.Panic();
 
-        /// <summary>The tip was carried elsewhere, by a teleport or a hand-over: what it touched and its speed are
-        /// forgotten. Jumps faster than 20 m/s are noticed without this.</summary>
+        /// <summary>Discards the touch and the speed of a tip that was teleported or handed over. Jumps faster than 20
+        /// m/s are detected without this call.</summary>
         public void ForgetMotion()
         {
             contacts?.Forget();
@@ -204,7 +207,7 @@ namespace HaptoFlow
         {
             contacts ??= new TipContacts(new ContactSettings(), tipRadiusMetres, transform);
             contacts.Tracker.TipRadiusMetres = tipRadiusMetres;
-            following = true;
+            isActive =  true;
             HapticSession.Current.Poll();
             MaterialMaps.Poll();
             TerrainWeights.ReadScenes();
@@ -212,7 +215,7 @@ namespace HaptoFlow
 
         private void OnDisable()
         {
-            following = false;
+            isActive =  false;
             ForgetMotion();
             voices?.Close();
         }
@@ -220,7 +223,7 @@ namespace HaptoFlow
         private void OnValidate()
         {
             TipRadiusMetres = tipRadiusMetres;
-            forceDecision.Forget();
+            forceDecision.ResetDetector();
         }
 
         private void LateUpdate()
@@ -229,7 +232,7 @@ namespace HaptoFlow
             {
                 double now = Time.unscaledTimeAsDouble;
                 double sinceStep = Time.timeAsDouble - Time.fixedTimeAsDouble;
-                Follow(now, Time.timeScale > 0f ? now - sinceStep / Time.timeScale : now);
+                UpdateContact(now, Time.timeScale > 0f ? now - sinceStep / Time.timeScale : now);
             }
         }
 
@@ -237,30 +240,30 @@ namespace HaptoFlow
         {
             if (update == StylusUpdate.FixedUpdates)
             {
-                Follow(Time.fixedUnscaledTimeAsDouble, Time.fixedUnscaledTimeAsDouble);
+                UpdateContact(Time.fixedUnscaledTimeAsDouble, Time.fixedUnscaledTimeAsDouble);
             }
         }
 
-        private void Follow(double nowSeconds, double stepSeconds)
+        private void UpdateContact(double nowSeconds, double stepSeconds)
         {
             HapticSession session = HapticSession.Current;
             session.Poll();
             MaterialMaps.Poll();
-            contacts!.Tracker.Force = touchBy == TouchDecision.MeasuredForce ? forceDecision.Touch() : null;
+            contacts!.Tracker.Force = touchBy == TouchDecision.MeasuredForce ? forceDecision.Detector() : null;
             ContactReading reading;
             using (Markers.Contact.Auto())
             {
                 reading = contacts.Update(SampleAt(nowSeconds), stepSeconds, layers, session, this);
             }
-            TellOf(reading, session);
-            // A handler may have switched the stylus off: then nobody would close a voice that opened now.
-            if (!following)
+            RaiseTouchEvents(reading, session);
+            // A handler may have disabled the stylus; a voice opened now would never be closed.
+            if (!isActive)
             {
                 return;
             }
             using (Markers.Publish.Auto())
             {
-                // After the handlers, which may have changed what the surface is made of.
+                // After the handlers, which may have changed the surface's material.
                 Voices.Publish(reading, contacts.Touched?.Feel(session) ?? default, session);
             }
         }
@@ -283,9 +286,9 @@ namespace HaptoFlow
                 : force.TryRead(out newtons);
         }
 
-        private void TellOf(in ContactReading reading, HapticSession session)
+        private void RaiseTouchEvents(in ContactReading reading, HapticSession session)
         {
-            NearbySurface? touched = contacts!.Touched;
+            NearbyCollider? touched = contacts!.Touched;
             if (touched == null)
             {
                 EndTouch();
@@ -312,12 +315,12 @@ namespace HaptoFlow
             }
         }
 
-        // A handler before this one may have ended the touch.
-        private void Invoke(UnityEvent<HapticSurface> told)
+        // A handler called before may have ended the touch.
+        private void Invoke(UnityEvent<HapticSurface> handlers)
         {
             if (touching)
             {
-                told.Invoke(contact.Surface!);
+                handlers.Invoke(contact.Surface!);
             }
         }
 

@@ -5,28 +5,28 @@ using UnityEngine.Events;
 
 namespace HaptoFlow
 {
-    /// <summary>The stylus's events for wiring in the Inspector, each with the surface: what the C# events tell,
-    /// without the contact's numbers. The surface is null for a collider that is felt by the rules of a
-    /// <see cref="HapticMaterialMap"/>. Main thread; invoking them makes no garbage.</summary>
+    /// <summary>The stylus's events for wiring in the Inspector, each with the surface. They are raised together with
+    /// the C# events but without the contact's values. The surface is null for a collider whose material a <see
+    /// cref="HapticMaterialMap"/> assigns. Main thread; raising them makes no garbage.</summary>
     [Serializable]
     public sealed class HapticStylusEvents
     {
-        [SerializeField, Tooltip("The tip touched a surface.")]
+        [SerializeField, Tooltip("Raised when the tip touches a surface.")]
         private UnityEvent<HapticSurface> touchBegan = new UnityEvent<HapticSurface>();
 
-        [SerializeField, Tooltip("The touch goes on: once an update.")]
+        [SerializeField, Tooltip("Raised once an update while the touch continues.")]
         private UnityEvent<HapticSurface> touchMoved = new UnityEvent<HapticSurface>();
 
-        [SerializeField, Tooltip("The tip slid from one surface to this one without lifting.")]
+        [SerializeField, Tooltip("Raised when the tip slides from one surface to another without lifting.")]
         private UnityEvent<HapticSurface> surfaceChanged = new UnityEvent<HapticSurface>();
 
-        [SerializeField, Tooltip("The touch ended; the surface is the last one.")]
+        [SerializeField, Tooltip("Raised when the touch ends, with the last surface.")]
         private UnityEvent<HapticSurface> touchEnded = new UnityEvent<HapticSurface>();
 
         /// <summary>The tip touched a surface.</summary>
         public UnityEvent<HapticSurface> TouchBegan => touchBegan;
 
-        /// <summary>The touch goes on; once an update.</summary>
+        /// <summary>Raised once an update while the touch continues.</summary>
         public UnityEvent<HapticSurface> TouchMoved => touchMoved;
 
         /// <summary>The tip slid from one surface to this one without lifting.</summary>

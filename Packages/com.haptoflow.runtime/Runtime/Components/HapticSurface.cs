@@ -4,40 +4,42 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>Makes a GameObject's colliders feelable: says what they are made of.</summary>
-    /// <remarks>Box, sphere, capsule and character colliders are exact, and so are convex meshes for a tip outside of
-    /// them. Other mesh and terrain colliders are asked by rays against their front faces, whatever
-    /// Physics.queriesHitBackfaces says: a tip deeper than 20 mm behind one is outside again. Triggers and wheel
-    /// colliders are left out.</remarks>
+    /// <summary>Assigns a material to the colliders of a GameObject, so that styluses can feel them.</summary>
+    /// <remarks>Box, sphere, capsule and character colliders are computed exactly, and so are convex meshes for a tip
+    /// outside of them. Other mesh and terrain colliders are searched with rays against their front faces, whatever
+    /// Physics.queriesHitBackfaces is: a tip more than 20 mm behind a face counts as outside. Triggers and wheel
+    /// colliders are ignored.</remarks>
     [AddComponentMenu("HaptoFlow/Haptic Surface")]
     [DisallowMultipleComponent]
     [HelpURL(HelpPages.Components + "haptic-surface")]
     public sealed class HapticSurface : MonoBehaviour
     {
-        [SerializeField, Tooltip("A material shared with other surfaces; empty to describe one here.")]
+        [SerializeField, Tooltip("A material shared with other surfaces. Leave it empty to describe one here.")]
         private HapticMaterial? sharedMaterial;
 
         [SerializeField]
         private MaterialDescription own = new MaterialDescription();
 
-        [SerializeField, Tooltip("Colliders of children count too, but for those below another Haptic Surface.")]
+        [SerializeField, Tooltip("Includes the colliders of children, except below another Haptic Surface.")]
         private bool includeChildren = true;
 
-        [SerializeField, Tooltip("The object's own motion is felt: off, only the hand's speed over the world counts.")]
+        [SerializeField, Tooltip("Takes the tip's velocity relative to the object. Off: relative to the world, so " +
+            "the object's own motion is not felt.")]
         private bool feelOwnMotion = true;
 
-        [SerializeField, Tooltip("Direction of the first tangent axis, in the object's local space: along the grain.")]
+        [SerializeField, Tooltip("The direction of the grain in the object's local space: the first tangent axis.")]
         private Vector3 grain = new Vector3(1f, 0f, 0f);
 
-        [SerializeField, Tooltip("Further materials by a texture, at the place that is touched; empty for none.")]
+        [SerializeField, Tooltip("A texture that blends in further materials at the touched place. Leave it empty " +
+            "for none.")]
         private HapticMaskMap? mask;
 
         private readonly List<Collider> registered = new List<Collider>();
         private bool isStale;
         private readonly MaterialLookUp ownLookUp = new MaterialLookUp();
 
-        /// <summary>The shared material asset; null where the surface describes its own. Changing the asset changes
-        /// every surface that shares it, as Renderer.sharedMaterial does.</summary>
+        /// <summary>The shared material asset; null where the surface has a description of its own. A change to the
+        /// asset affects every surface that shares it, as with Renderer.sharedMaterial.</summary>
         public HapticMaterial? SharedMaterial
         {
             get => sharedMaterial;
@@ -48,10 +50,9 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>What this surface is made of, to be changed: changes reach no other surface and no asset. As with
-        /// Renderer.material, asking for it gives a surface with a shared material a copy of its own, and
-        /// <see cref="SharedMaterial"/> is null from then on. To read only, ask
-        /// <see cref="SharedDescription"/>.</summary>
+        /// <summary>The description of this surface alone, for changes. As with Renderer.material, reading this
+        /// property replaces a shared material by a copy, and <see cref="SharedMaterial"/> is null from then on. To
+        /// read only, use <see cref="SharedDescription"/>.</summary>
         public MaterialDescription Material
         {
             get
@@ -65,11 +66,11 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>What counts, to be read: the shared material's description, or the surface's own. A change of a
-        /// shared one changes the asset and every surface that shares it.</summary>
+        /// <summary>The description in effect, for reading: the shared material's, or the surface's own. A change to a
+        /// shared one affects the asset and every surface that shares it.</summary>
         public MaterialDescription SharedDescription => sharedMaterial != null ? sharedMaterial.Description : own;
 
-        /// <summary>Colliders of children count too.</summary>
+        /// <summary>True to include colliders of children.</summary>
         public bool IncludeChildren
         {
             get => includeChildren;
@@ -80,7 +81,8 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>The tip's velocity is taken relative to the object; off, relative to the world.</summary>
+        /// <summary>True to take the tip's velocity relative to the object; false to take it relative to the
+        /// world.</summary>
         public bool FeelOwnMotion
         {
             get => feelOwnMotion;
@@ -94,15 +96,15 @@ namespace HaptoFlow
             set => grain = value;
         }
 
-        /// <summary>Further materials by a texture, at the place that is touched; null for none.</summary>
+        /// <summary>A texture that blends in further materials at the touched place; null for none.</summary>
         public HapticMaskMap? Mask
         {
             get => mask;
             set => mask = value;
         }
 
-        /// <summary>Colliders that lead to this surface. A child that comes or goes, and a collider added deeper below,
-        /// are noticed without help.</summary>
+        /// <summary>Colliders that belong to this surface. Direct children that come or go, and colliders added deeper
+        /// below, are detected automatically.</summary>
         public IReadOnlyList<Collider> Colliders
         {
             get
@@ -115,8 +117,8 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>Looks for colliders again now: only so that <see cref="Colliders"/> lists one that was added to, or
-        /// removed from, an object deeper below before a tip came near. Main thread; makes garbage.</summary>
+        /// <summary>Searches for colliders again now. Needed only so that <see cref="Colliders"/> lists a change deeper
+        /// in the hierarchy before a tip comes near. Main thread; makes garbage.</summary>
         public void Refresh()
         {
             Unregister();
@@ -126,15 +128,16 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>The collider is where this surface looks, if no nearer surface stands between.</summary>
+        /// <summary>True where the collider lies in this surface's part of the hierarchy, unless a nearer surface has
+        /// it.</summary>
         internal bool Reaches(Collider collider) => includeChildren
             ? collider.transform.IsChildOf(transform)
             : ReferenceEquals(collider.gameObject, gameObject);
 
-        /// <summary>A registered collider needs no new look-up.</summary>
+        /// <summary>True where a registered collider still belongs to this surface.</summary>
         internal bool Keeps(Collider collider) => !isStale && Reaches(collider);
 
-        /// <summary>Takes a collider that was found below this surface.</summary>
+        /// <summary>Registers a collider that was found below this surface.</summary>
         internal void Adopt(Collider collider)
         {
             if (isStale)
@@ -148,13 +151,13 @@ namespace HaptoFlow
             SurfaceRegistry.Add(collider, this);
         }
 
-        /// <summary>The labels as the engine takes them, looked up again only when something changed.</summary>
+        /// <summary>The labels and their weights for the engine, looked up again only after a change.</summary>
         internal LabelBlend BlendFor(HapticSession session) => LookUp(session).Labels;
 
-        /// <summary>In N/m; 0 for the contact model's default.</summary>
+        /// <summary>Stiffness in N/m; 0 for the contact model's default.</summary>
         internal double StiffnessFor(HapticSession session) => LookUp(session).StiffnessNewtonsPerMetre;
 
-        /// <summary>What a place on one of the colliders feels like; labels of none where it is nothing.</summary>
+        /// <summary>The material at a place on one of the colliders; without labels where the place has none.</summary>
         internal FeltMaterial At(in TouchedPlace place, HapticSession session)
         {
             FeltMaterial whole = FeltMaterial.Of(SharedDescription, LookUp(session));
@@ -168,25 +171,25 @@ namespace HaptoFlow
         private void OnEnable()
         {
             Register();
-            TellSurfaceAbove();
+            InvalidateSurfaceAbove();
             HapticSession.Existing?.Prepare(SharedDescription);
         }
 
         private void OnDisable() => Unregister();
 
-        private void OnDestroy() => TellSurfaceAbove();
+        private void OnDestroy() => InvalidateSurfaceAbove();
 
-        // Told of direct children only; what changes deeper below is noticed when a tip comes near.
+        // Unity reports direct children only; changes deeper below are detected when a tip comes near.
         private void OnTransformChildrenChanged() => isStale = true;
 
         private void OnValidate()
         {
-            own.Touch();
+            own.MarkChanged();
             isStale = true;
         }
 
-        /// <summary>The colliders here were, or become, those of the surface above.</summary>
-        private void TellSurfaceAbove()
+        /// <summary>Makes the surface above search again: colliders here belonged to it, or will.</summary>
+        private void InvalidateSurfaceAbove()
         {
             HapticSurface? above = SurfaceRegistry.OwnerOf(transform.parent);
             if (above != null)

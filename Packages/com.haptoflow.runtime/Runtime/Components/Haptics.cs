@@ -4,10 +4,10 @@ using System.Collections.Generic;
 
 namespace HaptoFlow
 {
-    /// <summary>HaptoFlow as a whole, for programs. Main thread.</summary>
+    /// <summary>Entry points of HaptoFlow for scripts. Main thread.</summary>
     public static class Haptics
     {
-        /// <summary>The model is loaded and touches can sound.</summary>
+        /// <summary>True when the model is loaded and touches can be played.</summary>
         public static bool IsReady
         {
             get
@@ -17,52 +17,51 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>Why there are no haptics; null where nothing is wrong, or nothing was started yet.</summary>
+        /// <summary>Why there are no haptics; null where there is no error, or before anything was started.</summary>
         public static string? Problem => HapticSession.Existing?.Problem;
 
         /// <summary>Names of the loaded model's labels; empty before it is loaded.</summary>
         public static IReadOnlyList<string> Labels => HapticSession.Existing?.Labels.All ?? Array.Empty<string>();
 
-        /// <summary>Learnt materials that are felt as they were learnt.</summary>
+        /// <summary>Number of learnt materials that the engine has registered.</summary>
         public static int LearntMaterials => HapticSession.Existing?.Learnt?.Felt ?? 0;
 
-        /// <summary>Learnt materials that the engine refused, each with a line in the console: their labels are felt
-        /// instead.</summary>
+        /// <summary>Number of learnt materials that the engine refused, each with a warning in the console: their
+        /// labels are used instead.</summary>
         public static int RefusedMaterials => HapticSession.Existing?.Learnt?.Refused ?? 0;
 
-        /// <summary>Loads the model now rather than when the first stylus wakes; the loading is done by another thread.
-        /// </summary>
+        /// <summary>Starts loading the model on another thread now, rather than when the first stylus is
+        /// enabled.</summary>
         public static void Prepare() => HapticSession.Current.Poll();
 
-        /// <summary>Closes the engine; it starts anew, with the settings as they are then, when a stylus next asks.
-        /// Models of <see cref="Load"/> stay loaded, and none of them is in use any more.</summary>
+        /// <summary>Closes the engine. The next stylus starts it again with the settings of that time. Models of <see
+        /// cref="Load"/> stay loaded, but none of them stays in use.</summary>
         public static void Restart() => HapticSession.Restart();
 
-        /// <summary>Loads a model beside the one in use, by another thread; <see cref="HapticLoadedModel.Use"/> then
-        /// changes over to it from one frame to the next. For scenes that change or compare models while they run.
-        /// </summary>
-        /// <param name="quality">Which of its tiers generates.</param>
+        /// <summary>Loads a model on another thread, in addition to the one in use; <see cref="HapticLoadedModel.Use"/>
+        /// then switches to it between two frames. For scenes that change or compare models while they run.</summary>
+        /// <param name="quality">Selects the tier.</param>
         /// <returns>The loaded model. The caller disposes it, which closes its engine.</returns>
         public static HapticLoadedModel Load(HapticModelAsset model, HapticQuality quality) =>
             new HapticLoadedModel(model, quality);
 
-        /// <summary>Styluses feel by the model of the settings again, with their next update. Loaded models stay
+        /// <summary>Makes styluses use the model of the settings again, from their next update. Loaded models stay
         /// loaded.</summary>
         public static void UseSettings() => HapticSession.UseSettings();
 
-        /// <summary>From the next segment on; also kept in the active settings. A tier that has to be loaded first is
-        /// loaded by another thread, while the present one goes on.</summary>
+        /// <summary>Changes the quality from the next segment on, and in the active settings. A tier that is not loaded
+        /// yet is loaded on another thread while the present one plays on.</summary>
         public static void SetQuality(HapticQuality quality)
         {
             HaptoFlowSettings.Active.Quality = quality;
             HapticSession.Existing?.SetQuality(quality);
         }
 
-        /// <summary>Text of the engine's newest failed round of inference, or of its worker's end; empty where there
-        /// was none. Makes garbage where there is one.</summary>
+        /// <summary>Message of the last failed inference, or of the worker's end; empty where there was none. Makes
+        /// garbage where there is one.</summary>
         public static string LastFailure => HapticSession.Existing?.Engine?.LastFailure() ?? "";
 
-        /// <summary>Silence at once, everywhere. Each stylus sounds again with its next touch-down.</summary>
+        /// <summary>Silences every stylus at once; each sounds again with its next touch-down.</summary>
         public static void Panic() => HapticVoice.PanicAll();
 
         /// <summary>False before the model is loaded.</summary>

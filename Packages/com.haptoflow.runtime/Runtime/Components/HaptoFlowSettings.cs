@@ -4,44 +4,46 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>What a project renders with. The asset that Project Settings > HaptoFlow makes, and one named
-    /// HaptoFlowSettings in a Resources folder, are found by themselves; another can be set before the first stylus
-    /// wakes.</summary>
+    /// <summary>Settings of a project. The asset created in Project Settings > HaptoFlow, and one named
+    /// HaptoFlowSettings in a Resources folder, are found automatically; a script can set another before the first
+    /// stylus is enabled.</summary>
     [CreateAssetMenu(menuName = "HaptoFlow/Settings", fileName = ResourceName, order = 2)]
     [HelpURL(HelpPages.Components + "haptoflow-settings")]
     public sealed class HaptoFlowSettings : ScriptableObject
     {
         internal const string ResourceName = "HaptoFlowSettings";
 
-        [SerializeField, Tooltip("The .haptoflow model.")]
+        [SerializeField, Tooltip("The .haptoflow model that generates the vibration.")]
         private HapticModelAsset? model;
 
-        [SerializeField, Tooltip("Auto measures this machine and takes the most accurate tier that fits the budget.")]
+        [SerializeField, Tooltip("The quality selects the tier. Auto measures this machine and takes the most " +
+            "accurate tier within the budget.")]
         private HapticQuality quality = HapticQuality.Auto;
 
         [SerializeField, Range(0.01f, 1f)]
-        [Tooltip("Auto: share of the time between two contact states that inference may take.")]
+        [Tooltip("The share of the time between two contact states that inference may take with the quality Auto.")]
         private float budgetShare = 0.25f;
 
-        [SerializeField, Tooltip("The update rate is the headset's, or the screen's, where the display says it.")]
+        [SerializeField, Tooltip("Uses the refresh rate of the headset, or of the screen, as the update rate.")]
         private bool followDisplay = true;
 
         [SerializeField, Range(1f, 1000f)]
-        [Tooltip("Contact states a second, in Hz: counts where the display is not followed, or does not say its rate.")]
-        private float updateRateHz = 72f;
+        [Tooltip("The rate of contact states, in Hz, where the display is not followed or does not report its rate.")]
+        private float updateRateHz = (float)HapticEngineOptions.DefaultUpdateRateHz;
 
-        [SerializeField, Range(0f, 1f), Tooltip("Safety: no output sample is above this, whatever happens.")]
+        [SerializeField, Range(0f, 1f), Tooltip("The limit of all output samples, for safety: 1 is full scale.")]
         private float ceiling = 1f;
 
-        [SerializeField, Min(1f), Tooltip("Acceleration that is full scale in the output, in m/s^2.")]
+        [SerializeField, Min(1f), Tooltip("The acceleration that is full scale in the output, in m/s^2.")]
         private float fullScaleMps2 = (float)HapticEngineOptions.DefaultFullScaleMps2;
 
-        [SerializeField, Tooltip("Says by rules which object is which material; empty for Haptic Surfaces alone.")]
+        [SerializeField, Tooltip("The rules that assign materials to objects. Leave it empty to use Haptic Surfaces " +
+            "alone.")]
         private HapticMaterialMap? materialMap;
 
         private static HaptoFlowSettings? active;
 
-        // Preloaded assets wake before load methods run or after them: no load method forgets this one.
+        // Unity loads preloaded assets before or after load methods run, so no load method may reset this field.
         private static HaptoFlowSettings? preloaded;
 
         /// <summary>The model; null where none is chosen.</summary>
@@ -51,61 +53,62 @@ namespace HaptoFlow
             set => model = value;
         }
 
-        /// <summary>Which tier generates.</summary>
+        /// <summary>Selects the tier.</summary>
         public HapticQuality Quality
         {
             get => quality;
             set => quality = value;
         }
 
-        /// <summary>Above 0 to 1.</summary>
+        /// <summary>With the quality Auto, share of the time between two contact states that inference may take, above
+        /// 0 to 1.</summary>
         public float BudgetShare
         {
             get => budgetShare;
             set => budgetShare = value;
         }
 
-        /// <summary>An engine that starts takes the refresh rate of the running headset, else of the screen, as its
-        /// update rate. A display that changes its rate later is followed after
-        /// <see cref="Haptics.Restart"/>.</summary>
+        /// <summary>True to start the engine with the refresh rate of the running headset, else of the screen, as its
+        /// update rate. A later change of the display's rate takes effect after <see
+        /// cref="Haptics.Restart"/>.</summary>
         public bool FollowDisplay
         {
             get => followDisplay;
             set => followDisplay = value;
         }
 
-        /// <summary>Contact states a second, 1 to 10000: counts where the display is not followed, or does not say its
-        /// rate.</summary>
+        /// <summary>Contact states per second, 1 to 10000; used where the display is not followed or does not report
+        /// its rate.</summary>
         public float UpdateRateHz
         {
             get => updateRateHz;
             set => updateRateHz = value;
         }
 
-        /// <summary>0 to 1.</summary>
+        /// <summary>Limit of the absolute output samples, 0 to 1.</summary>
         public float Ceiling
         {
             get => ceiling;
             set => ceiling = value;
         }
 
-        /// <summary>Acceleration that is +-1 in the output, in m/s^2, above 0.</summary>
+        /// <summary>Full scale: the acceleration that is +-1 in the output, in m/s^2, above 0.</summary>
         public float FullScaleMps2
         {
             get => fullScaleMps2;
             set => fullScaleMps2 = value;
         }
 
-        /// <summary>Says by rules which object is which material, in every scene; null for none. Counts at once, also
-        /// when it is changed while something is touched.</summary>
+        /// <summary>Assigns materials to objects by rules, in every scene; null for none. Changes take effect at once,
+        /// also during a touch.</summary>
         public HapticMaterialMap? MaterialMap
         {
             get => materialMap;
             set => materialMap = value;
         }
 
-        /// <summary>The project's settings; built-in ones where the project has none. What is set here counts for
-        /// engines that start afterwards (<see cref="Haptics.Restart"/>). Main thread.</summary>
+        /// <summary>The project's settings; defaults where the project has none. Changes take effect for engines that
+        /// start afterwards (<see cref="Haptics.Restart"/>). Main thread.</summary>
         public static HaptoFlowSettings Active
         {
             get
@@ -135,11 +138,11 @@ namespace HaptoFlow
         /// players.</summary>
         internal static Func<HaptoFlowSettings?>? OfProject { get; set; }
 
-        /// <summary>Nothing is active until somebody asks again.</summary>
+        /// <summary>Makes <see cref="Active"/> search for the settings again.</summary>
         [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.SubsystemRegistration)]
         internal static void Forget() => active = null;
 
-        // A settings asset among the player's preloaded assets takes effect by being there.
+        // A settings asset among the player's preloaded assets becomes active when Unity loads it.
         private void OnEnable()
         {
             if (preloaded == null && model != null)

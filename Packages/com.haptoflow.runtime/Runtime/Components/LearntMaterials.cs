@@ -6,9 +6,9 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>The learnt materials of one engine: each is registered once, by another thread, when a surface that
-    /// uses it wakes or is first touched. Until then, and where the engine refuses it, its label is felt. Main thread;
-    /// no garbage while nothing changes.</summary>
+    /// <summary>The learnt materials of one engine. Each is registered once, on another thread, when a surface that
+    /// uses it is enabled or first touched. Until then, and where the engine refuses it, its label is used. Main
+    /// thread; no garbage while nothing changes.</summary>
     internal sealed class LearntMaterials
     {
         private readonly HapticEngine engine;
@@ -21,8 +21,9 @@ namespace HaptoFlow
         private Task<List<MaterialRegistration>>? running;
         private int taken;
 
-        /// <param name="space">Of the engine's model.</param>
-        /// <param name="labelCount">Of the engine's model: materials come behind its labels.</param>
+        /// <param name="space">Space of the engine's model.</param>
+        /// <param name="labelCount">Number of labels of the engine's model: indices of materials follow those of
+        /// labels.</param>
         public LearntMaterials(HapticEngine engine, string space, int labelCount)
         {
             this.engine = engine;
@@ -30,14 +31,14 @@ namespace HaptoFlow
             this.labelCount = labelCount;
         }
 
-        /// <summary>Materials that are felt as they were learnt.</summary>
+        /// <summary>Number of registered materials.</summary>
         public int Felt { get; private set; }
 
-        /// <summary>Materials that were refused: their labels are felt instead.</summary>
+        /// <summary>Number of refused materials: their labels are used instead.</summary>
         public int Refused { get; private set; }
 
-        /// <summary>Where the engine knows a material; asks for it to be registered where it does not yet.</summary>
-        /// <param name="isWaiting">It is being registered: nothing is wrong with it yet.</param>
+        /// <summary>Finds a material's index in the engine; requests its registration where there is none.</summary>
+        /// <param name="isWaiting">True while the registration is under way.</param>
         public bool TryFind(HapticMaterial material, out int index, out bool isWaiting)
         {
             if (!known.TryGetValue(material, out Known found))
@@ -51,15 +52,15 @@ namespace HaptoFlow
             return index >= 0;
         }
 
-        /// <summary>Null for a material that is felt, or that nobody asked for yet.</summary>
+        /// <summary>Why the engine refused a material; null where it did not, or the material was not
+        /// requested.</summary>
         public string? WhyRefused(HapticMaterial material) =>
             known.TryGetValue(material, out Known found) && found.IsRefused ? found.Refusal : null;
 
-        /// <summary>In N/m, of a material that was found.</summary>
+        /// <summary>Stiffness in N/m of a registered material.</summary>
         public double StiffnessNewtonsPerMetre(int index) => stiffness[index - labelCount];
 
-        /// <summary>A material may carry another text: what is felt follows. One that nobody touched stays unknown.
-        /// </summary>
+        /// <summary>Registers the new text of a material. A material that was never requested is left alone.</summary>
         public void Change(HapticMaterial material)
         {
             if (known.TryGetValue(material, out Known found) && !ReferenceEquals(found.Text, material.Learnt))
@@ -68,8 +69,8 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>A material is gone, or carries nothing any more: another may take its place.</summary>
-        /// <returns>It was known.</returns>
+        /// <summary>Removes a material that was destroyed or lost its text; its index becomes free.</summary>
+        /// <returns>True where the material was known.</returns>
         public bool Forget(HapticMaterial material)
         {
             if (!known.TryGetValue(material, out Known found))
@@ -87,8 +88,8 @@ namespace HaptoFlow
             return true;
         }
 
-        /// <summary>Takes over what was registered meanwhile. Once a frame.</summary>
-        /// <returns>A description may mean something else now.</returns>
+        /// <summary>Takes over completed registrations. Call once a frame.</summary>
+        /// <returns>True where an index may have changed.</returns>
         public bool Poll()
         {
             if (running == null || !running.IsCompleted)
@@ -105,7 +106,7 @@ namespace HaptoFlow
             return true;
         }
 
-        /// <summary>Waits until everything that was asked for is registered or refused.</summary>
+        /// <summary>Waits until every requested material is registered or refused.</summary>
         public void Finish()
         {
             while (running != null)
@@ -115,8 +116,8 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>Waits for what is under way, and begins nothing more: the engine must not be closed beneath it.
-        /// </summary>
+        /// <summary>Waits for the registration under way and starts no other: the engine must stay open
+        /// meanwhile.</summary>
         public void Close()
         {
             waiting.Clear();
@@ -168,7 +169,7 @@ namespace HaptoFlow
         {
             material.IsUnderWay = false;
             bool wasFelt = material.Index >= 0;
-            // Where a new text was refused the engine still knows the old one, which nobody asked for.
+            // Where the engine refused a new text it still holds the old one, which is released below.
             material.Index = done.Place;
             taken -= done.Place == MaterialRegistration.NewPlace ? 1 : 0;
             Felt += wasFelt || material.Index < 0 ? 0 : 1;
@@ -212,17 +213,17 @@ namespace HaptoFlow
             material.IsRefused = isRefused;
         }
 
-        /// <summary>What is known of one material.</summary>
+        /// <summary>State of one material.</summary>
         private sealed class Known
         {
             public Known(HapticMaterial material) => Material = material;
 
             public HapticMaterial Material { get; }
 
-            /// <summary>As it was asked for last.</summary>
+            /// <summary>The text requested last.</summary>
             public string Text { get; set; } = "";
 
-            /// <summary>In the engine; -1 where it is not felt.</summary>
+            /// <summary>Index in the engine; -1 where the material is not registered.</summary>
             public int Index { get; set; } = -1;
 
             public bool IsUnderWay { get; set; }

@@ -3,8 +3,8 @@ using Unity.Profiling;
 
 namespace HaptoFlow
 {
-    /// <summary>What the profiler shows. Inference runs on a thread of the native library, which the profiler does not
-    /// see: its times are in the engine's statistics.</summary>
+    /// <summary>Markers for the profiler. Inference runs on a thread of the native library, which the profiler does not
+    /// show: its times are in the engine's statistics.</summary>
     internal static class Markers
     {
         public static readonly ProfilerMarker Contact = new ProfilerMarker("HaptoFlow.Contact");

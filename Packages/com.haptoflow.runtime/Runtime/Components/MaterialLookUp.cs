@@ -3,8 +3,8 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>What a description means to the running engine, looked up again only when the description or the
-    /// model's labels changed. Main thread; no garbage while nothing changes.</summary>
+    /// <summary>Resolves a description to labels of the running engine, again only after the description or the model's
+    /// labels changed. Main thread; no garbage while nothing changes.</summary>
     internal sealed class MaterialLookUp
     {
         private MaterialDescription? knownDescription;
@@ -12,10 +12,11 @@ namespace HaptoFlow
         private int knownLabels;
         private double labelStiffness;
 
-        /// <summary>None where the model knows no label of the description.</summary>
+        /// <summary>The labels with their weights; none where the model knows no label of the description.</summary>
         public LabelBlend Labels { get; private set; }
 
-        /// <summary>In N/m, of the description, else of the labels; 0 for the contact model's default.</summary>
+        /// <summary>Stiffness in N/m, of the description, else of the labels; 0 for the contact model's
+        /// default.</summary>
         public double StiffnessNewtonsPerMetre
         {
             get
@@ -25,8 +26,8 @@ namespace HaptoFlow
             }
         }
 
-        /// <param name="user">Who is named where the model does not know a label.</param>
-        /// <returns>This.</returns>
+        /// <param name="user">Object that a warning about an unknown label names.</param>
+        /// <returns>This object.</returns>
         public MaterialLookUp Of(MaterialDescription description, HapticSession session, Object user)
         {
             bool isKnown = ReferenceEquals(description, knownDescription) && description.Version == knownVersion &&

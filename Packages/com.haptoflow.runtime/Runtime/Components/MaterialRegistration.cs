@@ -3,16 +3,17 @@ using HaptoFlow.Model;
 
 namespace HaptoFlow
 {
-    /// <summary>One learnt material on its way into an engine. Made on the main thread, done by another.</summary>
+    /// <summary>The registration of one learnt material with an engine. Created on the main thread, run on
+    /// another.</summary>
     internal sealed class MaterialRegistration
     {
-        /// <summary>The engine says where.</summary>
+        /// <summary>The engine assigns the index.</summary>
         public const int NewPlace = -1;
 
         private readonly string text;
 
-        /// <param name="owner">Whose it is.</param>
-        /// <param name="place">In the place of an earlier one, or <see cref="NewPlace"/>.</param>
+        /// <param name="owner">The entry that the result belongs to.</param>
+        /// <param name="place">Index of the material to replace, or <see cref="NewPlace"/>.</param>
         public MaterialRegistration(object owner, string text, int place)
         {
             Owner = owner;
@@ -22,15 +23,16 @@ namespace HaptoFlow
 
         public object Owner { get; }
 
-        /// <summary>Index of a label in the engine; <see cref="NewPlace"/> where a new one was refused.</summary>
+        /// <summary>Index of the material in the engine; <see cref="NewPlace"/> where the engine refused a new
+        /// one.</summary>
         public int Place { get; private set; }
 
         public double StiffnessNewtonsPerMetre { get; private set; }
 
-        /// <summary>Why it is not felt; null where it is.</summary>
+        /// <summary>Why the engine refused the material; null where it did not.</summary>
         public string? Refusal { get; private set; }
 
-        /// <summary>Why a material is not felt under a model of another space, and what to do.</summary>
+        /// <summary>Says why a material of another space cannot be used with a model, and what to do.</summary>
         public static string ForeignSpace(string own, string models) =>
             $"it was learnt for another model (its space is {own}, the model's {models}). Learn it again from its " +
             "recording with this model, or choose the model that it was learnt for in Project Settings > HaptoFlow.";

@@ -8,8 +8,8 @@ using Object = UnityEngine.Object;
 
 namespace HaptoFlow
 {
-    /// <summary>The labels of the model that is loaded: names to indices, and a warning, once each, for names that the
-    /// model does not have.</summary>
+    /// <summary>The labels of the loaded model: maps names to indices, and warns once about each name that the model
+    /// does not have.</summary>
     internal sealed class ModelLabels
     {
         private readonly LabelNames names;
@@ -25,11 +25,11 @@ namespace HaptoFlow
 
         public IReadOnlyList<string> All => names.All;
 
-        /// <summary>Of the engine that these labels are felt with; null where there is none.</summary>
+        /// <summary>The learnt materials of the same engine; null without an engine.</summary>
         public LearntMaterials? Learnt { get; set; }
 
-        /// <summary>The labels of a description with their weights; unknown ones are left out. The stiffness is the
-        /// weighted mean of the labels', 0 where none is known.</summary>
+        /// <summary>The labels of a description with their weights, without unknown ones. The stiffness is the weighted
+        /// mean of the labels' stiffness, 0 where no label is known.</summary>
         public LabelBlend Blend(
             MaterialDescription material, Object user, out double stiffnessNewtonsPerMetre)
         {
@@ -54,8 +54,8 @@ namespace HaptoFlow
             return knowsFirst ? LabelBlend.Of(first) : knowsSecond ? LabelBlend.Of(second) : default;
         }
 
-        /// <summary>What was learnt goes before the label; while it is on its way nobody is warned of the label.
-        /// </summary>
+        /// <summary>A learnt material takes precedence over the label. While it is being registered, an unknown label
+        /// causes no warning.</summary>
         private bool TryFindFirst(MaterialDescription material, Object user, out int index)
         {
             HapticMaterial? learnt = material.Learnt;
@@ -83,7 +83,7 @@ namespace HaptoFlow
                     ? "near matches: " + string.Join(", ", near)
                     : "labels are: " + string.Join(", ", All);
                 Debug.LogWarning(
-                    $"HaptoFlow: the model has no label \"{name}\" (first met on {user.name}); {remedy}.", user);
+                    $"HaptoFlow: the model has no label \"{name}\" (first used by {user.name}); {remedy}.", user);
             }
             return false;
         }

@@ -4,25 +4,24 @@ using System.Threading.Tasks;
 
 namespace HaptoFlow
 {
-    /// <summary>A change of quality under way on another thread: the engine may have to load a tier first. Main thread.
-    /// </summary>
+    /// <summary>A change of quality on another thread: the engine may have to load a tier first. Main thread.</summary>
     internal sealed class QualityChange
     {
         private readonly Task<string?> task;
         private bool taken;
 
-        /// <param name="before">Ends first: the newest change must win.</param>
+        /// <param name="before">The previous change, which this one waits for: the last request decides.</param>
         public QualityChange(HapticEngine engine, HapticQuality quality, QualityChange? before)
         {
             Task<string?> earlier = before?.task ?? Task.FromResult<string?>(null);
             task = earlier.ContinueWith(_ => Change(engine, quality), TaskScheduler.Default);
         }
 
-        /// <summary>Waits for its end.</summary>
+        /// <summary>Waits until the change has succeeded or failed.</summary>
         public void Finish() => ((IAsyncResult)task).AsyncWaitHandle.WaitOne();
 
-        /// <summary>Why the quality could not be changed, told once; null while it is under way or where it was.
-        /// </summary>
+        /// <summary>Why the quality was not changed, returned once; null while the change is under way or where it
+        /// succeeded.</summary>
         public string? TakeFailure()
         {
             if (taken || !task.IsCompleted)

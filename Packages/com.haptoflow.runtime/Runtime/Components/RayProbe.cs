@@ -6,19 +6,18 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>The nearest place on a mesh or a terrain, which have no formula: by rays from outside against front
-    /// faces.</summary>
+    /// <summary>Searches the closest point of a mesh or a terrain, for which there is no formula, with rays from
+    /// outside against front faces.</summary>
     /// <remarks>
-    /// <para>A ray starts above the tip, away from the surface, and runs back through it; a hit's normal gives the
-    /// next,
-    /// better direction. Directions to start with: the last contact's normal, the way the tip came, and six axes. A
-    /// short ray goes first, so that a thin wall opposite is not taken for the surface.</para>
-    /// <para>No ray is cast for a tip that the collider's bounds keep out of reach. A tip that was touching, or that
-    /// came through the surface since the last frame, may be beyond flat bounds and is still asked for.</para>
+    /// <para>A ray starts above the tip, away from the surface, and runs back through it; the normal of a hit gives the
+    /// next, better direction. The first directions are the last contact's normal, the direction from which the tip
+    /// came, and the six axes. A short ray goes first, so that the far side of a thin wall is not taken for the
+    /// surface.</para>
+    /// <para>No ray is cast for a tip out of reach of the collider's bounds. A tip that was touching, or that crossed
+    /// the surface since the last frame, may be outside flat bounds and is still tested.</para>
     /// <para>Limits: a tip deeper than <see cref="DeepestMetres"/> behind a face counts as outside; in a corner the
-    /// face
-    /// that was touched first stays; an object without rigid body that a script moves is hit where it was at the last
-    /// physics step, unless physics transforms are synchronised.</para>
+    /// face that was touched first stays; an object without rigid body that a script moves is hit at its pose of the
+    /// last physics step, unless physics transforms are synchronised.</para>
     /// </remarks>
     internal static class RayProbe
     {
@@ -26,12 +25,12 @@ namespace HaptoFlow
         private const double ShortLiftMetres = 0.004;
         private const double SmallestMoveMetres = 1e-5;
 
-        // Hits come in single precision.
-        private const double SmallestOffsetMetres = 1e-5;
+        // Ray hits have single precision.
+        private const double MinimumOffsetMetres = 1e-5;
         private const double BoundsSlackMetres = 1e-4;
         private const int Refinements = 2;
 
-        /// <param name="hit">Of the ray that found the place.</param>
+        /// <param name="hit">The ray hit that found the point.</param>
         public static bool TryClosest(Collider collider, in RigidPose pose, in ProbeQuestion question,
             out SurfacePoint found, out RaycastHit hit)
         {
@@ -78,7 +77,7 @@ namespace HaptoFlow
             return collider.bounds.SqrDistance(tip.ToVector()) > margin * margin;
         }
 
-        /// <summary>Where the physics engine has a collider that is drawn at a pose.</summary>
+        /// <summary>Pose in the physics engine of a collider that is drawn at another pose.</summary>
         private static RigidPose PhysicsPose(Collider collider, in RigidPose pose)
         {
             Rigidbody body = collider.attachedRigidbody!;
@@ -115,10 +114,10 @@ namespace HaptoFlow
             public Double3 Point { get; private set; }
             public Double3 Normal { get; private set; }
 
-            /// <summary>Signed, negative inside.</summary>
+            /// <summary>Signed distance in metres, negative inside.</summary>
             public double Distance { get; private set; }
 
-            /// <summary>Of the ray that found the place.</summary>
+            /// <summary>The ray hit that found the point.</summary>
             public RaycastHit Hit { get; private set; }
 
             public void Try(Double3 outward)
@@ -148,8 +147,8 @@ namespace HaptoFlow
                 }
                 Double3 offset = tip - point;
                 double along = Double3.Dot(offset, normal);
-                // Beside an edge no face lies straight below the tip: the way to the edge is the normal there.
-                bool beside = along >= 0.0 && offset.Length > along + SmallestOffsetMetres;
+                // Beside an edge no face lies below the tip: the normal points from the edge to the tip.
+                bool beside = along >= 0.0 && offset.Length > along + MinimumOffsetMetres;
                 double distance = beside ? offset.Length : along;
                 if (distance < -DeepestMetres || distance > reach || Math.Abs(distance) >= Math.Abs(Distance))
                 {

@@ -4,8 +4,8 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>The voice of one stylus on one output: opened where engine and output are there, moved where either
-    /// changed, fed with contact states. Main thread, no garbage while nothing changes.</summary>
+    /// <summary>The voice of one stylus on one output: opens it when engine and output are available, reopens it when
+    /// either changes, and publishes contact states to it. Main thread, no garbage while nothing changes.</summary>
     internal sealed class StylusVoice
     {
         private readonly HapticStylus stylus;
@@ -16,18 +16,18 @@ namespace HaptoFlow
         private IVoiceTarget? output;
         private float publishedStrength;
 
-        // Of the engine before: it fades while the present one begins.
-        private readonly LeavingVoice leaving = new LeavingVoice();
+        // A voice of the previous engine: it fades out while the present one begins.
+        private readonly FadingVoice leaving = new FadingVoice();
 
-        // The touch of the newest reading, also of one that no voice has played.
+        // The touch counter of the newest reading, whether or not a voice played it.
         private uint? newestTouch;
 
-        // The landing that was over when the voice opened; null where none was.
+        // The landing that was over before the voice opened; null without one.
         private (uint Touch, uint Landings)? missedLanding;
 
         public StylusVoice(HapticStylus stylus) => this.stylus = stylus;
 
-        // A restart closes the engine with its voices; the stylus notices in its next update.
+        // A restart closes the engine with its voices; the stylus detects it in its next update.
         private bool IsOpen => voice != null && ReferenceEquals(engine, HapticSession.Existing?.Engine);
 
         public bool TryGetStatistics(out VoiceStatistics statistics)
@@ -56,9 +56,9 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>Tells the engine what the tip does; opens the voice first where it can.</summary>
-        /// <param name="felt">What is felt; labels of none where nothing is.</param>
-        /// <param name="wanted">Where it plays; null for silence.</param>
+        /// <summary>Publishes a contact state; opens the voice first where possible.</summary>
+        /// <param name="felt">The material at the contact; without labels where there is none.</param>
+        /// <param name="wanted">The output that plays the voice; null for silence.</param>
         public void Publish(
             in ContactReading reading, in FeltMaterial felt, HapticSession session, IVoiceTarget? wanted)
         {
@@ -81,7 +81,7 @@ namespace HaptoFlow
                 EdgeCounter = reading.EdgeCounter,
                 EdgeHeightMetres = (float)reading.EdgeHeightMetres,
             };
-            // What has no label that the model knows is left unfelt rather than felt as something else.
+            // A material without a label that the model knows is silent, rather than played as another.
             if (felt.Labels.Count > 0)
             {
                 state.Touching = true;

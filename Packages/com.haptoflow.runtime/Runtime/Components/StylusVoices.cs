@@ -4,8 +4,8 @@ using HaptoFlow.Contact;
 
 namespace HaptoFlow
 {
-    /// <summary>The voices of one stylus: one on an audio output, one on each device output that names the stylus. Each
-    /// output drives its own voice's clock. Main thread; no garbage while nothing changes.</summary>
+    /// <summary>The voices of one stylus: one on an audio output, and one on each device output that references the
+    /// stylus. Each output drives the clock of its own voice. Main thread; no garbage while nothing changes.</summary>
     internal sealed class StylusVoices
     {
         private readonly HapticStylus stylus;
@@ -19,16 +19,17 @@ namespace HaptoFlow
             audio = new StylusVoice(stylus);
         }
 
-        /// <summary>An author gave the stylus a device output, switched on or off: then none is chosen for it.</summary>
+        /// <summary>True where the scene's author assigned a device output to the stylus, enabled or not: none is then
+        /// chosen automatically.</summary>
         public bool HasNamedDevices => named > 0;
 
-        /// <summary>The output that was chosen for this stylus, or will be; null where nobody asked.</summary>
+        /// <summary>The output chosen automatically for this stylus; null where it was not requested.</summary>
         public AutoOutput? Chosen { get; set; }
 
-        /// <summary>An author's output names the stylus, or does so no more.</summary>
+        /// <summary>Counts a device output that the author assigned to the stylus, or no longer assigns.</summary>
         public void Name(bool names) => named += names ? 1 : -1;
 
-        /// <summary>The output wants to play what the stylus feels.</summary>
+        /// <summary>Adds an output that plays the stylus.</summary>
         public void Add(IVoiceTarget target)
         {
             if (!Array.Exists(devices, each => ReferenceEquals(each.Target, target)))
@@ -38,7 +39,7 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>The output plays no more.</summary>
+        /// <summary>Removes an output that no longer plays the stylus.</summary>
         public void Remove(IVoiceTarget target)
         {
             Device[] before = devices;
@@ -52,7 +53,7 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>Of the audio output's voice; where there is none, of the first device's.</summary>
+        /// <summary>Statistics of the audio output's voice; without one, of the first device's.</summary>
         public bool TryGetStatistics(out VoiceStatistics statistics)
         {
             if (audio.TryGetStatistics(out statistics))
@@ -69,7 +70,7 @@ namespace HaptoFlow
             return false;
         }
 
-        /// <summary>Of the audio output's voice, else of the first that there is.</summary>
+        /// <summary>Statistics of the audio output's voice, else of the first device's.</summary>
         public bool TryGetEffectStatistics(HapticEffect effect, out EffectStatistics statistics)
         {
             if (audio.TryGetEffectStatistics(effect, out statistics))
@@ -86,7 +87,7 @@ namespace HaptoFlow
             return false;
         }
 
-        /// <summary>Of the audio output's voice, which alone has a signal.</summary>
+        /// <summary>Statistics of the audio output's voice, which alone plays signals.</summary>
         public bool TryGetSignalStatistics(out SignalStatistics statistics) =>
             audio.TryGetSignalStatistics(out statistics);
 
@@ -117,7 +118,7 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>Null for silence: an output that is switched off is not replaced by another.</summary>
+        /// <summary>Null for silence: a disabled output is not replaced by another.</summary>
         private HapticOutput? WantedAudio()
         {
             HapticOutput? chosen = stylus.Output;

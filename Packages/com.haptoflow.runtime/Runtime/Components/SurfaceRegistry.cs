@@ -4,7 +4,7 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>Which surface a collider belongs to. Main thread; looking up makes no garbage.</summary>
+    /// <summary>Maps colliders to surfaces. Main thread; a look-up makes no garbage.</summary>
     internal static class SurfaceRegistry
     {
         private static readonly Dictionary<Collider, HapticSurface> Surfaces =
@@ -20,7 +20,7 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>Has what the surfaces are made of registered before they are touched.</summary>
+        /// <summary>Registers the learnt materials of all surfaces before they are touched.</summary>
         public static void PrepareAll(HapticSession session)
         {
             foreach (HapticSurface surface in Surfaces.Values)
@@ -29,13 +29,13 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>The collider still leads to the surface as when it was last looked up.</summary>
+        /// <summary>True where the collider still belongs to the surface that was looked up for it.</summary>
         public static bool Holds(Collider collider, HapticSurface surface) =>
             Surfaces.TryGetValue(collider, out HapticSurface registered) && ReferenceEquals(registered, surface) &&
             surface.Keeps(collider);
 
-        /// <summary>The surface that feels a collider, by where the collider is in the hierarchy now: also one that was
-        /// added, or moved below another parent, since anybody looked. Null for an untagged one.</summary>
+        /// <summary>Finds the surface of a collider by the collider's present place in the hierarchy, so that colliders
+        /// added or moved since the last search are found. Null for an untagged collider.</summary>
         public static HapticSurface? Resolve(Collider collider)
         {
             HapticSurface? owner = OwnerOf(collider.transform);

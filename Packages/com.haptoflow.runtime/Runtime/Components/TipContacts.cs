@@ -6,43 +6,44 @@ using Object = UnityEngine.Object;
 
 namespace HaptoFlow
 {
-    /// <summary>The surfaces around one tip, frame by frame: asks the physics engine, keeps what is near, and lets the
-    /// contact model decide. Main thread, no garbage after construction.</summary>
+    /// <summary>The colliders around one tip, frame by frame: queries the physics engine, keeps the colliders that are
+    /// near, and lets the contact model decide which one is touched. Main thread, no garbage after
+    /// construction.</summary>
     internal sealed class TipContacts : ISurfaceGeometry
     {
-        private const int MostColliders = 128;
-        private const int MostSurfaces = 32;
+        private const int MaximumColliders = 128;
+        private const int MaximumNearbyColliders = 32;
 
-        // Surfaces are followed before they are touched, so that a velocity relative to them is there at touch-down.
-        private const double FollowedWithinMetres = 0.05;
+        // Colliders are tracked before they are touched, so that their velocity is known at touch-down.
+        private const double TrackedWithinMetres = 0.05;
 
-        // In a crowd: what is nearer than this gets a place before all else.
+        // With too many colliders, those within this distance have priority.
         private const double TouchableWithinMetres = 0.003;
 
         private readonly Transform stylus;
-        private readonly Collider[] colliders = new Collider[MostColliders];
-        private readonly NearbySurface[] near = new NearbySurface[MostSurfaces];
+        private readonly Collider[] colliders = new Collider[MaximumColliders];
+        private readonly NearbyCollider[] near = new NearbyCollider[MaximumNearbyColliders];
         private Double3 previousTipMetres;
         private bool hasPreviousTip;
-        private bool isCrowded;
-        private bool warnedOfCrowd;
+        private bool hasTooMany;
+        private bool hasWarned;
         private long update;
 
-        /// <param name="stylus">Its own colliders are not felt by rules.</param>
+        /// <param name="stylus">The stylus, whose own colliders the rules must not match.</param>
         public TipContacts(ContactSettings settings, double tipRadiusMetres, Transform stylus)
         {
             this.stylus = stylus;
             Tracker = new ContactTracker(settings, tipRadiusMetres) { Geometry = this };
             for (int index = 0; index < near.Length; ++index)
             {
-                near[index] = new NearbySurface();
+                near[index] = new NearbyCollider();
             }
         }
 
         public ContactTracker Tracker { get; }
 
-        /// <summary>What is touched after <see cref="Update"/>; null where nothing is.</summary>
-        public NearbySurface? Touched { get; private set; }
+        /// <summary>The collider that <see cref="Update"/> found touched; null without a touch.</summary>
+        public NearbyCollider? Touched { get; private set; }
 
         /// <param name="stepSeconds">Time of the last physics step, on the sample's clock.</param>
         public ContactReading Update(
@@ -57,7 +58,7 @@ namespace HaptoFlow
             }
             ContactReading reading = Tracker.EndFrame();
             Touched = Find(reading.Surface);
-            LetGoOfDistant();
+            ReleaseDistant();
             return reading;
         }
 
@@ -66,7 +67,7 @@ namespace HaptoFlow
             Tracker.Forget();
             Touched = null;
             hasPreviousTip = false;
-            foreach (NearbySurface surface in near)
+            foreach (NearbyCollider surface in near)
             {
                 surface.End();
             }
@@ -75,7 +76,7 @@ namespace HaptoFlow
         bool ISurfaceGeometry.TryClosest(TrackedSurface surface, Double3 tipMetres, out SurfacePoint found)
         {
             found = default;
-            NearbySurface? place = Find(surface);
+            NearbyCollider? place = Find(surface);
             if (place == null || place.Collider == null)
             {
                 return false;
@@ -90,21 +91,21 @@ namespace HaptoFlow
         private void Consider(double stepSeconds, int layers, HapticSession session, Object context)
         {
             using FrontFacesOnly fronts = FrontFacesOnly.Begin();
-            if (isCrowded)
+            if (hasTooMany)
             {
-                // What the tip may touch comes before what is only followed.
+                // Colliders that the tip may touch take precedence over those that are only tracked.
                 ConsiderWithin(Tracker.ReachMetres + TouchableWithinMetres, stepSeconds, layers, session, true);
             }
             bool hasAll = ConsiderWithin(
-                Tracker.ReachMetres + FollowedWithinMetres, stepSeconds, layers, session, false);
-            isCrowded = !hasAll;
-            if (isCrowded)
+                Tracker.ReachMetres + TrackedWithinMetres, stepSeconds, layers, session, false);
+            hasTooMany = !hasAll;
+            if (hasTooMany)
             {
-                WarnOfCrowd(context);
+                WarnTooManyColliders(context);
             }
         }
 
-        /// <param name="takesPlaces">Places of surfaces that were not met in this update are taken from them.</param>
+        /// <param name="takesPlaces">True to replace colliders that this update has not found near.</param>
         /// <returns>False where there was no room for some.</returns>
         private bool ConsiderWithin(
             double metres, double stepSeconds, int layers, HapticSession session, bool takesPlaces)
@@ -121,9 +122,9 @@ namespace HaptoFlow
                     : FeltColliders.Resolve(collider);
                 if (surface is object || byRules is object)
                 {
-                    NearbySurface? place = PlaceFor(collider, surface, byRules, takesPlaces);
+                    NearbyCollider? place = PlaceFor(collider, surface, byRules, takesPlaces);
                     hasAll &= place != null;
-                    if (place != null && place.LastMet != update)
+                    if (place != null && place.LastUpdate != update)
                     {
                         Consider(place, collider, stepSeconds, session);
                     }
@@ -133,9 +134,9 @@ namespace HaptoFlow
             return hasAll;
         }
 
-        private void Consider(NearbySurface place, Collider collider, double stepSeconds, HapticSession session)
+        private void Consider(NearbyCollider place, Collider collider, double stepSeconds, HapticSession session)
         {
-            place.LastMet = update;
+            place.LastUpdate = update;
             RigidPose pose = ColliderProbe.PoseOf(collider);
             place.Record(Tracker.NowSeconds, stepSeconds, pose);
             var question = new ProbeQuestion(
@@ -149,11 +150,11 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>Looked up anew when a collider comes near, and when something changed about the surface that it led
-        /// to.</summary>
+        /// <summary>Looks the surface up again when a collider comes near, and when the surface that it belonged to
+        /// changed.</summary>
         private HapticSurface? SurfaceOf(Collider collider)
         {
-            foreach (NearbySurface each in near)
+            foreach (NearbyCollider each in near)
             {
                 if (ReferenceEquals(each.Collider, collider) && each.Surface is object &&
                     SurfaceRegistry.Holds(collider, each.Surface))
@@ -164,12 +165,13 @@ namespace HaptoFlow
             return SurfaceRegistry.Resolve(collider);
         }
 
-        /// <summary>A place whose surface the tip did not touch and that this update has not met.</summary>
-        private NearbySurface? NotMetYet()
+        /// <summary>Frees the entry of a collider that is not touched and that this update has not found
+        /// near.</summary>
+        private NearbyCollider? ReusableEntry()
         {
-            foreach (NearbySurface each in near)
+            foreach (NearbyCollider each in near)
             {
-                if (each.LastMet != update && !ReferenceEquals(each.Tracked, Tracker.Touched))
+                if (each.LastUpdate != update && !ReferenceEquals(each.Tracked, Tracker.Touched))
                 {
                     Tracker.Release(each.Tracked);
                     each.End();
@@ -179,8 +181,8 @@ namespace HaptoFlow
             return null;
         }
 
-        /// <summary>A pen must not feel itself, nor the body of who holds it, where a rule is wide enough to match
-        /// them.</summary>
+        /// <summary>True for a collider of the stylus itself or of the body that carries it, which a broad rule may
+        /// match but the stylus must not touch.</summary>
         private bool IsOfStylus(Collider collider)
         {
             if (!MaterialMaps.Any)
@@ -193,11 +195,11 @@ namespace HaptoFlow
                 (body != null && stylus.IsChildOf(body.transform));
         }
 
-        private NearbySurface? PlaceFor(
+        private NearbyCollider? PlaceFor(
             Collider collider, HapticSurface? surface, FeltCollider? byRules, bool takesPlaces)
         {
-            NearbySurface? free = null;
-            foreach (NearbySurface each in near)
+            NearbyCollider? free = null;
+            foreach (NearbyCollider each in near)
             {
                 if (ReferenceEquals(each.Collider, collider) && ReferenceEquals(each.Surface, surface) &&
                     ReferenceEquals(each.ByRules, byRules))
@@ -208,17 +210,17 @@ namespace HaptoFlow
             }
             if (free == null && takesPlaces)
             {
-                free = NotMetYet();
+                free = ReusableEntry();
             }
             free?.Begin(collider, surface, byRules);
             return free;
         }
 
-        private NearbySurface? Find(TrackedSurface? tracked)
+        private NearbyCollider? Find(TrackedSurface? tracked)
         {
             if (tracked != null)
             {
-                foreach (NearbySurface each in near)
+                foreach (NearbyCollider each in near)
                 {
                     if (ReferenceEquals(each.Tracked, tracked))
                     {
@@ -229,11 +231,11 @@ namespace HaptoFlow
             return null;
         }
 
-        private void LetGoOfDistant()
+        private void ReleaseDistant()
         {
-            foreach (NearbySurface each in near)
+            foreach (NearbyCollider each in near)
             {
-                if (!(each.Collider is null) && each.LastMet != update)
+                if (!(each.Collider is null) && each.LastUpdate != update)
                 {
                     Tracker.Release(each.Tracked);
                     each.End();
@@ -241,14 +243,14 @@ namespace HaptoFlow
             }
         }
 
-        private void WarnOfCrowd(Object context)
+        private void WarnTooManyColliders(Object context)
         {
-            if (!warnedOfCrowd)
+            if (!hasWarned)
             {
-                warnedOfCrowd = true;
-                Debug.LogWarning($"HaptoFlow: more than {MostSurfaces} colliders that can be felt within " +
-                    $"{FollowedWithinMetres * 100.0:0} cm of a tip: those it touches are felt, but the motion of one " +
-                    "that moves is felt late. Narrow the stylus's layer mask.", context);
+                hasWarned = true;
+                Debug.LogWarning($"HaptoFlow: more than {MaximumNearbyColliders} tagged colliders are within " +
+                    $"{TrackedWithinMetres * 100.0:0} cm of a tip: those it touches are felt, but the velocity of " +
+                    "moving ones is known late. Narrow the stylus's layer mask.", context);
             }
         }
     }

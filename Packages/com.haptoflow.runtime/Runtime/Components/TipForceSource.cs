@@ -3,20 +3,21 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>Where a stylus's own tip force comes from: derive from this for a device, put it on a GameObject and
-    /// name it in the stylus.</summary>
+    /// <summary>A source of a stylus's measured tip force. Derive from this class for a device, add the component to a
+    /// GameObject and assign it to the stylus.</summary>
     public abstract class TipForceSource : MonoBehaviour
     {
-        /// <summary>The force on the tip now. Called on the main thread, once a frame; must make no garbage.</summary>
+        /// <summary>The present force on the tip. Called on the main thread, once a frame; must make no
+        /// garbage.</summary>
         /// <param name="forceNewtons">0 or more.</param>
-        /// <returns>False where the device has no news: then the spring model counts.</returns>
+        /// <returns>False where the device reports none: the spring model then supplies the force.</returns>
         public abstract bool TryRead(out float forceNewtons);
 
-        /// <summary>The force as it is measured, 0 for a tip in the air: asked in place of <see cref="TryRead"/> where
-        /// the force decides what touches (<see cref="TouchDecision.MeasuredForce"/>). Main thread, once a frame; must
-        /// make no garbage.</summary>
+        /// <summary>The measured force, 0 for a tip in the air: called instead of <see cref="TryRead"/> where the force
+        /// decides what touches (<see cref="TouchDecision.MeasuredForce"/>). Main thread, once a frame; must make no
+        /// garbage.</summary>
         /// <param name="forceNewtons">0 or more.</param>
-        /// <returns>False where the device measures nothing now: then geometry decides.</returns>
+        /// <returns>False where the device measures nothing: geometry then decides.</returns>
         public virtual bool TryMeasure(out float forceNewtons) => TryRead(out forceNewtons);
     }
 }

@@ -1,16 +1,16 @@
 #nullable enable
 namespace HaptoFlow
 {
-    /// <summary>Which hand holds something.</summary>
+    /// <summary>The hand that holds a device or a stylus.</summary>
     public enum HapticHand
     {
-        /// <summary>Nobody said.</summary>
+        /// <summary>No hand was set.</summary>
         None = 0,
 
-        /// <summary>The right one.</summary>
+        /// <summary>The right hand.</summary>
         Right = 1,
 
-        /// <summary>The left one.</summary>
+        /// <summary>The left hand.</summary>
         Left = 2,
     }
 }

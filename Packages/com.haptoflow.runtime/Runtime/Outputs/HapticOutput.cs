@@ -8,44 +8,47 @@ namespace HaptoFlow
     /// <summary>How an output reaches the audio device.</summary>
     public enum OutputRoute
     {
-        /// <summary>A playing audio source without clip on this object: the haptic channel also carries what other
+        /// <summary>A playing audio source without clip on this object. The haptic channel also carries what other
         /// sources play.</summary>
         AudioSource,
 
-        /// <summary>A filter on the audio listener that overwrites one channel: nothing else is heard there. Put the
-        /// output on the listener's object, below every other filter.</summary>
+        /// <summary>A filter on the audio listener that overwrites one channel, which then carries nothing else. Put
+        /// the output on the listener's object, below every other filter.</summary>
         ListenerChannel,
 
-        /// <summary>The mixer effect "HaptoFlow Voice": the native library plays inside an Audio Mixer, this component
-        /// tells the effect which voice. One stylus for each output.</summary>
+        /// <summary>The mixer effect "HaptoFlow Voice": the native library plays inside an Audio Mixer, and this
+        /// component sets the effect's voice. One stylus for each output.</summary>
         MixerEffect,
     }
 
-    /// <summary>Feeds the haptic waves of styluses into Unity's audio output.</summary>
+    /// <summary>Plays the vibration of styluses through Unity's audio output.</summary>
     [AddComponentMenu("HaptoFlow/Haptic Output")]
     [DisallowMultipleComponent]
     [HelpURL(HelpPages.Components + "haptic-output")]
     public sealed class HapticOutput : MonoBehaviour, IVoiceTarget
     {
-        [SerializeField]
+        [SerializeField, Tooltip("How the output reaches the audio device.")]
         private OutputRoute route = OutputRoute.AudioSource;
 
-        [SerializeField, Min(-1), Tooltip("Output channel, from 0; -1 for all (not for Listener Channel).")]
+        [SerializeField, Min(-1), Tooltip("The output channel, from 0. -1 plays on all channels, except with " +
+            "Listener Channel.")]
         private int channel = HapticVoice.AllChannels;
 
-        [SerializeField, Range(0f, 1f)]
+        [SerializeField, Range(0f, 1f), Tooltip("The gain of this output.")]
         private float strength = 1f;
 
-        [SerializeField]
+        [SerializeField, Tooltip("A muted output is silent and costs no inference.")]
         private bool muted;
 
-        [SerializeField, Tooltip("Audio Source: AudioListener.pause and AudioListener.volume reach the haptics too.")]
+        [SerializeField, Tooltip("Applies AudioListener.pause and AudioListener.volume to the haptics as well, with " +
+            "the route Audio Source.")]
         private bool obeyListener;
 
-        [SerializeField, Tooltip("Mixer effect: the mixer that holds the effect.")]
+        [SerializeField, Tooltip("The mixer that contains the effect, with the route Mixer Effect.")]
         private AudioMixer? audioMixer;
 
-        [SerializeField, Tooltip("Mixer effect: the name under which the effect's parameter Voice is exposed.")]
+        [SerializeField, Tooltip("The name under which the effect's parameter Voice is exposed, with the route " +
+            "Mixer Effect.")]
         private string voiceParameter = "HaptoFlowVoice";
 
         [SerializeField]
@@ -61,50 +64,50 @@ namespace HaptoFlow
         private volatile int renderedChannel;
         private volatile bool rendersHere;
 
-        /// <summary>Can be chosen until the output's first frame.</summary>
+        /// <summary>The route; it can be set until the output's first frame.</summary>
         public OutputRoute Route
         {
             get => route;
             set => route = started
-                ? throw new InvalidOperationException("HaptoFlow: an output's route is chosen before its first frame")
+                ? throw new InvalidOperationException("HaptoFlow: set an output's route before its first frame")
                 : value;
         }
 
-        /// <summary>The mixer that holds the mixer effect, and the name under which the effect's parameter Voice is
-        /// exposed there. To be called before a stylus uses the output.</summary>
+        /// <summary>Sets the mixer that contains the mixer effect, and the name under which the effect's parameter
+        /// Voice is exposed there. Call it before a stylus uses the output.</summary>
         public void SetMixer(AudioMixer holder, string exposedVoiceParameter)
         {
             audioMixer = holder;
             voiceParameter = exposedVoiceParameter;
         }
 
-        /// <summary>Output channel, from 0; -1 for all. A channel that the device does not have is silent.
-        /// <see cref="OutputRoute.ListenerChannel"/> needs a channel of its own: with -1 it would overwrite everything
-        /// that the player hears, so it stays silent and logs an error.</summary>
+        /// <summary>Output channel, from 0; -1 for all. A channel that the device does not have is silent. <see
+        /// cref="OutputRoute.ListenerChannel"/> needs a channel of its own: with -1 it would overwrite everything that
+        /// the player hears, so the output stays silent and logs an error.</summary>
         public int Channel
         {
             get => channel;
             set
             {
                 channel = value;
-                DecideRendering();
+                UpdateRendering();
                 if (started)
                 {
-                    RefuseMissingChannel();
+                    ReportMissingChannel();
                 }
             }
         }
 
-        /// <summary>With <see cref="OutputRoute.AudioSource"/>: AudioListener.pause and AudioListener.volume reach the
-        /// haptics too. Off by default: a game that turns its sound down or pauses it keeps what the hand feels.
-        /// </summary>
+        /// <summary>True to apply AudioListener.pause and AudioListener.volume to the haptics as well, with <see
+        /// cref="OutputRoute.AudioSource"/>. Off by default: a game that lowers or pauses its sound keeps its
+        /// haptics.</summary>
         public bool ObeyListener
         {
             get => obeyListener;
             set
             {
                 obeyListener = value;
-                TellSource();
+                ConfigureSource();
             }
         }
 
@@ -115,7 +118,7 @@ namespace HaptoFlow
             set => strength = Mathf.Clamp01(value);
         }
 
-        /// <summary>Muted, an output is silent and costs no inference.</summary>
+        /// <summary>A muted output is silent and costs no inference.</summary>
         public bool Muted
         {
             get => muted;
@@ -126,55 +129,59 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>What the voices go through on their way to the device. Call <see cref="ApplyProcessing"/> after a
+        /// <summary>Processing between the voices and the device. Call <see cref="ApplyProcessing"/> after a
         /// change.</summary>
         public OutputProcessing Processing => processing;
 
-        /// <summary>Hands a change of <see cref="Processing"/> to the voices that sound here; new ones have it by
-        /// themselves.</summary>
+        /// <summary>Applies a change of <see cref="Processing"/> to the open voices of this output; new voices have it
+        /// from the start.</summary>
         public void ApplyProcessing() =>
             mixer.ForEach((voice, output) => output.processing.Apply(voice, output), this);
 
-        /// <summary>A sine for studies of latency, in the place of everything else: it sounds while a tip touches and
-        /// moves, whatever speed and force are. A tip sets off at 30 mm/s and comes to rest below 15 mm/s, from one
-        /// frame to the next, on a surface that stands still. Not kept with the scene.</summary>
-        /// <param name="frequencyHz">20 to 500; ignored where the amplitude is 0.</param>
-        /// <param name="amplitudeMps2">Its peak, 0 to 60 m/s^2; 0 for no signal.</param>
+        /// <summary>Plays a sine instead of everything else, for studies of latency. It sounds while a tip touches and
+        /// moves, whatever the speed and the force. Motion begins above 30 mm/s and ends below 15 mm/s, measured
+        /// between two frames, on a surface at rest. Not saved with the scene.</summary>
+        /// <param name="frequencyHz">Frequency, 20 to 500 Hz; ignored where the amplitude is 0.</param>
+        /// <param name="amplitudeMps2">Peak amplitude, 0 to 60 m/s^2; 0 for no signal.</param>
         /// <exception cref="ArgumentOutOfRangeException">A value is out of range.</exception>
         public void SetSignal(double frequencyHz, double amplitudeMps2)
         {
-            if (!(amplitudeMps2 >= 0.0 && amplitudeMps2 <= 60.0))
+            if (!(amplitudeMps2 >= 0.0 && amplitudeMps2 <= HapticVoice.MaximumSignalMps2))
             {
-                throw new ArgumentOutOfRangeException(nameof(amplitudeMps2), amplitudeMps2, "expected 0 to 60 m/s^2");
+                throw new ArgumentOutOfRangeException(nameof(amplitudeMps2), amplitudeMps2,
+                    FormattableString.Invariant($"expected 0 to {HapticVoice.MaximumSignalMps2} m/s^2"));
             }
-            if (amplitudeMps2 > 0.0 && !(frequencyHz >= 20.0 && frequencyHz <= 500.0))
+            if (amplitudeMps2 > 0.0 && !(frequencyHz >= HapticVoice.MinimumSignalHz &&
+                frequencyHz <= HapticVoice.MaximumSignalHz))
             {
-                throw new ArgumentOutOfRangeException(nameof(frequencyHz), frequencyHz, "expected 20 to 500 Hz");
+                throw new ArgumentOutOfRangeException(nameof(frequencyHz), frequencyHz, FormattableString.Invariant(
+                    $"expected {HapticVoice.MinimumSignalHz} to {HapticVoice.MaximumSignalHz} Hz"));
             }
             signalHz = frequencyHz;
             signalMps2 = amplitudeMps2;
             mixer.ForEach((voice, output) => voice.SetSignal(output.signalHz, output.signalMps2), this);
         }
 
-        /// <summary>Of the device, in Hz.</summary>
+        /// <summary>Sample rate of the device, in Hz.</summary>
         public int SampleRateHz => sampleRateHz;
 
-        /// <summary>Largest magnitude of the last blocks, 0 to 1.</summary>
+        /// <summary>Peak magnitude of the last blocks, 0 to 1.</summary>
         public float Level => meter.Peak;
 
-        /// <summary>What rendering the last block took, in ms.</summary>
+        /// <summary>Time to render the last block, in ms.</summary>
         public float RenderMilliseconds => meter.Milliseconds;
 
-        /// <summary>The most that rendering a block took, in ms.</summary>
+        /// <summary>Longest time to render a block, in ms.</summary>
         public float WorstRenderMilliseconds => meter.WorstMilliseconds;
 
-        /// <summary>Silence at once; each stylus sounds again with its next touch-down.</summary>
+        /// <summary>Silences the output at once; each stylus sounds again with its next touch-down.</summary>
         public void Panic() => mixer.ForEach((voice, _) => voice.Panic(), 0);
 
-        /// <summary>Made for a scene without output.</summary>
+        /// <summary>True for an output created automatically for a scene without one.</summary>
         internal bool IsMade { get; private set; }
 
-        /// <summary>An output as <see cref="SceneOutputs"/> makes it: it counts as made before it wakes.</summary>
+        /// <summary>Creates an output for <see cref="SceneOutputs"/>; <see cref="IsMade"/> is set before its
+        /// Awake.</summary>
         internal static HapticOutput Make()
         {
             var owner = new GameObject("HaptoFlow Output");
@@ -201,7 +208,7 @@ namespace HaptoFlow
 
         void IVoiceTarget.Remove(HapticVoice voice) => mixer.Remove(voice);
 
-        /// <summary>Does something with every voice that sounds here. Main thread.</summary>
+        /// <summary>Calls an action with every voice of this output. Main thread.</summary>
         internal void ForEachVoice<T>(Action<HapticVoice, T> act, T argument) => mixer.ForEach(act, argument);
 
         private void NameVoice(HapticVoice voice)
@@ -209,32 +216,32 @@ namespace HaptoFlow
             bool named = audioMixer != null && audioMixer.SetFloat(voiceParameter, voice.Place());
             if (!named)
             {
-                Debug.LogWarning($"HaptoFlow: {name} names no mixer that exposes a parameter \"{voiceParameter}\": " +
+                Debug.LogWarning($"HaptoFlow: {name} has no mixer that exposes a parameter \"{voiceParameter}\": " +
                     "expose the parameter Voice of the effect HaptoFlow Voice under that name.", this);
             }
         }
 
-        private void Awake() => SceneOutputs.Woke(this);
+        private void Awake() => SceneOutputs.OnOutputAwake(this);
 
         private void OnEnable()
         {
-            DecideRendering();
+            UpdateRendering();
             ReadConfiguration();
             AudioSettings.OnAudioConfigurationChanged += OnConfigurationChanged;
             SceneOutputs.Add(this);
             if (started)
             {
                 PlaySource();
-                RefuseMissingChannel();
+                ReportMissingChannel();
             }
         }
 
         private void Start()
         {
             started = true;
-            DecideRendering();
+            UpdateRendering();
             PlaySource();
-            RefuseMissingChannel();
+            ReportMissingChannel();
         }
 
         private void OnDisable()
@@ -251,19 +258,19 @@ namespace HaptoFlow
 
         private void OnValidate()
         {
-            DecideRendering();
-            TellSource();
+            UpdateRendering();
+            ConfigureSource();
         }
 
         private bool LacksChannel => route == OutputRoute.ListenerChannel && channel < 0;
 
-        private void DecideRendering()
+        private void UpdateRendering()
         {
             renderedChannel = channel;
             rendersHere = route != OutputRoute.MixerEffect && !LacksChannel;
         }
 
-        private void RefuseMissingChannel()
+        private void ReportMissingChannel()
         {
             if (LacksChannel)
             {
@@ -304,11 +311,11 @@ namespace HaptoFlow
             source.priority = 0;
             source.dopplerLevel = 0f;
             source.bypassReverbZones = true;
-            TellSource();
+            ConfigureSource();
             source.Play();
         }
 
-        private void TellSource()
+        private void ConfigureSource()
         {
             if (source != null)
             {
@@ -317,7 +324,7 @@ namespace HaptoFlow
             }
         }
 
-        // Audio thread: no garbage, no wait.
+        // Audio thread: no garbage, no locks.
         private void OnAudioFilterRead(float[] data, int channels)
         {
             int wanted = renderedChannel;

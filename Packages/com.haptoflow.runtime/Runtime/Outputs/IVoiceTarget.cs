@@ -1,23 +1,23 @@
 #nullable enable
 namespace HaptoFlow
 {
-    /// <summary>An output, as a stylus's voice sees it. Main thread.</summary>
+    /// <summary>An output as the interface between a stylus's voice and the device. Main thread.</summary>
     internal interface IVoiceTarget
     {
-        /// <summary>At which the output renders, 8000 to 192000 Hz.</summary>
+        /// <summary>Rate at which the output renders, 8000 to 192000 Hz.</summary>
         int SampleRateHz { get; }
 
         /// <summary>Gain, 0 to 1.</summary>
         float Strength { get; }
 
-        /// <summary>The output plays a signal in the place of what is felt: it begins and ends with the tip's motion.
-        /// </summary>
+        /// <summary>True while the output plays a signal instead of textures: it begins and ends with the tip's
+        /// motion.</summary>
         bool PlaysSignal { get; }
 
-        /// <summary>From now on the output renders the voice, and nobody else does.</summary>
+        /// <summary>Starts rendering the voice. A voice has one output at a time.</summary>
         void Add(HapticVoice voice);
 
-        /// <summary>The output renders the voice no more.</summary>
+        /// <summary>Stops rendering the voice.</summary>
         void Remove(HapticVoice voice);
     }
 }

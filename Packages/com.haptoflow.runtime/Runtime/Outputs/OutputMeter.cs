@@ -4,7 +4,8 @@ using System.Diagnostics;
 
 namespace HaptoFlow
 {
-    /// <summary>What an output did lately: written by the audio thread, read by anyone.</summary>
+    /// <summary>Level and render time of an output's last blocks: written by the audio thread, read by any
+    /// thread.</summary>
     internal sealed class OutputMeter
     {
         private const float FallPerBlock = 0.9f;
@@ -14,10 +15,10 @@ namespace HaptoFlow
         private volatile float worstMilliseconds;
         private long beganTicks;
 
-        /// <summary>Largest magnitude, falling back within some blocks.</summary>
+        /// <summary>Peak magnitude, which decays within some blocks.</summary>
         public float Peak => peak;
 
-        /// <summary>Of the last block.</summary>
+        /// <summary>Render time of the last block.</summary>
         public float Milliseconds => milliseconds;
 
         public float WorstMilliseconds => worstMilliseconds;

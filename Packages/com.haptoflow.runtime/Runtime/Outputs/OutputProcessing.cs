@@ -4,41 +4,41 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>What plays an output's channel.</summary>
+    /// <summary>The actuator that plays an output's channel.</summary>
     public enum OutputActuator
     {
-        /// <summary>Nothing is said of it: the wave leaves as it is.</summary>
+        /// <summary>Unknown: the wave is not compensated.</summary>
         Uncompensated,
 
-        /// <summary>A voice coil with resonances near 160 and 320 Hz, by the library's approximate profile.</summary>
+        /// <summary>A voice coil with resonances near 160 and 320 Hz: the library's approximate profile.</summary>
         VoiceCoil,
 
-        /// <summary>The one of a measured profile: see haptoflow actuator identify.</summary>
+        /// <summary>The actuator of a measured profile: see haptoflow actuator identify.</summary>
         Profile,
     }
 
-    /// <summary>What an output's voices go through on their way to the device. What is not asked for does not run.
-    /// Main thread.</summary>
+    /// <summary>Processing of an output's voices before the device. Stages that are off cost nothing. Main
+    /// thread.</summary>
     [Serializable]
     public sealed class OutputProcessing
     {
-        /// <summary>The longest delay, in ms.</summary>
+        /// <summary>Upper limit of the delay, in ms.</summary>
         public const float MaximumDelayMilliseconds = 500f;
 
-        [SerializeField, Tooltip("What plays the channel: its resonances and weak bands are evened out.")]
+        [SerializeField, Tooltip("The actuator that plays the channel. Its resonances and weak bands are compensated.")]
         private OutputActuator actuator;
 
-        [SerializeField, Tooltip("A measured actuator profile (JSON), for the actuator Profile.")]
+        [SerializeField, Tooltip("The measured actuator profile (JSON) for the actuator Profile.")]
         private TextAsset? profile;
 
-        [SerializeField, Tooltip("Lowers slowly what has been strong for too long. It is no medical device.")]
+        [SerializeField, Tooltip("Lowers slowly what has been strong for too long. This is not a medical device.")]
         private bool exposureGuard;
 
         [SerializeField, Range(0f, MaximumDelayMilliseconds),
-         Tooltip("Everything comes this much later, in ms: for studies, and displays that lag.")]
+         Tooltip("Delays the output by this many milliseconds, for studies and for displays that lag.")]
         private float delayMilliseconds;
 
-        /// <summary>What plays the channel.</summary>
+        /// <summary>The actuator that plays the channel.</summary>
         public OutputActuator Actuator
         {
             get => actuator;
@@ -52,24 +52,24 @@ namespace HaptoFlow
             set => profile = value;
         }
 
-        /// <summary>Lowers slowly what has been strong for too long. No medical device.</summary>
+        /// <summary>True to lower slowly what has been strong for too long. Not a medical device.</summary>
         public bool ExposureGuard
         {
             get => exposureGuard;
             set => exposureGuard = value;
         }
 
-        /// <summary>0 to <see cref="MaximumDelayMilliseconds"/>.</summary>
+        /// <summary>Added delay, 0 to <see cref="MaximumDelayMilliseconds"/>.</summary>
         public float DelayMilliseconds
         {
             get => delayMilliseconds;
             set => delayMilliseconds = Mathf.Clamp(value, 0f, MaximumDelayMilliseconds);
         }
 
-        /// <summary>The actuator needs a profile and has none.</summary>
+        /// <summary>True where the actuator needs a profile and has none.</summary>
         internal bool LacksProfile => actuator == OutputActuator.Profile && profile == null;
 
-        /// <summary>Asks a voice for all of this. A profile that cannot be used is left out with an error.</summary>
+        /// <summary>Applies the settings to a voice. A profile that cannot be used is skipped with an error.</summary>
         internal void Apply(HapticVoice voice, HapticOutput owner)
         {
             voice.SetDelay(0.001 * delayMilliseconds);
@@ -81,8 +81,8 @@ namespace HaptoFlow
             catch (HaptoFlowException refusal) when (actuator == OutputActuator.Profile)
             {
                 voice.SetActuator(null);
-                Debug.LogError($"HaptoFlow: {owner.name} plays uncompensated: {profile!.name} is no actuator profile " +
-                    $"({refusal.Message}).", owner);
+                Debug.LogError($"HaptoFlow: {owner.name} plays uncompensated: {profile!.name} is not an actuator " +
+                    $"profile ({refusal.Message}).", owner);
             }
         }
 

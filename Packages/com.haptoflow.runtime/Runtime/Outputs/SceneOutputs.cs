@@ -4,27 +4,27 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>Which audio output a stylus without one of its own plays on. An author's enabled output always wins; an
-    /// author's disabled one means silence; where the scene has neither, a stylus plays on what its hand holds, if that
-    /// can be felt (<see cref="AutoOutput"/>), else an audio output is made, and it goes when an author's appears. Main
-    /// thread; no garbage while nothing changes.</summary>
+    /// <summary>Chooses the audio output of a stylus without one of its own. An enabled output of the scene's author
+    /// takes precedence; a disabled one means silence. Where the scene has neither, a stylus plays on the device in its
+    /// hand, if that vibrates (<see cref="AutoOutput"/>); otherwise an audio output is created, and removed when the
+    /// author's appears. Main thread; no garbage while nothing changes.</summary>
     internal static class SceneOutputs
     {
         private static readonly List<HapticOutput> Authors = new List<HapticOutput>();
         private static HapticOutput? made;
 
-        // Switched off by its author: found by a search that makes garbage, and kept until it is gone.
+        // An output disabled by its author: found by a search that makes garbage, and kept until it is destroyed.
         private static HapticOutput? dormant;
         private static bool hasSearched;
 
-        /// <summary>A stylus that asked got none, since the author's are switched off.</summary>
+        /// <summary>True where the last request got no output because the author's outputs are disabled.</summary>
         public static bool AreSwitchedOff => Authors.Count == 0 && dormant != null;
 
         /// <summary>Null for silence.</summary>
-        /// <param name="asker">Named in the message about an output that had to be made.</param>
+        /// <param name="asker">The stylus, named in the message about an output that had to be created.</param>
         public static HapticOutput? For(HapticStylus asker)
         {
-            FindWhatIsSwitchedOff();
+            FindDisabledOutputs();
             if (Authors.Count > 0 || dormant != null || asker.Voices.HasNamedDevices)
             {
                 AutoOutput.Retire(asker);
@@ -41,8 +41,8 @@ namespace HaptoFlow
             return Make(asker);
         }
 
-        /// <summary>Also called for a disabled component, once its object is active.</summary>
-        public static void Woke(HapticOutput output)
+        /// <summary>Call it from Awake, which also runs for a disabled component on an active object.</summary>
+        public static void OnOutputAwake(HapticOutput output)
         {
             if (!output.IsMade)
             {
@@ -65,9 +65,9 @@ namespace HaptoFlow
             hasSearched = false;
         }
 
-        private static void FindWhatIsSwitchedOff()
+        private static void FindDisabledOutputs()
         {
-            // Comparing with null asks Unity: what was destroyed has to be looked for again.
+            // Unity's comparison with null detects destroyed objects, which have to be searched for again.
             if ((made is not null && made == null) || (dormant is not null && dormant == null))
             {
                 made = null;
@@ -88,12 +88,12 @@ namespace HaptoFlow
             return System.Array.Find(all, output => !output.IsMade);
         }
 
-        // It belongs to the scene that had none: the next scene is asked anew.
+        // The created output belongs to the scene that had none; the next scene starts over.
         private static HapticOutput Make(HapticStylus asker)
         {
             made = HapticOutput.Make();
-            Debug.Log("HaptoFlow: the scene has no Haptic Output, so one was made that plays on every channel of the " +
-                "audio device. Add one to choose a channel.", asker);
+            Debug.Log("HaptoFlow: the scene has no Haptic Output, so one was created that plays on every channel of " +
+                "the audio device. Add one to choose a channel.", asker);
             return made;
         }
 

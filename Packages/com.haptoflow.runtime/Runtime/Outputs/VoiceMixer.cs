@@ -4,14 +4,15 @@ using System.Threading;
 
 namespace HaptoFlow
 {
-    /// <summary>The voices that sound on one channel. Voices come and go on the main thread; the audio thread renders
-    /// what is there, without waiting and without garbage.</summary>
+    /// <summary>The voices of one channel. The main thread adds and removes voices; the audio thread renders them
+    /// without locks and without garbage.</summary>
     internal sealed class VoiceMixer
     {
         private HapticVoice[] voices = Array.Empty<HapticVoice>();
         private float[] scratch = Array.Empty<float>();
 
-        /// <summary>Before the audio thread asks for longer blocks than ever. Main thread.</summary>
+        /// <summary>Allocates for blocks of this length. Call it before the audio thread renders them. Main
+        /// thread.</summary>
         public void Prepare(int blockFrames)
         {
             if (Volatile.Read(ref scratch).Length < blockFrames)
@@ -32,7 +33,7 @@ namespace HaptoFlow
         public void Remove(HapticVoice voice) =>
             Volatile.Write(ref voices, Array.FindAll(voices, each => !ReferenceEquals(each, voice)));
 
-        /// <summary>Does something with every voice that is still open. Main thread.</summary>
+        /// <summary>Calls an action with every voice that is still open. Main thread.</summary>
         public void ForEach<T>(Action<HapticVoice, T> act, T argument)
         {
             foreach (HapticVoice voice in voices)
@@ -43,13 +44,12 @@ namespace HaptoFlow
                 }
                 catch (HaptoFlowException closed) when (closed.Status == HaptoFlowStatus.InvalidArgument)
                 {
-                    // Its engine was restarted in this frame; the stylus takes the voice away in the next.
+                    // The engine was restarted in this frame; the stylus removes the voice in the next.
                 }
             }
         }
 
-        /// <summary>None of the voices may be felt any more: each is muted, paused, silenced by a panic, or closing.
-        /// Main thread.</summary>
+        /// <summary>True where every voice is muted, paused, silenced by a panic, or closing. Main thread.</summary>
         public bool AllAreStopped()
         {
             foreach (HapticVoice voice in voices)
@@ -62,7 +62,7 @@ namespace HaptoFlow
             return true;
         }
 
-        /// <summary>Overwrites the channel with the sum of the voices, held within +-1. Audio thread.</summary>
+        /// <summary>Overwrites the channel with the sum of the voices, limited to +-1. Audio thread.</summary>
         public void Render(Span<float> interleaved, int channels, int channel, int sampleRateHz)
         {
             HapticVoice[] sounding = Volatile.Read(ref voices);

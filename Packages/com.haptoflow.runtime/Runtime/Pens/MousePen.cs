@@ -3,28 +3,29 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>A stylus under the mouse or a graphics pen: hovers over what the pointer is on, and presses while the
-    /// button is held or the pen touches its tablet.</summary>
+    /// <summary>A stylus under the mouse or a graphics pen: it hovers over the object under the pointer and presses
+    /// while the button is held or the pen touches its tablet.</summary>
     [AddComponentMenu("HaptoFlow/Mouse Pen")]
     [RequireComponent(typeof(HapticStylus))]
     [DisallowMultipleComponent]
     [HelpURL(HelpPages.Components + "mouse-pen")]
     public sealed class MousePen : MonoBehaviour
     {
-        // A hand's, not a mouse button's.
+        // The speed of a hand; a mouse button would be instantaneous.
         private const float LoweringMps = 0.3f;
 
-        [SerializeField, Tooltip("The camera that the mouse points through; empty for the scene's main camera.")]
+        [SerializeField, Tooltip("The camera of the pointer. Leave it empty for the scene's main camera.")]
         private Camera? view;
 
-        [SerializeField, Min(0f), Tooltip("How far from the camera the pen finds things, in metres.")]
+        [SerializeField, Min(0f), Tooltip("The maximum distance of objects from the camera, in metres.")]
         private float reachMetres = 10f;
 
-        [SerializeField, Min(0f), Tooltip("How high the tip hovers while nothing is pressed, in metres.")]
+        [SerializeField, Min(0f), Tooltip("The height of the tip above the surface while nothing is pressed, in " +
+            "metres.")]
         private float hoverMetres = 0.03f;
 
-        [SerializeField, Min(0f), Tooltip("How deep the tip goes at full pressure, in metres. With the spring model " +
-            "0.001 on 1000 N/m is 1 N.")]
+        [SerializeField, Min(0f), Tooltip("The penetration depth at full pressure, in metres. With the spring model, " +
+            "0.001 m at 1000 N/m gives 1 N.")]
         private float depthMetres = 0.001f;
 
         private HapticStylus? stylus;
@@ -33,38 +34,38 @@ namespace HaptoFlow
         private float heightMetres;
         private bool warned;
 
-        /// <summary>The stylus on this object: what feels.</summary>
+        /// <summary>The stylus on this object.</summary>
         public HapticStylus Stylus => stylus != null ? stylus : stylus = GetComponent<HapticStylus>();
 
-        /// <summary>The camera that the mouse points through; null for the scene's main camera.</summary>
+        /// <summary>The camera of the pointer; null for the scene's main camera.</summary>
         public Camera? View
         {
             get => view;
             set => view = value;
         }
 
-        /// <summary>How far from the camera the pen finds things, in metres; 0 or more.</summary>
+        /// <summary>Maximum distance of objects from the camera, in metres; 0 or more.</summary>
         public float ReachMetres
         {
             get => reachMetres;
             set => reachMetres = Mathf.Max(0f, value);
         }
 
-        /// <summary>How high the tip hovers while nothing is pressed, in metres; 0 or more.</summary>
+        /// <summary>Height of the tip above the surface while nothing is pressed, in metres; 0 or more.</summary>
         public float HoverMetres
         {
             get => hoverMetres;
             set => hoverMetres = Mathf.Max(0f, value);
         }
 
-        /// <summary>How deep the tip goes at full pressure, in metres; 0 or more.</summary>
+        /// <summary>Penetration depth at full pressure, in metres; 0 or more.</summary>
         public float DepthMetres
         {
             get => depthMetres;
             set => depthMetres = Mathf.Max(0f, value);
         }
 
-        /// <summary>A pen with stylus and body. Main thread, also while a scene is edited.</summary>
+        /// <summary>Creates a pen with stylus and body. Main thread, also in edit mode.</summary>
         /// <param name="view">Null for the scene's main camera.</param>
         public static MousePen Create(Camera? view)
         {
@@ -91,7 +92,7 @@ namespace HaptoFlow
                 return;
             }
             Ray ray = camera.ScreenPointToRay(new Vector3(pixels.x, pixels.y, 0f));
-            // Only what the stylus can feel: not the triggers around it, nor layers that it leaves out.
+            // Query only what the stylus can touch: no triggers, and only its layers.
             bool isOver = Physics.Raycast(
                 ray, out RaycastHit hit, reachMetres, Stylus.Layers, QueryTriggerInteraction.Ignore);
             if (isOver)
@@ -103,7 +104,7 @@ namespace HaptoFlow
             float wanted = presses ? Stylus.TipRadiusMetres - pressure * depthMetres : hoverMetres;
             float step = LoweringMps * Time.unscaledDeltaTime;
             heightMetres += Mathf.Clamp(wanted - heightMetres, -step, step);
-            // Leaning towards whoever holds it.
+            // Tilt the pen towards the viewer.
             Vector3 upwards = normal - 0.6f * ray.direction;
             transform.SetPositionAndRotation(
                 point + heightMetres * normal, Quaternion.FromToRotation(Vector3.up, upwards));

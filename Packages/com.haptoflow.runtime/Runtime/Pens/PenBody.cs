@@ -3,19 +3,18 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>What a pen looks like.</summary>
+    /// <summary>The visible body of a pen.</summary>
     internal static class PenBody
     {
         public const string Name = "Body";
         private const float LengthMetres = 0.14f;
         private const float WidthMetres = 0.008f;
 
-        /// <summary>Adds a body above a tip; nothing collides with it. Main thread, also while a scene is edited.
-        /// </summary>
+        /// <summary>Adds a body without collisions above a tip. Main thread, also in edit mode.</summary>
         public static void Add(Transform tip, Color colour)
         {
             GameObject body = GameObject.CreatePrimitive(PrimitiveType.Capsule);
-            // Players leave out engine types that no script names, and primitives need this one.
+            // Players strip engine types that no script references, and primitives need this one.
             _ = body.GetComponent<MeshFilter>();
             body.name = Name;
             body.GetComponent<Collider>().enabled = false;

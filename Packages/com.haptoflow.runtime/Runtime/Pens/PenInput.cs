@@ -6,11 +6,12 @@ using UnityEngine.InputSystem;
 
 namespace HaptoFlow
 {
-    /// <summary>Where the mouse or a graphics pen is, from whichever input the project uses. Main thread.</summary>
+    /// <summary>Position and pressure of the mouse or a graphics pen, from the input backend of the project. Main
+    /// thread.</summary>
     internal static class PenInput
     {
-        /// <param name="pixels">From the lower left corner of the game view.</param>
-        /// <param name="pressure">0 in the air, up to 1.</param>
+        /// <param name="pixels">Position relative to the lower left corner of the game view.</param>
+        /// <param name="pressure">Pressure, 0 in the air to 1.</param>
         /// <returns>False where there is neither mouse nor pen.</returns>
         public static bool TryRead(out Vector2 pixels, out float pressure)
         {

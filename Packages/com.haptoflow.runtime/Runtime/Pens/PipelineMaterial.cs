@@ -4,11 +4,11 @@ using UnityEngine.Rendering;
 
 namespace HaptoFlow
 {
-    /// <summary>Gives objects a material that the project's render pipeline draws: Built-in, URP or HDRP.</summary>
-    /// <remarks>The material of Unity's primitives is pink in players with URP or HDRP, and those pipelines name their
-    /// own default material in the editor only. So the editor writes it into this component whenever a scene is built
-    /// or played; that also keeps its shader in the player. On an object with a renderer it paints that renderer; on
-    /// any object it brings the material into the scene for <see cref="Paint"/>.</remarks>
+    /// <summary>Assigns a material that the project's render pipeline supports: Built-in, URP or HDRP.</summary>
+    /// <remarks>The material of Unity's primitives is pink in players with URP or HDRP, and those pipelines provide
+    /// their default material only in the editor. The editor therefore writes it into this component whenever a scene
+    /// is built or played, which also keeps its shader in the player. On an object with a renderer the component paints
+    /// that renderer; on any object it makes the material available to <see cref="Paint"/>.</remarks>
     [AddComponentMenu("HaptoFlow/Pipeline Material")]
     [DefaultExecutionOrder(-1000)]
     [DisallowMultipleComponent]
@@ -17,13 +17,14 @@ namespace HaptoFlow
     {
         private static Material? ofScene;
 
-        [SerializeField, Tooltip("Of the renderer on this object.")]
+        [SerializeField, Tooltip("The colour of the renderer on this object.")]
         private Color colour = Color.white;
 
-        [SerializeField, Tooltip("Empty for the render pipeline's default, which builds and play mode write here.")]
+        [SerializeField, Tooltip("The material. Leave it empty for the render pipeline's default, which builds and " +
+            "play mode write here.")]
         private Material? material;
 
-        /// <summary>Of the renderer on this object.</summary>
+        /// <summary>Colour of the renderer on this object.</summary>
         public Color Colour
         {
             get => colour;
@@ -37,22 +38,21 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>Null for the render pipeline's default. To be set before the component wakes.</summary>
+        /// <summary>The material; null for the render pipeline's default. Set it before the component awakes.</summary>
         public Material? Material
         {
             get => material;
             set => material = value;
         }
 
-        /// <summary>Gives a renderer a copy of the pipeline's material in a colour. Main thread, in play mode.
-        /// </summary>
+        /// <summary>Gives a renderer a coloured copy of the pipeline's material. Main thread, in play mode.</summary>
         public static void Paint(Renderer target, Color colour)
         {
             Apply(target, ofScene != null ? ofScene : OfPipeline(), colour);
         }
 
-        /// <summary>The default material of the active render pipeline; null for the Built-in one, whose primitives
-        /// have theirs, and in players that lack the pipeline's shader.</summary>
+        /// <summary>The default material of the active render pipeline; null for the Built-in pipeline, whose
+        /// primitives have one, and in players without the pipeline's shader.</summary>
         internal static Material? OfPipeline()
         {
             RenderPipelineAsset? pipeline = GraphicsSettings.currentRenderPipeline;
@@ -75,7 +75,7 @@ namespace HaptoFlow
             {
                 target.sharedMaterial = source;
             }
-            // Reading it makes the renderer's own copy.
+            // Reading this property creates the renderer's own copy.
             target.material.color = colour;
         }
 

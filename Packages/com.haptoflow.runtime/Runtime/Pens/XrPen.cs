@@ -7,50 +7,50 @@ using UnityEngine.InputSystem;
 
 namespace HaptoFlow
 {
-    /// <summary>Which hand holds a pen.</summary>
+    /// <summary>The hand that holds a pen.</summary>
     public enum PenHand
     {
-        /// <summary>The right one.</summary>
+        /// <summary>The right hand.</summary>
         Right,
 
-        /// <summary>The left one.</summary>
+        /// <summary>The left hand.</summary>
         Left,
     }
 
-    /// <summary>A stylus on what one hand holds: MX Ink by its tip, with the force that the tip measures; a controller
-    /// by where it points, with the spring model. Belongs below the rig's tracking space; its stylus sleeps while
-    /// nothing is tracked. Needs the Input System, as OpenXR itself.</summary>
+    /// <summary>A stylus on the device in one hand: MX Ink at its tip with the measured force, a controller at its
+    /// pointer with the spring model. Place it below the rig's tracking space. Its stylus is inactive while nothing is
+    /// tracked. Requires the Input System, like OpenXR itself.</summary>
     [AddComponentMenu("HaptoFlow/XR Pen")]
     [DisallowMultipleComponent]
     [HelpURL(HelpPages.Components + "xr-pen")]
     public sealed class XrPen : PressureTipForce
     {
-        [SerializeField, Tooltip("Which hand holds it.")]
+        [SerializeField, Tooltip("The hand that holds the pen.")]
         private PenHand hand = PenHand.Right;
 
-        [SerializeField, Tooltip("The stylus on a child of this object: it is switched off while nothing is tracked.")]
+        [SerializeField, Tooltip("The stylus on a child of this object. It is inactive while nothing is tracked.")]
         private HapticStylus? stylus;
 
-        /// <summary>The stylus on a child of this object: what feels. Null until one is set.</summary>
+        /// <summary>The stylus on a child of this object; null until one is set.</summary>
         public HapticStylus? Stylus
         {
             get => stylus;
             set => stylus = value;
         }
 
-        /// <summary>A pen with stylus and body. Main thread, also while a scene is edited.</summary>
-        /// <param name="space">Tracking space; null for the world.</param>
+        /// <summary>Creates a pen with stylus and body. Main thread, also in edit mode.</summary>
+        /// <param name="space">The tracking space; null for the world.</param>
         public static XrPen Create(Transform? space, PenHand hand)
         {
             var owner = new GameObject("XR Pen " + hand);
-            // Asleep until it is whole.
+            // Inactive until it is complete.
             owner.SetActive(false);
             owner.transform.SetParent(space, false);
             var pen = owner.AddComponent<XrPen>();
             pen.hand = hand;
             var tip = new GameObject("Tip");
             tip.transform.SetParent(owner.transform, false);
-            // A pen's body goes backwards from its tip.
+            // The body of the pen extends backwards from its tip.
             tip.transform.localRotation = Quaternion.AngleAxis(-90f, Vector3.right);
             pen.stylus = tip.AddComponent<HapticStylus>();
             pen.stylus.Tip = tip.transform;
@@ -61,7 +61,7 @@ namespace HaptoFlow
         }
 
 #if HAPTOFLOW_INPUT_SYSTEM && ENABLE_INPUT_SYSTEM
-        // What the device has of these, the first counts: MX Ink's tip, a controller's front, a controller's grip.
+        // The first pose that the device has is used: MX Ink's tip, a controller's pointer, a controller's grip.
         private static readonly (string Position, string Rotation)[] Poses =
         {
             ("tipPose/position", "tipPose/rotation"),
@@ -75,7 +75,7 @@ namespace HaptoFlow
         private InputAction[] rotations = Array.Empty<InputAction>();
         private bool isOpen;
 
-        /// <summary>Which hand holds it.</summary>
+        /// <summary>The hand that holds the pen.</summary>
         public PenHand Hand
         {
             get => hand;
@@ -102,10 +102,11 @@ namespace HaptoFlow
 
         private void OnDisable()
         {
-            // Unity refuses to switch a child off while it switches off the parent: then the stylus rests anyway.
+            // Unity does not allow deactivating a child while its parent is being deactivated; the stylus is then
+            // inactive anyway.
             if (gameObject.activeInHierarchy)
             {
-                Wake(false);
+                SetStylusActive(false);
             }
             Close();
         }
@@ -119,10 +120,10 @@ namespace HaptoFlow
                 transform.localPosition = positions[pose].ReadValue<Vector3>();
                 transform.localRotation = rotations[pose].ReadValue<Quaternion>();
             }
-            Wake(held);
+            SetStylusActive(held);
         }
 
-        private void Wake(bool held)
+        private void SetStylusActive(bool held)
         {
             if (stylus != null && stylus.gameObject != gameObject && held != stylus.gameObject.activeSelf)
             {
@@ -163,7 +164,7 @@ namespace HaptoFlow
             return action;
         }
 #else
-        /// <summary>Which hand holds it.</summary>
+        /// <summary>The hand that holds the pen.</summary>
         public PenHand Hand
         {
             get => hand;
@@ -183,8 +184,8 @@ namespace HaptoFlow
             {
                 stylus.gameObject.SetActive(false);
             }
-            Debug.LogWarning("HaptoFlow: an XR Pen sleeps, since this project does not use the Input System: install " +
-                "that package and choose it in Project Settings > Player > Active Input Handling.", this);
+            Debug.LogWarning("HaptoFlow: an XR Pen is inactive because this project does not use the Input System: " +
+                "install that package and choose it in Project Settings > Player > Active Input Handling.", this);
         }
 #endif
     }

@@ -103,7 +103,7 @@ namespace HaptoFlow.SampleTests.Similarity
                 Is.EqualTo((TrialStage.Waiting, false, true)));
             Answer(6);
             PlayFor(3.0);
-            Assert.That(scene.Operator.Lines, Has.Some.Contains("NOT WRITTEN"));
+            Assert.That(scene.Operator.Lines, Has.Some.Contains("NOT SAVED"));
             Directory.Delete(csv);
             File.Move(csv + ".kept", csv);
             PlayFor(3.0);

@@ -59,7 +59,7 @@ namespace HaptoFlow.Preview
             Sliders = root.Tables("sliders", 1, MaximumSliders).Select(each => new MaterialSlider(each)).ToArray();
             const int size = MaterialFile.TextureNumbers;
             mean = root.Numbers("mean", size, size);
-            int count = json.Find("axes")?.Content is List<JsonValue> rows ? rows.Count : 0;
+            int count = json.Find("axes")?.Elements?.Count ?? 0;
             root.CheckRows("axes", count, size, -1.0, 1.0);
             axes = json["axes"].AsArray()
                 .Select(axis => axis.AsArray().Select(each => each.AsNumber()).ToArray()).ToArray();

@@ -13,7 +13,7 @@ namespace HaptoFlow.Preview
         public const double PatchHeightMetres = 0.08;
 
         /// <summary>Contact states per second.</summary>
-        public const double UpdateRateHz = 72.0;
+        public const double UpdateRateHz = HapticEngineOptions.DefaultUpdateRateHz;
 
         private readonly StrokeState[] states;
 

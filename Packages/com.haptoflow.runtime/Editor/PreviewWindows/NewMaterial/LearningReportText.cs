@@ -18,25 +18,25 @@ namespace HaptoFlow.Editor
                 return "";
             }
             var parts = new List<string>();
-            if (report.Find("nearest_label")?.Content is string nearest)
+            if (report.Find("nearest_label")?.Text is { } nearest)
             {
                 parts.Add("nearest label: " + nearest);
             }
             Add(parts, report, "spectral_distance_db", "spectra within {0:0.0} dB");
             Add(parts, report, "level_error_db", "levels within {0:0.0} dB");
             Add(parts, report, "sliding_seconds", "{0:0.0} s of sliding");
-            if (report.Find("turn_degrees")?.Content is double turn && Math.Abs(turn) >= 0.5)
+            if (report.Find("turn_degrees")?.Number is { } turn && Math.Abs(turn) >= 0.5)
             {
                 parts.Add(string.Format(CultureInfo.InvariantCulture,
                     "the first axis is perpendicular to the ribs, {0:0} degrees from the recording's", turn));
             }
             Add(parts, report, "seconds", "learnt in {0:0.0} s");
             string text = parts.Count > 0 ? "Learnt. " + Capital(string.Join("; ", parts)) + "." : "Learnt.";
-            if (report.Find("warnings")?.Content is List<JsonValue> warnings)
+            if (report.Find("warnings")?.Elements is { } warnings)
             {
                 foreach (JsonValue warning in warnings)
                 {
-                    text += warning.Content is string words ? " " + Capital(words.TrimEnd('.')) + "." : "";
+                    text += warning.Text is { } words ? " " + Capital(words.TrimEnd('.')) + "." : "";
                 }
             }
             return text;
@@ -44,7 +44,7 @@ namespace HaptoFlow.Editor
 
         /// <summary>Angle from the recording's first axis to the material's; 0 if the report has none.</summary>
         public static double TurnDegrees(string json) =>
-            Parsed(json)?.Find("turn_degrees")?.Content is double degrees ? degrees : 0.0;
+            Parsed(json)?.Find("turn_degrees")?.Number ?? 0.0;
 
         private static JsonValue? Parsed(string json)
         {
@@ -60,7 +60,7 @@ namespace HaptoFlow.Editor
 
         private static void Add(List<string> parts, JsonValue report, string key, string format)
         {
-            if (report.Find(key)?.Content is double number)
+            if (report.Find(key)?.Number is { } number)
             {
                 parts.Add(string.Format(CultureInfo.InvariantCulture, format, number));
             }

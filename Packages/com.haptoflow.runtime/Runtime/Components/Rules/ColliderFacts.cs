@@ -11,12 +11,12 @@ using SurfacePhysics = UnityEngine.PhysicMaterial;
 
 namespace HaptoFlow
 {
-    /// <summary>What rules may ask of a collider, read once. Main thread. Reading makes garbage; asking whether it
-    /// still holds makes none.</summary>
+    /// <summary>The properties of a collider that rules can match, read once. Main thread. Reading makes garbage;
+    /// checking whether they have changed makes none.</summary>
     internal sealed class ColliderFacts
     {
         private const string CopySuffix = " (Instance)";
-        private static readonly List<Material> Shown = new List<Material>();
+        private static readonly List<Material> RendererMaterials = new List<Material>();
 
         private readonly Collider collider;
         private readonly Renderer? renderer;
@@ -63,33 +63,30 @@ namespace HaptoFlow
         /// <summary>Null for other than terrain colliders.</summary>
         public TerrainData? Terrain { get; }
 
-        /// <summary>Submeshes of a mesh collider, layers of a terrain; 1 for anything else.</summary>
+        /// <summary>Number of submeshes of a mesh collider or of layers of a terrain; 1 for other colliders.</summary>
         public int Parts { get; } = 1;
 
-        /// <summary>How many materials the object's renderer has; 0 without a renderer.</summary>
-        public int RendererMaterialCount => rendererMaterials.Length;
-
-        /// <summary>The renderer's material of a submesh; the first for colliders that are no meshes.</summary>
+        /// <summary>The renderer's material of a submesh; the first for colliders that are not meshes.</summary>
         public Material? RendererMaterialOf(int part) =>
             part < rendererMaterials.Length ? rendererMaterials[part] : null;
 
         public TerrainLayer? TerrainLayerOf(int part) => part < terrainLayers.Length ? terrainLayers[part] : null;
 
-        /// <summary>Nothing has changed that a rule may ask for, but for names and a terrain's layers: reading those
-        /// makes garbage.</summary>
-        public bool Hold()
+        /// <summary>True where no property that rules can match has changed. Names and a terrain's layers are not
+        /// compared: reading them makes garbage.</summary>
+        public bool AreUnchanged()
         {
             GameObject owner = collider.gameObject;
-            // By reference: what was destroyed meanwhile equals the null that Unity gives out for it.
+            // Compare references: after its destruction an object equals the null that Unity returns for it.
             return owner.layer == Layer && owner.CompareTag(Tag) &&
                 ReferenceEquals(collider.sharedMaterial, PhysicsMaterial) &&
                 (!(collider is MeshCollider mesh) || ReferenceEquals(mesh.sharedMesh, Mesh)) &&
                 (!(collider is TerrainCollider terrain) || ReferenceEquals(terrain.terrainData, Terrain)) &&
-                ShowsTheSame();
+                HasSameMaterials();
         }
 
-        /// <summary>The asset itself, or the copy that Unity makes of it when a script asks for an object's own.
-        /// </summary>
+        /// <summary>True for the asset itself and for the instance that Unity creates when a script requests an
+        /// object's own material.</summary>
         public static bool IsSameOrCopy(Object? asset, Object? found)
         {
             if (asset == null || found == null)
@@ -99,8 +96,8 @@ namespace HaptoFlow
             return found == asset || found.name == asset.name + CopySuffix;
         }
 
-        /// <summary>Of a mesh or a skinned mesh: on the collider's object, else on the nearest object above it, else
-        /// below it.</summary>
+        /// <summary>The renderer of a mesh or a skinned mesh: on the collider's object, else on the nearest object
+        /// above it, else below it.</summary>
         private static Renderer? RendererOf(Collider collider)
         {
             for (Transform? place = collider.transform; place != null; place = place.parent)
@@ -118,7 +115,7 @@ namespace HaptoFlow
             return below != null ? below : collider.GetComponentInChildren<SkinnedMeshRenderer>(true);
         }
 
-        private bool ShowsTheSame()
+        private bool HasSameMaterials()
         {
             if (renderer is null)
             {
@@ -128,13 +125,13 @@ namespace HaptoFlow
             {
                 return false;
             }
-            renderer.GetSharedMaterials(Shown);
-            bool same = Shown.Count == rendererMaterials.Length;
+            renderer.GetSharedMaterials(RendererMaterials);
+            bool same = RendererMaterials.Count == rendererMaterials.Length;
             for (int index = 0; same && index < rendererMaterials.Length; ++index)
             {
-                same = ReferenceEquals(Shown[index], rendererMaterials[index]);
+                same = ReferenceEquals(RendererMaterials[index], rendererMaterials[index]);
             }
-            Shown.Clear();
+            RendererMaterials.Clear();
             return same;
         }
     }

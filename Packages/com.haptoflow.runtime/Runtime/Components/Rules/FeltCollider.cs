@@ -6,8 +6,8 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>What a collider feels like by the rules of maps: as a whole, or part by part. Main thread. Working it
-    /// out makes garbage; asking for a place makes none.</summary>
+    /// <summary>The materials that the rules of maps assign to a collider: to the whole, or to each part. Main thread.
+    /// Matching the rules makes garbage; looking up a place makes none.</summary>
     internal sealed class FeltCollider
     {
         private ColliderFacts facts;
@@ -25,31 +25,31 @@ namespace HaptoFlow
 
         public Collider Collider { get; }
 
-        /// <summary>Of the maps that it was worked out by.</summary>
+        /// <summary>Version of the maps that were matched.</summary>
         public int MapsVersion { get; set; }
 
-        /// <summary>Some part feels like something.</summary>
+        /// <summary>True where at least one part has a material.</summary>
         public bool CanBeFelt { get; private set; }
 
-        /// <summary>Submeshes or terrain layers, in their order; one where the collider has no such parts.</summary>
+        /// <summary>Submeshes or terrain layers in their order; one entry for other colliders.</summary>
         public IReadOnlyList<FeltPart> Parts => parts;
 
-        /// <summary>All parts go by the same rule.</summary>
+        /// <summary>True where the same rule matches all parts.</summary>
         public bool IsUniform => isUniform;
 
         public ColliderFacts Facts => facts;
 
-        /// <summary>Nothing has changed that rules may ask for.</summary>
-        public bool Holds() => facts.Hold();
+        /// <summary>True where no property that rules can match has changed.</summary>
+        public bool IsUpToDate() => facts.AreUnchanged();
 
-        /// <summary>Works it out anew.</summary>
+        /// <summary>Matches the rules again.</summary>
         public void Renew(IReadOnlyList<HapticMaterialMap> maps)
         {
             facts = new ColliderFacts(Collider);
             Match(maps);
         }
 
-        /// <summary>What the place feels like; labels of none where it is nothing.</summary>
+        /// <summary>The material at a place; without labels where there is none.</summary>
         public FeltMaterial At(in TouchedPlace place, HapticSession session)
         {
             if (!isUniform && facts.Terrain is { } terrain)
@@ -60,7 +60,7 @@ namespace HaptoFlow
             return OfPart(part, place, session);
         }
 
-        /// <summary>By which rule a part feels as it does. Makes garbage.</summary>
+        /// <summary>Names the rule that assigns a part's material. Makes garbage.</summary>
         public string Explain(int part) => parts[part < parts.Length ? part : 0].Explain();
 
         private void Match(IReadOnlyList<HapticMaterialMap> maps)
@@ -71,12 +71,12 @@ namespace HaptoFlow
             }
             isUniform = true;
             CanBeFelt = false;
-            bool isFeltKind = ColliderProbe.IsFeltKind(Collider);
+            bool isSupportedKind = ColliderProbe.IsSupportedKind(Collider);
             for (int part = 0; part < parts.Length; ++part)
             {
                 parts[part] = Match(maps, part);
                 isUniform &= parts[part].IsSameAs(parts[0]);
-                CanBeFelt |= isFeltKind && parts[part].CanBeFelt;
+                CanBeFelt |= isSupportedKind && parts[part].CanBeFelt;
             }
             trianglesUpTo = isUniform || facts.Mesh is null || !facts.Mesh.isReadable
                 ? Array.Empty<int>()
@@ -132,7 +132,7 @@ namespace HaptoFlow
             return mix.Finish();
         }
 
-        /// <summary>The first submesh where the triangle is not known.</summary>
+        /// <summary>The first submesh where the triangle is unknown.</summary>
         private int PartOf(int triangle)
         {
             for (int part = 0; triangle >= 0 && part < trianglesUpTo.Length; ++part)

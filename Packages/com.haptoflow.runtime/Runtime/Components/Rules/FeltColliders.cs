@@ -5,20 +5,20 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>What colliders without a surface feel like by the maps, kept from frame to frame. Main thread; no
-    /// garbage for a collider that is known and has not changed.</summary>
+    /// <summary>Caches the materials that the maps assign to colliders without a surface. Main thread; no garbage for a
+    /// known collider that has not changed.</summary>
     internal static class FeltColliders
     {
-        private const int FewestBeforeSweep = 256;
+        private const int MinimumBeforeSweep = 256;
         private static readonly Dictionary<Collider, FeltCollider> Known = new Dictionary<Collider, FeltCollider>();
         private static readonly List<HapticMaterialMap> Maps = new List<HapticMaterialMap>();
         private static readonly List<Collider> Gone = new List<Collider>();
-        private static int sweepAt = FewestBeforeSweep;
+        private static int sweepAt = MinimumBeforeSweep;
 
-        /// <summary>How many are kept.</summary>
+        /// <summary>Number of cached colliders.</summary>
         public static int Count => Known.Count;
 
-        /// <summary>Null where no rule gives the collider a material.</summary>
+        /// <summary>Null where no rule assigns a material to the collider.</summary>
         public static FeltCollider? Resolve(Collider collider)
         {
             if (!MaterialMaps.Any)
@@ -32,7 +32,7 @@ namespace HaptoFlow
                 felt = new FeltCollider(collider, Maps) { MapsVersion = MaterialMaps.Version };
                 Known.Add(collider, felt);
             }
-            else if (felt.MapsVersion != MaterialMaps.Version || !felt.Holds())
+            else if (felt.MapsVersion != MaterialMaps.Version || !felt.IsUpToDate())
             {
                 MaterialMaps.CollectFor(collider.gameObject.scene, Maps);
                 felt.Renew(Maps);
@@ -41,7 +41,7 @@ namespace HaptoFlow
             return felt.CanBeFelt ? felt : null;
         }
 
-        /// <summary>Colliders that were destroyed are let go of now and then.</summary>
+        /// <summary>Removes destroyed colliders whenever the cache has doubled.</summary>
         private static void Sweep()
         {
             if (Known.Count < sweepAt)
@@ -60,14 +60,14 @@ namespace HaptoFlow
                 Known.Remove(collider);
             }
             Gone.Clear();
-            sweepAt = Math.Max(FewestBeforeSweep, 2 * Known.Count);
+            sweepAt = Math.Max(MinimumBeforeSweep, 2 * Known.Count);
         }
 
         [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.SubsystemRegistration)]
         private static void Forget()
         {
             Known.Clear();
-            sweepAt = FewestBeforeSweep;
+            sweepAt = MinimumBeforeSweep;
         }
     }
 }

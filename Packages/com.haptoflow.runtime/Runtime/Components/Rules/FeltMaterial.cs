@@ -2,13 +2,13 @@
 
 namespace HaptoFlow
 {
-    /// <summary>What is felt at one place: everything that a contact state says of the material.</summary>
+    /// <summary>The material at one place: the part of a contact state that describes it.</summary>
     internal struct FeltMaterial
     {
-        /// <summary>None where nothing is felt.</summary>
+        /// <summary>None where the place has no material.</summary>
         public LabelBlend Labels;
 
-        /// <summary>0 to 1.</summary>
+        /// <summary>Gain, 0 to 1.</summary>
         public float Strength;
 
         public float FeatureScale;
@@ -17,16 +17,16 @@ namespace HaptoFlow
 
         public HapticEffects Effects;
 
-        /// <summary>0 for the contact model's default.</summary>
+        /// <summary>Stiffness in N/m; 0 for the contact model's default.</summary>
         public double StiffnessNewtonsPerMetre;
 
-        /// <summary>Of the material with the most weight; null where nothing is felt.</summary>
+        /// <summary>Description of the material with the largest weight; null where the place has none.</summary>
         public MaterialDescription? Heaviest;
 
-        /// <summary>The submesh or terrain layer with the most weight.</summary>
+        /// <summary>The submesh or terrain layer with the largest weight.</summary>
         public int Part;
 
-        /// <summary>One material alone.</summary>
+        /// <summary>A single material.</summary>
         public static FeltMaterial Of(MaterialDescription description, MaterialLookUp lookUp) => new FeltMaterial
         {
             Labels = lookUp.Labels,

@@ -2,10 +2,10 @@
 
 namespace HaptoFlow
 {
-    /// <summary>What one part of a collider feels like, and by which rule.</summary>
+    /// <summary>The material of one part of a collider, and the rule that assigns it.</summary>
     internal readonly struct FeltPart
     {
-        /// <param name="rule">Below 0 for the map's default.</param>
+        /// <param name="rule">Index of the rule; below 0 for the map's default.</param>
         public FeltPart(HapticMaterialMap? map, int rule, HapticMaterial? material, HapticMaskMap? mask)
         {
             Map = map;
@@ -14,12 +14,12 @@ namespace HaptoFlow
             Mask = mask != null ? mask : null;
         }
 
-        /// <summary>Null where no map says anything.</summary>
+        /// <summary>Null where no map matches.</summary>
         public HapticMaterialMap? Map { get; }
 
         public int Rule { get; }
 
-        /// <summary>Null for nothing.</summary>
+        /// <summary>Null where the rule assigns none.</summary>
         public HapticMaterial? Material { get; }
 
         public HapticMaskMap? Mask { get; }
@@ -28,8 +28,8 @@ namespace HaptoFlow
 
         public bool IsSameAs(in FeltPart other) => ReferenceEquals(Map, other.Map) && Rule == other.Rule;
 
-        /// <summary>For people. Makes garbage.</summary>
+        /// <summary>Names the rule, for people. Makes garbage.</summary>
         public string Explain() =>
-            Map is null ? "no rule matches" : Map != null ? Map.Explain(Rule) : "a map that is gone";
+            Map is null ? "no rule matches" : Map != null ? Map.Explain(Rule) : "a deleted map";
     }
 }

@@ -4,30 +4,30 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>What a channel of a mask says.</summary>
+    /// <summary>What a channel of a mask controls.</summary>
     public enum MaskChannelUse
     {
-        /// <summary>Nothing.</summary>
+        /// <summary>The channel is ignored.</summary>
         Nothing = 0,
 
-        /// <summary>How much of a further material there is: all of it at full, none at zero.</summary>
+        /// <summary>The weight of a further material: full at white, none at black.</summary>
         Material = 1,
 
-        /// <summary>A factor of the strength.</summary>
+        /// <summary>A factor on the strength.</summary>
         Strength = 2,
 
-        /// <summary>A factor of the feature scale.</summary>
+        /// <summary>A factor on the feature scale.</summary>
         FeatureScale = 3,
     }
 
-    /// <summary>What one channel of a mask says.</summary>
+    /// <summary>One channel of a mask and what it controls.</summary>
     [Serializable]
     public sealed class MaskChannel
     {
-        [SerializeField, Tooltip("What the channel says.")]
+        [SerializeField, Tooltip("What the channel controls.")]
         private MaskChannelUse use = MaskChannelUse.Nothing;
 
-        [SerializeField, Tooltip("The material that there is more of where the channel is brighter.")]
+        [SerializeField, Tooltip("The material whose weight is the channel's brightness.")]
         private HapticMaterial? material;
 
         [SerializeField, Min(0f), Tooltip("The factor where the channel is black.")]
@@ -36,10 +36,10 @@ namespace HaptoFlow
         [SerializeField, Min(0f), Tooltip("The factor where the channel is white.")]
         private float highest = 1f;
 
-        /// <summary>What the channel says.</summary>
+        /// <summary>What the channel controls.</summary>
         public MaskChannelUse Use => use;
 
-        /// <summary>For <see cref="MaskChannelUse.Material"/>; null for nothing.</summary>
+        /// <summary>The material of <see cref="MaskChannelUse.Material"/>; null for none.</summary>
         public HapticMaterial? Material => material;
 
         /// <summary>The factor where the channel is black.</summary>
@@ -48,7 +48,7 @@ namespace HaptoFlow
         /// <summary>The factor where the channel is white.</summary>
         public float Highest => highest;
 
-        /// <summary>There is more of a material where the channel is brighter.</summary>
+        /// <summary>Makes the channel the weight of a material.</summary>
         public void SetMaterial(HapticMaterial? material)
         {
             use = MaskChannelUse.Material;
@@ -56,11 +56,11 @@ namespace HaptoFlow
             MaterialMaps.Change();
         }
 
-        /// <summary>The channel is a factor.</summary>
+        /// <summary>Makes the channel a factor.</summary>
         /// <param name="use"><see cref="MaskChannelUse.Strength"/>, 0 to 1, or
         /// <see cref="MaskChannelUse.FeatureScale"/>, 0.25 to 4.</param>
-        /// <param name="lowest">Where the channel is black.</param>
-        /// <param name="highest">Where it is white.</param>
+        /// <param name="lowest">The factor where the channel is black.</param>
+        /// <param name="highest">The factor where the channel is white.</param>
         public void SetFactor(MaskChannelUse use, float lowest, float highest)
         {
             this.use = use;
@@ -72,31 +72,32 @@ namespace HaptoFlow
         internal float FactorAt(float value) => lowest + value * (highest - lowest);
     }
 
-    /// <summary>Materials by a texture: what is felt follows the texture at the place that is touched. Made from a
-    /// readable texture in the editor; at run time only its compact copy is needed. Counts on mesh colliders that are
-    /// not convex and whose mesh is readable: only they have texture coordinates where they are touched.</summary>
+    /// <summary>A texture that selects materials over a surface. Baked in the editor from a readable texture; at run
+    /// time only its compact copy is needed. Works on mesh colliders that are not convex and whose mesh is readable:
+    /// only these have texture coordinates at the touched place.</summary>
     [CreateAssetMenu(menuName = "HaptoFlow/Haptic Mask Map", fileName = "HapticMaskMap", order = 4)]
     [HelpURL(HelpPages.Components + "haptic-mask-map")]
     public sealed class HapticMaskMap : ScriptableObject
     {
         internal const int Channels = 4;
 
-        // Beyond this a coordinate has no fraction left that would say where on the texture it is.
-        private const float LargestCoordinate = 1e6f;
+        // In single precision a larger coordinate has no fraction left to locate a texel.
+        private const float MaximumCoordinate = 1e6f;
 
-        [SerializeField, Tooltip("What the channels are baked from. It must be readable while it is baked.")]
+        [SerializeField, Tooltip("The texture that the channels are baked from. It must be readable during baking.")]
         private Texture2D? texture;
 
-        [SerializeField, Tooltip("A larger texture is baked at half its size, or half of that, until it fits.")]
+        [SerializeField, Tooltip("The upper limit of the baked copy's longer side, in texels. Larger textures are " +
+            "halved until they fit.")]
         private int largestSize = 512;
 
-        [SerializeField, Tooltip("Off: the mesh's first texture coordinates count. On: its second.")]
+        [SerializeField, Tooltip("Uses the mesh's second texture coordinates instead of the first.")]
         private bool secondCoordinates;
 
-        [SerializeField, Tooltip("How often the texture repeats over the texture coordinates.")]
+        [SerializeField, Tooltip("The number of repetitions of the texture over the texture coordinates.")]
         private Vector2 tiling = new Vector2(1f, 1f);
 
-        [SerializeField, Tooltip("Shifts the texture over the texture coordinates.")]
+        [SerializeField, Tooltip("The shift of the texture over the texture coordinates.")]
         private Vector2 offset;
 
         [SerializeField]
@@ -126,81 +127,83 @@ namespace HaptoFlow
         [SerializeField, HideInInspector]
         private string bakedContents = "";
 
-        /// <summary>What the channels are baked from, in the editor.</summary>
+        /// <summary>The texture that the channels are baked from, in the editor.</summary>
         public Texture2D? Texture
         {
             get => texture;
             set => texture = value;
         }
 
-        /// <summary>In texels, of the longer side.</summary>
+        /// <summary>Upper limit of the longer side of the baked copy, in texels.</summary>
         public int LargestSize => Math.Max(1, largestSize);
 
-        /// <summary>The mesh's second texture coordinates count, not the first.</summary>
+        /// <summary>True to use the mesh's second texture coordinates instead of the first.</summary>
         public bool SecondCoordinates
         {
             get => secondCoordinates;
             set => secondCoordinates = value;
         }
 
-        /// <summary>How often the texture repeats over the texture coordinates.</summary>
+        /// <summary>Number of repetitions of the texture over the texture coordinates.</summary>
         public Vector2 Tiling
         {
             get => tiling;
             set => tiling = value;
         }
 
-        /// <summary>Shifts the texture over the texture coordinates.</summary>
+        /// <summary>Shift of the texture over the texture coordinates.</summary>
         public Vector2 Offset
         {
             get => offset;
             set => offset = value;
         }
 
-        /// <summary>What the red channel says.</summary>
+        /// <summary>What the red channel controls.</summary>
         public MaskChannel Red => red;
 
-        /// <summary>What the green channel says.</summary>
+        /// <summary>What the green channel controls.</summary>
         public MaskChannel Green => green;
 
-        /// <summary>What the blue channel says.</summary>
+        /// <summary>What the blue channel controls.</summary>
         public MaskChannel Blue => blue;
 
-        /// <summary>What the alpha channel says.</summary>
+        /// <summary>What the alpha channel controls.</summary>
         public MaskChannel Alpha => alpha;
 
-        /// <summary>The texture was baked.</summary>
+        /// <summary>True after the texture was baked.</summary>
         public bool IsBaked => width > 0 && height > 0 && texels.Length == Channels * width * height;
 
-        /// <summary>Of the baked copy, in texels.</summary>
+        /// <summary>Width of the baked copy, in texels.</summary>
         public int Width => width;
 
-        /// <summary>Of the baked copy, in texels.</summary>
+        /// <summary>Height of the baked copy, in texels.</summary>
         public int Height => height;
 
-        /// <summary>What the editor says of the texture's contents when it was baked.</summary>
+        /// <summary>The editor's hash of the texture's contents at the time of baking.</summary>
         internal string BakedContents
         {
             get => bakedContents;
             set => bakedContents = value;
         }
 
-        /// <summary>Some channel is a material.</summary>
+        /// <summary>True where a channel has a material.</summary>
         internal bool NamesMaterials => Names(red) || Names(green) || Names(blue) || Names(alpha);
 
-        /// <summary>Gives the map its texels: what baking does in the editor, and for textures that are made at run
-        /// time. Main thread.</summary>
-        /// <param name="width">Of the texels, 1 or more.</param>
-        /// <param name="height">Of the texels, 1 or more.</param>
-        /// <param name="pixels">Row by row from the bottom, as Texture2D.GetPixels32 has them.</param>
-        /// <param name="repeats">Coordinates beyond 0 to 1 repeat the texture; otherwise its edge goes on.</param>
-        /// <exception cref="ArgumentException">The size is not that of the pixels.</exception>
+        /// <summary>Sets the texels: used by baking in the editor, and for textures created at run time. Main
+        /// thread.</summary>
+        /// <param name="width">Width in texels, 1 or more.</param>
+        /// <param name="height">Height in texels, 1 or more.</param>
+        /// <param name="pixels">Row by row from the bottom, as Texture2D.GetPixels32 returns them.</param>
+        /// <param name="repeats">True to repeat the texture beyond the coordinates 0 to 1, false to extend its
+        /// edge.</param>
+        /// <exception cref="ArgumentException">The number of pixels does not match the size.</exception>
         public void SetPixels(int width, int height, Color32[] pixels, bool repeats)
         {
             if (width < 1 || height < 1 || pixels.Length != width * height)
             {
                 throw new ArgumentException(
-                    $"a mask of {width} x {height} texels needs {width * height} pixels and was given {pixels.Length}");
+                    $"a mask of {width} x {height} texels needs {width * height} pixels, but {pixels.Length} were " +
+                        $"given");
             }
             this.width = width;
             this.height = height;
@@ -216,9 +219,9 @@ namespace HaptoFlow
             MaterialMaps.Change();
         }
 
-        /// <summary>What the mask makes of a material at a place. No garbage.</summary>
-        /// <param name="under">What there is where no channel says otherwise; null for nothing.</param>
-        /// <returns>False where the mask has nothing to say: it is not baked, or the place has no texture
+        /// <summary>Blends the mask's materials over another at a place. No garbage.</summary>
+        /// <param name="under">The material where no channel has one; null for none.</param>
+        /// <returns>False where the mask does not apply: it is not baked, or the place has no texture
         /// coordinate.</returns>
         internal bool TryFeel(
             in TouchedPlace place, HapticMaterial? under, HapticSession session, UnityEngine.Object user,
@@ -252,7 +255,7 @@ namespace HaptoFlow
             return true;
         }
 
-        /// <summary>1 for what is no number.</summary>
+        /// <summary>Returns 1 for NaN.</summary>
         private static float Limited(float value, float lowest, float highest) =>
             float.IsNaN(value) ? 1f : Mathf.Clamp(value, lowest, highest);
 
@@ -287,7 +290,7 @@ namespace HaptoFlow
 
         private void OnValidate() => MaterialMaps.Change();
 
-        /// <summary>The channels between four texels, 0 to 1.</summary>
+        /// <summary>The channels interpolated between four texels, 0 to 1.</summary>
         private readonly struct Sample
         {
             public readonly float Red;
@@ -312,7 +315,7 @@ namespace HaptoFlow
             private static void Place(
                 float coordinate, int size, bool repeats, out int first, out int second, out float share)
             {
-                float inside = Mathf.Clamp(coordinate, -LargestCoordinate, LargestCoordinate);
+                float inside = Mathf.Clamp(coordinate, -MaximumCoordinate, MaximumCoordinate);
                 inside = repeats ? inside - (float)Math.Floor(inside) : Mathf.Clamp01(inside);
                 inside = inside >= 0f ? inside : 0f;
                 float texel = inside * size - 0.5f;

@@ -5,27 +5,28 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>Says by rules which object is which material, so that a scene needs no tagging by hand. The first rule
-    /// that matches counts; a <see cref="HapticSurface"/> on an object wins over every rule.</summary>
-    /// <remarks>A project's map is chosen in <see cref="HaptoFlowSettings"/>, further ones for a scene by a
-    /// <see cref="HapticMaterialMapScope"/>. What a collider feels like is worked out when a tip comes near, and again
-    /// when its tag, layer, materials or mesh change, or any map does. A new name, and layers added to a terrain, are
-    /// noticed after <see cref="Refresh"/>. Main thread.</remarks>
+    /// <summary>Assigns materials to objects by rules, so that a scene needs no tagging by hand. The first rule that
+    /// matches applies; a <see cref="HapticSurface"/> on an object takes precedence over every rule.</summary>
+    /// <remarks>A project's map is chosen in <see cref="HaptoFlowSettings"/>, further ones for a scene with a <see
+    /// cref="HapticMaterialMapScope"/>. The rules are matched when a tip comes near a collider, and again when the
+    /// collider's tag, layer, materials or mesh change, or any map changes. After renaming an object, or adding layers
+    /// to a terrain, call <see cref="Refresh"/>. Main thread.</remarks>
     [CreateAssetMenu(menuName = "HaptoFlow/Haptic Material Map", fileName = "HapticMaterialMap", order = 3)]
     [HelpURL(HelpPages.Components + "haptic-material-map")]
     public sealed class HapticMaterialMap : ScriptableObject
     {
-        [SerializeField, Tooltip("The first rule that matches counts.")]
+        [SerializeField, Tooltip("The rules in order. The first rule that matches an object applies.")]
         private List<HapticMaterialRule> rules = new List<HapticMaterialRule>();
 
-        [SerializeField, Tooltip("What no rule matches feels like this; empty to ask the next map, and to feel " +
-            "nothing where there is none.")]
+        [SerializeField, Tooltip("The material where no rule matches. Leave it empty to try the next map; without " +
+            "one the object is not felt.")]
         private HapticMaterial? defaultMaterial;
 
-        /// <summary>In their order: the first that matches counts.</summary>
+        /// <summary>The rules in order: the first that matches applies.</summary>
         public IReadOnlyList<HapticMaterialRule> Rules => rules;
 
-        /// <summary>What no rule matches; null to ask the next map, and to feel nothing where there is none.</summary>
+        /// <summary>The material where no rule matches; null to try the next map, without which there is no
+        /// material.</summary>
         public HapticMaterial? DefaultMaterial
         {
             get => defaultMaterial;
@@ -36,46 +37,46 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>Adds a rule behind all others.</summary>
+        /// <summary>Adds a rule after all others.</summary>
         public void Add(HapticMaterialRule rule) => Insert(rules.Count, rule);
 
-        /// <param name="index">0 for before all others.</param>
+        /// <param name="index">Position of the rule; 0 for the first.</param>
         public void Insert(int index, HapticMaterialRule rule)
         {
             rules.Insert(index, rule ?? throw new ArgumentNullException(nameof(rule)));
             MaterialMaps.Change();
         }
 
-        /// <summary>Takes a rule away, by its place.</summary>
+        /// <summary>Removes the rule at a position.</summary>
         public void RemoveAt(int index)
         {
             rules.RemoveAt(index);
             MaterialMaps.Change();
         }
 
-        /// <summary>Takes all rules away.</summary>
+        /// <summary>Removes all rules.</summary>
         public void Clear()
         {
             rules.Clear();
             MaterialMaps.Change();
         }
 
-        /// <summary>Works out anew what every collider feels like, by all maps: after objects were renamed, and after
-        /// the layers of a terrain changed at run time.</summary>
+        /// <summary>Matches all maps again with every collider. Call it after renaming objects, and after the layers of
+        /// a terrain changed at run time.</summary>
         public static void Refresh()
         {
             TerrainWeights.Forget();
             MaterialMaps.Change();
         }
 
-        /// <summary>For people: <c>rule 3 of "Rooms": tag "Floor"</c>.</summary>
-        /// <param name="rule">Below 0 for the default.</param>
+        /// <summary>Names a rule for people: <c>rule 3 of "Rooms": tag "Floor"</c>.</summary>
+        /// <param name="rule">Index of the rule; below 0 for the default.</param>
         internal string Explain(int rule) => rule < 0 || rule >= rules.Count
             ? $"default of \"{name}\""
             : $"rule {rule + 1} of \"{name}\": {rules[rule].Describe()}";
 
-        /// <summary>The first rule that matches a part of a collider; false where none does and there is no default.
-        /// </summary>
+        /// <summary>Finds the first rule that matches a part of a collider; false where none does and there is no
+        /// default.</summary>
         internal bool TryMatch(ColliderFacts facts, int part, out FeltPart found)
         {
             for (int index = 0; index < rules.Count; ++index)

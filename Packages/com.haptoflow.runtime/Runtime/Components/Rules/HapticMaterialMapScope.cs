@@ -3,19 +3,19 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>Makes a <see cref="HapticMaterialMap"/> count for the scene that this object is in, before the
-    /// project's.</summary>
+    /// <summary>Applies a <see cref="HapticMaterialMap"/> to the scene of this object, before the project's
+    /// map.</summary>
     [AddComponentMenu("HaptoFlow/Haptic Material Map Scope")]
     [HelpURL(HelpPages.Components + "haptic-material-map-scope")]
     public sealed class HapticMaterialMapScope : MonoBehaviour
     {
-        [SerializeField, Tooltip("The map that counts for this scene.")]
+        [SerializeField, Tooltip("The map that applies to this scene.")]
         private HapticMaterialMap? map;
 
-        [SerializeField, Tooltip("Of several in one scene, the lowest is asked first.")]
+        [SerializeField, Tooltip("The order among several maps of a scene. The lowest is tried first.")]
         private int order;
 
-        /// <summary>The map that counts for the scene.</summary>
+        /// <summary>The map of this scene.</summary>
         public HapticMaterialMap? Map
         {
             get => map;
@@ -26,8 +26,8 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>Of several in one scene, the lowest is asked first; equal ones in the order in which they were
-        /// switched on.</summary>
+        /// <summary>Order among several maps of a scene: the lowest is tried first; equal ones in the order in which
+        /// they were enabled.</summary>
         public int Order
         {
             get => order;

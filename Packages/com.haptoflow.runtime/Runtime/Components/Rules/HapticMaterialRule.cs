@@ -9,7 +9,7 @@ using SurfacePhysics = UnityEngine.PhysicMaterial;
 
 namespace HaptoFlow
 {
-    /// <summary>What of an object a rule looks at.</summary>
+    /// <summary>The property of an object that a rule matches.</summary>
     public enum MaterialRuleSubject
     {
         /// <summary>The Unity tag of the collider's object.</summary>
@@ -21,10 +21,11 @@ namespace HaptoFlow
         /// <summary>The collider's physics material.</summary>
         PhysicsMaterial = 2,
 
-        /// <summary>A material of the object's renderer; on a mesh collider each submesh by its own.</summary>
+        /// <summary>A material of the object's renderer; on a mesh collider each submesh is matched by its
+        /// own.</summary>
         RendererMaterial = 3,
 
-        /// <summary>A layer that a terrain is painted with.</summary>
+        /// <summary>A layer of a terrain.</summary>
         TerrainLayer = 4,
 
         /// <summary>A submesh of a mesh collider, by its number.</summary>
@@ -34,11 +35,12 @@ namespace HaptoFlow
         Name = 6,
     }
 
-    /// <summary>One line of a <see cref="HapticMaterialMap"/>: what it looks for, and what that feels like.</summary>
+    /// <summary>One rule of a <see cref="HapticMaterialMap"/>: what it matches, and the material that it
+    /// assigns.</summary>
     [Serializable]
     public sealed class HapticMaterialRule
     {
-        [SerializeField, Tooltip("What of an object this rule looks at.")]
+        [SerializeField, Tooltip("The property of an object that this rule matches.")]
         private MaterialRuleSubject subject = MaterialRuleSubject.Tag;
 
         [SerializeField, Tooltip("The Unity tag of the collider's object.")]
@@ -50,33 +52,34 @@ namespace HaptoFlow
         [SerializeField, Tooltip("The collider's physics material.")]
         private SurfacePhysics? physicsMaterial;
 
-        [SerializeField, Tooltip("A material of the object's renderer. On a mesh collider each submesh goes by its " +
-            "own.")]
+        [SerializeField, Tooltip("A material of the object's renderer. On a mesh collider each submesh is matched by " +
+            "its own.")]
         private Material? rendererMaterial;
 
-        [SerializeField, Tooltip("A layer that a terrain is painted with.")]
+        [SerializeField, Tooltip("A layer of a terrain.")]
         private TerrainLayer? terrainLayer;
 
-        [SerializeField, Tooltip("The mesh whose submesh counts; empty for every mesh.")]
+        [SerializeField, Tooltip("The mesh whose submesh is matched. Leave it empty for every mesh.")]
         private Mesh? mesh;
 
-        [SerializeField, Min(0), Tooltip("Number of the submesh, from 0.")]
+        [SerializeField, Min(0), Tooltip("The number of the submesh, from 0.")]
         private int submesh;
 
-        [SerializeField, Tooltip("A * stands for any characters; upper and lower case count alike.")]
+        [SerializeField, Tooltip("The pattern for object names. A * stands for any characters; case is ignored.")]
         private string namePattern = "";
 
-        [SerializeField, Tooltip("What it feels like; empty for nothing.")]
+        [SerializeField, Tooltip("The material of objects that match. Leave it empty to make them not felt.")]
         private HapticMaterial? material;
 
-        [SerializeField, Tooltip("Further materials by a texture, at the place that is touched; empty for none.")]
+        [SerializeField, Tooltip("A texture that blends in further materials at the touched place. Leave it empty " +
+            "for none.")]
         private HapticMaskMap? mask;
 
         private HapticMaterialRule()
         {
         }
 
-        /// <summary>What of an object this looks at.</summary>
+        /// <summary>The property of an object that the rule matches.</summary>
         public MaterialRuleSubject Subject => subject;
 
         /// <summary>For <see cref="MaterialRuleSubject.Tag"/>.</summary>
@@ -103,7 +106,7 @@ namespace HaptoFlow
         /// <summary>For <see cref="MaterialRuleSubject.Name"/>.</summary>
         public string NamePattern => namePattern ?? "";
 
-        /// <summary>What it feels like; null for nothing.</summary>
+        /// <summary>The assigned material; null for none, so that the object is not felt.</summary>
         public HapticMaterial? Material
         {
             get => material;
@@ -114,7 +117,7 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>Further materials by a texture; null for none.</summary>
+        /// <summary>A texture that blends in further materials; null for none.</summary>
         public HapticMaskMap? Mask
         {
             get => mask;
@@ -165,15 +168,15 @@ namespace HaptoFlow
                 subject = MaterialRuleSubject.Submesh, mesh = mesh, submesh = submesh, material = material,
             };
 
-        /// <summary>A rule for names.</summary>
-        /// <param name="namePattern">A * stands for any characters; upper and lower case count alike.</param>
+        /// <summary>A rule for object names.</summary>
+        /// <param name="namePattern">A * stands for any characters; case is ignored.</param>
         public static HapticMaterialRule ForName(string namePattern, HapticMaterial? material) =>
             new HapticMaterialRule
             {
                 subject = MaterialRuleSubject.Name, namePattern = namePattern, material = material,
             };
 
-        /// <summary>What the rule looks for, for people: <c>tag "Floor"</c>. Makes garbage.</summary>
+        /// <summary>Describes what the rule matches, for people: <c>tag "Floor"</c>. Makes garbage.</summary>
         public string Describe()
         {
             switch (subject)
@@ -196,7 +199,7 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>What the rule looks for is named: one that names nothing matches nothing.</summary>
+        /// <summary>False where the rule lacks the value to compare with; it then matches nothing.</summary>
         internal bool IsComplete => subject switch
         {
             MaterialRuleSubject.Tag => Tag.Length > 0,

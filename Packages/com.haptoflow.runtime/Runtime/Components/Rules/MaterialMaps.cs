@@ -5,21 +5,21 @@ using UnityEngine.SceneManagement;
 
 namespace HaptoFlow
 {
-    /// <summary>The maps that count: those of a scene first, then the project's. Main thread.</summary>
+    /// <summary>The maps in effect: those of a scene first, then the project's. Main thread.</summary>
     internal static class MaterialMaps
     {
         private static readonly List<HapticMaterialMapScope> Scopes = new List<HapticMaterialMapScope>();
         private static HapticMaterialMap? project;
 
-        /// <summary>One more at each change of any map, of any scope, or of the project's choice.</summary>
+        /// <summary>Increases with each change of a map, a scope, or the project's choice.</summary>
         public static int Version { get; private set; }
 
-        /// <summary>Any map counts anywhere.</summary>
+        /// <summary>True where any map is in effect.</summary>
         public static bool Any => project is object || Scopes.Count > 0;
 
         public static void Change() => ++Version;
 
-        /// <summary>Once a frame: another project's map may count by now.</summary>
+        /// <summary>Call once a frame: detects a change of the project's map.</summary>
         public static void Poll()
         {
             HapticMaterialMap? chosen = HaptoFlowSettings.Active.MaterialMap;
@@ -48,7 +48,7 @@ namespace HaptoFlow
 
         public static void Reorder()
         {
-            // By insertion: equal ones stay in the order in which they came.
+            // Insertion sort: entries of equal order keep their sequence.
             for (int index = 1; index < Scopes.Count; ++index)
             {
                 HapticMaterialMapScope scope = Scopes[index];
@@ -62,7 +62,7 @@ namespace HaptoFlow
             Change();
         }
 
-        /// <summary>In the order in which they are asked.</summary>
+        /// <summary>Lists the maps of a scene in the order in which they are tried.</summary>
         public static void CollectFor(Scene scene, List<HapticMaterialMap> maps)
         {
             maps.Clear();
@@ -79,7 +79,7 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>Has what the rules lead to registered before it is touched.</summary>
+        /// <summary>Registers the learnt materials of all rules before they are touched.</summary>
         public static void PrepareAll(HapticSession session)
         {
             Poll();

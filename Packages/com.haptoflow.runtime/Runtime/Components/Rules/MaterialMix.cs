@@ -3,17 +3,17 @@ using System;
 
 namespace HaptoFlow
 {
-    /// <summary>Mixes materials by their weights into one that a contact state can carry: at most four labels, the
-    /// heaviest. Main thread, one mixture at a time; no garbage.</summary>
+    /// <summary>Blends materials by their weights into one that a contact state can carry: the four labels of largest
+    /// weight. Main thread, one blend at a time; no garbage.</summary>
     internal sealed class MaterialMix
     {
-        private const int MostLabels = 32;
+        private const int MaximumLabels = 32;
 
-        // Nobody feels less: -54 dB. Rounding at the middle of a texel would otherwise bring a second label in.
-        private const float LeastShare = 0.002f;
+        // Smaller shares, below -54 dB, cannot be felt. Rounding at the centre of a texel would add a second label.
+        private const float MinimumShare = 0.002f;
 
-        private readonly int[] labels = new int[MostLabels];
-        private readonly float[] weights = new float[MostLabels];
+        private readonly int[] labels = new int[MaximumLabels];
+        private readonly float[] weights = new float[MaximumLabels];
         private int count;
         private float total;
         private float felt;
@@ -25,10 +25,10 @@ namespace HaptoFlow
         private float heaviestWeight;
         private FeltMaterial heaviest;
 
-        /// <summary>The one of the main thread.</summary>
+        /// <summary>The instance of the main thread.</summary>
         public static MaterialMix Shared { get; } = new MaterialMix();
 
-        /// <summary>A new mixture.</summary>
+        /// <summary>Starts a new blend.</summary>
         public void Begin()
         {
             count = 0;
@@ -43,15 +43,15 @@ namespace HaptoFlow
             heaviest = default;
         }
 
-        /// <summary>A share in which nothing is felt: it weakens the rest.</summary>
+        /// <summary>Adds a share without material, which weakens the rest.</summary>
         public void AddNothing(float weight) => total += Usable(weight);
 
-        /// <param name="part">The submesh or terrain layer that it comes from.</param>
+        /// <param name="part">The submesh or terrain layer of the material.</param>
         public void Add(
             HapticMaterial material, HapticSession session, UnityEngine.Object user, float weight, int part) => Add(
                 FeltMaterial.Of(material.Description, material.LookUp(session, user)), weight, part);
 
-        /// <summary>A share of a material; one of which the model knows no label is nothing.</summary>
+        /// <summary>Adds a share of a material; one without known labels counts as no material.</summary>
         public void Add(in FeltMaterial material, float weight, int part)
         {
             weight = Usable(weight);
@@ -81,8 +81,8 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>The mixture: weighted means, but for the effects, which are those of the heaviest material.
-        /// </summary>
+        /// <summary>The blend: weighted means, except for the effects, which are those of the material of largest
+        /// weight.</summary>
         public FeltMaterial Finish()
         {
             if (felt <= 0f)
@@ -110,7 +110,7 @@ namespace HaptoFlow
                     return;
                 }
             }
-            if (count < MostLabels)
+            if (count < MaximumLabels)
             {
                 labels[count] = label;
                 weights[count] = weight;
@@ -133,7 +133,7 @@ namespace HaptoFlow
             }
             int kept = 0;
             float sum = 0f;
-            for (; kept < most && weights[kept] >= LeastShare * felt; ++kept)
+            for (; kept < most && weights[kept] >= MinimumShare * felt; ++kept)
             {
                 sum += weights[kept];
             }

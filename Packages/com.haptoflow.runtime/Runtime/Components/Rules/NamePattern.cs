@@ -2,11 +2,11 @@
 
 namespace HaptoFlow
 {
-    /// <summary>Matches names against patterns in which <c>*</c> stands for any number of characters. Upper and lower
-    /// case count alike.</summary>
+    /// <summary>Matches names against patterns in which <c>*</c> stands for any number of characters. Case is ignored.
+    /// Not by Regex, which allocates per match and interprets user text as a pattern language.</summary>
     internal static class NamePattern
     {
-        /// <summary>The whole name fits the whole pattern; an empty pattern fits nothing.</summary>
+        /// <summary>True where the pattern matches the whole name; an empty pattern matches nothing.</summary>
         public static bool Matches(string pattern, string name)
         {
             int inPattern = 0;
@@ -27,7 +27,7 @@ namespace HaptoFlow
                 }
                 else if (lastStar >= 0)
                 {
-                    // The last star takes one character more.
+                    // Backtrack: let the last star match one character more.
                     inPattern = lastStar + 1;
                     inName = ++resumeAt;
                 }

@@ -7,13 +7,13 @@ using Object = UnityEngine.Object;
 
 namespace HaptoFlow
 {
-    /// <summary>How much of each layer a terrain has at each place: read once, a byte a layer and texel, since Unity's
-    /// own reading makes garbage. Of a large terrain several texels become one. Main thread.</summary>
+    /// <summary>The weights of a terrain's layers at each place: read once into a byte per layer and texel, since
+    /// Unity's own query makes garbage. Texels of a large terrain are averaged. Main thread.</summary>
     internal sealed class TerrainWeights
     {
-        // Rows that are read at once: a strip of a large terrain is a few megabytes of garbage, not hundreds.
+        // Reading a large terrain in strips makes a few megabytes of garbage instead of hundreds.
         private const int RowsAtOnce = 64;
-        private const long MostBytes = 16L << 20;
+        private const long MaximumBytes = 16L << 20;
         private static readonly Dictionary<TerrainData, TerrainWeights> Known =
             new Dictionary<TerrainData, TerrainWeights>();
 
@@ -38,8 +38,8 @@ namespace HaptoFlow
             return weights;
         }
 
-        /// <summary>Reads the terrains of the open scenes now, where maps count: so that no frame of a touch has to.
-        /// </summary>
+        /// <summary>Reads the terrains of the open scenes where maps are in effect, so that no frame of a touch has
+        /// to.</summary>
         public static void ReadScenes()
         {
             if (!MaterialMaps.Any)
@@ -56,11 +56,11 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>All are read anew when they are next asked.</summary>
+        /// <summary>Discards all weights; each terrain is read again at its next query.</summary>
         public static void Forget() => Known.Clear();
 
-        /// <summary>Weights of the layers at a place, which hold until the next question.</summary>
-        /// <param name="localMetres">From the terrain's corner.</param>
+        /// <summary>Weights of the layers at a place. The array is reused by the next query.</summary>
+        /// <param name="localMetres">Position relative to the terrain's corner.</param>
         public float[] At(Double3 localMetres, Double3 sizeMetres)
         {
             if (isStale)
@@ -72,7 +72,7 @@ namespace HaptoFlow
             {
                 return found;
             }
-            // As the terrain is drawn: its edges run through the centres of the outermost texels.
+            // As the terrain is drawn: its edges pass through the centres of the outermost texels.
             (int left, float shareRight) = Texel(localMetres.X, sizeMetres.X);
             (int near, float shareFar) = Texel(localMetres.Z, sizeMetres.Z);
             int right = Math.Min(left + 1, resolution - 1);
@@ -95,7 +95,7 @@ namespace HaptoFlow
             layers = terrain.alphamapLayers;
             texelsInOne = 1;
             resolution = sourceResolution;
-            while ((long)resolution * resolution * layers > MostBytes && texelsInOne < RowsAtOnce)
+            while ((long)resolution * resolution * layers > MaximumBytes && texelsInOne < RowsAtOnce)
             {
                 texelsInOne *= 2;
                 resolution = Math.Max(1, sourceResolution / texelsInOne);
@@ -152,14 +152,14 @@ namespace HaptoFlow
         }
 
         [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.SubsystemRegistration)]
-        private static void Begin()
+        private static void OnSubsystemRegistration()
         {
             Forget();
             TerrainCallbacks.textureChanged -= OnPainted;
             TerrainCallbacks.textureChanged += OnPainted;
         }
 
-        // Until the change has come from the graphics card, reading would find what was there before.
+        // Reading before the change has arrived from the graphics card would return the old weights.
         private static void OnPainted(Terrain painted, string textureName, RectInt texels, bool hasArrived)
         {
             if (hasArrived && painted.terrainData != null &&

@@ -4,14 +4,14 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>A place on a collider, as far as materials may differ from place to place.</summary>
+    /// <summary>A place on a collider with the data that materials can vary by.</summary>
     internal readonly struct TouchedPlace
     {
         private readonly Collider collider;
         private readonly RaycastHit hit;
         private readonly bool hasTriangle;
 
-        /// <param name="hit">Of the ray that found the place; null where no ray did.</param>
+        /// <param name="hit">The ray hit that found the place; null where no ray was needed.</param>
         public TouchedPlace(Collider collider, Double3 localMetres, in RaycastHit? hit)
         {
             this.collider = collider;
@@ -20,14 +20,16 @@ namespace HaptoFlow
             hasTriangle = hit.HasValue && collider is MeshCollider mesh && !mesh.convex;
         }
 
-        /// <summary>From the collider's origin, in its local axes, in metres.</summary>
+        /// <summary>Position relative to the collider's origin, in its local axes, in metres.</summary>
         public Double3 LocalMetres { get; }
 
-        /// <summary>Below 0 where the physics engine says none: all but meshes that are not convex.</summary>
+        /// <summary>Triangle index; below 0 where the physics engine provides none: everything but non-convex
+        /// meshes.</summary>
         public int Triangle => hasTriangle ? hit.triangleIndex : -1;
 
-        /// <summary>False where the physics engine says none: all but readable meshes that are not convex.</summary>
-        /// <param name="second">The mesh's second set.</param>
+        /// <summary>False where the physics engine provides no coordinate: everything but readable, non-convex
+        /// meshes.</summary>
+        /// <param name="second">True for the mesh's second texture coordinates.</param>
         public bool TryGetTextureCoordinate(bool second, out Vector2 coordinate)
         {
             coordinate = default;

@@ -1,6 +1,6 @@
 #nullable enable
 using System;
-using System.Globalization;
+using System.Collections.Generic;
 using System.IO;
 using HaptoFlow.Files;
 using HaptoFlow.Model;
@@ -8,16 +8,16 @@ using HaptoFlow.Numerics;
 
 namespace HaptoFlow.Alignment
 {
-    /// <summary>A pose in a small file of its own: metres and a unit quaternion as JSON. It is written whole or not at
-    /// all, and nothing that it says is trusted. Any thread that may touch files.</summary>
+    /// <summary>A pose in a small JSON file: metres and a unit quaternion. Writing is atomic, and every value is
+    /// checked on reading. Any thread that may access files.</summary>
     internal static class SavedPose
     {
         private const string Format = "haptoflow pose";
         private const int Version = 1;
-        private const int LongestFile = 4096;
-        private const double LargestMetres = 1000.0;
+        private const int MaximumFileBytes = 4096;
+        private const double MaximumMetres = 1000.0;
 
-        // A quaternion of six decimals is so close to length 1.
+        // Rounding to six decimals changes the length of a quaternion by less than this.
         private const double LengthTolerance = 1e-3;
 
         /// <exception cref="IOException">The file cannot be written.</exception>
@@ -26,15 +26,17 @@ namespace HaptoFlow.Alignment
         {
             Double3 place = pose.PositionMetres;
             Rotation turn = pose.Rotation;
-            string text = string.Format(CultureInfo.InvariantCulture,
-                "{{\"format\": \"{0}\", \"version\": {1}, \"position_m\": [{2:R}, {3:R}, {4:R}], " +
-                "\"rotation_xyzw\": [{5:R}, {6:R}, {7:R}, {8:R}]}}\n",
-                Format, Version, place.X, place.Y, place.Z, turn.X, turn.Y, turn.Z, turn.W);
-            WholeFile.Write(path, text);
+            WholeFile.Write(path, JsonText.Of(new Dictionary<string, object?>
+            {
+                ["format"] = Format,
+                ["version"] = Version,
+                ["position_m"] = new[] { place.X, place.Y, place.Z },
+                ["rotation_xyzw"] = new[] { turn.X, turn.Y, turn.Z, turn.W },
+            }) + "\n");
         }
 
-        /// <summary>False where there is no such file, or none that can be used.</summary>
-        /// <param name="problem">What is wrong with a file that is there; null where it is not.</param>
+        /// <summary>False where there is no such file, or it cannot be used.</summary>
+        /// <param name="problem">What is wrong with the file; null without a file.</param>
         public static bool TryRead(string path, out RigidPose pose, out string? problem)
         {
             pose = RigidPose.Identity;
@@ -45,9 +47,9 @@ namespace HaptoFlow.Alignment
             }
             try
             {
-                if (new FileInfo(path).Length > LongestFile)
+                if (new FileInfo(path).Length > MaximumFileBytes)
                 {
-                    throw new FormatException("the file is longer than a pose can be");
+                    throw new FormatException("the file is longer than 4096 bytes");
                 }
                 pose = Parse(JsonValue.Parse(File.ReadAllText(path)));
                 return true;
@@ -66,9 +68,9 @@ namespace HaptoFlow.Alignment
         {
             if (document["format"].AsText() != Format || document["version"].AsInteger() != Version)
             {
-                throw new FormatException($"this is no \"{Format}\" of version {Version}");
+                throw new FormatException($"this is not a \"{Format}\" of version {Version}");
             }
-            double[] place = Numbers(document["position_m"], 3, LargestMetres);
+            double[] place = Numbers(document["position_m"], 3, MaximumMetres);
             double[] turn = Numbers(document["rotation_xyzw"], 4, 1.0 + LengthTolerance);
             double length = Math.Sqrt(turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2] + turn[3] * turn[3]);
             if (!(Math.Abs(length - 1.0) <= LengthTolerance))

@@ -6,7 +6,7 @@ using HaptoFlow.Numerics;
 
 namespace HaptoFlow.Alignment
 {
-    /// <summary>Where an object is whose three marked points were touched.</summary>
+    /// <summary>The pose of an object after its three marked points were touched.</summary>
     internal readonly struct AlignmentFit
     {
         private AlignmentFit(string? refusal, in RigidPose pose, double largestErrorMetres)
@@ -16,13 +16,13 @@ namespace HaptoFlow.Alignment
             LargestErrorMetres = largestErrorMetres;
         }
 
-        /// <summary>Why there is no pose, with the remedy; null where there is one.</summary>
+        /// <summary>Why there is no pose, with the remedy; null with one.</summary>
         public string? Refusal { get; }
 
-        /// <summary>Takes the object's marked points to the touched ones.</summary>
+        /// <summary>The pose that maps the object's marked points to the touched ones.</summary>
         public RigidPose Pose { get; }
 
-        /// <summary>From a marked point, moved, to where it was touched.</summary>
+        /// <summary>The largest distance between a mapped mark and its touched point.</summary>
         public double LargestErrorMetres { get; }
 
         public static AlignmentFit Refuse(string why) => new AlignmentFit(why, RigidPose.Identity, 0.0);
@@ -31,20 +31,20 @@ namespace HaptoFlow.Alignment
             new AlignmentFit(null, pose, largestErrorMetres);
     }
 
-    /// <summary>The rigid pose that takes three points of an object to the three places where they were touched, with
-    /// the least squared error. Any thread; pure.</summary>
-    /// <remarks>Three points lie in a plane on both sides, so the best rotation takes plane to plane, and what is left
-    /// is an angle within it. The points are numbered, which tells the plane's upper side from its lower.</remarks>
+    /// <summary>The rigid pose that maps three points of an object to the places where they were touched, with the
+    /// least squared error. Any thread; a pure function.</summary>
+    /// <remarks>Three points span a plane on each side; the best rotation maps plane to plane, and the remaining angle
+    /// lies within it. The numbering of the points determines the plane's upper side.</remarks>
     internal static class ThreePointFit
     {
-        /// <summary>Sides shorter than this turn millimetres of touching error into a visible tilt.</summary>
-        public const double ShortestSideMetres = 0.02;
+        /// <summary>With shorter sides, touching errors of millimetres cause a visible tilt.</summary>
+        public const double MinimumSideMetres = 0.02;
 
-        /// <summary>A triangle that is flatter says nothing of the turn around its longest side.</summary>
-        public const double SmallestHeightMetres = 0.01;
+        /// <summary>A flatter triangle does not determine the rotation about its longest side.</summary>
+        public const double MinimumHeightMetres = 0.01;
 
-        /// <summary>Beyond this a touched triangle is not the object's.</summary>
-        public const double LargestErrorMetres = 0.01;
+        /// <summary>With larger errors the touched triangle is not the marked one.</summary>
+        public const double MaximumErrorMetres = 0.01;
 
         private static readonly int[][] OtherOrders =
         {
@@ -52,9 +52,9 @@ namespace HaptoFlow.Alignment
         };
 
         /// <param name="marks">Three points of the object in its own frame, in metres.</param>
-        /// <param name="touched">Where the tip's centre was, in the same order, in metres.</param>
-        /// <param name="outward">Out of the object at the marked points, in its own frame: where the pen was.</param>
-        /// <param name="tipRadiusMetres">The tip's centre is so much outside of the touched place; 0 or more.</param>
+        /// <param name="touched">Positions of the tip's centre, in the same order, in metres.</param>
+        /// <param name="outward">Direction out of the object at the marks, in its own frame: the pen's side.</param>
+        /// <param name="tipRadiusMetres">Distance of the tip's centre from the touched place; 0 or more.</param>
         public static AlignmentFit Solve(
             IReadOnlyList<Double3> marks, IReadOnlyList<Double3> touched, Double3 outward, double tipRadiusMetres)
         {
@@ -70,12 +70,12 @@ namespace HaptoFlow.Alignment
             }
             RigidPose pose = Fit(marks, touched);
             double error = LargestError(marks, touched, pose);
-            return error > LargestErrorMetres
+            return error > MaximumErrorMetres
                 ? AlignmentFit.Refuse(WhyMismatched(marks, touched, error))
                 : AlignmentFit.At(WithoutTip(pose, marks, outward, tipRadiusMetres), error);
         }
 
-        /// <summary>Why no touching of these marks could give a pose; null where it can.</summary>
+        /// <summary>Why these marks do not determine a pose; null where they do.</summary>
         public static string? WhyMarksUnusable(IReadOnlyList<Double3> marks) => marks.Count != 3
             ? "three marked points are needed"
             : WhyUnusable(marks, "marked", "Mark points that are farther apart");
@@ -105,7 +105,7 @@ namespace HaptoFlow.Alignment
             return new RigidPose(touchedCentre - rotation * markCentre, rotation);
         }
 
-        /// <summary>The object lies a tip radius below the tip's centre.</summary>
+        /// <summary>Moves the object by the tip's radius, from the tip's centre to the touched place.</summary>
         private static RigidPose WithoutTip(
             in RigidPose pose, IReadOnlyList<Double3> marks, Double3 outward, double tipRadiusMetres)
         {
@@ -149,26 +149,26 @@ namespace HaptoFlow.Alignment
                 longest = Math.Max(longest, side);
                 shortest = Math.Min(shortest, side);
             }
-            if (shortest < ShortestSideMetres)
+            if (shortest < MinimumSideMetres)
             {
                 return $"two {which} points are only {Millimetres(shortest)} apart, " +
-                    $"{Millimetres(ShortestSideMetres)} are needed. {remedy}";
+                    $"{Millimetres(MinimumSideMetres)} are needed. {remedy}";
             }
             double height = Double3.Cross(points[1] - points[0], points[2] - points[0]).Length / longest;
-            return height < SmallestHeightMetres
+            return height < MinimumHeightMetres
                 ? $"the {which} points lie almost on one line: the third is {Millimetres(height)} beside it, " +
-                    $"{Millimetres(SmallestHeightMetres)} are needed. {remedy}"
+                    $"{Millimetres(MinimumHeightMetres)} are needed. {remedy}"
                 : null;
         }
 
         private static string WhyMismatched(
             IReadOnlyList<Double3> marks, IReadOnlyList<Double3> touched, double error)
         {
-            string what = $"the touched triangle is not the marked one: {Millimetres(error)} are left between them. ";
+            string what = $"the touched triangle differs from the marked one by {Millimetres(error)}.  ";
             foreach (int[] order in OtherOrders)
             {
                 var reordered = new[] { touched[order[0]], touched[order[1]], touched[order[2]] };
-                if (LargestError(marks, reordered, Fit(marks, reordered)) <= LargestErrorMetres)
+                if (LargestError(marks, reordered, Fit(marks, reordered)) <= MaximumErrorMetres)
                 {
                     return what + "It fits in another order: touch the points in the order of their numbers";
                 }

@@ -3,16 +3,16 @@ using HaptoFlow.Numerics;
 
 namespace HaptoFlow.Alignment
 {
-    /// <summary>Finds the place where a pen rests: pressed, and still for a while. The mean over that while is better
-    /// than one tracked position. One thread at a time; no garbage.</summary>
+    /// <summary>Detects the place where a pen rests: pressed and still for a while. Averaging over that time is more
+    /// accurate than one tracked position. One thread at a time; no garbage.</summary>
     internal sealed class TouchedPoint
     {
         public const double StillSeconds = 0.3;
 
-        /// <summary>Farther from where it began to rest, the tip has moved.</summary>
+        /// <summary>A tip farther than this from where it came to rest has moved.</summary>
         public const double StillMetres = 0.003;
 
-        private const int FewestSamples = 5;
+        private const int MinimumSamples = 5;
 
         private Double3 anchor;
         private Double3 sum;
@@ -20,8 +20,8 @@ namespace HaptoFlow.Alignment
         private double beganSeconds;
         private bool taken;
 
-        /// <summary>True once for every rest: the tip must lift before the next.</summary>
-        /// <param name="place">Mean place of the tip's centre, in metres.</param>
+        /// <summary>True once per rest: the tip must lift before the next.</summary>
+        /// <param name="place">Mean position of the tip's centre, in metres.</param>
         public bool Update(double timeSeconds, Double3 tipMetres, bool pressed, out Double3 place)
         {
             place = tipMetres;
@@ -44,7 +44,7 @@ namespace HaptoFlow.Alignment
             }
             sum += tipMetres;
             ++count;
-            if (count < FewestSamples || timeSeconds - beganSeconds < StillSeconds)
+            if (count < MinimumSamples || timeSeconds - beganSeconds < StillSeconds)
             {
                 return false;
             }
@@ -53,7 +53,7 @@ namespace HaptoFlow.Alignment
             return true;
         }
 
-        /// <summary>The pen must lift before its next rest counts.</summary>
+        /// <summary>Ignores the present rest: the pen must lift first.</summary>
         public void AwaitLift()
         {
             count = 0;

@@ -3,71 +3,71 @@ using HaptoFlow.Numerics;
 
 namespace HaptoFlow.Contact
 {
-    /// <summary>One contact state with where it comes from. Every number is finite, whatever the input.</summary>
+    /// <summary>The result of the contact model for one frame. Every number is finite, whatever the input.</summary>
     internal struct ContactReading
     {
         public double TimeSeconds;
         public bool Touching;
 
-        /// <summary>Counts touch-downs; sliding from one surface to the next without lifting is one touch.</summary>
+        /// <summary>Number of touch-downs; sliding from one surface to another without lifting is one touch.</summary>
         public uint TouchCounter;
 
-        /// <summary>What is touched; null without touch.</summary>
+        /// <summary>The touched surface; null without touch.</summary>
         public TrackedSurface? Surface;
 
-        /// <summary>On the surface; the tip's centre without touch.</summary>
+        /// <summary>Contact point on the surface; the tip's centre without touch.</summary>
         public Double3 PointMetres;
 
-        /// <summary>Unit length, out of the surface; +y without touch.</summary>
+        /// <summary>Unit normal out of the surface; +y without touch.</summary>
         public Double3 Normal;
 
-        /// <summary>Tip radius minus signed distance, not below 0.</summary>
+        /// <summary>Penetration depth: tip radius minus signed distance, not below 0.</summary>
         public double PenetrationMetres;
 
-        /// <summary>Of the tip relative to the surface, along <see cref="FirstAxis"/>, in m/s.</summary>
+        /// <summary>Velocity of the tip relative to the surface along <see cref="FirstAxis"/>, in m/s.</summary>
         public double FirstVelocityMps;
 
-        /// <summary>Of the tip relative to the surface, along <see cref="SecondAxis"/>, in m/s.</summary>
+        /// <summary>Velocity of the tip relative to the surface along <see cref="SecondAxis"/>, in m/s.</summary>
         public double SecondVelocityMps;
 
-        /// <summary>The surface's tangent axes in world space; zero without touch.</summary>
+        /// <summary>The first tangent axis in world space; zero without touch.</summary>
         public Double3 FirstAxis;
 
-        /// <summary>The surface's tangent axes in world space; zero without touch.</summary>
+        /// <summary>The second tangent axis in world space; zero without touch.</summary>
         public Double3 SecondAxis;
 
-        /// <summary>Into the surface at this touch's newest landing, not below 0; 0 without touch.</summary>
+        /// <summary>Speed into the surface at the last landing of this touch, not below 0; 0 without touch.</summary>
         public double ApproachSpeedMps;
 
         public double ForceNewtons;
 
-        /// <summary>Counts landings within touches: on another surface, or on another face of the same.</summary>
+        /// <summary>Number of landings within touches: on another surface, or on another face of the same
+        /// one.</summary>
         public uint LandingCounter;
 
-        /// <summary>Counts edges: rims that the tip crosses or slides off, and steps from one surface to the next.
-        /// </summary>
+        /// <summary>Number of edges: rims that the tip crossed or slid off, and steps between surfaces.</summary>
         public uint EdgeCounter;
 
-        /// <summary>Of the newest edge; 0 before the first.</summary>
+        /// <summary>Height of the last edge; 0 before the first.</summary>
         public double EdgeHeightMetres;
     }
 
-    /// <summary>What had to be put right. Counts since construction.</summary>
+    /// <summary>Corrections to the tip's samples. Counts since construction.</summary>
     public struct ContactStatistics
     {
         /// <summary>Samples of the tip.</summary>
         public ulong Samples;
 
-        /// <summary>Samples with a time, position or force that was not usable.</summary>
+        /// <summary>Samples with an unusable time, position or force.</summary>
         public ulong SanitisedSamples;
 
-        /// <summary>Jumps that no hand makes.</summary>
+        /// <summary>Jumps faster than a hand can move.</summary>
         public ulong Teleports;
 
-        /// <summary>The time went backwards and the past was dropped.</summary>
+        /// <summary>Times that the clock went backwards and the history was discarded.</summary>
         public ulong ClockRestarts;
 
-        /// <summary>Touches that began.</summary>
+        /// <summary>Touch-downs.</summary>
         public ulong TouchDowns;
     }
 }

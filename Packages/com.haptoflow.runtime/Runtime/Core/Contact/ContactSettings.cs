@@ -4,60 +4,61 @@ using HaptoFlow.Numerics;
 
 namespace HaptoFlow.Contact
 {
-    /// <summary>How a velocity is made from tracked positions. See <see cref="TipHistory"/>.</summary>
+    /// <summary>Settings for the velocity from tracked positions. See <see cref="TipHistory"/>.</summary>
     internal sealed class VelocitySettings
     {
-        /// <summary>The line through the positions covers this much time, or three positions where they are sparser.
-        /// </summary>
+        /// <summary>Time window of the velocity estimate; it always includes three positions where they are
+        /// sparser.</summary>
         public double WindowSeconds { get; set; } = 0.035;
 
-        /// <summary>A repeated position counts as tracker hold up to here, then the velocity fades.</summary>
+        /// <summary>A position repeated for up to this long counts as a tracker repeating itself; then the velocity
+        /// fades.</summary>
         public double HoldSeconds { get; set; } = 0.030;
 
-        /// <summary>A position repeated for this long is a stop.</summary>
+        /// <summary>A position repeated for this long counts as a stop.</summary>
         public double StopSeconds { get; set; } = 0.050;
 
-        /// <summary>After a longer pause nothing of the past counts.</summary>
+        /// <summary>After a longer pause the history is discarded.</summary>
         public double LongestGapSeconds { get; set; } = 0.250;
 
-        /// <summary>Samples closer than this in time add nothing to the line but noise.</summary>
+        /// <summary>Samples closer in time than this are skipped: they would add only noise.</summary>
         public double ShortestStepSeconds { get; set; } = 0.0005;
 
-        /// <summary>A position that moved less than this is repeated.</summary>
+        /// <summary>A move shorter than this counts as a repeated position.</summary>
         public double SmallestMoveMetres { get; set; } = 1e-7;
 
-        /// <summary>Faster than this is a teleport. Hands reach a quarter of it.</summary>
+        /// <summary>A faster move is a teleport. Hands reach a quarter of this speed.</summary>
         public double FastestMps { get; set; } = 20.0;
 
-        /// <summary>The shortest time over which a jump's speed is judged, so that jittering time stamps are no
+        /// <summary>Shortest time for the speed of a jump, so that jittering time stamps do not count as
         /// teleports.</summary>
         public double ShortestJumpSeconds { get; set; } = 0.005;
 
-        /// <summary>A move longer than this in so much time is a teleport. The fastest speed itself is none, however
-        /// its times and places are rounded.</summary>
-        public double LongestMoveMetres(double seconds) =>
+        /// <summary>The longest move in a time that is not a teleport. A small margin keeps moves at exactly the
+        /// maximum speed from counting as teleports by rounding.</summary>
+        public double MaximumMoveMetres(double seconds) =>
             (1.0 + 1e-6) * FastestMps * Math.Max(seconds, ShortestJumpSeconds);
     }
 
-    /// <summary>The contact model's constants: lengths in metres, times in seconds, forces in newtons.</summary>
+    /// <summary>Settings of the contact model: lengths in metres, times in seconds, forces in newtons.</summary>
     internal sealed class ContactSettings
     {
         public double MaximumForceNewtons { get; set; } = 5.0;
 
-        /// <summary>Of surfaces that neither say nor look up their own.</summary>
+        /// <summary>Stiffness of surfaces that have none of their own and no label that gives one.</summary>
         public double DefaultStiffnessNewtonsPerMetre { get; set; } = 500.0;
 
-        /// <summary>A touch ends where the gap between tip and surface exceeds this.</summary>
+        /// <summary>A touch ends when the gap between tip and surface exceeds this distance.</summary>
         public double ReleaseDistanceMetres { get; set; } = 0.0005;
 
-        /// <summary>Another surface, or another face of the same, takes over only where it is ahead by this much.
-        /// </summary>
+        /// <summary>Another surface, or another face of the same one, is taken only when it is ahead by this
+        /// distance.</summary>
         public double SwitchMarginMetres { get; set; } = 0.0005;
 
-        /// <summary>How far behind an open mesh the tip's centre still counts as inside it.</summary>
+        /// <summary>Depth behind an open mesh up to which the tip's centre counts as inside.</summary>
         public double OpenMeshDepthMetres { get; set; } = 0.005;
 
-        /// <summary>A touch ends where the tip's position stays unusable for longer than this.</summary>
+        /// <summary>A touch ends when the tip's position has been unusable for longer than this time.</summary>
         public double LostSeconds { get; set; } = 0.100;
 
         public VelocitySettings Velocity { get; set; } = new VelocitySettings();

@@ -4,22 +4,21 @@ using HaptoFlow.Numerics;
 
 namespace HaptoFlow.Contact
 {
-    /// <summary>Follows one stylus tip and says, frame by frame, what it touches. One thread at a time; no garbage
-    /// after
-    /// construction.</summary>
+    /// <summary>The contact model: determines, frame by frame, what one stylus tip touches. One thread at a time; no
+    /// garbage after construction.</summary>
     /// <remarks>
-    /// <para>A frame is <see cref="BeginFrame"/>, one <see cref="Consider"/> for every surface near the tip, and
-    /// <see cref="EndFrame"/>. Whoever calls does the geometry; the tracker decides.</para>
-    /// <para>A touch begins where the tip sphere cuts into a surface and ends where a gap of the release distance has
-    /// opened; between surfaces the deepest contact wins, but the one already touched keeps the tip until another is
+    /// <para>A frame consists of <see cref="BeginFrame"/>, one <see cref="Consider"/> for every surface near the tip,
+    /// and <see cref="EndFrame"/>. The caller computes the geometry; the tracker decides.</para>
+    /// <para>A touch begins when the tip sphere cuts into a surface and ends when the gap exceeds the release distance.
+    /// Among several surfaces the deepest contact is chosen, but the surface already touched is kept until another is
     /// deeper by the switch margin.</para>
-    /// <para>With <see cref="Force"/>, a measured tip force decides instead, as long as there is one: pressed, the
-    /// nearest surface is touched where one is near; lifted, none is.</para>
+    /// <para>With <see cref="Force"/>, a measured tip force decides instead while one is measured: pressed, the nearest
+    /// surface within reach is touched; lifted, none is.</para>
     /// </remarks>
     internal sealed class ContactTracker
     {
-        // A pause must not let carried tangent axes turn further than a slow frame would.
-        private const double LongestFrameSeconds = 0.05;
+        // Limits the time step after a pause, so that transported tangent axes turn no further than in a slow frame.
+        private const double MaximumFrameSeconds = 0.05;
 
         private readonly RelativeVelocity relativeVelocity = new RelativeVelocity();
         private readonly TipHistory history;
@@ -41,7 +40,7 @@ namespace HaptoFlow.Contact
         private uint edgeCounter;
         private double edgeHeightMetres;
 
-        // Of this frame, as far as there is room: only surfaces that lie side by side need them.
+        // Candidates of this frame, up to the capacity; only surfaces that lie side by side need them.
         private readonly ContactCandidate[] considered = new ContactCandidate[16];
         private int consideredCount;
         private ContactCandidate current;
@@ -64,7 +63,7 @@ namespace HaptoFlow.Contact
 
         public ContactSettings Settings { get; }
 
-        /// <summary>0 or more, in metres.</summary>
+        /// <summary>Radius of the tip in metres, 0 or more.</summary>
         public double TipRadiusMetres
         {
             get => tipRadiusMetres;
@@ -73,39 +72,39 @@ namespace HaptoFlow.Contact
                 : throw new ArgumentOutOfRangeException(nameof(value), "contact: TipRadiusMetres must be 0 or more");
         }
 
-        /// <summary>Answers where a surface is nearest to a tip that is not where this frame's is; null where nobody
-        /// can, and landings and edges are then judged by this frame's places alone.</summary>
+        /// <summary>Finds the closest points of surfaces for other tip positions than this frame's; null to judge
+        /// landings and edges by this frame's points alone.</summary>
         public ISurfaceGeometry? Geometry { get; set; }
 
-        /// <summary>Lets a measured tip force decide; null where geometry does.</summary>
+        /// <summary>Detector of a measured tip force; null where geometry decides.</summary>
         public ForceTouch? Force { get; set; }
 
         public ContactStatistics Statistics => statistics;
 
-        /// <summary>Centre of the tip in this frame, valid after <see cref="BeginFrame"/> returned true.</summary>
+        /// <summary>Centre of the tip in this frame; valid after <see cref="BeginFrame"/> returned true.</summary>
         public Double3 TipMetres => tipMetres ?? Double3.Zero;
 
-        /// <summary>Surfaces farther from the tip's centre than this play no part.</summary>
+        /// <summary>Surfaces farther from the tip's centre than this are ignored.</summary>
         public double ReachMetres => TipRadiusMetres + (verdict == ForceVerdict.Pressed
             ? Force!.Settings.NearMetres + Force.Settings.NearMarginMetres
             : Settings.ReleaseDistanceMetres);
 
-        /// <summary>The same for one surface: what was touched is followed further, to tell a tip that slid off from one
-        /// that was lifted.</summary>
+        /// <summary>The reach for one surface. The touched surface has a longer one, to distinguish a tip that slid off
+        /// from one that was lifted.</summary>
         public double ReachMetresOf(TrackedSurface surface) => ReferenceEquals(surface, touched)
             ? Math.Max(ReachMetres, TipRadiusMetres + ContactTransitions.SlideOffReachMetres)
             : ReachMetres;
 
-        /// <summary>Time of this frame, on the samples' clock.</summary>
+        /// <summary>Time of this frame on the samples' clock.</summary>
         public double NowSeconds => nowSeconds;
 
-        /// <summary>What the last frame touched; null where it touched nothing.</summary>
+        /// <summary>The surface touched in the last frame; null for none.</summary>
         public TrackedSurface? Touched => touched;
 
-        /// <summary>Moves the clock, the tip and its history on. False where there is no tip to speak of: then no
-        /// surface needs to be considered, and <see cref="EndFrame"/> says so.</summary>
-        /// <remarks>A sample with an unusable position keeps the last one for the lost time; time that stands still
-        /// updates the geometry only; time that goes backwards, a pause and a teleport drop the past, so that the
+        /// <summary>Advances the clock, the tip and its history. False without a usable tip position: no surface needs
+        /// to be considered, and <see cref="EndFrame"/> returns a reading without touch.</summary>
+        /// <remarks>A sample with an unusable position keeps the last position for the lost time. A time that stands
+        /// still updates the geometry only. A time that goes backwards, a pause or a teleport discards the history: the
         /// velocity is zero until the next frame.</remarks>
         public bool BeginFrame(in TipSample tipSample)
         {
@@ -129,7 +128,7 @@ namespace HaptoFlow.Contact
                 nowSeconds = sample.TimeSeconds;
             }
             verdict = Force?.Update(nowSeconds, sample.ForceNewtons) ?? ForceVerdict.Unknown;
-            stepSeconds = started ? Vectors.Clamp(nowSeconds - before, 0.0, LongestFrameSeconds) : 0.0;
+            stepSeconds = started ? Vectors.Clamp(nowSeconds - before, 0.0, MaximumFrameSeconds) : 0.0;
             started = started || timeUsable;
             if (positionUsable)
             {
@@ -150,13 +149,12 @@ namespace HaptoFlow.Contact
             return true;
         }
 
-        /// <summary>Local normal of the previous frame's contact with a surface, null where there was none: what keeps
-        /// a
-        /// face while another is no nearer than a margin.</summary>
+        /// <summary>Local normal of the previous frame's contact with a surface, null without one. It keeps a face
+        /// until another is nearer by a margin.</summary>
         public Double3? PreviousLocalNormal(TrackedSurface surface) =>
             ReferenceEquals(touched, surface) ? localNormal : null;
 
-        /// <summary>A surface near the tip. Order matters only between equal depths: the first wins.</summary>
+        /// <summary>Adds a surface near the tip. Between equal depths the first is chosen.</summary>
         public void Consider(in ContactCandidate candidate)
         {
             if (consideredCount < considered.Length &&
@@ -182,13 +180,13 @@ namespace HaptoFlow.Contact
             }
         }
 
-        /// <summary>What this frame touches.</summary>
+        /// <summary>Completes the frame and returns its result.</summary>
         public ContactReading EndFrame()
         {
             bool wasTouching = touched != null;
             if (!tipMetres.HasValue || !ChooseContact(out ContactCandidate contact))
             {
-                NoteSlideOff();
+                CountSlideOff();
                 touched = null;
                 localNormal = null;
                 return Idle();
@@ -202,7 +200,7 @@ namespace HaptoFlow.Contact
             return Describe(contact, !wasTouching);
         }
 
-        /// <summary>Ends the touch and forgets the tip: a stylus was switched off or carried elsewhere.</summary>
+        /// <summary>Ends the touch and discards the tip: the stylus was disabled or teleported.</summary>
         public void Forget()
         {
             touched = null;
@@ -210,11 +208,11 @@ namespace HaptoFlow.Contact
             tipMetres = null;
             history.Clear();
             transitions.Forget();
-            Force?.Forget();
+            Force?.Reset();
             verdict = ForceVerdict.Unknown;
         }
 
-        /// <summary>A surface is gone: destroyed, switched off, or its place is used for another.</summary>
+        /// <summary>Removes a surface that was destroyed, disabled, or whose entry is reused.</summary>
         public void Release(TrackedSurface surface)
         {
             transitions.Release(surface);
@@ -286,7 +284,7 @@ namespace HaptoFlow.Contact
             return true;
         }
 
-        /// <summary>Where a resting tip would touch deepest.</summary>
+        /// <summary>The candidate that a resting tip would touch deepest.</summary>
         private ContactCandidate RestingPlace(in ContactCandidate contact, Double3 restingTip)
         {
             ContactCandidate deepest = contact;
@@ -320,7 +318,7 @@ namespace HaptoFlow.Contact
             return false;
         }
 
-        private void NoteTransition(in ContactCandidate contact, Double3 velocity)
+        private void CountTransition(in ContactCandidate contact, Double3 velocity)
         {
             ContactCandidate place = contact;
             if (Geometry != null && transitions.IsElsewhere(contact, nowSeconds))
@@ -328,7 +326,8 @@ namespace HaptoFlow.Contact
                 Double3 tip = transitions.RestingTip(contact, TipMetres, TipRadiusMetres, nowSeconds);
                 place = RestingPlace(contact, tip);
                 bool isElsewhere = !transitions.IsOn(place.Surface);
-                // Still on the one, though it would rest on the other: the change comes with the contact's own.
+                // The tip is still on one surface but would rest on the other: the change is counted when the contact
+                // changes.
                 bool isEarly = isElsewhere && transitions.IsOn(contact.Surface);
                 if (isEarly || (!isElsewhere && IsCaught(place, tip)))
                 {
@@ -336,18 +335,18 @@ namespace HaptoFlow.Contact
                 }
             }
             double approach = Math.Max(0.0, -Double3.Dot(velocity, place.Pose.DirectionToWorld(place.Local.Normal)));
-            ContactEvent met = transitions.Advance(place, TipRadiusMetres, nowSeconds, approach);
-            if (met.Landed)
+            ContactEvent contactEvent = transitions.Advance(place, TipRadiusMetres, nowSeconds, approach);
+            if (contactEvent.Landed)
             {
                 ++landingCounter;
                 approachSpeedMps = approach;
             }
-            CountEdge(met.EdgeHeightMetres);
+            CountEdge(contactEvent.EdgeHeightMetres);
         }
 
-        /// <summary>After a touch, while what was touched is still known. A force that says that the pen was lifted
-        /// knows better than geometry.</summary>
-        private void NoteSlideOff()
+        /// <summary>Counts the edge of a tip that slid off, while the touched surface is still known. A measured
+        /// lift-off takes precedence over geometry.</summary>
+        private void CountSlideOff()
         {
             bool isOff = hasCurrent && tipMetres.HasValue && verdict != ForceVerdict.Lifted &&
                 transitions.IsOn(current.Surface);
@@ -385,7 +384,7 @@ namespace HaptoFlow.Contact
                 approachSpeedMps = Math.Max(0.0, -Double3.Dot(velocity, normal));
                 transitions.Forget();
             }
-            NoteTransition(contact, velocity);
+            CountTransition(contact, velocity);
 
             ContactReading reading = Idle();
             reading.Touching = true;

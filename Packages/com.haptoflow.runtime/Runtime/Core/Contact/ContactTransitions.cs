@@ -4,13 +4,14 @@ using HaptoFlow.Numerics;
 
 namespace HaptoFlow.Contact
 {
-    /// <summary>What a tip met between two frames.</summary>
+    /// <summary>A landing or an edge between two frames.</summary>
     internal readonly struct ContactEvent
     {
-        /// <summary>On another surface, or on another face of the same, with speed into it.</summary>
+        /// <summary>True after a landing on another surface, or on another face of the same one, with speed into
+        /// it.</summary>
         public readonly bool Landed;
 
-        /// <summary>Of an edge that the tip crossed; 0 for none.</summary>
+        /// <summary>Height of the edge that the tip crossed; 0 for none.</summary>
         public readonly double EdgeHeightMetres;
 
         public ContactEvent(bool landed, double edgeHeightMetres)
@@ -20,62 +21,62 @@ namespace HaptoFlow.Contact
         }
     }
 
-    /// <summary>Tells landings and edges from smooth sliding while a tip goes on touching. No garbage.</summary>
-    /// <remarks>A face changes where the normal turns by 40 degrees over a short way, as it does over the rim of a box
-    /// and not over a ball in the hand. A tip that moves into the new face lands on it; one that does not has crossed
-    /// an edge: a rim, which is as high as the tip's radius since that far the tip can fall, or the step between two
-    /// surfaces that lie one beside the other. Surfaces that are flush have neither. A hand that nothing holds presses deep
-    /// into things, and deep inside two blocks side by side their inner faces are the nearest: so a change is judged where
-    /// the tip would rest on the face that it was on (<see cref="RestingTip"/>).</remarks>
+    /// <summary>Distinguishes landings and edges from smooth sliding during a touch. No garbage.</summary>
+    /// <remarks>A face changes where the normal turns by 40 degrees over a short distance, as it does over the rim of a
+    /// box but not over a ball in the hand. A tip that moves into the new face lands on it; otherwise it has crossed an
+    /// edge: a rim, as high as the tip's radius because the tip can fall that far, or the step between two adjacent
+    /// surfaces. Flush surfaces have neither. A hand in the air presses deep into virtual objects, and deep inside two
+    /// adjacent blocks their inner faces are the closest; a change is therefore judged where the tip would rest on its
+    /// previous face (<see cref="RestingTip"/>).</remarks>
     internal sealed class ContactTransitions
     {
-        /// <summary>A tip that moves more slowly into a face slides over to it.</summary>
+        /// <summary>Below this speed into a face the tip slides over to it without landing.</summary>
         public const double LandingSpeedMps = 0.03;
 
-        /// <summary>A tip that is further away a frame later has not slid off but jumped.</summary>
+        /// <summary>A tip farther away than this one frame later has jumped, not slid off.</summary>
         public const double SlideOffReachMetres = 0.05;
 
-        // The cosine of 40 degrees: surfaces of eight sides have edges, rounder ones do not.
+        // The cosine of 40 degrees: an octagonal prism has edges, rounder shapes have none.
         private const double FaceCosine = 0.766;
 
-        // A lower step is none: tracking and meshes are no more exact.
-        private const double LowestStepMetres = 0.0001;
+        // Lower steps are ignored: tracking and meshes are not more accurate.
+        private const double MinimumStepMetres = 0.0001;
 
-        // Of the rim under a tip of any radius.
-        private const double LowestRimMetres = 0.0005;
+        // Minimum height of a rim, for a tip of any radius.
+        private const double MinimumRimMetres = 0.0005;
 
-        // The reference stays behind by this way, and by the longer one, for a few frames, while the normal turns: a
-        // slow tip that rolls over a rim turns by little from frame to frame, and a fast one may be seen in the middle
-        // of it.
-        private const double ShortWayMetres = 0.002;
-        private const double LongWayMetres = 0.006;
-        private const int MostFramesBehind = 2;
+        // While the normal turns, the reference point stays behind by the short distance, and for a few frames by the
+        // long one. A slow tip that rolls over a rim turns little from frame to frame, and a fast one may be sampled on
+        // the rim.
+        private const double ShortDistanceMetres = 0.002;
+        private const double LongDistanceMetres = 0.006;
+        private const int MaximumFramesBehind = 2;
 
         // The cosine of 5 degrees.
         private const double SteadyCosine = 0.9962;
 
-        // Places on the two faces of a rim lie below each other's planes but for rounding and a mesh's unevenness.
+        // Points on the two faces of a rim lie below each other's planes, up to rounding and unevenness of the mesh.
         private const double FlatnessMetres = 0.0001;
 
         private TrackedSurface? referenceSurface;
         private Double3 referencePoint;
         private Double3 referenceNormal;
 
-        // Where the reference was before, on the same surface.
+        // The previous reference on the same surface.
         private bool hasEarlier;
         private Double3 earlierPoint;
         private Double3 earlierNormal;
 
-        // One rim is one edge, however slowly the tip rolls over it.
+        // Set after an edge: however slowly the tip rolls over a rim, it is one edge.
         private bool isArmed;
 
-        // Frames that the reference has stayed behind by the long way.
+        // Frames for which the reference has stayed behind by the long distance.
         private int framesBehind;
 
-        /// <summary>The next place compares with nothing.</summary>
+        /// <summary>Discards the reference: the next point is not compared.</summary>
         public void Forget() => referenceSurface = null;
 
-        /// <summary>The surface is gone.</summary>
+        /// <summary>Discards the reference on a surface that is gone.</summary>
         public void Release(TrackedSurface surface)
         {
             if (ReferenceEquals(referenceSurface, surface))
@@ -84,16 +85,17 @@ namespace HaptoFlow.Contact
             }
         }
 
-        /// <summary>The reference is on this surface.</summary>
+        /// <summary>True where the reference is on this surface.</summary>
         public bool IsOn(TrackedSurface surface) => ReferenceEquals(referenceSurface, surface);
 
-        /// <summary>A place is on another surface than the reference, or its normal leans away from that of the
-        /// reference.</summary>
+        /// <summary>True for a point on another surface than the reference, or with a normal that differs from the
+        /// reference's.</summary>
         public bool IsElsewhere(in ContactCandidate now, double nowSeconds) => referenceSurface != null &&
             (!ReferenceEquals(referenceSurface, now.Surface) ||
              Double3.Dot(ReferencePlace(now, nowSeconds).Normal, new Place(now).Normal) < SteadyCosine);
 
-        /// <summary>The tip's centre, raised out of the face of the reference until it just touches that.</summary>
+        /// <summary>The tip's centre, raised along the reference's normal until the tip just touches the reference's
+        /// face.</summary>
         public Double3 RestingTip(in ContactCandidate now, Double3 tipMetres, double tipRadiusMetres, double nowSeconds)
         {
             if (referenceSurface == null)
@@ -104,8 +106,8 @@ namespace HaptoFlow.Contact
             return tipMetres + Math.Max(0.0, tipRadiusMetres - before.HeightOf(tipMetres)) * before.Normal;
         }
 
-        /// <summary>A resting tip that goes over a rim falls onto a place of another surface: then the rim is none, and
-        /// what there is to feel is the step, once the tip is on that surface.</summary>
+        /// <summary>True where a resting tip that crosses a rim falls onto another surface: the rim is then not felt,
+        /// only the step once the tip is on that surface.</summary>
         public bool IsCaughtBy(in ContactCandidate other, in ContactCandidate now, Double3 restingTipMetres,
             double tipRadiusMetres, double nowSeconds)
         {
@@ -114,8 +116,8 @@ namespace HaptoFlow.Contact
                 !IsTurned(ReferencePlace(now, nowSeconds), there);
         }
 
-        /// <summary>The tip touches a place, moving into it at a speed; where it is elsewhere, as a resting tip would.
-        /// </summary>
+        /// <summary>Compares a touched point with the reference and advances the reference. A candidate elsewhere must
+        /// be that of the resting tip.</summary>
         public ContactEvent Advance(
             in ContactCandidate now, double tipRadiusMetres, double nowSeconds, double approachSpeedMps)
         {
@@ -135,7 +137,7 @@ namespace HaptoFlow.Contact
             double step = StepBetween(before, here);
             bool landed = false;
             double height = 0.0;
-            if (turned || (isOther && step >= LowestStepMetres))
+            if (turned || (isOther && step >= MinimumStepMetres))
             {
                 if (approachSpeedMps >= LandingSpeedMps)
                 {
@@ -151,17 +153,16 @@ namespace HaptoFlow.Contact
                 }
             }
             bool isEvent = landed || height > 0.0;
-            if (isEvent || isOther || IsToBeMoved(now, before, here))
+            if (isEvent || isOther || MustMoveReference(now, before, here))
             {
                 MoveReference(now, !isEvent);
             }
             return new ContactEvent(landed, height);
         }
 
-        /// <summary>The touch has ended: the height of the edge that the tip has slid off, 0 where it was lifted.
-        /// </summary>
-        /// <param name="nearest">The place of the touched surface nearest to the tip.</param>
-        /// <param name="heightMetres">A tip that is no higher above the face that it was on has slid off it.</param>
+        /// <summary>After the end of a touch: the height of the edge that the tip slid off, 0 for a lift-off.</summary>
+        /// <param name="nearest">The point of the touched surface closest to the tip.</param>
+        /// <param name="heightMetres">A tip at most this high above its last face has slid off it.</param>
         public double SlideOff(in ContactCandidate nearest, Double3 tipMetres, double tipRadiusMetres, double nowSeconds,
             double heightMetres)
         {
@@ -174,7 +175,7 @@ namespace HaptoFlow.Contact
             double above = before.HeightOf(tipMetres);
             if (hasEarlier)
             {
-                // A fast tip may have been seen on the rim itself, where the normal leans outwards.
+                // A fast tip may have been sampled on the rim itself, where the normal points outwards.
                 var earlier = new Place(nearest.Pose, earlierPoint, earlierNormal);
                 above = Math.Min(above, earlier.HeightOf(tipMetres));
             }
@@ -186,24 +187,24 @@ namespace HaptoFlow.Contact
         private static bool IsTurned(in Place before, in Place here) =>
             Double3.Dot(before.Normal, here.Normal) < FaceCosine;
 
-        /// <summary>Two faces that look at each other across less than the tip's width: no tip comes from one to the
-        /// other.</summary>
+        /// <summary>True for two faces that face each other across less than the tip's width: the tip cannot pass from
+        /// one to the other.</summary>
         private static bool IsFacing(in Place before, in Place here, double tipRadiusMetres)
         {
             double gap = before.HeightOf(here.Point);
             return Double3.Dot(before.Normal, here.Normal) < -FaceCosine && gap >= -FlatnessMetres &&
-                gap <= Math.Max(2.0 * tipRadiusMetres, LowestRimMetres);
+                gap <= Math.Max(2.0 * tipRadiusMetres, MinimumRimMetres);
         }
 
         private static bool IsConvex(in Place before, in Place here) =>
             before.HeightOf(here.Point) <= FlatnessMetres && here.HeightOf(before.Point) <= FlatnessMetres;
 
-        /// <summary>Where a surface curves, each of two places lies as far below the other's plane; over a step one lies
-        /// above.</summary>
+        /// <summary>Height of a step. On a curved surface each of two points lies equally far below the other's plane;
+        /// at a step one lies above.</summary>
         private static double StepBetween(in Place before, in Place here) =>
             0.5 * Math.Abs(before.HeightOf(here.Point) - here.HeightOf(before.Point));
 
-        private static double RimHeightMetres(double tipRadiusMetres) => Math.Max(tipRadiusMetres, LowestRimMetres);
+        private static double RimHeightMetres(double tipRadiusMetres) => Math.Max(tipRadiusMetres, MinimumRimMetres);
 
         private Place ReferencePlace(in ContactCandidate now, double nowSeconds)
         {
@@ -212,19 +213,18 @@ namespace HaptoFlow.Contact
             return new Place(pose, referencePoint, referenceNormal);
         }
 
-        private bool IsToBeMoved(in ContactCandidate now, in Place before, in Place here)
+        private bool MustMoveReference(in ContactCandidate now, in Place before, in Place here)
         {
-            // On one surface the way is that over it, whatever its own motion.
-            double way = Double3.Distance(now.Local.PointMetres, referencePoint);
+            // On one surface the distance is measured in its local frame, so that its own motion does not count.
+            double distance = Double3.Distance(now.Local.PointMetres, referencePoint);
             bool isSteady = Double3.Dot(before.Normal, here.Normal) > SteadyCosine;
-            if (way > ShortWayMetres && (isSteady || !isArmed))
+            if (distance > ShortDistanceMetres && (isSteady || !isArmed))
             {
                 return true;
             }
-            // On a round surface each of two places lies as far below the other's plane, in the middle of a rim it does
-            // not.
-            bool isRound = StepBetween(before, here) < LowestStepMetres;
-            return way > LongWayMetres && (isRound || ++framesBehind > MostFramesBehind);
+            // On a round surface each of two points lies equally far below the other's plane; on a rim it does not.
+            bool isRound = StepBetween(before, here) < MinimumStepMetres;
+            return distance > LongDistanceMetres && (isRound || ++framesBehind > MaximumFramesBehind);
         }
 
         private void MoveReference(in ContactCandidate now, bool armed)
@@ -239,7 +239,7 @@ namespace HaptoFlow.Contact
             isArmed = armed;
         }
 
-        /// <summary>In world space.</summary>
+        /// <summary>A contact point in world space.</summary>
         private readonly struct Place
         {
             public readonly Double3 Point;

@@ -4,8 +4,8 @@ using HaptoFlow.Numerics;
 
 namespace HaptoFlow.Contact
 {
-    /// <summary>When a measured tip force is a touch: forces in newtons, lengths in metres, times in seconds. The
-    /// defaults are for a pen that rests on a desk, as MX Ink does.</summary>
+    /// <summary>Thresholds that turn a measured tip force into touches: forces in newtons, lengths in metres, times in
+    /// seconds. The defaults suit a pen that rests on a desk, as MX Ink does.</summary>
     internal sealed class ForceTouchSettings
     {
         public const double DefaultPressNewtons = 0.05;
@@ -15,18 +15,18 @@ namespace HaptoFlow.Contact
         /// <summary>A touch begins at this force.</summary>
         public double PressNewtons { get; set; } = DefaultPressNewtons;
 
-        /// <summary>A touch ends at this force or below it: the gap up to <see cref="PressNewtons"/> is wider than the
+        /// <summary>A touch ends at this force or below it. The gap up to <see cref="PressNewtons"/> must exceed the
         /// sensor's noise.</summary>
         public double ReleaseNewtons { get; set; } = DefaultReleaseNewtons;
 
-        /// <summary>A surface is near while the tip is no farther from it, on either side: wider than the error of
-        /// tracking and alignment together.</summary>
+        /// <summary>Distance from a surface, on either side, up to which a pressing tip touches it. It must exceed the
+        /// error of tracking and alignment together.</summary>
         public double NearMetres { get; set; } = DefaultNearMetres;
 
-        /// <summary>A touched surface stays near for so much more.</summary>
+        /// <summary>Additional distance for the surface that is already touched.</summary>
         public double NearMarginMetres { get; set; } = 0.005;
 
-        /// <summary>A force that stays away for longer is not measured any more.</summary>
+        /// <summary>Time after which a missing force counts as not measured.</summary>
         public double HoldSeconds { get; set; } = 0.050;
 
         /// <exception cref="ArgumentOutOfRangeException">A setting is out of range; the message names it.</exception>
@@ -50,22 +50,22 @@ namespace HaptoFlow.Contact
         }
     }
 
-    /// <summary>What a tip force says.</summary>
+    /// <summary>State of a tip according to its force.</summary>
     internal enum ForceVerdict
     {
-        /// <summary>No force was measured lately: geometry decides.</summary>
+        /// <summary>No recent measurement: geometry decides.</summary>
         Unknown,
 
         /// <summary>The tip is in the air.</summary>
         Lifted,
 
-        /// <summary>The tip presses on something real.</summary>
+        /// <summary>The tip presses on a real object.</summary>
         Pressed,
     }
 
-    /// <summary>Decides by the measured tip force whether a pen touches: a real object under a virtual one is met some
-    /// millimetres away from where tracking has it, but the force is there exactly while the pen rests on it. One
-    /// thread at a time; no garbage after construction.</summary>
+    /// <summary>Decides from the measured tip force whether a pen touches. Tracking places a real object some
+    /// millimetres away from the virtual one, but the force is present exactly while the pen rests on it. One thread at
+    /// a time; no garbage after construction.</summary>
     internal sealed class ForceTouch
     {
         private double measuredSeconds;
@@ -81,13 +81,13 @@ namespace HaptoFlow.Contact
 
         public ForceVerdict Verdict { get; private set; }
 
-        /// <summary>Last measured force, 0 or more; 0 where none is known.</summary>
+        /// <summary>Last measured force, 0 or more; 0 without one.</summary>
         public double ForceNewtons { get; private set; }
 
-        /// <summary>One frame's force.</summary>
-        /// <param name="timeSeconds">On any clock; one that runs backwards starts the hold time anew.</param>
-        /// <param name="forceNewtons">Null where the device has no news. A force that is not finite or below 0 is no
-        /// measurement either.</param>
+        /// <summary>Processes one frame's force.</summary>
+        /// <param name="timeSeconds">Time on any clock; one that runs backwards restarts the hold time.</param>
+        /// <param name="forceNewtons">The force; null where the device reports none. A force that is not finite or
+        /// below 0 counts as none.</param>
         public ForceVerdict Update(double timeSeconds, double? forceNewtons)
         {
             if (forceNewtons.HasValue && Vectors.IsUsable(forceNewtons.Value) && forceNewtons.Value >= 0.0)
@@ -100,22 +100,23 @@ namespace HaptoFlow.Contact
                 return Verdict;
             }
             measuredSeconds = Math.Min(measuredSeconds, timeSeconds);
-            // Not "above": a time that is not a number ends the hold as well.
+            // The negated comparison also ends the hold for a time that is NaN.
             if (Verdict != ForceVerdict.Unknown && !(timeSeconds - measuredSeconds <= Settings.HoldSeconds))
             {
-                Forget();
+                Reset();
             }
             return Verdict;
         }
 
-        /// <summary>A surface is near enough for a pressing tip to be on it.</summary>
-        /// <param name="signedDistanceMetres">From the tip sphere to the surface, negative where it cuts in.</param>
-        /// <param name="isTouched">It was touched a frame ago.</param>
+        /// <summary>True where a surface is close enough for a pressing tip to be on it.</summary>
+        /// <param name="signedDistanceMetres">Distance from the tip sphere to the surface, negative where it cuts
+        /// in.</param>
+        /// <param name="isTouched">True where the surface was touched in the last frame.</param>
         public bool IsNear(double signedDistanceMetres, bool isTouched) =>
             Math.Abs(signedDistanceMetres) <= Settings.NearMetres + (isTouched ? Settings.NearMarginMetres : 0.0);
 
-        /// <summary>The pen was put away or given to another hand.</summary>
-        public void Forget()
+        /// <summary>Discards the state: the pen was put away or handed over.</summary>
+        public void Reset()
         {
             Verdict = ForceVerdict.Unknown;
             ForceNewtons = 0.0;

@@ -4,24 +4,24 @@ using HaptoFlow.Numerics;
 
 namespace HaptoFlow.Contact
 {
-    /// <summary>Velocity of the tip relative to the surface's material at a point.</summary>
-    /// <remarks>The slope of the straight line through (tip - material point) at the measurements of the last 35 ms, so
-    /// that a tip riding on a surface reads zero however both move, and a turning surface counts with its linear
-    /// velocity plus angular velocity x arm. Lag: half the window, 15 to 18 ms at 72 to 120 Hz. While the tracker
-    /// repeats itself for longer than the hold time, the tip's share fades to zero.</remarks>
+    /// <summary>Velocity of the tip relative to the material of the surface at a point.</summary>
+    /// <remarks>The slope of a line through (tip - material point) at the measurements of the last 35 ms. A tip at rest
+    /// on a moving surface therefore has velocity zero, and a turning surface contributes its linear velocity plus
+    /// angular velocity x arm. Lag: half the window, 15 to 18 ms at 72 to 120 Hz. While the tracker repeats itself for
+    /// longer than the hold time, the tip's share fades to zero.</remarks>
     internal sealed class RelativeVelocity
     {
-        private const int FewestMeasurements = 3;
+        private const int MinimumMeasurements = 3;
 
-        // Three measurements may be this many windows old, two may be as old as the history.
+        // Three measurements may span this many windows; two may be as old as the history.
         private const double SparseWindows = 3.0;
 
         private readonly double[] timesSeconds = new double[TipHistory.Capacity];
         private readonly Double3[] placesMetres = new Double3[TipHistory.Capacity];
         private int count;
 
-        /// <summary>In world axes, m/s. Never faster than the fastest speed of the settings; zero with fewer than two
-        /// measurements.</summary>
+        /// <summary>The velocity in world axes, m/s, limited to the maximum speed of the settings; zero with fewer than
+        /// two measurements.</summary>
         public Double3 Of(TipHistory history, SurfaceTrack track, Double3 localPoint)
         {
             double confidence = history.Confidence;
@@ -35,9 +35,9 @@ namespace HaptoFlow.Contact
             return speed > fastest ? velocity * (fastest / speed) : velocity;
         }
 
-        /// <summary>Walks back over the frames and draws a line through the places, down to the window's end or to a
-        /// jump that no motion explains. Of the tip relative to the material at its measurements, or of a tip that
-        /// rests at all frames.</summary>
+        /// <summary>Collects positions backwards in time until the window's end or a jump, and returns the slope
+        /// through them: of the tip relative to the material at the tip's measurements, or of the material alone at all
+        /// frames.</summary>
         private Double3 RecentSlope(TipHistory history, SurfaceTrack track, Double3 localPoint, bool withTip)
         {
             VelocitySettings settings = history.Settings;
@@ -68,18 +68,18 @@ namespace HaptoFlow.Contact
         private bool Continues(VelocitySettings settings, double timeSeconds, Double3 place)
         {
             double age = timesSeconds[0] - timeSeconds;
-            bool wanted = age <= settings.WindowSeconds || count < 2 ||
-                (count < FewestMeasurements && age <= SparseWindows * settings.WindowSeconds);
-            double longestMetres = settings.LongestMoveMetres(timesSeconds[count - 1] - timeSeconds);
-            return wanted && Double3.Distance(place, placesMetres[count - 1]) <= longestMetres;
+            bool isWithinWindow = age <= settings.WindowSeconds || count < 2 ||
+                (count < MinimumMeasurements && age <= SparseWindows * settings.WindowSeconds);
+            double maximumMetres = settings.MaximumMoveMetres(timesSeconds[count - 1] - timeSeconds);
+            return isWithinWindow && Double3.Distance(place, placesMetres[count - 1]) <= maximumMetres;
         }
 
-        /// <summary>Mean of the newer half minus mean of the older half, by their times (Wald 1940). Least squares
-        /// would do for exact times, but a tracker with a clock of its own puts errors into the times, which flattens a
-        /// least-squares line: by 4 % at 60 Hz in 90.</summary>
+        /// <summary>Mean of the newer half minus mean of the older half, over their times (Wald 1940). Least squares
+        /// assumes exact times; a tracker with its own clock adds errors to the times, which flatten a least-squares
+        /// line: by 4 % for 60 Hz tracking in 90 Hz frames.</summary>
         private Double3 Slope()
         {
-            // Of an odd number the middle one belongs to neither half.
+            // The middle one of an odd number belongs to neither half.
             int half = count / 2;
             double seconds = 0.0;
             Double3 distance = Double3.Zero;

@@ -4,15 +4,15 @@ using HaptoFlow.Numerics;
 
 namespace HaptoFlow.Contact
 {
-    /// <summary>The place on a surface nearest to a point, in the shape's local frame, in metres.</summary>
+    /// <summary>The point of a surface closest to a given point, in the shape's local frame, in metres.</summary>
     internal readonly struct SurfacePoint
     {
         public readonly Double3 PointMetres;
 
-        /// <summary>Unit length, out of the material.</summary>
+        /// <summary>Unit normal out of the material.</summary>
         public readonly Double3 Normal;
 
-        /// <summary>Negative inside the material.</summary>
+        /// <summary>Signed distance, negative inside the material.</summary>
         public readonly double SignedDistanceMetres;
 
         public SurfacePoint(Double3 pointMetres, Double3 normal, double signedDistanceMetres)
@@ -23,23 +23,23 @@ namespace HaptoFlow.Contact
         }
     }
 
-    /// <summary>Shapes whose nearest place has a formula. Points are in the shape's local frame and usable; results are
-    /// always finite, with a unit normal, also on an edge, a corner, the centre of a sphere or a capsule's axis (there:
-    /// the previous normal, else +y made to fit the shape).</summary>
+    /// <summary>Closest points of shapes with a formula. Points are in the shape's local frame and usable; results are
+    /// always finite with a unit normal, also on an edge, a corner, the centre of a sphere or the axis of a capsule
+    /// (where the previous normal is used, else +y adapted to the shape).</summary>
     internal static class Shapes
     {
         /// <summary>A box centred on the origin.</summary>
         /// <param name="sizeMetres">Edge lengths, all above zero.</param>
         /// <param name="previousNormal">Local normal of the previous frame's contact with the same shape.</param>
-        /// <param name="faceMarginMetres">Inside, another face takes over only where it is nearer by this much (at most
-        /// a tenth of the half thickness).</param>
+        /// <param name="faceMarginMetres">Inside, another face is taken only when it is nearer by this distance (at
+        /// most a tenth of the half thickness).</param>
         public static SurfacePoint OnBox(
             Double3 sizeMetres, Double3 point, Double3? previousNormal, double faceMarginMetres)
         {
             Double3 half = 0.5 * sizeMetres;
             Double3 nearest = Double3.Clamp(point, -half, half);
             double distance = Double3.Distance(point, nearest);
-            // Below this the direction from the surface to the point is rounding error.
+            // At smaller distances the direction from the surface to the point is rounding error.
             double onSurface = 1e-13 * half.Largest;
             return distance <= onSurface
                 ? InsideBox(half, nearest, previousNormal, faceMarginMetres)
@@ -50,8 +50,8 @@ namespace HaptoFlow.Contact
         public static SurfacePoint OnSphere(double radiusMetres, Double3 point, Double3? previousNormal) =>
             AroundCore(Double3.Zero, radiusMetres, point, previousNormal ?? Double3.Up);
 
-        /// <summary>A capsule along local y, centred on the origin; the height includes both caps (a height below two
-        /// radii is a sphere).</summary>
+        /// <summary>A capsule along local y, centred on the origin. The height includes both caps; a height below two
+        /// radii gives a sphere.</summary>
         public static SurfacePoint OnCapsule(
             double radiusMetres, double heightMetres, Double3 point, Double3? previousNormal)
         {
@@ -66,7 +66,7 @@ namespace HaptoFlow.Contact
             return AroundCore(core, radiusMetres, point, fallback);
         }
 
-        /// <summary>Everything below local y = 0.</summary>
+        /// <summary>The half-space below local y = 0.</summary>
         public static SurfacePoint OnPlane(Double3 point) => new SurfacePoint(point.With(1, 0.0), Double3.Up, point.Y);
 
         private static SurfacePoint InsideBox(
@@ -114,7 +114,7 @@ namespace HaptoFlow.Contact
             return size.Z > size.X ? 2 : 0;
         }
 
-        /// <summary>Sphere and capsule alike: a ball around the nearest point of the shape's core.</summary>
+        /// <summary>Sphere and capsule: a ball around the closest point of the shape's core.</summary>
         private static SurfacePoint AroundCore(Double3 core, double radius, Double3 point, Double3 fallback)
         {
             Double3 offset = point - core;

@@ -3,23 +3,22 @@ using HaptoFlow.Numerics;
 
 namespace HaptoFlow.Contact
 {
-    /// <summary>Where a surface was during the last frames, so that the tip's velocity can be taken relative to it.
-    /// </summary>
+    /// <summary>Recent poses of a surface, for the tip's velocity relative to it.</summary>
     internal sealed class SurfaceTrack
     {
         public const int Capacity = 64;
 
-        // How many of its own steps a surface is carried on beyond the last place it was seen at.
-        private const double FurthestExtrapolation = 1.5;
+        // Extrapolation limit beyond the last pose, in intervals between poses.
+        private const double MaximumExtrapolation = 1.5;
 
         private readonly double[] timesSeconds = new double[Capacity];
         private readonly RigidPose[] poses = new RigidPose[Capacity];
         private int oldest;
 
-        /// <summary>Places kept.</summary>
+        /// <summary>Number of poses kept.</summary>
         public int Count { get; private set; }
 
-        /// <summary>Two of the places kept differ. One that rests costs nothing and adds no rounding.</summary>
+        /// <summary>True where two of the poses differ. A surface at rest costs nothing and adds no rounding.</summary>
         public bool Moves { get; private set; }
 
         public void Clear()
@@ -29,8 +28,8 @@ namespace HaptoFlow.Contact
             Moves = false;
         }
 
-        /// <summary>The surface's pose at a time. A time that is not after the last replaces it; one before it starts
-        /// the track anew.</summary>
+        /// <summary>Records the surface's pose. The same time as the last replaces it; an earlier one restarts the
+        /// history.</summary>
         public void Record(double timeSeconds, in RigidPose pose)
         {
             if (!Vectors.IsUsable(timeSeconds))
@@ -59,11 +58,11 @@ namespace HaptoFlow.Contact
             poses[Slot(Count - 1)] = pose;
         }
 
-        /// <summary>False for a time before the first place that is known.</summary>
+        /// <summary>False for a time before the first pose.</summary>
         internal bool Knows(double timeSeconds) => Count > 0 && timeSeconds >= TimeAt(0);
 
-        /// <summary>The pose at a time: as recorded, between two records in between, carried on at most one and a half
-        /// steps after the last. There must be a record.</summary>
+        /// <summary>The pose at a time: recorded, interpolated, or extrapolated by at most one and a half intervals.
+        /// Requires at least one pose.</summary>
         internal RigidPose PoseAt(double timeSeconds)
         {
             int after = Count;
@@ -82,7 +81,7 @@ namespace HaptoFlow.Contact
             int right = after == Count ? after - 1 : after;
             double from = TimeAt(right - 1);
             double share = (timeSeconds - from) / (TimeAt(right) - from);
-            share = share > 1.0 + FurthestExtrapolation ? 1.0 + FurthestExtrapolation : share;
+            share = share > 1.0 + MaximumExtrapolation ? 1.0 + MaximumExtrapolation : share;
             return RigidPose.Between(Recorded(right - 1), Recorded(right), share);
         }
 

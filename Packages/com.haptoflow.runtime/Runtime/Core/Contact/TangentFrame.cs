@@ -4,41 +4,42 @@ using HaptoFlow.Numerics;
 
 namespace HaptoFlow.Contact
 {
-    /// <summary>The tangent axes of one touch, two unit vectors in the object's local frame: first x second = normal.
-    /// </summary>
+    /// <summary>The tangent axes of one touch: two unit vectors in the object's local frame with first x second =
+    /// normal.</summary>
     /// <remarks>
-    /// <para>Where the grain lies more than 30 degrees away from the normal, the first axis is the grain's projection
-    /// on the tangent plane. Nearer to the normal the projection spins and then vanishes, so the axes are carried along
-    /// the stroke without twist instead (parallel transport), with a smooth change-over between 30 and 20 degrees. Back
-    /// where the grain counts, carried axes turn towards it no faster than the normal turns (times the projection's own
-    /// sensitivity) plus <see cref="TurnRadiansPerSecond"/>: no frame sees a jump.</para>
-    /// <para>Within a touch the grain is a line, not an arrow: after crossing its pole the axes keep the sign that they
-    /// arrived with, since turning them by half a turn would let a stroke along the grain feel like one across it
-    /// meanwhile. Each new touch starts with the arrow.</para>
+    /// <para>Where the grain is more than 30 degrees from the normal, the first axis is the grain's projection onto the
+    /// tangent plane. Closer to the normal the projection spins and then vanishes; there the axes are carried along the
+    /// stroke without twist (parallel transport), with a smooth transition between 30 and 20 degrees. Where the grain
+    /// applies again, the carried axes turn towards it no faster than the normal turns (times the projection's
+    /// sensitivity) plus <see cref="TurnRadiansPerSecond"/>, so that no frame sees a jump.</para>
+    /// <para>Within a touch the sign of the grain is ignored: after crossing its pole the axes keep the sign that they
+    /// arrived with, since turning them by 180 degrees would pass through a state in which a stroke along the grain
+    /// feels like one across it. Each touch starts with the grain's own sign.</para>
     /// </remarks>
     internal sealed class TangentFrame
     {
         public const double TurnRadiansPerSecond = 4.0;
 
-        // Sines of the angle between grain and normal: carried axes only below the first, grain only above the second.
+        // Sines of the angle between grain and normal: below the first only carried axes, above the second only the
+        // grain.
         private const double CarriedBelow = 0.342020143325669;
         private const double GrainAbove = 0.5;
 
-        // A finite step across a curved surface turns the projection a little more than its derivative says.
+        // A finite step across a curved surface turns the projection a little more than its derivative predicts.
         private const double FiniteStepAllowance = 1.2;
 
         private Double3 grain;
         private Double3 normal;
         private bool touching;
 
-        /// <param name="grain">In the object's local frame; local x where it has no direction.</param>
+        /// <param name="grain">Direction in the object's local frame; local x where it has length 0.</param>
         public TangentFrame(Double3 grain) => Restart(grain);
 
         public Double3 First { get; private set; }
 
         public Double3 Second { get; private set; }
 
-        /// <summary>As new, with another grain.</summary>
+        /// <summary>Resets the frame for another grain.</summary>
         public void Restart(Double3 newGrain)
         {
             grain = Vectors.UnitOr(newGrain, Double3.Right);
@@ -51,10 +52,10 @@ namespace HaptoFlow.Contact
         /// <summary>The next update starts a new touch.</summary>
         public void Reset() => touching = false;
 
-        /// <summary>The axes for the next frame of the stroke.</summary>
-        /// <param name="surfaceNormal">In the object's local frame. One that is not of unit length is normalised; one
-        /// without direction leaves the axes as they are.</param>
-        /// <param name="stepSeconds">Since the last frame.</param>
+        /// <summary>Computes the axes of the next frame of a stroke.</summary>
+        /// <param name="surfaceNormal">Normal in the object's local frame; it is normalised. One of length 0 leaves the
+        /// axes unchanged.</param>
+        /// <param name="stepSeconds">Time since the last frame.</param>
         public void Update(Double3 surfaceNormal, double stepSeconds)
         {
             Double3 unit = Vectors.UnitOr(surfaceNormal, normal);
@@ -109,7 +110,7 @@ namespace HaptoFlow.Contact
             return share * share * (3.0 - 2.0 * share);
         }
 
-        /// <summary>The axis, turned by the smallest rotation that takes one unit vector to the other.</summary>
+        /// <summary>The axis after the smallest rotation that takes one unit vector to the other.</summary>
         private static Double3 Carried(Double3 axis, Double3 from, Double3 to)
         {
             double cosine = Double3.Dot(from, to);

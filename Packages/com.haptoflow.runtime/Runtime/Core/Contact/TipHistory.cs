@@ -4,36 +4,37 @@ using HaptoFlow.Numerics;
 
 namespace HaptoFlow.Contact
 {
-    /// <summary>The tip at one frame.</summary>
+    /// <summary>The tip in one frame.</summary>
     internal struct TipFrame
     {
         public double TimeSeconds;
         public Double3 PositionMetres;
 
-        /// <summary>A measurement of its own; otherwise the tracker repeated its last one.</summary>
+        /// <summary>True for a new measurement, false where the tracker repeated its last one.</summary>
         public bool Fresh;
     }
 
-    /// <summary>How a frame follows the last.</summary>
+    /// <summary>Relation of a frame to the one before.</summary>
     internal enum TipStep
     {
         Started,
         Continued,
 
-        /// <summary>Too far in too short a time.</summary>
+        /// <summary>Moved farther than a hand can in the time.</summary>
         Teleported,
 
         /// <summary>The time went backwards.</summary>
         ClockRestarted,
 
-        /// <summary>After a pause so long that the past says nothing.</summary>
+        /// <summary>After a pause that makes the history useless.</summary>
         Resumed,
     }
 
-    /// <summary>The last frames of the tip, with tracker hold told from stops.</summary>
-    /// <remarks>A tracker slower than the frame rate repeats positions. Repeats are no measurements and stay out of the
-    /// velocity until <see cref="VelocitySettings.StopSeconds"/>; then the tip has really stopped and all of them were
-    /// measurements.</remarks>
+    /// <summary>The last frames of the tip; distinguishes repeated positions of a slow tracker from real
+    /// stops.</summary>
+    /// <remarks>A tracker slower than the frame rate repeats positions. Repetitions are not measurements and are left
+    /// out of the velocity until <see cref="VelocitySettings.StopSeconds"/>; then the tip has really stopped and all of
+    /// them count as measurements.</remarks>
     internal sealed class TipHistory
     {
         public const int Capacity = 256;
@@ -51,8 +52,8 @@ namespace HaptoFlow.Contact
 
         public int Count { get; private set; }
 
-        /// <summary>How far the last measurement's velocity still holds now: 1 up to the hold time after it, 0 from the
-        /// stop time.</summary>
+        /// <summary>Weight of the last measurement's velocity: 1 up to the hold time, falling to 0 at the stop
+        /// time.</summary>
         public double Confidence
         {
             get
@@ -63,7 +64,7 @@ namespace HaptoFlow.Contact
             }
         }
 
-        /// <summary>By age, 0 being the newest.</summary>
+        /// <summary>The frame of an age; 0 is the newest.</summary>
         public ref readonly TipFrame Newest(int age) => ref At(Count - 1 - age);
 
         public void Clear()
@@ -73,7 +74,8 @@ namespace HaptoFlow.Contact
             resting = false;
         }
 
-        /// <summary>Time and position must be usable. Whatever the answer but continued, the past is gone.</summary>
+        /// <summary>Adds a frame; time and position must be usable. Every result except Continued means that the
+        /// history was discarded.</summary>
         public TipStep Add(double timeSeconds, Double3 positionMetres)
         {
             if (Count == 0)
@@ -90,7 +92,7 @@ namespace HaptoFlow.Contact
             {
                 return Start(TipStep.Resumed, timeSeconds, positionMetres);
             }
-            if (moved > Settings.LongestMoveMetres(sinceMeasured))
+            if (moved > Settings.MaximumMoveMetres(sinceMeasured))
             {
                 return Start(TipStep.Teleported, timeSeconds, positionMetres);
             }

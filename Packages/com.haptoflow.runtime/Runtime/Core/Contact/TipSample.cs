@@ -3,16 +3,16 @@ using HaptoFlow.Numerics;
 
 namespace HaptoFlow.Contact
 {
-    /// <summary>Where the stylus says its tip is.</summary>
+    /// <summary>A sample of the stylus tip.</summary>
     internal readonly struct TipSample
     {
-        /// <summary>On any clock that does not run backwards.</summary>
+        /// <summary>Time on any monotonic clock.</summary>
         public readonly double TimeSeconds;
 
         /// <summary>Centre of the tip sphere.</summary>
         public readonly Double3 PositionMetres;
 
-        /// <summary>The stylus's own tip force, which takes the place of the spring; null where it has none.</summary>
+        /// <summary>Measured tip force, which replaces the spring force; null without one.</summary>
         public readonly double? ForceNewtons;
 
         public TipSample(double timeSeconds, Double3 positionMetres, double? forceNewtons = null)

@@ -3,26 +3,26 @@ using HaptoFlow.Numerics;
 
 namespace HaptoFlow.Contact
 {
-    /// <summary>What one tip remembers of one surface.</summary>
+    /// <summary>State of one surface for one tip.</summary>
     internal sealed class TrackedSurface
     {
         /// <param name="grain">Direction of the first tangent axis, in the object's local frame.</param>
-        /// <param name="stiffnessNewtonsPerMetre">Of the spring model; where it is not above 0, the default counts.
-        /// </param>
+        /// <param name="stiffnessNewtonsPerMetre">Stiffness of the spring model; at 0 or below the default
+        /// applies.</param>
         public TrackedSurface(Double3 grain, double stiffnessNewtonsPerMetre)
         {
             Frame = new TangentFrame(grain);
             StiffnessNewtonsPerMetre = stiffnessNewtonsPerMetre;
         }
 
-        /// <summary>Where it was, written by whoever knows.</summary>
+        /// <summary>Recent poses, recorded by the caller.</summary>
         public SurfaceTrack Track { get; } = new SurfaceTrack();
 
         public double StiffnessNewtonsPerMetre { get; set; }
 
         internal TangentFrame Frame { get; }
 
-        /// <summary>As new, for another surface.</summary>
+        /// <summary>Resets the state for another surface.</summary>
         public void Restart(Double3 grain, double stiffnessNewtonsPerMetre)
         {
             Frame.Restart(grain);
@@ -31,12 +31,13 @@ namespace HaptoFlow.Contact
         }
     }
 
-    /// <summary>A surface near the tip, in this frame.</summary>
+    /// <summary>A surface near the tip in this frame.</summary>
     internal readonly struct ContactCandidate
     {
         public readonly TrackedSurface Surface;
 
-        /// <summary>The object's pose now, and the place nearest to the tip in its local frame.</summary>
+        /// <summary>The object's pose; <see cref="Local"/> is the point closest to the tip in its local
+        /// frame.</summary>
         public readonly RigidPose Pose;
 
         public readonly SurfacePoint Local;
@@ -49,11 +50,11 @@ namespace HaptoFlow.Contact
         }
     }
 
-    /// <summary>Does the geometry for a tracker. Main thread, no garbage.</summary>
+    /// <summary>Computes closest points for a tracker. Main thread, no garbage.</summary>
     internal interface ISurfaceGeometry
     {
-        /// <summary>The place of a surface nearest to a tip, in the surface's local frame.</summary>
-        /// <param name="surface">One that was considered in this frame.</param>
+        /// <summary>The point of a surface closest to a tip, in the surface's local frame.</summary>
+        /// <param name="surface">A surface that was considered in this frame.</param>
         /// <returns>False where there is none.</returns>
         bool TryClosest(TrackedSurface surface, Double3 tipMetres, out SurfacePoint found);
     }

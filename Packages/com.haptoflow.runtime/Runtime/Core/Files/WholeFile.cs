@@ -4,11 +4,12 @@ using System.Text;
 
 namespace HaptoFlow.Files
 {
-    /// <summary>Writes a text file whole or not at all: whoever reads it, also after a crash, sees the old text or the
-    /// new one. Any thread that may touch files.</summary>
+    /// <summary>Writes a text file atomically: a reader sees the old text or the new one, also after a crash. Any
+    /// thread that may access files.</summary>
     internal static class WholeFile
     {
-        /// <summary>Also makes the folder. UTF-8 without byte order mark; on disk when it returns.</summary>
+        /// <summary>Writes UTF-8 without byte order mark and creates the folder; the text is on disk when the call
+        /// returns.</summary>
         /// <exception cref="IOException">The file cannot be written.</exception>
         /// <exception cref="System.UnauthorizedAccessException">The file cannot be written.</exception>
         public static void Write(string path, string text)

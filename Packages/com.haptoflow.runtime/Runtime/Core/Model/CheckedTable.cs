@@ -6,8 +6,8 @@ using System.Linq;
 
 namespace HaptoFlow.Model
 {
-    /// <summary>A table of a JSON document whose every value is checked as it is read: messages name the key and what
-    /// was expected, in the same words as the other readers'.</summary>
+    /// <summary>An object of a JSON document whose values are checked as they are read. Messages name the key and what
+    /// was expected, in the same form as the native library's.</summary>
     internal sealed class CheckedTable
     {
         private readonly IReadOnlyDictionary<string, JsonValue> members;
@@ -15,11 +15,11 @@ namespace HaptoFlow.Model
 
         public CheckedTable(JsonValue json, string path = "")
         {
-            members = json.Content as IReadOnlyDictionary<string, JsonValue> ?? new Dictionary<string, JsonValue>();
+            members = json.IsObject ? json.AsObject() : new Dictionary<string, JsonValue>();
             this.path = path;
         }
 
-        /// <summary>The key is there, and not null.</summary>
+        /// <summary>True where the key exists and is not null.</summary>
         public bool Has(string key) => members.TryGetValue(key, out JsonValue? value) && !value.IsNull;
 
         public FormatException Failure(string key, string expected, string remark = "")
@@ -29,21 +29,20 @@ namespace HaptoFlow.Model
             return new FormatException($"'{NameOf(key)}' {found}: expected {expected}{tail}");
         }
 
-        /// <param name="otherwise">What a missing key stands for; null where it must be there.</param>
+        /// <param name="otherwise">Value of a missing key; null where the key is required.</param>
         public string Text(string key, string? otherwise = null)
         {
-            object? value = members.ContainsKey(key) ? members[key].Content : otherwise;
-            return value as string ?? throw Failure(key, "a text");
+            string? value = members.ContainsKey(key) ? members[key].Text : otherwise;
+            return value ?? throw Failure(key, "a text");
         }
 
-        public bool Boolean(string key) =>
-            Content(key) is bool truth ? truth : throw Failure(key, "true or false");
+        public bool Boolean(string key) => Value(key)?.Truth ?? throw Failure(key, "true or false");
 
-        public int Integer(string key) => Content(key) is double number && number == Math.Floor(number) &&
+        public int Integer(string key) => Value(key)?.Number is { } number && number == Math.Floor(number) &&
             Math.Abs(number) <= int.MaxValue ? (int)number : throw Failure(key, "a whole number");
 
         public double Number(string key, double low, double high) =>
-            Content(key) is double number && number >= low && number <= high
+            Value(key)?.Number is { } number && number >= low && number <= high
                 ? number
                 : throw Failure(key, FormattableString.Invariant($"a number from {low:R} to {high:R}"));
 
@@ -54,15 +53,15 @@ namespace HaptoFlow.Model
         public double[] Numbers(string key, int least, int most, double low = -1e6, double high = 1e6)
         {
             string count = least == most ? Words(least) : Words(least) + " to " + Words(most);
-            if (!(Content(key) is List<JsonValue> values) || values.Count < least || values.Count > most)
+            if (!(Value(key)?.Elements is { } values) || values.Count < least || values.Count > most)
             {
                 throw Failure(key, $"a list of {count} numbers");
             }
-            if (!values.TrueForAll(value => value.Content is double number && number >= low && number <= high))
+            if (!values.All(value => value.Number >= low && value.Number <= high))
             {
                 throw Failure(key, FormattableString.Invariant($"{count} numbers from {low:R} to {high:R}"));
             }
-            return values.Select(value => (double)value.Content!).ToArray();
+            return values.Select(value => value.AsNumber()).ToArray();
         }
 
         public double[] Rising(string key, int least, int most, double low, double high, bool mayRepeat = false)
@@ -78,20 +77,20 @@ namespace HaptoFlow.Model
             return values;
         }
 
-        /// <summary>Checks rows of numbers of the same length.</summary>
+        /// <summary>Checks rows of numbers of equal length.</summary>
         public void CheckRows(string key, int rows, int columns, double low, double high)
         {
-            if (!(Content(key) is List<JsonValue> values) || values.Count != rows)
+            if (!(Value(key)?.Elements is { } values) || values.Count != rows)
             {
                 throw Failure(key, $"{Words(rows)} rows, one for each speed");
             }
             foreach (JsonValue row in values)
             {
-                if (!(row.Content is List<JsonValue> numbers) || numbers.Count != columns)
+                if (!(row.Elements is { } numbers) || numbers.Count != columns)
                 {
                     throw Failure(key, $"{Words(columns)} numbers in each row, one for each frequency");
                 }
-                if (!numbers.TrueForAll(each => each.Content is double number && number >= low && number <= high))
+                if (!numbers.All(each => each.Number >= low && each.Number <= high))
                 {
                     throw Failure(key, FormattableString.Invariant($"numbers from {low:R} to {high:R}"));
                 }
@@ -107,25 +106,25 @@ namespace HaptoFlow.Model
             {
                 return null;
             }
-            return members[key].Content is IReadOnlyDictionary<string, JsonValue>
+            return members[key].IsObject
                 ? new CheckedTable(members[key], NameOf(key))
                 : throw Failure(key, "a table");
         }
 
         public IReadOnlyList<CheckedTable> Tables(string key, int least, int most)
         {
-            if (!(Content(key) is List<JsonValue> values) || values.Count < least || values.Count > most)
+            if (!(Value(key)?.Elements is { } values) || values.Count < least || values.Count > most)
             {
                 throw Failure(key, $"a list of {Words(least)} to {Words(most)} tables");
             }
-            if (!values.TrueForAll(value => value.Content is IReadOnlyDictionary<string, JsonValue>))
+            if (!values.All(value => value.IsObject))
             {
                 throw Failure(key, "a list of tables");
             }
             return values.Select((value, index) => new CheckedTable(value, $"{NameOf(key)}[{Words(index)}]")).ToArray();
         }
 
-        private object? Content(string key) => members.TryGetValue(key, out JsonValue? value) ? value.Content : null;
+        private JsonValue? Value(string key) => members.TryGetValue(key, out JsonValue? value) ? value : null;
 
         private string NameOf(string key) => path.Length > 0 ? path + "." + key : key;
 

@@ -3,7 +3,7 @@ using System;
 
 namespace HaptoFlow.Model
 {
-    /// <summary>The checksum of zlib and PNG.</summary>
+    /// <summary>CRC-32 as in zlib and PNG. System.IO.Hashing is not part of Unity's class libraries.</summary>
     internal static class Crc32
     {
         private static readonly uint[] Table = MakeTable();

@@ -1,111 +1,102 @@
 #nullable enable
 using System;
+using System.Collections;
 using System.Collections.Generic;
 using System.Globalization;
-using System.Text;
+using System.IO;
+using Newtonsoft.Json;
 
 namespace HaptoFlow.Model
 {
-    /// <summary>Writes JSON: values that were parsed, and texts, numbers, lists and dictionaries of them.</summary>
+    /// <summary>Writes JSON on one line, without the reflection of Newtonsoft's serialiser, which IL2CPP's code
+    /// stripping can break.</summary>
     internal static class JsonText
     {
         /// <param name="value">Null, a bool, a string, a float, a double, an int, a ulong, a <see cref="JsonValue"/>, a
         /// list of such or pairs of a key and such.</param>
-        /// <exception cref="ArgumentException">Something else, or a number that is not finite.</exception>
+        /// <exception cref="ArgumentException">The value is of another type, or a number that is not finite.</exception>
         public static string Of(object? value)
         {
-            var text = new StringBuilder();
-            Append(text, value);
+            var text = new StringWriter(CultureInfo.InvariantCulture);
+            using (var writer = new ShortNumberWriter(text))
+            {
+                Write(writer, value);
+            }
             return text.ToString();
         }
 
-        private static void Append(StringBuilder text, object? value)
+        private static void Write(JsonWriter writer, object? value)
         {
             switch (value)
             {
                 case null:
-                    text.Append("null");
+                    writer.WriteNull();
                     break;
                 case JsonValue parsed:
-                    Append(text, parsed.Content);
+                    parsed.WriteTo(writer);
                     break;
                 case bool truth:
-                    text.Append(truth ? "true" : "false");
+                    writer.WriteValue(truth);
                     break;
                 case string words:
-                    AppendText(text, words);
+                    writer.WriteValue(words);
                     break;
                 case float number when !float.IsNaN(number) && !float.IsInfinity(number):
-                    text.Append(number.ToString("R", CultureInfo.InvariantCulture));
+                    writer.WriteValue(number);
                     break;
                 case double number when !double.IsNaN(number) && !double.IsInfinity(number):
-                    text.Append(number.ToString("R", CultureInfo.InvariantCulture));
+                    writer.WriteValue(number);
                     break;
                 case int number:
-                    text.Append(number.ToString(CultureInfo.InvariantCulture));
+                    writer.WriteValue(number);
                     break;
                 case ulong number:
-                    text.Append(number.ToString(CultureInfo.InvariantCulture));
+                    writer.WriteValue(number);
                     break;
                 case IEnumerable<KeyValuePair<string, JsonValue>> members:
-                    AppendMembers(text, members);
+                    WriteMembers(writer, members);
                     break;
                 case IEnumerable<KeyValuePair<string, object?>> members:
-                    AppendMembers(text, members);
+                    WriteMembers(writer, members);
                     break;
-                case System.Collections.IEnumerable elements:
-                    AppendElements(text, elements);
+                case IEnumerable elements:
+                    writer.WriteStartArray();
+                    foreach (object? element in elements)
+                    {
+                        Write(writer, element);
+                    }
+                    writer.WriteEndArray();
                     break;
                 default:
                     throw new ArgumentException($"JSON has no form for {value}", nameof(value));
             }
         }
 
-        private static void AppendMembers<T>(StringBuilder text, IEnumerable<KeyValuePair<string, T>> members)
+        private static void WriteMembers<T>(JsonWriter writer, IEnumerable<KeyValuePair<string, T>> members)
         {
-            char before = '{';
+            writer.WriteStartObject();
             foreach (KeyValuePair<string, T> member in members)
             {
-                text.Append(before);
-                AppendText(text, member.Key);
-                text.Append(':');
-                Append(text, member.Value);
-                before = ',';
+                writer.WritePropertyName(member.Key);
+                Write(writer, member.Value);
             }
-            text.Append(before == '{' ? "{}" : "}");
+            writer.WriteEndObject();
         }
 
-        private static void AppendElements(StringBuilder text, System.Collections.IEnumerable elements)
+        /// <summary>Writes the double 5 as "5", not "5.0": a number reads the same whether it was computed or parsed.
+        /// </summary>
+        private sealed class ShortNumberWriter : JsonTextWriter
         {
-            char before = '[';
-            foreach (object? element in elements)
+            public ShortNumberWriter(TextWriter text)
+                : base(text)
             {
-                text.Append(before);
-                Append(text, element);
-                before = ',';
             }
-            text.Append(before == '[' ? "[]" : "]");
-        }
 
-        private static void AppendText(StringBuilder text, string words)
-        {
-            text.Append('"');
-            foreach (char letter in words)
-            {
-                if (letter == '"' || letter == '\\')
-                {
-                    text.Append('\\').Append(letter);
-                }
-                else if (letter < ' ')
-                {
-                    text.Append("\\u").Append(((int)letter).ToString("x4", CultureInfo.InvariantCulture));
-                }
-                else
-                {
-                    text.Append(letter);
-                }
-            }
-            text.Append('"');
+            public override void WriteValue(float value) =>
+                WriteRawValue(value.ToString("R", CultureInfo.InvariantCulture));
+
+            public override void WriteValue(double value) =>
+                WriteRawValue(value.ToString("R", CultureInfo.InvariantCulture));
         }
     }
 }

@@ -1,49 +1,71 @@
 #nullable enable
 using System;
 using System.Collections.Generic;
+using System.Linq;
+using System.Numerics;
+using Newtonsoft.Json;
+using Newtonsoft.Json.Linq;
 
 namespace HaptoFlow.Model
 {
-    /// <summary>A JSON value. Reading one as a kind that it is not throws <see cref="FormatException"/>, which names
-    /// the
-    /// value's path.</summary>
+    /// <summary>A value of a JSON document. Reading it as another kind than it is throws a
+    /// <see cref="FormatException"/> that names the value's path. Newtonsoft.Json stays behind this class, so assemblies
+    /// that use HaptoFlow need no reference to it.</summary>
     public sealed class JsonValue
     {
-        /// <summary>Up to here a double holds every whole number; larger ones are kept as 64 bits.</summary>
-        internal const ulong LargestExactInteger = 1ul << 53;
+        // A double holds every whole number up to here exactly.
+        private const double MaximumExactInteger = 9007199254740992.0;
 
-        private readonly object? content;
+        private readonly JToken token;
 
-        internal JsonValue(object? content, string path)
-        {
-            this.content = content;
-            Path = path;
-        }
+        private JsonValue(JToken token) => this.token = token;
 
-        /// <summary>Where it is, for example "labels[3].name"; "the document" for the whole.</summary>
-        public string Path { get; }
-
-        /// <summary>Null, a bool, a double, a ulong above <see cref="LargestExactInteger"/>, a string, a list of values
-        /// or a dictionary of them.</summary>
-        internal object? Content => content;
+        /// <summary>Place in the document, for example "labels[3].name"; "the document" for the whole.</summary>
+        public string Path => token.Path.Length > 0 ? token.Path : "the document";
 
         /// <summary>JSON null.</summary>
-        public bool IsNull => content == null;
+        public bool IsNull => token.Type == JTokenType.Null;
 
-        /// <summary>Parses strict JSON, 32 levels deep at most, no key twice in an object.</summary>
-        /// <exception cref="FormatException">The text is not that; the message says where.</exception>
-        public static JsonValue Parse(string text) => new JsonParser(text).Document();
+        internal bool IsObject => token is JObject;
+
+        /// <summary>Null where the value is not a string.</summary>
+        internal string? Text => (token as JValue)?.Value as string;
+
+        /// <summary>Null where the value is not an array.</summary>
+        internal IReadOnlyList<JsonValue>? Elements =>
+            (token as JArray)?.Select(element => new JsonValue(element)).ToArray();
+
+        /// <summary>Null where the value is not a number.</summary>
+        internal double? Number => (token as JValue)?.Value switch
+        {
+            double real => real,
+            long whole => whole,
+            BigInteger whole => (double)whole,
+            _ => (double?)null,
+        };
+
+        /// <summary>Null where the value is neither true nor false.</summary>
+        internal bool? Truth => (token as JValue)?.Value as bool?;
+
+        /// <summary>Parses strict JSON (RFC 8259), nested 32 levels deep at most, no key twice in an object.</summary>
+        /// <exception cref="FormatException">The text is not valid; the message names line and position.</exception>
+        public static JsonValue Parse(string text)
+        {
+            try
+            {
+                return new JsonValue(StrictJsonReader.Document(text));
+            }
+            catch (JsonException error)
+            {
+                throw new FormatException("not valid JSON: " + error.Message, error);
+            }
+        }
 
         /// <summary>A string.</summary>
-        public string AsText() => content as string ?? throw Expected("a string");
+        public string AsText() => Text ?? throw Expected("a string");
 
         /// <summary>A number.</summary>
-        public double AsNumber() => content switch
-        {
-            double number => number,
-            ulong whole => whole,
-            _ => throw Expected("a number"),
-        };
+        public double AsNumber() => Number ?? throw Expected("a number");
 
         /// <summary>A whole number that fits 32 bits.</summary>
         public int AsInteger()
@@ -54,38 +76,45 @@ namespace HaptoFlow.Model
         }
 
         /// <summary>A whole number from 0 to 2^64 - 1, exactly.</summary>
-        public ulong AsUnsigned64()
+        public ulong AsUnsigned64() => (token as JValue)?.Value switch
         {
-            if (content is ulong large)
-            {
-                return large;
-            }
-            bool fits = content is double number && number >= 0.0 && number <= LargestExactInteger &&
-                number == Math.Floor(number);
-            return fits ? (ulong)(double)content! : throw Expected("a whole number from 0 to 2^64 - 1");
-        }
+            long whole when whole >= 0 => (ulong)whole,
+            BigInteger whole when whole.Sign >= 0 && whole <= ulong.MaxValue => (ulong)whole,
+            double real when real >= 0.0 && real <= MaximumExactInteger && real == Math.Floor(real) => (ulong)real,
+            _ => throw Expected("a whole number from 0 to 2^64 - 1"),
+        };
 
         /// <summary>True or false.</summary>
-        public bool AsBoolean() => content is bool truth ? truth : throw Expected("true or false");
+        public bool AsBoolean() => Truth ?? throw Expected("true or false");
 
         /// <summary>An array.</summary>
-        public IReadOnlyList<JsonValue> AsArray() => content as List<JsonValue> ?? throw Expected("an array");
+        public IReadOnlyList<JsonValue> AsArray() => Elements ?? throw Expected("an array");
 
-        /// <summary>An object.</summary>
-        public IReadOnlyDictionary<string, JsonValue> AsObject() =>
-            content as Dictionary<string, JsonValue> ?? throw Expected("an object");
+        /// <summary>An object, its members in the order of the text.</summary>
+        public IReadOnlyDictionary<string, JsonValue> AsObject()
+        {
+            var members = new Dictionary<string, JsonValue>(StringComparer.Ordinal);
+            foreach (KeyValuePair<string, JToken?> member in Members())
+            {
+                members.Add(member.Key, new JsonValue(member.Value!));
+            }
+            return members;
+        }
 
         /// <summary>A member of an object.</summary>
-        public JsonValue this[string key] => AsObject().TryGetValue(key, out JsonValue? value)
-            ? value
-            : throw new FormatException($"{Path} has no key \"{key}\"");
+        public JsonValue this[string key] => Find(key) ?? throw new FormatException($"{Path} has no key \"{key}\"");
 
-        /// <summary>A member of an object; null where it is not there.</summary>
-        public JsonValue? Find(string key) => AsObject().TryGetValue(key, out JsonValue? value) ? value : null;
+        /// <summary>A member of an object; null where the object does not have it.</summary>
+        public JsonValue? Find(string key) =>
+            Members().TryGetValue(key, out JToken? member) ? new JsonValue(member!) : null;
 
         /// <summary>An element of an array.</summary>
-        public JsonValue this[int index] => AsArray()[index];
+        public JsonValue this[int index] => new JsonValue((token as JArray ?? throw Expected("an array"))[index]);
 
         internal FormatException Expected(string expectation) => new FormatException($"{Path} is not {expectation}");
+
+        internal void WriteTo(JsonWriter writer) => token.WriteTo(writer);
+
+        private JObject Members() => token as JObject ?? throw Expected("an object");
     }
 }

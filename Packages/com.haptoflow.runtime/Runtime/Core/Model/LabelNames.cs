@@ -5,14 +5,14 @@ using System.Linq;
 
 namespace HaptoFlow.Model
 {
-    /// <summary>Finds labels by name, and what a misspelt name may have meant.</summary>
+    /// <summary>Finds labels by name, and suggests labels for a misspelt name.</summary>
     public sealed class LabelNames
     {
         private readonly Dictionary<string, int> indices =
             new Dictionary<string, int>(StringComparer.OrdinalIgnoreCase);
         private readonly string[] names;
 
-        /// <summary>In the order of their indices.</summary>
+        /// <param name="labels">Names in the order of their indices.</param>
         public LabelNames(IEnumerable<string> labels)
         {
             names = labels.ToArray();
@@ -22,14 +22,14 @@ namespace HaptoFlow.Model
             }
         }
 
-        /// <summary>In the order of their indices.</summary>
+        /// <summary>Names in the order of their indices.</summary>
         public IReadOnlyList<string> All => names;
 
-        /// <summary>Upper and lower case count the same.</summary>
+        /// <summary>Finds the index of a name; case is ignored.</summary>
         public bool TryFind(string name, out int index) => indices.TryGetValue(name, out index);
 
-        /// <summary>Names within two letters of this one, or that hold it or are held by it; the nearest first.
-        /// </summary>
+        /// <summary>Up to three labels with at most two different letters, or of which one name contains the other, in
+        /// order of similarity.</summary>
         public IReadOnlyList<string> NearMatches(string name)
         {
             string wanted = name.Trim().ToLowerInvariant();
@@ -46,7 +46,7 @@ namespace HaptoFlow.Model
         private static bool Holds(string wanted, string label) =>
             wanted.Length >= 3 && (label.Contains(wanted) || wanted.Contains(label));
 
-        /// <summary>Letters to insert, delete or replace (Levenshtein 1966).</summary>
+        /// <summary>Edit distance: letters to insert, delete or replace (Levenshtein 1966); .NET has none.</summary>
         private static int Distance(string a, string b)
         {
             int[] row = Enumerable.Range(0, b.Length + 1).ToArray();

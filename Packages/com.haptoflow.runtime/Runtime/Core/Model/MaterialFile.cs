@@ -6,14 +6,15 @@ using System.Text;
 
 namespace HaptoFlow.Model
 {
-    /// <summary>A learnt material: a label with its embedding, in a text of its own (a .haptomaterial file). Read and
-    /// checked without the native library. Any thread.</summary>
+    /// <summary>A learnt material: the contents of a .haptomaterial file, a label with its embedding. Read and checked
+    /// without the native library. Any thread.</summary>
     public sealed class MaterialFile
     {
-        /// <summary>Numbers of an embedding that are the texture; the last four are wave vectors.</summary>
+        /// <summary>Number of an embedding's components that describe the texture; the last four are wave
+        /// vectors.</summary>
         public const int TextureNumbers = 60;
 
-        /// <summary>Of the whole text, in UTF-8.</summary>
+        /// <summary>Maximum length of the text in UTF-8.</summary>
         public const int MaximumBytes = 1024 * 1024;
 
         private const string FormatName = "haptoflow-material";
@@ -48,11 +49,10 @@ namespace HaptoFlow.Model
             MaterialRules.Check(root);
         }
 
-        /// <summary>Eight hexadecimal digits: the <see cref="ModelSpace.Id"/> of the model that it was learnt for.
-        /// </summary>
+        /// <summary>The <see cref="ModelSpace.Id"/> of the model that the material was learnt for.</summary>
         public string Space { get; }
 
-        /// <summary>Shown to people.</summary>
+        /// <summary>Name for display.</summary>
         public string Name { get; }
 
         /// <summary>For example "wood" or "cloth".</summary>
@@ -61,34 +61,34 @@ namespace HaptoFlow.Model
         /// <summary>One or two sentences; may be empty.</summary>
         public string Description { get; }
 
-        /// <summary>How it was made.</summary>
+        /// <summary>How the material was made.</summary>
         public string Statement { get; }
 
-        /// <summary>What it was learnt from.</summary>
+        /// <summary>The recordings that the material was learnt from.</summary>
         public string Recordings { get; }
 
-        /// <summary>Of the recordings; "unknown" where nobody said.</summary>
+        /// <summary>Licence of the recordings; "unknown" where not given.</summary>
         public string Licence { get; }
 
-        /// <summary>Of the recordings, in seconds; 0 where nobody said.</summary>
+        /// <summary>Duration of the recordings in seconds; 0 where not given.</summary>
         public double Seconds { get; }
 
-        /// <summary>YYYY-MM-DD, or empty.</summary>
+        /// <summary>Date as YYYY-MM-DD, or empty.</summary>
         public string Created { get; }
 
-        /// <summary><see cref="HapticModel.EmbeddingSize"/> numbers.</summary>
+        /// <summary>The embedding, <see cref="HapticModel.EmbeddingSize"/> numbers.</summary>
         public IReadOnlyList<double> Embedding { get; }
 
-        /// <summary>Default of the spring model.</summary>
+        /// <summary>Default stiffness of the spring model.</summary>
         public double StiffnessNewtonsPerMetre { get; }
 
-        /// <summary>Added to the level, in dB.</summary>
+        /// <summary>Offset of the level, in dB.</summary>
         public double LevelOffsetDecibels { get; }
 
         internal JsonValue Json { get; }
 
-        /// <param name="text">Of a whole .haptomaterial file.</param>
-        /// <exception cref="HaptoFlowException">The text is none; the message names the key.</exception>
+        /// <param name="text">The whole .haptomaterial file.</param>
+        /// <exception cref="HaptoFlowException">The text is not a material file; the message names the key.</exception>
         public static MaterialFile Read(string text)
         {
             if (text.Length > MaximumBytes || Encoding.UTF8.GetByteCount(text) > MaximumBytes)

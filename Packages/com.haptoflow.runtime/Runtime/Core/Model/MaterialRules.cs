@@ -4,18 +4,18 @@ using System.Linq;
 
 namespace HaptoFlow.Model
 {
-    /// <summary>Which numbers a material file may hold; the specification is in own-materials.md.</summary>
+    /// <summary>Limits of the numbers in a material file, as specified in own-materials.md.</summary>
     internal static class MaterialRules
     {
         public const double MostOffsetDecibels = 24.0;
 
-        private const int MostSeeds = 16;
+        private const int MaximumSeeds = 16;
         private const int SeedSamples = 400;
         private const double SeedRmsTolerance = 0.02;
-        private const int MostLevelSpeeds = 16;
-        private const int MostToneSpeeds = 8;
-        private const int MostToneFrequencies = 32;
-        private const double MostToneDecibels = 30.0;
+        private const int MaximumLevelSpeeds = 16;
+        private const int MaximumToneSpeeds = 8;
+        private const int MaximumToneFrequencies = 32;
+        private const double MaximumToneDecibels = 30.0;
 
         /// <exception cref="FormatException">A rule is broken; the message names the key.</exception>
         public static void Check(CheckedTable root)
@@ -35,7 +35,7 @@ namespace HaptoFlow.Model
             CheckImpact(root.OptionalTable("impact"));
             CheckLevel(root.OptionalTable("level"));
             CheckTone(root.OptionalTable("tone"));
-            foreach (CheckedTable seed in root.Tables("seeds", 0, MostSeeds))
+            foreach (CheckedTable seed in root.Tables("seeds", 0, MaximumSeeds))
             {
                 CheckSeed(seed);
             }
@@ -62,7 +62,7 @@ namespace HaptoFlow.Model
             {
                 return;
             }
-            int speeds = level.Rising("speeds_mps", 1, MostLevelSpeeds, 0.0, 100.0).Length;
+            int speeds = level.Rising("speeds_mps", 1, MaximumLevelSpeeds, 0.0, 100.0).Length;
             level.Numbers("log_levels", speeds, speeds, -30.0, 10.0);
             level.Number("force_newtons", 0.01, 100.0);
             level.Number("force_exponent", -4.0, 4.0);
@@ -74,9 +74,9 @@ namespace HaptoFlow.Model
             {
                 return;
             }
-            int speeds = tone.Rising("speeds_mps", 1, MostToneSpeeds, 1e-6, 100.0).Length;
-            int frequencies = tone.Rising("frequencies_hz", 2, MostToneFrequencies, 10.0, 1000.0).Length;
-            tone.CheckRows("gains_db", speeds, frequencies, -MostToneDecibels, MostToneDecibels);
+            int speeds = tone.Rising("speeds_mps", 1, MaximumToneSpeeds, 1e-6, 100.0).Length;
+            int frequencies = tone.Rising("frequencies_hz", 2, MaximumToneFrequencies, 10.0, 1000.0).Length;
+            tone.CheckRows("gains_db", speeds, frequencies, -MaximumToneDecibels, MaximumToneDecibels);
         }
 
         private static void CheckSeed(CheckedTable seed)

@@ -5,8 +5,7 @@ using System.Linq;
 
 namespace HaptoFlow.Model
 {
-    /// <summary>Writes material files: a label of a model as a material of its own, and materials with things changed.
-    /// </summary>
+    /// <summary>Writes material files: from a label of a model, and copies of materials with changes.</summary>
     internal static class MaterialText
     {
         private static readonly string[] LabelKeys =
@@ -15,9 +14,9 @@ namespace HaptoFlow.Model
             "stiffness_newtons_per_metre", "friction_coefficient", "impact", "level", "tone", "level_offset_db",
         };
 
-        /// <summary>A label with its embedding; its seeds are the model's.</summary>
-        /// <param name="file">A whole .haptoflow file.</param>
-        /// <exception cref="HaptoFlowException">The bytes are no model, or it has no such label.</exception>
+        /// <summary>The material file of a label, without seeds: the model's seeds apply.</summary>
+        /// <param name="file">The whole .haptoflow file.</param>
+        /// <exception cref="HaptoFlowException">The bytes are not a model, or it has no such label.</exception>
         public static string OfLabel(ReadOnlySpan<byte> file, string label)
         {
             ModelSpace space = ModelSpace.Of(file);
@@ -62,7 +61,7 @@ namespace HaptoFlow.Model
             return JsonText.Of(members);
         }
 
-        /// <summary>The same material with members in the place of its own.</summary>
+        /// <summary>A copy of a material with some members replaced.</summary>
         public static string With(MaterialFile material, IReadOnlyDictionary<string, object?> changes)
         {
             var members = new Dictionary<string, object?>();

@@ -6,7 +6,7 @@ using System.Text;
 
 namespace HaptoFlow.Model
 {
-    /// <summary>The first part of a .haptoflow file: magic, version, lengths, checksums, header text.</summary>
+    /// <summary>The first part of a .haptoflow file: magic, version, lengths, checksums and header text.</summary>
     internal static class ModelFile
     {
         public const int PrefixBytes = 32;
@@ -17,7 +17,7 @@ namespace HaptoFlow.Model
 
         private static readonly byte[] Magic = Encoding.ASCII.GetBytes("HAPTFLOW");
 
-        /// <summary>The JSON header's text, after everything that guards it was checked.</summary>
+        /// <summary>The text of the JSON header, after its checksums were verified.</summary>
         /// <exception cref="HaptoFlowException">The bytes break a rule of the format; the message names it.</exception>
         public static string HeaderText(ReadOnlySpan<byte> file)
         {

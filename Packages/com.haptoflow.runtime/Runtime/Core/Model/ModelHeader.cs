@@ -5,7 +5,7 @@ using System.Linq;
 
 namespace HaptoFlow.Model
 {
-    /// <summary>Where a model comes from.</summary>
+    /// <summary>Provenance of a model.</summary>
     public sealed class ModelProvenance
     {
         internal ModelProvenance(JsonValue json)
@@ -20,16 +20,16 @@ namespace HaptoFlow.Model
         /// <summary>One sentence, for example "trained on synthetic recordings".</summary>
         public string Statement { get; }
 
-        /// <summary>What it was trained on.</summary>
+        /// <summary>The recordings that the model was trained on.</summary>
         public string Recordings { get; }
 
-        /// <summary>Of the recordings.</summary>
+        /// <summary>Licence of the recordings.</summary>
         public string Licence { get; }
 
-        /// <summary>Of the training code.</summary>
+        /// <summary>Commit of the training code.</summary>
         public string Commit { get; }
 
-        /// <summary>YYYY-MM-DD, or empty.</summary>
+        /// <summary>Date as YYYY-MM-DD, or empty.</summary>
         public string Created { get; }
     }
 
@@ -49,17 +49,17 @@ namespace HaptoFlow.Model
             Percentiles = percentiles.AsArray().Select(value => value.AsNumber()).ToArray();
         }
 
-        /// <summary>In the unit of the property that gives the interval.</summary>
+        /// <summary>Lower limit, in the unit of the property that holds the interval.</summary>
         public double Minimum { get; }
 
-        /// <summary>In the unit of the property that gives the interval.</summary>
+        /// <summary>Upper limit, in the unit of the property that holds the interval.</summary>
         public double Maximum { get; }
 
-        /// <summary>The 5th, 25th, 50th, 75th and 95th.</summary>
+        /// <summary>The 5th, 25th, 50th, 75th and 95th percentile.</summary>
         public IReadOnlyList<double> Percentiles { get; }
     }
 
-    /// <summary>A label as the header describes it.</summary>
+    /// <summary>A label in the header.</summary>
     public sealed class ModelLabel
     {
         internal ModelLabel(JsonValue json)
@@ -71,23 +71,23 @@ namespace HaptoFlow.Model
             WavelengthMetres = json["periodic"].AsBoolean() ? json["wavelength_metres"].AsNumber() : (double?)null;
         }
 
-        /// <summary>Lower case, unique in the model.</summary>
+        /// <summary>Name, lower case and unique in the model.</summary>
         public string Name { get; }
 
         /// <summary>For example "wood" or "cloth".</summary>
         public string Category { get; }
 
-        /// <summary>Default of the spring model.</summary>
+        /// <summary>Default stiffness of the spring model.</summary>
         public double StiffnessNewtonsPerMetre { get; }
 
-        /// <summary>Mean kinetic friction.</summary>
+        /// <summary>Mean coefficient of kinetic friction.</summary>
         public double FrictionCoefficient { get; }
 
-        /// <summary>Of a woven or ruled surface; null for others.</summary>
+        /// <summary>Wavelength of a woven or ruled surface; null for others.</summary>
         public double? WavelengthMetres { get; }
     }
 
-    /// <summary>A tier as the header describes it.</summary>
+    /// <summary>A tier in the header.</summary>
     public sealed class ModelTier
     {
         internal ModelTier(JsonValue json)
@@ -111,10 +111,10 @@ namespace HaptoFlow.Model
         /// <summary>"euler", "midpoint" or "heun".</summary>
         public string Solver { get; }
 
-        /// <summary>1 to 16.</summary>
+        /// <summary>Solver steps, 1 to 16.</summary>
         public int Steps { get; }
 
-        /// <summary>Weights of the network.</summary>
+        /// <summary>Number of weights of the network.</summary>
         public long ParameterCount { get; }
 
         /// <summary>"raw" or "latent".</summary>
@@ -127,9 +127,8 @@ namespace HaptoFlow.Model
         public JsonValue Cost { get; }
     }
 
-    /// <summary>What a .haptoflow file says about itself, read without the native library: for inspectors, label lists
-    /// and places where no binary runs. The networks inside are checked when the native library opens the file.
-    /// </summary>
+    /// <summary>The header of a .haptoflow file, read without the native library: for inspectors, label lists and
+    /// platforms without a binary. The networks are checked when the native library opens the file.</summary>
     public sealed class ModelHeader
     {
         private ModelHeader(JsonValue json)
@@ -147,31 +146,31 @@ namespace HaptoFlow.Model
                 throw defaultTier.Expected("the name of a tier");
         }
 
-        /// <summary>Shown to people.</summary>
+        /// <summary>Name for display.</summary>
         public string Name { get; }
 
         /// <summary>One or two sentences.</summary>
         public string Description { get; }
 
-        /// <summary>Where the model comes from.</summary>
+        /// <summary>Provenance of the model.</summary>
         public ModelProvenance Provenance { get; }
 
-        /// <summary>Speeds that the network was trained on.</summary>
+        /// <summary>Speeds that the network was trained on, in m/s.</summary>
         public TrainedInterval SpeedMps { get; }
 
-        /// <summary>Forces that the network was trained on.</summary>
+        /// <summary>Forces that the network was trained on, in N.</summary>
         public TrainedInterval ForceNewtons { get; }
 
-        /// <summary>In the order of label indices.</summary>
+        /// <summary>The labels in the order of their indices.</summary>
         public IReadOnlyList<ModelLabel> Labels { get; }
 
-        /// <summary>The most accurate comes last.</summary>
+        /// <summary>The tiers in order of increasing accuracy.</summary>
         public IReadOnlyList<ModelTier> Tiers { get; }
 
-        /// <summary>Used when nobody asks for another.</summary>
+        /// <summary>The tier that is used unless another is selected.</summary>
         public ModelTier DefaultTier { get; }
 
-        /// <param name="file">A whole .haptoflow file.</param>
+        /// <param name="file">The whole .haptoflow file.</param>
         /// <exception cref="HaptoFlowException">The bytes break a rule of the format; the message names it.</exception>
         public static ModelHeader Read(ReadOnlySpan<byte> file)
         {

@@ -8,8 +8,8 @@ using System.Text;
 
 namespace HaptoFlow.Model
 {
-    /// <summary>What the embeddings of a model's materials mean, read without the native library: a learnt material
-    /// sounds only under a model of the space that it was learnt in. Any thread.</summary>
+    /// <summary>The embedding space of a model, read without the native library. A learnt material can be used only
+    /// with models of the space that it was learnt in. Any thread.</summary>
     public sealed class ModelSpace
     {
         private const string EmbeddingBlob = "embedding";
@@ -24,11 +24,11 @@ namespace HaptoFlow.Model
             this.embeddings = embeddings;
         }
 
-        /// <summary>Eight hexadecimal digits that all models with the same networks share, whatever their labels.
-        /// </summary>
+        /// <summary>Eight hexadecimal digits, equal for all models with the same networks, whatever their
+        /// labels.</summary>
         public string Id { get; }
 
-        /// <param name="file">A whole .haptoflow file.</param>
+        /// <param name="file">The whole .haptoflow file.</param>
         /// <exception cref="HaptoFlowException">The bytes break a rule of the format; the message names it.</exception>
         public static ModelSpace Of(ReadOnlySpan<byte> file)
         {
@@ -48,18 +48,18 @@ namespace HaptoFlow.Model
             }
         }
 
-        /// <summary>The embedding of a label, <see cref="HapticModel.EmbeddingSize"/> numbers. Not to be changed.
-        /// </summary>
+        /// <summary>The embedding of a label, <see cref="HapticModel.EmbeddingSize"/> numbers. Do not
+        /// modify.</summary>
         /// <param name="label">Index into the model's labels.</param>
         public IReadOnlyList<float> Embedding(int label) => embeddings[label];
 
-        /// <summary>The label whose embedding is nearest, wave vectors left aside; empty where the model has no label.
-        /// </summary>
+        /// <summary>The label whose embedding is nearest, ignoring wave vectors; empty for a model without
+        /// labels.</summary>
         /// <param name="embedding">At least <see cref="MaterialFile.TextureNumbers"/> numbers.</param>
         public string NearestLabel(IReadOnlyList<double> embedding)
         {
             string nearest = "";
-            double least = double.PositiveInfinity;
+            double minimum = double.PositiveInfinity;
             for (int label = 0; label < embeddings.Length; ++label)
             {
                 double squares = 0.0;
@@ -68,9 +68,9 @@ namespace HaptoFlow.Model
                     double difference = embedding[index] - embeddings[label][index];
                     squares += difference * difference;
                 }
-                if (squares < least)
+                if (squares < minimum)
                 {
-                    least = squares;
+                    minimum = squares;
                     nearest = names[label];
                 }
             }

@@ -4,11 +4,11 @@ using HaptoFlow.Native;
 
 namespace HaptoFlow
 {
-    /// <summary>Ends loads that are under way: those whose options name it, also later ones. Any thread but an audio
-    /// callback's.</summary>
+    /// <summary>Cancels the loads whose options reference it, also those that start later. Any thread except an audio
+    /// callback.</summary>
     public sealed unsafe class HapticCancellation : IDisposable
     {
-        /// <exception cref="HaptoFlowException">The library is not there, or memory is used up.</exception>
+        /// <exception cref="HaptoFlowException">The library is missing, or memory is exhausted.</exception>
         public HapticCancellation()
         {
             try
@@ -25,15 +25,15 @@ namespace HaptoFlow
 
         internal CancellationHandle Handle { get; }
 
-        /// <summary>For good: the loads end with <see cref="HaptoFlowStatus.Cancelled"/>, those under way as soon as
-        /// ONNX Runtime lets them.</summary>
+        /// <summary>Cancels permanently: the loads end with <see cref="HaptoFlowStatus.Cancelled"/>, those under way as
+        /// soon as ONNX Runtime allows.</summary>
         public void Cancel()
         {
             NativeCall.Check(NativeMethods.CancellationCancel(Handle.Value));
             GC.KeepAlive(this);
         }
 
-        /// <summary>Loads that are under way go on.</summary>
+        /// <summary>Frees the handle; loads under way continue.</summary>
         public void Dispose() => Handle.Dispose();
     }
 }

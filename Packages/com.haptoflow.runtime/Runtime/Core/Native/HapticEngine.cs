@@ -5,12 +5,12 @@ using HaptoFlow.Native;
 
 namespace HaptoFlow
 {
-    /// <summary>Which tier generates.</summary>
+    /// <summary>Selects the tier.</summary>
     public enum HapticQuality
     {
-        /// <summary>Measures the model's tiers on this machine while nothing touches, takes the most accurate that fits
-        /// the budget (by the figures in the model's header), a faster one when the machine cannot keep up, and a more
-        /// accurate one when it can again.</summary>
+        /// <summary>Measures the model's tiers on this machine while nothing touches and takes the most accurate one
+        /// within the budget (by the figures in the model's header); switches to a faster one when the machine falls
+        /// behind, and back when it recovers.</summary>
         Auto = 0,
 
         /// <summary>The tier "draft"; where the model has none, its first.</summary>
@@ -23,58 +23,60 @@ namespace HaptoFlow
         Fine = 3,
     }
 
-    /// <summary>How an engine works. The defaults are the native library's.</summary>
+    /// <summary>Options of an engine. Zeros select the native library's defaults.</summary>
     public struct HapticEngineOptions
     {
-        /// <summary>So much that people's strokes over the shipped model's labels stay below the limiter's knee (0.7),
-        /// but for less than one sample in a thousand.</summary>
+        /// <summary>Default full scale. Strokes of people over the labels of the shipped model stay below the limiter's
+        /// knee (0.7) except for less than one sample in a thousand.</summary>
         public const double DefaultFullScaleMps2 = 200.0;
 
-        /// <summary>Which tier generates.</summary>
+        /// <summary>Default rate of contact states, in Hz: the refresh rate of common headsets.</summary>
+        public const double DefaultUpdateRateHz = 72.0;
+
+        /// <summary>Selects the tier.</summary>
         public HapticQuality Quality;
 
-        /// <summary>Contact states a second, 1 to 10000; 0 for 72.</summary>
+        /// <summary>Rate of contact states, 1 to 10000 Hz; 0 for <see cref="DefaultUpdateRateHz"/>.</summary>
         public double UpdateRateHz;
 
         /// <summary>Share of the time between two contact states that inference may take, above 0 to 1; 0 for 0.25.
         /// </summary>
         public double BudgetShare;
 
-        /// <summary>What acceleration is +-1 in the output, in m/s^2; 0 for <see cref="DefaultFullScaleMps2"/>.
-        /// </summary>
+        /// <summary>Full scale: the acceleration that is +-1 in the output, in m/s^2; 0 for <see
+        /// cref="DefaultFullScaleMps2"/>.</summary>
         public double FullScaleMps2;
 
-        /// <summary>Key of all noise.</summary>
+        /// <summary>Seed of all noise.</summary>
         public ulong Seed;
 
-        /// <summary>No thread of its own: the caller calls <see cref="HapticEngine.Step"/>. For rendering outside of
-        /// real time.</summary>
+        /// <summary>True for an engine without worker thread: the caller calls <see cref="HapticEngine.Step"/>. For
+        /// rendering outside real time.</summary>
         public bool WithoutWorker;
 
-        /// <summary>From a contact state to the first sample generated from it, above 0 to 50 ms; 0 for the shortest
-        /// that holds on this machine. Fixed, an engine without worker is deterministic.</summary>
+        /// <summary>Lead, above 0 to 50 ms; 0 for the shortest that this machine sustains. With a fixed lead an engine
+        /// without worker is deterministic.</summary>
         public double FixedLeadMs;
 
-        /// <summary>Ends the engine's creation early; null for none.</summary>
+        /// <summary>Cancels the creation of the engine; null for none.</summary>
         public HapticCancellation? Cancellation;
 
-        /// <summary>What a probe run of each graph may take for each 8 voices, above 0 to 3600000 ms; 0 for 10000 ms.
-        /// </summary>
+        /// <summary>Time limit of the probe run of each graph for each 8 voices, above 0 to 3600000 ms; 0 for 10000
+        /// ms.</summary>
         public double ProbeLimitMs;
     }
 
-    /// <summary>All voices of one model, and the one thread that generates for them. The thread sleeps while nothing
-    /// slides. Methods may be called from any thread that is not an audio callback.</summary>
+    /// <summary>All voices of one model, and the worker thread that generates their segments. The thread sleeps while
+    /// nothing slides. Any thread except an audio callback.</summary>
     public sealed unsafe class HapticEngine : IDisposable
     {
-        /// <summary>Materials that one engine can hold beside its model's labels.</summary>
+        /// <summary>Number of materials that one engine can hold in addition to its model's labels.</summary>
         public const int MaximumMaterials = 64;
 
         private readonly EngineHandle handle;
 
-        /// <summary>Loads the tiers that the quality asks for, all of them for automatic quality, and starts the
-        /// worker. Takes as long as ONNX Runtime needs to optimise
-        /// the graphs; runtime and model may be disposed afterwards.</summary>
+        /// <summary>Loads the tiers of the quality, all of them for automatic quality, and starts the worker. Blocks
+        /// while ONNX Runtime optimises the graphs; runtime and model may be disposed afterwards.</summary>
         /// <exception cref="HaptoFlowException">An option is out of range, a graph is not usable or too slow, or the
         /// creation was cancelled.</exception>
         public HapticEngine(OnnxRuntime runtime, HapticModel model, in HapticEngineOptions options)
@@ -102,19 +104,20 @@ namespace HaptoFlow
             handle = new EngineHandle(opened);
         }
 
-        /// <summary>From the next segment on. A tier that this quality asks for and that is not loaded is loaded first:
-        /// blocks for as long as ONNX Runtime needs.</summary>
+        /// <summary>Changes the quality from the next segment on. Blocks while ONNX Runtime loads a tier that is not
+        /// loaded yet.</summary>
         public void SetQuality(HapticQuality quality)
         {
             NativeCall.Check(NativeMethods.EngineSetQuality(handle.Value, (int)quality));
             GC.KeepAlive(this);
         }
 
-        /// <summary>Registers a material beside the model's labels, which sound as before; it stays until the engine is
-        /// disposed. Takes milliseconds; voices never wait for it. Any thread but an audio callback's.</summary>
+        /// <summary>Registers a material in addition to the model's labels until the engine is disposed. Takes
+        /// milliseconds; voices never wait for it. Any thread except an audio callback.</summary>
         /// <param name="json">The text of a material file.</param>
-        /// <returns>What a <see cref="LabelBlend"/> names it by: an index behind those of the model's labels.</returns>
-        /// <exception cref="HaptoFlowException">The text is no material file, the material was learnt for another
+        /// <returns>The material's index for a <see cref="LabelBlend"/>; it follows those of the model's
+        /// labels.</returns>
+        /// <exception cref="HaptoFlowException">The text is not a material file, the material was learnt for another
         /// model, or <see cref="MaximumMaterials"/> are registered.</exception>
         public int RegisterMaterial(string json)
         {
@@ -129,13 +132,12 @@ namespace HaptoFlow
             return (int)index;
         }
 
-        /// <summary>Puts another material in the place of a registered one: the next state that is published sounds
-        /// like it. Where this fails, the old one stays. Takes milliseconds; voices never wait for it. Any thread but
-        /// an audio callback's.</summary>
-        /// <param name="index">What <see cref="RegisterMaterial"/> returned.</param>
+        /// <summary>Replaces a registered material from the next published state on. Where this fails, the old one
+        /// stays. Takes milliseconds; voices never wait for it. Any thread except an audio callback.</summary>
+        /// <param name="index">The index that <see cref="RegisterMaterial"/> returned.</param>
         /// <param name="json">The text of a material file.</param>
-        /// <exception cref="HaptoFlowException">As of <see cref="RegisterMaterial"/>, and where no material is
-        /// registered at the index.</exception>
+        /// <exception cref="HaptoFlowException">As for <see cref="RegisterMaterial"/>, or no material is registered at
+        /// the index.</exception>
         public void ReplaceMaterial(int index, string json)
         {
             byte[] text = NativeCall.Utf8(json);
@@ -147,7 +149,7 @@ namespace HaptoFlow
             GC.KeepAlive(this);
         }
 
-        /// <summary>How many materials are registered.</summary>
+        /// <summary>Number of registered materials.</summary>
         public int MaterialCount()
         {
             uint count;
@@ -156,8 +158,8 @@ namespace HaptoFlow
             return (int)count;
         }
 
-        /// <summary>What a registered material says of itself. Makes garbage.</summary>
-        /// <param name="index">What <see cref="RegisterMaterial"/> returned.</param>
+        /// <summary>Name, category and properties of a registered material. Makes garbage.</summary>
+        /// <param name="index">The index that <see cref="RegisterMaterial"/> returned.</param>
         /// <exception cref="HaptoFlowException">No material is registered at the index.</exception>
         public HapticLabel Material(int index)
         {
@@ -168,15 +170,15 @@ namespace HaptoFlow
             return material;
         }
 
-        /// <summary>One round of inference for all voices that want one. Engines without worker only; any thread that
-        /// can wait for a network.</summary>
+        /// <summary>Runs one round of inference for all voices that need a segment. For engines without worker; any
+        /// thread that may block.</summary>
         public void Step()
         {
             NativeCall.Check(NativeMethods.EngineStep(handle.Value));
             GC.KeepAlive(this);
         }
 
-        /// <summary>What the engine did so far.</summary>
+        /// <summary>Statistics since the engine was created.</summary>
         public EngineStatistics Statistics()
         {
             var statistics = new EngineStatistics { StructSize = (uint)sizeof(EngineStatistics) };
@@ -191,7 +193,7 @@ namespace HaptoFlow
         {
             ulong length;
             NativeCall.Check(NativeMethods.EngineLastFailure(handle.Value, null, 0, &length));
-            // A longer text that comes in between is cut.
+            // A longer message that replaces it meanwhile is truncated.
             var text = new byte[length + 1];
             fixed (byte* bytes = text)
             {
@@ -211,9 +213,9 @@ namespace HaptoFlow
             return times;
         }
 
-        /// <summary>The signal of one stylus tip. Blocks while another voice is opened or closed, never for inference.
-        /// </summary>
-        /// <param name="sampleRateHz">Of the output, 8000 to 192000. It may change later.</param>
+        /// <summary>Opens a voice: the signal of one stylus tip. Blocks while another voice is opened or closed, never
+        /// for inference.</summary>
+        /// <param name="sampleRateHz">Sample rate of the output, 8000 to 192000 Hz. It may change later.</param>
         /// <exception cref="HaptoFlowException">The rate is out of range, or 64 voices are open in this process.
         /// </exception>
         public HapticVoice OpenVoice(double sampleRateHz)
@@ -224,7 +226,7 @@ namespace HaptoFlow
             return new HapticVoice(voice);
         }
 
-        /// <summary>Ends the worker and closes the voices; those being rendered finish their block first.</summary>
+        /// <summary>Ends the worker and closes the voices; blocks being rendered are finished first.</summary>
         public void Dispose() => handle.Dispose();
     }
 }

@@ -4,20 +4,20 @@ using HaptoFlow.Native;
 
 namespace HaptoFlow
 {
-    /// <summary>One tier of a model, to generate segments outside of real time: for rendering, measuring, previews. Any
-    /// thread that can wait for a network.</summary>
+    /// <summary>Generates segments with one tier of a model outside real time: for rendering, measurements and previews.
+    /// Any thread that may block.</summary>
     public sealed unsafe class HapticGenerator : IDisposable
     {
-        /// <summary>Samples of a segment and of the previous waveform, at 2000 a second.</summary>
+        /// <summary>Samples of a segment and of the previous waveform, at 2000 Hz.</summary>
         public const int SegmentSamples = 200;
 
-        /// <summary>Numbers of a motion: vx and vy in m/s along the surface, force in N.</summary>
+        /// <summary>Numbers per motion: vx and vy in m/s along the surface, force in N.</summary>
         public const int MotionSize = 3;
 
         private readonly GeneratorHandle handle;
 
         /// <param name="tier">Name of a tier; null for the model's default.</param>
-        /// <param name="cancellation">Ends the creation early; null for none.</param>
+        /// <param name="cancellation">Cancels the creation; null for none.</param>
         /// <exception cref="HaptoFlowException">There is no such tier, a graph is not usable or too slow, or the
         /// creation was cancelled.</exception>
         public HapticGenerator(
@@ -42,7 +42,7 @@ namespace HaptoFlow
             handle = new GeneratorHandle(opened);
         }
 
-        /// <summary>From the next call on.</summary>
+        /// <summary>Sets solver and steps from the next call on.</summary>
         /// <param name="steps">1 to 16; 0 with <see cref="HapticSolver.OfTier"/>.</param>
         public void SetSolver(HapticSolver solver, int steps)
         {
@@ -50,12 +50,12 @@ namespace HaptoFlow
             GC.KeepAlive(this);
         }
 
-        /// <summary>Segments in m/s^2 for one request or several, one after the other.</summary>
+        /// <summary>Generates a segment in m/s^2 for each request; requests follow each other in the arrays.</summary>
         /// <param name="embeddings">64 numbers each.</param>
         /// <param name="motions">3 numbers each.</param>
-        /// <param name="previousMps2">200 samples each: what came before.</param>
+        /// <param name="previousMps2">The previous waveforms, 200 samples each.</param>
         /// <param name="noise">200 standard normal numbers each.</param>
-        /// <param name="segmentsMps2">200 samples each: the result.</param>
+        /// <param name="segmentsMps2">Receives the segments, 200 samples each.</param>
         public void Generate(ReadOnlySpan<float> embeddings, ReadOnlySpan<float> motions,
             ReadOnlySpan<float> previousMps2, ReadOnlySpan<float> noise, Span<float> segmentsMps2)
         {
@@ -80,7 +80,7 @@ namespace HaptoFlow
             GC.KeepAlive(this);
         }
 
-        /// <summary>The level that the model expects for each request: RMS in m/s^2.</summary>
+        /// <summary>Computes the level law for each request: RMS in m/s^2.</summary>
         public void Levels(ReadOnlySpan<float> embeddings, ReadOnlySpan<float> motions, Span<float> levelsMps2)
         {
             int count = CountOf(embeddings, motions);
@@ -99,8 +99,8 @@ namespace HaptoFlow
             GC.KeepAlive(this);
         }
 
-        /// <summary>Standard normal numbers that depend on seed, voice and segment alone, the same on every platform.
-        /// </summary>
+        /// <summary>Fills an array with standard normal numbers that depend only on seed, voice and segment, identical
+        /// on every platform.</summary>
         public static void FillNoise(ulong seed, int voice, ulong segment, Span<float> noise)
         {
             fixed (float* numbers = noise)
@@ -110,7 +110,7 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>Calls that are under way finish.</summary>
+        /// <summary>Frees the handle after calls under way have finished.</summary>
         public void Dispose() => handle.Dispose();
 
         private static int CountOf(ReadOnlySpan<float> embeddings, ReadOnlySpan<float> motions)

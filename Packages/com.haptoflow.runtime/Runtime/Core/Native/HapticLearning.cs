@@ -9,10 +9,10 @@ using HaptoFlow.Recordings;
 
 namespace HaptoFlow
 {
-    /// <summary>What a material that is learnt is called, and how it is learnt.</summary>
+    /// <summary>Name and settings of a material to learn.</summary>
     public sealed class LearningOptions
     {
-        /// <summary>Of the material, as a label's: lower case, 1 to 128 bytes.</summary>
+        /// <summary>Name of the material, like a label's: lower case, 1 to 128 bytes.</summary>
         public string Name { get; set; } = "";
 
         /// <summary>For example "cloth"; may be empty.</summary>
@@ -21,25 +21,25 @@ namespace HaptoFlow
         /// <summary>One or two sentences; may be empty.</summary>
         public string Description { get; set; } = "";
 
-        /// <summary>Of the recording; empty where nobody knows.</summary>
+        /// <summary>Licence of the recording; empty where unknown.</summary>
         public string Licence { get; set; } = "";
 
-        /// <summary>The tier of the model that the material is fitted to, by name; null for the default tier.</summary>
+        /// <summary>Name of the tier that the material is fitted to; null for the model's default tier.</summary>
         public string? Tier { get; set; }
 
-        /// <summary>Key of all noise.</summary>
+        /// <summary>Seed of all noise.</summary>
         public ulong Seed { get; set; } = 1;
 
-        /// <summary>Of a ruled surface: k1x, k1y, k2x, k2y in cycles a millimetre, zeros for a surface without ribs;
-        /// null to find them in the recording.</summary>
+        /// <summary>Wave vectors of a ruled surface: k1x, k1y, k2x, k2y in cycles per millimetre; zeros for a surface
+        /// without ribs; null to estimate them from the recording.</summary>
         public float[]? WaveVectorsPerMillimetre { get; set; }
 
-        /// <summary>Longest time that the fit may take on one core, in seconds; 0 for 20.</summary>
+        /// <summary>Time limit of the fit on one core, in seconds; 0 for 20.</summary>
         public double SecondsLimit { get; set; }
     }
 
-    /// <summary>A material being learnt from a recording by a thread of its own. Methods may be called from any thread
-    /// that is not an audio callback; only those that say so wait.</summary>
+    /// <summary>Learns a material from a recording on a thread of its own. Any thread except an audio callback; only
+    /// members that say so block.</summary>
     public sealed class HapticLearning : IDisposable
     {
         private static readonly List<HapticLearning> Running = new List<HapticLearning>();
@@ -56,40 +56,39 @@ namespace HaptoFlow
             work = Task.Run(() => Learn(modelFile, recording, options));
         }
 
-        /// <summary>0 to 1.</summary>
+        /// <summary>Progress, 0 to 1.</summary>
         public float Share => progress.Share;
 
-        /// <summary>What is being done, for people; empty at the beginning.</summary>
+        /// <summary>The present step, for people; empty at the start.</summary>
         public string Doing => progress.Doing;
 
-        /// <summary>It ended: with a material, with a failure, or cancelled.</summary>
+        /// <summary>True after success, failure or cancellation.</summary>
         public bool IsCompleted => work.IsCompleted;
 
-        /// <summary>The text of the material file; null before the end, and where there is none.</summary>
+        /// <summary>The text of the material file; null until it is complete, and where there is none.</summary>
         public string? Material => work.Status == TaskStatus.RanToCompletion ? work.Result.Material : null;
 
-        /// <summary>The label of the model that is nearest to the material, to be felt where the material cannot be;
-        /// empty where there is no material.</summary>
+        /// <summary>The label of the model nearest to the material, to use where the material cannot be; empty without
+        /// a material.</summary>
         public string NearestLabel => work.Status == TaskStatus.RanToCompletion ? work.Result.NearestLabel : "";
 
-        /// <summary>What the fit achieved, as a JSON object; null where there is no material.</summary>
+        /// <summary>Results of the fit as a JSON object; null without a material.</summary>
         public string? Report => work.Status == TaskStatus.RanToCompletion ? work.Result.Report : null;
 
-        /// <summary>Why there is no material; null where there is one, while it is being learnt, and where it was
-        /// cancelled.</summary>
+        /// <summary>Why learning failed; null on success, during learning, and after a cancellation.</summary>
         public string? Problem => work.IsFaulted && !IsCancelled ? work.Exception!.GetBaseException().Message : null;
 
-        /// <summary>It ended because somebody wanted it to.</summary>
+        /// <summary>True after a cancellation.</summary>
         public bool IsCancelled => work.IsFaulted &&
             work.Exception!.GetBaseException() is HaptoFlowException { Status: HaptoFlowStatus.Cancelled };
 
-        /// <summary>Begins; returns at once.</summary>
-        /// <param name="modelFile">The bytes of the .haptoflow file under which the material shall sound. Not to be
-        /// changed meanwhile.</param>
-        /// <param name="recording">Of known speed and force; 10 s of sliding or more.</param>
-        /// <exception cref="HaptoFlowException">The native library is not there.</exception>
-        /// <exception cref="ArgumentException">The material has no name, or the recording's speed or force is not
-        /// known.</exception>
+        /// <summary>Starts learning and returns at once.</summary>
+        /// <param name="modelFile">The .haptoflow file that the material is for. Do not modify the array during
+        /// learning.</param>
+        /// <param name="recording">A recording of known speed and force with at least 10 s of sliding.</param>
+        /// <exception cref="HaptoFlowException">The native library is missing.</exception>
+        /// <exception cref="ArgumentException">The material has no name, or the recording's speed or force is
+        /// unknown.</exception>
         public static HapticLearning Start(byte[] modelFile, Recording recording, LearningOptions options)
         {
             if (options.Name.Trim().Length == 0)
@@ -104,19 +103,19 @@ namespace HaptoFlow
             if (!recording.KnowsMotion)
             {
                 throw new ArgumentException("the recording's speed or force is not known; expected both, in its " +
-                    "columns, in its sidecar or by Recording.With", nameof(recording));
+                    "columns, in its sidecar or through Recording.With", nameof(recording));
             }
             lock (Running)
             {
                 var learning = new HapticLearning(modelFile, recording, options);
                 Running.Add(learning);
-                // Later than the list knows it, for it may have ended already.
+                // After adding to the list: learning may have ended already.
                 learning.ended = learning.work.ContinueWith(_ => learning.Ended());
                 return learning;
             }
         }
 
-        /// <summary>It ends as soon as it can, within a fraction of a second.</summary>
+        /// <summary>Ends learning within a fraction of a second. Does not block.</summary>
         public void Cancel()
         {
             lock (Running)
@@ -128,14 +127,14 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>Waits until it ended, with whatever outcome.</summary>
+        /// <summary>Blocks until learning has ended.</summary>
         public void Wait() => ((IAsyncResult)ended).AsyncWaitHandle.WaitOne();
 
-        /// <summary>Cancels it where it is under way. Does not wait.</summary>
+        /// <summary>Cancels learning if it is under way. Does not block.</summary>
         public void Dispose() => Cancel();
 
-        /// <summary>Cancels all learnings and waits until they have ended, because native code must not call back into a
-        /// process or an application domain that is gone.</summary>
+        /// <summary>Cancels all learning and blocks until it has ended: native code must not call back into a process
+        /// or an application domain that has ended.</summary>
         public static void EndAll()
         {
             HapticLearning[] all;

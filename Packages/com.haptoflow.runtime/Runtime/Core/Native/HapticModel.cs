@@ -8,20 +8,20 @@ namespace HaptoFlow
     /// <summary>Solver of the velocity field's ordinary differential equation.</summary>
     public enum HapticSolver
     {
-        /// <summary>The solver and the number of steps that the tier names as its own.</summary>
+        /// <summary>The solver and the steps of the tier.</summary>
         OfTier = 0,
 
-        /// <summary>One evaluation a step.</summary>
+        /// <summary>One evaluation per step.</summary>
         Euler = 1,
 
-        /// <summary>Two evaluations a step.</summary>
+        /// <summary>Two evaluations per step.</summary>
         Midpoint = 2,
 
-        /// <summary>Two evaluations a step.</summary>
+        /// <summary>Two evaluations per step.</summary>
         Heun = 3,
     }
 
-    /// <summary>A label of a model, or a material registered beside them.</summary>
+    /// <summary>A label of a model, or a material registered in addition.</summary>
     public sealed class HapticLabel
     {
         internal HapticLabel(in LabelInfo info, int index)
@@ -34,23 +34,23 @@ namespace HaptoFlow
             WavelengthMetres = info.IsPeriodic != 0 ? info.WavelengthMetres : (double?)null;
         }
 
-        /// <summary>What a <see cref="LabelBlend"/> names it by: the place among the model's labels, or behind them.
-        /// </summary>
+        /// <summary>Index for a <see cref="LabelBlend"/>; indices of registered materials follow those of the model's
+        /// labels.</summary>
         public int Index { get; }
 
-        /// <summary>Of a label lower case, unique in the model, for example "metal mesh".</summary>
+        /// <summary>Name; for a label lower case and unique in the model, for example "metal mesh".</summary>
         public string Name { get; }
 
         /// <summary>For example "wood" or "cloth".</summary>
         public string Category { get; }
 
-        /// <summary>Default of the spring model.</summary>
+        /// <summary>Default stiffness of the spring model.</summary>
         public double StiffnessNewtonsPerMetre { get; }
 
-        /// <summary>Mean kinetic friction.</summary>
+        /// <summary>Mean coefficient of kinetic friction.</summary>
         public double FrictionCoefficient { get; }
 
-        /// <summary>Of a woven or ruled surface; null for others.</summary>
+        /// <summary>Wavelength of a woven or ruled surface; null for others.</summary>
         public double? WavelengthMetres { get; }
     }
 
@@ -70,7 +70,7 @@ namespace HaptoFlow
             ParameterCount = info.ParameterCount;
         }
 
-        /// <summary>Place among the model's tiers.</summary>
+        /// <summary>Index among the model's tiers.</summary>
         public int Index { get; }
 
         /// <summary>Usually "draft", "standard" or "fine".</summary>
@@ -88,21 +88,21 @@ namespace HaptoFlow
         /// <summary>The tier's own solver.</summary>
         public HapticSolver Solver { get; }
 
-        /// <summary>1 to 16.</summary>
+        /// <summary>Solver steps, 1 to 16.</summary>
         public int Steps { get; }
 
-        /// <summary>Used when nobody asks for another.</summary>
+        /// <summary>True for the tier that is used unless another is selected.</summary>
         public bool IsDefault { get; }
 
-        /// <summary>Weights of the network.</summary>
+        /// <summary>Number of weights of the network.</summary>
         public long ParameterCount { get; }
     }
 
-    /// <summary>A model read and verified by the native library. Any thread; opening takes milliseconds for each
+    /// <summary>A model opened and verified by the native library. Any thread; opening takes milliseconds per
     /// megabyte.</summary>
     public sealed unsafe class HapticModel : IDisposable
     {
-        /// <summary>Numbers of a material embedding.</summary>
+        /// <summary>Length of a material embedding.</summary>
         public const int EmbeddingSize = 64;
 
         private readonly HapticLabel[] labels;
@@ -116,16 +116,17 @@ namespace HaptoFlow
             Space = ReadSpace(opened);
         }
 
-        /// <summary>In the model's order, which is the order of label indices.</summary>
+        /// <summary>The labels in the order of their indices.</summary>
         public IReadOnlyList<HapticLabel> Labels => labels;
 
-        /// <summary>The most accurate comes last.</summary>
+        /// <summary>The tiers in order of increasing accuracy.</summary>
         public IReadOnlyList<HapticTier> Tiers => tiers;
 
         internal ModelHandle Handle { get; }
 
-        /// <param name="file">The bytes of a whole .haptoflow file; not kept.</param>
-        /// <exception cref="HaptoFlowException">The library is not there, or the bytes are no usable model.</exception>
+        /// <param name="file">The whole .haptoflow file; the array is not kept.</param>
+        /// <exception cref="HaptoFlowException">The library is missing, or the bytes are not a usable
+        /// model.</exception>
         public static HapticModel Open(byte[] file)
         {
             try
@@ -147,8 +148,8 @@ namespace HaptoFlow
             }
         }
 
-        /// <param name="path">Of a .haptoflow file.</param>
-        /// <exception cref="HaptoFlowException">The library is not there, or the file is no usable model.</exception>
+        /// <param name="path">Path of a .haptoflow file.</param>
+        /// <exception cref="HaptoFlowException">The library is missing, or the file is not a usable model.</exception>
         public static HapticModel Open(string path)
         {
             try
@@ -165,11 +166,11 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>Which embeddings the model's networks understand, as 8 hexadecimal digits: a material file of the same
-        /// space sounds under this model.</summary>
+        /// <summary>Identifies the space of the model's embeddings, as 8 hexadecimal digits: a material file can be
+        /// used with every model of the same space.</summary>
         public string Space { get; }
 
-        /// <summary>The JSON header as the file has it.</summary>
+        /// <summary>The JSON header of the file, unchanged.</summary>
         public string HeaderJson()
         {
             IntPtr text;
@@ -191,7 +192,7 @@ namespace HaptoFlow
             return embedding;
         }
 
-        /// <summary>Engines and generators made from the model stay usable.</summary>
+        /// <summary>Frees the handle; engines and generators created from the model stay usable.</summary>
         public void Dispose() => Handle.Dispose();
 
         private static HapticModel Open(ModelOptions* options)

@@ -2,13 +2,13 @@
 
 namespace HaptoFlow
 {
-    /// <summary>Why a voice is silent. Where several reasons hold, the one that lasts longest.</summary>
+    /// <summary>Why a voice is silent. Where several reasons apply, the one that lasts longest.</summary>
     public enum HapticSilence
     {
-        /// <summary>It sounds.</summary>
+        /// <summary>The voice sounds.</summary>
         None = 0,
 
-        /// <summary>Nothing touches, or the tip does not slide.</summary>
+        /// <summary>Nothing is touched, or the tip does not slide.</summary>
         Rest = 1,
 
         /// <summary>No contact state was published for 100 ms.</summary>
@@ -23,14 +23,14 @@ namespace HaptoFlow
         /// <summary>A panic silenced this touch; the next one sounds.</summary>
         Panic = 5,
 
-        /// <summary>The device changed its sample rate and the worker still prepares for it, or the rate is outside 8
-        /// to 192 kHz.</summary>
+        /// <summary>The device changed its sample rate and the worker is still preparing for it, or the rate is outside
+        /// 8 to 192 kHz.</summary>
         Rate = 6,
 
         /// <summary>The voice is being closed.</summary>
         Closing = 7,
 
-        /// <summary>The thread that generates has ended: <see cref="HapticEngine.LastFailure"/> says why.</summary>
+        /// <summary>The worker thread has ended: <see cref="HapticEngine.LastFailure"/> says why.</summary>
         WorkerDead = 8,
     }
 }

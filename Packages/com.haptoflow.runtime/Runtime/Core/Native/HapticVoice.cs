@@ -6,26 +6,34 @@ using HaptoFlow.Native;
 
 namespace HaptoFlow
 {
-    /// <summary>The signal of one stylus tip. After it is closed, rendering gives silence and every other call fails.
-    /// </summary>
+    /// <summary>The signal of one stylus tip. After it is closed, rendering gives silence and every other call
+    /// throws.</summary>
     public sealed unsafe class HapticVoice : IDisposable
     {
-        /// <summary>As a channel: all of them.</summary>
+        /// <summary>Channel number for all channels.</summary>
         public const int AllChannels = -1;
+
+        /// <summary>Upper limit of a signal's peak amplitude, in m/s^2.</summary>
+        public const double MaximumSignalMps2 = 60.0;
+
+        /// <summary>Lower limit of a signal's frequency, in Hz.</summary>
+        public const double MinimumSignalHz = 20.0;
+
+        /// <summary>Upper limit of a signal's frequency, in Hz.</summary>
+        public const double MaximumSignalHz = 500.0;
 
         private long voice;
 
         internal HapticVoice(ulong opened) => voice = unchecked((long)opened);
 
-        /// <summary>Closes a voice that was forgotten.</summary>
+        /// <summary>Closes a voice that was not disposed.</summary>
         ~HapticVoice() => Close();
 
         private ulong Id => unchecked((ulong)Interlocked.Read(ref voice));
 
-        /// <summary>What the tip does now: once a frame, also while nothing touches. Any thread but the audio
-        /// callback's; no garbage.</summary>
-        /// <returns>False where another thread publishes at this moment: the state is lost, the next one counts.
-        /// </returns>
+        /// <summary>Publishes the state of the tip. Call it once a frame, also while nothing is touched. Any thread
+        /// except the audio callback; no garbage.</summary>
+        /// <returns>False where another thread is publishing at the same time: this state is discarded.</returns>
         /// <exception cref="HaptoFlowException">The voice is closed.</exception>
         public bool Publish(in ContactState state)
         {
@@ -60,12 +68,12 @@ namespace HaptoFlow
             return true;
         }
 
-        /// <summary>Writes the voice into one channel of interleaved samples, or into all; other channels stay as they
-        /// are. Made for the audio callback: no garbage, no wait, no exception; microseconds.</summary>
+        /// <summary>Writes the voice into one channel of interleaved samples, or into all; other channels are
+        /// unchanged. For the audio callback: no garbage, no locks, no exceptions; takes microseconds.</summary>
         /// <param name="interleaved">Samples of +-1, a whole number of frames.</param>
         /// <param name="channelCount">1 to 64.</param>
         /// <param name="channel">0 to channelCount - 1, or <see cref="AllChannels"/>.</param>
-        /// <returns>False where the voice was closed or busy, and wrote silence.</returns>
+        /// <returns>False where the voice was closed or busy and silence was written.</returns>
         public bool Render(Span<float> interleaved, int channelCount, int channel, double sampleRateHz)
         {
             if (channelCount < 1 || interleaved.Length < channelCount)
@@ -80,23 +88,22 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>Gain of the output before the limiter, 0 to 1; glides within 10 ms while the voice
-        /// sounds.</summary>
+        /// <summary>Sets the gain before the limiter, 0 to 1; the change takes 10 ms while the voice sounds.</summary>
         public void SetStrength(float strength) => NativeCall.Check(NativeMethods.VoiceSetStrength(Id, strength));
 
-        /// <summary>Largest magnitude of the output, 0 to 1: whatever else happens, no sample is above it.</summary>
+        /// <summary>Limits the magnitude of all output samples, 0 to 1.</summary>
         public void SetCeiling(float ceiling) => NativeCall.Check(NativeMethods.VoiceSetCeiling(Id, ceiling));
 
-        /// <summary>Muted, a voice falls silent within a block and 5 ms and costs no inference.</summary>
+        /// <summary>Mutes the voice: it falls silent within a block and 5 ms and then costs no inference.</summary>
         public void SetMuted(bool muted) => NativeCall.Check(NativeMethods.VoiceSetMuted(Id, muted ? 1u : 0u));
 
-        /// <summary>The same for an application that is suspended: independent of muting.</summary>
+        /// <summary>Mutes the voice of a suspended application, independently of <see cref="SetMuted"/>.</summary>
         public void SetPaused(bool paused) => NativeCall.Check(NativeMethods.VoiceSetPaused(Id, paused ? 1u : 0u));
 
-        /// <summary>Silence at the end of the next block for what touches now; the next touch-down sounds.</summary>
+        /// <summary>Silences the present touch at the end of the next block; the next touch-down sounds.</summary>
         public void Panic() => NativeCall.Check(NativeMethods.VoicePanic(Id));
 
-        /// <summary>Panic for every voice of the process. Does nothing where there is no native library.</summary>
+        /// <summary>Panic for every voice of the process. Does nothing without the native library.</summary>
         public static void PanicAll()
         {
             try
@@ -105,11 +112,11 @@ namespace HaptoFlow
             }
             catch (Exception error) when (NativeCall.IsMissing(error))
             {
-                // Without the library nothing sounds.
+                // Without the library no voice exists.
             }
         }
 
-        /// <summary>What the voice did so far.</summary>
+        /// <summary>Statistics since the voice was opened.</summary>
         public VoiceStatistics Statistics()
         {
             var statistics = new VoiceStatistics { StructSize = (uint)sizeof(VoiceStatistics) };
@@ -117,22 +124,23 @@ namespace HaptoFlow
             return statistics;
         }
 
-        /// <summary>Everything comes this much later, for studies and slow displays. Lift-off closes the texture before
-        /// the delay; mute, pause and panic act behind it, at once.</summary>
+        /// <summary>Delays the voice, for studies and slow displays. Lift-off ends the texture before the delay; mute,
+        /// pause and panic act after it, at once.</summary>
         /// <param name="seconds">0 to 0.5; 0 for no delay. A change fades within 20 ms.</param>
         public void SetDelay(double seconds) => NativeCall.Check(NativeMethods.VoiceSetDelay(Id, seconds));
 
-        /// <summary>A sine for studies of latency, which sounds wherever the newest contact state touches and moves at
-        /// 5 mm/s or more, whatever force and speed are, instead of texture, impact and edge; nothing is inferred. It
-        /// begins and ends within 2 ms. Everything that acts on the voice acts on it. Takes effect with the next
-        /// block.</summary>
-        /// <param name="frequencyHz">20 to 500; ignored where the amplitude is 0.</param>
-        /// <param name="amplitudeMps2">Its peak, 0 to 60 m/s^2; 0 for no signal.</param>
+        /// <summary>Plays a sine instead of texture, impact and edge, for studies of latency. It sounds while the
+        /// newest contact state touches and moves at 5 mm/s or more, whatever the force and the speed; nothing is
+        /// inferred. It starts and ends within 2 ms and is subject to everything that acts on the voice. Takes effect
+        /// with the next block.</summary>
+        /// <param name="frequencyHz">Frequency, <see cref="MinimumSignalHz"/> to <see cref="MaximumSignalHz"/>; ignored
+        /// where the amplitude is 0.</param>
+        /// <param name="amplitudeMps2">Peak amplitude, 0 to <see cref="MaximumSignalMps2"/>; 0 for no signal.</param>
         /// <exception cref="HaptoFlowException">The voice is closed, or a value is out of range.</exception>
         public void SetSignal(double frequencyHz, double amplitudeMps2) =>
             NativeCall.Check(NativeMethods.VoiceSetSignal(Id, frequencyHz, amplitudeMps2));
 
-        /// <summary>How often the signal was turned on and off by contact states, and how long that took.</summary>
+        /// <summary>Number and delays of the signal's starts and stops caused by contact states.</summary>
         /// <exception cref="HaptoFlowException">The voice is closed.</exception>
         public SignalStatistics SignalStatistics()
         {
@@ -141,10 +149,10 @@ namespace HaptoFlow
             return statistics;
         }
 
-        /// <summary>What plays the voice, so that its resonances and weak bands are evened out.</summary>
-        /// <param name="profile">An actuator profile as JSON, or the name of one that the library brings along:
-        /// "flat", "voice-coil"; null for no compensation.</param>
-        /// <exception cref="HaptoFlowException">The profile is none; the message names the key.</exception>
+        /// <summary>Sets the actuator whose resonances and weak bands are compensated.</summary>
+        /// <param name="profile">An actuator profile as JSON, or the name of one in the library: "flat", "voice-coil";
+        /// null for no compensation.</param>
+        /// <exception cref="HaptoFlowException">The profile is not valid; the message names the key.</exception>
         public void SetActuator(string? profile)
         {
             if (profile == null)
@@ -159,12 +167,13 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>Brings down what is strong for too long, slowly and never to silence. No medical device.</summary>
+        /// <summary>Switches the exposure guard, which slowly lowers what is strong for too long, never to silence. Not
+        /// a medical device.</summary>
         /// <param name="actuatorGain">Acceleration at the hand for each m/s^2 of the voice, above 0 to 1000.</param>
         public void SetExposureGuard(bool isOn, float actuatorGain = 1f) =>
             NativeCall.Check(NativeMethods.VoiceSetExposureGuard(Id, isOn ? 1u : 0u, actuatorGain));
 
-        /// <summary>What the exposure guard has measured; a gain of 1 without one.</summary>
+        /// <summary>Measurements of the exposure guard; a gain of 1 without one.</summary>
         public HapticExposure Exposure()
         {
             var exposure = new HapticExposure { StructSize = (uint)sizeof(HapticExposure) };
@@ -172,7 +181,7 @@ namespace HaptoFlow
             return exposure;
         }
 
-        /// <summary>What one stage of the voice did so far; all zero for one that nobody asked for.</summary>
+        /// <summary>Statistics of one stage of the voice; all zero for a stage that never ran.</summary>
         /// <exception cref="HaptoFlowException">The voice is closed, or there is no such effect.</exception>
         public EffectStatistics EffectStatistics(HapticEffect effect)
         {
@@ -181,8 +190,8 @@ namespace HaptoFlow
             return statistics;
         }
 
-        /// <summary>The voice's place among the process's voices: what the parameter "Voice" of the mixer effect names.
-        /// </summary>
+        /// <summary>Index of the voice in the process: the value for the parameter "Voice" of the mixer
+        /// effect.</summary>
         public int Place()
         {
             uint place;
@@ -190,7 +199,8 @@ namespace HaptoFlow
             return (int)place;
         }
 
-        /// <summary>Blocks for a block that is being rendered, at most 48 ms; never for inference.</summary>
+        /// <summary>Closes the voice. Blocks while a block is being rendered, at most 48 ms; never for
+        /// inference.</summary>
         public void Dispose()
         {
             Close();

@@ -5,20 +5,20 @@ namespace HaptoFlow
     /// <summary>Why a call into the native library failed.</summary>
     public enum HaptoFlowStatus
     {
-        /// <summary>No failure.</summary>
+        /// <summary>The call succeeded.</summary>
         Ok = 0,
 
-        /// <summary>A null pointer, a handle that is not open, an index or a number out of range, a name that is not
-        /// there.</summary>
+        /// <summary>A null pointer, a handle that is not open, an index or number out of range, or an unknown
+        /// name.</summary>
         InvalidArgument = 1,
 
-        /// <summary>Memory is used up.</summary>
+        /// <summary>Memory is exhausted.</summary>
         OutOfMemory = 2,
 
-        /// <summary>A defect of the library.</summary>
+        /// <summary>An error in the library itself.</summary>
         InternalError = 3,
 
-        /// <summary>Another thread is publishing on, or rendering, this voice.</summary>
+        /// <summary>Another thread is publishing to, or rendering, this voice.</summary>
         Busy = 4,
 
         /// <summary>The model file cannot be opened or read.</summary>
@@ -33,13 +33,13 @@ namespace HaptoFlow
         /// <summary>The file's format is newer than this library: update HaptoFlow.</summary>
         ModelTooNew = 13,
 
-        /// <summary>A length or count above the format's limits.</summary>
+        /// <summary>A length or count exceeds the format's limits.</summary>
         ModelOversized = 14,
 
-        /// <summary>A checksum does not match: the file was changed or broken on its way.</summary>
+        /// <summary>A checksum does not match: the file was changed or damaged in transfer.</summary>
         ModelDamaged = 15,
 
-        /// <summary>The file is intact and breaks a rule of its format, or one of its graphs does.</summary>
+        /// <summary>The file is intact but breaks a rule of its format, or one of its graphs does.</summary>
         ModelInconsistent = 16,
 
         /// <summary>The material was learnt for another model: learn it again with this one.</summary>
@@ -51,7 +51,7 @@ namespace HaptoFlow
         /// <summary>Nothing can be learnt from the recording; the message says why.</summary>
         RecordingUnusable = 19,
 
-        /// <summary>No ONNX Runtime of version 1.16 or newer at the given place.</summary>
+        /// <summary>There is no ONNX Runtime of version 1.16 or newer at the given place.</summary>
         RuntimeUnavailable = 20,
 
         /// <summary>A graph failed while running, or returned numbers that are not finite.</summary>
@@ -63,7 +63,7 @@ namespace HaptoFlow
         /// <summary>A probe run of a tier took too long; the message names the tier.</summary>
         TierTooSlow = 23,
 
-        /// <summary>The native library audioplugin_haptoflow, or a function of it, is not there.</summary>
+        /// <summary>The native library audioplugin_haptoflow, or a function of it, is missing.</summary>
         LibraryUnavailable = 100,
     }
 }

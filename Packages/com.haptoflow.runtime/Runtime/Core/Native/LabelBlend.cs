@@ -3,10 +3,10 @@ using System;
 
 namespace HaptoFlow
 {
-    /// <summary>Labels of a model with their weights: one material, or a mixture of up to four.</summary>
+    /// <summary>Labels with their weights: one material, or a blend of up to four.</summary>
     public struct LabelBlend : IEquatable<LabelBlend>
     {
-        /// <summary>Labels in one blend.</summary>
+        /// <summary>Maximum number of labels in a blend.</summary>
         public const int Maximum = 4;
 
         private int label0;
@@ -28,7 +28,7 @@ namespace HaptoFlow
         }
 
         /// <summary>Two labels.</summary>
-        /// <param name="share">0: the first alone. 1: the second alone.</param>
+        /// <param name="share">Weight of the second label: 0 for the first alone, 1 for the second alone.</param>
         public static LabelBlend Of(int first, int second, float share)
         {
             float weight = share >= 0.0f ? Math.Min(share, 1.0f) : 0.0f;
@@ -44,7 +44,8 @@ namespace HaptoFlow
             return blend;
         }
 
-        /// <summary>0 to <see cref="Maximum"/>. The engine takes a blend of none for the model's first label.</summary>
+        /// <summary>Number of labels, 0 to <see cref="Maximum"/>. The engine replaces an empty blend by the model's
+        /// first label.</summary>
         public int Count { get; private set; }
 
         /// <param name="label">Index into the model's labels.</param>

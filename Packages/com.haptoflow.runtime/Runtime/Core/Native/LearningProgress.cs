@@ -4,11 +4,11 @@ using System.Runtime.InteropServices;
 
 namespace HaptoFlow.Native
 {
-    /// <summary>How far a learning has come, as the library says from the thread that learns.</summary>
+    /// <summary>Progress of learning, reported by the library from the learning thread.</summary>
     internal sealed class LearningProgress
     {
-        /// <summary>haptoflow_progress_callback. Kept by this field: a delegate that only native code knows would be
-        /// collected.</summary>
+        /// <summary>The haptoflow_progress_callback. This field keeps the delegate alive: the garbage collector does
+        /// not see references from native code.</summary>
         private static readonly Callback Kept = Take;
 
         private volatile string doing = "";
@@ -17,13 +17,14 @@ namespace HaptoFlow.Native
         [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
         private delegate void Callback(IntPtr context, double share, IntPtr doing);
 
-        /// <summary>For the options; the context is a <see cref="GCHandle"/> to one of these.</summary>
+        /// <summary>Function pointer for the options; its context is a <see cref="GCHandle"/> to a
+        /// LearningProgress.</summary>
         public static IntPtr Function => Marshal.GetFunctionPointerForDelegate(Kept);
 
-        /// <summary>0 to 1. Any thread.</summary>
+        /// <summary>Progress, 0 to 1. Any thread.</summary>
         public float Share => share;
 
-        /// <summary>For people. Any thread.</summary>
+        /// <summary>The present step, for people. Any thread.</summary>
         public string Doing => doing;
 
         [MonoPInvokeCallback(typeof(Callback))]
@@ -40,7 +41,7 @@ namespace HaptoFlow.Native
             }
             catch (Exception)
             {
-                // No exception may cross into native code; a word about the progress is worth none.
+                // An exception must not cross into native code, and a lost progress report does no harm.
             }
         }
     }

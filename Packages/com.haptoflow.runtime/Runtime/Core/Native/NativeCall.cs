@@ -5,10 +5,10 @@ using System.Text;
 
 namespace HaptoFlow.Native
 {
-    /// <summary>What every call across the boundary shares: text in UTF-8, failures as exceptions.</summary>
+    /// <summary>Helpers of native calls: text in UTF-8, failures as exceptions.</summary>
     internal static class NativeCall
     {
-        /// <exception cref="HaptoFlowException">The status is not OK; carries the library's message.</exception>
+        /// <exception cref="HaptoFlowException">The status is not OK; the message is the library's.</exception>
         public static void Check(int status)
         {
             if (status != (int)HaptoFlowStatus.Ok)
@@ -19,7 +19,7 @@ namespace HaptoFlow.Native
 
         public static string Text(IntPtr utf8) => Marshal.PtrToStringUTF8(utf8) ?? "";
 
-        /// <summary>UTF-8 with its closing zero byte.</summary>
+        /// <summary>Zero-terminated UTF-8.</summary>
         public static byte[] Utf8(string text)
         {
             var bytes = new byte[Encoding.UTF8.GetByteCount(text) + 1];
@@ -27,14 +27,14 @@ namespace HaptoFlow.Native
             return bytes;
         }
 
-        /// <summary>The exception for a failure to find a library or a function in it.</summary>
+        /// <summary>The exception for a library, or a function in it, that was not found.</summary>
         public static HaptoFlowException Missing(Exception cause) => new HaptoFlowException(
             HaptoFlowStatus.LibraryUnavailable,
             "HaptoFlow's native library audioplugin_haptoflow, or ONNX Runtime (onnxruntime) that it runs on, cannot " +
             "be loaded on this platform: install the packages com.haptoflow.runtime and " +
             "com.github.asus4.onnxruntime in versions that carry binaries for it (" + cause.Message + ")", cause);
 
-        /// <summary>The loader did not find the library, its architecture or one of its functions.</summary>
+        /// <summary>True where the loader did not find the library, its architecture or one of its functions.</summary>
         public static bool IsMissing(Exception error) =>
             error is DllNotFoundException || error is EntryPointNotFoundException || error is BadImageFormatException;
 

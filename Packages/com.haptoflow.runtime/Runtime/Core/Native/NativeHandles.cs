@@ -4,8 +4,8 @@ using System.Runtime.InteropServices;
 
 namespace HaptoFlow.Native
 {
-    /// <summary>A handle of the library, closed once, also when its owner is forgotten or the application domain
-    /// unloads.</summary>
+    /// <summary>A handle of the library that is closed exactly once, also without Dispose and when the application
+    /// domain unloads.</summary>
     internal abstract unsafe class NativeHandle : SafeHandle
     {
         protected NativeHandle(IntPtr opened)
@@ -13,10 +13,10 @@ namespace HaptoFlow.Native
 
         public override bool IsInvalid => handle == IntPtr.Zero;
 
-        /// <summary>For one call; zero once closed, which the library refuses with a message.</summary>
+        /// <summary>The handle for one call; zero once closed, which the library refuses with a message.</summary>
         public IntPtr Value => IsClosed ? IntPtr.Zero : handle;
 
-        /// <summary>The library's function that closes a handle of this kind; its status.</summary>
+        /// <summary>Calls the library's function that closes handles of this kind.</summary>
         protected abstract int Close(IntPtr* closing);
 
         protected override bool ReleaseHandle()

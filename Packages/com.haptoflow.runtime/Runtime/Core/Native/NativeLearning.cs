@@ -4,12 +4,12 @@ using HaptoFlow.Recordings;
 
 namespace HaptoFlow.Native
 {
-    /// <summary>haptoflow_learn_material, with everything that it reads held in place meanwhile.</summary>
+    /// <summary>Calls haptoflow_learn_material with pinned inputs.</summary>
     internal static unsafe class NativeLearning
     {
         /// <param name="context">A handle to a <see cref="LearningProgress"/>.</param>
-        /// <exception cref="HaptoFlowException">Nothing can be learnt from the recording, or it was cancelled.
-        /// </exception>
+        /// <exception cref="HaptoFlowException">Nothing can be learnt from the recording, or learning was
+        /// cancelled.</exception>
         public static (string Material, string Report) Run(OnnxRuntime runtime, HapticModel model, Recording recording,
             LearningOptions options, HapticCancellation cancellation, IntPtr context)
         {

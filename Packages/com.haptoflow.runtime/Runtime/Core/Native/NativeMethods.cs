@@ -4,7 +4,7 @@ using System.Runtime.InteropServices;
 
 namespace HaptoFlow.Native
 {
-    /// <summary>haptoflow.h, function by function; the header says which thread each may be called from, and what it
+    /// <summary>The functions of haptoflow.h; the header states from which threads each may be called and what it
     /// blocks on.</summary>
     [Preserve]
     internal static unsafe class NativeMethods
@@ -17,7 +17,7 @@ namespace HaptoFlow.Native
         private const string OnnxRuntime = "onnxruntime";
 #endif
 
-        /// <summary>Of ONNX Runtime: the pointer that the plugin gets everything else from.</summary>
+        /// <summary>ONNX Runtime's entry point: the plugin obtains every other function from it.</summary>
         [DllImport(OnnxRuntime, EntryPoint = "OrtGetApiBase")]
         public static extern IntPtr OrtGetApiBase();
 

@@ -4,7 +4,7 @@ using System.Runtime.InteropServices;
 
 namespace HaptoFlow.Native
 {
-    // The layouts of haptoflow.h, field by field and blittable.
+    // The structures of haptoflow.h, field by field and blittable.
 
     [Preserve, StructLayout(LayoutKind.Sequential)]
     internal struct RuntimeOptions
@@ -13,9 +13,9 @@ namespace HaptoFlow.Native
         public IntPtr OrtApiBase;
         public IntPtr LibraryPath;
 
-        /// <summary>Always null: a callback into managed code from threads of ONNX Runtime's own would have to be a
-        /// static method that this engine-free assembly cannot mark for ahead-of-time compilation. The standard error
-        /// stream, which Unity's player log holds, gets the messages.</summary>
+        /// <summary>Always null. A managed callback from ONNX Runtime's threads would have to be a static method marked
+        /// for ahead-of-time compilation. Messages go to the standard error stream, which Unity's player log
+        /// contains.</summary>
         public IntPtr Log;
         public IntPtr LogContext;
     }

@@ -4,17 +4,17 @@ using HaptoFlow.Native;
 
 namespace HaptoFlow
 {
-    /// <summary>ONNX Runtime, handed to the native library. One for the whole process is enough.</summary>
+    /// <summary>ONNX Runtime for the native library. One per process is enough.</summary>
     public sealed unsafe class OnnxRuntime : IDisposable
     {
         private OnnxRuntime(IntPtr opened) => Handle = new RuntimeHandle(opened);
 
         internal RuntimeHandle Handle { get; }
 
-        /// <summary>The ONNX Runtime that this platform's package brings (onnxruntime). Any thread that can wait for
-        /// the
+        /// <summary>Opens the ONNX Runtime of this platform's package (onnxruntime). Any thread that may block for the
         /// disk.</summary>
-        /// <exception cref="HaptoFlowException">A library is not there, or is older than version 1.16.</exception>
+        /// <exception cref="HaptoFlowException">A library is missing, or ONNX Runtime is older than version
+        /// 1.16.</exception>
         public static OnnxRuntime Open()
         {
             try
@@ -33,7 +33,7 @@ namespace HaptoFlow
         }
 
         /// <summary>Version of the native library, for example "0.1.0". Any thread.</summary>
-        /// <exception cref="HaptoFlowException">The library is not there.</exception>
+        /// <exception cref="HaptoFlowException">The library is missing.</exception>
         public static string LibraryVersion()
         {
             try
@@ -46,7 +46,7 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>Engines and generators made with it stay usable.</summary>
+        /// <summary>Frees the handle; engines and generators created with it stay usable.</summary>
         public void Dispose() => Handle.Dispose();
 
         private static OnnxRuntime Open(RuntimeOptions* options)

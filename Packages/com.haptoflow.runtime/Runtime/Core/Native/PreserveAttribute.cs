@@ -3,8 +3,8 @@ using System;
 
 namespace HaptoFlow.Native
 {
-    /// <summary>Unity's linker keeps what carries an attribute of this name, whoever declares it: fields that no managed
-    /// code reads are still part of a layout.</summary>
+    /// <summary>Keeps Unity's linker from stripping fields that no managed code reads but that are part of a native
+    /// layout. The linker matches the attribute by name.</summary>
     [AttributeUsage(AttributeTargets.Class | AttributeTargets.Struct)]
     internal sealed class PreserveAttribute : Attribute
     {

@@ -3,9 +3,9 @@ using System;
 
 namespace HaptoFlow.Numerics
 {
-    /// <summary>Three numbers in double precision: a place or a direction in Unity's left-handed, y-up frame.</summary>
-    /// <remarks>Single precision would not do for contact: at 10 m from the origin its steps are 1 micrometre, which
-    /// is 1 cm/s of velocity noise over a window of 35 ms at 90 Hz.</remarks>
+    /// <summary>A position or direction in double precision, in Unity's left-handed, y-up frame.</summary>
+    /// <remarks>Single precision is not sufficient for contact: at 10 m from the origin its resolution is 1 micrometre,
+    /// which is 1 cm/s of velocity noise over a window of 35 ms at 90 Hz.</remarks>
     internal readonly struct Double3 : IEquatable<Double3>
     {
         public readonly double X;
@@ -32,7 +32,7 @@ namespace HaptoFlow.Numerics
         /// <summary>Coordinate 0, 1 or 2.</summary>
         public double this[int axis] => axis == 0 ? X : axis == 1 ? Y : Z;
 
-        /// <summary>The same but for one coordinate.</summary>
+        /// <summary>A copy with one coordinate replaced.</summary>
         public Double3 With(int axis, double value) =>
             new Double3(axis == 0 ? value : X, axis == 1 ? value : Y, axis == 2 ? value : Z);
 
@@ -51,10 +51,10 @@ namespace HaptoFlow.Numerics
 
         public static double Distance(Double3 a, Double3 b) => (a - b).Length;
 
-        /// <summary>Coordinate by coordinate.</summary>
+        /// <summary>Multiplies coordinate by coordinate.</summary>
         public static Double3 Scale(Double3 a, Double3 b) => new Double3(a.X * b.X, a.Y * b.Y, a.Z * b.Z);
 
-        /// <summary>Coordinate by coordinate.</summary>
+        /// <summary>Limits coordinate by coordinate.</summary>
         public static Double3 Clamp(Double3 value, Double3 lowest, Double3 highest) => new Double3(
             Math.Min(Math.Max(value.X, lowest.X), highest.X),
             Math.Min(Math.Max(value.Y, lowest.Y), highest.Y),

@@ -3,13 +3,13 @@ using System;
 
 namespace HaptoFlow.Numerics
 {
-    /// <summary>Where an object is: metres and a unit rotation, without scale.</summary>
+    /// <summary>The pose of an object without scale: position in metres and unit rotation.</summary>
     internal readonly struct RigidPose : IEquatable<RigidPose>
     {
         public readonly Double3 PositionMetres;
         public readonly Rotation Rotation;
 
-        /// <summary>Damaged numbers become the origin or the identity.</summary>
+        /// <summary>Values that are not usable become the origin or the identity.</summary>
         public RigidPose(Double3 positionMetres, Rotation rotation)
         {
             PositionMetres = Vectors.IsUsable(positionMetres) ? positionMetres : Double3.Zero;
@@ -23,8 +23,8 @@ namespace HaptoFlow.Numerics
         public Double3 DirectionToWorld(Double3 local) => Rotation * local;
         public Double3 DirectionToLocal(Double3 world) => Rotation.Inverse * world;
 
-        /// <summary>From <paramref name="a"/> (share 0) to <paramref name="b"/> (share 1); shares outside go on in the
-        /// same way.</summary>
+        /// <summary>Interpolates from <paramref name="a"/> (share 0) to <paramref name="b"/> (share 1); other shares
+        /// extrapolate.</summary>
         public static RigidPose Between(in RigidPose a, in RigidPose b, double share) => new RigidPose(
             a.PositionMetres + share * (b.PositionMetres - a.PositionMetres),
             Rotation.Slerp(a.Rotation, b.Rotation, share));

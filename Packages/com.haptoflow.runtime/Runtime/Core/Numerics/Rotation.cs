@@ -23,7 +23,7 @@ namespace HaptoFlow.Numerics
 
         public Rotation Inverse => new Rotation(-X, -Y, -Z, W);
 
-        /// <summary>The vector, turned. The rotation must have length 1.</summary>
+        /// <summary>Rotates a vector. The rotation must have length 1.</summary>
         public static Double3 operator *(Rotation rotation, Double3 vector)
         {
             var axis = new Double3(rotation.X, rotation.Y, rotation.Z);
@@ -31,14 +31,14 @@ namespace HaptoFlow.Numerics
             return vector + 2.0 * (rotation.W * once + Double3.Cross(axis, once));
         }
 
-        /// <summary>First <paramref name="b"/>, then <paramref name="a"/>.</summary>
+        /// <summary>Applies <paramref name="b"/> first, then <paramref name="a"/>.</summary>
         public static Rotation operator *(Rotation a, Rotation b) => new Rotation(
             a.W * b.X + a.X * b.W + a.Y * b.Z - a.Z * b.Y,
             a.W * b.Y + a.Y * b.W + a.Z * b.X - a.X * b.Z,
             a.W * b.Z + a.Z * b.W + a.X * b.Y - a.Y * b.X,
             a.W * b.W - a.X * b.X - a.Y * b.Y - a.Z * b.Z);
 
-        /// <summary>At length 1; the identity where it is zero or not finite.</summary>
+        /// <summary>The rotation at length 1; the identity where it is zero or not finite.</summary>
         public Rotation Unit
         {
             get
@@ -57,8 +57,8 @@ namespace HaptoFlow.Numerics
             }
         }
 
-        /// <summary>From <paramref name="a"/> (share 0) to <paramref name="b"/> (share 1) the short way, at a constant
-        /// rate; shares outside go on turning.</summary>
+        /// <summary>Interpolates from <paramref name="a"/> (share 0) to <paramref name="b"/> (share 1) along the
+        /// shorter way at a constant rate; other shares extrapolate.</summary>
         public static Rotation Slerp(Rotation a, Rotation b, double share)
         {
             double cosine = a.X * b.X + a.Y * b.Y + a.Z * b.Z + a.W * b.W;

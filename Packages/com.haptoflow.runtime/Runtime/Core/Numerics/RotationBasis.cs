@@ -2,15 +2,15 @@
 
 namespace HaptoFlow.Numerics
 {
-    /// <summary>Three unit vectors at right angles, third = first x second.</summary>
+    /// <summary>Three perpendicular unit vectors with third = first x second.</summary>
     internal readonly struct RotationBasis
     {
         private readonly Double3 first;
         private readonly Double3 second;
         private readonly Double3 third;
 
-        /// <param name="first">Of unit length.</param>
-        /// <param name="third">Of unit length, at right angles to the first.</param>
+        /// <param name="first">A unit vector.</param>
+        /// <param name="third">A unit vector perpendicular to the first.</param>
         public RotationBasis(Double3 first, Double3 third)
         {
             this.first = first;
@@ -24,10 +24,10 @@ namespace HaptoFlow.Numerics
 
         public Double3 Third => third;
 
-        /// <summary>The rotation that takes one basis to the other.</summary>
+        /// <summary>The rotation that maps one basis to the other.</summary>
         public static Rotation Between(in RotationBasis from, in RotationBasis to)
         {
-            // Rows of the matrix to * transposed(from), whose quaternion Shepperd (1978) finds by its largest part.
+            // Columns of the matrix to * transposed(from), converted to a quaternion by Shepperd (1978).
             Double3 x = Column(from, to, 0);
             Double3 y = Column(from, to, 1);
             Double3 z = Column(from, to, 2);
@@ -45,7 +45,7 @@ namespace HaptoFlow.Numerics
                 : new Rotation(z.X + x.Z, y.Z + z.Y, 1.0 + z.Z - x.X - y.Y, x.Y - y.X).Unit;
         }
 
-        /// <summary>Where the rotation takes one coordinate axis.</summary>
+        /// <summary>The image of one coordinate axis under the rotation.</summary>
         private static Double3 Column(in RotationBasis from, in RotationBasis to, int axis) =>
             to.first * from.first[axis] + to.second * from.second[axis] + to.third * from.third[axis];
     }

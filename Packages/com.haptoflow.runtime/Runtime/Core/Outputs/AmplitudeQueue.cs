@@ -3,24 +3,24 @@ using System;
 
 namespace HaptoFlow.Outputs
 {
-    /// <summary>Drives a motor: one amplitude for what the wave did since the last one. Every amplitude ends by itself
-    /// soon after the next one is due, so that a hitch is a gap.</summary>
+    /// <summary>Drives a motor with one amplitude for the stretch of the wave since the last one. Each amplitude ends
+    /// by itself soon after the next one is due, so a late frame causes a gap, not an endless vibration.</summary>
     internal sealed class AmplitudeQueue : HapticQueue
     {
-        /// <summary>The longest that a motor runs on by itself, in s.</summary>
+        /// <summary>Longest duration of one amplitude, in s.</summary>
         public const double LongestSeconds = 0.1;
 
         private const double FrameSeconds = 0.008;
-        private const int MostSamples = (int)(LongestSeconds * WaveHistory.RateHz);
+        private const int MaximumSamples = (int)(LongestSeconds * WaveHistory.RateHz);
         private const double DurationShare = 1.5;
         private const double DurationMarginSeconds = 0.01;
 
         private readonly IAmplitudeSink sink;
-        private readonly WaveFeatures features = new WaveFeatures(FrameSeconds, MostSamples);
+        private readonly WaveFeatures features = new WaveFeatures(FrameSeconds, MaximumSamples);
         private readonly WaveFrame[] frames;
-        private readonly float[] window = new float[MostSamples];
+        private readonly float[] window = new float[MaximumSamples];
         private double dueSeconds = double.NegativeInfinity;
-        private double saidSeconds;
+        private double submittedUntilSeconds;
         private long analysed;
         private float amplitude;
         private float frequencyHz;
@@ -43,22 +43,22 @@ namespace HaptoFlow.Outputs
             analysed = Wave.End;
         }
 
-        protected override void CallBack(double nowSeconds) => sink.Stop();
+        protected override void DiscardSubmitted(double nowSeconds) => sink.Stop();
 
         protected override void Advance(double nowSeconds, double elapsedSeconds)
         {
-            Listen(elapsedSeconds);
+            RenderSilently(elapsedSeconds);
             double interval = Capabilities.RateHz > 0.0 ? 1.0 / Capabilities.RateHz : 0.0;
             if (nowSeconds < dueSeconds)
             {
                 return;
             }
-            // On average no faster than the device; after a pause it owes nothing.
+            // Keeps the average rate at the device's limit; after a pause nothing is made up for.
             dueSeconds = Math.Max(dueSeconds + interval, nowSeconds + 0.5 * interval);
-            Say(nowSeconds, Math.Max(interval, Pace.LongestSeconds));
+            SubmitAmplitude(nowSeconds, Math.Max(interval, Pace.LongestSeconds));
         }
 
-        private void Say(double nowSeconds, double expectedSeconds)
+        private void SubmitAmplitude(double nowSeconds, double expectedSeconds)
         {
             int count = (int)Math.Min(Wave.End - analysed, window.Length);
             analysed = Wave.End;
@@ -76,20 +76,21 @@ namespace HaptoFlow.Outputs
                 return;
             }
             double duration = Math.Min(LongestSeconds, DurationShare * expectedSeconds + DurationMarginSeconds);
-            statistics.Gaps += IsPlaying && nowSeconds > saidSeconds ? 1 : 0;
+            statistics.Gaps += IsPlaying && nowSeconds > submittedUntilSeconds ? 1 : 0;
             if (!sink.Submit(sent, frequencyHz, (float)duration))
             {
                 LoseDevice();
                 return;
             }
             ++statistics.Submissions;
-            saidSeconds = nowSeconds + duration;
+            submittedUntilSeconds = nowSeconds + duration;
             IsPlaying = true;
             statistics.LatencyMilliseconds =
                 1000.0 * (count / WaveHistory.RateHz + FrameSeconds + WaveFeatures.LatencySeconds);
         }
 
-        /// <summary>The mean of the frames that are new, or the knock in one of them; what holds where none is.</summary>
+        /// <summary>Computes amplitude and frequency: the mean of the new frames, or the strongest transient among
+        /// them; unchanged without a new frame.</summary>
         private void Analyse(ReadOnlySpan<float> newest)
         {
             features.FullScaleMps2 = FullScaleMps2;
@@ -99,15 +100,15 @@ namespace HaptoFlow.Outputs
                 return;
             }
             float sum = 0f;
-            WaveFrame knock = default;
+            WaveFrame transient = default;
             for (int index = 0; index < count; ++index)
             {
                 sum += frames[index].Amplitude;
-                knock = frames[index].Transient > knock.Transient ? frames[index] : knock;
+                transient = frames[index].Transient > transient.Transient ? frames[index] : transient;
             }
-            bool isKnock = knock.Transient > sum / count;
-            amplitude = isKnock ? knock.Transient : sum / count;
-            frequencyHz = isKnock ? knock.TransientFrequencyHz : frames[count - 1].FrequencyHz;
+            bool isTransient = transient.Transient > sum / count;
+            amplitude = isTransient ? transient.Transient : sum / count;
+            frequencyHz = isTransient ? transient.TransientFrequencyHz : frames[count - 1].FrequencyHz;
         }
 
         private void End()

@@ -3,13 +3,13 @@ using System;
 
 namespace HaptoFlow.Outputs
 {
-    /// <summary>Arrays for calls that take whole arrays: one for each length that ever occurs, so that no call makes
-    /// garbage after the first of its length.</summary>
+    /// <summary>Arrays for calls that take whole arrays: one per length, created at its first use and reused
+    /// afterwards.</summary>
     public sealed class ArraysByLength<T>
     {
         private T[]?[] arrays = new T[]?[16];
 
-        /// <summary>The array of that length; it is the same each time.</summary>
+        /// <summary>The array of a length; the same object each time.</summary>
         public T[] Of(int length)
         {
             if (arrays.Length <= length)

@@ -3,22 +3,22 @@ using System;
 
 namespace HaptoFlow.Outputs
 {
-    /// <summary>How far ahead of a device the main thread has to be: the longest of the recent frames and a margin. A
-    /// hitch does not count, so the depth, which is latency, has an end.</summary>
+    /// <summary>Computes how far the main thread must be ahead of a device: the longest of the recent frames plus a
+    /// margin. Hitches are ignored, so that the latency stays bounded.</summary>
     internal sealed class FramePace
     {
-        /// <summary>A frame longer than this is a hitch, in s.</summary>
+        /// <summary>A longer frame is a hitch, in s.</summary>
         public const double HitchSeconds = 0.05;
 
         private const double MarginSeconds = 0.006;
-        private const double ShareForgottenPerFrame = 0.02;
+        private const double DecayPerFrame = 0.02;
 
-        private double longestSeconds = 1.0 / 72.0;
+        private double longestSeconds = 1.0 / HapticEngineOptions.DefaultUpdateRateHz;
 
-        /// <summary>What must be ahead of the device after a submission, in s.</summary>
+        /// <summary>Time that must be queued on the device after a submission, in s.</summary>
         public double DepthSeconds => longestSeconds + MarginSeconds;
 
-        /// <summary>The most that <see cref="DepthSeconds"/> can become.</summary>
+        /// <summary>Upper limit of <see cref="DepthSeconds"/>, in s.</summary>
         public static double MaximumDepthSeconds => HitchSeconds + MarginSeconds;
 
         /// <summary>The longest of the recent frames, in s.</summary>
@@ -31,7 +31,7 @@ namespace HaptoFlow.Outputs
                 return;
             }
             longestSeconds = Math.Max(frameSeconds,
-                longestSeconds + ShareForgottenPerFrame * (frameSeconds - longestSeconds));
+                longestSeconds + DecayPerFrame * (frameSeconds - longestSeconds));
         }
     }
 }

@@ -3,39 +3,40 @@ using System;
 
 namespace HaptoFlow.Outputs
 {
-    /// <summary>What a queue did since it was made. Counts unless the name says otherwise.</summary>
+    /// <summary>Statistics of a queue since it was created. Fields are counts unless their name says
+    /// otherwise.</summary>
     public struct HapticQueueStatistics
     {
-        /// <summary>From a sample's rendering to its being felt, by the queue's own clock and without what device and
-        /// radio add, in ms; 0 while nothing plays.</summary>
+        /// <summary>Time from rendering a sample to playing it, in ms, by the queue's clock and without the delays of
+        /// device and radio; 0 while nothing plays.</summary>
         public double LatencyMilliseconds;
 
-        /// <summary>Calls that brought something to the device.</summary>
+        /// <summary>Submissions to the device.</summary>
         public long Submissions;
 
-        /// <summary>How often the device had played everything before more came.</summary>
+        /// <summary>Number of times that the device had played everything before more arrived.</summary>
         public long Gaps;
 
-        /// <summary>How often the device was set to the queue's clock while it played.</summary>
+        /// <summary>Number of times that the device was realigned with the queue's clock during playback.</summary>
         public long Alignments;
 
-        /// <summary>How often something on its way was called back: by a mute, a pause, a panic, or the end of the
-        /// output.</summary>
+        /// <summary>Number of times that submitted samples were discarded: by a mute, a pause, a panic, or the end of
+        /// the output.</summary>
         public long Stops;
 
-        /// <summary>How often the device vanished, or came back as another.</summary>
+        /// <summary>Number of times that the device disappeared or was replaced.</summary>
         public long DeviceChanges;
 
-        /// <summary>The device's rate at present, in Hz; 0 where there is none.</summary>
+        /// <summary>The device's present rate, in Hz; 0 without one.</summary>
         public double RateHz;
     }
 
-    /// <summary>Brings a wave to a device: renders as much of it as the device's clock asks for, once a frame. Main
-    /// thread; no garbage but where the device changes.</summary>
+    /// <summary>Plays a wave on a device: each frame it renders as much as the device's clock requires. Main thread; no
+    /// garbage except when the device changes.</summary>
     internal abstract class HapticQueue : IDisposable
     {
-        // Of a motor of which nothing is known: most eccentric masses and resonant actuators run near it.
-        private const double UsualMotorHz = 160.0;
+        // For motors that do not report their frequency: most eccentric masses and resonant actuators run near it.
+        private const double DefaultMotorHz = 160.0;
 
         private const float LimiterKnee = 0.7f;
 
@@ -45,8 +46,8 @@ namespace HaptoFlow.Outputs
         private double beganSeconds = double.NaN;
         private float ceiling = 1f;
 
-        // What is left of the last frame's length: less than one sample of the wave.
-        private double unheard;
+        // Fraction of a wave sample left over from the last frame.
+        private double sampleFraction;
         private protected HapticQueueStatistics statistics;
 
         protected HapticQueue(IHapticSink sink, IWaveSource source)
@@ -55,21 +56,21 @@ namespace HaptoFlow.Outputs
             Source = source;
         }
 
-        /// <summary>What makes the wave's full scale the device's: 1 or more for a device that is weaker. Glides with the
-        /// submissions.</summary>
+        /// <summary>Gain from the wave's full scale to the device's: 1 or more for a weaker device. Changes take effect
+        /// with the next submissions.</summary>
         public float Gain { get; set; } = 1f;
 
-        /// <summary>The largest magnitude that is sent, 0 to 1.</summary>
+        /// <summary>Limit of the magnitude sent, 0 to 1.</summary>
         public float Ceiling
         {
             get => ceiling;
             set => ceiling = Math.Max(0f, Math.Min(1f, value));
         }
 
-        /// <summary>The acceleration that a sample of 1 stands for, in m/s^2.</summary>
+        /// <summary>Full scale: the acceleration that a sample of 1 represents, in m/s^2.</summary>
         public float FullScaleMps2 { get; set; } = (float)HapticEngineOptions.DefaultFullScaleMps2;
 
-        /// <summary>Something is on its way to the device, or plays there.</summary>
+        /// <summary>True while samples are queued or playing on the device.</summary>
         public bool IsPlaying { get; private protected set; }
 
         public HapticQueueStatistics Statistics => statistics;
@@ -82,8 +83,8 @@ namespace HaptoFlow.Outputs
 
         protected HapticSinkCapabilities Capabilities => capabilities;
 
-        /// <summary>Once a frame.</summary>
-        /// <param name="nowSeconds">Of a clock that goes on while a frame takes long; never backwards.</param>
+        /// <summary>Call once a frame.</summary>
+        /// <param name="nowSeconds">Time of a real-time clock that never runs backwards.</param>
         public void Update(double nowSeconds)
         {
             double elapsed = double.IsNaN(beganSeconds) ? 0.0 : Math.Max(0.0, nowSeconds - beganSeconds);
@@ -96,37 +97,37 @@ namespace HaptoFlow.Outputs
             if (Source.IsStopped)
             {
                 Flush(nowSeconds);
-                // The voice closes what it silences while it is rendered; nobody feels it.
-                Listen(elapsed);
+                // Voices fade out only while rendered; these samples are discarded.
+                RenderSilently(elapsed);
                 return;
             }
             Advance(nowSeconds, elapsed);
-            // What was stopped since the last frame shows in what was rendered now.
+            // Rendering may have detected a stop since the last frame.
             if (Source.IsStopped)
             {
                 Flush(nowSeconds);
             }
         }
 
-        /// <summary>Calls back what is on its way: reaches the device with this call.</summary>
-        /// <param name="nowSeconds">Of the same clock as <see cref="Update"/>'s.</param>
+        /// <summary>Discards submitted samples; takes effect on the device with this call.</summary>
+        /// <param name="nowSeconds">Time of the clock of <see cref="Update"/>.</param>
         public void Flush(double nowSeconds)
         {
             if (IsPlaying)
             {
                 ++statistics.Stops;
-                CallBack(nowSeconds);
+                DiscardSubmitted(nowSeconds);
                 Rest();
             }
         }
 
-        /// <summary>Moves wave and device on by a frame.</summary>
+        /// <summary>Advances wave and device by a frame.</summary>
         protected abstract void Advance(double nowSeconds, double elapsedSeconds);
 
-        /// <summary>Something plays and must end now.</summary>
-        protected abstract void CallBack(double nowSeconds);
+        /// <summary>Ends the present playback now.</summary>
+        protected abstract void DiscardSubmitted(double nowSeconds);
 
-        /// <summary>The device is a new one, or changed.</summary>
+        /// <summary>Called when the device is new or has changed.</summary>
         protected abstract void Prepare();
 
         /// <inheritdoc/>
@@ -134,13 +135,13 @@ namespace HaptoFlow.Outputs
         {
         }
 
-        /// <summary>What the device can play, as far as it says so.</summary>
+        /// <summary>Sets the device's frequency range, as far as it reports one.</summary>
         protected void SetRangeOf(WaveFeatures features)
         {
             bool isKnown = Capabilities.MinFrequencyHz > 0.0 &&
                 Capabilities.MaxFrequencyHz >= Capabilities.MinFrequencyHz;
-            features.SetRange(isKnown ? Capabilities.MinFrequencyHz : UsualMotorHz,
-                isKnown ? Math.Min(Capabilities.MaxFrequencyHz, 1000.0) : UsualMotorHz);
+            features.SetRange(isKnown ? Capabilities.MinFrequencyHz : DefaultMotorHz,
+                isKnown ? Math.Min(Capabilities.MaxFrequencyHz, 1000.0) : DefaultMotorHz);
         }
 
         protected void Rest()
@@ -149,7 +150,7 @@ namespace HaptoFlow.Outputs
             statistics.LatencyMilliseconds = 0.0;
         }
 
-        /// <summary>The device said that it is gone.</summary>
+        /// <summary>Called after the device reported that it is gone.</summary>
         protected void LoseDevice()
         {
             if (hasDevice)
@@ -162,13 +163,13 @@ namespace HaptoFlow.Outputs
         }
 
         /// <summary>Renders a frame's length while nothing plays.</summary>
-        /// <returns>The position from which on something can be felt; -1 where all is silent.</returns>
-        protected long Listen(double elapsedSeconds)
+        /// <returns>The position of the first audible sample; -1 where all are silent.</returns>
+        protected long RenderSilently(double elapsedSeconds)
         {
             long from = Wave.End;
-            unheard += Math.Min(elapsedSeconds, FramePace.HitchSeconds) * WaveHistory.RateHz;
-            long whole = (long)unheard;
-            unheard -= whole;
+            sampleFraction += Math.Min(elapsedSeconds, FramePace.HitchSeconds) * WaveHistory.RateHz;
+            long whole = (long)sampleFraction;
+            sampleFraction -= whole;
             Wave.RenderTo(from + whole, Source);
             for (long position = from; position < Wave.End; ++position)
             {
@@ -180,7 +181,8 @@ namespace HaptoFlow.Outputs
             return -1;
         }
 
-        /// <summary>What the device gets for a sample of the wave: bent before the ceiling rather than cut.</summary>
+        /// <summary>The sample for the device: with gain, and compressed below the ceiling rather than
+        /// clipped.</summary>
         protected float Limited(float sample)
         {
             float magnitude = Math.Abs(sample) * Gain;
@@ -193,7 +195,7 @@ namespace HaptoFlow.Outputs
             return Math.Sign(sample) * magnitude;
         }
 
-        /// <summary>Below this nothing is felt: a device need not be kept busy with it.</summary>
+        /// <summary>Smaller magnitudes cannot be felt; the device need not play them.</summary>
         protected const float Inaudible = 1e-5f;
 
         private bool FindDevice()
@@ -210,7 +212,7 @@ namespace HaptoFlow.Outputs
             }
             if (hasDevice)
             {
-                // What was on its way was made for another device.
+                // The queued samples were meant for the other device.
                 sink.Stop();
                 ++statistics.DeviceChanges;
             }

@@ -3,33 +3,33 @@ using System;
 
 namespace HaptoFlow.Outputs
 {
-    /// <summary>Streams amplitude, frequency and transients ahead of a device that plays them. The stream begins anew
-    /// before the device's clock can have drifted by more than the margin, and after a hitch from silence.</summary>
+    /// <summary>Streams amplitude, frequency and transients ahead of the device's playback. The stream restarts before
+    /// the drift of the device's clock can exceed the margin, and from silence after a hitch.</summary>
     internal sealed class ParametricQueue : HapticQueue
     {
-        /// <summary>From point to point, in s.</summary>
+        /// <summary>Interval between points, in s.</summary>
         public const double PointSeconds = 0.005;
 
-        private const double WorstDrift = 0.006;
-        private const double MostDoubtSeconds = 0.003;
+        private const double MaximumDrift = 0.006;
+        private const double MaximumUncertaintySeconds = 0.003;
         private const int PointSamples = (int)(PointSeconds * WaveHistory.RateHz);
 
-        // Of one submission; twice as many are remembered, for a stream that begins anew.
-        private const int MostPoints = 64;
+        // Points of one submission; twice as many are kept for a restart of the stream.
+        private const int MaximumPoints = 64;
 
         private readonly IParametricSink sink;
         private readonly WaveFeatures features = new WaveFeatures(PointSeconds, PointSamples);
         private readonly float[] stretch = new float[PointSamples];
-        private readonly ParametricPoint[] amplitudes = new ParametricPoint[MostPoints + 1];
-        private readonly ParametricPoint[] frequencies = new ParametricPoint[MostPoints + 1];
-        private readonly ParametricTransient[] transients = new ParametricTransient[MostPoints + 1];
-        private readonly WaveFrame[] frames = new WaveFrame[2 * MostPoints];
+        private readonly ParametricPoint[] amplitudes = new ParametricPoint[MaximumPoints + 1];
+        private readonly ParametricPoint[] frequencies = new ParametricPoint[MaximumPoints + 1];
+        private readonly ParametricTransient[] transients = new ParametricTransient[MaximumPoints + 1];
+        private readonly WaveFrame[] frames = new WaveFrame[2 * MaximumPoints];
         private readonly WaveFrame[] completed;
 
-        // Point n stands at the end of stretch n - 1 of the wave, counted from its origin.
+        // Point n is at the end of stretch n - 1 of the wave, counted from its origin.
         private long origin;
         private long made;
-        private long heard;
+        private long analysedSamples;
         private long anchorPoint;
         private double anchorSeconds;
         private long sentPoint;
@@ -46,13 +46,13 @@ namespace HaptoFlow.Outputs
 
         protected override void Prepare() => SetRangeOf(features);
 
-        protected override void CallBack(double nowSeconds) => sink.Stop();
+        protected override void DiscardSubmitted(double nowSeconds) => sink.Stop();
 
         protected override void Advance(double nowSeconds, double elapsedSeconds)
         {
             if (!IsPlaying)
             {
-                BeginWhereSomethingIsFelt(nowSeconds, elapsedSeconds);
+                BeginAtFirstAudibleSample(nowSeconds, elapsedSeconds);
                 return;
             }
             double since = nowSeconds - anchorSeconds;
@@ -62,7 +62,7 @@ namespace HaptoFlow.Outputs
                 Begin(nowSeconds, sentPoint);
                 Send(nowSeconds, true, 0f);
             }
-            else if (WorstDrift * since > MostDoubtSeconds)
+            else if (MaximumDrift * since > MaximumUncertaintySeconds)
             {
                 ++statistics.Alignments;
                 Begin(nowSeconds, anchorPoint + (long)Math.Round(since / PointSeconds));
@@ -76,9 +76,9 @@ namespace HaptoFlow.Outputs
 
         private double IntervalSeconds => Capabilities.RateHz > 0.0 ? 1.0 / Capabilities.RateHz : 0.0;
 
-        private void BeginWhereSomethingIsFelt(double nowSeconds, double elapsedSeconds)
+        private void BeginAtFirstAudibleSample(double nowSeconds, double elapsedSeconds)
         {
-            long first = Listen(elapsedSeconds);
+            long first = RenderSilently(elapsedSeconds);
             if (first < 0)
             {
                 return;
@@ -86,7 +86,7 @@ namespace HaptoFlow.Outputs
             features.Reset();
             origin = first;
             made = 0L;
-            heard = 0L;
+            analysedSamples = 0L;
             sentPoint = 0L;
             frames[0] = default;
             IsPlaying = true;
@@ -107,37 +107,37 @@ namespace HaptoFlow.Outputs
             double ahead = Pace.DepthSeconds + IntervalSeconds;
             if (starts)
             {
-                ahead = Math.Max(ahead, Capabilities.LeastDepthSeconds);
+                ahead = Math.Max(ahead, Capabilities.MinimumDepthSeconds);
                 sentPoint = anchorPoint;
             }
-            long last = Math.Min(sentPoint + MostPoints,
+            long last = Math.Min(sentPoint + MaximumPoints,
                 anchorPoint + (long)Math.Ceiling((since + ahead) / PointSeconds));
             if (last <= sentPoint)
             {
                 return;
             }
-            Make(last);
+            AnalyseUpTo(last);
             bool ends = !IsFelt(sentPoint, last);
             int count = 0;
             if (starts)
             {
                 Set(count++, anchorPoint, entry);
             }
-            int knocks = 0;
+            int transientCount = 0;
             for (long point = sentPoint + 1L; point <= last; ++point)
             {
                 Set(count++, point, ends ? 0f : Value(point));
                 WaveFrame frame = frames[point % frames.Length];
                 if (frame.Transient > 0f)
                 {
-                    transients[knocks++] = new ParametricTransient(
+                    transients[transientCount++] = new ParametricTransient(
                         (point - 1L - anchorPoint) * PointSeconds + frame.TransientOffsetSeconds,
                         Limited(frame.Transient), Share(frame.TransientFrequencyHz));
                 }
             }
             StreamPart part = starts ? StreamPart.First : ends ? StreamPart.Last : StreamPart.Intermediate;
             if (!sink.Submit(amplitudes.AsSpan(0, count), frequencies.AsSpan(0, count),
-                transients.AsSpan(0, knocks), part))
+                transients.AsSpan(0, transientCount), part))
             {
                 LoseDevice();
                 return;
@@ -153,17 +153,17 @@ namespace HaptoFlow.Outputs
             }
         }
 
-        private void Make(long last)
+        private void AnalyseUpTo(long last)
         {
             features.FullScaleMps2 = FullScaleMps2;
             while (made < last)
             {
-                Wave.RenderTo(Math.Max(Wave.End, origin + heard + PointSamples), Source);
+                Wave.RenderTo(Math.Max(Wave.End, origin + analysedSamples + PointSamples), Source);
                 for (int index = 0; index < PointSamples; ++index)
                 {
-                    stretch[index] = Wave[origin + heard + index];
+                    stretch[index] = Wave[origin + analysedSamples + index];
                 }
-                heard += PointSamples;
+                analysedSamples += PointSamples;
                 int count = features.Process(stretch, completed);
                 for (int index = 0; index < count; ++index)
                 {

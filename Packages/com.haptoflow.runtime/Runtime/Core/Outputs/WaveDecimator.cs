@@ -3,30 +3,31 @@ using System;
 
 namespace HaptoFlow.Outputs
 {
-    /// <summary>Reads a wave at a device's rate, at any position between samples: a linear-phase low-pass (sinc under a
-    /// Kaiser window) that keeps what lies below 0.4 of that rate and holds back what would fold.</summary>
+    /// <summary>Resamples a wave to a device's rate at any position between samples: a linear-phase low-pass
+    /// (Kaiser-windowed sinc) that passes frequencies below 0.4 of that rate and suppresses aliases. Written here
+    /// because neither .NET nor Unity resamples blocks on the main thread.</summary>
     internal sealed class WaveDecimator
     {
-        // 60 dB with a transition from 0.4 to 0.6 of the device's rate take this many of its samples on each side.
+        // Half width in device samples for 60 dB of attenuation with a transition from 0.4 to 0.6 of the device's rate.
         private const double FullHalfWidthSamples = 9.0;
-        private const double LeastHalfWidthSamples = 1.5;
+        private const double MinimumHalfWidthSamples = 1.5;
 
-        // A low rate pays with a wider transition rather than with more delay.
-        private const double LongestDelaySeconds = 0.012;
+        // At low rates the transition is widened to limit the delay.
+        private const double MaximumDelaySeconds = 0.012;
         private const double KaiserBeta = 5.65;
         private const int PhasesPerSample = 64;
 
         private readonly float[] kernel;
         private readonly int halfWidth;
 
-        /// <param name="rateHz">Of the device, above 0.</param>
+        /// <param name="rateHz">Rate of the device, above 0.</param>
         public WaveDecimator(double rateHz)
         {
             Step = WaveHistory.RateHz / rateHz;
-            // Above the wave's own rate nothing folds: there it only reads between samples.
+            // Above the wave's own rate there are no aliases; the filter then only interpolates.
             double widest = Math.Max(1.0, Step);
             double halfSamples = Math.Min(FullHalfWidthSamples,
-                Math.Max(LeastHalfWidthSamples, LongestDelaySeconds * WaveHistory.RateHz / widest));
+                Math.Max(MinimumHalfWidthSamples, MaximumDelaySeconds * WaveHistory.RateHz / widest));
             halfWidth = (int)Math.Ceiling(halfSamples * widest);
             kernel = new float[halfWidth * PhasesPerSample + 2];
             double cutoff = 1.0 / widest;
@@ -45,16 +46,16 @@ namespace HaptoFlow.Outputs
             }
         }
 
-        /// <summary>Wave samples in one of the device's.</summary>
+        /// <summary>Wave samples per device sample.</summary>
         public double Step { get; }
 
-        /// <summary>Wave samples behind a position that reading it takes.</summary>
+        /// <summary>Wave samples after a position that reading it needs.</summary>
         public int LookAhead => halfWidth;
 
-        /// <summary>What the filter delays, in s.</summary>
+        /// <summary>Delay of the filter, in s.</summary>
         public double DelaySeconds => halfWidth / WaveHistory.RateHz;
 
-        /// <summary>The wave at a position, in wave samples.</summary>
+        /// <summary>The filtered wave at a position, in wave samples.</summary>
         public float SampleAt(WaveHistory wave, double position)
         {
             long first = (long)Math.Ceiling(position - halfWidth);
@@ -76,7 +77,7 @@ namespace HaptoFlow.Outputs
         private static double Kaiser(double share) =>
             share >= 1.0 ? 0.0 : Bessel(KaiserBeta * Math.Sqrt(1.0 - share * share)) / Bessel(KaiserBeta);
 
-        /// <summary>The modified Bessel function of the first kind and order 0, by its series.</summary>
+        /// <summary>The modified Bessel function of the first kind and order 0, by its power series.</summary>
         private static double Bessel(double x)
         {
             double sum = 1.0;

@@ -4,7 +4,7 @@ using HaptoFlow.Native;
 
 namespace HaptoFlow.Outputs
 {
-    /// <summary>What a stretch of the wave feels like.</summary>
+    /// <summary>Perceptual features of a stretch of the wave.</summary>
     public readonly struct WaveFrame
     {
         /// <param name="amplitude">See <see cref="Amplitude"/>.</param>
@@ -22,29 +22,30 @@ namespace HaptoFlow.Outputs
             TransientOffsetSeconds = transientOffsetSeconds;
         }
 
-        /// <summary>Of the vibration at <see cref="FrequencyHz"/> that feels as strong, in full scales of the wave.
-        /// </summary>
+        /// <summary>Amplitude of the vibration at <see cref="FrequencyHz"/> that feels equally strong, relative to full
+        /// scale.</summary>
         public float Amplitude { get; }
 
-        /// <summary>Where the energy is as the hand weighs it, within the device's range, in Hz.</summary>
+        /// <summary>Perceptually weighted centre of the spectrum, within the device's range, in Hz.</summary>
         public float FrequencyHz { get; }
 
-        /// <summary>Of a knock within the stretch: amplitude of the vibration at <see cref="TransientFrequencyHz"/> that
-        /// feels as strong, in full scales of the wave; 0 for none.</summary>
+        /// <summary>Amplitude of the vibration at <see cref="TransientFrequencyHz"/> that feels as strong as a
+        /// transient within the stretch, relative to full scale; 0 for none.</summary>
         public float Transient { get; }
 
-        /// <summary>The knock's own frequency, within the device's range, in Hz.</summary>
+        /// <summary>Frequency of the transient, within the device's range, in Hz.</summary>
         public float TransientFrequencyHz { get; }
 
-        /// <summary>From the beginning of the stretch to the knock, in s.</summary>
+        /// <summary>Time from the beginning of the stretch to the transient, in s.</summary>
         public float TransientOffsetSeconds { get; }
     }
 
-    /// <summary>Makes frames of amplitude, frequency and transients from a wave, each as intense to the hand as the wave
-    /// was. Any one thread; no garbage after construction.</summary>
+    /// <summary>Computes frames of amplitude, frequency and transients from a wave, each of the same perceived
+    /// intensity as the wave. One thread at a time; no garbage after construction.</summary>
     public sealed unsafe class WaveFeatures : IDisposable
     {
-        /// <summary>From the end of a frame until it is known, in s, with what the low-pass before it delays.</summary>
+        /// <summary>Time from the end of a frame until its features are known, in s, including the low-pass before
+        /// it.</summary>
         public const double LatencySeconds = 0.0055;
 
         private readonly WaveFeaturesHandle handle;
@@ -52,8 +53,8 @@ namespace HaptoFlow.Outputs
         private readonly float[] scaled;
 
         /// <param name="frameSeconds">Length of a frame, 0.002 to 0.032 s.</param>
-        /// <param name="maximumSamples">Of one call of <see cref="Process"/>.</param>
-        /// <param name="rateHz">Of the wave: a multiple of 2000 up to 192000.</param>
+        /// <param name="maximumSamples">Limit of samples in one call of <see cref="Process"/>.</param>
+        /// <param name="rateHz">Rate of the wave: a multiple of 2000 up to 192000 Hz.</param>
         /// <exception cref="HaptoFlowException">Length or rate is out of range, or the library is missing.</exception>
         public WaveFeatures(double frameSeconds, int maximumSamples, int rateHz = (int)WaveHistory.RateHz)
         {
@@ -70,30 +71,31 @@ namespace HaptoFlow.Outputs
             handle = new WaveFeaturesHandle(opened);
         }
 
-        /// <summary>The most frames that one call of <see cref="Process"/> can complete.</summary>
+        /// <summary>Upper limit of frames that one call of <see cref="Process"/> completes.</summary>
         public int MostFrames => frames.Length;
 
-        /// <summary>The acceleration that a sample of 1 stands for, in m/s^2: what is felt depends on it.</summary>
+        /// <summary>Full scale: the acceleration that a sample of 1 represents, in m/s^2. The features depend on
+        /// it.</summary>
         public float FullScaleMps2 { get; set; } = (float)HapticEngineOptions.DefaultFullScaleMps2;
 
-        /// <summary>Forgets what came before: the wave begins anew.</summary>
+        /// <summary>Discards the state before a new wave.</summary>
         public void Reset()
         {
             NativeCall.Check(NativeMethods.WaveFeaturesReset(handle.Value));
             GC.KeepAlive(this);
         }
 
-        /// <summary>What the device can play from the next frame on, above 0 to 1000 Hz; both the same for a motor of one
-        /// frequency.</summary>
+        /// <summary>Sets the device's frequency range from the next frame on, above 0 to 1000 Hz; equal limits for a
+        /// motor of one frequency.</summary>
         public void SetRange(double minimumHz, double maximumHz)
         {
             NativeCall.Check(NativeMethods.WaveFeaturesSetRange(handle.Value, minimumHz, maximumHz));
             GC.KeepAlive(this);
         }
 
-        /// <summary>Takes the next samples and writes the frames that they complete.</summary>
-        /// <param name="into">Room for <see cref="MostFrames"/>.</param>
-        /// <returns>How many frames.</returns>
+        /// <summary>Processes samples and writes the frames that they complete.</summary>
+        /// <param name="into">At least <see cref="MostFrames"/> long.</param>
+        /// <returns>Number of frames written.</returns>
         public int Process(ReadOnlySpan<float> samples, Span<WaveFrame> into)
         {
             for (int index = 0; index < samples.Length; ++index)

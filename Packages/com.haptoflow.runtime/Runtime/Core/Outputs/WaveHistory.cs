@@ -3,11 +3,11 @@ using System;
 
 namespace HaptoFlow.Outputs
 {
-    /// <summary>The newest stretch of a wave, by position from its beginning. The voice renders at this rate, the lowest
-    /// that it knows; a device's own rate is taken from here by <see cref="WaveDecimator"/>.</summary>
+    /// <summary>Ring buffer of the newest samples of a wave, addressed by position. Voices render at this rate, the
+    /// lowest that they support; <see cref="WaveDecimator"/> converts it to the device's.</summary>
     public sealed class WaveHistory
     {
-        /// <summary>Samples a second.</summary>
+        /// <summary>Sample rate in Hz.</summary>
         public const double RateHz = 8000.0;
 
         private const int Size = 4096;
@@ -15,18 +15,18 @@ namespace HaptoFlow.Outputs
 
         private readonly float[] samples = new float[Size];
 
-        /// <summary>Samples since the beginning.</summary>
+        /// <summary>Number of samples since the beginning.</summary>
         public long End { get; private set; }
 
-        /// <summary>The longest stretch that can be appended and read back at once.</summary>
+        /// <summary>Length of the buffer in s.</summary>
         public static double CapacitySeconds => Size / RateHz;
 
-        /// <summary>0 where the position was never written or is forgotten.</summary>
+        /// <summary>The sample at a position; 0 where it was never written or has been overwritten.</summary>
         public float this[long position] =>
             position >= 0 && position < End && position >= End - Size ? samples[position & Mask] : 0f;
 
-        /// <summary>Takes the next samples from a source.</summary>
-        /// <param name="end">The position behind the last one.</param>
+        /// <summary>Renders samples from a source up to a position.</summary>
+        /// <param name="end">The position after the last sample.</param>
         public void RenderTo(long end, IWaveSource source)
         {
             while (End < end)
@@ -37,14 +37,14 @@ namespace HaptoFlow.Outputs
                 source.Render(block);
                 for (int index = 0; index < count; ++index)
                 {
-                    // NaN compares false.
+                    // A comparison with NaN is false.
                     block[index] = block[index] >= -1f && block[index] <= 1f ? block[index] : Limited(block[index]);
                 }
                 End += count;
             }
         }
 
-        /// <summary>Largest magnitude between two positions.</summary>
+        /// <summary>Peak magnitude between two positions.</summary>
         public float Peak(long from, long to)
         {
             float peak = 0f;
@@ -55,7 +55,7 @@ namespace HaptoFlow.Outputs
             return peak;
         }
 
-        /// <summary>Copies what was written last, oldest first.</summary>
+        /// <summary>Copies the newest samples, oldest first.</summary>
         public void CopyNewest(Span<float> target)
         {
             for (int index = 0; index < target.Length; ++index)

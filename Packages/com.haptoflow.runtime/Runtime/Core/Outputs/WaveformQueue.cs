@@ -3,23 +3,24 @@ using System;
 
 namespace HaptoFlow.Outputs
 {
-    /// <summary>Keeps a device that plays the wave itself supplied.</summary>
-    /// <remarks>A device does not say how much it has left, and its clock is not ours. Where a submission replaces what
-    /// plays without a gap, every frame sends the stretch from what is felt now to the depth, with a fade at its end: the
-    /// device's clock is set anew each time, and a hitch is a fade. Where submissions queue, each frame appends what the
-    /// clock says was played, and the device is set to the clock before its drift can have used up the margin, in a quiet
-    /// moment where there is one; submissions end where the wave is small, since a hitch ends there.</remarks>
+    /// <summary>Supplies a device that plays waveforms.</summary>
+    /// <remarks>The device does not report how many samples are left, and its clock is independent. Where a submission
+    /// can replace what plays without a gap, every frame sends the stretch from the sample playing now to the required
+    /// depth, with a fade at its end: the device is realigned each time, and a late frame causes a fade. Where
+    /// submissions queue, each frame appends what was played according to the clock, and the device is realigned before
+    /// its drift can exceed the margin, in a quiet moment if possible; each submission ends at a small sample, since a
+    /// late frame cuts there.</remarks>
     internal sealed class WaveformQueue : HapticQueue
     {
-        /// <summary>The fade at the end of a stretch that nothing may follow, in s.</summary>
+        /// <summary>Duration of the fade at the end of a stretch, in s.</summary>
         public const double FadeSeconds = 0.003;
 
         private const double EntrySeconds = 0.002;
 
-        // No clock in a controller is further off than this.
-        private const double WorstDrift = 0.006;
-        private const double LeastDoubtSeconds = 0.001;
-        private const double MostDoubtSeconds = 0.003;
+        // Upper limit of the relative error of a controller's clock.
+        private const double MaximumDrift = 0.006;
+        private const double MinimumUncertaintySeconds = 0.001;
+        private const double MaximumUncertaintySeconds = 0.003;
         private const double QuietSeconds = 0.004;
         private const float QuietShare = 0.2f;
         private const double SearchForSmallSeconds = 0.0025;
@@ -30,16 +31,16 @@ namespace HaptoFlow.Outputs
         private double preparedRateHz = 2000.0;
         private float[] buffer = Array.Empty<float>();
 
-        // What is felt at the beginning of the newest stretch, in wave samples; when that began; what it lasts.
+        // Playing position at the start of the newest stretch, in wave samples; its start time and its duration.
         private double position;
         private double anchorSeconds;
         private double stretchSeconds;
         private float entryGain;
 
-        // Queuing: device samples since the anchor.
+        // Queuing: device samples submitted since the anchor.
         private long sent;
 
-        /// <param name="mayReplace">False for submissions that queue, also where the device could replace.</param>
+        /// <param name="mayReplace">False to queue submissions even where the device can replace them.</param>
         public WaveformQueue(IWaveformSink sink, IWaveSource source, bool mayReplace = true)
             : base(sink, source)
         {
@@ -54,7 +55,7 @@ namespace HaptoFlow.Outputs
             double longest = FramePace.MaximumDepthSeconds + FadeSeconds;
             int samples = (int)Math.Ceiling(longest * RateHz) + 3;
             samples = Math.Max(1, Math.Min(samples, Capabilities.MaximumSamples));
-            // A device that comes and goes, or refuses now and then, makes no garbage.
+            // Reuses the buffers, so that a device that comes and goes makes no garbage.
             if (preparedRateHz != RateHz)
             {
                 preparedRateHz = RateHz;
@@ -82,7 +83,7 @@ namespace HaptoFlow.Outputs
             }
         }
 
-        protected override void CallBack(double nowSeconds)
+        protected override void DiscardSubmitted(double nowSeconds)
         {
             if (!replaces)
             {
@@ -105,12 +106,12 @@ namespace HaptoFlow.Outputs
 
         private bool Begin(double nowSeconds, double elapsedSeconds)
         {
-            long first = Listen(elapsedSeconds);
+            long first = RenderSilently(elapsedSeconds);
             if (first < 0)
             {
                 return false;
             }
-            // What the filter needs before the first sample is silence: it costs no delay.
+            // The filter's input before the first sample is silence, so starting costs no delay.
             SetAnchor(nowSeconds, first);
             entryGain = 1f;
             stretchSeconds = 0.0;
@@ -147,7 +148,7 @@ namespace HaptoFlow.Outputs
             }
         }
 
-        /// <summary>Goes on with what is felt now, at the gain that it has now.</summary>
+        /// <summary>Moves the anchor to the sample and gain playing now.</summary>
         /// <returns>True where the device has played everything.</returns>
         private bool MoveTo(double nowSeconds)
         {
@@ -188,7 +189,7 @@ namespace HaptoFlow.Outputs
             RenderFor(sent + count);
             if (Wave.Peak((long)(position + (sent - 1) * decimator.Step) - decimator.LookAhead, Wave.End) <= Inaudible)
             {
-                // What is on its way ends in silence.
+                // The samples already submitted end in silence.
                 Rest();
                 return;
             }
@@ -202,12 +203,12 @@ namespace HaptoFlow.Outputs
 
         private bool MustAlign(double sinceSeconds)
         {
-            double doubt = WorstDrift * sinceSeconds;
-            if (doubt < LeastDoubtSeconds)
+            double uncertainty = MaximumDrift * sinceSeconds;
+            if (uncertainty < MinimumUncertaintySeconds)
             {
                 return false;
             }
-            if (doubt >= MostDoubtSeconds)
+            if (uncertainty >= MaximumUncertaintySeconds)
             {
                 return true;
             }
@@ -217,7 +218,7 @@ namespace HaptoFlow.Outputs
             return Wave.Peak(felt - around, felt + around) <= QuietShare * recent;
         }
 
-        /// <summary>The wave as far as so many device samples from the anchor read it.</summary>
+        /// <summary>Renders the wave for a number of device samples after the anchor.</summary>
         private void RenderFor(long deviceSamples) => Wave.RenderTo(
             (long)Math.Ceiling(position + deviceSamples * decimator.Step) + decimator.LookAhead + 1L, Source);
 
@@ -238,7 +239,7 @@ namespace HaptoFlow.Outputs
             }
         }
 
-        /// <summary>How many samples of a submission to send, so that it ends where the wave is small.</summary>
+        /// <summary>Shortens a submission so that it ends at a small sample.</summary>
         private int SmallEnd(int count)
         {
             int end = count;

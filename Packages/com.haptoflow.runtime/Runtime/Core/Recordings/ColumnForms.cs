@@ -4,7 +4,7 @@ using System.Linq;
 
 namespace HaptoFlow.Recordings
 {
-    /// <summary>Columns that stand together, and what makes SI units of their numbers.</summary>
+    /// <summary>Columns that belong together, and the factor that converts their numbers to SI units.</summary>
     internal sealed class ColumnForm
     {
         public ColumnForm(double factor, params string[] columns)
@@ -18,7 +18,7 @@ namespace HaptoFlow.Recordings
         public string[] Columns { get; }
     }
 
-    /// <summary>The columns that a table of one's own may have, by name with their unit.</summary>
+    /// <summary>The columns of a recording's table, by name with their unit.</summary>
     internal static class ColumnForms
     {
         public const string Time = "time_s";
@@ -46,15 +46,15 @@ namespace HaptoFlow.Recordings
             new ColumnForm(1.0, "force_newtons"), new ColumnForm(1e-3, "force_millinewtons"),
         };
 
-        /// <summary>For messages: the forms' columns, each form in its order.</summary>
+        /// <summary>The columns of each form, for messages.</summary>
         public static string NamesOf(IEnumerable<ColumnForm> forms) =>
             string.Join(" | ", forms.Select(form => string.Join(", ", form.Columns)));
 
         public static bool IsKnown(string column) => column == Time ||
             Acceleration.Concat(Motion).Concat(Force).Any(form => form.Columns.Contains(column));
 
-        /// <summary>Null where no form of these is there.</summary>
-        /// <exception cref="HaptoFlowException">Two forms, or one that is not whole.</exception>
+        /// <summary>The form whose columns are present; null without one.</summary>
+        /// <exception cref="HaptoFlowException">Columns of two forms are present, or a form is incomplete.</exception>
         public static ColumnForm? FormIn(string file, string[] names, ColumnForm[] forms, string what)
         {
             ColumnForm[] present = forms.Where(form => form.Columns.Any(names.Contains)).ToArray();

@@ -5,11 +5,11 @@ using System.Linq;
 
 namespace HaptoFlow.Recordings
 {
-    /// <summary>Refuses numbers that say that their name has another unit, and a sensor that is dead.</summary>
+    /// <summary>Rejects numbers that indicate a wrong unit in a column's name, and signals of a dead sensor.</summary>
     internal static class RecordingChecks
     {
         private const double SlowestMps = 0.0005;
-        private const double StrongestRmsMps2 = 40.0 * ColumnForms.GravityMps2;
+        private const double MaximumRmsMps2 = 40.0 * ColumnForms.GravityMps2;
 
         private static readonly Dictionary<string, string> OtherUnit = new Dictionary<string, string>
         {
@@ -30,7 +30,7 @@ namespace HaptoFlow.Recordings
             string column = acceleration.Columns[0];
             if (rms.Equals(0.0))
             {
-                throw RecordingError.Of(file, $"{column} stays the same", "a sensor that is never quite still");
+                throw RecordingError.Of(file, $"{column} stays the same", "a signal that changes: check the sensor");
             }
             bool isG = column.EndsWith("_g", StringComparison.Ordinal);
             double restInG = rest / ColumnForms.GravityMps2;
@@ -44,10 +44,10 @@ namespace HaptoFlow.Recordings
                 throw RecordingError.Of(file, Inv($"{column} rests at {rest:0.00}, which looks like g"),
                     "m/s^2 (9.8 at rest); name the columns with _g where they are in g");
             }
-            if (rms > StrongestRmsMps2)
+            if (rms > MaximumRmsMps2)
             {
                 throw RecordingError.Of(file, Inv($"{column} has an RMS of {rms:0} m/s^2"),
-                    Inv($"at most {StrongestRmsMps2:0}: check the unit, or full_scale_mps2 of a WAV file"));
+                    Inv($"at most {MaximumRmsMps2:0}: check the unit, or full_scale_mps2 of a WAV file"));
             }
         }
 

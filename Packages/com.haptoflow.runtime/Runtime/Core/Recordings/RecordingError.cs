@@ -2,7 +2,7 @@
 
 namespace HaptoFlow.Recordings
 {
-    /// <summary>Says what is wrong with a recording's file, in the words of the other readers.</summary>
+    /// <summary>The exception for a wrong recording file; its text has the same form as the native library's.</summary>
     internal static class RecordingError
     {
         public static HaptoFlowException Of(string file, string found, string expected) => new HaptoFlowException(

@@ -4,14 +4,14 @@ using System.Linq;
 
 namespace HaptoFlow.Recordings
 {
-    /// <summary>Velocity and force on the acceleration's clock, from readings on clocks of their own.</summary>
+    /// <summary>Resamples velocity and force from their own clocks to that of the acceleration.</summary>
     internal static class RecordingMotion
     {
-        // A tracker's steps are averaged over this; a hand changes its speed more slowly.
+        // Window that smooths a tracker's steps; the speed of a hand changes more slowly.
         private const double SlopeSeconds = 0.05;
 
-        /// <summary>Two numbers in m/s for each sample.</summary>
-        /// <exception cref="HaptoFlowException">The column's numbers say that its unit is another.</exception>
+        /// <summary>Two velocity components in m/s per sample.</summary>
+        /// <exception cref="HaptoFlowException">The numbers indicate another unit than the column's name.</exception>
         public static float[] Velocity(string file, Series motion, double firstSeconds, double rateHz, int count)
         {
             Series velocity = motion.Columns[0].StartsWith("position", StringComparison.Ordinal)
@@ -30,8 +30,8 @@ namespace HaptoFlow.Recordings
             return result;
         }
 
-        /// <summary>In N, never negative, for each sample.</summary>
-        /// <exception cref="HaptoFlowException">The column's numbers say that its unit is another.</exception>
+        /// <summary>Force in N, not below 0, per sample.</summary>
+        /// <exception cref="HaptoFlowException">The numbers indicate another unit than the column's name.</exception>
         public static float[] Force(string file, Series force, double firstSeconds, double rateHz, int count)
         {
             RecordingChecks.CheckForce(file, force);
@@ -39,8 +39,8 @@ namespace HaptoFlow.Recordings
             return Array.ConvertAll(newtons, value => (float)Math.Max(0.0, value));
         }
 
-        /// <summary>By a straight line fitted to the readings around each (Savitzky and Golay 1964, first order).
-        /// </summary>
+        /// <summary>Derivative by a line fitted to the readings around each (Savitzky and Golay 1964, first
+        /// order).</summary>
         private static Series Slopes(Series position)
         {
             int half = Math.Max(1, Math.Min((int)Math.Round(0.5 * SlopeSeconds / position.StepSeconds),

@@ -6,16 +6,16 @@ using System.Linq;
 
 namespace HaptoFlow.Recordings
 {
-    /// <summary>Reads recordings of one's own: a CSV table or a WAV file, and what stands beside it. The forms are
-    /// those of own-materials.md. Any thread that can wait for the disk.</summary>
+    /// <summary>Reads recordings: a CSV table or a WAV file, and the files beside it. The formats are described in
+    /// own-materials.md. Any thread that may block for the disk.</summary>
     public static class RecordingReader
     {
         private const double LongestSeconds = 600.0;
 
-        /// <summary>Of a file on the disk, with NAME.json, recordings.json and the motion file beside it.</summary>
-        /// <param name="path">Of a .csv or .wav file.</param>
-        /// <param name="fullScaleMps2">The acceleration of +-1 of a WAV file whose sidecar does not say; null for none.
-        /// </param>
+        /// <summary>Reads a file with the files NAME.json, recordings.json and motion file beside it.</summary>
+        /// <param name="path">Path of a .csv or .wav file.</param>
+        /// <param name="fullScaleMps2">The acceleration of +-1 for a WAV file whose sidecar does not give it; null for
+        /// none.</param>
         /// <exception cref="HaptoFlowException">Names the file, what was found, what is expected and the remedy.
         /// </exception>
         public static Recording Read(string path, double? fullScaleMps2 = null)
@@ -25,11 +25,11 @@ namespace HaptoFlow.Recordings
             return Read(Path.GetFileName(path), file, name => Bytes(Path.Combine(folder, name)), fullScaleMps2);
         }
 
-        /// <summary>Of bytes, for recordings that come with an application.</summary>
-        /// <param name="name">Of the file, with its ending: .csv or .wav; a further .bytes is taken off.</param>
-        /// <param name="sibling">The bytes of a file beside it, by name; null where there is none.</param>
-        /// <param name="fullScaleMps2">The acceleration of +-1 of a WAV file whose sidecar does not say; null for none.
-        /// </param>
+        /// <summary>Reads bytes, for recordings that are part of an application.</summary>
+        /// <param name="name">Name of the file with its extension: .csv or .wav; a further .bytes is removed.</param>
+        /// <param name="sibling">Returns the bytes of a file beside it, by name; null where there is none.</param>
+        /// <param name="fullScaleMps2">The acceleration of +-1 for a WAV file whose sidecar does not give it; null for
+        /// none.</param>
         /// <exception cref="HaptoFlowException">Names the file, what was found, what is expected and the remedy.
         /// </exception>
         public static Recording Read(
@@ -115,15 +115,15 @@ namespace HaptoFlow.Recordings
 
         private static double RateOf(string file, Series acceleration)
         {
-            // Times are often written with few digits, so their mean counts; lost samples do not.
-            double longest = 1.5 * acceleration.StepSeconds;
+            // Times are often written with few digits: the mean interval counts, without gaps of lost samples.
+            double maximumStep = 1.5 * acceleration.StepSeconds;
             double seconds = 0.0;
             int steps = 0;
             for (int row = 1; row < acceleration.Count; ++row)
             {
                 double step = acceleration.Seconds[row] - acceleration.Seconds[row - 1];
-                seconds += step <= longest ? step : 0.0;
-                steps += step <= longest ? 1 : 0;
+                seconds += step <= maximumStep ? step : 0.0;
+                steps += step <= maximumStep ? 1 : 0;
             }
             double rateHz = steps / seconds;
             return rateHz >= RecordingSidecar.LowestRateHz - 1.0 && rateHz <= RecordingSidecar.HighestRateHz + 1.0

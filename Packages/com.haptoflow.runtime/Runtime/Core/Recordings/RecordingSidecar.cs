@@ -7,8 +7,8 @@ using HaptoFlow.Model;
 
 namespace HaptoFlow.Recordings
 {
-    /// <summary>What the files beside a recording say of it: NAME.json, and recordings.json with defaults for its
-    /// folder. Null or empty for what they leave to its columns.</summary>
+    /// <summary>The metadata beside a recording: NAME.json, and recordings.json with defaults for its folder. Values
+    /// are null or empty where the files leave them to the recording's columns.</summary>
     internal sealed class RecordingSidecar
     {
         public const string DefaultsFile = "recordings.json";
@@ -28,7 +28,7 @@ namespace HaptoFlow.Recordings
 
         private RecordingSidecar(string file) => File = file;
 
-        /// <summary>Whether it exists or not.</summary>
+        /// <summary>Name of the sidecar, whether or not it exists.</summary>
         public string File { get; }
 
         public string Label => Text("label");
@@ -47,7 +47,7 @@ namespace HaptoFlow.Recordings
 
         public double? RateHz => Number("rate_hz", LowestRateHz, HighestRateHz, "samples a second, 1000 to 192000");
 
-        /// <summary>A speed lies along the first axis.</summary>
+        /// <summary>The velocity; a speed is taken along the first axis.</summary>
         public (double X, double Y)? VelocityMps
         {
             get
@@ -59,7 +59,7 @@ namespace HaptoFlow.Recordings
         }
 
         /// <param name="file">The recording's sidecar, for messages.</param>
-        /// <param name="own">Its text; null where it does not exist.</param>
+        /// <param name="own">Its contents; null where it does not exist.</param>
         /// <param name="defaults">The folder's recordings.json; null where there is none.</param>
         /// <exception cref="HaptoFlowException">Names the file, the key, what was found and what is expected.
         /// </exception>
@@ -113,7 +113,7 @@ namespace HaptoFlow.Recordings
             }
         }
 
-        /// <summary>A wrong value is said at once, not when somebody first asks for it.</summary>
+        /// <summary>Reads every value once, so that errors are reported now rather than at first use.</summary>
         private void CheckAll()
         {
             _ = (Label, Licence, Source, Motion, FullScaleMps2, ForceNewtons, RateHz, VelocityMps);
@@ -125,9 +125,7 @@ namespace HaptoFlow.Recordings
             {
                 return "";
             }
-            return found.Value.Content is string text
-                ? text.Trim()
-                : throw Failure(found, key, "a text in quotes");
+            return found.Value.Text?.Trim() ?? throw Failure(found, key, "a text in quotes");
         }
 
         private double? Number(string key, double lowest, double highest, string expected)
@@ -136,7 +134,7 @@ namespace HaptoFlow.Recordings
             {
                 return null;
             }
-            return found.Value.Content is double number && number >= lowest && number <= highest
+            return found.Value.Number is { } number && number >= lowest && number <= highest
                 ? number
                 : throw Failure(found, key, expected);
         }
@@ -147,8 +145,8 @@ namespace HaptoFlow.Recordings
             {
                 return null;
             }
-            double[] pair = (found.Value.Content as List<JsonValue>)?.Select(each => each.Content).OfType<double>()
-                .ToArray() ?? Array.Empty<double>();
+            double[] pair = found.Value.Elements?.Select(each => each.Number).OfType<double>().ToArray() ??
+                Array.Empty<double>();
             return pair.Length == 2 && Math.Sqrt(pair[0] * pair[0] + pair[1] * pair[1]) <= FastestMps
                 ? (pair[0], pair[1])
                 : throw Failure(found, key, "[vx, vy] in metres a second, 10 at most (a thousandth of mm/s)");

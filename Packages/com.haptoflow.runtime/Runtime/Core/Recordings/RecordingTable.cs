@@ -7,12 +7,13 @@ using System.Text;
 
 namespace HaptoFlow.Recordings
 {
-    /// <summary>A CSV table of one's own: columns by name with their unit, in SI units afterwards.</summary>
+    /// <summary>A CSV table of numbers: columns by name with their unit, converted to SI units. Read without a CSV
+    /// library: the format has no quoted cells, and lines are parsed without allocating per cell.</summary>
     internal sealed class RecordingTable
     {
-        // Of the rows of the acceleration; a break costs its neighbourhood, not the recording.
+        // Share of rows of the acceleration that may lack numbers.
         private const double ToleratedShare = 0.01;
-        private const int FewestRows = 4;
+        private const int MinimumRows = 4;
 
         private readonly string file;
         private readonly string[] names;
@@ -27,16 +28,16 @@ namespace HaptoFlow.Recordings
 
         public Series? Acceleration { get; private set; }
 
-        /// <summary>Velocity, speed or position, as its columns say.</summary>
+        /// <summary>Velocity, speed or position, according to its columns.</summary>
         public Series? Motion { get; private set; }
 
         public Series? Force { get; private set; }
 
-        /// <summary>Columns that no form names; they are ignored.</summary>
+        /// <summary>Columns of unknown name; they are ignored.</summary>
         public IReadOnlyList<string> Unknown { get; private set; } = Array.Empty<string>();
 
-        /// <param name="file">For messages.</param>
-        /// <param name="rateHz">The clock of a table without column time_s; null where there is none.</param>
+        /// <param name="file">Name of the file, for messages.</param>
+        /// <param name="rateHz">Sample rate of a table without column time_s; null for none.</param>
         /// <param name="withAcceleration">False for a motion file.</param>
         /// <exception cref="HaptoFlowException">Names the file, what was found and what is expected.</exception>
         public static RecordingTable Read(string file, byte[] bytes, double? rateHz, bool withAcceleration)
@@ -100,7 +101,7 @@ namespace HaptoFlow.Recordings
 
         private void ReadRows(string text, int position)
         {
-            bool[] isWanted = names.Select(ColumnForms.IsKnown).ToArray();
+            bool[] isKnown = names.Select(ColumnForms.IsKnown).ToArray();
             for (int row = 2; position < text.Length; ++row)
             {
                 ReadOnlySpan<char> line = NextLine(text, ref position);
@@ -113,7 +114,7 @@ namespace HaptoFlow.Recordings
                     int comma = line.IndexOf(',');
                     ReadOnlySpan<char> cell = (comma < 0 ? line : line.Slice(0, comma)).Trim();
                     line = comma < 0 ? ReadOnlySpan<char>.Empty : line.Slice(comma + 1);
-                    if (isWanted[column])
+                    if (isKnown[column])
                     {
                         numbers[column].Add(NumberOf(cell, row, column));
                     }
@@ -121,7 +122,7 @@ namespace HaptoFlow.Recordings
             }
         }
 
-        /// <summary>NaN for an empty cell, as for one that says so.</summary>
+        /// <summary>NaN for an empty cell and for "nan".</summary>
         private double NumberOf(ReadOnlySpan<char> cell, int row, int column)
         {
             if (double.TryParse(cell, NumberStyles.Float, CultureInfo.InvariantCulture, out double number))
@@ -135,7 +136,7 @@ namespace HaptoFlow.Recordings
                     "numbers only");
         }
 
-        /// <summary>The rows that have all of the form's numbers, on a clock that rises.</summary>
+        /// <summary>The rows with all numbers of the form, with rising times.</summary>
         private Series? SeriesOf(ColumnForm? form, double? rateHz, bool isStrict)
         {
             if (form == null)
@@ -163,7 +164,7 @@ namespace HaptoFlow.Recordings
                     $"no number in row {firstBroken + 2}, column {form.Columns[0]} or {ColumnForms.Time}",
                     "finite numbers");
             }
-            if (kept.Count < FewestRows)
+            if (kept.Count < MinimumRows)
             {
                 throw RecordingError.Of(file, $"{kept.Count} rows with numbers in {string.Join(", ", form.Columns)}",
                     "4 rows at least");

@@ -5,14 +5,15 @@ using System.Text;
 
 namespace HaptoFlow.Recordings
 {
-    /// <summary>A WAV file of one's own: 1 or 3 channels, PCM of 8 to 32 bits or float of 32 or 64.</summary>
+    /// <summary>A WAV file of 1 or 3 channels, PCM of 8 to 32 bits or float of 32 or 64 bits. Unity decodes audio only
+    /// as clips at import, and .NET has no reader.</summary>
     internal sealed class RecordingWave
     {
         private const string Expected = "a WAV file of 1 or 3 channels, PCM or float";
         private const int PcmTag = 1;
         private const int FloatTag = 3;
         private const int ExtensibleTag = 0xfffe;
-        private const int FewestSamples = 4;
+        private const int MinimumSamples = 4;
 
         private RecordingWave(int rateHz, int channels, float[] samples)
         {
@@ -25,10 +26,10 @@ namespace HaptoFlow.Recordings
 
         public int Channels { get; }
 
-        /// <summary>Interleaved, +-1.</summary>
+        /// <summary>Interleaved samples within +-1.</summary>
         public float[] Samples { get; }
 
-        /// <param name="file">For messages.</param>
+        /// <param name="file">Name of the file, for messages.</param>
         /// <exception cref="HaptoFlowException">Names the file, what was found and what is expected.</exception>
         public static RecordingWave Read(string file, byte[] bytes)
         {
@@ -52,7 +53,7 @@ namespace HaptoFlow.Recordings
             CheckForm(file, tag, channels, rateHz, bits);
             int width = bits / 8;
             int count = dataBytes / (width * channels) * channels;
-            if (count < FewestSamples * channels)
+            if (count < MinimumSamples * channels)
             {
                 throw RecordingError.Of(file, $"{count / channels} samples", "4 at least");
             }
@@ -104,8 +105,8 @@ namespace HaptoFlow.Recordings
             }
         }
 
-        /// <summary>Where a chunk's content begins; -1 where there is none. A file that ends early ends
-        /// there.</summary>
+        /// <summary>Offset of a chunk's content; -1 where there is none. The content of a truncated file ends with the
+        /// file.</summary>
         private static int Chunk(byte[] bytes, string name, out int length)
         {
             long place = 12;

@@ -5,10 +5,10 @@ using System.Linq;
 
 namespace HaptoFlow.Recordings
 {
-    /// <summary>Readings of one quantity on a clock that rises.</summary>
+    /// <summary>Readings of one quantity at rising times.</summary>
     internal sealed class Series
     {
-        /// <param name="values">One array for each column, in SI units.</param>
+        /// <param name="values">One array per column, in SI units.</param>
         public Series(double[] seconds, double[][] values, IReadOnlyList<string> columns)
         {
             Seconds = seconds;
@@ -20,7 +20,7 @@ namespace HaptoFlow.Recordings
 
         public double[][] Values { get; }
 
-        /// <summary>What they were read from.</summary>
+        /// <summary>Names of the columns.</summary>
         public IReadOnlyList<string> Columns { get; }
 
         public int Count => Seconds.Length;
@@ -35,7 +35,7 @@ namespace HaptoFlow.Recordings
             }
         }
 
-        /// <summary>Of a column at times that rise, on straight lines between the readings; held at the ends.</summary>
+        /// <summary>A column at equidistant times, interpolated linearly and held constant beyond the ends.</summary>
         public double[] At(int column, double firstSeconds, double stepSeconds, int count)
         {
             var result = new double[count];

@@ -5,14 +5,14 @@ namespace HaptoFlow
 {
     /// <summary>Tip force from an action of Meta's SDK: for MX Ink, the action that its action set binds to
     /// tip_logitech/force.</summary>
-    /// <remarks>The SDK logs an error for every call that fails, so it is asked only while the session has input focus,
-    /// and after a failure not again until something changes: the focus comes back, a controller connects or leaves,
-    /// the action gets another name, or this component is switched on again.</remarks>
+    /// <remarks>The SDK logs an error for every failing call, so it is called only while the session has input focus,
+    /// and after a failure only when something changed: the focus returns, a controller connects or disconnects, the
+    /// action gets another name, or this component is enabled again.</remarks>
     [AddComponentMenu("HaptoFlow/Tip Force (Meta)")]
     [HelpURL(HelpPages.Components + "tip-force-meta")]
     public sealed class MetaActionTipForce : PressureTipForce
     {
-        [SerializeField, Tooltip("Name of the float action in the project's action sets.")]
+        [SerializeField, Tooltip("The name of the float action in the project's action sets.")]
         private string action = "tip";
 
         private OVRPlugin.Controller connectedAtFailure;
@@ -27,7 +27,7 @@ namespace HaptoFlow
             set
             {
                 action = value;
-                AskAgain();
+                Retry();
             }
         }
 
@@ -51,11 +51,11 @@ namespace HaptoFlow
             return !hasFailed;
         }
 
-        private void OnEnable() => AskAgain();
+        private void OnEnable() => Retry();
 
-        private void OnValidate() => AskAgain();
+        private void OnValidate() => Retry();
 
-        private void AskAgain()
+        private void Retry()
         {
             hasFailed = false;
             hasWarned = false;
@@ -67,8 +67,8 @@ namespace HaptoFlow
             {
                 hasWarned = true;
                 Debug.LogWarning($"HaptoFlow: {name} reads no tip force: Meta's SDK has no float action \"{action}\" " +
-                    "that is bound to a connected pen (Project Settings > Meta XR > Input Actions). It is asked " +
-                    "again when the session or the controllers change.", this);
+                    "that is bound to a connected pen (Project Settings > Meta XR > Input Actions). HaptoFlow " +
+                    "tries again when the session or the controllers change.", this);
             }
         }
     }

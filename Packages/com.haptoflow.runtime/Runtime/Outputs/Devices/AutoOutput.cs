@@ -5,8 +5,8 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>Plays on the best that the device in the hand reports: the wave where it takes one, else the envelope on
-    /// its motor. A stylus in a hand gets one by itself where its scene names no output.</summary>
+    /// <summary>Plays in the best form that the device in the hand supports: the waveform, else the envelope on its
+    /// motor. A stylus in a hand gets one automatically where its scene assigns no output.</summary>
     [DisallowMultipleComponent]
     [DefaultExecutionOrder(1100)]
     [AddComponentMenu("HaptoFlow/Auto Output")]
@@ -19,7 +19,8 @@ namespace HaptoFlow
         /// <inheritdoc/>
         internal override bool IsMade => isMade;
 
-        /// <summary>The stylus is felt through what its hand holds: gives it an output the first time.</summary>
+        /// <summary>Creates an output for the device in the stylus's hand at the first call; true where it plays the
+        /// stylus.</summary>
         internal static bool Serves(HapticStylus asker)
         {
             if (asker.Hand == HapticHand.None)
@@ -34,7 +35,7 @@ namespace HaptoFlow
             return voices.Chosen.Keeps;
         }
 
-        /// <summary>The scene names an output after all.</summary>
+        /// <summary>Removes the output: the scene assigns another after all.</summary>
         internal static void Retire(HapticStylus stylus)
         {
             AutoOutput? chosen = stylus.Voices.Chosen;
@@ -49,8 +50,8 @@ namespace HaptoFlow
             }
         }
 
-        // A device that is asleep is waited for: what was felt in a hand is not heard from a speaker instead.
-        // One that was never there yet, as in the first frames of a scene, leaves the stylus to an audio output.
+        // A device that sleeps keeps the stylus: touches felt in a hand must not switch to a loudspeaker.
+        // Without any device so far, as in the first frames of a scene, the stylus uses an audio output.
         private bool Keeps => hadDevice;
 
         private static AutoOutput Make(HapticStylus asker)
@@ -61,7 +62,7 @@ namespace HaptoFlow
             var made = owner.AddComponent<AutoOutput>();
             made.isMade = true;
             owner.SetActive(true);
-            made.Look();
+            made.FindDevice();
             return made;
         }
 
@@ -74,12 +75,12 @@ namespace HaptoFlow
         private protected override void OnDevice(HapticForm form, IHapticSink sink, HapticHand held)
         {
             hadDevice = true;
-            string reason = isMade ? "the scene names no output, and " : "";
+            string reason = isMade ? "the scene assigns no output, and " : "";
             string chosen = form == HapticForm.Waveform
-                ? "plays the wave, which the device says that it takes"
-                : "drives the motor with the wave's envelope, since the device reports nothing better";
-            Debug.Log($"HaptoFlow: {(Stylus != null ? Stylus.name : name)} is felt through {sink.Name} ({held} hand): " +
-                $"{reason}Auto Output {chosen}.", this);
+                ? "plays the waveform, which the device supports"
+                : "drives the motor with the envelope, since the device does not support waveforms";
+            Debug.Log($"HaptoFlow: {(Stylus != null ? Stylus.name : name)} is felt through {sink.Name} ({held} " +
+                $"hand): {reason}Auto Output {chosen}.", this);
         }
     }
 }

@@ -5,20 +5,21 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>Streams amplitude, frequency and transients to a Touch controller through Meta's SDK. Experimental at
-    /// Meta: its store takes no application that uses it, and the headset must be set to allow it. So it plays only where
-    /// an author has said so.</summary>
+    /// <summary>Streams amplitude, frequency and transients to a Touch controller through Meta's SDK. The feature is
+    /// experimental: Meta's store does not accept applications that use it, and the headset must be set to allow it. It
+    /// therefore plays only after the author has enabled it.</summary>
     [DisallowMultipleComponent]
     [DefaultExecutionOrder(1100)]
     [AddComponentMenu("HaptoFlow/Controller Parametric Output")]
     [HelpURL(HelpPages.Home + "effects-and-outputs.html#controller-parametric")]
     public sealed class ControllerParametricOutput : DeviceOutput
     {
-        [SerializeField, Tooltip("Parametric haptics are experimental at Meta: the store takes no application that uses " +
-            "them, and experimental features must be enabled on the headset. Nothing plays until this is on.")]
+        [SerializeField, Tooltip("Parametric haptics are experimental at Meta: the store does not accept " +
+            "applications that use them, and experimental features must be enabled on the headset. Nothing plays " +
+            "until this is on.")]
         private bool useExperimentalFeature;
 
-        /// <summary>Off, nothing plays. To be set before the output wakes.</summary>
+        /// <summary>Nothing plays while this is false. Set it before the output is enabled.</summary>
         public bool UseExperimentalFeature
         {
             get => useExperimentalFeature;
@@ -32,8 +33,9 @@ namespace HaptoFlow
                 HapticSinks.Open(HapticForm.Parametric, wanted, into);
                 return;
             }
-            Debug.LogWarning($"HaptoFlow: {name} is silent: parametric haptics are experimental at Meta, and the store " +
-                "takes no application that uses them. Switch on Use Experimental Feature if that is meant.", this);
+            Debug.LogWarning($"HaptoFlow: {name} is silent: parametric haptics are experimental at Meta, and the " +
+                "store does not accept applications that use them. Switch on Use Experimental Feature to play " +
+                "anyway.", this);
         }
     }
 }

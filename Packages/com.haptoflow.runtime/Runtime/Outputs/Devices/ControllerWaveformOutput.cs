@@ -5,7 +5,7 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>Plays the wave itself on a controller that takes one: Touch Plus and Touch Pro through Meta's SDK, and
+    /// <summary>Plays the waveform on a controller that supports it: Touch Plus and Touch Pro through Meta's SDK, and
     /// any XR controller that reports haptic buffers.</summary>
     [DisallowMultipleComponent]
     [DefaultExecutionOrder(1100)]
@@ -13,12 +13,13 @@ namespace HaptoFlow
     [HelpURL(HelpPages.Home + "effects-and-outputs.html#controller-waveform")]
     public sealed class ControllerWaveformOutput : DeviceOutput
     {
-        [SerializeField, Tooltip("Each submission queues behind the last one, instead of replacing what plays. Switch it " +
-            "on for a controller that buzzes at the frame rate; a hitch then ends without a fade.")]
+        [SerializeField, Tooltip("Queues each submission behind the last one instead of replacing it. Switch it on " +
+            "for a controller that buzzes at the frame rate; a frame that comes late then ends the vibration without " +
+            "a fade.")]
         private bool queueSubmissions;
 
-        /// <summary>Each submission queues behind the last one, instead of replacing what plays. To be set before the
-        /// output wakes.</summary>
+        /// <summary>True to queue each submission behind the last one instead of replacing it. Set it before the output
+        /// is enabled.</summary>
         public bool QueueSubmissions
         {
             get => queueSubmissions;

@@ -6,36 +6,37 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>Makes a stylus felt in the hand that holds it, through the motor or voice coil of the device there. The
-    /// stylus's voice is rendered on the main thread, as fast as the device plays: no audio device is needed.</summary>
-    /// <remarks>Devices are asked what they take, again and again: one that vanishes, sleeps or comes back as another is
-    /// played as what it is then.</remarks>
+    /// <summary>Plays a stylus in the hand that holds it, with the motor or voice coil of the device there. The voice
+    /// is rendered on the main thread at the pace of the device; no audio device is needed.</summary>
+    /// <remarks>The capabilities of devices are polled: a device that disappears, sleeps or returns as another one is
+    /// used according to its present capabilities.</remarks>
     public abstract class DeviceOutput : MonoBehaviour, IVoiceTarget
     {
-        /// <summary>What a controller is taken to play at its full amplitude, in m/s^2.</summary>
+        /// <summary>Assumed acceleration of a controller at its full amplitude, in m/s^2.</summary>
         public const float DefaultFullScaleMps2 = 60f;
 
-        private const double LookSeconds = 0.5;
+        private const double SearchIntervalSeconds = 0.5;
 
-        [SerializeField, Tooltip("The stylus that is felt; empty for the one on this object or above it.")]
+        [SerializeField, Tooltip("The stylus to play. Leave it empty for the one on this object or above it.")]
         private HapticStylus? stylus;
 
-        [SerializeField, Tooltip("The hand whose device is used; None for the hand that holds the stylus.")]
+        [SerializeField, Tooltip("The hand whose device plays. None uses the hand that holds the stylus.")]
         private HapticHand hand = HapticHand.None;
 
-        [SerializeField, Range(0f, 1f), Tooltip("Gain, on top of the surface's and the stylus's.")]
+        [SerializeField, Range(0f, 1f), Tooltip("The gain of this output, multiplied with the surface's and the " +
+            "stylus's.")]
         private float strength = 1f;
 
         [SerializeField, Tooltip("A muted output is silent and costs no inference.")]
         private bool muted;
 
-        [SerializeField, Min(0.1f), Tooltip("Acceleration that drives the device at its full amplitude, in m/s^2. " +
-            "Lower it where textures feel too weak.")]
+        [SerializeField, Min(0.1f), Tooltip("The acceleration that drives the device at its full amplitude, in " +
+            "m/s^2. Lower it where textures feel too weak.")]
         private float fullScaleMps2 = DefaultFullScaleMps2;
 
         private readonly VoiceSource source = new VoiceSource();
         private readonly List<HapticSinks.OpenSink> sinks = new List<HapticSinks.OpenSink>();
-        // Recompiling while playing keeps the values of fields that can be serialised. These would be out of date then.
+        // Recompiling while playing keeps the values of serialisable fields. The values of these would be out of date.
         [NonSerialized]
         private HapticStylus? attached;
         [NonSerialized]
@@ -44,10 +45,10 @@ namespace HaptoFlow
         private HapticHand openedFor;
         private IHapticSink? device;
         private HapticQueue? queue;
-        private double lookAtSeconds;
+        private double nextSearchSeconds;
         private bool wasThere;
 
-        /// <summary>The stylus that is felt; null for the one on this object or above it.</summary>
+        /// <summary>The stylus to play; null for the one on this object or above it.</summary>
         public HapticStylus? Stylus
         {
             get => stylus;
@@ -75,7 +76,7 @@ namespace HaptoFlow
             set => strength = Mathf.Clamp01(value);
         }
 
-        /// <summary>Muted, an output is silent with this frame and costs no inference.</summary>
+        /// <summary>A muted output is silent from this frame on and costs no inference.</summary>
         public bool Muted
         {
             get => muted;
@@ -85,7 +86,7 @@ namespace HaptoFlow
                 source.ForEach((voice, on) => voice.SetMuted(on), muted);
                 if (muted)
                 {
-                    CallBack();
+                    DiscardSubmitted();
                 }
             }
         }
@@ -97,24 +98,24 @@ namespace HaptoFlow
             set => fullScaleMps2 = Mathf.Max(0.1f, value);
         }
 
-        /// <summary>A device is there that takes what this output gives.</summary>
+        /// <summary>True while a device is connected that supports this output.</summary>
         public bool HasDevice => device != null && device.TryGetCapabilities(out _);
 
-        /// <summary>What people call the device in use; empty where there is none.</summary>
+        /// <summary>Name of the device in use, for people; empty without one.</summary>
         public string DeviceName => HasDevice ? device!.Name : "";
 
-        /// <summary>What the output did so far.</summary>
+        /// <summary>Statistics since the device was connected.</summary>
         public HapticQueueStatistics Statistics => queue?.Statistics ?? default;
 
         bool IVoiceTarget.PlaysSignal => false;
 
         int IVoiceTarget.SampleRateHz => (int)WaveHistory.RateHz;
 
-        /// <summary>Silence at once; the stylus sounds again with its next touch-down.</summary>
+        /// <summary>Silences the output at once; the stylus sounds again with its next touch-down.</summary>
         public void Panic()
         {
             source.ForEach((voice, _) => voice.Panic(), 0);
-            CallBack();
+            DiscardSubmitted();
         }
 
         void IVoiceTarget.Add(HapticVoice voice)
@@ -125,22 +126,22 @@ namespace HaptoFlow
 
         void IVoiceTarget.Remove(HapticVoice voice) => source.Remove(voice);
 
-        /// <summary>Made by <see cref="SceneOutputs"/> for a stylus without output.</summary>
+        /// <summary>True for an output created for a stylus without one.</summary>
         internal virtual bool IsMade => false;
 
-        /// <summary>False for submissions that queue behind each other.</summary>
+        /// <summary>False to queue submissions behind each other.</summary>
         private protected virtual bool MayReplace => true;
 
-        /// <summary>The sinks that may be used, the best first.</summary>
+        /// <summary>Opens the sinks to try, in order of preference.</summary>
         private protected abstract void OpenSinks(HapticHand wanted, List<HapticSinks.OpenSink> into);
 
-        /// <summary>Another device is used from now on.</summary>
+        /// <summary>Called when another device is used.</summary>
         private protected virtual void OnDevice(HapticForm form, IHapticSink sink, HapticHand held)
         {
         }
 
-        /// <summary>Looks for a device now. Main thread.</summary>
-        private protected void Look()
+        /// <summary>Searches for a device now. Main thread.</summary>
+        private protected void FindDevice()
         {
             HapticHand held = hand != HapticHand.None ? hand : attached != null ? attached.Hand : HapticHand.None;
             if (held != openedFor)
@@ -165,7 +166,7 @@ namespace HaptoFlow
         private void OnEnable()
         {
             Attach();
-            lookAtSeconds = 0.0;
+            nextSearchSeconds = 0.0;
         }
 
         private void Awake()
@@ -193,19 +194,19 @@ namespace HaptoFlow
             source.ForEach((voice, on) => voice.SetPaused(on), paused);
             if (paused)
             {
-                CallBack();
+                DiscardSubmitted();
             }
         }
 
-        // After the styluses have published: the execution order of every output says so.
+        // Runs after the styluses have published: see the execution order of each output.
         private void LateUpdate()
         {
             double now = Time.realtimeSinceStartupAsDouble;
-            if (now >= lookAtSeconds)
+            if (now >= nextSearchSeconds)
             {
-                lookAtSeconds = now + LookSeconds;
+                nextSearchSeconds = now + SearchIntervalSeconds;
                 Attach();
-                Look();
+                FindDevice();
             }
             if (queue != null)
             {
@@ -223,8 +224,8 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>What is on its way is not felt any more, nor what the voices close with.</summary>
-        private void CallBack()
+        /// <summary>Discards submitted samples, and the fade with which the voices close.</summary>
+        private void DiscardSubmitted()
         {
             source.Discard();
             queue?.Flush(Time.realtimeSinceStartupAsDouble);

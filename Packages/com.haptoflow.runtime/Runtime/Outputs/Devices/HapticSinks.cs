@@ -5,20 +5,20 @@ using HaptoFlow.Outputs;
 
 namespace HaptoFlow
 {
-    /// <summary>Makes the sink of one route to the device in a hand.</summary>
-    /// <param name="hand">Never <see cref="HapticHand.None"/>.</param>
+    /// <summary>Creates the sink of one route to the device in a hand.</summary>
+    /// <param name="hand">The hand; never <see cref="HapticHand.None"/>.</param>
     public delegate IHapticSink HapticSinkMaker(HapticHand hand);
 
-    /// <summary>The routes to devices that this project has: those of Unity itself, and those that optional packages
-    /// add when they are loaded. Main thread.</summary>
+    /// <summary>The routes to devices that are available: Unity's own, and those that optional packages register when
+    /// they are loaded. Main thread.</summary>
     public static class HapticSinks
     {
         private static readonly List<Route> Routes = new List<Route>();
 
-        /// <summary>Adds a route, or replaces the one of this name. To be called from a method that Unity runs when the
-        /// assembly is loaded; outputs that are open already do not see it.</summary>
-        /// <param name="preference">Of two routes to a device with the same form the higher one is taken. Unity's own
-        /// have 0.</param>
+        /// <summary>Adds a route, or replaces the one of the same name. Call it from a method that Unity runs when the
+        /// assembly is loaded; outputs that are already open do not use the new route.</summary>
+        /// <param name="preference">Among routes of the same form the higher one is taken. Unity's own routes have
+        /// 0.</param>
         public static void Register(string name, HapticForm form, int preference, HapticSinkMaker maker)
         {
             Routes.RemoveAll(route => route.Name == name);
@@ -26,7 +26,7 @@ namespace HaptoFlow
             Routes.Insert(place < 0 ? Routes.Count : place, new Route(name, form, preference, maker));
         }
 
-        /// <summary>A sink for each route of a form, the preferred first.</summary>
+        /// <summary>Opens a sink for each route of a form, in order of preference.</summary>
         internal static void Open(HapticForm form, HapticHand hand, List<OpenSink> into)
         {
             foreach (Route route in Routes)
@@ -38,7 +38,7 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>A sink and what it takes.</summary>
+        /// <summary>A sink and its form.</summary>
         internal readonly struct OpenSink
         {
             public OpenSink(HapticForm form, IHapticSink sink)

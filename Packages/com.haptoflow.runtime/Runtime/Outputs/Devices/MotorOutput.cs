@@ -5,8 +5,8 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>Drives the motor of an MX Ink or of any XR controller with the wave's envelope: one amplitude at a
-    /// time.</summary>
+    /// <summary>Drives the motor of an MX Ink or of any XR controller with the envelope of the waveform: one amplitude
+    /// at a time.</summary>
     [DisallowMultipleComponent]
     [DefaultExecutionOrder(1100)]
     [AddComponentMenu("HaptoFlow/Motor Output")]

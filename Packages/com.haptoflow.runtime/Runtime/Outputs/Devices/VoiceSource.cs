@@ -4,7 +4,7 @@ using HaptoFlow.Outputs;
 
 namespace HaptoFlow
 {
-    /// <summary>The voices that play on a device output, as its queue sees them. Main thread.</summary>
+    /// <summary>The voices of a device output, as the source of its queue. Main thread.</summary>
     internal sealed class VoiceSource : IWaveSource
     {
         // A voice closes within 5 ms.
@@ -20,8 +20,8 @@ namespace HaptoFlow
 
         public void Add(HapticVoice voice) => mixer.Add(voice);
 
-        /// <summary>Closes the voice's sound first: otherwise its end would wait for a block that nobody renders.
-        /// </summary>
+        /// <summary>Mutes the voice and renders its end into nothing before removing it: a voice closes only when
+        /// rendered.</summary>
         public void Remove(HapticVoice voice)
         {
             ForEach((each, leaving) =>
@@ -37,10 +37,10 @@ namespace HaptoFlow
 
         public void ForEach<T>(Action<HapticVoice, T> act, T argument) => mixer.ForEach(act, argument);
 
-        /// <summary>Renders what nobody feels, for as long as a voice takes to close.</summary>
+        /// <summary>Renders and discards as many samples as a voice needs to close.</summary>
         public void Discard() => Render(closing);
 
-        /// <summary>Drops landings and edges that came while no device could play them.</summary>
+        /// <summary>Discards impacts and edges that came while no device could play them.</summary>
         public void Forget()
         {
             ForEach((voice, _) => voice.SetPaused(true), 0);

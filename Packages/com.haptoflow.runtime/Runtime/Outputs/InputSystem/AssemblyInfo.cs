@@ -1,4 +1,4 @@
 using UnityEngine.Scripting;
 
-// No scene names this assembly: it adds routes to devices when it is loaded.
+// No scene references this assembly, which registers device routes when it is loaded.
 [assembly: AlwaysLinkAssembly]

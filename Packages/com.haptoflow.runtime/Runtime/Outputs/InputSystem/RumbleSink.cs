@@ -5,7 +5,7 @@ using UnityEngine.InputSystem.XR;
 
 namespace HaptoFlow
 {
-    /// <summary>A controller that rumbles through the Input System: XRControllerWithRumble.SendImpulse.</summary>
+    /// <summary>The motor of a controller in the Input System: XRControllerWithRumble.SendImpulse.</summary>
     internal sealed class RumbleSink : IAmplitudeSink
     {
         private readonly bool isLeft;

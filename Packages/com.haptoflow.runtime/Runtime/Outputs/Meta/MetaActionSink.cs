@@ -4,12 +4,12 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>The motor of an MX Ink through Meta's SDK: OVRPlugin.TriggerVibrationAction, with the action that Logitech's
-    /// action set binds to the pen's haptic output.</summary>
+    /// <summary>The motor of an MX Ink through Meta's SDK: OVRPlugin.TriggerVibrationAction, with the action that
+    /// Logitech's action set binds to the pen's haptic output.</summary>
     internal sealed class MetaActionSink : IAmplitudeSink
     {
         private const string Action = "haptic_pulse";
-        private const float ShortestSeconds = 0.001f;
+        private const float MinimumSeconds = 0.001f;
 
         private readonly MetaController controller;
 
@@ -29,9 +29,9 @@ namespace HaptoFlow
             if (!done)
             {
                 controller.Fail();
-                Debug.LogWarning($"HaptoFlow: MX Ink does not vibrate: Meta's SDK has no haptic action \"{Action}\" that " +
-                    "is bound to the pen (Project Settings > Meta XR > Input Actions). It is tried again when the " +
-                    "session or the controllers change.");
+                Debug.LogWarning($"HaptoFlow: MX Ink does not vibrate: Meta's SDK has no haptic action \"{Action}\" " +
+                    "that is bound to the pen (Project Settings > Meta XR > Input Actions). HaptoFlow tries again " +
+                    "when the session or the controllers change.");
             }
             return done;
         }
@@ -40,7 +40,7 @@ namespace HaptoFlow
         {
             if (controller.HoldsMxInk)
             {
-                Submit(0f, 0f, ShortestSeconds);
+                Submit(0f, 0f, MinimumSeconds);
             }
         }
 

@@ -4,12 +4,12 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>What Meta's SDK says of one hand. Calls that fail log an error each, so nothing is asked while the
-    /// session has no input focus or the hand holds nothing, and after a failure not until that changes.</summary>
+    /// <summary>The state of one hand in Meta's SDK. Failing calls log an error each, so no call is made while the
+    /// session has no input focus or the hand is empty, and none after a failure until the state changes.</summary>
     internal sealed class MetaController
     {
-        // The name of what is held is a new string at each call.
-        private const double AskProfileSeconds = 2.0;
+        // The SDK returns the profile's name as a new string at each call.
+        private const double ProfileIntervalSeconds = 2.0;
         private const string MxInk = "mx_ink";
 
         private readonly OVRPlugin.Hand hand;
@@ -17,7 +17,7 @@ namespace HaptoFlow
         private bool hadFocus;
         private bool holdsMxInk;
         private bool hasFailed;
-        private double askProfileAtSeconds;
+        private double nextProfileSeconds;
 
         public MetaController(HapticHand hand)
         {
@@ -30,19 +30,19 @@ namespace HaptoFlow
 
         public OVRPlugin.Hand Hand => hand;
 
-        /// <summary>Another number whenever what was learnt may be wrong.</summary>
+        /// <summary>Increases whenever cached capabilities may be out of date.</summary>
         public int Version { get; private set; }
 
-        /// <summary>A Touch controller is in the hand, and no call to it has failed.</summary>
-        public bool HoldsTouch => Look() && !holdsMxInk && (connected & Mask) != 0;
+        /// <summary>True while a Touch controller is in the hand and no call to it has failed.</summary>
+        public bool HoldsTouch => Refresh() && !holdsMxInk && (connected & Mask) != 0;
 
-        /// <summary>An MX Ink is in the hand, and no call to it has failed.</summary>
-        public bool HoldsMxInk => Look() && holdsMxInk;
+        /// <summary>True while an MX Ink is in the hand and no call to it has failed.</summary>
+        public bool HoldsMxInk => Refresh() && holdsMxInk;
 
-        /// <summary>A call failed: nothing is asked until something changes.</summary>
+        /// <summary>Stops calls after a failure until the state changes.</summary>
         public void Fail() => hasFailed = true;
 
-        private bool Look()
+        private bool Refresh()
         {
             bool hasFocus = OVRPlugin.hasInputFocus;
             OVRInput.Controller now = OVRInput.GetConnectedControllers();
@@ -52,11 +52,11 @@ namespace HaptoFlow
                 hadFocus = hasFocus;
                 connected = now;
                 Change();
-                askProfileAtSeconds = 0.0;
+                nextProfileSeconds = 0.0;
             }
-            if (hasFocus && seconds >= askProfileAtSeconds)
+            if (hasFocus && seconds >= nextProfileSeconds)
             {
-                askProfileAtSeconds = seconds + AskProfileSeconds;
+                nextProfileSeconds = seconds + ProfileIntervalSeconds;
                 string profile = OVRPlugin.GetCurrentInteractionProfile(hand) ?? "";
                 bool isPen = profile.IndexOf(MxInk, StringComparison.OrdinalIgnoreCase) >= 0;
                 if (isPen != holdsMxInk)

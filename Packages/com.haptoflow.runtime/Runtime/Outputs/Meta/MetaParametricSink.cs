@@ -6,15 +6,15 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>A Touch controller that plays points: OVRInput.SetControllerHapticsParametric, experimental at Meta.
-    /// </summary>
+    /// <summary>A Touch controller that plays parametric points: OVRInput.SetControllerHapticsParametric, experimental
+    /// at Meta.</summary>
     internal sealed class MetaParametricSink : IParametricSink
     {
         private const double NanosecondsPerSecond = 1e9;
 
-        // Where the controller does not say its own.
-        private const float UsualMinFrequencyHz = 50f;
-        private const float UsualMaxFrequencyHz = 500f;
+        // Used where the controller does not report its own limits.
+        private const float DefaultMinFrequencyHz = 50f;
+        private const float DefaultMaxFrequencyHz = 500f;
 
         private readonly MetaController controller;
         private readonly ArraysByLength<OVRInput.HapticsParametricPoint> amplitudes =
@@ -23,8 +23,8 @@ namespace HaptoFlow
             new ArraysByLength<OVRInput.HapticsParametricPoint>();
         private readonly ArraysByLength<OVRInput.HapticsParametricTransient> transients =
             new ArraysByLength<OVRInput.HapticsParametricTransient>();
-        private int versionAsked = -1;
-        private HapticSinkCapabilities asked;
+        private int queriedVersion = -1;
+        private HapticSinkCapabilities capabilitiesOfController;
 
         public MetaParametricSink(HapticHand hand) => controller = new MetaController(hand);
 
@@ -33,19 +33,19 @@ namespace HaptoFlow
         public bool TryGetCapabilities(out HapticSinkCapabilities capabilities)
         {
             bool holds = controller.HoldsTouch;
-            if (holds && versionAsked != controller.Version)
+            if (holds && queriedVersion != controller.Version)
             {
-                versionAsked = controller.Version;
-                Ask();
+                queriedVersion = controller.Version;
+                QueryCapabilities();
             }
-            capabilities = asked;
+            capabilities = capabilitiesOfController;
             return holds;
         }
 
         public bool Submit(ReadOnlySpan<ParametricPoint> amplitudePoints, ReadOnlySpan<ParametricPoint> frequencyPoints,
-            ReadOnlySpan<ParametricTransient> knocks, StreamPart part)
+            ReadOnlySpan<ParametricTransient> transientPoints, StreamPart part)
         {
-            Send(Copy(amplitudePoints, amplitudes), Copy(frequencyPoints, frequencies), Copy(knocks), part);
+            Send(Copy(amplitudePoints, amplitudes), Copy(frequencyPoints, frequencies), Copy(transientPoints), part);
             return true;
         }
 
@@ -61,30 +61,31 @@ namespace HaptoFlow
             Send(silence, frequencies.Of(0), transients.Of(0), 0);
         }
 
-        private void Ask()
+        private void QueryCapabilities()
         {
-            OVRInput.HapticsParametricProperties says = OVRInput.GetControllerParametricProperties(controller.Mask);
-            // Named a rate, it is an interval in nanoseconds; 0 for any.
-            double rateHz = says.IdealFrameSubmissionRate > 0
-                ? NanosecondsPerSecond / says.IdealFrameSubmissionRate
+            OVRInput.HapticsParametricProperties reported = OVRInput.GetControllerParametricProperties(controller.Mask);
+            // The field is named a rate but holds an interval in nanoseconds; 0 for any.
+            double rateHz = reported.IdealFrameSubmissionRate > 0
+                ? NanosecondsPerSecond / reported.IdealFrameSubmissionRate
                 : 0.0;
-            bool knows = says.MaxFrequencyHz > says.MinFrequencyHz && says.MinFrequencyHz > 0f;
-            asked = new HapticSinkCapabilities(rateHz, 500,
-                knows ? says.MinFrequencyHz : UsualMinFrequencyHz, knows ? says.MaxFrequencyHz : UsualMaxFrequencyHz,
-                says.MinimumFirstFrameDuration / NanosecondsPerSecond);
+            bool hasLimits = reported.MaxFrequencyHz > reported.MinFrequencyHz && reported.MinFrequencyHz > 0f;
+            capabilitiesOfController = new HapticSinkCapabilities(rateHz, 500,
+                hasLimits ? reported.MinFrequencyHz : DefaultMinFrequencyHz,
+                hasLimits ? reported.MaxFrequencyHz : DefaultMaxFrequencyHz,
+                reported.MinimumFirstFrameDuration / NanosecondsPerSecond);
         }
 
-        // The SDK's numbers are OpenXR's: 0 is no part of a stream.
+        // The SDK uses OpenXR's values, in which 0 is not part of a stream.
         private void Send(OVRInput.HapticsParametricPoint[] amplitudePoints,
-            OVRInput.HapticsParametricPoint[] frequencyPoints, OVRInput.HapticsParametricTransient[] knocks,
+            OVRInput.HapticsParametricPoint[] frequencyPoints, OVRInput.HapticsParametricTransient[] transientPoints,
             StreamPart part) => OVRInput.SetControllerHapticsParametric(
             new OVRInput.HapticsParametricVibration
             {
                 AmplitudePoints = amplitudePoints,
                 FrequencyPoints = frequencyPoints,
-                Transients = knocks,
-                MinFrequencyHz = (float)asked.MinFrequencyHz,
-                MaxFrequencyHz = (float)asked.MaxFrequencyHz,
+                Transients = transientPoints,
+                MinFrequencyHz = (float)capabilitiesOfController.MinFrequencyHz,
+                MaxFrequencyHz = (float)capabilitiesOfController.MaxFrequencyHz,
                 StreamFrameType = (OVRInput.HapticsParametricStreamFrameType)(int)part,
             },
             controller.Mask);
@@ -104,16 +105,16 @@ namespace HaptoFlow
             return copies;
         }
 
-        private OVRInput.HapticsParametricTransient[] Copy(ReadOnlySpan<ParametricTransient> knocks)
+        private OVRInput.HapticsParametricTransient[] Copy(ReadOnlySpan<ParametricTransient> transientPoints)
         {
-            OVRInput.HapticsParametricTransient[] copies = transients.Of(knocks.Length);
+            OVRInput.HapticsParametricTransient[] copies = transients.Of(transientPoints.Length);
             for (int index = 0; index < copies.Length; ++index)
             {
                 copies[index] = new OVRInput.HapticsParametricTransient
                 {
-                    Time = Nanoseconds(knocks[index].Seconds),
-                    Amplitude = knocks[index].Amplitude,
-                    Frequency = knocks[index].Frequency,
+                    Time = Nanoseconds(transientPoints[index].Seconds),
+                    Amplitude = transientPoints[index].Amplitude,
+                    Frequency = transientPoints[index].Frequency,
                 };
             }
             return copies;

@@ -5,29 +5,29 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>A Touch controller that plays the wave: OVRInput.SetControllerHapticsPcm.</summary>
+    /// <summary>A Touch controller that plays waveforms: OVRInput.SetControllerHapticsPcm.</summary>
     internal sealed class MetaPcmSink : IWaveformSink
     {
         private const int MaximumSamples = 4000;
 
         private readonly MetaController controller;
         private readonly float[] samples = new float[MaximumSamples];
-        private int versionAsked = -1;
+        private int queriedVersion = -1;
         private float rateHz;
 
         public MetaPcmSink(HapticHand hand) => controller = new MetaController(hand);
 
         public string Name => "a Touch controller";
 
-        // Without Append what is sent begins at once, in place of what plays.
+        // Without Append a submission starts at once and replaces what plays.
         public bool ReplacesWithoutGap => true;
 
         public bool TryGetCapabilities(out HapticSinkCapabilities capabilities)
         {
             bool holds = controller.HoldsTouch;
-            if (holds && versionAsked != controller.Version)
+            if (holds && queriedVersion != controller.Version)
             {
-                versionAsked = controller.Version;
+                queriedVersion = controller.Version;
                 rateHz = OVRInput.GetControllerSampleRateHz(controller.Mask);
                 if (!(rateHz > 0f))
                 {

@@ -7,20 +7,20 @@ using UnityEngine.XR.OpenXR.Input;
 
 namespace HaptoFlow
 {
-    /// <summary>The motor of whatever OpenXR has in a hand, MX Ink among it: OpenXRInput.SendHapticImpulse on an action
-    /// that is bound to the device's haptic output.</summary>
+    /// <summary>The motor of the OpenXR device in a hand, MX Ink included: OpenXRInput.SendHapticImpulse on an action
+    /// bound to the device's haptic output.</summary>
     internal sealed class OpenXrSink : IAmplitudeSink, IDisposable
     {
-        private const double AskSeconds = 0.5;
+        private const double CheckIntervalSeconds = 0.5;
 
-        // OpenXR takes any frequency, and the runtime plays the nearest that the device can.
+        // OpenXR accepts any frequency, and the runtime plays the nearest that the device supports.
         private const double LowestHz = 60.0;
         private const double HighestHz = 400.0;
 
         private readonly InputAction action;
         private readonly string name;
         private bool isBound;
-        private double askAtSeconds = double.NegativeInfinity;
+        private double nextCheckSeconds = double.NegativeInfinity;
 
         public OpenXrSink(HapticHand hand)
         {
@@ -36,9 +36,9 @@ namespace HaptoFlow
         {
             capabilities = new HapticSinkCapabilities(0.0, minFrequencyHz: LowestHz, maxFrequencyHz: HighestHz);
             double seconds = Time.realtimeSinceStartupAsDouble;
-            if (seconds >= askAtSeconds)
+            if (seconds >= nextCheckSeconds)
             {
-                askAtSeconds = seconds + AskSeconds;
+                nextCheckSeconds = seconds + CheckIntervalSeconds;
                 isBound = action.controls.Count > 0 && OpenXRInput.GetActionHandle(action) != 0uL;
             }
             return isBound;

@@ -5,17 +5,17 @@ using UnityEngine.XR;
 
 namespace HaptoFlow
 {
-    /// <summary>What Unity tracks in a hand, and what it says of its haptics: asked when it comes, and some times a
-    /// second as long as nothing is there or it may have become another. Main thread; no garbage.</summary>
+    /// <summary>The device that Unity tracks in a hand and its haptic capabilities, refreshed several times a second.
+    /// Main thread; no garbage.</summary>
     internal sealed class XrDevice
     {
-        private const double AskSeconds = 0.25;
+        private const double QueryIntervalSeconds = 0.25;
 
         private readonly XRNode node;
         private InputDevice device;
         private HapticCapabilities capabilities;
         private bool hasHaptics;
-        private double askAtSeconds = double.NegativeInfinity;
+        private double nextQuerySeconds = double.NegativeInfinity;
 
         public XrDevice(HapticHand hand) => node = hand == HapticHand.Left ? XRNode.LeftHand : XRNode.RightHand;
 
@@ -23,20 +23,20 @@ namespace HaptoFlow
 
         public InputDevice Device => device;
 
-        /// <returns>False while nothing is there that has haptics.</returns>
+        /// <returns>False while no device with haptics is connected.</returns>
         public bool TryGetCapabilities(out HapticCapabilities now)
         {
             double seconds = Time.realtimeSinceStartupAsDouble;
-            if (seconds >= askAtSeconds || (hasHaptics && !device.isValid))
+            if (seconds >= nextQuerySeconds || (hasHaptics && !device.isValid))
             {
-                askAtSeconds = seconds + AskSeconds;
-                Ask();
+                nextQuerySeconds = seconds + QueryIntervalSeconds;
+                Query();
             }
             now = capabilities;
             return hasHaptics;
         }
 
-        private void Ask()
+        private void Query()
         {
             InputDevice before = device;
             device = InputDevices.GetDeviceAtXRNode(node);

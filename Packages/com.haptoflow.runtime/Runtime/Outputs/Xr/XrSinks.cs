@@ -33,12 +33,12 @@ namespace HaptoFlow
             "XR impulse", HapticForm.Amplitude, 0, hand => new XrImpulseSink(hand));
     }
 
-    /// <summary>Any XR controller that takes buffers: SendHapticBuffer. Unity leaves the bytes to the device; here they
-    /// are magnitudes, 0 to 255, as Oculus defined them.</summary>
+    /// <summary>Any XR controller that supports buffers: SendHapticBuffer. Unity leaves the format to the device; the
+    /// bytes are magnitudes, 0 to 255, as Oculus defined them.</summary>
     internal sealed class XrBufferSink : IWaveformSink
     {
-        // After this many refusals in a row, a device that reports buffers counts as one that takes none.
-        private const int MostRefusals = 3;
+        // After this many failures in a row, a device that reports buffers is treated as one without.
+        private const int MaximumRefusals = 3;
 
         private readonly XrDevice device;
         private readonly ArraysByLength<byte> buffers = new ArraysByLength<byte>();
@@ -53,7 +53,8 @@ namespace HaptoFlow
 
         public bool TryGetCapabilities(out HapticSinkCapabilities capabilities)
         {
-            bool takes = device.TryGetCapabilities(out HapticCapabilities reported) && reported.supportsBuffer &&
+            bool supportsBuffers = device.TryGetCapabilities(out HapticCapabilities reported) &&
+                reported.supportsBuffer &&
                 reported.bufferFrequencyHz > 0u && reported.bufferMaxSize > 0u && reported.numChannels > 0u;
             capabilities = new HapticSinkCapabilities(reported.bufferFrequencyHz,
                 (int)Math.Min(reported.bufferMaxSize, 4000u));
@@ -62,7 +63,7 @@ namespace HaptoFlow
                 refusing = device.Device;
                 refusals = 0;
             }
-            return takes && refusals < MostRefusals;
+            return supportsBuffers && refusals < MaximumRefusals;
         }
 
         public int Submit(ReadOnlySpan<float> samples, bool replace)

@@ -6,23 +6,23 @@ using HaptoFlow.Files;
 
 namespace HaptoFlow.Studies
 {
-    /// <summary>What a study's log needs of a file system. Members throw <see cref="IOException"/> and
-    /// <see cref="UnauthorizedAccessException"/>.</summary>
+    /// <summary>The file system as a study's log uses it. Members throw <see cref="IOException"/> and <see
+    /// cref="UnauthorizedAccessException"/>.</summary>
     internal interface IStudyFiles
     {
-        /// <summary>Full paths; none where the folder is missing.</summary>
+        /// <summary>Full paths of matching files; none where the folder is missing.</summary>
         IReadOnlyList<string> Find(string folder, string pattern);
 
         bool Exists(string path);
 
         byte[] Read(string path);
 
-        /// <summary>Written whole or not at all, over an older file.</summary>
+        /// <summary>Writes a file atomically, replacing an older one.</summary>
         void Replace(string path, string text);
 
-        /// <summary>Adds a line. On disk when it returns; after a failure there may be a part of the line, which the
-        /// next call takes away.</summary>
-        /// <param name="before">What the file has to hold already.</param>
+        /// <summary>Appends a line; it is on disk when the call returns. A failure may leave part of the line, which
+        /// the next call removes.</summary>
+        /// <param name="before">The expected present contents of the file.</param>
         void AddLine(string path, byte[] before, byte[] line);
     }
 
@@ -50,7 +50,8 @@ namespace HaptoFlow.Studies
             stream.Flush(true);
         }
 
-        /// <summary>Behind it there may be one line, whole or torn: one that could not be written to its end.</summary>
+        /// <summary>True where the file holds the expected contents, followed at most by one complete or incomplete
+        /// line.</summary>
         private static bool HoldsOnly(FileStream stream, byte[] before)
         {
             var content = new byte[stream.Length];

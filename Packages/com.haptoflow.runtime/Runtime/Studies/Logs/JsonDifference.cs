@@ -5,19 +5,19 @@ using HaptoFlow.Model;
 
 namespace HaptoFlow.Studies
 {
-    /// <summary>The first place where two JSON values differ.</summary>
+    /// <summary>Finds the first difference between two JSON values. JToken.DeepEquals does not say where they
+    /// differ.</summary>
     internal static class JsonDifference
     {
-        /// <returns>The place and both values; null where they are equal. Members of the second that the first does not
-        /// have are a difference too.</returns>
+        /// <returns>Path and both values; null where they are equal. A member that only one of the objects has is a
+        /// difference.</returns>
         public static (string Path, string Was, string Is)? Find(JsonValue was, JsonValue now)
         {
-            if (was.Content is IReadOnlyDictionary<string, JsonValue> members &&
-                now.Content is IReadOnlyDictionary<string, JsonValue> others)
+            if (was.IsObject && now.IsObject)
             {
-                return OfMembers(members, others, now.Path);
+                return OfMembers(was.AsObject(), now.AsObject(), now.Path);
             }
-            if (was.Content is IReadOnlyList<JsonValue> elements && now.Content is IReadOnlyList<JsonValue> present)
+            if (was.Elements is { } elements && now.Elements is { } present)
             {
                 return OfElements(elements, present, now.Path);
             }
@@ -33,7 +33,7 @@ namespace HaptoFlow.Studies
             {
                 if (!was.TryGetValue(member.Key, out JsonValue? before))
                 {
-                    return (member.Value.Path, "not there", JsonText.Of(member.Value));
+                    return (member.Value.Path, "missing", JsonText.Of(member.Value));
                 }
                 (string, string, string)? difference = Find(before, member.Value);
                 if (difference != null)
@@ -45,7 +45,7 @@ namespace HaptoFlow.Studies
             {
                 if (!now.ContainsKey(member.Key))
                 {
-                    return (member.Value.Path, JsonText.Of(member.Value), "not there");
+                    return (member.Value.Path, JsonText.Of(member.Value), "missing");
                 }
             }
             return null;

@@ -6,7 +6,8 @@ using System.Text;
 
 namespace HaptoFlow.Studies
 {
-    /// <summary>The rows of a log that is there already, checked against the plan.</summary>
+    /// <summary>The rows of an existing log, checked against the plan. The CSV format has no quoted cells, so lines
+    /// split at commas.</summary>
     internal sealed class LogTable
     {
         private LogTable(byte[] content, int rows, double elapsedSeconds)
@@ -16,18 +17,18 @@ namespace HaptoFlow.Studies
             ElapsedSeconds = elapsedSeconds;
         }
 
-        /// <summary>The whole lines; a last line without line break is none.</summary>
+        /// <summary>The complete lines; a last line without line break is dropped.</summary>
         public byte[] Content { get; }
 
         public int Rows { get; }
 
-        /// <summary>Of the last row; 0 without one.</summary>
+        /// <summary>Elapsed seconds of the last row; 0 without one.</summary>
         public double ElapsedSeconds { get; }
 
         public static string Header(StudyKind kind) => string.Join(",", kind.Columns) + "\n";
 
-        /// <exception cref="FormatException">The file is no log of this plan; the message names line and column.
-        /// </exception>
+        /// <exception cref="FormatException">The file is not a log of this plan; the message names line and
+        /// column.</exception>
         public static LogTable Read(StudyPlan plan, byte[] file)
         {
             byte[] content = file.AsSpan(0, Array.LastIndexOf(file, (byte)'\n') + 1).ToArray();
@@ -37,7 +38,7 @@ namespace HaptoFlow.Studies
                 throw new FormatException("line 1: expected the columns " + string.Join(",", plan.Kind.Columns) +
                     "; was the file saved by another program?");
             }
-            // Behind the last line break there is nothing.
+            // Splitting at line breaks adds an empty string at the end.
             int rows = lines.Length - 2;
             if (rows > plan.Trials.Count)
             {

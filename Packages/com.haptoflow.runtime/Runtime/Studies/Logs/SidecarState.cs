@@ -6,7 +6,7 @@ using HaptoFlow.Model;
 
 namespace HaptoFlow.Studies
 {
-    /// <summary>What a sidecar says of how far its session is.</summary>
+    /// <summary>The progress of a session, as its sidecar records it.</summary>
     internal sealed class SidecarState
     {
         public const string Format = "haptoflow-study";
@@ -26,15 +26,15 @@ namespace HaptoFlow.Studies
 
         public bool IsFinished { get; set; }
 
-        /// <summary>The trial that each resumption went on with.</summary>
+        /// <summary>The trials at which the session was resumed.</summary>
         public List<int> ResumedAtTrials { get; } = new List<int>();
 
-        /// <exception cref="FormatException">That is no sidecar; the message names the key.</exception>
+        /// <exception cref="FormatException">The document is not a sidecar; the message names the key.</exception>
         public static SidecarState Read(JsonValue document)
         {
             if (document["format"].AsText() != Format || document["version"].AsInteger() != Version)
             {
-                throw new FormatException($"this is no \"{Format}\" of version {Version}");
+                throw new FormatException($"this is not a \"{Format}\" of version {Version}");
             }
             var state = new SidecarState(document["session"].AsText(), document["created"].AsText())
             {

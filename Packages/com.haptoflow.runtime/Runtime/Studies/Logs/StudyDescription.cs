@@ -8,7 +8,7 @@ namespace HaptoFlow.Studies
     /// <summary>A model or exported baseline that a study plays.</summary>
     public readonly struct StudyModel
     {
-        /// <param name="sha256">Of the file's bytes, 64 hexadecimal digits.</param>
+        /// <param name="sha256">SHA-256 of the file, 64 hexadecimal digits.</param>
         public StudyModel(string method, string file, string sha256)
         {
             Method = method;
@@ -22,16 +22,15 @@ namespace HaptoFlow.Studies
         /// <summary>The file's name without its folders.</summary>
         public string File { get; }
 
-        /// <summary>Of the file's bytes.</summary>
+        /// <summary>SHA-256 of the file, 64 hexadecimal digits.</summary>
         public string Sha256 { get; }
     }
 
-    /// <summary>What the sidecar of a log says of a session, but for what the session itself finds out.</summary>
+    /// <summary>The contents of a sidecar that are known before the session.</summary>
     public sealed class StudyDescription
     {
         /// <param name="plan">The participant's plan.</param>
-        /// <param name="settings">The study's own settings as used: a session is resumed with the same or not at all.
-        /// </param>
+        /// <param name="settings">The study's own settings; a session can be resumed only with the same ones.</param>
         /// <param name="delay">The parts of the system's delay at the start.</param>
         public StudyDescription(StudyPlan plan, StudyFields settings, SystemDelay delay)
         {
@@ -43,22 +42,22 @@ namespace HaptoFlow.Studies
         /// <summary>The participant's plan.</summary>
         public StudyPlan Plan { get; }
 
-        /// <summary>The study's own settings as used.</summary>
+        /// <summary>The study's own settings.</summary>
         public StudyFields Settings { get; }
 
         /// <summary>The parts of the system's delay at the start.</summary>
         public SystemDelay Delay { get; }
 
-        /// <summary>No person took part: reports say so.</summary>
+        /// <summary>True where no person took part; reports state it.</summary>
         public bool IsSimulated { get; set; }
 
-        /// <summary>What played the study.</summary>
+        /// <summary>Application, platform and devices of the study.</summary>
         public StudyEnvironment Environment { get; set; } = new StudyEnvironment();
 
-        /// <summary>What generated the vibration.</summary>
+        /// <summary>The models that generated the vibration.</summary>
         public IReadOnlyList<StudyModel> Models { get; set; } = new StudyModel[0];
 
-        /// <summary>What a resumed session must have as it was begun.</summary>
+        /// <summary>The fields that must be unchanged when a session is resumed.</summary>
         internal StudyFields Fixed() => new StudyFields
         {
             { "study", Plan.Kind.Name },
@@ -73,7 +72,7 @@ namespace HaptoFlow.Studies
             { "plan", Plan.Trials.Select(Entry).ToArray() },
         };
 
-        /// <summary>The sidecar's text.</summary>
+        /// <summary>The text of the sidecar.</summary>
         internal string Sidecar(SidecarState state)
         {
             var document = new StudyFields { { "format", SidecarState.Format }, { "version", SidecarState.Version } };

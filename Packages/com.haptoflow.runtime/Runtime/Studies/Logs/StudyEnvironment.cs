@@ -1,21 +1,21 @@
 #nullable enable
 namespace HaptoFlow.Studies
 {
-    /// <summary>Where the delay between the audio callback and the hand is known from.</summary>
+    /// <summary>Origin of the value for the delay between the audio callback and the hand.</summary>
     public enum DeviceDelaySource
     {
-        /// <summary>Assumed; logs and reports say so.</summary>
+        /// <summary>Assumed; logs and reports state it.</summary>
         Estimated,
 
         /// <summary>Measured with an oscilloscope or an accelerometer on this set-up.</summary>
         Measured,
     }
 
-    /// <summary>What plays a study: the application, the headset, the audio device. For the record; nothing here names
-    /// a person.</summary>
+    /// <summary>Application, headset and audio device of a study, for the record. Contains nothing about a
+    /// person.</summary>
     public sealed class StudyEnvironment
     {
-        /// <summary>Name and version.</summary>
+        /// <summary>Name and version of the application.</summary>
         public string Application { get; set; } = "";
 
         /// <summary>Unity's version.</summary>
@@ -27,22 +27,22 @@ namespace HaptoFlow.Studies
         /// <summary>The platform, for example WindowsPlayer.</summary>
         public string Platform { get; set; } = "";
 
-        /// <summary>The headset; empty without one.</summary>
+        /// <summary>Name of the headset; empty without one.</summary>
         public string Headset { get; set; } = "";
 
-        /// <summary>Frames a second of headset or screen; 0 where neither says.</summary>
+        /// <summary>Refresh rate of headset or screen in Hz; 0 where unknown.</summary>
         public double RefreshRateHz { get; set; }
 
-        /// <summary>Of the audio device, in Hz.</summary>
+        /// <summary>Sample rate of the audio device, in Hz.</summary>
         public int OutputRateHz { get; set; }
 
         /// <summary>Frames of an audio block.</summary>
         public int BlockFrames { get; set; }
 
-        /// <summary>Where the device delay is known from.</summary>
+        /// <summary>Origin of the device delay.</summary>
         public DeviceDelaySource DeviceDelaySource { get; set; }
 
-        /// <summary>How it was measured, or what the estimate rests on.</summary>
+        /// <summary>How the delay was measured, or the basis of the estimate.</summary>
         public string DeviceDelayNote { get; set; } = "";
 
         internal StudyFields Build() => new StudyFields

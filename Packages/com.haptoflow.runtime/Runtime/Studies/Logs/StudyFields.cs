@@ -4,13 +4,13 @@ using System.Collections.Generic;
 
 namespace HaptoFlow.Studies
 {
-    /// <summary>Keys and values of a sidecar in their order: texts, numbers, truths, lists of them, further fields.
-    /// Made with a collection initialiser.</summary>
+    /// <summary>Ordered keys and values of a sidecar: texts, numbers, booleans, lists of them, or further fields. Use a
+    /// collection initialiser.</summary>
     public sealed class StudyFields : IEnumerable<KeyValuePair<string, object?>>
     {
         private readonly List<KeyValuePair<string, object?>> members = new List<KeyValuePair<string, object?>>();
 
-        /// <summary>One more key.</summary>
+        /// <summary>Adds a key with its value.</summary>
         public void Add(string key, object? value) => members.Add(new KeyValuePair<string, object?>(key, value));
 
         /// <inheritdoc/>

@@ -5,10 +5,10 @@ using System.Linq;
 
 namespace HaptoFlow.Studies
 {
-    /// <summary>A study by its name in logs, and the columns of its log.</summary>
+    /// <summary>A kind of study: its name in logs and the columns of its log.</summary>
     public sealed class StudyKind
     {
-        /// <summary>Which delays between pen and vibration are noticed.</summary>
+        /// <summary>The study of the delays between pen and vibration that people notice.</summary>
         public static readonly StudyKind Latency = new StudyKind("latency",
             new[] { "condition", "delay_ms" },
             new[]
@@ -16,7 +16,7 @@ namespace HaptoFlow.Studies
                 "system_delay_ms", "artificial_delay_ms", "delivered_delay_ms", "starts", "stops", "answer",
             });
 
-        /// <summary>How similar a virtual material feels to the real one.</summary>
+        /// <summary>The study of how similar a virtual material feels to the real one.</summary>
         public static readonly StudyKind Similarity = new StudyKind("similarity",
             new[] { "material", "method" },
             new[]
@@ -36,16 +36,16 @@ namespace HaptoFlow.Studies
             }).ToArray();
         }
 
-        /// <summary>"latency" or "similarity".</summary>
+        /// <summary>Name in logs: "latency" or "similarity".</summary>
         public string Name { get; }
 
-        /// <summary>Of the log, in their order.</summary>
+        /// <summary>Columns of the log, in order.</summary>
         public IReadOnlyList<string> Columns { get; }
 
-        /// <summary>The first of them: what the plan says of a trial.</summary>
+        /// <summary>The first columns of the log, whose values the plan determines.</summary>
         public IReadOnlyList<string> PlannedColumns { get; }
 
-        /// <summary>What the plan says of a trial, column by column.</summary>
+        /// <summary>The planned value of a trial for a column.</summary>
         internal static object Planned(PlannedTrial trial, string column) => column switch
         {
             "trial" => trial.Trial,
@@ -54,7 +54,7 @@ namespace HaptoFlow.Studies
             "delay_ms" => trial.DelayMilliseconds!.Value,
             "material" => trial.Material!,
             "method" => trial.Method!,
-            _ => throw new ArgumentException($"a plan says nothing of {column}", nameof(column)),
+            _ => throw new ArgumentException($"a plan has no column {column}", nameof(column)),
         };
     }
 }

@@ -8,10 +8,9 @@ using HaptoFlow.Model;
 
 namespace HaptoFlow.Studies
 {
-    /// <summary>The two files of a session: rows of answered trials as CSV, and a JSON sidecar that says what was done.
-    /// Each row is written to disk before the next trial begins. A row that cannot be written stays in memory and is
-    /// written again later, so that no answer is lost. Main thread.
-    /// </summary>
+    /// <summary>The two files of a session: rows of answered trials as CSV, and a JSON sidecar that describes the
+    /// session. Each row is written to disk before the next trial begins. A row that cannot be written stays in memory
+    /// and is written later, so that no answer is lost. Main thread.</summary>
     public sealed class StudyLog
     {
         private const string AnotherParticipant = "or choose another participant number";
@@ -34,40 +33,39 @@ namespace HaptoFlow.Studies
             ElapsedSeconds = table.ElapsedSeconds;
         }
 
-        /// <summary>The rows.</summary>
+        /// <summary>Path of the table.</summary>
         public string CsvPath { get; }
 
-        /// <summary>The sidecar.</summary>
+        /// <summary>Path of the sidecar.</summary>
         public string SidecarPath => SidecarOf(CsvPath);
 
-        /// <summary>8 hexadecimal digits.</summary>
+        /// <summary>Identifier of the session, 8 hexadecimal digits.</summary>
         public string Session => state.Session;
 
-        /// <summary>What is logged.</summary>
+        /// <summary>The plan of the session.</summary>
         public StudyPlan Plan => description.Plan;
 
         /// <summary>Trials whose rows are on disk.</summary>
         public int Answered { get; private set; }
 
-        /// <summary>Of the last row on disk, in seconds since the session began.</summary>
+        /// <summary>Elapsed seconds of the last row on disk, since the session began.</summary>
         public double ElapsedSeconds { get; }
 
-        /// <summary>How often the session was gone on with, this time included.</summary>
+        /// <summary>Number of times that the session was resumed, including this one.</summary>
         public int Resumptions => state.ResumedAtTrials.Count;
 
-        /// <summary>The sidecar says that the session is over.</summary>
+        /// <summary>True where the sidecar marks the session as finished.</summary>
         public bool IsFinished => state.IsFinished;
 
-        /// <summary>A row waits for the disk.</summary>
+        /// <summary>True while a row is not on disk yet.</summary>
         public bool HasPending => pending != null;
 
-        /// <summary>Why the last attempt to write failed, for the operator; null where nothing is wrong.</summary>
+        /// <summary>Why the last attempt to write failed, for the operator; null without an error.</summary>
         public string? Problem { get; private set; }
 
-        /// <summary>Begins a participant's session, or goes on with the one that was interrupted.</summary>
-        /// <exception cref="StudyException">The participant has finished this study, the interrupted session was begun
-        /// with other settings, a file is damaged, or the folder cannot be written to. Nothing was overwritten.
-        /// </exception>
+        /// <summary>Starts a participant's session, or resumes an interrupted one.</summary>
+        /// <exception cref="StudyException">The participant has finished this study, the interrupted session used other
+        /// settings, a file is damaged, or the folder is not writable. Nothing was overwritten.</exception>
         public static StudyLog Open(string folder, StudyDescription description) =>
             Open(folder, description, new DiskFiles());
 
@@ -77,7 +75,7 @@ namespace HaptoFlow.Studies
             {
                 if (folder.Length == 0)
                 {
-                    throw new ArgumentException("the folder of the logs has no name");
+                    throw new ArgumentException("the folder for the logs is empty");
                 }
                 string stem = $"{description.Plan.Kind.Name}-P{description.Plan.Participant:00}-";
                 List<string> tables = FilesOf(files, folder, stem, ".csv");
@@ -91,23 +89,23 @@ namespace HaptoFlow.Studies
                         $"{sessions.Count} sessions in this folder; move all but one elsewhere, {AnotherParticipant}");
                 }
                 return sessions.Count == 1
-                    ? Again(files, sessions[0], description)
+                    ? Resume(files, sessions[0], description)
                     : Begin(files, Path.Combine(folder, stem + NewSession() + ".csv"), description);
             }
             catch (Exception error) when (IsOfDisk(error) || IsOfPath(error))
             {
                 throw new StudyException(
-                    $"{folder}: {error.Message}; name a folder that can be written to in the settings' folder", error);
+                    $"{folder}: {error.Message}; choose a writable folder in the field Folder of the settings", error);
             }
         }
 
-        /// <summary>How often the participant is asked a trial by now: 1, more where the session was interrupted there.
-        /// </summary>
+        /// <summary>Number of attempts at a trial so far: 1, and more after interruptions at that trial.</summary>
         public int AttemptsAt(int trial) => 1 + state.ResumedAtTrials.Count(each => each == trial);
 
-        /// <summary>Writes a row. Where that fails, the row is kept: see <see cref="TryWritePending"/>.</summary>
-        /// <returns>The row is on disk.</returns>
-        /// <exception cref="InvalidOperationException">The row before it is not yet on disk, or all are.</exception>
+        /// <summary>Writes a row. If that fails, the row is kept: see <see cref="TryWritePending"/>.</summary>
+        /// <returns>True where the row is on disk.</returns>
+        /// <exception cref="InvalidOperationException">The previous row is not on disk yet, or every trial has its
+        /// row.</exception>
         public bool Append(TrialRecord record)
         {
             if (HasPending || Answered == Plan.Trials.Count)
@@ -125,8 +123,8 @@ namespace HaptoFlow.Studies
             return TryWritePending();
         }
 
-        /// <summary>Tries again to write the row that waits.</summary>
-        /// <returns>No row waits any more.</returns>
+        /// <summary>Tries again to write the pending row.</summary>
+        /// <returns>True where no row is pending.</returns>
         public bool TryWritePending()
         {
             if (pending == null)
@@ -144,8 +142,8 @@ namespace HaptoFlow.Studies
             return true;
         }
 
-        /// <summary>Says in the sidecar that the session is over.</summary>
-        /// <returns>It is on disk.</returns>
+        /// <summary>Marks the session as finished in the sidecar.</summary>
+        /// <returns>True where the sidecar is on disk.</returns>
         public bool Finish()
         {
             state.IsFinished = true;
@@ -171,13 +169,14 @@ namespace HaptoFlow.Studies
 
         private static StudyLog Begin(IStudyFiles files, string path, StudyDescription description)
         {
-            // First the table: one without sidecar holds no answer, a sidecar without table may have lost some.
+            // The table comes first: a table without sidecar has no answers, while a sidecar without table may have
+            // lost some.
             string header = LogTable.Header(description.Plan.Kind);
             files.Replace(path, header);
-            return Opened(files, path, description, Encoding.UTF8.GetBytes(header));
+            return NewLog(files, path, description, Encoding.UTF8.GetBytes(header));
         }
 
-        private static StudyLog Opened(IStudyFiles files, string path, StudyDescription description, byte[] content)
+        private static StudyLog NewLog(IStudyFiles files, string path, StudyDescription description, byte[] content)
         {
             string session = Path.GetFileNameWithoutExtension(path).Split('-').Last();
             var state = new SidecarState(session, DateTime.UtcNow.ToString("yyyy-MM-ddTHH:mm:ssZ",
@@ -187,22 +186,22 @@ namespace HaptoFlow.Studies
             return log;
         }
 
-        private static StudyLog Again(IStudyFiles files, string path, StudyDescription description)
+        private static StudyLog Resume(IStudyFiles files, string path, StudyDescription description)
         {
             string sidecar = SidecarOf(path);
             if (!files.Exists(path))
             {
                 throw new StudyException(
-                    $"{path}: is gone while its sidecar is there; bring it back, {AnotherParticipant}");
+                    $"{path}: is missing but its sidecar exists; restore it, {AnotherParticipant}");
             }
             if (!files.Exists(sidecar))
             {
                 byte[] content = files.Read(path);
                 bool isBare = content.SequenceEqual(Encoding.UTF8.GetBytes(LogTable.Header(description.Plan.Kind)));
                 return isBare
-                    ? Opened(files, path, description, content)
+                    ? NewLog(files, path, description, content)
                     : throw new StudyException(
-                        $"{sidecar}: is gone while its table is there; bring it back, {AnotherParticipant}");
+                        $"{sidecar}: is missing but its table exists; restore it, {AnotherParticipant}");
             }
             SidecarState state = Checked(sidecar, () => Resumable(files, sidecar, description));
             LogTable table = Checked(path, () => LogTable.Read(description.Plan, files.Read(path)));
@@ -237,8 +236,8 @@ namespace HaptoFlow.Studies
             if (difference.HasValue)
             {
                 (string path, string before, string after) = difference.Value;
-                throw new StudyException($"{sidecar}: the session was begun with {path} = {before} and would go on " +
-                    $"with {after}; put it back, {AnotherParticipant}");
+                throw new StudyException($"{sidecar}: the session was begun with {path} = {before}, but the " +
+                    $"value is now {after}; restore it, {AnotherParticipant}");
             }
         }
 

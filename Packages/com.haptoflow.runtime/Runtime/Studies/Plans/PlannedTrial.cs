@@ -3,13 +3,13 @@ using System;
 
 namespace HaptoFlow.Studies
 {
-    /// <summary>A trial of a plan. What the study does not vary is null.</summary>
+    /// <summary>A trial of a plan. Properties that the study does not vary are null.</summary>
     public sealed class PlannedTrial
     {
-        /// <summary>As <see cref="Block"/>: to become familiar with the task.</summary>
+        /// <summary>Value of <see cref="Block"/> for trials to become familiar with the task.</summary>
         public const string Practice = "practice";
 
-        /// <summary>As <see cref="Block"/>: what the analysis reads.</summary>
+        /// <summary>Value of <see cref="Block"/> for trials that are analysed.</summary>
         public const string Main = "main";
 
         internal PlannedTrial(int trial, string block, bool restBefore)
@@ -19,17 +19,17 @@ namespace HaptoFlow.Studies
             RestBefore = restBefore;
         }
 
-        /// <summary>Its place in the plan, from 1.</summary>
+        /// <summary>Number of the trial in the plan, from 1.</summary>
         public int Trial { get; }
 
         /// <summary><see cref="Practice"/> or <see cref="Main"/>.</summary>
         public string Block { get; }
 
-        /// <summary>The study stops before this trial until somebody goes on.</summary>
+        /// <summary>True where the study pauses before this trial until the operator continues.</summary>
         public bool RestBefore { get; }
 
-        /// <summary>Similarity study: the trial before was on another material, so that the operator has to mount
-        /// another sample first.</summary>
+        /// <summary>Similarity study: true where the previous trial had another material, so that the operator has to
+        /// mount another sample first.</summary>
         public bool ChangesSample { get; internal set; }
 
         /// <summary>Latency study: <see cref="StudyPlan.TurnOn"/> or <see cref="StudyPlan.TurnOff"/>.</summary>
@@ -44,7 +44,7 @@ namespace HaptoFlow.Studies
         /// <summary>Similarity study: the method's name in the settings.</summary>
         public string? Method { get; internal set; }
 
-        /// <summary>It belongs to the practice.</summary>
+        /// <summary>True for a trial of the practice block.</summary>
         public bool IsPractice => string.Equals(Block, Practice, StringComparison.Ordinal);
     }
 }

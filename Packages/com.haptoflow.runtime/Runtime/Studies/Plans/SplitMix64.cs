@@ -1,16 +1,17 @@
 #nullable enable
 namespace HaptoFlow.Studies
 {
-    /// <summary>The random numbers of study plans: Steele, Lea and Flood (2014), Fast splittable pseudorandom number
-    /// generators. The same numbers as in the training package. Any thread, one at a time.</summary>
+    /// <summary>The pseudorandom numbers of study plans: Steele, Lea and Flood (2014), Fast splittable pseudorandom
+    /// number generators. System.Random cannot reproduce the training package's plans; this generator is the same
+    /// there. One thread at a time.</summary>
     public sealed class SplitMix64
     {
         private ulong state;
 
-        /// <summary>Starts at a seed.</summary>
+        /// <summary>Starts the sequence of a seed.</summary>
         public SplitMix64(ulong seed) => state = seed;
 
-        /// <summary>0 to count - 1 in the order that a seed gives (Fisher and Yates, from the end).</summary>
+        /// <summary>The numbers 0 to count - 1, shuffled by a seed (Fisher and Yates, from the end).</summary>
         /// <param name="count">0 or more.</param>
         public static int[] Shuffle(int count, ulong seed)
         {

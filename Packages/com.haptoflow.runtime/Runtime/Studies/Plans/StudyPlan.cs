@@ -6,16 +6,16 @@ using System.Linq;
 namespace HaptoFlow.Studies
 {
     /// <summary>The order of a study's trials for one participant, counterbalanced over participants and shuffled by a
-    /// seed: the same in the training package. Any thread.</summary>
+    /// seed, identical to the training package's. Any thread.</summary>
     public sealed class StudyPlan
     {
-        /// <summary>The pen begins to move and the vibration begins.</summary>
+        /// <summary>Condition in which the vibration follows the start of the pen's motion.</summary>
         public const string TurnOn = "turn-on";
 
-        /// <summary>The pen stops and the vibration stops.</summary>
+        /// <summary>Condition in which the end of the vibration follows the end of the pen's motion.</summary>
         public const string TurnOff = "turn-off";
 
-        /// <summary>Main trials of the similarity study between two rests.</summary>
+        /// <summary>Number of main trials of the similarity study between two rests.</summary>
         public const int TrialsBetweenRests = 12;
 
         private readonly List<PlannedTrial> trials = new List<PlannedTrial>();
@@ -31,25 +31,25 @@ namespace HaptoFlow.Studies
             Seed = seed;
         }
 
-        /// <summary>Which study it is.</summary>
+        /// <summary>The kind of study.</summary>
         public StudyKind Kind { get; }
 
-        /// <summary>From 1.</summary>
+        /// <summary>Number of the participant, from 1.</summary>
         public int Participant { get; }
 
-        /// <summary>What the order is shuffled by, equal for all participants of a study.</summary>
+        /// <summary>Seed of the shuffling, equal for all participants of a study.</summary>
         public ulong Seed { get; }
 
-        /// <summary>In their order.</summary>
+        /// <summary>The trials in order.</summary>
         public IReadOnlyList<PlannedTrial> Trials => trials;
 
-        /// <summary>The latency study: four practice trials, then every level under one condition and every level under
-        /// the other. Participants with an odd number begin with <see cref="TurnOn"/>. Each level stands equally often
-        /// at each place of each condition once every row of the levels' design was used. A rest comes before the main
-        /// trials and between the conditions.</summary>
-        /// <param name="participant">From 1.</param>
-        /// <param name="levelsMilliseconds">Delays in all, each once, above 0.</param>
-        /// <exception cref="StudyException">A level or the participant is unusable; the message names it.</exception>
+        /// <summary>The latency study: four practice trials, then every level in one condition and every level in the
+        /// other. Participants with odd numbers begin with <see cref="TurnOn"/>. Once every row of the levels' design
+        /// was used, each level has been equally often at each position of each condition. There is a rest before the
+        /// main trials and between the conditions.</summary>
+        /// <param name="participant">Number of the participant, from 1.</param>
+        /// <param name="levelsMilliseconds">Total delays, different and above 0.</param>
+        /// <exception cref="StudyException">A level or the participant is not valid; the message names it.</exception>
         public static StudyPlan Latency(int participant, ulong seed, IReadOnlyList<double> levelsMilliseconds)
         {
             var plan = new StudyPlan(StudyKind.Latency, participant, seed);
@@ -63,8 +63,8 @@ namespace HaptoFlow.Studies
             int[] names = SplitMix64.Shuffle(levelsMilliseconds.Count, seed);
             int[][] rows = WilliamsDesign.Rows(names.Length);
             int row = (participant - 1) % rows.Length;
-            // Those who begin with a condition have rows of one parity: an even step leaves the rest of the rows to the
-            // others.
+            // Participants who begin with the same condition use rows of one parity; an even step leaves the other rows
+            // to the others.
             int half = rows.Length / 2;
             int step = half + half % 2;
             foreach (string condition in conditions)
@@ -81,14 +81,14 @@ namespace HaptoFlow.Studies
         }
 
         /// <summary>The similarity study: every method on the first material for practice, then each material with all
-        /// methods one after another. Materials change places with each participant. The rows of methods move on once
-        /// the participants have used every order of materials, so that each method comes equally often at each place
-        /// of each material. A rest comes before the main trials and after every <see cref="TrialsBetweenRests"/> of
-        /// them.</summary>
-        /// <param name="participant">From 1.</param>
-        /// <param name="materials">Names, each once, without comma, quotation mark or line break.</param>
-        /// <param name="methods">As the materials.</param>
-        /// <exception cref="StudyException">A name or the participant is unusable; the message names it.</exception>
+        /// methods in succession. The order of materials changes with each participant. The rows of methods advance
+        /// once the participants have used every order of materials, so that each method is equally often at each
+        /// position of each material. There is a rest before the main trials and after every <see
+        /// cref="TrialsBetweenRests"/> of them.</summary>
+        /// <param name="participant">Number of the participant, from 1.</param>
+        /// <param name="materials">Different names without comma, quotation mark or line break.</param>
+        /// <param name="methods">Different names without comma, quotation mark or line break.</param>
+        /// <exception cref="StudyException">A name or the participant is not valid; the message names it.</exception>
         public static StudyPlan Similarity(
             int participant, ulong seed, IReadOnlyList<string> materials, IReadOnlyList<string> methods)
         {
@@ -148,12 +148,12 @@ namespace HaptoFlow.Studies
                 if (!(level > 0.0) || double.IsInfinity(level))
                 {
                     throw new StudyException(FormattableString.Invariant(
-                        $"levels_ms: {level} ms is no delay; expected more than 0"));
+                        $"levels_ms: {level} ms is not a delay; expected more than 0"));
                 }
                 if (levels.Count(each => each.Equals(level)) > 1)
                 {
                     throw new StudyException(FormattableString.Invariant(
-                        $"levels_ms: {level} ms is there twice; expected each level once"));
+                        $"levels_ms: {level} ms occurs twice; expected each level once"));
                 }
             }
         }
@@ -169,12 +169,12 @@ namespace HaptoFlow.Studies
                 if (name.Trim().Length == 0 || name.Any(letter => letter == ',' || letter == '"' || letter < ' '))
                 {
                     throw new StudyException(
-                        $"{key}: \"{name}\" cannot stand in a log; expected a name without comma, quotation mark or " +
+                        $"{key}: \"{name}\" is not valid; expected a name without comma, quotation mark or " +
                         "line break");
                 }
                 if (names.Count(each => string.Equals(each, name, StringComparison.Ordinal)) > 1)
                 {
-                    throw new StudyException($"{key}: \"{name}\" is there twice; expected each name once");
+                    throw new StudyException($"{key}: \"{name}\" occurs twice; expected each name once");
                 }
             }
         }

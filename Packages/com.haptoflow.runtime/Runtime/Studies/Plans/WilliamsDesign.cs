@@ -3,14 +3,14 @@ using System;
 
 namespace HaptoFlow.Studies
 {
-    /// <summary>Orders in which each treatment stands once at each place and follows each other treatment equally
-    /// often: Williams (1949), Experimental designs balanced for the estimation of residual effects of treatments.
-    /// Any thread.</summary>
+    /// <summary>Orders of treatments in which each treatment is once at each position and follows each other treatment
+    /// equally often: Williams (1949), Experimental designs balanced for the estimation of residual effects of
+    /// treatments. Any thread.</summary>
     public static class WilliamsDesign
     {
-        /// <summary>The rows for a number of treatments: as many for an even number, twice as many for an odd one, one
-        /// row for one treatment.</summary>
-        /// <param name="count">1 or more.</param>
+        /// <summary>The rows of the design: as many as treatments for an even number, twice as many for an odd one, and
+        /// one row for one treatment.</summary>
+        /// <param name="count">Number of treatments, 1 or more.</param>
         /// <exception cref="ArgumentOutOfRangeException">The count is below 1.</exception>
         public static int[][] Rows(int count)
         {

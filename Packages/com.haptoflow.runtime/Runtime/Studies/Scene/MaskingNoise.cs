@@ -4,35 +4,35 @@ using UnityEngine;
 
 namespace HaptoFlow.Studies
 {
-    /// <summary>What a masking noise sounds like.</summary>
+    /// <summary>Spectrum of a masking noise.</summary>
     public enum NoiseColour
     {
-        /// <summary>As strong in every hertz.</summary>
+        /// <summary>Equal power per hertz.</summary>
         White,
 
-        /// <summary>As strong in every octave: covers a low hum at a lower loudness.</summary>
+        /// <summary>Equal power per octave: masks a low hum at a lower loudness.</summary>
         Pink,
     }
 
-    /// <summary>Plays noise in the headphones, so that the participant does not hear the actuator. Every channel gets
-    /// it but the haptic one, which stays clean. Belongs on the Audio Listener's object.</summary>
+    /// <summary>Plays noise in the headphones, so that the participant does not hear the actuator. All channels but the
+    /// haptic one carry it. Add it to the Audio Listener's object.</summary>
     [AddComponentMenu("HaptoFlow/Masking Noise")]
     [DisallowMultipleComponent]
     [HelpURL(HelpPages.Components + "masking-noise")]
     public sealed class MaskingNoise : MonoBehaviour
     {
-        /// <summary>The lowest level, in dB of full scale.</summary>
+        /// <summary>Lower limit of the level, in dB of full scale.</summary>
         public const float LowestDecibels = -60f;
 
-        /// <summary>The highest level, in dB of full scale: peaks of the noise stay below full scale.</summary>
+        /// <summary>Upper limit of the level, in dB of full scale: peaks of the noise stay below full scale.</summary>
         public const float HighestDecibels = -18f;
 
         private const float FadeSeconds = 0.05f;
 
-        [SerializeField, Tooltip("The output whose channel stays clean.")]
+        [SerializeField, Tooltip("The output whose channel carries no noise.")]
         private HapticOutput? output;
 
-        [SerializeField, Tooltip("White is as strong in every hertz, pink in every octave.")]
+        [SerializeField, Tooltip("The spectrum of the noise: white has equal power per hertz, pink per octave.")]
         private NoiseColour colour = NoiseColour.White;
 
         [SerializeField, Range(LowestDecibels, HighestDecibels),
@@ -46,32 +46,32 @@ namespace HaptoFlow.Studies
         private volatile int sampleRateHz = 48000;
         private int channelCount;
         private float gain;
-        private string? told;
+        private string? loggedProblem;
 
-        /// <summary>The output whose channel stays clean. Without one, or with one that plays on all channels, there is
-        /// no noise: see <see cref="Problem"/>.</summary>
+        /// <summary>The output whose channel carries no noise. There is no noise without an output, or with one that
+        /// plays on all channels: see <see cref="Problem"/>.</summary>
         public HapticOutput? Output
         {
             get => output;
             set => output = value;
         }
 
-        /// <summary>White or pink.</summary>
+        /// <summary>Spectrum of the noise.</summary>
         public NoiseColour Colour
         {
             get => colour;
             set => colour = value;
         }
 
-        /// <summary>Root mean square in dB of full scale, <see cref="LowestDecibels"/> to
-        /// <see cref="HighestDecibels"/>.</summary>
+        /// <summary>Root mean square in dB of full scale, <see cref="LowestDecibels"/> to <see
+        /// cref="HighestDecibels"/>.</summary>
         public float LevelDecibels
         {
             get => levelDecibels;
             set => levelDecibels = Mathf.Clamp(value, LowestDecibels, HighestDecibels);
         }
 
-        /// <summary>Why there is no noise; null where there is.</summary>
+        /// <summary>Why there is no noise; null while there is.</summary>
         public string? Problem { get; private set; }
 
         private void OnEnable()
@@ -98,18 +98,19 @@ namespace HaptoFlow.Studies
             hapticChannel = Problem == null ? output!.Channel : HapticVoice.AllChannels;
             isPink = colour == NoiseColour.Pink;
             wantedGain = Problem == null ? (float)Math.Pow(10.0, 0.05 * levelDecibels) : 0f;
-            if (Problem != null && !string.Equals(Problem, told, StringComparison.Ordinal))
+            if (Problem != null && !string.Equals(Problem, loggedProblem, StringComparison.Ordinal))
             {
                 Debug.LogError($"HaptoFlow: {Problem}", this);
             }
-            told = Problem;
+            loggedProblem = Problem;
         }
 
         private string? WhyNot()
         {
             if (output == null)
             {
-                return "there is no masking noise: choose the output whose channel stays clean in the field Output";
+                return "there is no masking noise: choose the output whose channel carries no noise in the field " +
+                    "Output";
             }
             if (output.Channel < 0)
             {
@@ -122,11 +123,11 @@ namespace HaptoFlow.Studies
                 : null;
         }
 
-        // Audio thread: no garbage, no wait.
+        // Audio thread: no garbage, no locks.
         private void OnAudioFilterRead(float[] data, int channels)
         {
-            int clean = hapticChannel;
-            if (clean < 0)
+            int excluded = hapticChannel;
+            if (excluded < 0)
             {
                 gain = 0f;
                 return;
@@ -139,7 +140,7 @@ namespace HaptoFlow.Studies
                 float sample = gain * generator.Next(isPink);
                 for (int channel = 0; channel < channels; ++channel)
                 {
-                    if (channel != clean)
+                    if (channel != excluded)
                     {
                         ref float place = ref data[first + channel];
                         place = Math.Max(-1f, Math.Min(1f, place + sample));

@@ -3,19 +3,20 @@ using System;
 
 namespace HaptoFlow.Studies
 {
-    /// <summary>Noise with a root mean square of 1. One thread at a time; no garbage.</summary>
+    /// <summary>Noise with a root mean square of 1. System.Random is slower and allocates its state table. One thread
+    /// at a time; no garbage.</summary>
     internal sealed class NoiseGenerator
     {
         // Uniform numbers of +-1 have a root mean square of 1 / sqrt(3).
         private const float WhiteScale = 1.7320508f;
 
-        // Makes up for the filter's gain on white noise of a root mean square of 1, by its impulse response.
+        // Normalises the filter's output for white noise with a root mean square of 1, from its impulse response.
         private static readonly float PinkScale;
 
         private readonly float[] state = new float[7];
         private uint bits = 0x9E3779B9u;
 
-        // Explicit, so that it runs where the first generator is made, and not on the audio thread.
+        // An explicit static constructor runs when the first generator is created, not on the audio thread.
         static NoiseGenerator() => PinkScale = FindPinkScale();
 
         public float Next(bool isPink)
@@ -28,8 +29,7 @@ namespace HaptoFlow.Studies
             return isPink ? PinkScale * Filtered(state, white) : white;
         }
 
-        /// <summary>Paul Kellet's filter (1999): within a tenth of a decibel of -3 dB an octave above 9 Hz at 44.1 kHz.
-        /// </summary>
+        /// <summary>Paul Kellet's filter (1999): within 0.1 dB of -3 dB per octave above 9 Hz at 44.1 kHz.</summary>
         private static float Filtered(float[] state, float white)
         {
             state[0] = 0.99886f * state[0] + white * 0.0555179f;

@@ -6,20 +6,20 @@ using UnityEngine;
 
 namespace HaptoFlow.Studies
 {
-    /// <summary>What the operator sees and presses: how far the study is, what is played, what the disk says. It is
-    /// drawn with Unity's immediate mode, which a screen shows and a headset does not. Main thread.</summary>
+    /// <summary>The operator's view of a study: progress, level, state of the disk, and buttons. Drawn with Unity's
+    /// immediate mode, which appears on screens but not in headsets. Main thread.</summary>
     [DisallowMultipleComponent]
     [HelpURL(HelpPages.Components + "operator-view")]
     public sealed class OperatorView : MonoBehaviour
     {
-        // New text makes garbage; nobody reads faster.
+        // New text makes garbage, and faster updates cannot be read.
         private const double SecondsBetween = 0.25;
         private const int MeterSteps = 20;
         private const float LineHeight = 22f;
         private const float Width = 620f;
         private const float Margin = 10f;
         private const float ButtonWidth = 80f;
-        private const int LargestParticipant = 999;
+        private const int MaximumParticipant = 999;
 
         private static readonly (string Caption, int Step)[] Steps =
         {
@@ -29,26 +29,27 @@ namespace HaptoFlow.Studies
         private readonly List<string> lines = new List<string>();
         private double nextSeconds;
 
-        /// <summary>What is led; null until it is known.</summary>
+        /// <summary>The session to show; null until there is one.</summary>
         public StudySession? Session { get; set; }
 
-        /// <summary>Whose study begins next, 1 to 999: chosen by buttons while no session is under way.</summary>
+        /// <summary>Number of the next participant, 1 to 999: chosen with buttons while no session is under
+        /// way.</summary>
         public int Participant { get; set; } = 1;
 
-        /// <summary>Begins the study for a participant; null where that is done elsewhere.</summary>
+        /// <summary>Starts the study for a participant; null where that is done elsewhere.</summary>
         public Action<int>? Begin { get; set; }
 
-        /// <summary>Whose level the meter shows.</summary>
+        /// <summary>The output whose level the meter shows.</summary>
         public HapticOutput? Output { get; set; }
 
-        /// <summary>The study's own lines: condition, delay, what the participant does. Asked a few times a second.
-        /// </summary>
+        /// <summary>Additional lines of the study: condition, delay, what the participant does. Called several times a
+        /// second.</summary>
         public Func<string>? Detail { get; set; }
 
-        /// <summary>Why the study does not go on; null where nothing is wrong.</summary>
+        /// <summary>Why the study cannot continue; null without an error.</summary>
         public string? Problem { get; set; }
 
-        /// <summary>What is shown, line by line.</summary>
+        /// <summary>The lines on display.</summary>
         public IReadOnlyList<string> Lines => lines;
 
         private void Update()
@@ -100,7 +101,7 @@ namespace HaptoFlow.Studies
             {
                 if (Button(place++, top, caption))
                 {
-                    Participant = Math.Max(1, Math.Min(LargestParticipant, Participant + step));
+                    Participant = Math.Max(1, Math.Min(MaximumParticipant, Participant + step));
                     Write();
                 }
             }
@@ -138,8 +139,8 @@ namespace HaptoFlow.Studies
             if (Session != null)
             {
                 lines.Add("disk: " + (Session.Problem == null
-                    ? "every answer is written"
-                    : "NOT WRITTEN, it is tried again: " + Session.Problem));
+                    ? "every answer is saved"
+                    : "NOT SAVED, trying again: " + Session.Problem));
             }
             if (Problem != null)
             {
@@ -164,9 +165,9 @@ namespace HaptoFlow.Studies
             {
                 StudyPause.Rest => "rest: press Next when the participant is ready",
                 StudyPause.Sample => "another sample: mount it, then press Next",
-                StudyPause.Operator => "paused: the trial begins again with Next",
-                StudyPause.ClockJump => "paused: the application stood still; the trial begins again with Next",
-                StudyPause.Disk => "paused: the disk takes answers again; press Next",
+                StudyPause.Operator => "paused: Next restarts the trial",
+                StudyPause.ClockJump => "paused: the application stood still; Next restarts the trial",
+                StudyPause.Disk => "paused: the disk works again; press Next",
                 _ => "press Next to begin",
             },
             StudyPhase.Task => "the participant does the task",

@@ -4,13 +4,13 @@ using UnityEngine;
 
 namespace HaptoFlow.Studies
 {
-    /// <summary>What a study asks of the running player. Main thread.</summary>
+    /// <summary>What a study needs to know about the running player. Main thread.</summary>
     public static class StudyPlayer
     {
-        /// <summary>Where logs go without another folder: "Studies" in the player's persistent folder.</summary>
+        /// <summary>Default folder for logs: "Studies" in the player's persistent folder.</summary>
         public static string DefaultFolder => Path.Combine(Application.persistentDataPath, "Studies");
 
-        /// <summary>Of an audio block at present, in ms.</summary>
+        /// <summary>Duration of an audio block, in ms.</summary>
         public static double BlockMilliseconds
         {
             get
@@ -20,11 +20,11 @@ namespace HaptoFlow.Studies
             }
         }
 
-        /// <summary>Of the audio device at present.</summary>
+        /// <summary>Number of channels of the audio device.</summary>
         public static int Channels => SpeakerChannels.Count(AudioSettings.GetConfiguration().speakerMode);
 
         /// <summary>Application, platform and audio device, for the record. Makes garbage.</summary>
-        /// <param name="headset">The headset in the operator's words; empty without one.</param>
+        /// <param name="headset">Name of the headset as entered by the operator; empty without one.</param>
         public static StudyEnvironment Environment(string headset)
         {
             AudioSettings.GetDSPBufferSize(out int frames, out _);

@@ -3,8 +3,8 @@ using System;
 
 namespace HaptoFlow.Studies
 {
-    /// <summary>Measures how long a frame takes: the time between two poses of the pen. The median of the last frames
-    /// counts, so that one that was late does not. Main thread; no garbage.</summary>
+    /// <summary>Measures the interval between two poses of the pen: the median of the last frames, so that a late frame
+    /// does not count. Main thread; no garbage.</summary>
     public sealed class PoseInterval
     {
         private const int Frames = 128;
@@ -23,7 +23,7 @@ namespace HaptoFlow.Studies
         /// <summary>Whether there have been enough frames for a reliable median.</summary>
         public bool IsMeasured => count >= MinimumFrames;
 
-        /// <summary>Half of the last frames took less, in ms; 0 before the first.</summary>
+        /// <summary>Median of the last frames, in ms; 0 before the first.</summary>
         public double MedianMilliseconds
         {
             get
@@ -38,11 +38,11 @@ namespace HaptoFlow.Studies
             }
         }
 
-        /// <summary>One more frame; what is no time is left out.</summary>
-        /// <param name="seconds">Time.unscaledDeltaTime.</param>
+        /// <summary>Adds a frame; an invalid duration is ignored.</summary>
+        /// <param name="seconds">Duration of the frame: Time.unscaledDeltaTime.</param>
         public void Add(double seconds)
         {
-            if (seconds > 0.0 && seconds < SessionClock.LongestFrameSeconds)
+            if (seconds > 0.0 && seconds < SessionClock.MaximumFrameSeconds)
             {
                 ring[next] = seconds;
                 next = (next + 1) % Frames;

@@ -1,12 +1,12 @@
 #nullable enable
 namespace HaptoFlow.Studies
 {
-    /// <summary>Counts a session's seconds from a clock that may stop, jump or go backwards: a headset that was put
-    /// down, a computer that slept.</summary>
+    /// <summary>Counts the seconds of a session with a clock that may stop, jump or go backwards, for example when a
+    /// headset is put down or a computer sleeps.</summary>
     internal sealed class SessionClock
     {
-        /// <summary>No frame takes longer while somebody takes part.</summary>
-        public const double LongestFrameSeconds = 1.0;
+        /// <summary>Longest frame while a person takes part.</summary>
+        public const double MaximumFrameSeconds = 1.0;
 
         private double lastSeconds = double.NaN;
 
@@ -15,13 +15,13 @@ namespace HaptoFlow.Studies
         public double ElapsedSeconds { get; private set; }
 
         /// <param name="counts">False while the session is paused.</param>
-        /// <returns>False for a jump; it is left out.</returns>
+        /// <returns>False after a jump, which is not counted.</returns>
         public bool Advance(double nowSeconds, bool counts)
         {
             double passed = nowSeconds - lastSeconds;
             bool isFirst = double.IsNaN(lastSeconds);
             lastSeconds = nowSeconds;
-            bool isSteady = passed >= 0.0 && passed <= LongestFrameSeconds;
+            bool isSteady = passed >= 0.0 && passed <= MaximumFrameSeconds;
             if (counts && isSteady)
             {
                 ElapsedSeconds += passed;

@@ -3,10 +3,10 @@ using System;
 
 namespace HaptoFlow.Studies
 {
-    /// <summary>What a session waits for.</summary>
+    /// <summary>State of a session: what it is waiting for.</summary>
     public enum StudyPhase
     {
-        /// <summary>The operator: <see cref="StudySession.Continue"/>.</summary>
+        /// <summary>Waiting for the operator: <see cref="StudySession.Continue"/>.</summary>
         Paused,
 
         /// <summary>The participant does the task.</summary>
@@ -15,17 +15,17 @@ namespace HaptoFlow.Studies
         /// <summary>The participant answers.</summary>
         Question,
 
-        /// <summary>The disk takes no row; it is tried again.</summary>
+        /// <summary>The disk refused a row; writing is tried again.</summary>
         Disk,
 
-        /// <summary>Nothing: every trial is answered and written.</summary>
+        /// <summary>Every trial is answered and written.</summary>
         Finished,
     }
 
     /// <summary>Why a session is paused.</summary>
     public enum StudyPause
     {
-        /// <summary>It has not begun, or not yet gone on after an interruption.</summary>
+        /// <summary>The session has not started, or not yet resumed after an interruption.</summary>
         Begin,
 
         /// <summary>The plan has a rest here.</summary>
@@ -34,18 +34,19 @@ namespace HaptoFlow.Studies
         /// <summary>The operator mounts another sample.</summary>
         Sample,
 
-        /// <summary>The operator paused it.</summary>
+        /// <summary>The operator paused the session.</summary>
         Operator,
 
         /// <summary>The clock stopped or jumped in the middle of a trial.</summary>
         ClockJump,
 
-        /// <summary>The disk refused a row and takes it by now.</summary>
+        /// <summary>The disk refused a row before and works again.</summary>
         Disk,
     }
 
-    /// <summary>Leads one participant through a plan: which trial is next, when it is asked, when it is written. The
-    /// trial in which a session is interrupted begins again, as a further attempt. Main thread.</summary>
+    /// <summary>Guides one participant through a plan: selects the next trial, times the questions and writes the
+    /// answers. A trial during which the session is interrupted starts again as a further attempt. Main
+    /// thread.</summary>
     public sealed class StudySession
     {
         private const double SecondsBetweenAttempts = 1.0;
@@ -56,7 +57,7 @@ namespace HaptoFlow.Studies
         private double askedSeconds;
         private double nextAttemptSeconds;
 
-        /// <summary>Goes on where the log ends; paused until <see cref="Continue"/>.</summary>
+        /// <summary>Starts or resumes where the log ends; paused until <see cref="Continue"/>.</summary>
         public StudySession(StudyLog log)
         {
             this.log = log;
@@ -68,35 +69,35 @@ namespace HaptoFlow.Studies
             }
         }
 
-        /// <summary>Phase, trial or attempt changed. Main thread.</summary>
+        /// <summary>Raised when phase, trial or attempt changed. Main thread.</summary>
         public event Action<StudySession>? Changed;
 
-        /// <summary>What the session waits for.</summary>
+        /// <summary>State of the session.</summary>
         public StudyPhase Phase { get; private set; } = StudyPhase.Paused;
 
-        /// <summary>Why it is paused, while it is.</summary>
+        /// <summary>Why the session is paused; valid while it is.</summary>
         public StudyPause Pause { get; private set; } = StudyPause.Begin;
 
         /// <summary>The present trial, or the next one while it is paused; null after the last.</summary>
         public PlannedTrial? Trial =>
             log.Answered < log.Plan.Trials.Count ? log.Plan.Trials[log.Answered] : null;
 
-        /// <summary>How often the present trial was begun.</summary>
+        /// <summary>Number of the present attempt at the trial, from 1.</summary>
         public int Attempt => attempt;
 
-        /// <summary>Since the session began, pauses left out.</summary>
+        /// <summary>Time since the session began, without pauses.</summary>
         public double ElapsedSeconds => clock.ElapsedSeconds;
 
-        /// <summary>The plan that is followed.</summary>
+        /// <summary>The plan of the session.</summary>
         public StudyPlan Plan => log.Plan;
 
-        /// <summary>Why the disk takes nothing; null where nothing is wrong.</summary>
+        /// <summary>Why the disk refuses rows; null without an error.</summary>
         public string? Problem => log.Problem;
 
-        /// <summary>Every frame: counts the time, notices a clock that jumped, tries a disk again that refused.
-        /// </summary>
-        /// <param name="nowSeconds">Of a clock that knows no time of day, such as Time.realtimeSinceStartupAsDouble.
-        /// </param>
+        /// <summary>Call every frame: counts the time, detects jumps of the clock and retries a disk that refused a
+        /// row.</summary>
+        /// <param name="nowSeconds">Time of a clock independent of the time of day, such as
+        /// Time.realtimeSinceStartupAsDouble.</param>
         public void Advance(double nowSeconds)
         {
             bool isUnderWay = Phase == StudyPhase.Task || Phase == StudyPhase.Question;
@@ -105,16 +106,16 @@ namespace HaptoFlow.Studies
             {
                 Interrupt(StudyPause.ClockJump);
             }
-            // A clock that went back must not put off the next attempt for long.
+            // After a clock went backwards, the next attempt must not be delayed for long.
             bool isEarly = nowSeconds < nextAttemptSeconds && nowSeconds > nextAttemptSeconds - SecondsBetweenAttempts;
             if (Phase == StudyPhase.Disk && !isEarly)
             {
                 nextAttemptSeconds = nowSeconds + SecondsBetweenAttempts;
-                GoOn();
+                WriteAndAdvance();
             }
         }
 
-        /// <summary>Begins the session, or goes on after a pause. Otherwise nothing happens.</summary>
+        /// <summary>Starts the session, or continues after a pause. Otherwise does nothing.</summary>
         public void Continue()
         {
             if (Phase == StudyPhase.Paused)
@@ -123,24 +124,24 @@ namespace HaptoFlow.Studies
             }
         }
 
-        /// <summary>The operator pauses; the present trial begins again afterwards. While nothing is asked nothing
-        /// happens.</summary>
+        /// <summary>Pauses the session; the present trial starts again afterwards. Does nothing outside a
+        /// trial.</summary>
         public void PauseHere() => Interrupt(StudyPause.Operator);
 
-        /// <summary>The task is done and the question appears. Only during a task.</summary>
+        /// <summary>Ends the task and opens the question. Does nothing outside a task.</summary>
         public void Ask()
         {
             if (Phase == StudyPhase.Task)
             {
                 askedSeconds = clock.ElapsedSeconds;
-                Become(StudyPhase.Question);
+                SetPhase(StudyPhase.Question);
             }
         }
 
-        /// <summary>The participant's answer: the record is completed with times and attempt, and written before
-        /// anything else begins.</summary>
-        /// <returns>False where no question is open: then nothing is recorded, as with a button pressed twice.
-        /// </returns>
+        /// <summary>Records the participant's answer with times and attempt, and writes it before anything else
+        /// happens.</summary>
+        /// <returns>False where no question is open, as after a second press of a button: nothing is
+        /// recorded.</returns>
         public bool Answer(TrialRecord record)
         {
             if (Phase != StudyPhase.Question)
@@ -151,7 +152,7 @@ namespace HaptoFlow.Studies
             record.Set("elapsed_seconds", clock.ElapsedSeconds);
             record.Set("attempt", attempt);
             log.Append(record);
-            GoOn();
+            WriteAndAdvance();
             return true;
         }
 
@@ -161,27 +162,27 @@ namespace HaptoFlow.Studies
             {
                 ++attempt;
                 Pause = reason;
-                Become(StudyPhase.Paused);
+                SetPhase(StudyPhase.Paused);
             }
         }
 
-        private void GoOn()
+        private void WriteAndAdvance()
         {
             bool hadToWait = Phase == StudyPhase.Disk;
             if (!log.TryWritePending() || (Trial == null && !log.IsFinished && !log.Finish()))
             {
-                Become(StudyPhase.Disk);
+                SetPhase(StudyPhase.Disk);
                 return;
             }
             attempt = 1;
             if (Trial == null)
             {
-                Become(StudyPhase.Finished);
+                SetPhase(StudyPhase.Finished);
             }
             else if (Trial.RestBefore || Trial.ChangesSample || hadToWait)
             {
                 Pause = hadToWait ? StudyPause.Disk : Trial.RestBefore ? StudyPause.Rest : StudyPause.Sample;
-                Become(StudyPhase.Paused);
+                SetPhase(StudyPhase.Paused);
             }
             else
             {
@@ -189,9 +190,9 @@ namespace HaptoFlow.Studies
             }
         }
 
-        private void BeginTask() => Become(StudyPhase.Task);
+        private void BeginTask() => SetPhase(StudyPhase.Task);
 
-        private void Become(StudyPhase phase)
+        private void SetPhase(StudyPhase phase)
         {
             Phase = phase;
             Changed?.Invoke(this);

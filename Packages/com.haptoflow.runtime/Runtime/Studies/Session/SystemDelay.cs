@@ -6,19 +6,19 @@ using System.Linq;
 
 namespace HaptoFlow.Studies
 {
-    /// <summary>How late the hand feels what the pen does, without any delay that a study adds: the sum of four parts,
-    /// in ms. The formula is the paper's: each part counts in full, as if every event just missed the part before.
-    /// Any thread.</summary>
+    /// <summary>The delay from the pen's motion to the hand without any delay that a study adds: the sum of four parts,
+    /// in ms. The formula is the paper's: each part counts in full, as if every event just missed the previous one. Any
+    /// thread.</summary>
     public readonly struct SystemDelay
     {
-        /// <summary>The longest delay that an output can add, in ms.</summary>
+        /// <summary>Upper limit of the delay that an output can add, in ms.</summary>
         public const double MaximumArtificialMilliseconds = OutputProcessing.MaximumDelayMilliseconds;
 
-        /// <param name="poseIntervalMilliseconds">Between two poses of the pen: the time of a frame.</param>
-        /// <param name="inferenceMilliseconds">Of the network; 0 for a signal that needs none.</param>
-        /// <param name="blockMilliseconds">Of an audio block.</param>
-        /// <param name="deviceMilliseconds">From the audio callback to the hand.</param>
-        /// <exception cref="StudyException">A part is no time; the message names it.</exception>
+        /// <param name="poseIntervalMilliseconds">Interval between two poses of the pen: a frame.</param>
+        /// <param name="inferenceMilliseconds">Time of an inference; 0 for a signal, which needs none.</param>
+        /// <param name="blockMilliseconds">Duration of an audio block.</param>
+        /// <param name="deviceMilliseconds">Delay from the audio callback to the hand.</param>
+        /// <exception cref="StudyException">A part is not a valid time; the message names it.</exception>
         public SystemDelay(
             double poseIntervalMilliseconds, double inferenceMilliseconds, double blockMilliseconds,
             double deviceMilliseconds)
@@ -29,40 +29,40 @@ namespace HaptoFlow.Studies
             DeviceMilliseconds = Checked("device_ms", deviceMilliseconds);
         }
 
-        /// <summary>Between two poses of the pen.</summary>
+        /// <summary>Interval between two poses of the pen.</summary>
         public double PoseIntervalMilliseconds { get; }
 
-        /// <summary>Of the network; 0 for a signal.</summary>
+        /// <summary>Time of an inference; 0 for a signal.</summary>
         public double InferenceMilliseconds { get; }
 
-        /// <summary>Of an audio block.</summary>
+        /// <summary>Duration of an audio block.</summary>
         public double BlockMilliseconds { get; }
 
-        /// <summary>From the audio callback to the hand.</summary>
+        /// <summary>Delay from the audio callback to the hand.</summary>
         public double DeviceMilliseconds { get; }
 
-        /// <summary>The parts together.</summary>
+        /// <summary>Sum of the parts.</summary>
         public double TotalMilliseconds =>
             PoseIntervalMilliseconds + InferenceMilliseconds + BlockMilliseconds + DeviceMilliseconds;
 
-        /// <summary>The delay can be had by adding some.</summary>
+        /// <summary>True where adding a delay gives the planned one.</summary>
         public bool Reaches(double plannedMilliseconds)
         {
             double missing = plannedMilliseconds - TotalMilliseconds;
             return missing >= 0.0 && missing <= MaximumArtificialMilliseconds;
         }
 
-        /// <summary>What an output has to add for a delay in all.</summary>
-        /// <exception cref="StudyException">That cannot be reached; the message names the level.</exception>
+        /// <summary>The delay that an output has to add for a planned total.</summary>
+        /// <exception cref="StudyException">The total cannot be reached; the message names the level.</exception>
         public double ArtificialMilliseconds(double plannedMilliseconds)
         {
             CheckReaches(new[] { plannedMilliseconds });
             return plannedMilliseconds - TotalMilliseconds;
         }
 
-        /// <summary>Refuses levels that cannot be reached.</summary>
-        /// <exception cref="StudyException">There are such levels; the message names each, and the parts of the system
-        /// delay.</exception>
+        /// <summary>Throws where levels cannot be reached.</summary>
+        /// <exception cref="StudyException">A level cannot be reached; the message names each, and the parts of the
+        /// system delay.</exception>
         public void CheckReaches(IEnumerable<double> levelsMilliseconds)
         {
             SystemDelay self = this;
@@ -89,6 +89,6 @@ namespace HaptoFlow.Studies
         private static double Checked(string key, double milliseconds) => milliseconds >= 0.0 && milliseconds < 10000.0
             ? milliseconds
             : throw new StudyException(FormattableString.Invariant(
-                $"{key}: {milliseconds} ms is no part of a delay; expected 0 or more"));
+                $"{key}: {milliseconds} ms is not a valid part of a delay; expected 0 or more"));
     }
 }

@@ -5,15 +5,15 @@ using UnityEngine;
 
 namespace HaptoFlow.Studies
 {
-    /// <summary>What a stylus did during a trial: how long it touched, how far and fast it slid, how hard it pressed,
-    /// how often it set off and stopped. Main thread; no garbage while it counts.</summary>
+    /// <summary>Statistics of a stylus during a trial: contact time, path, speed, force, starts and stops. Main thread;
+    /// no garbage.</summary>
     public sealed class TrialContact : IDisposable
     {
-        /// <summary>A tip at rest sets off at this speed, in m/s, as for an output's signal.</summary>
-        public const double SetsOffMps = MotionGate.SetsOffMps;
+        /// <summary>Speed at which a tip at rest starts to move, in m/s, as for an output's signal.</summary>
+        public const double SetsOffMps = MotionGate.StartSpeedMps;
 
-        /// <summary>A moving tip comes to rest below this speed, in m/s.</summary>
-        public const double RestsMps = MotionGate.RestsMps;
+        /// <summary>Speed below which a moving tip comes to rest, in m/s.</summary>
+        public const double RestsMps = MotionGate.StopSpeedMps;
 
         private readonly HapticStylus stylus;
         private readonly HapticSurface? surface;
@@ -23,8 +23,8 @@ namespace HaptoFlow.Studies
         private double pathMetres;
         private ulong underrunsBefore;
 
-        /// <summary>Counts from now on.</summary>
-        /// <param name="surface">What is touched elsewhere does not count; null for everything.</param>
+        /// <summary>Starts counting.</summary>
+        /// <param name="surface">The only surface that counts; null for all.</param>
         public TrialContact(HapticStylus stylus, HapticSurface? surface = null)
         {
             this.stylus = stylus;
@@ -35,39 +35,39 @@ namespace HaptoFlow.Studies
             Begin();
         }
 
-        /// <summary>The tip touches and moves over a surface that stands still. Also between trials.</summary>
+        /// <summary>True while the tip touches and moves over a surface at rest, also between trials.</summary>
         public bool IsMoving { get; private set; }
 
-        /// <summary>How long the tip touched.</summary>
+        /// <summary>Contact time.</summary>
         public double ContactSeconds { get; private set; }
 
-        /// <summary>How far it slid on what it touched, in mm.</summary>
+        /// <summary>Length of the path on the touched surfaces, in mm.</summary>
         public double PathMillimetres => 1000.0 * pathMetres;
 
         /// <summary>Path over contact time, in mm/s; 0 without contact.</summary>
         public double MeanSpeedMmps => ContactSeconds > 0.0 ? PathMillimetres / ContactSeconds : 0.0;
 
-        /// <summary>Over the contact time, in N; 0 without contact.</summary>
+        /// <summary>Mean force over the contact time, in N; 0 without contact.</summary>
         public double MeanForceNewtons => ContactSeconds > 0.0 ? newtonSeconds / ContactSeconds : 0.0;
 
-        /// <summary>How often the tip set off.</summary>
+        /// <summary>Number of starts of the motion.</summary>
         public int Starts { get; private set; }
 
-        /// <summary>How often it came to rest, or lifted while it slid.</summary>
+        /// <summary>Number of stops of the motion, including lift-offs while sliding.</summary>
         public int Stops { get; private set; }
 
-        /// <summary>Audio blocks for which no segment was there.</summary>
+        /// <summary>Number of audio blocks without a segment.</summary>
         public ulong Underruns
         {
             get
             {
                 ulong now = UnderrunsByNow();
-                // A voice that was opened anew counts from zero.
+                // The count of a voice that was reopened starts from zero.
                 return now >= underrunsBefore ? now - underrunsBefore : now;
             }
         }
 
-        /// <summary>A trial begins: everything counts from zero.</summary>
+        /// <summary>Resets all statistics at the start of a trial.</summary>
         public void Begin()
         {
             ContactSeconds = 0.0;
@@ -79,7 +79,7 @@ namespace HaptoFlow.Studies
             underrunsBefore = UnderrunsByNow();
         }
 
-        /// <summary>Writes the columns that all studies have.</summary>
+        /// <summary>Sets the columns that all studies have.</summary>
         public TrialRecord AddTo(TrialRecord record) => record
             .Set("contact_seconds", ContactSeconds)
             .Set("path_mm", PathMillimetres)
@@ -87,7 +87,7 @@ namespace HaptoFlow.Studies
             .Set("mean_force_newtons", MeanForceNewtons)
             .Set("underruns", Underruns);
 
-        /// <summary>Counts no more.</summary>
+        /// <summary>Stops counting.</summary>
         public void Dispose()
         {
             stylus.TouchBegan -= OnBegan;
@@ -95,13 +95,13 @@ namespace HaptoFlow.Studies
             stylus.TouchEnded -= OnEnded;
         }
 
-        private void OnBegan(HapticStylus told, in HapticContact contact)
+        private void OnBegan(HapticStylus sender, in HapticContact contact)
         {
             lastSeconds = NowSeconds();
             Move(motion.Update(lastSeconds, Counts(contact), contact.Point.ToDouble()));
         }
 
-        private void OnMoved(HapticStylus told, in HapticContact contact)
+        private void OnMoved(HapticStylus sender, in HapticContact contact)
         {
             double now = NowSeconds();
             double passed = Math.Max(0.0, now - lastSeconds);
@@ -118,7 +118,7 @@ namespace HaptoFlow.Studies
             Move(motion.Update(now, true, contact.Point.ToDouble()));
         }
 
-        private void OnEnded(HapticStylus told, in HapticContact contact) =>
+        private void OnEnded(HapticStylus sender, in HapticContact contact) =>
             Move(motion.Update(NowSeconds(), false, default));
 
         private bool Counts(in HapticContact contact) =>

@@ -5,9 +5,8 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>A collider near one tip: what it feels like, by its surface or by rules, and where it was lately.
-    /// </summary>
-    internal sealed class NearbySurface
+    /// <summary>A collider near one tip: its material, by its surface or by rules, and its recent poses.</summary>
+    internal sealed class NearbyCollider
     {
         private double lastStepSeconds;
         private RigidPose lastPose;
@@ -15,21 +14,21 @@ namespace HaptoFlow
 
         public Collider? Collider { get; private set; }
 
-        /// <summary>Null for a collider that is felt by rules.</summary>
+        /// <summary>Null for a collider whose material rules assign.</summary>
         public HapticSurface? Surface { get; private set; }
 
         /// <summary>Null for a collider with a surface.</summary>
         public FeltCollider? ByRules { get; private set; }
 
-        /// <summary>The place nearest to the tip, of the last update that met it within reach.</summary>
+        /// <summary>The point closest to the tip in the last update in which the collider was within reach.</summary>
         public TouchedPlace Place { get; set; }
 
         public TrackedSurface Tracked { get; } = new TrackedSurface(Double3.Right, 0.0);
 
-        /// <summary>Number of the last update that met it.</summary>
-        public long LastMet { get; set; }
+        /// <summary>Number of the last update in which the collider was near.</summary>
+        public long LastUpdate { get; set; }
 
-        /// <param name="surface">Null for a collider that is felt by rules.</param>
+        /// <param name="surface">Null for a collider whose material rules assign.</param>
         public void Begin(Collider collider, HapticSurface? surface, FeltCollider? byRules)
         {
             Collider = collider;
@@ -52,7 +51,7 @@ namespace HaptoFlow
             Place = default;
         }
 
-        /// <summary>What is felt at <see cref="Place"/> now. No garbage while nothing changes.</summary>
+        /// <summary>The material at <see cref="Place"/>. No garbage while nothing changes.</summary>
         public FeltMaterial Feel(HapticSession session)
         {
             if (Surface is object)
@@ -62,10 +61,10 @@ namespace HaptoFlow
             return ByRules is object ? ByRules.At(Place, session) : default;
         }
 
-        /// <summary>Where the collider is drawn now.</summary>
-        /// <remarks>A body without interpolation is drawn where the last physics step left it, several frames long at
-        /// the same place: recorded at the frames' times it would stand and jump. It counts at the time of its step,
-        /// and in between it is carried on.</remarks>
+        /// <summary>Records the pose at which the collider is drawn.</summary>
+        /// <remarks>A body without interpolation is drawn at the pose of the last physics step for several frames.
+        /// Recorded at the times of the frames it would alternate between rest and jumps; its pose is therefore
+        /// recorded at the time of the physics step and extrapolated in between.</remarks>
         /// <param name="nowSeconds">The tip's clock.</param>
         /// <param name="stepSeconds">Time of the last physics step, on the same clock.</param>
         public void Record(double nowSeconds, double stepSeconds, in RigidPose pose)

@@ -3,31 +3,31 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>The voice of an engine that is not in use any more: it stays on its output until it has faded. Main
+    /// <summary>A voice of an engine that is no longer in use: it stays on its output until it has faded out. Main
     /// thread, no garbage while nothing changes.</summary>
-    internal sealed class LeavingVoice
+    internal sealed class FadingVoice
     {
-        // An output that renders nothing would keep it for ever. The longest block is 48 ms.
-        private const double MostSeconds = 0.1;
+        // A limit for outputs that no longer render. The longest block is 48 ms.
+        private const double MaximumSeconds = 0.1;
 
         private HapticVoice? voice;
         private IVoiceTarget? output;
         private double untilSeconds;
 
-        /// <summary>Takes the voice over and has it fade. One that was on its way ends now.</summary>
+        /// <summary>Takes over the voice and fades it out. A voice that is still fading ends now.</summary>
         public void Take(HapticVoice leavingVoice, IVoiceTarget playedBy)
         {
             Close();
             voice = leavingVoice;
             output = playedBy;
-            untilSeconds = Time.unscaledTimeAsDouble + MostSeconds;
+            untilSeconds = Time.unscaledTimeAsDouble + MaximumSeconds;
             if (HasFallenSilent(true))
             {
                 Close();
             }
         }
 
-        /// <summary>Once an update.</summary>
+        /// <summary>Call once an update.</summary>
         public void Update()
         {
             if (voice != null && (HasFallenSilent(false) || Time.unscaledTimeAsDouble >= untilSeconds))
@@ -60,7 +60,7 @@ namespace HaptoFlow
             }
             catch (HaptoFlowException closed) when (closed.Status == HaptoFlowStatus.InvalidArgument)
             {
-                // Its engine was closed, and the voice with it.
+                // The engine was closed, and the voice with it.
                 return true;
             }
         }
