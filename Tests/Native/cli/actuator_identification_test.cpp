@@ -272,7 +272,7 @@ TEST(ActuatorIdentificationTest, TheErrorForAShortRecordingStatesTheMissingTime)
         cut.samples.resize(static_cast<std::size_t>(seconds * cut.rateHz));
         return cut;
     };
-    EXPECT_THAT(refusalOf(secondsLeft(2.0), sweep), HasSubstr("lasts 2.0 s, and the sweep alone 4.0 s"));
+    EXPECT_THAT(refusalOf(secondsLeft(2.0), sweep), HasSubstr("lasts 2.0 s, but the sweep alone lasts 4.0 s"));
     EXPECT_THAT(refusalOf(secondsLeft(4.1), sweep), HasSubstr("is too short, it ends"));
     EXPECT_THAT(refusalOf(secondsLeft(4.3), sweep), HasSubstr("record until 1 s of silence"));
     EXPECT_THAT(refusalOf(secondsLeft(0.0), sweep), HasSubstr("lasts 0.0 s"));

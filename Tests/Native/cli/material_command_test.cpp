@@ -113,7 +113,8 @@ TEST_F(MaterialCommandTest, AnUnusableMaterialIsRefusedWithSceneSurfaceFileAndKe
     expectRefused("--material denim.haptomaterial", 3, "did you mean 'denim'");
     writeMaterial("wood.haptomaterial", [](json& material) { material["name"] = "wood"; });
     writeScene("wood");
-    expectRefused("--material wood.haptomaterial", 3, "its name is \"wood\", which a label of the model");
+    expectRefused("--material wood.haptomaterial", 3,
+                  "its name is \"wood\", which is already that of a label of the model");
     expectRefused("--material nowhere.haptomaterial", 3, "nowhere.haptomaterial: there is no such file");
 }
 
