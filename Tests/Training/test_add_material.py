@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from own_samples import csv_one_axis, stroke
 
+from haptoflow_benchmark import cli as benchmark
 from haptoflow_benchmark.engine.engine_render import read_wav, render_motion
 from haptoflow_training.cli import main
 from haptoflow_training.errors import InputError
@@ -235,8 +236,13 @@ def test_the_engine_renders_the_further_label_and_the_material_file_alike(
 
 
 def test_the_help_has_examples(capsys: pytest.CaptureFixture[str]) -> None:
-    for command in ("add-material", "sliders", "few-shot", "learn-figures"):
+    for program, run, command in (
+        ("haptoflow-training", main, "add-material"),
+        ("haptoflow-training", main, "sliders"),
+        ("haptoflow-benchmark", benchmark.main, "few-shot"),
+        ("haptoflow-benchmark", benchmark.main, "learn-figures"),
+    ):
         with pytest.raises(SystemExit):
-            main([command, "--help"])
+            run([command, "--help"])
         said = capsys.readouterr().out
-        assert f"haptoflow-training {command} --model" in said
+        assert f"{program} {command} --model" in said

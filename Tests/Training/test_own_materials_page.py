@@ -152,7 +152,8 @@ def test_missing_input_is_reported_in_one_line(
     standing: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], words: list[str], said: str
 ) -> None:
     monkeypatch.chdir(standing)
-    assert training.main(words) == 3
+    program = training if words[0] == "train" else benchmark
+    assert program.main(words) == 3
     error = capsys.readouterr().err.strip().splitlines()[-1]
     assert re.search(said, error), error
 
