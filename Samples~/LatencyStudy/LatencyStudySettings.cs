@@ -110,8 +110,8 @@ namespace HaptoFlow.Samples.LatencyStudy
             {
                 "motion", new StudyFields
                 {
-                    { "sets_off_mmps", 1000.0 * TrialContact.SetsOffMps },
-                    { "rests_mmps", 1000.0 * TrialContact.RestsMps },
+                    { "sets_off_mmps", 1000.0 * TrialContact.StartSpeedMps },
+                    { "rests_mmps", 1000.0 * TrialContact.StopSpeedMps },
                 }
             },
             { "haptic_channel", HapticChannel },

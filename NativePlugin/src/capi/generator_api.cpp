@@ -12,7 +12,7 @@ using namespace haptoflow::capi;
 static_assert(inference::segmentSamples == HAPTOFLOW_SEGMENT_SAMPLES);
 static_assert(inference::embeddingSize == HAPTOFLOW_EMBEDDING_SIZE);
 static_assert(inference::ribCount == HAPTOFLOW_RIB_COUNT);
-static_assert(inference::largestBatch == HAPTOFLOW_MAXIMUM_BATCH);
+static_assert(inference::maximumBatchSize == HAPTOFLOW_MAXIMUM_BATCH);
 
 namespace {
 

@@ -55,7 +55,7 @@ const model::Tier& tierNamed(const model::ModelFile& model, const char* name) {
 inference::LoadLimits loadLimits(const haptoflow_cancellation* cancellation, double probeLimitMs) {
     inference::LoadLimits limits;
     if (probeLimitMs != 0.0) {
-        if (!(probeLimitMs > 0.0 && probeLimitMs <= inference::largestProbeLimitMs)) {
+        if (!(probeLimitMs > 0.0 && probeLimitMs <= inference::maximumProbeLimitMs)) {
             throw std::invalid_argument("options: probe_limit_ms is " + std::to_string(probeLimitMs) +
                                         "; expected above 0 to 3600000, or 0 for 10000");
         }

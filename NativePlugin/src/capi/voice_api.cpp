@@ -212,7 +212,7 @@ haptoflow_status haptoflow_voice_get_statistics(haptoflow_voice voice, haptoflow
 
 haptoflow_status haptoflow_voice_set_delay(haptoflow_voice voice, double seconds) {
     return guarded([&] {
-        if (!(seconds >= 0.0 && seconds <= effects::Delay::highestSeconds)) {
+        if (!(seconds >= 0.0 && seconds <= effects::Delay::maximumSeconds)) {
             throw std::invalid_argument("seconds is " + std::to_string(seconds) + "; expected 0 to 0.5");
         }
         const VoiceTable::Use use = requireVoice(voice);
@@ -226,7 +226,7 @@ haptoflow_status haptoflow_voice_set_delay(haptoflow_voice voice, double seconds
 haptoflow_status haptoflow_voice_set_signal(haptoflow_voice voice, double frequency_hz, double amplitude_mps2) {
     return guarded([&] {
         using Settings = effects::SignalSettings;
-        if (!(amplitude_mps2 >= 0.0 && amplitude_mps2 <= Settings::largestMps2)) {
+        if (!(amplitude_mps2 >= 0.0 && amplitude_mps2 <= Settings::maximumMps2)) {
             throw std::invalid_argument("amplitude_mps2 is " + std::to_string(amplitude_mps2) + "; expected 0 to 60");
         }
         Settings settings;
@@ -311,7 +311,7 @@ haptoflow_status haptoflow_voice_effect_statistics(haptoflow_voice voice, haptof
         const engine::EffectCounters& own = counters.effects[static_cast<std::size_t>(effect)];
         haptoflow_effect_statistics content{};
         content.is_asked_for =
-            ((counters.askedFor | effectsRequestedBySettings(use->voice->channels)) >> static_cast<unsigned>(effect)) &
+            ((counters.requestedEffects | effectsRequestedBySettings(use->voice->channels)) >> static_cast<unsigned>(effect)) &
             1U;
         content.prepared = own.prepared;
         content.runs = own.runs;

@@ -42,7 +42,7 @@ effects::WaveFeatureOptions featureOptions(const haptoflow_wave_features_options
 std::size_t decimationOf(double sampleRateHz) {
     const double rateHz = sampleRateHz != 0.0 ? sampleRateHz : effects::WaveFeatures::sampleRateHz;
     const double factor = rateHz / effects::WaveFeatures::sampleRateHz;
-    if (!(factor >= 1.0 && factor <= effects::WaveDecimation::largestFactor && factor == std::floor(factor))) {
+    if (!(factor >= 1.0 && factor <= effects::WaveDecimation::maximumFactor && factor == std::floor(factor))) {
         throw std::invalid_argument("options: sample_rate_hz is " + std::to_string(sampleRateHz) +
                                     "; expected a multiple of 2000 up to 192000, or 0 for 2000");
     }

@@ -222,7 +222,7 @@ ActuatorProfile ActuatorProfile::parse(std::string_view text) {
         profile.ratedLevelMps2 = root.at("rated_level_mps2").number(1e-9, 1e9, "m/s^2");
     }
     const Node frequencies = root.at("frequency_hz");
-    profile.frequencyHz = frequencies.numbers(2, mostPoints, minimumFrequencyHz, maximumFrequencyHz, "Hz");
+    profile.frequencyHz = frequencies.numbers(2, maximumPoints, minimumFrequencyHz, maximumFrequencyHz, "Hz");
     requireRising(frequencies, profile.frequencyHz);
     const std::size_t points = profile.frequencyHz.size();
     profile.magnitudeDecibels =

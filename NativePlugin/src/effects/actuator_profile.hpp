@@ -43,7 +43,7 @@ struct ActuatorMeasurement {
 struct ActuatorProfile {
     static constexpr int formatVersion = 1;
     static constexpr std::size_t maximumTextBytes = std::size_t{1} << 20U;
-    static constexpr std::size_t mostPoints = 4096;
+    static constexpr std::size_t maximumPoints = 4096;
     static constexpr double minimumFrequencyHz = 0.1;
     static constexpr double maximumFrequencyHz = 1e5;
     static constexpr double maximumMagnitudeDecibels = 200.0;

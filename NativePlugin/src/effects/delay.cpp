@@ -11,7 +11,7 @@ namespace haptoflow::effects {
 
 Delay::Delay(double sampleRateHz)
     : sampleRateHz_(dsp::requireOutputRate(sampleRateHz)),
-      maximumSamples_(static_cast<std::size_t>(std::llround(highestSeconds * sampleRateHz))),
+      maximumSamples_(static_cast<std::size_t>(std::llround(maximumSeconds * sampleRateHz))),
       line_(std::bit_ceil(maximumSamples_ + 1), 0.0F),
       fade_(static_cast<std::size_t>(std::lround(fadeSeconds * sampleRateHz))),
       silent_(maximumSamples_ + 1),
@@ -26,7 +26,7 @@ void Delay::setDelaySeconds(double seconds) noexcept {
     if (std::isnan(seconds)) {
         return;
     }
-    const double within = std::clamp(seconds, 0.0, highestSeconds);
+    const double within = std::clamp(seconds, 0.0, maximumSeconds);
     requested_ = std::min(maximumSamples_, static_cast<std::size_t>(std::llround(within * sampleRateHz_)));
     if (isIdle()) {
         current_ = requested_;

@@ -26,7 +26,7 @@ namespace haptoflow::effects {
 /// thread: allocates nothing, waits for nothing.
 class Delay final : public Effect {
 public:
-    static constexpr double highestSeconds = 0.5;
+    static constexpr double maximumSeconds = 0.5;
     static constexpr double fadeSeconds = 0.02;
 
     /// Allocates the line for the maximum delay. Throws std::invalid_argument for a rate outside 8-192 kHz.

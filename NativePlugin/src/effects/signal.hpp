@@ -12,7 +12,7 @@ namespace haptoflow::effects {
 struct SignalSettings {
     static constexpr double minimumHz = 20.0;
     static constexpr double maximumHz = 500.0;
-    static constexpr double largestMps2 = 60.0;
+    static constexpr double maximumMps2 = 60.0;
 
     float frequencyHz = 0.0F;
     /// Peak amplitude.

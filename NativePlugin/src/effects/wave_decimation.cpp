@@ -16,9 +16,9 @@ constexpr double attenuationDecibels = 51.0;
 }  // namespace
 
 WaveDecimation::WaveDecimation(std::size_t factor) : factor_(factor), untilNext_(factor) {
-    if (factor < 1 || factor > largestFactor) {
+    if (factor < 1 || factor > maximumFactor) {
         throw std::invalid_argument("decimation by " + std::to_string(factor) + "; expected 1 to " +
-                                    std::to_string(largestFactor));
+                                    std::to_string(maximumFactor));
     }
     if (factor == 1) {
         return;

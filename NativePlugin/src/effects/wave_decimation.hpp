@@ -10,11 +10,11 @@ namespace haptoflow::effects {
 /// constructor allocates.
 class WaveDecimation {
 public:
-    static constexpr std::size_t largestFactor = 96;
+    static constexpr std::size_t maximumFactor = 96;
     /// Delay of the filter in samples of the new rate.
     static constexpr std::size_t delaySamples = 3;
 
-    /// `factor` is 1 to largestFactor; 1 passes every sample unchanged and without delay. Throws std::invalid_argument.
+    /// `factor` is 1 to maximumFactor; 1 passes every sample unchanged and without delay. Throws std::invalid_argument.
     explicit WaveDecimation(std::size_t factor);
 
     /// Takes a sample at the old rate; a non-finite one counts as 0. Returns true if it completes a sample at the new

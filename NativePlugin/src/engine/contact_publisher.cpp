@@ -87,7 +87,7 @@ void ContactPublisher::postToAudio(const Contact& contact) noexcept {
     }
     const effects::EffectMask requested =
         (contact.state.effects & surfaceEffects) | (tone ? effects::maskOf(EffectKind::tone) : effects::EffectMask{0});
-    channels_.counters.askedFor.store(contact.state.touching ? requested : 0, std::memory_order_relaxed);
+    channels_.counters.requestedEffects.store(contact.state.touching ? requested : 0, std::memory_order_relaxed);
 
     AudioMessage& audio = channels_.toAudio.draft();
     audio.onset = onsets_;

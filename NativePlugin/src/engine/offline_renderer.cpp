@@ -258,7 +258,7 @@ OfflineFigures renderOffline(const model::ModelFile& model, inference::SegmentGe
     if (!(settings.tailSeconds >= 0.0 && settings.tailSeconds <= 10.0)) {
         throw std::invalid_argument("tail is " + std::to_string(settings.tailSeconds) + " s; expected 0 to 10 s");
     }
-    if (!(settings.delaySeconds >= 0.0 && settings.delaySeconds <= effects::Delay::highestSeconds)) {
+    if (!(settings.delaySeconds >= 0.0 && settings.delaySeconds <= effects::Delay::maximumSeconds)) {
         throw std::invalid_argument("delay is " + std::to_string(settings.delaySeconds) + " s; expected 0 to 0.5 s");
     }
     return OfflineRenderer(model, generator, settings, sink).run(next);

@@ -138,7 +138,7 @@ struct VoiceCounters {
     SignalTransitions signalStarts;
     SignalTransitions signalStops;
     /// Effects of the newest contact state and processors of the voice.
-    std::atomic<effects::EffectMask> askedFor{0};
+    std::atomic<effects::EffectMask> requestedEffects{0};
     std::atomic<std::uint64_t> updates{0};
     std::atomic<std::uint64_t> onsets{0};
     /// Number of times that a touch sounded again after a silence within it: pause, mute, rate change, missing states.

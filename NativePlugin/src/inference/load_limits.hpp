@@ -10,7 +10,7 @@ namespace haptoflow::inference {
 
 /// Far above the 0.2 ms that a desktop takes; an emulated machine takes 54 ms.
 inline constexpr double defaultProbeLimitMs = 10'000.0;
-inline constexpr double largestProbeLimitMs = 3'600'000.0;
+inline constexpr double maximumProbeLimitMs = 3'600'000.0;
 /// Batch size for which the limit is stated; the limit of larger batches is proportionally longer.
 inline constexpr std::size_t probeBatch = 8;
 
@@ -18,7 +18,7 @@ inline constexpr std::size_t probeBatch = 8;
 struct LoadLimits {
     /// Null if the load cannot be cancelled.
     std::shared_ptr<const Cancellation> cancellation{};
-    /// Time limit of one probe run of a graph, above 0 to largestProbeLimitMs.
+    /// Time limit of one probe run of a graph, above 0 to maximumProbeLimitMs.
     double probeLimitMs = defaultProbeLimitMs;
 
     /// Throws LoadCancelled if the cancellation was requested.

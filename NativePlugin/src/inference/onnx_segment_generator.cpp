@@ -28,7 +28,7 @@ const model::Tier& requireTier(const model::ModelFile& model, std::string_view n
 }
 
 std::size_t requireBatch(std::size_t batch) {
-    if (batch < 1 || batch > largestBatch) {
+    if (batch < 1 || batch > maximumBatchSize) {
         throw std::invalid_argument("the maximum batch is " + std::to_string(batch) + "; expected 1 to 256");
     }
     return batch;

@@ -19,7 +19,7 @@
 
 namespace haptoflow::inference {
 
-inline constexpr std::size_t largestBatch = 256;
+inline constexpr std::size_t maximumBatchSize = 256;
 
 /// Number of runs of each graph. Tests use it to show that nothing is computed needlessly.
 struct RunCounts {
@@ -35,7 +35,7 @@ struct RunCounts {
 class OnnxSegmentGenerator final : public SegmentGenerator {
 public:
     /// Loads, checks and runs the tier's graphs. The model need not outlive the generator. Throws std::invalid_argument
-    /// for a tier that the model does not have, solver settings out of range or a batch outside 1 to largestBatch;
+    /// for a tier that the model does not have, solver settings out of range or a batch outside 1 to maximumBatchSize;
     /// model::ModelError (inconsistent) if a graph does not match the format; TierTooSlow; LoadCancelled.
     OnnxSegmentGenerator(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model, std::string_view tier,
                          SolverSettings solver, std::size_t maximumBatch, const LoadLimits& limits = {});

@@ -13,11 +13,11 @@ namespace HaptoFlow.EditorTests
     {
         [SetUp]
         public void StepTheEngine() =>
-            HapticSession.OptionsInstead =
+            HapticSession.OptionsOverride =
                 new HapticEngineOptions { WithoutWorker = true, FixedLeadMs = 8.0, Seed = 3 };
 
         [TearDown]
-        public void ForgetOptions() => HapticSession.OptionsInstead = null;
+        public void ForgetOptions() => HapticSession.OptionsOverride = null;
 
         [Test]
         public void PlayModeUsesTheProjectsSettings()

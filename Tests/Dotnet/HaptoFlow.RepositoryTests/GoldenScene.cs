@@ -7,7 +7,7 @@ using HaptoFlow.Numerics;
 namespace HaptoFlow.RepositoryTests
 {
     /// <summary>A case of the golden file, run through the tracker frame by frame.</summary>
-    internal sealed class GoldenScene : ISurfaceGeometry
+    internal sealed class GoldenScene : IContactGeometry
     {
         private readonly JsonValue testCase;
         private readonly List<GoldenSurface> surfaces = new List<GoldenSurface>();
@@ -32,7 +32,7 @@ namespace HaptoFlow.RepositoryTests
 
         public ContactTracker Tracker { get; }
 
-        public bool TryClosest(TrackedSurface surface, Double3 tipMetres, out SurfacePoint found)
+        public bool TryClosest(ContactBody surface, Double3 tipMetres, out SurfacePoint found)
         {
             SurfacePoint? closest = surfaces.Find(each => each.Tracked == surface)!.Closest(Tracker, played, tipMetres);
             found = closest ?? default;
@@ -57,7 +57,7 @@ namespace HaptoFlow.RepositoryTests
 
         public double ValueOf(in ContactReading reading, string column)
         {
-            TrackedSurface? touched = reading.Surface;
+            ContactBody? touched = reading.Surface;
             return column switch
             {
                 "t" => reading.TimeSeconds,
@@ -98,11 +98,11 @@ namespace HaptoFlow.RepositoryTests
             settings.Velocity.WindowSeconds = json["velocity_window_seconds"].AsNumber();
             settings.Velocity.HoldSeconds = json["velocity_hold_seconds"].AsNumber();
             settings.Velocity.StopSeconds = json["velocity_stop_seconds"].AsNumber();
-            settings.Velocity.LongestGapSeconds = json["velocity_longest_gap_seconds"].AsNumber();
-            settings.Velocity.ShortestStepSeconds = json["velocity_shortest_step_seconds"].AsNumber();
-            settings.Velocity.SmallestMoveMetres = json["velocity_smallest_move_metres"].AsNumber();
-            settings.Velocity.FastestMps = json["velocity_fastest_mps"].AsNumber();
-            settings.Velocity.ShortestJumpSeconds = json["velocity_shortest_jump_seconds"].AsNumber();
+            settings.Velocity.MaximumGapSeconds = json["velocity_longest_gap_seconds"].AsNumber();
+            settings.Velocity.MinimumStepSeconds = json["velocity_shortest_step_seconds"].AsNumber();
+            settings.Velocity.MinimumMoveMetres = json["velocity_smallest_move_metres"].AsNumber();
+            settings.Velocity.MaximumSpeedMps = json["velocity_fastest_mps"].AsNumber();
+            settings.Velocity.MinimumJumpSeconds = json["velocity_shortest_jump_seconds"].AsNumber();
             return settings;
         }
     }
@@ -122,10 +122,10 @@ namespace HaptoFlow.RepositoryTests
                 VectorOr(surface.Find("position"), Double3.Zero),
                 rotation == null ? Rotation.Identity : RotationOf(rotation, 0));
             mesh = shape.Find("mesh") is { } raw ? new GoldenMesh(raw) : null;
-            Tracked = new TrackedSurface(VectorOr(surface.Find("grain"), Double3.Right), StiffnessOf(surface, labelStiffness));
+            Tracked = new ContactBody(VectorOr(surface.Find("grain"), Double3.Right), StiffnessOf(surface, labelStiffness));
         }
 
-        public TrackedSurface Tracked { get; }
+        public ContactBody Tracked { get; }
 
         public JsonValue? Poses { private get; set; }
 

@@ -77,8 +77,8 @@ namespace HaptoFlow.SampleTests
             PlayFor(0.05);
             Collider[] colliders = UnityEngine.Object.FindObjectsByType<Collider>(
                 FindObjectsInactive.Exclude, FindObjectsSortMode.None);
-            FeltPart[] parts = colliders.Where(collider => !collider.transform.IsChildOf(scene.Pen.transform))
-                .SelectMany(collider => FeltColliders.Resolve(collider)!.Parts).ToArray();
+            MappedPart[] parts = colliders.Where(collider => !collider.transform.IsChildOf(scene.Pen.transform))
+                .SelectMany(collider => MappedColliders.Resolve(collider)!.Parts).ToArray();
             Assert.That(parts.Select(part => part.Rule).Distinct(),
                 Is.EquivalentTo(Enumerable.Range(0, scene.Map.Rules.Count)));
         }

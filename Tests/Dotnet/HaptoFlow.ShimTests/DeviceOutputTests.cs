@@ -465,7 +465,7 @@ namespace HaptoFlow.ShimTests
                 .Select(frame => AudioDevice.Sample(frame, 0)).ToArray();
             using var features = new WaveFeatures(0.008, audio.Length, 48000) { FullScaleMps2 = fullScaleMps2 };
             features.SetRange(160.0, 160.0);
-            var frames = new WaveFrame[features.MostFrames];
+            var frames = new WaveFrame[features.MaximumFrames];
             double expected = frames.Take(features.Process(audio, frames)).Average(frame => frame.Amplitude);
             Assert.That(expected, Is.GreaterThan(1e-3));
             Assert.That(XrHand.Right.Impulses.Average(each => each.Amplitude), Is.EqualTo(expected).Within(0.1 * expected));

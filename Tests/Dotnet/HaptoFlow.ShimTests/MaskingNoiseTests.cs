@@ -43,7 +43,7 @@ namespace HaptoFlow.ShimTests
         [Test]
         public void EveryOtherChannelPlaysTheNoiseAtItsLevel(
             [Values(NoiseColour.White, NoiseColour.Pink)] NoiseColour colour,
-            [Values(-40f, MaskingNoise.HighestDecibels)] float decibels)
+            [Values(-40f, MaskingNoise.MaximumDecibels)] float decibels)
         {
             AudioDevice.ChangeDevice(48000, 256, AudioSpeakerMode.Quad);
             noise.Colour = colour;
@@ -80,7 +80,7 @@ namespace HaptoFlow.ShimTests
         [Test]
         public void TheNoiseFadesInAndOutAndAllocatesNothing()
         {
-            noise.LevelDecibels = MaskingNoise.HighestDecibels;
+            noise.LevelDecibels = MaskingNoise.MaximumDecibels;
             AudioDevice.Forget();
             World.Frames(40);
             float[] samples = Channel(0);
@@ -133,7 +133,7 @@ namespace HaptoFlow.ShimTests
         {
             AudioDevice.ChangeDevice(48000, 512, mode);
             noise.enabled = withNoise;
-            noise.LevelDecibels = MaskingNoise.HighestDecibels;
+            noise.LevelDecibels = MaskingNoise.MaximumDecibels;
             HapticSession.ShutDown();
             HapticSurface board = Board();
             HapticStylus stylus = Circling();

@@ -52,11 +52,11 @@ namespace HaptoFlow.ShimTests
             HapticStylus stylus = StylusAlong(_ => Vector3.zero);
             World.Frames(2);
             Assert.That(stylus.IsTouching, Is.True);
-            Assert.That(FeltColliders.Count, Is.EqualTo(1));
+            Assert.That(MappedColliders.Count, Is.EqualTo(1));
             // Play mode ends abnormally: the objects are gone without any message to the scripts.
             World.EnterPlayMode();
             Assert.That(MaterialMaps.Any, Is.False);
-            Assert.That(FeltColliders.Count, Is.Zero);
+            Assert.That(MappedColliders.Count, Is.Zero);
         }
 
         [Test]

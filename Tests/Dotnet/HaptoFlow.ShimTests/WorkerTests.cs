@@ -14,7 +14,7 @@ namespace HaptoFlow.ShimTests
         [Test]
         public void TheWorkerOfAShippedEngineGeneratesForATouchingStylus()
         {
-            HapticSession.OptionsInstead = null;
+            HapticSession.OptionsOverride = null;
             HaptoFlowSettings.Active.Quality = HapticQuality.Auto;
             UnityEngine.Object.DestroyImmediate(Stepper);
             FinishLoading();
@@ -39,7 +39,7 @@ namespace HaptoFlow.ShimTests
         [Test]
         public void ReplacingAMaterialRepeatedlyWhileAWorkerUsesItIsSafe()
         {
-            HapticSession.OptionsInstead = null;
+            HapticSession.OptionsOverride = null;
             UnityEngine.Object.DestroyImmediate(Stepper);
             byte[] model = DefaultModel.Asset().File;
             string[] texts = Array.ConvertAll(new[] { "glass", "corduroy", "carpet" },

@@ -209,7 +209,7 @@ TEST(ActuatorProfileDocumentationTest, TheSchemaKnowsTheSameKeysAsTheReader) {
     EXPECT_EQ(keysOf(schema.at("properties").at("measurement")),
               keysIn(complaintAbout("measurement", {{"unheard-of", 1}})));
     const nlohmann::json& points = schema.at("properties").at("frequency_hz");
-    EXPECT_EQ(points.at("maxItems"), effects::ActuatorProfile::mostPoints);
+    EXPECT_EQ(points.at("maxItems"), effects::ActuatorProfile::maximumPoints);
     for (const std::string key : schema.at("required")) {
         nlohmann::json profile = nlohmann::json::parse(effects::ActuatorProfile::builtIn("flat")->toJson());
         profile.erase(key);

@@ -73,7 +73,7 @@ TEST_F(ToneVoiceTest, WithoutAToneTheFilterDoesNotRun) {
     plain.run(1.0, [](double) { return on(0); });
     const EffectCounters& tone = toneOf(plain);
     EXPECT_EQ(tone.prepared + tone.runs + tone.samples + tone.nanoseconds + tone.events, 0U);
-    EXPECT_EQ(plain.counters().askedFor & effects::maskOf(EffectKind::tone), 0U);
+    EXPECT_EQ(plain.counters().requestedEffects & effects::maskOf(EffectKind::tone), 0U);
 }
 
 TEST_F(ToneVoiceTest, AMaterialsToneAppliesFromTheSeedsFirstSampleAndNotToTheTimeline) {
@@ -93,7 +93,7 @@ TEST_F(ToneVoiceTest, AMaterialsToneAppliesFromTheSeedsFirstSampleAndNotToTheTim
     EXPECT_EQ(tone.prepared, 1U);
     EXPECT_GT(tone.runs, 100U);
     EXPECT_GE(tone.samples, toned.waveform.samples.size());
-    EXPECT_NE(toned.counters().askedFor & effects::maskOf(EffectKind::tone), 0U);
+    EXPECT_NE(toned.counters().requestedEffects & effects::maskOf(EffectKind::tone), 0U);
 }
 
 TEST_F(ToneVoiceTest, ATiltChangesTheGainAtTheSoundingFrequency) {

@@ -111,7 +111,7 @@ TEST(LoadLimitsTest, ALongLoadEndsWhenItIsCancelled) {
         std::this_thread::sleep_for(std::chrono::milliseconds(50));
         cancellation->cancel();
     });
-    EXPECT_EQ(failureOf<LoadCancelled>(slow, {.cancellation = cancellation, .probeLimitMs = largestProbeLimitMs}),
+    EXPECT_EQ(failureOf<LoadCancelled>(slow, {.cancellation = cancellation, .probeLimitMs = maximumProbeLimitMs}),
               "the load was cancelled");
     canceller.join();
 }
@@ -172,7 +172,7 @@ TEST(CancellationTest, ALateActionRunsAtOnceAndADestroyedActionNever) {
 TEST(TimeLimitTest, TheActionRunsAfterTheTimeHasPassed) {
     std::atomic<int> runs{0};
     {
-        const TimeLimit limit(largestProbeLimitMs, [&] { ++runs; });
+        const TimeLimit limit(maximumProbeLimitMs, [&] { ++runs; });
         EXPECT_FALSE(limit.hasPassed());
     }
     EXPECT_EQ(runs, 0);

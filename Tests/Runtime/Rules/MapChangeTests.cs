@@ -192,7 +192,7 @@ namespace HaptoFlow.Tests
                     Object.DestroyImmediate(each);
                 }
             }
-            Assert.That(FeltColliders.Count, Is.LessThan(400), "800 were near the tip");
+            Assert.That(MappedColliders.Count, Is.LessThan(400), "800 were near the tip");
             Assert.That(stylus.isActiveAndEnabled, Is.True);
         }
     }

@@ -145,7 +145,7 @@ namespace HaptoFlow.Tests
             {
                 mask.Tiling = new Vector2(strange, 1f);
                 mask.Offset = new Vector2(0f, strange);
-                FeltMaterial felt = At(mask, 0.03f);
+                ResolvedMaterial felt = At(mask, 0.03f);
                 Assert.That(felt.Strength, Is.InRange(0f, 1f));
                 Assert.That(felt.FeatureScale, Is.InRange(0.25f, 4f));
             }
@@ -174,14 +174,14 @@ namespace HaptoFlow.Tests
         }
 
         /// <summary>The material that the mask gives with the rule's material at a place on the floor.</summary>
-        private FeltMaterial At(HapticMaskMap mask, float x)
+        private ResolvedMaterial At(HapticMaskMap mask, float x)
         {
             Physics.SyncTransforms();
             var ray = new Ray(new Vector3(x, 0.1f, 0.01f), Vector3.down);
             Assert.That(floor.Raycast(ray, out RaycastHit hit, 1f), Is.True);
             var place = new TouchedPlace(floor, default, hit);
             bool isFelt = mask.TryFeel(
-                place, Map.Rules[0].Material, HapticSession.Current, floor, out FeltMaterial felt);
+                place, Map.Rules[0].Material, HapticSession.Current, floor, out ResolvedMaterial felt);
             Assert.That(isFelt, Is.True);
             return felt;
         }

@@ -92,7 +92,7 @@ namespace HaptoFlow.Tests
             yield return null;
             Assert.That(Felt(stylus), Has.Count.EqualTo(1));
             Assert.That(WeightOf(stylus, "fur"), Is.EqualTo(1f));
-            FeltMaterial felt = FeltColliders.Resolve(terrain)!.At(PlaceOf(stylus), HapticSession.Current);
+            ResolvedMaterial felt = MappedColliders.Resolve(terrain)!.At(PlaceOf(stylus), HapticSession.Current);
             Assert.That(felt.Strength, Is.EqualTo(0.4f).Within(0.01f), "the other half has no material");
         }
 
@@ -117,7 +117,7 @@ namespace HaptoFlow.Tests
             HapticStylus stylus = Resting();
             yield return null;
             yield return null;
-            FeltMaterial felt = FeltColliders.Resolve(terrain)!.At(PlaceOf(stylus), HapticSession.Current);
+            ResolvedMaterial felt = MappedColliders.Resolve(terrain)!.At(PlaceOf(stylus), HapticSession.Current);
             Assert.That(felt.FeatureScale, Is.EqualTo(1f).Within(0.02f), "by ratio");
             Assert.That(felt.ToneDbPerOctave, Is.EqualTo(-1f).Within(0.05f));
             Assert.That(felt.StiffnessNewtonsPerMetre, Is.EqualTo(400.0).Within(4.0));

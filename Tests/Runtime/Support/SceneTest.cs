@@ -23,7 +23,7 @@ namespace HaptoFlow.Tests
             UnityShim.World.EnterPlayMode();
 #endif
             HapticSession.ShutDown();
-            HapticSession.OptionsInstead = new HapticEngineOptions { WithoutWorker = true, FixedLeadMs = 8.0, Seed = 3 };
+            HapticSession.OptionsOverride = new HapticEngineOptions { WithoutWorker = true, FixedLeadMs = 8.0, Seed = 3 };
             var settings = ScriptableObject.CreateInstance<HaptoFlowSettings>();
             settings.Model = DefaultModel.Asset();
             settings.Quality = HapticQuality.Draft;
@@ -41,7 +41,7 @@ namespace HaptoFlow.Tests
             }
             made.Clear();
             HapticSession.ShutDown();
-            HapticSession.OptionsInstead = null;
+            HapticSession.OptionsOverride = null;
 #if HAPTOFLOW_OUTSIDE_UNITY
             UnityShim.World.ExitPlayMode();
             Assert.That(UnityShim.AudioDevice.Failure, Is.Null, "the audio thread threw");

@@ -27,7 +27,7 @@ namespace HaptoFlow.Editor
             if (plan.Unmatched.Count > 0)
             {
                 yield return new Finding(MessageType.Info,
-                    $"Not tagged, and no name suggests a label: {FeltWords.Names(plan.Unmatched)}.", plan.Unmatched);
+                    $"Not tagged, and no name suggests a label: {MaterialWords.Names(plan.Unmatched)}.", plan.Unmatched);
             }
             foreach (Finding finding in CheckMeshes(scene))
             {
@@ -43,7 +43,7 @@ namespace HaptoFlow.Editor
             if (empty.Count > 0)
             {
                 yield return new Finding(MessageType.Warning,
-                    $"These mesh colliders have no mesh and cannot be touched: {FeltWords.Names(empty)}.", empty);
+                    $"These mesh colliders have no mesh and cannot be touched: {MaterialWords.Names(empty)}.", empty);
             }
             List<GameObject> concave = meshes
                 .Where(mesh => mesh.sharedMesh != null && !mesh.convex).Select(Owner).ToList();
@@ -51,7 +51,7 @@ namespace HaptoFlow.Editor
             {
                 yield return new Finding(MessageType.Info,
                     "These mesh colliders are not convex, so only the front of their faces is felt: " +
-                    $"{FeltWords.Names(concave)}. A tip more than {1000.0 * RayProbe.DeepestMetres:0} mm behind a " +
+                    $"{MaterialWords.Names(concave)}. A tip more than {1000.0 * RayProbe.MaximumDepthMetres:0} mm behind a " +
                     "face counts as outside. A mesh that a script moves without a rigid body is felt where the last " +
                     "physics step placed it. Boxes, spheres and capsules are exact.", concave);
             }

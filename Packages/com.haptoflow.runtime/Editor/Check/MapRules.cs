@@ -65,13 +65,13 @@ namespace HaptoFlow.Editor
                     collider => WhyNoCoordinates(collider, mask.Key)!))
                 {
                     yield return new Finding(MessageType.Warning,
-                        $"{FeltWords.Names(reason.ToArray())}: the mask {mask.Key.name} has no effect, " +
+                        $"{MaterialWords.Names(reason.ToArray())}: the mask {mask.Key.name} has no effect, " +
                         $"because {reason.Key}.", Owners(reason));
                 }
             }
         }
 
-        private static IEnumerable<HapticMaskMap> MasksOf(ColliderAnswer answer)
+        private static IEnumerable<HapticMaskMap> MasksOf(ColliderMaterial answer)
         {
             if (answer.Surface is object)
             {
@@ -109,7 +109,7 @@ namespace HaptoFlow.Editor
         /// </summary>
         private static IEnumerable<Finding> CheckMeshes(SceneContents scene)
         {
-            ColliderAnswer[] several = scene.Answers
+            ColliderMaterial[] several = scene.Answers
                 .Where(answer => answer.Surface is null && !answer.ByRules.IsUniform && answer.Collider is MeshCollider)
                 .ToArray();
             Collider[] unreadable = several.Select(answer => answer.Collider)
@@ -117,7 +117,7 @@ namespace HaptoFlow.Editor
             if (unreadable.Length > 0)
             {
                 yield return new Finding(MessageType.Warning,
-                    $"{FeltWords.Names(unreadable)}: the submeshes feel like different materials, but the " +
+                    $"{MaterialWords.Names(unreadable)}: the submeshes feel like different materials, but the " +
                     "mesh is not readable, so all of it feels like the first. Switch on Read/Write in the model's " +
                     "import settings.", Owners(unreadable),
                     Readability.RepairsOf(unreadable.Select(each => ((MeshCollider)each).sharedMesh!)).ToArray());
@@ -127,7 +127,7 @@ namespace HaptoFlow.Editor
             if (convex.Length > 0)
             {
                 yield return new Finding(MessageType.Warning,
-                    $"{FeltWords.Names(convex)}: the submeshes feel like different materials, but a convex collider " +
+                    $"{MaterialWords.Names(convex)}: the submeshes feel like different materials, but a convex collider " +
                     "does not report which triangle is touched, so all of it feels like the first. Switch Convex " +
                     "off, or give each material a collider of its own.", Owners(convex));
             }
@@ -140,14 +140,14 @@ namespace HaptoFlow.Editor
             {
                 yield break;
             }
-            foreach (IGrouping<string, ColliderAnswer> same in scene.Answers
+            foreach (IGrouping<string, ColliderMaterial> same in scene.Answers
                 .GroupBy(answer => answer.CanBeFelt
                     ? $"felt as {answer.Material} ({answer.Reason})"
                     : $"not felt ({answer.Reason})"))
             {
                 Collider[] colliders = same.Select(answer => answer.Collider).ToArray();
                 yield return new Finding(MessageType.Info,
-                    $"{FeltWords.Names(colliders)}: {same.Key}.", Owners(colliders));
+                    $"{MaterialWords.Names(colliders)}: {same.Key}.", Owners(colliders));
             }
         }
 

@@ -34,7 +34,7 @@ namespace HaptoFlow.Editor
         public SceneMaps Maps { get; }
 
         /// <summary>What each of <see cref="Colliders"/> feels like, and why.</summary>
-        public IReadOnlyList<ColliderAnswer> Answers { get; }
+        public IReadOnlyList<ColliderMaterial> Answers { get; }
 
         private bool IsInReach(Collider collider)
         {

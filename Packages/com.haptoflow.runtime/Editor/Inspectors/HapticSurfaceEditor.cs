@@ -136,7 +136,7 @@ namespace HaptoFlow.Editor
             }
             var surface = (HapticSurface)target;
             var maps = new SceneMaps();
-            ColliderAnswer? answer = maps.All.Count == 0
+            ColliderMaterial? answer = maps.All.Count == 0
                 ? null
                 : SceneColliders.Below(new[] { surface.gameObject }).Where(collider =>
                     SceneColliders.SurfaceOf(collider) == surface).Select(maps.Ask).FirstOrDefault();
@@ -144,7 +144,7 @@ namespace HaptoFlow.Editor
             {
                 return "";
             }
-            var byRules = new ColliderAnswer(answer.Collider, null, answer.ByRules);
+            var byRules = new ColliderMaterial(answer.Collider, null, answer.ByRules);
             string instead = $"{byRules.Material} ({byRules.Reason})";
             return answer.Surface is null
                 ? $" This surface is disabled, so rules apply: the object feels like {instead}."
@@ -159,7 +159,7 @@ namespace HaptoFlow.Editor
             return byRays == 0
                 ? all
                 : $"{all} Meshes and terrains ({byRays}) are felt from their front only: a tip more than " +
-                    $"{RayProbe.DeepestMetres * 1000.0:0} mm behind a face counts as outside.";
+                    $"{RayProbe.MaximumDepthMetres * 1000.0:0} mm behind a face counts as outside.";
         }
     }
 }

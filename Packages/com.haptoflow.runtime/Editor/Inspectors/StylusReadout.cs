@@ -21,7 +21,7 @@ namespace HaptoFlow.Editor
             {
                 HapticContact contact = stylus.Contact;
                 Add("Touches", contact.Collider != null ? contact.Collider.name : "an object that no longer exists");
-                Add("Feels like", FeltWords.Of(contact));
+                Add("Feels like", MaterialWords.Of(contact));
                 Add("Because of", contact.Explain());
                 Add("Force", "{0:0.00} N", contact.ForceNewtons);
                 Add("Speed", "{0:0} mm/s", 1000.0 * contact.TangentialVelocity.magnitude);

@@ -60,11 +60,11 @@ namespace HaptoFlow.Editor
                 yield return ("This map is not in use: choose it in Project Settings > HaptoFlow, or in a Haptic " +
                     "Material Map Scope of an open scene.", MessageType.Info);
             }
-            ColliderAnswer[] answers = SceneColliders.InScenes().Select(maps.Ask).ToArray();
+            ColliderMaterial[] answers = SceneColliders.InScenes().Select(maps.Ask).ToArray();
             for (int rule = 0; rule < map.Rules.Count; ++rule)
             {
                 string? problem = RuleCheck.ProblemOf(map, rule);
-                string felt = FeltWords.Of(new FeltPart(
+                string felt = MaterialWords.Of(new MappedPart(
                     map, rule, map.Rules[rule].Material, map.Rules[rule].Mask));
                 yield return problem != null
                     ? ($"Rule {rule + 1} ({map.Rules[rule].Describe()}) {problem}.", MessageType.Warning)
@@ -73,18 +73,18 @@ namespace HaptoFlow.Editor
             }
             if (map.DefaultMaterial != null)
             {
-                yield return ($"Default \u2192 {FeltWords.Of(map.DefaultMaterial)}: {MatchedBy(answers, map, -1)}",
+                yield return ($"Default \u2192 {MaterialWords.Of(map.DefaultMaterial)}: {MatchedBy(answers, map, -1)}",
                     MessageType.None);
             }
         }
 
-        private static string MatchedBy(IEnumerable<ColliderAnswer> answers, HapticMaterialMap map, int rule)
+        private static string MatchedBy(IEnumerable<ColliderMaterial> answers, HapticMaterialMap map, int rule)
         {
             Collider[] matched = answers
                 .Where(answer => answer.Surface is null &&
                     answer.ByRules.Parts.Any(part => ReferenceEquals(part.Map, map) && part.Rule == rule))
                 .Select(answer => answer.Collider).ToArray();
-            return matched.Length == 0 ? "no collider" : FeltWords.Names(matched, MaximumNames);
+            return matched.Length == 0 ? "no collider" : MaterialWords.Names(matched, MaximumNames);
         }
 
         private void MarkStale()

@@ -68,7 +68,7 @@ namespace HaptoFlow.Editor
                     "Read/Write in its import settings");
             }
             int halvings = 0;
-            while (Math.Max(texture.width, texture.height) >> halvings > mask.LargestSize)
+            while (Math.Max(texture.width, texture.height) >> halvings > mask.MaximumSize)
             {
                 ++halvings;
             }
@@ -82,7 +82,7 @@ namespace HaptoFlow.Editor
         }
 
         private static string ContentsOf(HapticMaskMap mask, Texture2D texture) =>
-            $"{texture.imageContentsHash} at {mask.LargestSize}, {texture.wrapMode}";
+            $"{texture.imageContentsHash} at {mask.MaximumSize}, {texture.wrapMode}";
 
         /// <summary>Scales pixels down: each new pixel is the mean of those that it covers.</summary>
         private static Color32[] Shrink(Color32[] pixels, int width, int height, int newWidth, int newHeight)

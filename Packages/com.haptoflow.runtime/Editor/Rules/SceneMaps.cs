@@ -42,12 +42,12 @@ namespace HaptoFlow.Editor
         }
 
         /// <summary>What a collider feels like, and why. A surface takes precedence over rules.</summary>
-        public ColliderAnswer Ask(Collider collider)
+        public ColliderMaterial Ask(Collider collider)
         {
             HapticSurface? surface = SceneColliders.SurfaceOf(collider);
             bool isActive = surface != null && surface.enabled && surface.gameObject.activeInHierarchy;
-            return new ColliderAnswer(
-                collider, isActive ? surface : null, new FeltCollider(collider, For(collider.gameObject)));
+            return new ColliderMaterial(
+                collider, isActive ? surface : null, new MappedCollider(collider, For(collider.gameObject)));
         }
     }
 }

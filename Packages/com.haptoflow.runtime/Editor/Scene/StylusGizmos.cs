@@ -39,7 +39,7 @@ namespace HaptoFlow.Editor
             if (withCaption)
             {
                 Handles.Label((marked.PointMetres + marked.Normal * ContactMarks.NormalMetres).ToVector(),
-                    FeltWords.Of(contact) + ": " + ContactMarks.Caption(marked));
+                    MaterialWords.Of(contact) + ": " + ContactMarks.Caption(marked));
             }
         }
 

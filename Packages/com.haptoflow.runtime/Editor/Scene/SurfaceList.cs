@@ -27,7 +27,7 @@ namespace HaptoFlow.Editor
         {
             OfSelection = ofSelection;
             var maps = new SceneMaps();
-            ColliderAnswer[] answers = colliders.Select(maps.Ask).ToArray();
+            ColliderMaterial[] answers = colliders.Select(maps.Ask).ToArray();
             NotFelt = answers.Where(answer => !answer.CanBeFelt).Select(LineOf).ToArray();
             Felt = answers.Where(answer => answer.CanBeFelt).Select(LineOf).ToArray();
         }
@@ -49,7 +49,7 @@ namespace HaptoFlow.Editor
         }
 
         /// <summary>The line of a collider, with the reason when a rule decides.</summary>
-        private static SurfaceLine LineOf(ColliderAnswer answer)
+        private static SurfaceLine LineOf(ColliderMaterial answer)
         {
             string felt = answer.CanBeFelt ? $"{answer.Collider.name}: {answer.Material}" : answer.Collider.name;
             bool isByRule = answer.Surface is null && answer.ByRules.Parts.Any(part => part.Map is object);

@@ -13,7 +13,7 @@ namespace HaptoFlow.Editor
         [InitializeOnLoadMethod]
         internal static void Begin()
         {
-            HaptoFlowSettings.OfProject = SettingsOfProject;
+            HaptoFlowSettings.FindProjectSettings = SettingsOfProject;
             AssemblyReloadEvents.beforeAssemblyReload += HapticSession.ShutDown;
             AssemblyReloadEvents.beforeAssemblyReload += HapticLearning.EndAll;
             AssemblyReloadEvents.beforeAssemblyReload += ForgetBuiltIn;

@@ -10,8 +10,8 @@ namespace HaptoFlow
     /// <summary>The refresh rate of the display, in Hz. Main thread; makes garbage.</summary>
     internal static class DisplayRate
     {
-        private const double LowestHz = 1.0;
-        private const double HighestHz = 1000.0;
+        private const double MinimumHz = 1.0;
+        private const double MaximumHz = 1000.0;
 
         /// <summary>The rate of the running headset, else of the screen.</summary>
         /// <returns>False where neither reports a rate; <paramref name="hertz"/> is then 0.</returns>
@@ -42,6 +42,6 @@ namespace HaptoFlow
             return hertz > 0.0;
         }
 
-        private static bool IsUsable(double rate) => rate >= LowestHz && rate <= HighestHz;
+        private static bool IsUsable(double rate) => rate >= MinimumHz && rate <= MaximumHz;
     }
 }

@@ -6,10 +6,10 @@ namespace HaptoFlow
     /// <summary>A touch of a stylus, in world space: metres, m/s, newtons.</summary>
     public readonly struct HapticContact
     {
-        private readonly FeltCollider? byRules;
+        private readonly MappedCollider? byRules;
         private readonly int part;
 
-        internal HapticContact(NearbyCollider touched, in FeltMaterial felt, in Contact.ContactReading reading)
+        internal HapticContact(NearbyCollider touched, in ResolvedMaterial felt, in Contact.ContactReading reading)
         {
             Surface = touched.Surface;
             byRules = touched.ByRules;

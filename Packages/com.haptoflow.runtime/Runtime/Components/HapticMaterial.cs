@@ -11,9 +11,9 @@ namespace HaptoFlow
     [Serializable]
     public sealed class MaterialDescription
     {
-        internal const float SmallestFeatureScale = 0.25f;
-        internal const float LargestFeatureScale = 4f;
-        internal const float MostToneDbPerOctave = 12f;
+        internal const float MinimumFeatureScale = 0.25f;
+        internal const float MaximumFeatureScale = 4f;
+        internal const float MaximumToneDbPerOctave = 12f;
 
         [SerializeField, Tooltip("The name of a label of the model.")]
         private string label = "wood";
@@ -41,11 +41,11 @@ namespace HaptoFlow
         [SerializeField, Range(0f, 1f), Tooltip("The gain of the output while this material is touched.")]
         private float strength = 1f;
 
-        [SerializeField, Range(SmallestFeatureScale, LargestFeatureScale)]
+        [SerializeField, Range(MinimumFeatureScale, MaximumFeatureScale)]
         [Tooltip("The factor on the size of the material's features, ribs included. 1 leaves them unchanged.")]
         private float featureScale = 1f;
 
-        [SerializeField, Range(-MostToneDbPerOctave, MostToneDbPerOctave)]
+        [SerializeField, Range(-MaximumToneDbPerOctave, MaximumToneDbPerOctave)]
         [Tooltip("The tilt of the spectrum about 150 Hz, in dB per octave. Positive is brighter, negative is darker.")]
         private float toneDbPerOctave;
 
@@ -118,7 +118,7 @@ namespace HaptoFlow
         public float FeatureScale
         {
             get => featureScale;
-            set => featureScale = Mathf.Clamp(value, SmallestFeatureScale, LargestFeatureScale);
+            set => featureScale = Mathf.Clamp(value, MinimumFeatureScale, MaximumFeatureScale);
         }
 
         /// <summary>Tilt of the spectrum about 150 Hz, in dB per octave, -12 to 12; positive is brighter, negative
@@ -126,7 +126,7 @@ namespace HaptoFlow
         public float ToneDbPerOctave
         {
             get => toneDbPerOctave;
-            set => toneDbPerOctave = Mathf.Clamp(value, -MostToneDbPerOctave, MostToneDbPerOctave);
+            set => toneDbPerOctave = Mathf.Clamp(value, -MaximumToneDbPerOctave, MaximumToneDbPerOctave);
         }
 
         /// <summary>The effects of this material: any of <see cref="HapticEffects.Texture"/>, <see

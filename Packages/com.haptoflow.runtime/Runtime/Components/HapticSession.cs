@@ -57,7 +57,7 @@ namespace HaptoFlow
 
         /// <summary>Options of engines without worker threads, for rendering and tests that step them outside real
         /// time; null in applications.</summary>
-        public static HapticEngineOptions? OptionsInstead { get; set; }
+        public static HapticEngineOptions? OptionsOverride { get; set; }
 
         public HaptoFlowSettings Settings { get; }
 
@@ -330,7 +330,7 @@ namespace HaptoFlow
 
         private static HapticEngineOptions OptionsOf(HaptoFlowSettings settings)
         {
-            HapticEngineOptions options = OptionsInstead ?? default;
+            HapticEngineOptions options = OptionsOverride ?? default;
             options.BudgetShare = settings.BudgetShare;
             options.UpdateRateHz = settings.FollowDisplay && DisplayRate.TryGet(out double displayHz)
                 ? displayHz

@@ -158,10 +158,10 @@ namespace HaptoFlow
         internal double StiffnessFor(HapticSession session) => LookUp(session).StiffnessNewtonsPerMetre;
 
         /// <summary>The material at a place on one of the colliders; without labels where the place has none.</summary>
-        internal FeltMaterial At(in TouchedPlace place, HapticSession session)
+        internal ResolvedMaterial At(in TouchedPlace place, HapticSession session)
         {
-            FeltMaterial whole = FeltMaterial.Of(SharedDescription, LookUp(session));
-            return mask != null && mask.TryFeel(place, whole, session, this, out FeltMaterial felt) ? felt : whole;
+            ResolvedMaterial whole = ResolvedMaterial.Of(SharedDescription, LookUp(session));
+            return mask != null && mask.TryFeel(place, whole, session, this, out ResolvedMaterial felt) ? felt : whole;
         }
 
         private MaterialLookUp LookUp(HapticSession session) => sharedMaterial != null

@@ -115,7 +115,7 @@ namespace HaptoFlow
             {
                 if (active == null)
                 {
-                    active = OfProject?.Invoke();
+                    active = FindProjectSettings?.Invoke();
                 }
                 if (active == null)
                 {
@@ -136,7 +136,7 @@ namespace HaptoFlow
 
         /// <summary>Finds the project's settings in the editor, where preloaded assets are not loaded; null in
         /// players.</summary>
-        internal static Func<HaptoFlowSettings?>? OfProject { get; set; }
+        internal static Func<HaptoFlowSettings?>? FindProjectSettings { get; set; }
 
         /// <summary>Makes <see cref="Active"/> search for the settings again.</summary>
         [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.SubsystemRegistration)]

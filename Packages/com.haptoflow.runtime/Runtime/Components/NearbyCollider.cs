@@ -18,18 +18,18 @@ namespace HaptoFlow
         public HapticSurface? Surface { get; private set; }
 
         /// <summary>Null for a collider with a surface.</summary>
-        public FeltCollider? ByRules { get; private set; }
+        public MappedCollider? ByRules { get; private set; }
 
         /// <summary>The point closest to the tip in the last update in which the collider was within reach.</summary>
         public TouchedPlace Place { get; set; }
 
-        public TrackedSurface Tracked { get; } = new TrackedSurface(Double3.Right, 0.0);
+        public ContactBody Tracked { get; } = new ContactBody(Double3.Right, 0.0);
 
         /// <summary>Number of the last update in which the collider was near.</summary>
         public long LastUpdate { get; set; }
 
         /// <param name="surface">Null for a collider whose material rules assign.</param>
-        public void Begin(Collider collider, HapticSurface? surface, FeltCollider? byRules)
+        public void Begin(Collider collider, HapticSurface? surface, MappedCollider? byRules)
         {
             Collider = collider;
             Surface = surface;
@@ -52,7 +52,7 @@ namespace HaptoFlow
         }
 
         /// <summary>The material at <see cref="Place"/>. No garbage while nothing changes.</summary>
-        public FeltMaterial Feel(HapticSession session)
+        public ResolvedMaterial Feel(HapticSession session)
         {
             if (Surface is object)
             {

@@ -15,15 +15,15 @@ namespace HaptoFlow
     /// surface.</para>
     /// <para>No ray is cast for a tip out of reach of the collider's bounds. A tip that was touching, or that crossed
     /// the surface since the last frame, may be outside flat bounds and is still tested.</para>
-    /// <para>Limits: a tip deeper than <see cref="DeepestMetres"/> behind a face counts as outside; in a corner the
+    /// <para>Limits: a tip deeper than <see cref="MaximumDepthMetres"/> behind a face counts as outside; in a corner the
     /// face that was touched first stays; an object without rigid body that a script moves is hit at its pose of the
     /// last physics step, unless physics transforms are synchronised.</para>
     /// </remarks>
     internal static class RayProbe
     {
-        public const double DeepestMetres = 0.02;
+        public const double MaximumDepthMetres = 0.02;
         private const double ShortLiftMetres = 0.004;
-        private const double SmallestMoveMetres = 1e-5;
+        private const double MinimumMoveMetres = 1e-5;
 
         // Ray hits have single precision.
         private const double MinimumOffsetMetres = 1e-5;
@@ -48,7 +48,7 @@ namespace HaptoFlow
             {
                 search.Try(physics.DirectionToWorld(question.PreviousLocalNormal.Value));
             }
-            if (!search.Found && cameFrom.Length > SmallestMoveMetres)
+            if (!search.Found && cameFrom.Length > MinimumMoveMetres)
             {
                 search.Try(physics.DirectionToWorld(pose.DirectionToLocal(cameFrom / cameFrom.Length)));
             }
@@ -71,8 +71,8 @@ namespace HaptoFlow
         private static bool IsOutOfBounds(Collider collider, Double3 tip, in ProbeQuestion question, double movedMetres)
         {
             double behind = question.PreviousLocalNormal.HasValue
-                ? DeepestMetres
-                : Math.Min(movedMetres, DeepestMetres);
+                ? MaximumDepthMetres
+                : Math.Min(movedMetres, MaximumDepthMetres);
             double margin = question.ReachMetres + behind + BoundsSlackMetres;
             return collider.bounds.SqrDistance(tip.ToVector()) > margin * margin;
         }
@@ -125,7 +125,7 @@ namespace HaptoFlow
                 Try(outward, ShortLiftMetres + reach);
                 if (!Found)
                 {
-                    Try(outward, DeepestMetres + reach);
+                    Try(outward, MaximumDepthMetres + reach);
                 }
             }
 
@@ -150,7 +150,7 @@ namespace HaptoFlow
                 // Beside an edge no face lies below the tip: the normal points from the edge to the tip.
                 bool beside = along >= 0.0 && offset.Length > along + MinimumOffsetMetres;
                 double distance = beside ? offset.Length : along;
-                if (distance < -DeepestMetres || distance > reach || Math.Abs(distance) >= Math.Abs(Distance))
+                if (distance < -MaximumDepthMetres || distance > reach || Math.Abs(distance) >= Math.Abs(Distance))
                 {
                     return;
                 }

@@ -60,7 +60,7 @@ namespace HaptoFlow
         /// <param name="felt">The material at the contact; without labels where there is none.</param>
         /// <param name="wanted">The output that plays the voice; null for silence.</param>
         public void Publish(
-            in ContactReading reading, in FeltMaterial felt, HapticSession session, IVoiceTarget? wanted)
+            in ContactReading reading, in ResolvedMaterial felt, HapticSession session, IVoiceTarget? wanted)
         {
             leaving.Update();
             bool isReady = MakeReady(session, wanted, reading);

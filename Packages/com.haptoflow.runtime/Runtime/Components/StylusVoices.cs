@@ -100,7 +100,7 @@ namespace HaptoFlow
             }
         }
 
-        public void Publish(in ContactReading reading, in FeltMaterial felt, HapticSession session)
+        public void Publish(in ContactReading reading, in ResolvedMaterial felt, HapticSession session)
         {
             audio.Publish(reading, felt, session, WantedAudio());
             foreach (Device each in devices)

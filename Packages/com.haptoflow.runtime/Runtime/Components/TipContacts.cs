@@ -9,7 +9,7 @@ namespace HaptoFlow
     /// <summary>The colliders around one tip, frame by frame: queries the physics engine, keeps the colliders that are
     /// near, and lets the contact model decide which one is touched. Main thread, no garbage after
     /// construction.</summary>
-    internal sealed class TipContacts : ISurfaceGeometry
+    internal sealed class TipContacts : IContactGeometry
     {
         private const int MaximumColliders = 128;
         private const int MaximumNearbyColliders = 32;
@@ -73,7 +73,7 @@ namespace HaptoFlow
             }
         }
 
-        bool ISurfaceGeometry.TryClosest(TrackedSurface surface, Double3 tipMetres, out SurfacePoint found)
+        bool IContactGeometry.TryClosest(ContactBody surface, Double3 tipMetres, out SurfacePoint found)
         {
             found = default;
             NearbyCollider? place = Find(surface);
@@ -117,9 +117,9 @@ namespace HaptoFlow
             {
                 Collider collider = colliders[index];
                 HapticSurface? surface = SurfaceOf(collider);
-                FeltCollider? byRules = surface is object || IsOfStylus(collider)
+                MappedCollider? byRules = surface is object || IsOfStylus(collider)
                     ? null
-                    : FeltColliders.Resolve(collider);
+                    : MappedColliders.Resolve(collider);
                 if (surface is object || byRules is object)
                 {
                     NearbyCollider? place = PlaceFor(collider, surface, byRules, takesPlaces);
@@ -196,7 +196,7 @@ namespace HaptoFlow
         }
 
         private NearbyCollider? PlaceFor(
-            Collider collider, HapticSurface? surface, FeltCollider? byRules, bool takesPlaces)
+            Collider collider, HapticSurface? surface, MappedCollider? byRules, bool takesPlaces)
         {
             NearbyCollider? free = null;
             foreach (NearbyCollider each in near)
@@ -216,7 +216,7 @@ namespace HaptoFlow
             return free;
         }
 
-        private NearbyCollider? Find(TrackedSurface? tracked)
+        private NearbyCollider? Find(ContactBody? tracked)
         {
             if (tracked != null)
             {

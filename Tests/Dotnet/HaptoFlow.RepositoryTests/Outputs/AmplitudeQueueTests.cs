@@ -90,7 +90,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
             var motor = new SimulatedMotor();
             AmplitudeQueue queue = QueueFor(motor, SimulatedWave.Sine(160.0));
             double now = Play(motor, queue, 0.0, 1.0);
-            Assert.That(motor.AmplitudeAt(now + AmplitudeQueue.LongestSeconds), Is.Zero);
+            Assert.That(motor.AmplitudeAt(now + AmplitudeQueue.MaximumSeconds), Is.Zero);
             Play(motor, queue, now + 0.2, 0.5);
             Assert.That(queue.Statistics.Gaps, Is.EqualTo(1));
             Assert.That(motor.Commands.Last().Amplitude, Is.EqualTo(0.3f).Within(0.05f));
@@ -151,7 +151,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
                 motor.IsThere ^= random.Next(60) == 0;
                 motor.RateHz = random.Next(100) == 0 ? 40.0 + 200.0 * random.NextDouble() : motor.RateHz;
                 queue.Update(now);
-                Assert.That(motor.AmplitudeAt(now + AmplitudeQueue.LongestSeconds), Is.Zero);
+                Assert.That(motor.AmplitudeAt(now + AmplitudeQueue.MaximumSeconds), Is.Zero);
                 if (wave.IsStopped && motor.IsThere)
                 {
                     Assert.That(motor.AmplitudeAt(now), Is.Zero);

@@ -13,8 +13,8 @@ namespace HaptoFlow.Preview
         {
             Name = table.Text("name");
             Direction = table.Numbers("direction", MaterialFile.TextureNumbers, MaterialFile.TextureNumbers);
-            LevelDecibels = table.OptionalNumber("level_db", -MaterialRules.MostOffsetDecibels,
-                MaterialRules.MostOffsetDecibels) ?? 0.0;
+            LevelDecibels = table.OptionalNumber("level_db", -MaterialRules.MaximumOffsetDecibels,
+                MaterialRules.MaximumOffsetDecibels) ?? 0.0;
             Lowest = (float)table.Number("lowest", -10.0, 0.0);
             Highest = (float)table.Number("highest", 0.0, 10.0);
         }
@@ -99,7 +99,7 @@ namespace HaptoFlow.Preview
         {
             double offset = material.LevelOffsetDecibels + Sliders.Select((slider, index) =>
                 Value(values, index) * slider.LevelDecibels).Sum();
-            offset = Math.Max(-MaterialRules.MostOffsetDecibels, Math.Min(MaterialRules.MostOffsetDecibels, offset));
+            offset = Math.Max(-MaterialRules.MaximumOffsetDecibels, Math.Min(MaterialRules.MaximumOffsetDecibels, offset));
             return MaterialText.With(material, new Dictionary<string, object?>
             {
                 ["name"] = name,

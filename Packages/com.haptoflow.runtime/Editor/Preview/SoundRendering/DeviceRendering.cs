@@ -53,7 +53,7 @@ namespace HaptoFlow.Preview
             };
             features.SetRange(isMotor ? MotorHz : MinimumHz, isMotor ? MotorHz : MaximumHz);
             var carrier = new Carrier(frameSeconds * PreviewSound.RateHz, isMotor ? MotorRiseSeconds : 0.0);
-            var frames = new WaveFrame[features.MostFrames];
+            var frames = new WaveFrame[features.MaximumFrames];
             var played = new float[source.Samples.Length];
             for (int begin = 0; begin < played.Length; begin += BlockFrames)
             {

@@ -41,7 +41,7 @@ namespace HaptoFlow.Editor
         {
             get => featureScale;
             set => featureScale = Mathf.Clamp(
-                value, MaterialDescription.SmallestFeatureScale, MaterialDescription.LargestFeatureScale);
+                value, MaterialDescription.MinimumFeatureScale, MaterialDescription.MaximumFeatureScale);
         }
 
         /// <summary>Tone: tilt of the spectrum about 150 Hz, limited to -12 to 12.</summary>
@@ -49,7 +49,7 @@ namespace HaptoFlow.Editor
         {
             get => toneDbPerOctave;
             set => toneDbPerOctave = Mathf.Clamp(
-                value, -MaterialDescription.MostToneDbPerOctave, MaterialDescription.MostToneDbPerOctave);
+                value, -MaterialDescription.MaximumToneDbPerOctave, MaterialDescription.MaximumToneDbPerOctave);
         }
 
         /// <summary>True if every slider has its default, feature scale and tone included.</summary>

@@ -42,9 +42,9 @@ namespace HaptoFlow.Editor
                 return new SelectedMaterial(own);
             }
             var maps = new SceneMaps();
-            ColliderAnswer[] answers = SceneColliders.Below(new[] { owner }).Select(maps.Ask)
+            ColliderMaterial[] answers = SceneColliders.Below(new[] { owner }).Select(maps.Ask)
                 .OrderBy(answer => answer.Collider.gameObject == owner ? 0 : 1).ToArray();
-            ColliderAnswer? touchable = answers.FirstOrDefault(answer => answer.CanBeFelt);
+            ColliderMaterial? touchable = answers.FirstOrDefault(answer => answer.CanBeFelt);
             if (touchable != null)
             {
                 return touchable.Surface is object ? new SelectedMaterial(touchable.Surface) : OfRule(owner, touchable);
@@ -61,15 +61,15 @@ namespace HaptoFlow.Editor
             return new SelectedMaterial(null, WhyNot(answers));
         }
 
-        private static SelectedMaterial OfRule(GameObject owner, ColliderAnswer answer)
+        private static SelectedMaterial OfRule(GameObject owner, ColliderMaterial answer)
         {
-            FeltCollider mapped = answer.ByRules;
+            MappedCollider mapped = answer.ByRules;
             int index = 0;
             while (!mapped.Parts[index].CanBeFelt)
             {
                 ++index;
             }
-            FeltPart part = mapped.Parts[index];
+            MappedPart part = mapped.Parts[index];
             var remarks = new List<string>();
             if (answer.Collider.gameObject != owner)
             {
@@ -96,13 +96,13 @@ namespace HaptoFlow.Editor
                 .Where(channel => channel.Use == MaskChannelUse.Material && channel.Material != null)
                 .Select(channel => channel.Material).FirstOrDefault();
 
-        private static string WhyNot(IReadOnlyCollection<ColliderAnswer> answers)
+        private static string WhyNot(IReadOnlyCollection<ColliderMaterial> answers)
         {
             if (answers.Count == 0)
             {
                 return "it has no collider that can be touched";
             }
-            ColliderAnswer first = answers.FirstOrDefault(
+            ColliderMaterial first = answers.FirstOrDefault(
                 answer => answer.ByRules.Parts.Any(part => part.Map is object)) ?? answers.First();
             return first.ByRules.Parts.All(part => part.Map is null)
                 ? "it has no Haptic Surface, and no rule matches"

@@ -59,10 +59,10 @@ namespace HaptoFlow.Editor
             float before = EditorGUIUtility.labelWidth;
             EditorGUIUtility.labelWidth = PreviewControls.LabelWidth;
             MaterialChoice material = state.Material(state.PlayedIndex);
-            DrawSlider(FeatureScale, material.FeatureScale, MaterialDescription.SmallestFeatureScale,
-                MaterialDescription.LargestFeatureScale, value => material.FeatureScale = value);
-            DrawSlider(Tone, material.ToneDbPerOctave, -MaterialDescription.MostToneDbPerOctave,
-                MaterialDescription.MostToneDbPerOctave, value => material.ToneDbPerOctave = value);
+            DrawSlider(FeatureScale, material.FeatureScale, MaterialDescription.MinimumFeatureScale,
+                MaterialDescription.MaximumFeatureScale, value => material.FeatureScale = value);
+            DrawSlider(Tone, material.ToneDbPerOctave, -MaterialDescription.MaximumToneDbPerOctave,
+                MaterialDescription.MaximumToneDbPerOctave, value => material.ToneDbPerOctave = value);
             if (catalog.Sliders == null)
             {
                 EditorGUILayout.HelpBox(catalog.Problem!, MessageType.Info);

@@ -135,7 +135,7 @@ namespace HaptoFlow
         }
 
         /// <summary>Upper limit of the longer side of the baked copy, in texels.</summary>
-        public int LargestSize => Math.Max(1, largestSize);
+        public int MaximumSize => Math.Max(1, largestSize);
 
         /// <summary>True to use the mesh's second texture coordinates instead of the first.</summary>
         public bool SecondCoordinates
@@ -225,13 +225,13 @@ namespace HaptoFlow
         /// coordinate.</returns>
         internal bool TryFeel(
             in TouchedPlace place, HapticMaterial? under, HapticSession session, UnityEngine.Object user,
-            out FeltMaterial felt) => TryFeel(
-                place, under is object ? FeltMaterial.Of(under.Description, under.LookUp(session, user)) : default,
+            out ResolvedMaterial felt) => TryFeel(
+                place, under is object ? ResolvedMaterial.Of(under.Description, under.LookUp(session, user)) : default,
                 session, user, out felt);
 
         internal bool TryFeel(
-            in TouchedPlace place, in FeltMaterial under, HapticSession session, UnityEngine.Object user,
-            out FeltMaterial felt)
+            in TouchedPlace place, in ResolvedMaterial under, HapticSession session, UnityEngine.Object user,
+            out ResolvedMaterial felt)
         {
             felt = default;
             if (!IsBaked || !place.TryGetTextureCoordinate(secondCoordinates, out Vector2 coordinate))
@@ -251,7 +251,7 @@ namespace HaptoFlow
             felt = mix.Finish();
             felt.Strength = Limited(felt.Strength * Factor(MaskChannelUse.Strength, sample), 0f, 1f);
             felt.FeatureScale = Limited(felt.FeatureScale * Factor(MaskChannelUse.FeatureScale, sample),
-                MaterialDescription.SmallestFeatureScale, MaterialDescription.LargestFeatureScale);
+                MaterialDescription.MinimumFeatureScale, MaterialDescription.MaximumFeatureScale);
             return true;
         }
 

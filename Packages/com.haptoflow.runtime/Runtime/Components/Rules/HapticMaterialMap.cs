@@ -77,18 +77,18 @@ namespace HaptoFlow
 
         /// <summary>Finds the first rule that matches a part of a collider; false where none does and there is no
         /// default.</summary>
-        internal bool TryMatch(ColliderFacts facts, int part, out FeltPart found)
+        internal bool TryMatch(ColliderFacts facts, int part, out MappedPart found)
         {
             for (int index = 0; index < rules.Count; ++index)
             {
                 HapticMaterialRule rule = rules[index];
                 if (rule.Matches(facts, part))
                 {
-                    found = new FeltPart(this, index, rule.Material, rule.Mask);
+                    found = new MappedPart(this, index, rule.Material, rule.Mask);
                     return true;
                 }
             }
-            found = new FeltPart(this, -1, defaultMaterial, null);
+            found = new MappedPart(this, -1, defaultMaterial, null);
             return defaultMaterial != null;
         }
 

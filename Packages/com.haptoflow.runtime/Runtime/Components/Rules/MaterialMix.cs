@@ -23,7 +23,7 @@ namespace HaptoFlow
         private double stiffness;
         private double stiffnessWeight;
         private float heaviestWeight;
-        private FeltMaterial heaviest;
+        private ResolvedMaterial heaviest;
 
         /// <summary>The instance of the main thread.</summary>
         public static MaterialMix Shared { get; } = new MaterialMix();
@@ -49,10 +49,10 @@ namespace HaptoFlow
         /// <param name="part">The submesh or terrain layer of the material.</param>
         public void Add(
             HapticMaterial material, HapticSession session, UnityEngine.Object user, float weight, int part) => Add(
-                FeltMaterial.Of(material.Description, material.LookUp(session, user)), weight, part);
+                ResolvedMaterial.Of(material.Description, material.LookUp(session, user)), weight, part);
 
         /// <summary>Adds a share of a material; one without known labels counts as no material.</summary>
-        public void Add(in FeltMaterial material, float weight, int part)
+        public void Add(in ResolvedMaterial material, float weight, int part)
         {
             weight = Usable(weight);
             total += weight;
@@ -83,13 +83,13 @@ namespace HaptoFlow
 
         /// <summary>The blend: weighted means, except for the effects, which are those of the material of largest
         /// weight.</summary>
-        public FeltMaterial Finish()
+        public ResolvedMaterial Finish()
         {
             if (felt <= 0f)
             {
                 return default;
             }
-            FeltMaterial mixed = heaviest;
+            ResolvedMaterial mixed = heaviest;
             mixed.Labels = HeaviestLabels();
             mixed.Strength = strength / total;
             mixed.FeatureScale = (float)Math.Exp(logFeatureScale / felt);

@@ -13,7 +13,7 @@ namespace HaptoFlow.Contact
         public uint TouchCounter;
 
         /// <summary>The touched surface; null without touch.</summary>
-        public TrackedSurface? Surface;
+        public ContactBody? Surface;
 
         /// <summary>Contact point on the surface; the tip's centre without touch.</summary>
         public Double3 PointMetres;

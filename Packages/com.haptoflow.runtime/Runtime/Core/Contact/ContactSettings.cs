@@ -19,25 +19,25 @@ namespace HaptoFlow.Contact
         public double StopSeconds { get; set; } = 0.050;
 
         /// <summary>After a longer pause the history is discarded.</summary>
-        public double LongestGapSeconds { get; set; } = 0.250;
+        public double MaximumGapSeconds { get; set; } = 0.250;
 
         /// <summary>Samples closer in time than this are skipped: they would add only noise.</summary>
-        public double ShortestStepSeconds { get; set; } = 0.0005;
+        public double MinimumStepSeconds { get; set; } = 0.0005;
 
         /// <summary>A move shorter than this counts as a repeated position.</summary>
-        public double SmallestMoveMetres { get; set; } = 1e-7;
+        public double MinimumMoveMetres { get; set; } = 1e-7;
 
         /// <summary>A faster move is a teleport. Hands reach a quarter of this speed.</summary>
-        public double FastestMps { get; set; } = 20.0;
+        public double MaximumSpeedMps { get; set; } = 20.0;
 
         /// <summary>Shortest time for the speed of a jump, so that jittering time stamps do not count as
         /// teleports.</summary>
-        public double ShortestJumpSeconds { get; set; } = 0.005;
+        public double MinimumJumpSeconds { get; set; } = 0.005;
 
         /// <summary>The longest move in a time that is not a teleport. A small margin keeps moves at exactly the
         /// maximum speed from counting as teleports by rounding.</summary>
         public double MaximumMoveMetres(double seconds) =>
-            (1.0 + 1e-6) * FastestMps * Math.Max(seconds, ShortestJumpSeconds);
+            (1.0 + 1e-6) * MaximumSpeedMps * Math.Max(seconds, MinimumJumpSeconds);
     }
 
     /// <summary>Settings of the contact model: lengths in metres, times in seconds, forces in newtons.</summary>
@@ -76,11 +76,11 @@ namespace HaptoFlow.Contact
             Require(NotNegative(Velocity.HoldSeconds), nameof(Velocity.HoldSeconds), "0 or more");
             Require(Positive(Velocity.StopSeconds) && Velocity.StopSeconds > Velocity.HoldSeconds,
                 nameof(Velocity.StopSeconds), "above " + nameof(Velocity.HoldSeconds));
-            Require(Positive(Velocity.LongestGapSeconds), nameof(Velocity.LongestGapSeconds), "above 0");
-            Require(Positive(Velocity.ShortestStepSeconds), nameof(Velocity.ShortestStepSeconds), "above 0");
-            Require(NotNegative(Velocity.SmallestMoveMetres), nameof(Velocity.SmallestMoveMetres), "0 or more");
-            Require(Positive(Velocity.FastestMps), nameof(Velocity.FastestMps), "above 0");
-            Require(Positive(Velocity.ShortestJumpSeconds), nameof(Velocity.ShortestJumpSeconds), "above 0");
+            Require(Positive(Velocity.MaximumGapSeconds), nameof(Velocity.MaximumGapSeconds), "above 0");
+            Require(Positive(Velocity.MinimumStepSeconds), nameof(Velocity.MinimumStepSeconds), "above 0");
+            Require(NotNegative(Velocity.MinimumMoveMetres), nameof(Velocity.MinimumMoveMetres), "0 or more");
+            Require(Positive(Velocity.MaximumSpeedMps), nameof(Velocity.MaximumSpeedMps), "above 0");
+            Require(Positive(Velocity.MinimumJumpSeconds), nameof(Velocity.MinimumJumpSeconds), "above 0");
         }
 
         private static bool Positive(double value) => value > 0.0 && Vectors.IsUsable(value);

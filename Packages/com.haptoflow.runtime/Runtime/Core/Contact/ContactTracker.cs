@@ -32,7 +32,7 @@ namespace HaptoFlow.Contact
         private Double3? tipMetres;
         private double tipSeconds;
 
-        private TrackedSurface? touched;
+        private ContactBody? touched;
         private Double3? localNormal;
         private uint touchCounter;
         private double approachSpeedMps;
@@ -74,7 +74,7 @@ namespace HaptoFlow.Contact
 
         /// <summary>Finds the closest points of surfaces for other tip positions than this frame's; null to judge
         /// landings and edges by this frame's points alone.</summary>
-        public ISurfaceGeometry? Geometry { get; set; }
+        public IContactGeometry? Geometry { get; set; }
 
         /// <summary>Detector of a measured tip force; null where geometry decides.</summary>
         public ForceTouch? Force { get; set; }
@@ -91,7 +91,7 @@ namespace HaptoFlow.Contact
 
         /// <summary>The reach for one surface. The touched surface has a longer one, to distinguish a tip that slid off
         /// from one that was lifted.</summary>
-        public double ReachMetresOf(TrackedSurface surface) => ReferenceEquals(surface, touched)
+        public double ReachMetresOf(ContactBody surface) => ReferenceEquals(surface, touched)
             ? Math.Max(ReachMetres, TipRadiusMetres + ContactTransitions.SlideOffReachMetres)
             : ReachMetres;
 
@@ -99,7 +99,7 @@ namespace HaptoFlow.Contact
         public double NowSeconds => nowSeconds;
 
         /// <summary>The surface touched in the last frame; null for none.</summary>
-        public TrackedSurface? Touched => touched;
+        public ContactBody? Touched => touched;
 
         /// <summary>Advances the clock, the tip and its history. False without a usable tip position: no surface needs
         /// to be considered, and <see cref="EndFrame"/> returns a reading without touch.</summary>
@@ -151,7 +151,7 @@ namespace HaptoFlow.Contact
 
         /// <summary>Local normal of the previous frame's contact with a surface, null without one. It keeps a face
         /// until another is nearer by a margin.</summary>
-        public Double3? PreviousLocalNormal(TrackedSurface surface) =>
+        public Double3? PreviousLocalNormal(ContactBody surface) =>
             ReferenceEquals(touched, surface) ? localNormal : null;
 
         /// <summary>Adds a surface near the tip. Between equal depths the first is chosen.</summary>
@@ -213,7 +213,7 @@ namespace HaptoFlow.Contact
         }
 
         /// <summary>Removes a surface that was destroyed, disabled, or whose entry is reused.</summary>
-        public void Release(TrackedSurface surface)
+        public void Release(ContactBody surface)
         {
             transitions.Release(surface);
             if (ReferenceEquals(touched, surface))
@@ -372,7 +372,7 @@ namespace HaptoFlow.Contact
 
         private ContactReading Describe(in ContactCandidate contact, bool touchDown)
         {
-            TrackedSurface surface = contact.Surface;
+            ContactBody surface = contact.Surface;
             Double3 normal = Vectors.UnitOr(contact.Pose.DirectionToWorld(contact.Local.Normal), Double3.Up);
             Double3 velocity = relativeVelocity.Of(history, surface.Track, contact.Local.PointMetres);
             surface.Frame.Update(contact.Local.Normal, stepSeconds);
@@ -401,7 +401,7 @@ namespace HaptoFlow.Contact
             return reading;
         }
 
-        private double ForceOf(TrackedSurface surface, double penetrationMetres)
+        private double ForceOf(ContactBody surface, double penetrationMetres)
         {
             double own = surface.StiffnessNewtonsPerMetre;
             double stiffness = own > 0.0 && Vectors.IsUsable(own)

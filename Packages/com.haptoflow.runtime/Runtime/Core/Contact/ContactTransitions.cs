@@ -58,7 +58,7 @@ namespace HaptoFlow.Contact
         // Points on the two faces of a rim lie below each other's planes, up to rounding and unevenness of the mesh.
         private const double FlatnessMetres = 0.0001;
 
-        private TrackedSurface? referenceSurface;
+        private ContactBody? referenceSurface;
         private Double3 referencePoint;
         private Double3 referenceNormal;
 
@@ -77,7 +77,7 @@ namespace HaptoFlow.Contact
         public void Forget() => referenceSurface = null;
 
         /// <summary>Discards the reference on a surface that is gone.</summary>
-        public void Release(TrackedSurface surface)
+        public void Release(ContactBody surface)
         {
             if (ReferenceEquals(referenceSurface, surface))
             {
@@ -86,7 +86,7 @@ namespace HaptoFlow.Contact
         }
 
         /// <summary>True where the reference is on this surface.</summary>
-        public bool IsOn(TrackedSurface surface) => ReferenceEquals(referenceSurface, surface);
+        public bool IsOn(ContactBody surface) => ReferenceEquals(referenceSurface, surface);
 
         /// <summary>True for a point on another surface than the reference, or with a normal that differs from the
         /// reference's.</summary>

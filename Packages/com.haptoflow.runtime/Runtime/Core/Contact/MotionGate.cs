@@ -18,8 +18,8 @@ namespace HaptoFlow.Contact
 
         // A tracker slower than the frame rate repeats positions.
         private const double MaximumRepeatSeconds = 0.03;
-        private const double SmallestMoveMetres = 1e-7;
-        private const double ShortestStepSeconds = 0.0005;
+        private const double MinimumMoveMetres = 1e-7;
+        private const double MinimumStepSeconds = 0.0005;
 
         private bool hasPlace;
         private double measuredSeconds;
@@ -50,8 +50,8 @@ namespace HaptoFlow.Contact
                 return Moves;
             }
             double moved = Double3.Distance(pointMetres, measuredMetres);
-            bool isRepeat = moved < SmallestMoveMetres && passed < MaximumRepeatSeconds;
-            if (passed >= ShortestStepSeconds && !isRepeat)
+            bool isRepeat = moved < MinimumMoveMetres && passed < MaximumRepeatSeconds;
+            if (passed >= MinimumStepSeconds && !isRepeat)
             {
                 Measure(nowSeconds, pointMetres);
                 SpeedMps = moved / passed;

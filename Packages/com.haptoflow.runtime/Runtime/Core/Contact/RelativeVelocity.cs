@@ -22,7 +22,7 @@ namespace HaptoFlow.Contact
 
         /// <summary>The velocity in world axes, m/s, limited to the maximum speed of the settings; zero with fewer than
         /// two measurements.</summary>
-        public Double3 Of(TipHistory history, SurfaceTrack track, Double3 localPoint)
+        public Double3 Of(TipHistory history, PoseHistory track, Double3 localPoint)
         {
             double confidence = history.Confidence;
             Double3 velocity = confidence * RecentSlope(history, track, localPoint, true);
@@ -30,7 +30,7 @@ namespace HaptoFlow.Contact
             {
                 velocity += (1.0 - confidence) * RecentSlope(history, track, localPoint, false);
             }
-            double fastest = history.Settings.FastestMps;
+            double fastest = history.Settings.MaximumSpeedMps;
             double speed = velocity.Length;
             return speed > fastest ? velocity * (fastest / speed) : velocity;
         }
@@ -38,7 +38,7 @@ namespace HaptoFlow.Contact
         /// <summary>Collects positions backwards in time until the window's end or a jump, and returns the slope
         /// through them: of the tip relative to the material at the tip's measurements, or of the material alone at all
         /// frames.</summary>
-        private Double3 RecentSlope(TipHistory history, SurfaceTrack track, Double3 localPoint, bool withTip)
+        private Double3 RecentSlope(TipHistory history, PoseHistory track, Double3 localPoint, bool withTip)
         {
             VelocitySettings settings = history.Settings;
             count = 0;

@@ -88,7 +88,7 @@ namespace HaptoFlow.Contact
             }
             double moved = Double3.Distance(positionMetres, measuredMetres);
             double sinceMeasured = timeSeconds - measuredSeconds;
-            if (timeSeconds - latestSeconds > Settings.LongestGapSeconds)
+            if (timeSeconds - latestSeconds > Settings.MaximumGapSeconds)
             {
                 return Start(TipStep.Resumed, timeSeconds, positionMetres);
             }
@@ -97,11 +97,11 @@ namespace HaptoFlow.Contact
                 return Start(TipStep.Teleported, timeSeconds, positionMetres);
             }
             latestSeconds = timeSeconds;
-            if (timeSeconds - Newest(0).TimeSeconds < Settings.ShortestStepSeconds)
+            if (timeSeconds - Newest(0).TimeSeconds < Settings.MinimumStepSeconds)
             {
                 return TipStep.Continued;
             }
-            if (moved > Settings.SmallestMoveMetres)
+            if (moved > Settings.MinimumMoveMetres)
             {
                 resting = false;
             }
@@ -109,7 +109,7 @@ namespace HaptoFlow.Contact
             {
                 ConfirmStop(timeSeconds);
             }
-            bool fresh = resting || moved > Settings.SmallestMoveMetres;
+            bool fresh = resting || moved > Settings.MinimumMoveMetres;
             Push(timeSeconds, positionMetres, fresh);
             if (fresh)
             {

@@ -44,8 +44,8 @@ namespace HaptoFlow.Model
             Seconds = provenance?.OptionalNumber("seconds", 0.0, 1e9) ?? 0.0;
             Embedding = root.Numbers("embedding", HapticModel.EmbeddingSize, HapticModel.EmbeddingSize);
             StiffnessNewtonsPerMetre = root.Number("stiffness_newtons_per_metre", 1e-3, 1e6);
-            LevelOffsetDecibels = root.OptionalNumber("level_offset_db", -MaterialRules.MostOffsetDecibels,
-                MaterialRules.MostOffsetDecibels) ?? 0.0;
+            LevelOffsetDecibels = root.OptionalNumber("level_offset_db", -MaterialRules.MaximumOffsetDecibels,
+                MaterialRules.MaximumOffsetDecibels) ?? 0.0;
             MaterialRules.Check(root);
         }
 

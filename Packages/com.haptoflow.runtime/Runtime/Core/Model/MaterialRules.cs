@@ -7,7 +7,7 @@ namespace HaptoFlow.Model
     /// <summary>Limits of the numbers in a material file, as specified in own-materials.md.</summary>
     internal static class MaterialRules
     {
-        public const double MostOffsetDecibels = 24.0;
+        public const double MaximumOffsetDecibels = 24.0;
 
         private const int MaximumSeeds = 16;
         private const int SeedSamples = 400;

@@ -8,10 +8,10 @@ namespace HaptoFlow.Outputs
     internal sealed class AmplitudeQueue : HapticQueue
     {
         /// <summary>Longest duration of one amplitude, in s.</summary>
-        public const double LongestSeconds = 0.1;
+        public const double MaximumSeconds = 0.1;
 
         private const double FrameSeconds = 0.008;
-        private const int MaximumSamples = (int)(LongestSeconds * WaveHistory.RateHz);
+        private const int MaximumSamples = (int)(MaximumSeconds * WaveHistory.RateHz);
         private const double DurationShare = 1.5;
         private const double DurationMarginSeconds = 0.01;
 
@@ -29,7 +29,7 @@ namespace HaptoFlow.Outputs
             : base(sink, source)
         {
             this.sink = sink;
-            frames = new WaveFrame[features.MostFrames];
+            frames = new WaveFrame[features.MaximumFrames];
         }
 
         public override void Dispose() => features.Dispose();
@@ -55,7 +55,7 @@ namespace HaptoFlow.Outputs
             }
             // Keeps the average rate at the device's limit; after a pause nothing is made up for.
             dueSeconds = Math.Max(dueSeconds + interval, nowSeconds + 0.5 * interval);
-            SubmitAmplitude(nowSeconds, Math.Max(interval, Pace.LongestSeconds));
+            SubmitAmplitude(nowSeconds, Math.Max(interval, Pace.MaximumSeconds));
         }
 
         private void SubmitAmplitude(double nowSeconds, double expectedSeconds)
@@ -75,7 +75,7 @@ namespace HaptoFlow.Outputs
                 End();
                 return;
             }
-            double duration = Math.Min(LongestSeconds, DurationShare * expectedSeconds + DurationMarginSeconds);
+            double duration = Math.Min(MaximumSeconds, DurationShare * expectedSeconds + DurationMarginSeconds);
             statistics.Gaps += IsPlaying && nowSeconds > submittedUntilSeconds ? 1 : 0;
             if (!sink.Submit(sent, frequencyHz, (float)duration))
             {

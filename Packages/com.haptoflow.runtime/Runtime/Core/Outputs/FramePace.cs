@@ -22,7 +22,7 @@ namespace HaptoFlow.Outputs
         public static double MaximumDepthSeconds => HitchSeconds + MarginSeconds;
 
         /// <summary>The longest of the recent frames, in s.</summary>
-        public double LongestSeconds => longestSeconds;
+        public double MaximumSeconds => longestSeconds;
 
         public void Note(double frameSeconds)
         {

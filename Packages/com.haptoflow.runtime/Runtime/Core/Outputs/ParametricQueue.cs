@@ -39,7 +39,7 @@ namespace HaptoFlow.Outputs
             : base(sink, source)
         {
             this.sink = sink;
-            completed = new WaveFrame[features.MostFrames];
+            completed = new WaveFrame[features.MaximumFrames];
         }
 
         public override void Dispose() => features.Dispose();

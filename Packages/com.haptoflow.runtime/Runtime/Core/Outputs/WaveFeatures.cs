@@ -72,7 +72,7 @@ namespace HaptoFlow.Outputs
         }
 
         /// <summary>Upper limit of frames that one call of <see cref="Process"/> completes.</summary>
-        public int MostFrames => frames.Length;
+        public int MaximumFrames => frames.Length;
 
         /// <summary>Full scale: the acceleration that a sample of 1 represents, in m/s^2. The features depend on
         /// it.</summary>
@@ -94,7 +94,7 @@ namespace HaptoFlow.Outputs
         }
 
         /// <summary>Processes samples and writes the frames that they complete.</summary>
-        /// <param name="into">At least <see cref="MostFrames"/> long.</param>
+        /// <param name="into">At least <see cref="MaximumFrames"/> long.</param>
         /// <returns>Number of frames written.</returns>
         public int Process(ReadOnlySpan<float> samples, Span<WaveFrame> into)
         {

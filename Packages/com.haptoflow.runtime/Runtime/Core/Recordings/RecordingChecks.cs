@@ -8,7 +8,7 @@ namespace HaptoFlow.Recordings
     /// <summary>Rejects numbers that indicate a wrong unit in a column's name, and signals of a dead sensor.</summary>
     internal static class RecordingChecks
     {
-        private const double SlowestMps = 0.0005;
+        private const double MinimumSpeedMps = 0.0005;
         private const double MaximumRmsMps2 = 40.0 * ColumnForms.GravityMps2;
 
         private static readonly Dictionary<string, string> OtherUnit = new Dictionary<string, string>
@@ -61,7 +61,7 @@ namespace HaptoFlow.Recordings
                 return;
             }
             double median = moving[moving.Length / 2];
-            if (!(median > SlowestMps && median < RecordingSidecar.FastestMps))
+            if (!(median > MinimumSpeedMps && median < RecordingSidecar.MaximumSpeedMps))
             {
                 throw RecordingError.Of(file, Inv($"{motion.Columns[0]} gives a speed of {median:0.###} m/s"),
                     OtherUnit[motion.Columns[0]]);
@@ -73,7 +73,7 @@ namespace HaptoFlow.Recordings
         {
             double[] sorted = force.Values[0].Select(Math.Abs).OrderBy(value => value).ToArray();
             double median = sorted[sorted.Length / 2];
-            if (median > RecordingSidecar.StrongestNewtons)
+            if (median > RecordingSidecar.MaximumForceNewtons)
             {
                 throw RecordingError.Of(file, Inv($"{force.Columns[0]} is {median:0.###} N"),
                     "newtons; name the column force_millinewtons where it is in mN");

@@ -10,7 +10,7 @@ namespace HaptoFlow.Recordings
     /// own-materials.md. Any thread that may block for the disk.</summary>
     public static class RecordingReader
     {
-        private const double LongestSeconds = 600.0;
+        private const double MaximumSeconds = 600.0;
 
         /// <summary>Reads a file with the files NAME.json, recordings.json and motion file beside it.</summary>
         /// <param name="path">Path of a .csv or .wav file.</param>
@@ -86,7 +86,7 @@ namespace HaptoFlow.Recordings
             double last = acceleration.Seconds[acceleration.Count - 1];
             double rateHz = RateOf(file, acceleration);
             int count = 1 + (int)Math.Round((last - first) * rateHz);
-            if (last - first > LongestSeconds)
+            if (last - first > MaximumSeconds)
             {
                 throw RecordingError.Of(file, FormattableString.Invariant($"{last - first:0} s"),
                     "10 s, and 600 s at most: cut it");
@@ -126,7 +126,7 @@ namespace HaptoFlow.Recordings
                 steps += step <= maximumStep ? 1 : 0;
             }
             double rateHz = steps / seconds;
-            return rateHz >= RecordingSidecar.LowestRateHz - 1.0 && rateHz <= RecordingSidecar.HighestRateHz + 1.0
+            return rateHz >= RecordingSidecar.MinimumRateHz - 1.0 && rateHz <= RecordingSidecar.MaximumRateHz + 1.0
                 ? rateHz
                 : throw RecordingError.Of(
                     file, FormattableString.Invariant($"{rateHz:0.#} samples a second"), "1000 to 192000");

@@ -12,10 +12,10 @@ namespace HaptoFlow.Recordings
     internal sealed class RecordingSidecar
     {
         public const string DefaultsFile = "recordings.json";
-        public const double LowestRateHz = 1000.0;
-        public const double HighestRateHz = 192000.0;
-        public const double FastestMps = 10.0;
-        public const double StrongestNewtons = 100.0;
+        public const double MinimumRateHz = 1000.0;
+        public const double MaximumRateHz = 192000.0;
+        public const double MaximumSpeedMps = 10.0;
+        public const double MaximumForceNewtons = 100.0;
 
         private static readonly string[] Keys =
         {
@@ -43,16 +43,16 @@ namespace HaptoFlow.Recordings
         public double? FullScaleMps2 => Number("full_scale_mps2", 0.01, 1e5, "m/s^2 at +-1, 0.01 to 100000");
 
         public double? ForceNewtons =>
-            Number("force_newtons", 0.0, StrongestNewtons, "newtons, 0 to 100 (a thousandth of mN)");
+            Number("force_newtons", 0.0, MaximumForceNewtons, "newtons, 0 to 100 (a thousandth of mN)");
 
-        public double? RateHz => Number("rate_hz", LowestRateHz, HighestRateHz, "samples a second, 1000 to 192000");
+        public double? RateHz => Number("rate_hz", MinimumRateHz, MaximumRateHz, "samples a second, 1000 to 192000");
 
         /// <summary>The velocity; a speed is taken along the first axis.</summary>
         public (double X, double Y)? VelocityMps
         {
             get
             {
-                double? speed = Number("speed_mps", 0.0, FastestMps,
+                double? speed = Number("speed_mps", 0.0, MaximumSpeedMps,
                     "metres a second, 0 to 10 (a thousandth of mm/s)");
                 return speed.HasValue ? (speed.Value, 0.0) : PairOf("velocity_mps");
             }
@@ -147,7 +147,7 @@ namespace HaptoFlow.Recordings
             }
             double[] pair = found.Value.Elements?.Select(each => each.Number).OfType<double>().ToArray() ??
                 Array.Empty<double>();
-            return pair.Length == 2 && Math.Sqrt(pair[0] * pair[0] + pair[1] * pair[1]) <= FastestMps
+            return pair.Length == 2 && Math.Sqrt(pair[0] * pair[0] + pair[1] * pair[1]) <= MaximumSpeedMps
                 ? (pair[0], pair[1])
                 : throw Failure(found, key, "[vx, vy] in metres a second, 10 at most (a thousandth of mm/s)");
         }

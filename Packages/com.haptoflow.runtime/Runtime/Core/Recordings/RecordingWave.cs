@@ -80,7 +80,7 @@ namespace HaptoFlow.Recordings
             {
                 throw RecordingError.Of(file, $"{channels} channels", "1 or 3: one axis, or X, Y and Z");
             }
-            if (rateHz < RecordingSidecar.LowestRateHz || rateHz > RecordingSidecar.HighestRateHz)
+            if (rateHz < RecordingSidecar.MinimumRateHz || rateHz > RecordingSidecar.MaximumRateHz)
             {
                 throw RecordingError.Of(file, $"{rateHz} samples a second", "1000 to 192000");
             }

@@ -14,8 +14,8 @@ namespace HaptoFlow
         private const double CheckIntervalSeconds = 0.5;
 
         // OpenXR accepts any frequency, and the runtime plays the nearest that the device supports.
-        private const double LowestHz = 60.0;
-        private const double HighestHz = 400.0;
+        private const double MinimumHz = 60.0;
+        private const double MaximumHz = 400.0;
 
         private readonly InputAction action;
         private readonly string name;
@@ -34,7 +34,7 @@ namespace HaptoFlow
 
         public bool TryGetCapabilities(out HapticSinkCapabilities capabilities)
         {
-            capabilities = new HapticSinkCapabilities(0.0, minFrequencyHz: LowestHz, maxFrequencyHz: HighestHz);
+            capabilities = new HapticSinkCapabilities(0.0, minFrequencyHz: MinimumHz, maxFrequencyHz: MaximumHz);
             double seconds = Time.realtimeSinceStartupAsDouble;
             if (seconds >= nextCheckSeconds)
             {

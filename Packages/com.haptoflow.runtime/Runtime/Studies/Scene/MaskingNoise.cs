@@ -22,10 +22,10 @@ namespace HaptoFlow.Studies
     public sealed class MaskingNoise : MonoBehaviour
     {
         /// <summary>Lower limit of the level, in dB of full scale.</summary>
-        public const float LowestDecibels = -60f;
+        public const float MinimumDecibels = -60f;
 
         /// <summary>Upper limit of the level, in dB of full scale: peaks of the noise stay below full scale.</summary>
-        public const float HighestDecibels = -18f;
+        public const float MaximumDecibels = -18f;
 
         private const float FadeSeconds = 0.05f;
 
@@ -35,7 +35,7 @@ namespace HaptoFlow.Studies
         [SerializeField, Tooltip("The spectrum of the noise: white has equal power per hertz, pink per octave.")]
         private NoiseColour colour = NoiseColour.White;
 
-        [SerializeField, Range(LowestDecibels, HighestDecibels),
+        [SerializeField, Range(MinimumDecibels, MaximumDecibels),
          Tooltip("The root mean square of the noise, in dB of full scale.")]
         private float levelDecibels = -30f;
 
@@ -63,12 +63,12 @@ namespace HaptoFlow.Studies
             set => colour = value;
         }
 
-        /// <summary>Root mean square in dB of full scale, <see cref="LowestDecibels"/> to <see
-        /// cref="HighestDecibels"/>.</summary>
+        /// <summary>Root mean square in dB of full scale, <see cref="MinimumDecibels"/> to <see
+        /// cref="MaximumDecibels"/>.</summary>
         public float LevelDecibels
         {
             get => levelDecibels;
-            set => levelDecibels = Mathf.Clamp(value, LowestDecibels, HighestDecibels);
+            set => levelDecibels = Mathf.Clamp(value, MinimumDecibels, MaximumDecibels);
         }
 
         /// <summary>Why there is no noise; null while there is.</summary>

@@ -25,7 +25,7 @@ namespace HaptoFlow.Studies
         [SerializeField, Tooltip("The headphones play noise of this colour.")]
         private NoiseColour noiseColour = NoiseColour.White;
 
-        [SerializeField, Range(MaskingNoise.LowestDecibels, MaskingNoise.HighestDecibels)]
+        [SerializeField, Range(MaskingNoise.MinimumDecibels, MaskingNoise.MaximumDecibels)]
         [Tooltip("The noise has this root mean square, in dB of full scale. Participants must not hear the actuator.")]
         private float noiseDecibels = -30f;
 

@@ -10,10 +10,10 @@ namespace HaptoFlow.Studies
     public sealed class TrialContact : IDisposable
     {
         /// <summary>Speed at which a tip at rest starts to move, in m/s, as for an output's signal.</summary>
-        public const double SetsOffMps = MotionGate.StartSpeedMps;
+        public const double StartSpeedMps = MotionGate.StartSpeedMps;
 
         /// <summary>Speed below which a moving tip comes to rest, in m/s.</summary>
-        public const double RestsMps = MotionGate.StopSpeedMps;
+        public const double StopSpeedMps = MotionGate.StopSpeedMps;
 
         private readonly HapticStylus stylus;
         private readonly HapticSurface? surface;

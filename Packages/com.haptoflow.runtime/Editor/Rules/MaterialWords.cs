@@ -7,7 +7,7 @@ using UnityEngine;
 namespace HaptoFlow.Editor
 {
     /// <summary>Describes in words what something feels like.</summary>
-    internal static class FeltWords
+    internal static class MaterialWords
     {
         private const int MaximumNames = 8;
 
@@ -45,7 +45,7 @@ namespace HaptoFlow.Editor
         }
 
         /// <summary>The material of a part of a collider, with its mask.</summary>
-        public static string Of(in FeltPart part)
+        public static string Of(in MappedPart part)
         {
             string material = Of(part.Material);
             return part.Mask is object ? $"{material}, masked by {part.Mask.name}" : material;

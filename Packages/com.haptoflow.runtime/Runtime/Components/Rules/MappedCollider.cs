@@ -8,18 +8,18 @@ namespace HaptoFlow
 {
     /// <summary>The materials that the rules of maps assign to a collider: to the whole, or to each part. Main thread.
     /// Matching the rules makes garbage; looking up a place makes none.</summary>
-    internal sealed class FeltCollider
+    internal sealed class MappedCollider
     {
         private ColliderFacts facts;
-        private FeltPart[] parts;
+        private MappedPart[] parts;
         private int[] trianglesUpTo = Array.Empty<int>();
         private bool isUniform;
 
-        public FeltCollider(Collider collider, IReadOnlyList<HapticMaterialMap> maps)
+        public MappedCollider(Collider collider, IReadOnlyList<HapticMaterialMap> maps)
         {
             Collider = collider;
             facts = new ColliderFacts(collider);
-            parts = Array.Empty<FeltPart>();
+            parts = Array.Empty<MappedPart>();
             Match(maps);
         }
 
@@ -32,7 +32,7 @@ namespace HaptoFlow
         public bool CanBeFelt { get; private set; }
 
         /// <summary>Submeshes or terrain layers in their order; one entry for other colliders.</summary>
-        public IReadOnlyList<FeltPart> Parts => parts;
+        public IReadOnlyList<MappedPart> Parts => parts;
 
         /// <summary>True where the same rule matches all parts.</summary>
         public bool IsUniform => isUniform;
@@ -50,7 +50,7 @@ namespace HaptoFlow
         }
 
         /// <summary>The material at a place; without labels where there is none.</summary>
-        public FeltMaterial At(in TouchedPlace place, HapticSession session)
+        public ResolvedMaterial At(in TouchedPlace place, HapticSession session)
         {
             if (!isUniform && facts.Terrain is { } terrain)
             {
@@ -67,7 +67,7 @@ namespace HaptoFlow
         {
             if (parts.Length != facts.Parts)
             {
-                parts = new FeltPart[facts.Parts];
+                parts = new MappedPart[facts.Parts];
             }
             isUniform = true;
             CanBeFelt = false;
@@ -83,11 +83,11 @@ namespace HaptoFlow
                 : TrianglesUpTo(facts.Mesh);
         }
 
-        private FeltPart Match(IReadOnlyList<HapticMaterialMap> maps, int part)
+        private MappedPart Match(IReadOnlyList<HapticMaterialMap> maps, int part)
         {
             for (int index = 0; index < maps.Count; ++index)
             {
-                if (maps[index].TryMatch(facts, part, out FeltPart found))
+                if (maps[index].TryMatch(facts, part, out MappedPart found))
                 {
                     return found;
                 }
@@ -95,11 +95,11 @@ namespace HaptoFlow
             return default;
         }
 
-        private FeltMaterial OfPart(int part, in TouchedPlace place, HapticSession session)
+        private ResolvedMaterial OfPart(int part, in TouchedPlace place, HapticSession session)
         {
-            FeltPart found = parts[part];
+            MappedPart found = parts[part];
             if (found.Mask is { } mask &&
-                mask.TryFeel(place, found.Material, session, Collider, out FeltMaterial masked))
+                mask.TryFeel(place, found.Material, session, Collider, out ResolvedMaterial masked))
             {
                 masked.Part = part;
                 return masked;
@@ -108,12 +108,12 @@ namespace HaptoFlow
             {
                 return default;
             }
-            FeltMaterial felt = FeltMaterial.Of(found.Material.Description, found.Material.LookUp(session, Collider));
+            ResolvedMaterial felt = ResolvedMaterial.Of(found.Material.Description, found.Material.LookUp(session, Collider));
             felt.Part = part;
             return felt;
         }
 
-        private FeltMaterial OnTerrain(TerrainData terrain, in TouchedPlace place, HapticSession session)
+        private ResolvedMaterial OnTerrain(TerrainData terrain, in TouchedPlace place, HapticSession session)
         {
             float[] weights = TerrainWeights.Of(terrain).At(place.LocalMetres, terrain.size.ToDouble());
             MaterialMix mix = MaterialMix.Shared;

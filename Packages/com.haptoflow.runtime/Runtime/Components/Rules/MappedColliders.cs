@@ -7,10 +7,10 @@ namespace HaptoFlow
 {
     /// <summary>Caches the materials that the maps assign to colliders without a surface. Main thread; no garbage for a
     /// known collider that has not changed.</summary>
-    internal static class FeltColliders
+    internal static class MappedColliders
     {
         private const int MinimumBeforeSweep = 256;
-        private static readonly Dictionary<Collider, FeltCollider> Known = new Dictionary<Collider, FeltCollider>();
+        private static readonly Dictionary<Collider, MappedCollider> Known = new Dictionary<Collider, MappedCollider>();
         private static readonly List<HapticMaterialMap> Maps = new List<HapticMaterialMap>();
         private static readonly List<Collider> Gone = new List<Collider>();
         private static int sweepAt = MinimumBeforeSweep;
@@ -19,17 +19,17 @@ namespace HaptoFlow
         public static int Count => Known.Count;
 
         /// <summary>Null where no rule assigns a material to the collider.</summary>
-        public static FeltCollider? Resolve(Collider collider)
+        public static MappedCollider? Resolve(Collider collider)
         {
             if (!MaterialMaps.Any)
             {
                 return null;
             }
-            if (!Known.TryGetValue(collider, out FeltCollider? felt))
+            if (!Known.TryGetValue(collider, out MappedCollider? felt))
             {
                 Sweep();
                 MaterialMaps.CollectFor(collider.gameObject.scene, Maps);
-                felt = new FeltCollider(collider, Maps) { MapsVersion = MaterialMaps.Version };
+                felt = new MappedCollider(collider, Maps) { MapsVersion = MaterialMaps.Version };
                 Known.Add(collider, felt);
             }
             else if (felt.MapsVersion != MaterialMaps.Version || !felt.IsUpToDate())
@@ -48,7 +48,7 @@ namespace HaptoFlow
             {
                 return;
             }
-            foreach (KeyValuePair<Collider, FeltCollider> entry in Known)
+            foreach (KeyValuePair<Collider, MappedCollider> entry in Known)
             {
                 if (entry.Key == null)
                 {

@@ -3,10 +3,10 @@
 namespace HaptoFlow
 {
     /// <summary>The material of one part of a collider, and the rule that assigns it.</summary>
-    internal readonly struct FeltPart
+    internal readonly struct MappedPart
     {
         /// <param name="rule">Index of the rule; below 0 for the map's default.</param>
-        public FeltPart(HapticMaterialMap? map, int rule, HapticMaterial? material, HapticMaskMap? mask)
+        public MappedPart(HapticMaterialMap? map, int rule, HapticMaterial? material, HapticMaskMap? mask)
         {
             Map = map;
             Rule = rule;
@@ -26,7 +26,7 @@ namespace HaptoFlow
 
         public bool CanBeFelt => Material is object || (Mask is object && Mask.NamesMaterials);
 
-        public bool IsSameAs(in FeltPart other) => ReferenceEquals(Map, other.Map) && Rule == other.Rule;
+        public bool IsSameAs(in MappedPart other) => ReferenceEquals(Map, other.Map) && Rule == other.Rule;
 
         /// <summary>Names the rule, for people. Makes garbage.</summary>
         public string Explain() =>

@@ -4,19 +4,19 @@ using HaptoFlow.Numerics;
 namespace HaptoFlow.Contact
 {
     /// <summary>State of one surface for one tip.</summary>
-    internal sealed class TrackedSurface
+    internal sealed class ContactBody
     {
         /// <param name="grain">Direction of the first tangent axis, in the object's local frame.</param>
         /// <param name="stiffnessNewtonsPerMetre">Stiffness of the spring model; at 0 or below the default
         /// applies.</param>
-        public TrackedSurface(Double3 grain, double stiffnessNewtonsPerMetre)
+        public ContactBody(Double3 grain, double stiffnessNewtonsPerMetre)
         {
             Frame = new TangentFrame(grain);
             StiffnessNewtonsPerMetre = stiffnessNewtonsPerMetre;
         }
 
         /// <summary>Recent poses, recorded by the caller.</summary>
-        public SurfaceTrack Track { get; } = new SurfaceTrack();
+        public PoseHistory Track { get; } = new PoseHistory();
 
         public double StiffnessNewtonsPerMetre { get; set; }
 
@@ -34,7 +34,7 @@ namespace HaptoFlow.Contact
     /// <summary>A surface near the tip in this frame.</summary>
     internal readonly struct ContactCandidate
     {
-        public readonly TrackedSurface Surface;
+        public readonly ContactBody Surface;
 
         /// <summary>The object's pose; <see cref="Local"/> is the point closest to the tip in its local
         /// frame.</summary>
@@ -42,7 +42,7 @@ namespace HaptoFlow.Contact
 
         public readonly SurfacePoint Local;
 
-        public ContactCandidate(TrackedSurface surface, in RigidPose pose, in SurfacePoint local)
+        public ContactCandidate(ContactBody surface, in RigidPose pose, in SurfacePoint local)
         {
             Surface = surface;
             Pose = pose;
@@ -51,11 +51,11 @@ namespace HaptoFlow.Contact
     }
 
     /// <summary>Computes closest points for a tracker. Main thread, no garbage.</summary>
-    internal interface ISurfaceGeometry
+    internal interface IContactGeometry
     {
         /// <summary>The point of a surface closest to a tip, in the surface's local frame.</summary>
         /// <param name="surface">A surface that was considered in this frame.</param>
         /// <returns>False where there is none.</returns>
-        bool TryClosest(TrackedSurface surface, Double3 tipMetres, out SurfacePoint found);
+        bool TryClosest(ContactBody surface, Double3 tipMetres, out SurfacePoint found);
     }
 }

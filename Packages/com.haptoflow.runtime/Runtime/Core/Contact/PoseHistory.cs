@@ -4,7 +4,7 @@ using HaptoFlow.Numerics;
 namespace HaptoFlow.Contact
 {
     /// <summary>Recent poses of a surface, for the tip's velocity relative to it.</summary>
-    internal sealed class SurfaceTrack
+    internal sealed class PoseHistory
     {
         public const int Capacity = 64;
 

@@ -6,11 +6,11 @@ using UnityEngine;
 namespace HaptoFlow.Editor
 {
     /// <summary>What a collider feels like, and why: by a Haptic Surface or by the rules of maps.</summary>
-    internal sealed class ColliderAnswer
+    internal sealed class ColliderMaterial
     {
         /// <param name="surface">The surface that assigns the material; null when rules do.</param>
         /// <param name="byRules">The material by the rules, which applies when there is no surface.</param>
-        public ColliderAnswer(Collider collider, HapticSurface? surface, FeltCollider byRules)
+        public ColliderMaterial(Collider collider, HapticSurface? surface, MappedCollider byRules)
         {
             Collider = collider;
             Surface = surface;
@@ -21,7 +21,7 @@ namespace HaptoFlow.Editor
 
         public HapticSurface? Surface { get; }
 
-        public FeltCollider ByRules { get; }
+        public MappedCollider ByRules { get; }
 
         public bool CanBeFelt => Surface is object || ByRules.CanBeFelt;
 
@@ -32,10 +32,10 @@ namespace HaptoFlow.Editor
             {
                 if (Surface is object)
                 {
-                    string material = FeltWords.Of(Surface.SharedDescription);
+                    string material = MaterialWords.Of(Surface.SharedDescription);
                     return Surface.Mask != null ? $"{material}, masked by {Surface.Mask.name}" : material;
                 }
-                return string.Join("; ", Distinct().Select(part => FeltWords.Of(part)));
+                return string.Join("; ", Distinct().Select(part => MaterialWords.Of(part)));
             }
         }
 
@@ -47,9 +47,9 @@ namespace HaptoFlow.Editor
         /// <summary>For example "Table: wood (rule 2 of "Rooms": tag "Floor")".</summary>
         public override string ToString() => $"{Collider.name}: {Material} ({Reason})";
 
-        private IEnumerable<FeltPart> Distinct()
+        private IEnumerable<MappedPart> Distinct()
         {
-            IReadOnlyList<FeltPart> parts = ByRules.Parts;
+            IReadOnlyList<MappedPart> parts = ByRules.Parts;
             return parts.Where((part, index) => parts.Take(index).All(before => !before.IsSameAs(part)));
         }
     }

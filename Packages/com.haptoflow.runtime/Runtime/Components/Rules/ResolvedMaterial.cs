@@ -3,7 +3,7 @@
 namespace HaptoFlow
 {
     /// <summary>The material at one place: the part of a contact state that describes it.</summary>
-    internal struct FeltMaterial
+    internal struct ResolvedMaterial
     {
         /// <summary>None where the place has no material.</summary>
         public LabelBlend Labels;
@@ -27,7 +27,7 @@ namespace HaptoFlow
         public int Part;
 
         /// <summary>A single material.</summary>
-        public static FeltMaterial Of(MaterialDescription description, MaterialLookUp lookUp) => new FeltMaterial
+        public static ResolvedMaterial Of(MaterialDescription description, MaterialLookUp lookUp) => new ResolvedMaterial
         {
             Labels = lookUp.Labels,
             Strength = description.Strength,
