@@ -1,7 +1,7 @@
 #include "option_values.hpp"
 
 #include "decimal_number.hpp"
-#include "effects/compensation.hpp"
+#include "dsp/sample_rates.hpp"
 #include "exit_codes.hpp"
 #include "input_file.hpp"
 
@@ -55,8 +55,8 @@ CLI::Validator wholeBetween(std::uint64_t lowest, std::uint64_t highest, const s
 }
 
 CLI::Validator outputRate() {
-    return wholeBetween(static_cast<std::uint64_t>(effects::Compensation::lowestRateHz),
-                        static_cast<std::uint64_t>(effects::Compensation::highestRateHz), "Hz");
+    return wholeBetween(static_cast<std::uint64_t>(dsp::minimumOutputRateHz),
+                        static_cast<std::uint64_t>(dsp::maximumOutputRateHz), "Hz");
 }
 
 effects::ActuatorProfile readActuatorProfile(const std::string& nameOrPath) {

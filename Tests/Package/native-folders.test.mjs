@@ -61,7 +61,7 @@ test('every file and folder that CMake names is in the repository', () => {
 
 test('every test program that a script names is a folder of Tests/Native', () => {
   const names = [
-    ...[...read(inRepository('scripts', 'lib', 'test_runners.mjs')).matchAll(/folder: '(\w+)'/g)].map(([, name]) => name),
+    ...[...read(inRepository('scripts', 'lib', 'test_runners.mjs')).matchAll(/program: '(\w+)'/g)].map(([, name]) => name),
     ...[...read(inRepository('scripts', 'test-soak.mjs')).matchAll(/program: '(\w+)'/g)].map(([, name]) => name),
     ...read(inRepository('scripts', 'lib', 'platform_tests.mjs')).match(/const programs = \[([^\]]*)\]/)[1].match(/\w+/g),
   ];

@@ -8,7 +8,7 @@ export const longTests = {
   native: [
     {
       because: 'every pair of labels is rendered from the shipped model; BlendSoundTest blends single pairs, and blend_ribs_test.cpp the arithmetic',
-      tests: ['BlendSoundTest.NoPairOfLabelsIsLouderOrSofterThanBothByMoreThanHalfADecibel'],
+      tests: ['BlendSoundTest.EveryBlendLiesWithinHalfADecibelOfItsLabels'],
     },
     {
       because: 'the command line is started for every example of every help text; EveryCommandLineOfEveryPageRuns starts it for those of the pages',
@@ -20,39 +20,39 @@ export const longTests = {
     },
     {
       because: 'the figures of the benchmark are measured once more for each device; TheReportHasEveryKeyOfTheContract reads a whole report',
-      tests: ['BenchCommandTest.LatenciesHaveARowForEachDeviceWithItsGoalAndTheUsualBlocksFiguresInFront'],
+      tests: ['BenchCommandTest.LatenciesHaveARowForEachDeviceWithItsGoalAfterTheDefaultBlocksFigures'],
     },
   ],
   training: [
     {
       because: 'all labels are rendered from the shipped model for minutes and told apart; the classifier and the order of levels have tests of their own on short renders',
-      tests: ['test_the_shipped_model_s_renders_of_unseen_strokes_are_named_right_and_in_order_of_level'],
+      tests: ['test_the_shipped_model_s_renders_of_unseen_strokes_are_classified_correctly_and_ordered_by_level'],
     },
     {
       because: 'recorded strokes are rendered from the shipped model; RealStrokesTest (C++) runs their contact and ARealStrokeTouchesOnce (C#) their sound',
-      tests: ['test_every_stroke_touches_and_sounds', 'test_no_sample_is_non_finite_or_clipped', 'test_hop_boundaries_hide_in_the_wave_around_them'],
+      tests: ['test_every_stroke_touches_and_vibrates', 'test_no_sample_is_non_finite_or_clipped', 'test_hop_boundaries_do_not_stand_out_from_the_waveform'],
     },
     {
       because: 'two models are trained and exported to compare their sound; that a shifted level is the label\'s own is tested on the network alone',
-      tests: ['test_a_level_shifted_in_the_file_scales_the_closed_loop_by_just_that'],
+      tests: ['test_a_level_shift_in_the_file_scales_the_closed_loop_by_the_same_factor'],
     },
     {
       because: 'a material is calibrated from far off; that it meets its targets as shipped is tested for four materials',
-      tests: ['test_calibration_mends_a_material_that_was_put_out_of_tune'],
+      tests: ['test_calibration_restores_a_detuned_material'],
     },
     {
       because: 'two processes of PyTorch start and find each other; what they compute is tested in one process',
-      tests: ['test_two_processes_under_torchrun_end_with_one_set_of_weights_where_the_machines_name_does_not_resolve'],
+      tests: ['test_two_torchrun_processes_end_with_equal_weights_on_a_machine_whose_name_does_not_resolve'],
     },
     {
       because: 'a network is trained to be compared with fast recordings; the arithmetic of the law is tested without a network',
-      tests: ['test_the_level_law_comes_nearer_to_fast_recordings_than_clamping', 'test_reading_the_edge_s_wave_faster_puts_the_fundamental_where_recordings_have_it'],
+      tests: ['test_extrapolating_the_level_law_is_closer_to_fast_recordings_than_clamping', 'test_faster_playback_beyond_the_range_gives_the_recorded_fundamental'],
     },
   ],
   dotnet: [
     {
       because: 'a material is learnt to its end, several times; one learning to its end stays, and cancelling, saving and options have tests of their own',
-      tests: ['TwoAtOnceLearnEachItsOwnAndTheSameSeedGivesTheSameBytes', 'TouchingTheButtonLearnsTheRecordingAndTheSpecimenFeelsLikeIt'],
+      tests: ['TwoLearningsRunAtOnceAndTheSameSeedGivesTheSameBytes', 'TouchingTheButtonLearnsTheRecordingForTheSpecimen'],
     },
   ],
 };
