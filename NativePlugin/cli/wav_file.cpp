@@ -58,8 +58,7 @@ Recording readRecording(const std::string& path, int channel) {
     if (file == nullptr) {
         throw InputError(path + ": cannot be read (" + sf_strerror(nullptr) + "); expected a sound file such as WAV");
     }
-    if (info.samplerate < dsp::minimumOutputRateHz ||
-        info.samplerate > dsp::maximumOutputRateHz) {
+    if (info.samplerate < dsp::minimumOutputRateHz || info.samplerate > dsp::maximumOutputRateHz) {
         throw InputError(path + ": has a rate of " + std::to_string(info.samplerate) +
                          " Hz; expected 8000 to 192000 Hz");
     }

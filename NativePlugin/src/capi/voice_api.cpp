@@ -310,9 +310,9 @@ haptoflow_status haptoflow_voice_effect_statistics(haptoflow_voice voice, haptof
         const engine::VoiceCounters& counters = use->voice->channels.counters;
         const engine::EffectCounters& own = counters.effects[static_cast<std::size_t>(effect)];
         haptoflow_effect_statistics content{};
-        content.is_asked_for =
-            ((counters.requestedEffects | effectsRequestedBySettings(use->voice->channels)) >> static_cast<unsigned>(effect)) &
-            1U;
+        content.is_asked_for = ((counters.requestedEffects | effectsRequestedBySettings(use->voice->channels)) >>
+                                static_cast<unsigned>(effect)) &
+                               1U;
         content.prepared = own.prepared;
         content.runs = own.runs;
         content.samples = own.samples;
