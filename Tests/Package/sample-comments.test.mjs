@@ -21,6 +21,10 @@ test('strings that look like comments are not found', () => {
   assert.deepEqual(found('a.mjs', ['const a = `// no ${b(`/* no */`)}`.replace(/[/]\\/*"/, c / 2); // Yes.']), ['1: // Yes.']);
 });
 
+test('the comment that closes a namespace is not drawn', () => {
+  assert.deepEqual(found('a.cpp', ['// Why.', 'int a;', '}  // namespace', '}  // namespace haptoflow::cli']), ['1: // Why.']);
+});
+
 test('docstrings of Python are found, and other strings are not', () => {
   const lines = ['"""Module.', 'Second line."""', 'a = """# no"""  # Yes.', 'call(', '    "no",', ')', 'def f():', "    '''Function.'''"];
   assert.deepEqual(found('a.py', lines), ['1: """Module.\nSecond line."""', '3: # Yes.', "8: '''Function.'''"]);

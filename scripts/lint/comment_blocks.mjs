@@ -119,7 +119,7 @@ function joinLineComments(text, comments) {
     blocks.push(block);
     previous = { block, isAlone: isAlone && comment.isLine, lastLine: line };
   }
-  return blocks;
+  return blocks.filter(({ text: shown }) => !/^\/\/ namespace( [\w:]+)?$/.test(shown));
 }
 
 /** A generator of uniform numbers below 1 (mulberry32): the same seed draws the same blocks on every machine. */
