@@ -106,6 +106,10 @@ function(haptoflow_add_test name)
       # The libraries are checked for undefined behaviour; to check the tests' own code as well doubles its compile time.
       target_compile_options(${name} PRIVATE -fno-sanitize=undefined)
     endif()
+    if(HAPTOFLOW_SANITIZERS)
+      # Compiling the tests takes longer than running them.
+      target_compile_options(${name} PRIVATE -O0)
+    endif()
   elseif(MSVC)
     # Joined sources have more sections than an object file holds by default. Warnings of a compiler that the tests have
     # not met yet do not keep them from running.

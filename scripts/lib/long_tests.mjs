@@ -25,6 +25,22 @@ export const longTests = {
   ],
   training: [
     {
+      because: 'the few-shot study is run whole for one material; the tests of its report and of its cases run its parts',
+      tests: ['test_a_whole_study_of_one_material_measures_every_row'],
+    },
+    {
+      because: 'dozens of recordings are simulated at every speed; the targets of single materials are tested by test_a_material_measured_afresh_meets_its_targets',
+      tests: ['test_the_pooled_centroid_grows_with_speed_as_in_published_textures_and_beyond'],
+    },
+    {
+      because: 'every command of the page of the few-shot study runs; the commands of the page own-materials run in the default form',
+      tests: ['test_every_command_of_the_page_runs_and_writes_what_it_names'],
+    },
+    {
+      because: 'a slider is rendered step by step; test_regularity_makes_ribs_stand_out renders another slider',
+      tests: ['test_coarseness_lowers_the_pitch_step_by_step_and_hardness_raises_it'],
+    },
+    {
       because: 'all labels are rendered from the shipped model for minutes and told apart; the classifier and the order of levels have tests of their own on short renders',
       tests: ['test_the_shipped_model_s_renders_of_unseen_strokes_are_classified_correctly_and_ordered_by_level'],
     },

@@ -129,7 +129,7 @@ async function dotnet({ all }) {
   for (const { configuration, target, tests = all ? '' : shortForm } of managed.filter(({ long }) => all || !long)) {
     const folder = results(`dotnet-${configuration.toLowerCase()}`);
     rmSync(folder, { recursive: true, force: true });
-    const args = ['test', inRepository('Tests', 'Dotnet', target), '-m:1', '-c', configuration, '--nologo', '--logger', 'trx'];
+    const args = ['test', inRepository('Tests', 'Dotnet', target), `-m:${os.cpus().length}`, '-c', configuration, '--nologo', '--logger', 'trx'];
     args.push('--blame-hang-timeout', '10m', '--blame-hang-dump-type', 'none');
     args.push('--results-directory', folder, ...(tests ? ['--filter', tests] : []));
     const { exitCode } = await run(command, args, { env: dotnetEnvironment(command) });
