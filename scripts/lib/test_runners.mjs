@@ -17,7 +17,7 @@ const portablePrograms = ['model', 'dsp', 'effects', 'headless', 'inference', 'l
 
 /**
  * What runs under which sanitizers: programs that read untrusted input, hand memory across the C ABI, or share it between
- * threads. The default run has one build, that of the address and undefined-behaviour sanitizers, and of it the programs
+ * threads. `--only sanitizers` has one build, that of the address and undefined-behaviour sanitizers, and of it the programs
  * that reach all code of the shipped library from outside; `long` entries are those of `--all`.
  */
 const sanitized = [
@@ -68,19 +68,16 @@ async function libcxx() {
 /** The preset of the native tests: Visual Studio on Windows, libraries from vcpkg on macOS, elsewhere the release build. */
 const nativePreset = { win32: 'windows-msvc', darwin: 'macos-tests' }[process.platform] ?? 'release';
 
-/** Programs that the default form runs under sanitizers only, since they depend on neither speed nor optimisation. */
-const sanitizedOnly = ['model'];
-
-function nativePrograms(all) {
+function nativePrograms() {
   // The realtime program traps system calls of Linux x64; the command line is not built on Windows.
   const programs = [...(process.platform === 'win32' ? [] : ['cli']), ...portablePrograms];
   if (process.platform === 'linux' && process.arch === 'x64') programs.push('realtime');
-  return all || process.platform !== 'linux' ? programs : programs.filter((name) => !sanitizedOnly.includes(name));
+  return programs;
 }
 
 async function native({ all }) {
   if (process.platform === 'linux' && process.arch === 'arm64') await bringArmRuntime();
-  const programs = nativePrograms(all);
+  const programs = nativePrograms();
   const targets = ['audioplugin_haptoflow', ...programs.map((name) => `${name}_tests`)];
   await buildNative({ preset: nativePreset, tests: true, targets });
   const except = all ? [] : longTestsOf('native');
@@ -161,10 +158,10 @@ export async function runNodeTests(files) {
  */
 export const runners = {
   native: { purposes: ['build', 'test'], execute: native },
-  sanitizers: { purposes: ['build', 'test'], longPurposes: ['realtime'], execute: sanitizers },
   training: { purposes: ['python', 'files'], execute: training },
   dotnet: { purposes: ['build', 'dotnet', 'pictures'], execute: dotnet },
   package: { purposes: ['files'], execute: packageTests },
+  sanitizers: { purposes: ['build', 'test'], longPurposes: ['realtime'], long: true, execute: sanitizers },
   libcxx: { purposes: ['build', 'libcxx'], long: true, execute: libcxx },
   platforms: { purposes: ['build', 'test', 'platforms'], long: true, execute: platformTests },
 };
