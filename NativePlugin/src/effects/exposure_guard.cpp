@@ -14,7 +14,7 @@ constexpr double ticksPerSecond = 100.0;
 constexpr double recentSeconds = 60.0;
 // The weight after 10 s of play.
 constexpr double minimumRecentWeight = 0.1535;
-// Weighted mean square of 1 mm/s^2 RMS; a quieter signal counts as silence.
+// Mean square of 1 mm/s^2 RMS; a quieter signal counts as silence.
 constexpr double silentMeanSquare = 1e-6;
 // No actuator shakes a hand harder. The limit keeps a single corrupt sample from dominating the dose for hours.
 constexpr double maximumMps2 = 1e4;
@@ -83,13 +83,13 @@ float ExposureGuard::passThrough(float sample) noexcept {
 
 void ExposureGuard::finishTick() noexcept {
     const auto count = static_cast<double>(tickSamples_);
-    const double weightedMeanSquare = weightedSquares_ / count;
-    measure(squares_ / count, weightedMeanSquare);
+    const double meanSquare = squares_ / count;
+    measure(meanSquare, weightedSquares_ / count);
     tickPosition_ = 0;
     squares_ = 0.0;
     weightedSquares_ = 0.0;
     advanceSlots(tickSeconds_);
-    moveGain(tickSeconds_, weightedMeanSquare <= silentMeanSquare);
+    moveGain(tickSeconds_, meanSquare <= silentMeanSquare);
     publish();
 }
 

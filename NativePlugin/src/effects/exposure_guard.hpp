@@ -64,12 +64,12 @@ struct ExposureReport {
 ///
 /// No target is below 0.01 (-40 dB). The dose is stored in 97 slots of 5 minutes, so its window moves in such steps.
 ///
-/// In silence (below 1 mm/s^2 weighted) the gain never falls, since nothing reaches the hand that lowering it would
-/// spare. It rises: L decays with its 300 s, and a_r^2 with a time constant of a minute down to (2.5 m/s^2)^2 8 h / 600
-/// s, the highest level that a day without exposure allows. After minutes of silence the second target is therefore at
-/// least the square root of the remaining share of the dose, whatever was played before, and 1 once the dose has left
-/// the window. a_r does not decay further, because the next sound must not find a higher gain than the rest of the dose
-/// permits.
+/// In silence (below 1 mm/s^2 RMS) the gain never falls, since nothing reaches the hand that lowering it would spare.
+/// It rises: L decays with its 300 s, and a_r^2, where a_w is silent, with a time constant of a minute down to (2.5
+/// m/s^2)^2 8 h / 600 s, the highest level that a day without exposure allows. After minutes of silence the second
+/// target is therefore at least the square root of the remaining share of the dose, whatever was played before, and 1
+/// once the dose has left the window. a_r does not decay further, because the next sound must not find a higher gain
+/// than the rest of the dose permits.
 ///
 /// A guard that is switched off lets the signal pass and measures on, because that signal reaches the hand, too. When
 /// it is switched on again, it has the gain that the exposure of the whole day requires, within two hundredths of a

@@ -206,12 +206,13 @@ void VoiceRenderer::takeBlows(std::size_t frames) noexcept {
     framesRendered_ = 0;
     const bool maySound = silence_ == Silence::none || silence_ == Silence::rest;
     const bool waitsForRate = silence_ == Silence::rate && channels_.isRateSupported.load(std::memory_order_relaxed);
+    if (waitedSeconds_ > staleSeconds || (!maySound && !waitsForRate)) {
+        // Blows that occurred long ago or during another silence are not played later.
+        waiting_ = {};
+    }
     if (maySound) {
         voice_.allowEffects();
         strikeWaiting();
-    } else if (!waitsForRate) {
-        // Blows that occurred during another silence are not played later.
-        waiting_ = {};
     }
     const std::span<const Blow> blows = channels_.toAudio.current().blows.all();
     if (blows.empty() || blows.back().number <= takenBlow_) {
@@ -242,7 +243,7 @@ void VoiceRenderer::takeBlows(std::size_t frames) noexcept {
 
 void VoiceRenderer::strikeWaiting() noexcept {
     for (std::optional<Blow>& blow : waiting_) {
-        if (blow && waitedSeconds_ <= staleSeconds) {
+        if (blow) {
             strike(*blow);
         }
         blow.reset();

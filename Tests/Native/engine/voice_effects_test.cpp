@@ -684,7 +684,7 @@ TEST_F(ProcessorsTest, AGuardSwitchedOffAndOnRemembersTheDay) {
     for (const double awaySeconds : {0.2, 5.0, 60.0}) {
         for (const bool changesRate : {false, true}) {
             SimulatedDevice device(model_, tone_);
-            device.controls().actuatorGain = 300.0;
+            device.controls().actuatorGain = 1000.0;
             ask(device, [](ProcessorSettings& settings) { settings.hasExposureGuard = true; });
             const auto slide = [](double) { return testing::sliding(); };
             device.run(40.0, slide);
