@@ -98,10 +98,10 @@ def test_a_training_that_is_killed_while_preparing_leaves_no_worker_and_no_lock(
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
 def test_a_training_that_is_stopped_while_preparing_says_how_to_go_on(tmp_path: Path, number: int) -> None:
     process = started(tmp_path, "run", hand_seconds=20.0)
-    wait_for(process, lambda: (tmp_path / "store.unfinished").exists())
+    wait_for(process, lambda: (tmp_path / "store.unfinished").exists() and len(children_of(process.pid)) >= 2)
     process.send_signal(number)
     _, said = process.communicate(timeout=60)
-    assert process.returncode == 128 + number
+    assert process.returncode == 128 + number, said
     name = signal.Signals(number).name
     assert f"stopped by {name}, no model is written yet; run the same command again to go on" in said
     assert "Traceback" not in said and not list(tmp_path.glob("store*"))

@@ -9,6 +9,8 @@ from contextlib import contextmanager
 from types import FrameType
 
 _SIGNALS = (signal.SIGINT, signal.SIGTERM)
+# The signal that came last, until a `stoppable` ends.
+_asked: int | None = None
 
 
 class Stopped(BaseException):
@@ -38,9 +40,23 @@ def stoppable() -> Iterator[None]:
     try:
         yield
     finally:
+        _remember(None)
         for number in chosen:
             signal.signal(number, before[number])
 
 
+def end_if_stopped() -> None:
+    """Raise Stopped if a signal came. Called between long parts of work, because Python drops an exception that a
+    signal raises within a finaliser."""
+    if _asked is not None:
+        raise Stopped(_asked)
+
+
 def _raise_stopped(number: int, frame: FrameType | None) -> None:
+    _remember(number)
     raise Stopped(number)
+
+
+def _remember(number: int | None) -> None:
+    global _asked
+    _asked = number

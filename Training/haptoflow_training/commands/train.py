@@ -20,7 +20,7 @@ from haptoflow_training.training.config import TrainingConfig, check_available, 
 from haptoflow_training.training.processes import join_processes
 from haptoflow_training.training.recordings_source import Source, open_source
 from haptoflow_training.training.run_log import write_json
-from haptoflow_training.stopping import Stopped
+from haptoflow_training.stopping import Stopped, end_if_stopped
 from haptoflow_training.training.trainer import Trainer, TrainingStopped, check_start
 
 OWN_CONFIGURATION = Path(__file__).resolve().parents[2] / "configs" / "own.toml"
@@ -163,6 +163,7 @@ def _run(options: argparse.Namespace) -> int:
         trainer.run()
         if processes.is_first and options.export is not None:
             measured = measured_levels(options.out, source, extent) if calibrates(config) else MeasuredLevels()
+            end_if_stopped()
             checksum = export_run(
                 options.out, source.store, source.labels, source.provenance, options.export, options.parity,
                 level_offsets_db=measured.offsets_db, level_tables=measured.tables,

@@ -29,6 +29,7 @@ from haptoflow_training.preprocessing.split import SPLITS, Split, split_of
 from haptoflow_training.preprocessing.store import SegmentStore, SkippedRecording, StoredRecording
 from haptoflow_training.preprocessing.time_split import cut, labels_to_cut, labels_without_a_split, time_parts
 from haptoflow_training.recordings.recording import Recording, RecordingIdentity
+from haptoflow_training.stopping import end_if_stopped
 
 _PEAK_PERCENTILE = 80.0
 _RESCALE_SAMPLES = 1 << 20
@@ -109,6 +110,7 @@ def prepare_store(
             settings=settings,
             provenance=provenance or {},
         )
+        end_if_stopped()
         _replace(unfinished, out)
     except OSError as error:
         raise InputError(
@@ -251,6 +253,7 @@ def _append_all(
     with ExitStack() as opened:
         files = [opened.enter_context((folder / name).open("wb")) for name in store_module.ARRAY_FILES]
         for item in (part for parts in prepared for part in parts):
+            end_if_stopped()
             if item.padded is None:
                 skipped.append(SkippedRecording(item.name, item.problem or "", item.label))
                 continue

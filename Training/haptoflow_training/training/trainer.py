@@ -30,7 +30,7 @@ from haptoflow_training.models.level_model import ConstantLevel, LevelModel
 from haptoflow_training.models.representation import build_representation
 from haptoflow_training.models.segment_network import SegmentNetwork
 from haptoflow_training.models.velocity_field import VelocityField
-from haptoflow_training.stopping import Stopped
+from haptoflow_training.stopping import Stopped, end_if_stopped
 from haptoflow_training.training.batches import SegmentBatches, Store
 from haptoflow_training.training.budget import Budget
 from haptoflow_training.training.config import TrainingConfig, config_from_dict
@@ -242,6 +242,7 @@ class Trainer:
         # Until the first step there is nothing to save: a signal ends the program at once.
         if (self._config.optimiser.budget_seconds or self._limit is not None) and self._budget is None:
             self._budget = self._shared_out_budget()
+        end_if_stopped()
         previous_handlers = {
             number: signal.signal(number, self._ask_to_stop) for number in (signal.SIGINT, signal.SIGTERM)
         }
