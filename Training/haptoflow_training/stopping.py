@@ -11,6 +11,7 @@ from types import FrameType
 _SIGNALS = (signal.SIGINT, signal.SIGTERM)
 # The signal that came last, until a `stoppable` ends.
 _asked: int | None = None
+_is_deferred = False
 
 
 class Stopped(BaseException):
@@ -45,16 +46,28 @@ def stoppable() -> Iterator[None]:
             signal.signal(number, before[number])
 
 
+@contextmanager
+def deferred() -> Iterator[None]:
+    """Within it, a signal is only remembered; the code asks by `end_if_stopped`. For pools of processes, which an
+    exception at any place breaks."""
+    global _is_deferred
+    before, _is_deferred = _is_deferred, True
+    try:
+        yield
+    finally:
+        _is_deferred = before
+
+
 def end_if_stopped() -> None:
-    """Raise Stopped if a signal came. Called between long parts of work, because Python drops an exception that a
-    signal raises within a finaliser."""
+    """Raise Stopped if a signal came."""
     if _asked is not None:
         raise Stopped(_asked)
 
 
 def _raise_stopped(number: int, frame: FrameType | None) -> None:
     _remember(number)
-    raise Stopped(number)
+    if not _is_deferred:
+        raise Stopped(number)
 
 
 def _remember(number: int | None) -> None:

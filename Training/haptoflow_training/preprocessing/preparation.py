@@ -29,7 +29,7 @@ from haptoflow_training.preprocessing.split import SPLITS, Split, split_of
 from haptoflow_training.preprocessing.store import SegmentStore, SkippedRecording, StoredRecording
 from haptoflow_training.preprocessing.time_split import cut, labels_to_cut, labels_without_a_split, time_parts
 from haptoflow_training.recordings.recording import Recording, RecordingIdentity
-from haptoflow_training.stopping import end_if_stopped
+from haptoflow_training.stopping import deferred, end_if_stopped
 
 _PEAK_PERCENTILE = 80.0
 _RESCALE_SAMPLES = 1 << 20
@@ -96,8 +96,9 @@ def prepare_store(
         shutil.rmtree(unfinished, ignore_errors=True)
         unfinished.mkdir(parents=True)
         prepared = _prepare_each(recordings, labels, settings, seed, workers, cut_labels)
-        bar = tqdm(prepared, disable=not progress, unit=" recordings", desc="prepare")
-        stored, skipped = _append_all(bar, labels, unfinished, settings, seed)
+        with deferred():
+            bar = tqdm(prepared, disable=not progress, unit=" recordings", desc="prepare")
+            stored, skipped = _append_all(bar, labels, unfinished, settings, seed)
         peak_mps2 = _peak(stored, skipped)
         _rescale(unfinished / store_module.WAVEFORM_FILE, peak_mps2)
         store_module.write_header(

@@ -141,6 +141,13 @@ def holm(p_values: Sequence[float]) -> list[float]:
     return result
 
 
+def equivalences(ratings: np.ndarray, bound: float) -> list[tuple[float, float]]:
+    """p of equivalence for each pair of columns, and the same after Holm's correction."""
+    pairs = combinations(range(ratings.shape[1]), 2)
+    found = [equivalence(ratings[:, first], ratings[:, second], bound) for first, second in pairs]
+    return list(zip(found, holm(found), strict=True))
+
+
 def rank_biserial(differences: np.ndarray) -> float | None:
     """Kerby (2014), The simple difference formula, on Pratt's ranks; None if every difference is zero."""
     rounded = np.round(differences, _DECIMALS)
@@ -189,8 +196,7 @@ def analysed(ratings: np.ndarray, bound: float = EQUIVALENCE_POINTS) -> RatingRe
     names = list(combinations(range(methods), 2))
     raw = {pair: signed_rank_p(ratings[:, pair[0]] - ratings[:, pair[1]]) for pair in names}
     corrected = _corrected(raw, methods) if follows_up else dict.fromkeys(names)
-    equivalent = [equivalence(ratings[:, first], ratings[:, second], bound) for first, second in names]
-    pairs = zip(names, equivalent, holm(equivalent), strict=True)
+    pairs = [(pair, *ps) for pair, ps in zip(names, equivalences(ratings, bound), strict=True)]
     return RatingResult(
         tuple(normality(column) for column in ratings.T),
         found,

@@ -19,7 +19,7 @@ from haptoflow_training.studies.plans import CONDITIONS
 from haptoflow_training.studies.power import latency_answers, planned_signed_rank_power, rating_power
 from haptoflow_training.studies.psychometric import Answers, Fit, fit, leave_one_out
 from haptoflow_training.studies.rating_tests import (
-    EQUIVALENCE_POINTS, SIGNIFICANCE, analysed, equivalence, signed_rank_p,
+    EQUIVALENCE_POINTS, SIGNIFICANCE, analysed, equivalences, signed_rank_p,
 )  # fmt: skip
 from haptoflow_training.studies.similarity_analysis import analyse_similarity
 from haptoflow_training.studies.simulated_participants import (
@@ -55,7 +55,7 @@ def validated(*, studies: int, simulations: int, seed: int, advance: Advance = i
         "planned": _planned_power(simulations, seed, advance),
         "intervals": [compared_intervals(between, simulations, seed, advance) for between in BETWEEN],
         "false_positives": false_positives(simulations, seed, advance),
-        "equivalence": equivalences(simulations, seed, advance),
+        "equivalence": measured_equivalence(simulations, seed, advance),
     }
 
 
@@ -225,7 +225,7 @@ def _false_findings(model: RatingModel, random: np.random.Generator) -> Sequence
     return found
 
 
-def equivalences(simulations: int, seed: int, advance: Advance = int) -> dict[str, Any]:
+def measured_equivalence(simulations: int, seed: int, advance: Advance = int) -> dict[str, Any]:
     """How often methods that are just not equivalent are called so, and how often methods that are alike are found so.
 
     at_the_bound: two methods whose means are the bound apart, one test alone. any_of_four: four methods of which two are
@@ -238,9 +238,10 @@ def equivalences(simulations: int, seed: int, advance: Advance = int) -> dict[st
         alone = any_of_four = 0
         for _ in range(simulations):
             ratings = _apart(random, bound)
-            alone += equivalence(ratings[:, 2], ratings[:, 0], bound) < SIGNIFICANCE
-            apart = [pair for pair in analysed(ratings, bound).pairs if pair.first < 2 <= pair.second]
-            any_of_four += any(pair.p_holm < SIGNIFICANCE for pair in apart)
+            # The pairs in order: 1-2, 1-3, 1-4, 2-3, 2-4, 3-4.
+            apart = equivalences(ratings, bound)[1:5]
+            alone += apart[0][0] < SIGNIFICANCE
+            any_of_four += any(corrected < SIGNIFICANCE for _, corrected in apart)
             advance()
         by_bound[str(bound)] = {
             "at_the_bound": share(alone, simulations).as_json(),
@@ -252,7 +253,7 @@ def equivalences(simulations: int, seed: int, advance: Advance = int) -> dict[st
         for _ in range(simulations):
             ratings = RatingModel(["m"]).ratings(random, count)[0]
             for bound in EQUIVALENCE_BOUNDS:
-                found[bound] += analysed(ratings, bound).pairs[0].p_holm < SIGNIFICANCE
+                found[bound] += equivalences(ratings, bound)[0][1] < SIGNIFICANCE
             advance()
         for bound in EQUIVALENCE_BOUNDS:
             by_bound[str(bound)]["alike"][str(count)] = share(found[bound], simulations).as_json()
