@@ -153,6 +153,8 @@ namespace HaptoFlow.Samples.SimilarityStudy
             Operator.Output = output;
             Operator.Detail = Detail;
             Operator.Begin = Begin;
+            Operator.Advice = number => settings == null
+                ? "" : StudyLog.NumbersLeftOut(settings.Folder, StudyKind.Similarity, number);
             AlignmentButtons.Create(this);
             pair = new GameObject("Objects");
             Alignment = SampleAlignment.Create(pair, rig, SaveName);

@@ -96,8 +96,9 @@ def _planted(found: Mapping[str, Any]) -> list[str]:
 def _equivalence(found: Mapping[str, Any]) -> list[str]:
     by_bound = found["equivalence"]
     counts = list(next(iter(by_bound.values()))["alike"])
+    studies = round(next(iter(by_bound.values()))["at_the_bound"]["of"])
     return [
-        f"Equivalence, {found['simulations']} studies each. False \"equal\": the means are just the bound apart; the last "
+        f"Equivalence, {studies} studies each. False \"equal\": the means are just the bound apart; the last "
         "columns: a given pair of four methods that are alike is found equivalent, after Holm's correction:",
         "",
         '| bound, points | false "equal", one pair alone | any of four such pairs of six, corrected '
