@@ -84,12 +84,12 @@ def latency_figure(result: LatencyResult, *, is_simulated: bool) -> str:
 def _draw_answers(axis: Axes, answers: Answers, place: int, shift_ms: float, colour: str) -> None:
     """A tick for each answer: yes above 100 %, no below 0 %, a row for each condition; ticks of equal delay lie beside
     each other by participant."""
-    spread = 3.0 * abs(shift_ms) * (answers.participant / max(1, answers.participants - 1) - 0.5)
+    spread = 3.0 * abs(shift_ms) * ((answers.participant + 0.5) / max(1, answers.participants) - 0.5)
     for is_yes in (True, False):
         chosen = answers.yes.astype(bool) == is_yes
         height = (105.0 + 4.5 * place) if is_yes else (-5.0 - 4.5 * place)
         delays = answers.delay_ms[chosen] + shift_ms + spread[chosen]
-        axis.plot(delays, np.full(len(delays), height), "|", color=colour, alpha=0.6, markersize=4, markeredgewidth=0.6)
+        axis.plot(delays, np.full(len(delays), height), "|", color=colour, alpha=0.75, markersize=5, markeredgewidth=0.8)
 
 
 def _participants(count: int) -> str:
@@ -111,12 +111,12 @@ def similarity_figure(result: SimilarityResult, *, is_simulated: bool) -> str:
         axis.set_visible(False)
     for place, (material, axis) in enumerate(zip(result.materials, axes, strict=False)):
         ratings = result.ratings[place]
-        errors = mean_interval(ratings)
+        means = ratings.mean(axis=0)
+        errors = np.abs(mean_interval(ratings) - means)
         colours = [_METHOD_COLOURS[method % len(_METHOD_COLOURS)] for method in range(methods)]
-        heights = ratings.mean(axis=0) - 1.0
-        axis.bar(range(methods), heights, bottom=1.0, color=colours, alpha=0.35, width=0.8)
+        axis.bar(range(methods), means - 1.0, bottom=1.0, color=colours, alpha=0.35, width=0.8)
         _draw_ratings(axis, ratings, colours)
-        axis.errorbar(range(methods), heights + 1.0, errors, fmt="_", color="#111111", capsize=3, markersize=9, zorder=4)
+        axis.errorbar(range(methods), means, errors, fmt="_", color="#111111", capsize=3, markersize=9, zorder=4)
         for bracket in brackets[material]:
             _draw(axis, bracket)
         axis.set_title(f"{_plain(material)} (n = {len(ratings)})", fontsize=10)
@@ -131,9 +131,11 @@ def similarity_figure(result: SimilarityResult, *, is_simulated: bool) -> str:
 
 
 def mean_interval(ratings: np.ndarray) -> np.ndarray:
-    """Half the width of each column's interval of 95 % for its mean, by Student's t."""
+    """Both ends (rows) of each column's interval of 95 % for its mean, by Student's t, not beyond the scale of 1 to 7."""
     count = len(ratings)
-    return np.asarray(stats.t.ppf(0.975, count - 1) * np.std(ratings, axis=0, ddof=1) / np.sqrt(count))
+    half = stats.t.ppf(0.975, count - 1) * np.std(ratings, axis=0, ddof=1) / np.sqrt(count)
+    means = ratings.mean(axis=0)
+    return np.clip(np.stack([means - half, means + half]), 1.0, 7.0)
 
 
 def _draw_ratings(axis: Axes, ratings: np.ndarray, colours: Sequence[str]) -> None:

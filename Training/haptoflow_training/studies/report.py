@@ -130,11 +130,10 @@ def _similarity(result: SimilarityResult, is_simulated: bool) -> list[str]:
         if found.friedman_statement:
             parts.append(paragraph(f"{found.friedman_statement[:1].upper()}{found.friedman_statement[1:]}."))
         ratings = result.ratings[place]
-        errors = mean_interval(ratings)
         means = [
-            [method, f"{mean:.2f}", _mean_interval(mean, error), _p(one.p)]
-            for method, mean, error, one in zip(
-                result.methods, ratings.mean(axis=0), errors, found.normality, strict=True
+            [method, f"{mean:.2f}", f"{low:.2f} to {high:.2f}", _p(one.p)]
+            for method, mean, low, high, one in zip(
+                result.methods, ratings.mean(axis=0), *mean_interval(ratings), found.normality, strict=True
             )
         ]
         parts += [
@@ -160,10 +159,6 @@ def _normality_words(p_values: Sequence[float | None]) -> str:
     said = f"rejected for {sum(p < 0.05 for p in tested)} of {len(tested)}"
     untested = len(p_values) - len(tested)
     return f"{said}; {untested} not tested, all ratings equal" if untested else said
-
-
-def _mean_interval(mean: float, error: float) -> str:
-    return f"{mean - error:.2f} to {mean + error:.2f}"
 
 
 def _participants(count: int) -> str:
