@@ -15,7 +15,9 @@ from haptoflow_training.studies.plans import CONDITIONS
 from haptoflow_training.studies.power import latency_power, planned_signed_rank_power, rating_power
 from haptoflow_training.studies.rating_tests import analysed
 from haptoflow_training.studies.simulated_participants import PAPER_CURVES, AnswerModel, RatingModel
-from haptoflow_training.studies.validation import bca_interval, measured_equivalence, recovered_differences, recovered_thresholds
+from haptoflow_training.studies.validation import (
+    bca_interval, measured_equivalence, recovered_differences, recovered_thresholds,
+)  # fmt: skip
 
 ROOT = Path(__file__).parents[2]
 RESULTS = ROOT / "Training" / "results" / "study-validation.json"

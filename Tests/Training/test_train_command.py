@@ -116,7 +116,8 @@ def test_a_training_that_is_stopped_between_steps_exits_with_an_error_and_goes_o
     _, said = process.communicate(timeout=60)
     assert process.returncode == 143 and not export.exists()
     step = torch.load(tmp_path / "run" / "checkpoint.pt")["step"]
-    assert f"stopped at step {step} of 180, no model is written yet; run the same command again to go on from there" in said
+    expected = "no model is written yet; run the same command again to go on from there"
+    assert f"stopped at step {step} of 180, {expected}" in said
     again = started(tmp_path, "run", "--export", str(export), steps=150)
     _, said = again.communicate(timeout=240)
     assert again.returncode == 0 and export.exists(), said
@@ -156,15 +157,18 @@ def test_a_run_that_cannot_begin_is_refused_before_recordings_are_prepared(
 def test_a_lock_is_held_by_one_program_at_a_time_and_leaves_no_file(tmp_path: Path) -> None:
     holder = (
         "import sys\nfrom pathlib import Path\nfrom haptoflow_training.preprocessing.store_lock import store_lock\n"
-        f"with store_lock(Path({str(tmp_path / 'store')!r})):\n    print('held', flush=True)\n    sys.stdin.readline()\n"
+        f"with store_lock(Path({str(tmp_path / 'store')!r})):\n"
+        "    print('held', flush=True)\n    sys.stdin.readline()\n"
     )
     other = subprocess.Popen(
         [sys.executable, "-c", holder], env={**os.environ, "PYTHONPATH": str(TRAINING)}, text=True,
         stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
     )  # fmt: skip
+    assert other.stderr is not None and other.stdout is not None
     with store_lock(tmp_path / "store"):
-        wait_for(other, lambda: other.stderr.readline().startswith("waiting: another program prepares"))  # type: ignore[union-attr]
-    assert other.stdout.readline() == "held\n"  # type: ignore[union-attr]
+        if not other.stderr.readline().startswith("waiting: another program prepares"):
+            pytest.fail("it did not wait")
+    assert other.stdout.readline() == "held\n"
     assert (tmp_path / "store.lock").exists()
     other.communicate("\n", timeout=30)
     assert other.returncode == 0 and not (tmp_path / "store.lock").exists()

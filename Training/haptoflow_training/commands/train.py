@@ -33,7 +33,8 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
         description=(
             "Prepares the recordings that the configuration names (once), trains the level model and the velocity "
             "field, and writes checkpoint.pt, metrics.csv, metrics.png and run.json into --out. Run it again to resume "
-            "after an interruption (the exit code is then not 0): the result is the same. Paths are relative to the current folder; those in a "
+            "after an interruption (the exit code is then not 0): the result is the same. "
+            "Paths are relative to the current folder; those in a "
             "configuration file are relative to that file."
         ),
         epilog=(

@@ -13,7 +13,9 @@ from scipy import signal
 
 from haptoflow_training.recordings.cluster_dataset_files import DatasetFileError
 from haptoflow_training.recordings.file_names import beside, ending_of, sidecar_of
-from haptoflow_training.recordings.own_sidecar import DEFAULTS_FILE, MAXIMUM_RATE_HZ, MINIMUM_RATE_HZ, Sidecar, read_sidecar
+from haptoflow_training.recordings.own_sidecar import (
+    DEFAULTS_FILE, MAXIMUM_RATE_HZ, MINIMUM_RATE_HZ, Sidecar, read_sidecar,
+)  # fmt: skip
 from haptoflow_training.recordings.own_table import (
     FORCE_FORMS,
     POSITION_FORMS,

@@ -57,7 +57,8 @@ def latency_figure(result: LatencyResult, *, is_simulated: bool) -> str:
             above = np.maximum(0.0, [point.high_percent for point in points] - percent)
             axis.errorbar(
                 [point.delivered_ms + shift_ms for point in points], percent, [below, above],
-                fmt=marker, color=colour, capsize=3, markersize=5, label=f"{words} (n = {result.answers[condition]} answers)",
+                fmt=marker, color=colour, capsize=3, markersize=5,
+                label=f"{words} (n = {result.answers[condition]} answers)",
             )  # fmt: skip
             _draw_answers(axis, result.single[condition], place, shift_ms, colour)
         if fit.curve is None:
@@ -89,7 +90,8 @@ def _draw_answers(axis: Axes, answers: Answers, place: int, shift_ms: float, col
         chosen = answers.yes.astype(bool) == is_yes
         height = (105.0 + 4.5 * place) if is_yes else (-5.0 - 4.5 * place)
         delays = answers.delay_ms[chosen] + shift_ms + spread[chosen]
-        axis.plot(delays, np.full(len(delays), height), "|", color=colour, alpha=0.75, markersize=5, markeredgewidth=0.8)
+        heights = np.full(len(delays), height)
+        axis.plot(delays, heights, "|", color=colour, alpha=0.75, markersize=5, markeredgewidth=0.8)
 
 
 def _participants(count: int) -> str:
@@ -131,7 +133,7 @@ def similarity_figure(result: SimilarityResult, *, is_simulated: bool) -> str:
 
 
 def mean_interval(ratings: np.ndarray) -> np.ndarray:
-    """Both ends (rows) of each column's interval of 95 % for its mean, by Student's t, not beyond the scale of 1 to 7."""
+    """Both ends (rows) of each column's interval of 95 % for its mean, by Student's t, within the scale of 1 to 7."""
     count = len(ratings)
     half = stats.t.ppf(0.975, count - 1) * np.std(ratings, axis=0, ddof=1) / np.sqrt(count)
     means = ratings.mean(axis=0)

@@ -117,8 +117,8 @@ def equivalence(first: np.ndarray, second: np.ndarray, bound: float) -> float:
     """The larger p-value of two one-sided Wilcoxon tests against differences of `bound` points of rating.
 
     Schuirmann (1987), A comparison of the two one-sided tests procedure and the power approach, J. Pharmacokinetics and
-    Biopharmaceutics 15, 657-680. The bound is chosen before the ratings are known: one that is estimated from them grows
-    with their scatter, so that careless ratings would look equal.
+    Biopharmaceutics 15, 657-680. The bound is chosen before the ratings are known: one that is estimated from them
+    grows with their scatter, so that careless ratings would look equal.
     """
     differences = first - second
     above = signed_rank_p(differences + bound, "greater")
@@ -128,8 +128,8 @@ def equivalence(first: np.ndarray, second: np.ndarray, bound: float) -> float:
 
 
 def holm(p_values: Sequence[float]) -> list[float]:
-    """Adjusted p-values in the given order (Holm 1979, A simple sequentially rejective multiple test procedure, Scand. J.
-    Statistics 6, 65-70): valid however the tests depend on each other.
+    """Adjusted p-values in the given order (Holm 1979, A simple sequentially rejective multiple test procedure, Scand.
+    J. Statistics 6, 65-70): valid however the tests depend on each other.
 
     Shaffer's smaller factors are for hypotheses of equality, of which one implies others; two pairs that are equivalent
     do not make the third one so.

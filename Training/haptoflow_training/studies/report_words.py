@@ -19,16 +19,16 @@ LATENCY = (
 )
 LATENCY_CAPTION = (
     "Percentage of trials in which a delay was perceived. Points are percentages at the mean delivered delay, bars "
-    "their intervals of 95 % (Wilson's, which do not vanish at 0 and 100 %), dashed lines the fitted curves, thick lines "
-    "about 50 % the intervals of the thresholds. A tick is a single answer: yes above, no below. The two conditions are "
-    "drawn a little aside, so that neither hides the other."
+    "their intervals of 95 % (Wilson's, which do not vanish at 0 and 100 %), dashed lines the fitted curves, thick "
+    "lines about 50 % the intervals of the thresholds. A tick is a single answer: yes above, no below. The two "
+    "conditions are drawn a little aside, so that neither hides the other."
 )
 _SIMILARITY = (
     "Each participant rated from 1 to 7 how similar each method's virtual material feels to the real one. For each "
     "material, Friedman's test asks whether the methods differ at all; where p < 0.05, every pair is compared by "
     "Wilcoxon's signed-rank test with Shaffer's static correction over the material's pairs. Two one-sided Wilcoxon "
-    "tests ask of every pair whether its difference lies within {bound:g} points of rating, with Holm's correction over "
-    "the material's pairs. Practice is left out."
+    "tests ask of every pair whether its difference lies within {bound:g} points of rating, with Holm's correction "
+    "over the material's pairs. Practice is left out."
 )
 
 
@@ -38,9 +38,9 @@ def similarity(bound: float) -> str:
 
 
 SIMILARITY_CAPTION = (
-    "Similarity ratings: a dot is one participant's rating, a dash the mean, bars its interval of 95 % (Student's t; each "
-    "participant rated every method, so that intervals that overlap say little about a difference). Brackets: † p < 0.1 "
-    "and * p < 0.05 for a difference after Shaffer's correction, green ≈ p < 0.05 for equivalence after Holm's."
+    "Similarity ratings: a dot is one participant's rating, a dash the mean, bars its interval of 95 % (Student's t; "
+    "each participant rated every method, so that intervals that overlap say little about a difference). Brackets: "
+    "† p < 0.1 and * p < 0.05 for a difference after Shaffer's correction, green ≈ p < 0.05 for equivalence after Holm's."
 )
 EFFECT_SIZES = (
     "Kendall's W: how far participants agree on the order of the methods, from 0 (not at all) to 1 (fully).",

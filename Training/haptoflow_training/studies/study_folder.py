@@ -127,8 +127,8 @@ def _notes(sessions: Sequence[Session]) -> list[str]:
         notes += _missing(study, of_study)
         if study == SIMILARITY and any(session_bound(session) is None for session in of_study):
             notes.append(
-                f"{study}: not every sidecar's settings name '{EQUIVALENCE_KEY}': the bound of equivalence was not fixed "
-                "before the answers"
+                f"{study}: not every sidecar's settings name '{EQUIVALENCE_KEY}': the bound of equivalence was not "
+                "fixed before the answers"
             )
         estimated = sum(session.sidecar["device"]["device_delay_source"] == "estimated" for session in of_study)
         if estimated:

@@ -228,8 +228,8 @@ def _false_findings(model: RatingModel, random: np.random.Generator) -> Sequence
 def measured_equivalence(simulations: int, seed: int, advance: Advance = int) -> dict[str, Any]:
     """How often methods that are just not equivalent are called so, and how often methods that are alike are found so.
 
-    at_the_bound: two methods whose means are the bound apart, one test alone. any_of_four: four methods of which two are
-    alike and the other two the bound above them, so that four pairs are not equivalent: any of these after correction.
+    at_the_bound: two methods whose means are the bound apart, one test alone. any_of_four: four methods of which two
+    are alike and the other two the bound above them, so that four pairs are not equivalent: any of these after correction.
     alike: four methods without a difference, a given pair after correction, by number of participants.
     """
     random = np.random.default_rng((seed, 6))

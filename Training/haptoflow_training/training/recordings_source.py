@@ -256,8 +256,8 @@ def _require_splits(store: SegmentStore, unusable: Sequence[str]) -> None:
         counted = (f"{label} ({', '.join(f'{counts[label][split]} {split}' for split in SPLITS)})" for label in lacking)
         damaged = [f"skipped: {one}" for one in store.skipped if one.label in lacking]
         raise InputError(
-            f"nothing to train with for {'; '.join(counted)}: {_remedy([*damaged, *unusable], ' of these labels')}, leave "
-            "the labels out (data.labels), or draw another split (data.recordings_seed)"
+            f"nothing to train with for {'; '.join(counted)}: {_remedy([*damaged, *unusable], ' of these labels')}, "
+            "leave the labels out (data.labels), or draw another split (data.recordings_seed)"
         )
     if not any(of_label["validation"] for of_label in counts.values()):
         damaged = [f"skipped: {one}" for one in store.skipped]
