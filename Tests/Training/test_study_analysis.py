@@ -165,7 +165,7 @@ def test_names_with_markup_are_escaped_in_the_report(tmp_path: Path) -> None:
     page, _ = analysed(similarity_study(tmp_path / "logs", 6, 1, model), tmp_path)
     assert "<script>" not in page and "&lt;script&gt;alert(1)&lt;/script&gt;" in page and "<b>" not in page
     (picture,) = pictures_of(page)
-    assert "<script>" not in picture and ">ジュート</text>" in picture and ">$\\frac$ 1$</text>" in picture
+    assert "<script>" not in picture and ">ジュート (n = 6)</text>" in picture and ">$\\frac$ 1$</text>" in picture
 
 
 @pytest.mark.parametrize(("methods", "brackets"), [(2, 1), (6, 15)])
