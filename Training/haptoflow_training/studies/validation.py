@@ -12,7 +12,7 @@ import numpy as np
 import scipy
 from scipy.stats import norm
 
-from haptoflow_training.studies.intervals import Interval, Share, share
+from haptoflow_training.studies.intervals import Interval, share
 from haptoflow_training.studies.latency_analysis import analyse_latency
 from haptoflow_training.studies.log_columns import LATENCY, SIMILARITY
 from haptoflow_training.studies.plans import CONDITIONS
