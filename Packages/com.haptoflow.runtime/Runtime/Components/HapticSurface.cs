@@ -11,7 +11,7 @@ namespace HaptoFlow
     /// colliders are ignored.</remarks>
     [AddComponentMenu("HaptoFlow/Haptic Surface")]
     [DisallowMultipleComponent]
-    [HelpURL(HelpPages.Components + "haptic-surface")]
+    [HelpPage(HelpPages.Components + "haptic-surface")]
     public sealed class HapticSurface : MonoBehaviour
     {
         [SerializeField, Tooltip("A material shared with other surfaces. Leave it empty to describe one here.")]

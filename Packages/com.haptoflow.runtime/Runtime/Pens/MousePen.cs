@@ -8,7 +8,7 @@ namespace HaptoFlow
     [AddComponentMenu("HaptoFlow/Mouse Pen")]
     [RequireComponent(typeof(HapticStylus))]
     [DisallowMultipleComponent]
-    [HelpURL(HelpPages.Components + "mouse-pen")]
+    [HelpPage(HelpPages.Components + "mouse-pen")]
     public sealed class MousePen : MonoBehaviour
     {
         // The speed of a hand; a mouse button would be instantaneous.
