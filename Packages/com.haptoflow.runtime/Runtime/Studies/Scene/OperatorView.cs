@@ -9,7 +9,7 @@ namespace HaptoFlow.Studies
     /// <summary>The operator's view of a study: progress, level, state of the disk, and buttons. Drawn with Unity's
     /// immediate mode, which appears on screens but not in headsets. Main thread.</summary>
     [DisallowMultipleComponent]
-    [HelpURL(HelpPages.Components + "operator-view")]
+    [HelpPage(HelpPages.Components + "operator-view")]
     public sealed class OperatorView : MonoBehaviour
     {
         // New text makes garbage, and faster updates cannot be read.
