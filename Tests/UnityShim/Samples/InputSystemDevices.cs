@@ -27,7 +27,7 @@ namespace UnityEngine.InputSystem
             get
             {
                 bool found = path == null || SimulatedInput.Control(path) != null;
-                return new Utilities.ReadOnlyArray<InputControl>(found ? new[] { new InputControl() } : null);
+                return new Utilities.ReadOnlyArray<InputControl>(found ? new InputControl[] { new BoundControl() } : null);
             }
         }
 
@@ -36,12 +36,12 @@ namespace UnityEngine.InputSystem
         private object? ReadBinding() => path != null ? SimulatedInput.Control(path) : null;
     }
 
-    public class InputControl
+    public abstract class InputControl
     {
         public string displayName { get; protected set; } = "";
     }
 
-    public class InputDevice : InputControl
+    internal sealed class BoundControl : InputControl
     {
     }
 

@@ -48,8 +48,8 @@ namespace HaptoFlow
             "to create one.")]
         private HapticOutput? output;
 
-        [SerializeField, Tooltip("The hand that holds the stylus. Outputs that vibrate in a hand need it; an XR Pen " +
-            "sets it by itself.")]
+        [SerializeField, Tooltip("The hand that holds the stylus. Outputs that vibrate in a hand need it. With None it " +
+            "is the hand in which the source of the tip force is; an XR Pen sets it by itself.")]
         private HapticHand hand = HapticHand.None;
 
         [SerializeField, Range(0f, 1f), Tooltip("The gain of this stylus, multiplied with the surface's and the " +
@@ -141,10 +141,11 @@ namespace HaptoFlow
             set => output = value;
         }
 
-        /// <summary>The hand that holds the stylus, for outputs that vibrate in it.</summary>
+        /// <summary>The hand that holds the stylus, for outputs that vibrate in it: the one set here, else the one in
+        /// which <see cref="Force"/> is (<see cref="TipForceSource.HeldIn"/>).</summary>
         public HapticHand Hand
         {
-            get => hand;
+            get => hand != HapticHand.None || force == null ? hand : force.HeldIn;
             set => hand = value;
         }
 

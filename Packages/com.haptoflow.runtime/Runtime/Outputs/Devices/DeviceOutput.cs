@@ -219,7 +219,13 @@ namespace HaptoFlow
                 {
                     source.Forget();
                 }
+                else if (wasThere && !isThere)
+                {
+                    // Another route may reach a device that this one has lost.
+                    nextSearchSeconds = 0.0;
+                }
                 wasThere = isThere;
+                queue.YieldUntilSeconds = HandYields.UntilSeconds(openedFor);
                 queue.Update(now);
             }
         }
