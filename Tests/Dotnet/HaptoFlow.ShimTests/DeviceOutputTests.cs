@@ -178,33 +178,6 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void AnUnboundActionIsTriedOnceAndLoggedOnce()
-        {
-            OVRPlugin.Take(OVRPlugin.Hand.HandRight, OVRPlugin.MxInkProfile);
-            OVRPlugin.BoundHaptic = null;
-            World.Frames(200);
-            Assert.That(OVRPlugin.FailedPulses, Is.EqualTo(1));
-            Assert.That(CountMessages(LogType.Warning, "\"haptic_pulse\""), Is.EqualTo(1));
-            OVRPlugin.BoundHaptic = "haptic_pulse";
-            OVRPlugin.hasInputFocus = false;
-            World.Frames(5);
-            OVRPlugin.hasInputFocus = true;
-            World.Frames(72);
-            Assert.That(OVRPlugin.Pulses, Is.Not.Empty, "the session has been restarted");
-        }
-
-        [Test]
-        public void AControllerWithoutASampleRateIsQueriedOnce()
-        {
-            OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
-            OVRInput.SampleRateHz = 0f;
-            XrHand.Right.Take("The same controller", true);
-            World.Frames(200);
-            Assert.That(OVRInput.FailedCalls, Is.EqualTo(1));
-            Assert.That(XrHand.Right.Impulses, Is.Not.Empty);
-        }
-
-        [Test]
         public void TheOpenXrActionTakesPrecedenceOverTheImpulse()
         {
             XrHand.Right.Take("A controller", true);

@@ -16,6 +16,7 @@ namespace HaptoFlow
         public const float DefaultFullScaleMps2 = 60f;
 
         private const double SearchIntervalSeconds = 0.5;
+        private const double LostSeconds = 0.1;
 
         [SerializeField, Tooltip("The stylus to play. Leave it empty for the one on this object or above it.")]
         private HapticStylus? stylus;
@@ -202,6 +203,12 @@ namespace HaptoFlow
         private void LateUpdate()
         {
             double now = Time.realtimeSinceStartupAsDouble;
+            if (wasThere && !HasDevice)
+            {
+                // Another route may reach a device that this one has lost, unless it is back at once.
+                wasThere = false;
+                nextSearchSeconds = now + LostSeconds;
+            }
             if (now >= nextSearchSeconds)
             {
                 nextSearchSeconds = now + SearchIntervalSeconds;
@@ -218,11 +225,6 @@ namespace HaptoFlow
                 if (isThere && !wasThere)
                 {
                     source.Forget();
-                }
-                else if (wasThere && !isThere)
-                {
-                    // Another route may reach a device that this one has lost.
-                    nextSearchSeconds = 0.0;
                 }
                 wasThere = isThere;
                 queue.YieldUntilSeconds = HandYields.UntilSeconds(openedFor);
