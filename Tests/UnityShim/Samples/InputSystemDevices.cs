@@ -31,9 +31,19 @@ namespace UnityEngine.InputSystem
             }
         }
 
+        public Utilities.ReadOnlyArray<InputBinding> bindings => new Utilities.ReadOnlyArray<InputBinding>(
+            path != null ? new[] { new InputBinding { path = path } } : null);
+
         public void Dispose() => Disable();
 
         private object? ReadBinding() => path != null ? SimulatedInput.Control(path) : null;
+    }
+
+    public struct InputBinding
+    {
+        public string path { get; set; }
+
+        public string effectivePath => path;
     }
 
     public abstract class InputControl
