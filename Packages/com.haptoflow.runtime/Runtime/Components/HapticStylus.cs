@@ -63,6 +63,7 @@ namespace HaptoFlow
         private StylusVoices? voices;
         private bool isActive;
         private bool touching;
+        private bool hasSaidHand;
         private HapticContact contact;
 
         /// <summary>The tip touched a surface. Main thread.</summary>
@@ -282,9 +283,21 @@ namespace HaptoFlow
             {
                 return false;
             }
-            return touchBy == TouchDecision.MeasuredForce
+            bool has = touchBy == TouchDecision.MeasuredForce
                 ? force.TryMeasure(out newtons)
                 : force.TryRead(out newtons);
+            if (has && newtons > 0f && !hasSaidHand && Hand == HapticHand.None)
+            {
+                SayHand();
+            }
+            return has;
+        }
+
+        private void SayHand()
+        {
+            hasSaidHand = true;
+            Debug.Log($"HaptoFlow: {name} measures the force of its tip, but no hand is known to hold it, so no controller " +
+                "or pen in a hand plays it. Choose the hand in its field Hand; a pen on a tablet needs none.", this);
         }
 
         private void RaiseTouchEvents(in ContactReading reading, HapticSession session)

@@ -1,7 +1,7 @@
 using HaptoFlow.Outputs;
 using NUnit.Framework;
 
-namespace HaptoFlow.RepositoryTests
+namespace HaptoFlow.RepositoryTests.Outputs
 {
     public sealed class RetryDelayTests
     {
