@@ -1,3 +1,4 @@
+using System.Linq;
 using HaptoFlow.Tests;
 using NUnit.Framework;
 using UnityEngine;
@@ -67,7 +68,7 @@ namespace HaptoFlow.ShimTests
             stylus.Force = stylus.gameObject.AddComponent<MetaActionTipForce>();
             OVRPlugin.Tip = 0.4f;
             World.Frames(90);
-            Assert.That(Log.Lines.FindAll(line => line.Text.Contains("no hand is known to hold it")).Count, Is.EqualTo(1));
+            Assert.That(Log.Lines.Count(line => line.Text.Contains("no hand is known to hold it")), Is.EqualTo(1));
         }
 
         [TearDown]
