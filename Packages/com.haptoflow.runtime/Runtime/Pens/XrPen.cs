@@ -24,7 +24,7 @@ namespace HaptoFlow
     /// </remarks>
     [AddComponentMenu("HaptoFlow/XR Pen")]
     [DisallowMultipleComponent]
-    [HelpURL(HelpPages.Components + "xr-pen")]
+    [HelpPage(HelpPages.Components + "xr-pen")]
     public sealed class XrPen : PressureTipForce
     {
         [SerializeField, Tooltip("The hand that holds the pen.")]

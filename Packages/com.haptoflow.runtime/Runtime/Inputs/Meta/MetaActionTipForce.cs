@@ -11,7 +11,7 @@ namespace HaptoFlow
     /// After a failure it is called again when something changed (the focus returns, a controller connects or
     /// disconnects, the action gets another name, this component is enabled again), else less and less often.</remarks>
     [AddComponentMenu("HaptoFlow/Tip Force (Meta)")]
-    [HelpURL(HelpPages.Components + "tip-force-meta")]
+    [HelpPage(HelpPages.Components + "tip-force-meta")]
     public sealed class MetaActionTipForce : PressureTipForce
     {
         [SerializeField, Tooltip("The name of the float action in the project's action sets.")]
