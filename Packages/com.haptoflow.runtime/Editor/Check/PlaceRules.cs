@@ -41,7 +41,7 @@ namespace HaptoFlow.Editor
             {
                 yield return new Finding(MessageType.Warning,
                     $"{places.Stylus.PenName} names no output, and the scene has {equal.Length} that could play it: " +
-                    $"{string.Join(", ", equal.Select(StylusPlaces.NameOf))}. The one that wakes first does.",
+                    $"{string.Join(", ", equal.Select(output => $"{output.name} {Channel(output)}"))}. The one that wakes first does.",
                     equal.Prepend<Object>(places.Stylus).ToArray(),
                     equal.Select(output => new Repair($"Play on {output.name} {Channel(output)}",
                         () => Play(places.Stylus, output))).ToArray());
