@@ -94,21 +94,23 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void AnAudioOutputTakesPrecedenceOverAutoOutput()
+        public void AnAudioOutputWithAChannelTakesPrecedenceOverAutoOutput()
         {
             OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
-            AudioTap tap = Output(out _);
+            AudioTap tap = Output(out HapticOutput output);
+            output.Channel = 0;
             World.Frames(40);
             Assert.That(tap.Peak(), Is.GreaterThan(0.001f));
             Assert.That(OVRInput.Waves, Is.Empty);
         }
 
         [Test]
-        public void AnAudioOutputAddedLaterReplacesAutoOutput()
+        public void AnAudioOutputWithAChannelAddedLaterReplacesAutoOutput()
         {
             OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
             World.Frames(40);
-            AudioTap tap = Output(out _);
+            AudioTap tap = Output(out HapticOutput output);
+            output.Channel = 0;
             World.Frames(2);
             int before = OVRInput.Waves.Count;
             World.Frames(40);
