@@ -16,6 +16,7 @@ namespace HaptoFlow
         public const float DefaultFullScaleMps2 = 60f;
 
         private const double SearchIntervalSeconds = 0.5;
+        private const double LostSeconds = 0.1;
 
         [SerializeField, Tooltip("The stylus to play. Leave it empty for the one on this object or above it.")]
         private HapticStylus? stylus;
@@ -61,6 +62,9 @@ namespace HaptoFlow
                 }
             }
         }
+
+        /// <summary>The stylus that the output plays, or would play if it were enabled; null without one.</summary>
+        internal HapticStylus? Played => Wanted();
 
         /// <summary>The hand whose device is used; <see cref="HapticHand.None"/> for the stylus's.</summary>
         public HapticHand Hand
@@ -214,6 +218,12 @@ namespace HaptoFlow
         private void LateUpdate()
         {
             double now = Time.realtimeSinceStartupAsDouble;
+            if (wasThere && !HasDevice)
+            {
+                // Another route may reach a device that this one has lost, unless it is back at once.
+                wasThere = false;
+                nextSearchSeconds = now + LostSeconds;
+            }
             if (now >= nextSearchSeconds)
             {
                 nextSearchSeconds = now + SearchIntervalSeconds;
@@ -232,6 +242,7 @@ namespace HaptoFlow
                     source.Forget();
                 }
                 wasThere = isThere;
+                queue.YieldUntilSeconds = HandYields.UntilSeconds(openedFor);
                 queue.Update(now);
             }
         }
