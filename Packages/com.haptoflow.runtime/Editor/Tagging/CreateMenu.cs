@@ -21,7 +21,7 @@ namespace HaptoFlow.Editor
             Undo.IncrementCurrentGroup();
             Undo.SetCurrentGroupName("Create First Haptic Scene");
             int group = Undo.GetCurrentGroup();
-            CreateOutput(command);
+            AddOutput(command).Processing.Listen = true;
             GameObject plate = Add(TaggedCube("Wooden Plate"), null);
             plate.transform.localScale = PlateSize;
             plate.transform.position = new Vector3(0f, -0.5f * PlateSize.y, 0f);
@@ -59,11 +59,13 @@ namespace HaptoFlow.Editor
 
         /// <summary>Creates an output. It plays on every channel until one is chosen.</summary>
         [MenuItem("GameObject/HaptoFlow/Haptic Output", false, Priority)]
-        internal static void CreateOutput(MenuCommand command)
+        internal static void CreateOutput(MenuCommand command) => AddOutput(command);
+
+        private static HapticOutput AddOutput(MenuCommand command)
         {
-            var owner = new GameObject("Haptic Output");
-            owner.AddComponent<HapticOutput>();
-            Add(owner, command);
+            var output = new GameObject("Haptic Output").AddComponent<HapticOutput>();
+            Add(output.gameObject, command);
+            return output;
         }
 
         /// <summary>Creates the pen below the parent of the main camera, which is the tracking space in an XR rig.

@@ -69,8 +69,8 @@ namespace HaptoFlow.Outputs
             Span<float> newest = window.AsSpan(0, count);
             Wave.CopyNewest(newest);
             Analyse(newest);
-            float sent = Limited(amplitude);
-            if (sent <= Inaudible)
+            float sent = Sent(HapticForm.Amplitude, amplitude);
+            if (Math.Min(sent, amplitude) <= Inaudible)
             {
                 End();
                 return;
