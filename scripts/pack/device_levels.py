@@ -40,6 +40,8 @@ PAGE = ROOT / "Documentation~/device-loudness.md"
 ORDINARY = ROOT / "Samples~/HeadlessScenes/tracing.stroke.csv"
 KINDS = ("motor", "parametric", "waveform")
 FRAME_RATES_HZ = (72, 90, 120)
+# The peaks of a waveform depend on how long one waits for them: the same time at every frame rate.
+PEAK_RATE_HZ = 72
 DEVICE_RATE_HZ = 8000
 AUDIO_RATE_HZ = 48000
 # What a device's full amplitude was assumed to be before there was a law; still the default of True Level.
@@ -79,14 +81,14 @@ def by_frames(values: np.ndarray, seconds: np.ndarray, rate_hz: float, reduce: s
 
 def amplitudes(engine: EngineLibrary, wave: np.ndarray, rate_hz: float) -> dict[str, np.ndarray]:
     """What each kind gets in m/s^2: the motor one amplitude a frame of the display, parametric a point every 5 ms; of
-    the waveform the peak of each frame. Silence is left out."""
+    the waveform the peak of each 1/72 s. Silence is left out."""
     motor = wave_frames(engine, wave, DEVICE_RATE_HZ, 0.008, 160.0, 160.0)
     parametric = wave_frames(engine, wave, DEVICE_RATE_HZ, 0.005, 60.0, 400.0)
     seconds = np.arange(len(wave)) / DEVICE_RATE_HZ
     found = {
         "motor": by_frames(motor["amplitude_mps2"], motor["seconds"] + 0.008, rate_hz, "mean"),
         "parametric": parametric["amplitude_mps2"],
-        "waveform": by_frames(np.abs(wave), seconds, rate_hz, "max"),
+        "waveform": by_frames(np.abs(wave), seconds, PEAK_RATE_HZ, "max"),
     }
     return {kind: values[values > SILENT_MPS2] for kind, values in found.items()}
 
@@ -116,7 +118,7 @@ def played(engine: EngineLibrary, wave: np.ndarray, rate_hz: float) -> dict[str,
     """Parts of each kind's range that are played, 0 to 1."""
     given = amplitudes(engine, wave, rate_hz)
     sent = device_wave(engine, wave)
-    peaks = by_frames(np.abs(sent), np.arange(len(sent)) / DEVICE_RATE_HZ, rate_hz, "max")
+    peaks = by_frames(np.abs(sent), np.arange(len(sent)) / DEVICE_RATE_HZ, PEAK_RATE_HZ, "max")
     return {
         "motor": shares(engine, "motor", given["motor"]),
         "parametric": shares(engine, "parametric", given["parametric"]),

@@ -18,10 +18,10 @@
 namespace haptoflow::effects {
 namespace {
 
-constexpr std::array everyKind{DeviceKind::motor, DeviceKind::parametric, DeviceKind::waveform};
-constexpr double everyRateHz[] = {2000.0, 8000.0, 11025.0, 44100.0, 48000.0, 192000.0};
+constexpr std::array everyDeviceKind{DeviceKind::motor, DeviceKind::parametric, DeviceKind::waveform};
+constexpr double deviceRateHz[] = {2000.0, 8000.0, 11025.0, 44100.0, 48000.0, 192000.0};
 
-std::vector<float> sine(double frequencyHz, double mps2, double rateHz, double seconds) {
+std::vector<float> deviceSine(double frequencyHz, double mps2, double rateHz, double seconds) {
     std::vector<float> wave(static_cast<std::size_t>(seconds * rateHz));
     for (std::size_t i = 0; i < wave.size(); ++i) {
         wave[i] = static_cast<float>(
@@ -30,7 +30,7 @@ std::vector<float> sine(double frequencyHz, double mps2, double rateHz, double s
     return wave;
 }
 
-float peak(std::span<const float> wave) {
+float devicePeak(std::span<const float> wave) {
     float largest = 0.0F;
     for (const float sample : wave) {
         largest = std::max(largest, std::abs(sample));
@@ -39,7 +39,7 @@ float peak(std::span<const float> wave) {
 }
 
 TEST(DeviceLoudnessTest, EveryLargerAmplitudeIsPlayedStrongerAndNoneReachesTheEndOfTheRange) {
-    for (const DeviceKind kind : everyKind) {
+    for (const DeviceKind kind : everyDeviceKind) {
         float before = 0.0F;
         for (double mps2 = 1e-4; mps2 < 400.0; mps2 *= 1.02) {
             const float share = deviceShare(kind, static_cast<float>(mps2));
@@ -51,13 +51,13 @@ TEST(DeviceLoudnessTest, EveryLargerAmplitudeIsPlayedStrongerAndNoneReachesTheEn
 }
 
 TEST(DeviceLoudnessTest, TheThresholdIsPlayedWhereAMotorBeginsToMove) {
-    for (const DeviceKind kind : everyKind) {
+    for (const DeviceKind kind : everyDeviceKind) {
         EXPECT_NEAR(deviceShare(kind, 0.03F), 0.06F, 0.02F);
     }
 }
 
 TEST(DeviceLoudnessTest, AnyAmplitudeGivesAFiniteShareOfTheRange) {
-    for (const DeviceKind kind : everyKind) {
+    for (const DeviceKind kind : everyDeviceKind) {
         for (const float mps2 : {0.0F, -1.0F, -INFINITY, std::nanf(""), 1e-42F, 1e-20F}) {
             EXPECT_NEAR(deviceShare(kind, mps2), 0.0F, 1e-15F) << mps2;
         }
@@ -69,16 +69,16 @@ TEST(DeviceLoudnessTest, AnyAmplitudeGivesAFiniteShareOfTheRange) {
 }
 
 TEST(DeviceWaveTest, ASteadySineIsPlayedAtTheShareOfItsPeakAndStaysASine) {
-    for (const double rateHz : everyRateHz) {
+    for (const double rateHz : deviceRateHz) {
         for (const double frequencyHz : {60.0, 160.0, 400.0}) {
             for (const double mps2 : {0.1, 2.0, 40.0}) {
                 DeviceWave device(rateHz);
-                std::vector<float> wave = sine(frequencyHz, mps2, rateHz, 0.4);
+                std::vector<float> wave = deviceSine(frequencyHz, mps2, rateHz, 0.4);
                 const std::vector<float> given = wave;
                 device.process(wave);
                 const auto settled = std::span(wave).last(wave.size() / 2);
                 const float share = deviceShare(DeviceKind::waveform, static_cast<float>(mps2));
-                EXPECT_NEAR(peak(settled), share, 0.06F * share) << rateHz << " Hz, " << frequencyHz << " Hz " << mps2;
+                EXPECT_NEAR(devicePeak(settled), share, 0.06F * share) << rateHz << " Hz, " << frequencyHz << " Hz " << mps2;
                 // Fits the delayed input by one factor: what is left is distortion.
                 const std::size_t step = static_cast<std::size_t>(std::ceil(rateHz / 2000.0));
                 double product = 0.0;
@@ -109,9 +109,9 @@ TEST(DeviceWaveTest, AnImpactOutOfSilenceKeepsItsAttackAndDoesNotOvershoot) {
     }
     device.process(wave);
     // A millisecond later, to the sample.
-    EXPECT_EQ(peak(std::span(wave).first(408)), 0.0F);
+    EXPECT_EQ(devicePeak(std::span(wave).first(408)), 0.0F);
     EXPECT_GT(std::abs(wave[408]), 0.5F);
-    EXPECT_LT(peak(wave), deviceShare(DeviceKind::waveform, 80.0F) * 1.001F);
+    EXPECT_LT(devicePeak(wave), deviceShare(DeviceKind::waveform, 80.0F) * 1.001F);
 }
 
 TEST(DeviceWaveTest, TheOutputDoesNotDependOnTheBlocks) {

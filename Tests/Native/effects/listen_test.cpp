@@ -15,21 +15,21 @@
 namespace haptoflow::effects {
 namespace {
 
-constexpr double everyRateHz[] = {8000.0, 11025.0, 44100.0, 48000.0, 192000.0};
-constexpr double fullScaleMps2 = 200.0;
+constexpr double listenRateHz[] = {8000.0, 11025.0, 44100.0, 48000.0, 192000.0};
+constexpr double listenFullScaleMps2 = 200.0;
 
-std::vector<float> played(double rateHz, double frequencyHz, double mps2) {
+std::vector<float> heard(double rateHz, double frequencyHz, double mps2) {
     std::vector<float> wave(static_cast<std::size_t>(0.4 * rateHz));
     for (std::size_t i = 0; i < wave.size(); ++i) {
         wave[i] = static_cast<float>(
             mps2 * std::sin(2.0 * std::numbers::pi * frequencyHz * static_cast<double>(i) / rateHz));
     }
-    Listen listen(rateHz, fullScaleMps2);
+    Listen listen(rateHz, listenFullScaleMps2);
     listen.process(wave);
     return wave;
 }
 
-double peak(std::span<const float> wave) {
+double heardPeak(std::span<const float> wave) {
     double largest = 0.0;
     for (const float sample : wave.last(wave.size() / 2)) {
         largest = std::max(largest, std::abs(static_cast<double>(sample)));
@@ -38,23 +38,23 @@ double peak(std::span<const float> wave) {
 }
 
 TEST(ListenTest, AQuietTextureBecomesAudibleAndAStrongOneStaysBelowFullScale) {
-    for (const double rateHz : everyRateHz) {
-        EXPECT_GT(peak(played(rateHz, 300.0, 1.0)), 0.1 * fullScaleMps2) << rateHz;
-        EXPECT_LT(peak(played(rateHz, 300.0, 150.0)), 0.91 * fullScaleMps2) << rateHz;
+    for (const double rateHz : listenRateHz) {
+        EXPECT_GT(heardPeak(heard(rateHz, 300.0, 1.0)), 0.1 * listenFullScaleMps2) << rateHz;
+        EXPECT_LT(heardPeak(heard(rateHz, 300.0, 150.0)), 0.91 * listenFullScaleMps2) << rateHz;
     }
 }
 
 TEST(ListenTest, TheStrongerTextureStaysTheLouderOne) {
     double before = 0.0;
     for (double mps2 = 0.05; mps2 < 150.0; mps2 *= 2.0) {
-        const double now = peak(played(48000.0, 200.0, mps2));
+        const double now = heardPeak(heard(48000.0, 200.0, mps2));
         EXPECT_GT(now, before * 1.001) << mps2;
         before = now;
     }
 }
 
 TEST(ListenTest, AHighToneGainsMoreThanALowOneInTheSameSound) {
-    for (const double rateHz : everyRateHz) {
+    for (const double rateHz : listenRateHz) {
         std::vector<float> wave(static_cast<std::size_t>(0.5 * rateHz));
         const auto add = [&](std::vector<float>& to, double hz, double mps2) {
             for (std::size_t i = 0; i < to.size(); ++i) {
@@ -64,7 +64,7 @@ TEST(ListenTest, AHighToneGainsMoreThanALowOneInTheSameSound) {
         };
         add(wave, 100.0, 1.0);
         add(wave, 600.0, 1.0);
-        Listen listen(rateHz, fullScaleMps2);
+        Listen listen(rateHz, listenFullScaleMps2);
         listen.process(wave);
         const auto amplitudeAt = [&](double hz) {
             double real = 0.0;
@@ -82,8 +82,8 @@ TEST(ListenTest, AHighToneGainsMoreThanALowOneInTheSameSound) {
 }
 
 TEST(ListenTest, AnyInputGivesFiniteSamplesWithinTheFullScaleOfTheLimiterAfterIt) {
-    for (const double rateHz : everyRateHz) {
-        Listen listen(rateHz, fullScaleMps2);
+    for (const double rateHz : listenRateHz) {
+        Listen listen(rateHz, listenFullScaleMps2);
         std::vector<float> wave(static_cast<std::size_t>(rateHz), 3.0F);
         wave[3] = std::nanf("");
         wave[500] = INFINITY;
@@ -92,13 +92,13 @@ TEST(ListenTest, AnyInputGivesFiniteSamplesWithinTheFullScaleOfTheLimiterAfterIt
         listen.process(wave);
         for (const float sample : wave) {
             ASSERT_TRUE(std::isfinite(sample)) << sample;
-            ASSERT_LE(std::abs(sample), fullScaleMps2) << rateHz;
+            ASSERT_LE(std::abs(sample), listenFullScaleMps2) << rateHz;
         }
     }
 }
 
 TEST(ListenTest, AfterItsTailItIsIdleAndSilent) {
-    Listen listen(48000.0, fullScaleMps2);
+    Listen listen(48000.0, listenFullScaleMps2);
     EXPECT_TRUE(listen.isIdle());
     std::vector<float> wave(4800, 5.0F);
     listen.process(wave);
@@ -108,7 +108,7 @@ TEST(ListenTest, AfterItsTailItIsIdleAndSilent) {
     EXPECT_TRUE(listen.isIdle());
     std::ranges::fill(silence, 0.0F);
     listen.process(silence);
-    EXPECT_EQ(peak(silence), 0.0);
+    EXPECT_EQ(heardPeak(silence), 0.0);
 }
 
 TEST(ListenTest, AFullScaleOrRateOutOfRangeIsRefused) {
@@ -119,7 +119,7 @@ TEST(ListenTest, AFullScaleOrRateOutOfRangeIsRefused) {
 }
 
 TEST(ListenTest, ProcessingAllocatesNothing) {
-    Listen listen(48000.0, fullScaleMps2);
+    Listen listen(48000.0, listenFullScaleMps2);
     std::vector<float> wave(4800, 1.0F);
     const std::size_t before = haptoflow::testing::allocationCount();
     listen.process(wave);

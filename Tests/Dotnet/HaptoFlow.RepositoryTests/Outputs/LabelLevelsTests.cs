@@ -22,6 +22,9 @@ namespace HaptoFlow.RepositoryTests.Outputs
         // Full amplitude of a device with True Level.
         private const float DeviceMps2 = 60f;
 
+        // The peaks of a waveform depend on how long one waits for them: the same time at every frame rate.
+        private const double PeakSeconds = 1.0 / 72.0;
+
         // Labels whose medians differ by less are in either order: the waveform's envelope is no function of its peaks.
         private const double OrderRatio = 1.12;
 
@@ -154,7 +157,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
             {
                 HapticForm.Amplitude => motor.Commands.Select(each => (double)each.Amplitude),
                 HapticForm.Parametric => parametric.Amplitudes,
-                _ => device.Played.GroupBy(each => (int)(each.Seconds * frameHz))
+                _ => device.Played.GroupBy(each => (int)(each.Seconds / PeakSeconds))
                     .Select(frame => frame.Max(each => (double)Math.Abs(each.Sample))),
             };
             return found.Where(each => each > 1e-4).ToArray();
