@@ -189,7 +189,7 @@ def picture(before: dict[str, dict[str, np.ndarray]], after: dict[str, dict[str,
     panels[0].set_yticks(range(len(labels)), labels)
     panels[0].plot([], [], "o-", color="#8b919b", label="in proportion")
     panels[0].plot([], [], "o-", color="#2f7f6f", label="loudness law")
-    panels[0].legend(frameon=False, loc="lower right", fontsize=8)
+    panels[0].legend(frameon=False, loc="upper left", fontsize=8)
     return figure
 
 
