@@ -427,6 +427,8 @@ void addRenderCommand(CLI::App& app, CommandOutcome& outcome) {
         ->add_option("--actuator", options->actuator,
                      "Compensate for the actuator that plays the output: a profile's file, or flat or voice-coil")
         ->type_name("PROFILE");
+    command->add_flag("--listen", options->engine.listens,
+                      "Make the output audible on loudspeakers: louder and brighter. Not for actuators");
     command->add_option("--delay-ms", options->delayMs, "Delay of the whole output")
         ->check(decimalBetween(0.0, 500.0, "ms"))
         ->capture_default_str();

@@ -46,6 +46,7 @@ struct Processors {
     double rateHz = 0.0;
     std::unique_ptr<effects::Delay> delay;
     std::unique_ptr<effects::Effect> compensation;
+    std::unique_ptr<effects::Effect> listen;
     std::unique_ptr<effects::ExposureGuard> exposureGuard;
     /// Not used: the voice keeps its present delay, which holds the signal.
     std::unique_ptr<effects::Delay> spareDelay;

@@ -63,6 +63,7 @@ void Voice::exchangeProcessors(std::unique_ptr<Processors> fresh) noexcept {
     note(fresh->delay.get(), effects::EffectKind::delay);
     note(fresh->compensation.get(), effects::EffectKind::compensation);
     note(fresh->exposureGuard.get(), effects::EffectKind::exposureGuard);
+    note(fresh->listen.get(), effects::EffectKind::listen);
     output_->effects.exchange(std::move(fresh));
 }
 
