@@ -1,5 +1,5 @@
 /* Opens the plugin as Unity does, by dlopen, slides over the model's first label for half a second with the worker's
- * thread, and prints the level. scripts/release/run_on_old_glibc.mjs compiles and runs it on a system of glibc 2.31. */
+ * thread, and prints the level. scripts/lib/old_glibc.mjs compiles and runs it in a Debian 11, whose glibc is 2.31. */
 #define _GNU_SOURCE
 #include <haptoflow/haptoflow.h>
 
