@@ -25,7 +25,8 @@ Runtime for Unity), which the package needs. Two lines at the end say where to c
   --help       this text
 
 On Debian for x64 the libraries of Linux x64, Linux arm64 and Windows x64 are built; the cross compilers are installed first
-(125 MB to download). Android's is built where an NDK is found: Unity's own, or that of ANDROID_NDK_ROOT.
+(125 MB to download). Android's is built where an NDK is found: Unity's own, or that of ANDROID_NDK_ROOT. The first run
+compiles each library for up to five minutes of one core; later runs compile what changed.
 
 What goes in: Packages/com.haptoflow.runtime with the model, Samples~, Documentation~, Tests/Runtime, Tests/Editor, and a
 native library for each platform that has one. One command adds one library, then pack again:
