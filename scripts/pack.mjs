@@ -10,7 +10,6 @@ import { packDependency } from './pack/dependency.mjs';
 import { buildNatives, findNatives, foldersFor, platforms } from './pack/natives.mjs';
 import { PackageFiles } from './pack/package_files.mjs';
 import { tableOfContents } from './pack/sizes.mjs';
-import { stagePackage } from './pack/stage.mjs';
 import { makeTarball } from './pack/tarball.mjs';
 
 const help = `usage: npm run pack -- [--no-build] [--require NAMES] [--help]
@@ -72,6 +71,8 @@ await runMain('pack', async (words) => {
   const { found, absent } = findNatives(foldersFor, failed);
   requireNatives({ found, absent }, options.required);
   const folder = inRepository('out', 'package');
+  // Imported here, since set-up may just have installed the package that it needs.
+  const { stagePackage } = await import('./pack/stage.mjs');
   stagePackage(folder, await repositoryFiles(), found);
   const files = PackageFiles.inFolder(folder);
   const complaints = checkPackage(files);

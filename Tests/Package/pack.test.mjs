@@ -50,6 +50,14 @@ test('--help explains the command and builds nothing', () => {
   for (const { name, id, where } of platforms) assert.match(stdout, new RegExp(`^ {2}${name} +npm run build -- --platform ${id} +${where}$`, 'm'));
 });
 
+test('the command starts in a fresh checkout, in which no npm package is installed yet', () => {
+  inFolder((folder) => {
+    for (const name of ['scripts', 'package.json', 'CMakePresets.json']) cpSync(inRepository(name), path.join(folder, name), { recursive: true });
+    const { status, stderr } = spawnSync(process.execPath, [path.join(folder, 'scripts', 'pack.mjs'), '--help'], { encoding: 'utf8' });
+    assert.equal(status, 0, stderr);
+  });
+});
+
 test('an option that does not exist ends with 2 before anything is built', () => {
   const { status, stdout, stderr } = pack('--no-biuld');
   assert.equal(status, 2);
