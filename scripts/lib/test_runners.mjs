@@ -163,7 +163,7 @@ export const runners = {
   package: { purposes: ['files'], execute: packageTests },
   sanitizers: { purposes: ['build', 'test'], longPurposes: ['realtime'], long: true, execute: sanitizers },
   libcxx: { purposes: ['build', 'libcxx'], long: true, execute: libcxx },
-  platforms: { purposes: ['build', 'test', 'platforms'], long: true, execute: platformTests },
+  platforms: { purposes: ['build', 'test', 'cross', 'platforms'], long: true, execute: platformTests },
 };
 
 /** The names of the runners to run: the one of --only, else those of the form. */
