@@ -11,7 +11,8 @@ import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from haptoflow_training.errors import InputError
+from haptoflow_training.errors import InputError, printable
+from haptoflow_training.whole_file import require_apart
 
 
 @dataclass(frozen=True)
@@ -70,9 +71,10 @@ def run_program(
             subparsers.add_parser(key, help=command.summary, add_help=False)
     options = parser.parse_args(words)
     try:
+        require_apart(vars(options))
         return int(options.run(options))
     except InputError as error:
-        print(f"{name}: {error}", file=sys.stderr)
+        print(f"{name}: {printable(str(error))}", file=sys.stderr)
         return 3
     except BrokenPipeError:
         return 0

@@ -79,10 +79,10 @@ TEST_F(RenderCommandTest, AModelWhoseGraphsCannotBeLoadedIsAnInputErrorWithTierA
 }
 
 TEST_F(RenderCommandTest, TwoOutputsWithOneNameAreRefused) {
-    expectUsage("-o felt.wav --waveform felt.wav", "is the same file as --waveform");
-    expectUsage("-o felt.wav --report ./felt.wav", "is the same file as --report");
+    expectUsage("-o felt.wav --waveform felt.wav", "--waveform felt.wav: is the same file as -o felt.wav");
+    expectUsage("-o felt.wav --report ./felt.wav", "--report ./felt.wav: is the same file as -o felt.wav");
     fs::create_symlink("felt.wav", at("link.wav"));
-    expectUsage("-o felt.wav --waveform link.wav", "is the same file as --waveform");
+    expectUsage("-o felt.wav --waveform link.wav", "--waveform link.wav: is the same file as -o felt.wav");
 }
 
 TEST_F(RenderCommandTest, ALinkIsFollowedAndKept) {
