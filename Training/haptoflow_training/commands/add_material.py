@@ -63,8 +63,10 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
     )
     parser.add_argument("--name", help="of the material (default: the recordings' label, or the first file's name)")
     parser.add_argument(
-        "-o", "--out", type=Path, help=f"NAME{SUFFIX} (default: of the --name or the first file's) writes a material file, NAME.haptoflow a model file"
-    )
+        "-o", "--out", type=Path,
+        help=f"NAME{SUFFIX} (default, from --name or the first file's name) writes a material file, NAME.haptoflow a "
+        "model file",
+    )  # fmt: skip
     parser.add_argument("--category", default="", help="for example cloth (default: the nearest label's)")
     parser.add_argument("--description", default="", help="one or two sentences")
     parser.add_argument(
