@@ -343,8 +343,9 @@ void addIdentify(CLI::App& actuator, CommandOutcome& outcome) {
     command->add_option("--name", options->name, "Name of the profile (default: the file's name)")
         ->check([](const std::string& name) {
             const bool isPlain = model::isUtf8(name) && !model::hasControlCharacter(name);
-            return isPlain && !name.empty() && name.size() <= 128 ? std::string()
-                                                                  : std::string("expected one line of 1 to 128 bytes in UTF-8");
+            return isPlain && !name.empty() && name.size() <= 128
+                       ? std::string()
+                       : std::string("expected one line of 1 to 128 bytes in UTF-8");
         });
     command->add_option("--channel", options->channel, "Channel of the recording, from 1; needed if it has several")
         ->transform(wholeBetween(1, 1024, ""));

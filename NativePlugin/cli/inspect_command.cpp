@@ -103,10 +103,11 @@ void printLabels(std::ostream& stream, const model::ModelHeader& header) {
     std::vector<Row> rows{{"label", "category", "level exponents (speed, force)", "frequency exponent", "wavelength mm",
                            "stiffness N/m", "friction"}};
     for (const model::Label& label : header.labels) {
-        rows.push_back(
-            {orDash(label.name), orDash(label.category), inWords(label.speedLevelExponent) + ", " + inWords(label.forceLevelExponent),
-             inWords(label.frequencyExponent), label.wavelengthMetres ? inWords(*label.wavelengthMetres * 1000.0) : "-",
-             inWords(label.stiffnessNewtonsPerMetre), inWords(label.frictionCoefficient)});
+        rows.push_back({orDash(label.name), orDash(label.category),
+                        inWords(label.speedLevelExponent) + ", " + inWords(label.forceLevelExponent),
+                        inWords(label.frequencyExponent),
+                        label.wavelengthMetres ? inWords(*label.wavelengthMetres * 1000.0) : "-",
+                        inWords(label.stiffnessNewtonsPerMetre), inWords(label.frictionCoefficient)});
     }
     stream << "\nLabels (" << header.labels.size() << ")\n";
     printTable(stream, rows);
@@ -119,10 +120,10 @@ void printTiers(std::ostream& stream, const model::ModelFile& file) {
         const model::Tier& tier = header.tiers[index];
         const bool direct = tier.kind == model::TierKind::direct;
         rows.push_back(
-            {orDash(tier.name) + (index == header.defaultTier ? " (default)" : ""), std::string(model::kindName(tier.kind)),
-             direct ? "-" : std::string(model::solverName(tier.solver)), direct ? "-" : std::to_string(tier.steps),
-             std::to_string(tier.parameters), std::to_string(file.blob(tier.field).size()), figures(tier.accuracyJson),
-             figures(tier.costJson)});
+            {orDash(tier.name) + (index == header.defaultTier ? " (default)" : ""),
+             std::string(model::kindName(tier.kind)), direct ? "-" : std::string(model::solverName(tier.solver)),
+             direct ? "-" : std::to_string(tier.steps), std::to_string(tier.parameters),
+             std::to_string(file.blob(tier.field).size()), figures(tier.accuracyJson), figures(tier.costJson)});
     }
     stream << "\nTiers (" << header.tiers.size() << ")\n";
     printTable(stream, rows);

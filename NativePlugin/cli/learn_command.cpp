@@ -1,10 +1,10 @@
 #include "commands.hpp"
+#include "csv_lines.hpp"
 #include "decimal_number.hpp"
 #include "exit_codes.hpp"
 #include "inference/onnx_segment_generator.hpp"
 #include "inference/tier_graphs.hpp"
 #include "learning/learner.hpp"
-#include "csv_lines.hpp"
 #include "material_output.hpp"
 #include "material_recording.hpp"
 #include "messages.hpp"
@@ -82,7 +82,7 @@ void requireTexts(const LearnOptions& options) {
         if (trimmed(name).empty() || hasCapitals || !isLine(name, model::nameBytes)) {
             throw UsageError("--name '" + std::string(model::shortened(name, 60)) + "': expected 1 to " +
                              std::to_string(model::nameBytes) +
-                             " characters in one line, not all blank, without capital letters, as labels have");
+                             " characters without capital letters, as labels have, in one line and not all blank");
         }
     }
 }

@@ -89,9 +89,13 @@ fs::path find(const std::string& what, const char* variable, const std::vector<f
 
 fs::path findModel(const std::string& given) {
     const fs::path folder = executableFolder();
-    fs::path model = !given.empty() ? fs::path(given) : find("the default model", "HAPTOFLOW_MODEL",
-        {folder / "default.haptoflow", folder / "../../Packages/com.haptoflow.runtime/Runtime/Models/default.haptoflow"},
-                "Name a model with --model, or run the program that `npm run build` makes inside a checkout.");
+    fs::path model =
+        !given.empty()
+            ? fs::path(given)
+            : find("the default model", "HAPTOFLOW_MODEL",
+                   {folder / "default.haptoflow",
+                    folder / "../../Packages/com.haptoflow.runtime/Runtime/Models/default.haptoflow"},
+                   "Name a model with --model, or run the program that `npm run build` makes inside a checkout.");
     claimInput("the model", model);
     return model;
 }
@@ -99,10 +103,10 @@ fs::path findModel(const std::string& given) {
 fs::path findOnnxRuntime() {
     const fs::path folder = executableFolder();
     const fs::path package = folder / "../../node_modules/com.github.asus4.onnxruntime/Plugins";
-    fs::path library = find(
-        "ONNX Runtime's library", "HAPTOFLOW_ONNXRUNTIME",
-                {folder / runtimeFile, package / runtimeFolder / runtimeFile},
-                "Run `npm ci` and `npm run build` in the repository's root, or set the variable to the library.");
+    fs::path library =
+        find("ONNX Runtime's library", "HAPTOFLOW_ONNXRUNTIME",
+             {folder / runtimeFile, package / runtimeFolder / runtimeFile},
+             "Run `npm ci` and `npm run build` in the repository's root, or set the variable to the library.");
     claimInput("ONNX Runtime", library);
     return library;
 }

@@ -91,7 +91,8 @@ void forgetUnfinished(const fs::path& partial) {
 
 }  // namespace
 
-OutputFile::OutputFile(const std::string& role, const fs::path& path) : path_(path), isWrittenInPlace_(isSpecial(path)) {
+OutputFile::OutputFile(const std::string& role, const fs::path& path)
+    : path_(path), isWrittenInPlace_(isSpecial(path)) {
     std::error_code ignored;
     if (fs::is_directory(path, ignored)) {
         throw InputError(path.string() + ": is a folder; expected the name of a file");

@@ -39,8 +39,7 @@ std::string allKeys() {
 }
 
 json documentIn(const fs::path& file) {
-    const std::string role =
-        file.filename() == defaultsFile ? "the folder's defaults" : "the recording's sidecar";
+    const std::string role = file.filename() == defaultsFile ? "the folder's defaults" : "the recording's sidecar";
     // Also where it does not exist: a report of that name would be read as the sidecar from then on.
     claimInput(role, file);
     std::error_code ignored;
@@ -141,8 +140,8 @@ public:
         const fs::path folder = fs::weakly_canonical(fs::absolute(origin).parent_path(), ignored);
         const fs::path inside = fs::weakly_canonical(fs::absolute(path), ignored).lexically_relative(folder);
         if (inside.empty() || *inside.begin() == "..") {
-            fail(origin, "key 'motion' names " + name + ", which is outside the folder of " +
-                             origin.filename().string(),
+            fail(origin,
+                 "key 'motion' names " + name + ", which is outside the folder of " + origin.filename().string(),
                  "a table beside the recording: copy it there");
         }
         if (!fs::is_regular_file(path, ignored)) {
@@ -172,7 +171,8 @@ private:
     }
 
     [[noreturn]] void refuse(const std::string& key, const std::string& expected) const {
-        fail(origins_.at(key), "key '" + key + "' is " + std::string(model::shortened(values_.at(key).dump(), 60)), expected);
+        fail(origins_.at(key), "key '" + key + "' is " + std::string(model::shortened(values_.at(key).dump(), 60)),
+             expected);
     }
 
     std::map<std::string, json> values_;

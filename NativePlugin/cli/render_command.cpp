@@ -278,8 +278,6 @@ void requireSoundOptions(const RenderOptions& options) {
         throw UsageError("-o " + options.parametricPath +
                          " needs a --rate that is a multiple of 2000 Hz, such as 48000");
     }
-    requireWavName({"-o", options.outputPath});
-    requireWavName({"--waveform", options.waveformPath});
 }
 
 /// Checks the length first: a WAV file's sizes are 32-bit numbers, and a render can take hours.
@@ -298,9 +296,10 @@ void explainSilence(const RenderOptions& options, const engine::OfflineFigures& 
                     double updateRateHz) {
     const std::string& stroke = options.strokePath;
     if (figures.touches == 0 && missedTouches == 0) {
-        note(stroke + " never touches a surface of " + options.scenePath +
-             ": the output is silent. `haptoflow contact` prints where the tip goes; positions are metres, y up, of the "
-             "tip's centre.");
+        note(
+            stroke + " never touches a surface of " + options.scenePath +
+            ": the output is silent. `haptoflow contact` prints where the tip goes; positions are metres, y up, of the "
+            "tip's centre.");
     }
     if (missedTouches > 0) {
         note(stroke + ": " + std::to_string(missedTouches) + " of " + std::to_string(figures.touches + missedTouches) +
@@ -338,6 +337,8 @@ void runRender(const RenderOptions& options) {
     }
     const effects::EffectMask effects = requestedEffects(options.effects);
     RenderFiles files(options);
+    requireWavName({"-o", options.outputPath});
+    requireWavName({"--waveform", options.waveformPath});
     inference::OnnxSegmentGenerator generator(openRuntime(), model, tier.name, solver, 1);
 
     const ProgressBar bar = progressBar("render", options.quiet);

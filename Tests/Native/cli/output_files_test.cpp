@@ -64,7 +64,9 @@ protected:
     [[nodiscard]] std::map<std::string, std::string> contents() const {
         std::map<std::string, std::string> files;
         for (const auto& each : fs::directory_iterator(at(""))) {
-            files[each.path().filename().string()] = read(each.path().filename().string());
+            if (each.is_regular_file()) {
+                files[each.path().filename().string()] = read(each.path().filename().string());
+            }
         }
         return files;
     }
@@ -88,7 +90,8 @@ TEST_F(OutputFilesTest, LearnLeavesEveryFileThatItReadsAsItIs) {
     expectRefused(learn + "tile.motion.csv", "--report tile.motion.csv", "the motion file tile.motion.csv");
     expectRefused(learn + "model.haptoflow", "--report model.haptoflow", "the model model.haptoflow");
     expectRefused(learn + "./new.haptomaterial", "--report ./new.haptomaterial", "--output new.haptomaterial");
-    expectRefused("learn tile.csv --model model.haptoflow -o tile.json", "--output tile.json", "the recording's sidecar");
+    expectRefused("learn tile.csv --model model.haptoflow -o tile.json", "--output tile.json",
+                  "the recording's sidecar");
 }
 
 TEST_F(OutputFilesTest, ASidecarThatIsNotThereYetIsNoPlaceForAReport) {
@@ -123,7 +126,7 @@ TEST_F(OutputFilesTest, ContactAndActuatorAndBenchLeaveEveryFileThatTheyReadAsIt
     expectRefused("actuator show a.json --labels --model model.haptoflow --plot model.haptoflow",
                   "--plot model.haptoflow", "the model");
     ASSERT_EQ(run("actuator sweep -o sweep.wav --seconds 1").exitCode, 0);
-    expectRefused("actuator identify sweep.wav --sweep sweep.wav -o sweep.wav", "-o sweep.wav", "the recording");
+    expectRefused("actuator identify sweep.wav --sweep sweep.wav -o sweep.wav", "-o sweep.wav", "--sweep sweep.wav");
     expectRefused("actuator identify sweep.wav --sweep sweep.wav -o new.json --plot ./new.json", "--plot ./new.json",
                   "-o new.json");
     expectRefused("bench --quick --only contact --quiet --model model.haptoflow -o model.haptoflow",
@@ -136,8 +139,8 @@ TEST_F(OutputFilesTest, AnotherSpellingOfAFileIsTheSameFile) {
     fs::create_hard_link(at("tile.json"), at("hard.json"));
     fs::create_directory_symlink(at(""), at("folder/here"));
     const std::string learn = "learn tile.csv --model model.haptoflow --quiet -o new.haptomaterial --report ";
-    for (const std::string name : {"./tile.json", "folder/../tile.json", "link.json", "hard.json",
-                                   "folder/here/tile.json"}) {
+    for (const std::string name :
+         {"./tile.json", "folder/../tile.json", "link.json", "hard.json", "folder/here/tile.json"}) {
         expectRefused(learn + name, "--report " + name, "the recording's sidecar");
     }
     expectRefused(learn + at("tile.json").string(), "--report " + at("tile.json").string(), "the recording's sidecar");

@@ -66,7 +66,8 @@ TEST(StrokeFileTest, SecondsSince1970CountFromTheFirstRowWithEveryDigit) {
     EXPECT_NEAR(stroke.samples[2].timeSeconds, 1.500000013, 1e-12);
     const Stroke negative = parseStroke("t,x,y,z\n-2000000000.25,0,0,0\n-1999999999.5,0,0,0\n", "stroke.csv");
     EXPECT_DOUBLE_EQ(negative.samples[1].timeSeconds, 0.75);
-    EXPECT_THAT(complaintAbout("t,x,y,z\n1700000000001,0,0,0\n"), HasSubstr("column t: expected seconds within +-1e11"));
+    EXPECT_THAT(complaintAbout("t,x,y,z\n1700000000001,0,0,0\n"),
+                HasSubstr("column t: expected seconds within +-1e11"));
     EXPECT_THAT(complaintAbout("t,x,y,z\n0,0,0,0\n2e9,0,0,0\n"), HasSubstr("stroke.csv:3: column t: expected a time "));
     EXPECT_THAT(complaintAbout("t,x,y,z\n1700000001,0,0,0\n1700000000.9999,0,0,0\n"),
                 HasSubstr("stroke.csv:3: column t: expected a time not before the line above"));
