@@ -23,7 +23,7 @@ namespace HaptoFlow.RepositoryTests
         [TestCase(typeof(EffectStatistics), 48)]
         [TestCase(typeof(HapticExposure), 40)]
         [TestCase(typeof(SignalStatistics), 56)]
-        [TestCase(typeof(VoiceStatistics), 176)]
+        [TestCase(typeof(VoiceStatistics), 184)]
         [TestCase(typeof(EngineStatistics), 88)]
         [TestCase(typeof(TierTimes), 32)]
         [TestCase(typeof(WaveFeaturesOptions), 32)]
