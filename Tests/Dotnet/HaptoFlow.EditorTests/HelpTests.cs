@@ -3,7 +3,7 @@ using System.Collections.Generic;
 using System.IO;
 using System.Linq;
 using System.Reflection;
-using System.Text.Json;
+using Newtonsoft.Json.Linq;
 using System.Text.RegularExpressions;
 using HaptoFlow.Editor;
 using HaptoFlow.Studies;
@@ -50,10 +50,10 @@ namespace HaptoFlow.EditorTests
         [Test]
         public void ThePackageManagersLinksLeadToExistingPages()
         {
-            using JsonDocument manifest = JsonDocument.Parse(File.ReadAllText(
+            JObject manifest = JObject.Parse(File.ReadAllText(
                 RepositoryFiles.In("Packages", "com.haptoflow.runtime", "package.json")));
-            string documentation = manifest.RootElement.GetProperty("documentationUrl").GetString()!;
-            string changes = manifest.RootElement.GetProperty("changelogUrl").GetString()!;
+            var documentation = (string?)manifest["documentationUrl"];
+            var changes = (string?)manifest["changelogUrl"];
             Assert.That(documentation, Is.EqualTo(HelpPages.Home + "index.html"));
             Assert.That(changes, Is.EqualTo(HelpPages.Home + "changelog.html"));
             Assert.That(Page("index.html"), Does.Contain("](installation.md)").And.Contain("](first-scene.md)"));

@@ -76,7 +76,8 @@ namespace HaptoFlow.SampleTests.Similarity
             Assert.That(sidecar, Does.Match("\"resumptions\": ?1").And.Match("\"simulated\": ?true"));
             foreach (StudyMethod method in settings.Methods)
             {
-                string hash = Convert.ToHexString(System.Security.Cryptography.SHA256.HashData(method.Model!.File));
+                using var sha256 = System.Security.Cryptography.SHA256.Create();
+                string hash = BitConverter.ToString(sha256.ComputeHash(method.Model!.File)).Replace("-", "");
                 Assert.That(sidecar, Does.Contain(hash.ToLowerInvariant()));
                 Assert.That(sidecar, Does.Contain(method.Model.name + ".haptoflow"));
             }
