@@ -50,7 +50,8 @@ namespace HaptoFlow.SampleTests.Similarity
             List<Dictionary<string, string>> rows = Rows();
             Assert.That(rows.Select(row => int.Parse(row["trial"], CultureInfo.InvariantCulture)),
                 Is.EqualTo(Enumerable.Range(1, plan.Trials.Count)));
-            foreach ((Dictionary<string, string> row, PlannedTrial trial) in rows.Zip(plan.Trials))
+            foreach ((Dictionary<string, string> row, PlannedTrial trial) in
+                rows.Zip(plan.Trials, (row, trial) => (row, trial)))
             {
                 string where = $"trial {trial.Trial}";
                 Assert.That((row["block"], row["material"], row["method"]),
