@@ -969,9 +969,8 @@ HAPTOFLOW_API haptoflow_status haptoflow_learning_close(haptoflow_learning** lea
 
 /* Sets *bytes to the size with which the library was built of a struct of this header, for example of
  * "haptoflow_engine_options". A caller that declares the structs itself, in another language, compares its own sizes
- * with these before the first call that passes one. Errors: INVALID_ARGUMENT, also for a name that this library's header
- * does not have.
- * [any-thread] Never blocks; allocates only to report an error. */
+ * with these before the first call that passes one. Errors: INVALID_ARGUMENT, also for a name that this library's
+ * header does not have. [any-thread] Never blocks; allocates only to report an error. */
 HAPTOFLOW_API haptoflow_status haptoflow_struct_size(const char* name, uint32_t* bytes);
 
 #ifdef __cplusplus
