@@ -53,7 +53,7 @@ test('a runner that cannot run counts as one failure, and the others run', async
 // A machine on which set-up finds its packages, and neither an SDK nor a way to one.
 const bareMachine = {
   dotnet: 'exit 1',
-  'dpkg-query': 'shift 3; for name in "$@"; do echo "$name installed"; done',
+  'dpkg-query': '[ "$1" = --version ] && exit; shift 3; for name in "$@"; do echo "$name installed"; done',
   'apt-cache': 'echo "N: Unable to locate package"',
   curl: 'echo "curl: (6) Could not resolve host: dot.net" >&2; exit 6',
 };

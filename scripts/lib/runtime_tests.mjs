@@ -66,7 +66,7 @@ export async function aot() {
   const build = inRepository('build', 'aot');
   const words = ['publish', inRepository('Tests', 'Dotnet', 'HaptoFlow.AotTests'), '-c', 'Release', '--nologo', '-v', 'quiet'];
   await runOrFail(command, [...words, `-p:ArtifactsPath=${build}`], { env: dotnetEnvironment(command) });
-  const program = path.join(build, 'publish', 'HaptoFlow.AotTests', 'release', 'HaptoFlow.AotTests');
+  const program = path.join(build, 'publish', 'HaptoFlow.AotTests', 'release_linux-x64', 'HaptoFlow.AotTests');
   if (!existsSync(program)) throw new CommandError(`${program} was not built`);
   return judgeJunit('aot.xml', program, [results('aot.xml'), ...exceptions('aot')], { limitSeconds: 1800 });
 }
