@@ -4,7 +4,7 @@ import path from 'node:path';
 import test from 'node:test';
 import { withoutReadOnlyMarks } from '../../scripts/lib/mono_signatures.mjs';
 import { inRepository } from '../../scripts/lib/repository.mjs';
-import { leftOut, monoProjects } from '../../scripts/lib/runtime_tests.mjs';
+import { complaintsAboutCore, leftOut, monoProjects } from '../../scripts/lib/runtime_tests.mjs';
 
 const page = readFileSync(inRepository('Documentation~', 'testing.md'), 'utf8');
 
@@ -61,6 +61,14 @@ test('a signature "instance !0 modreq(X)& get_Item(int)" loses its mark, and no 
   assert.deepEqual([...bytes.subarray(last, last + 6)], [5, 0x20, 0, 0x10, 0x13, 0]);
   assert.deepEqual(bytes.subarray(0, at), before.subarray(0, at));
   assert.deepEqual(bytes.subarray(at + 9, last), before.subarray(at + 9, last));
+});
+
+test('only complaints about the core count, each once', () => {
+  const core = '/x/HaptoFlow.Core.dll : warning IL2104: Assembly \'HaptoFlow.Core\' produced trim warnings.';
+  const source = '/x/Packages/com.haptoflow.runtime/Runtime/Core/A.cs(3): Trim analysis warning IL2026: uses reflection';
+  const others = 'ILC : warning IL3000: NUnit.Framework\n/x/Newtonsoft.Json.dll : warning IL2104: Assembly\nHaptoFlow.Core -> HaptoFlow.Core.dll';
+  assert.deepEqual(complaintsAboutCore([others, core, core, source].join('\n')), [core, source]);
+  assert.deepEqual(complaintsAboutCore(others), []);
 });
 
 test('bytes that are no assembly are refused', () => {
