@@ -3,10 +3,12 @@ using System.Collections.Generic;
 using System.Globalization;
 using System.IO;
 using System.Linq;
+using System.Reflection;
 using System.Xml;
 using NUnit.Framework.Api;
 using NUnit.Framework.Interfaces;
 using NUnit.Framework.Internal;
+using NUnit.Framework.Internal.Builders;
 
 namespace HaptoFlow.Tests.OwnProgram
 {
@@ -21,7 +23,7 @@ namespace HaptoFlow.Tests.OwnProgram
             var filter = new NameFilter(
                 words.Skip(1).Take(only < 0 ? int.MaxValue : only - 1).ToArray(),
                 only < 0 ? "" : words[only + 1]);
-            var runner = new NUnitTestAssemblyRunner(new DefaultTestAssemblyBuilder());
+            var runner = new NUnitTestAssemblyRunner(new Builder());
             var settings = new Dictionary<string, object> { ["NumberOfTestWorkers"] = 0 };
             runner.Load(typeof(TestProgram).Assembly, settings);
             ITestResult[] results = Leaves(runner.Run(new Listener(Console.Out), filter)).ToArray();
@@ -77,6 +79,30 @@ namespace HaptoFlow.Tests.OwnProgram
         /// <summary>The text without characters that XML does not allow.</summary>
         private static string Printable(string text) =>
             new string(text.Select(letter => XmlConvert.IsXmlChar(letter) ? letter : '?').ToArray());
+
+        /// <summary>Finds the fixtures. NUnit's own builder asks for the assembly's file, and a program compiled ahead of
+        /// time has none.</summary>
+        private sealed class Builder : ITestAssemblyBuilder
+        {
+            public ITest Build(Assembly assembly, IDictionary<string, object> options)
+            {
+                var all = new TestAssembly(assembly, assembly.GetName().Name!);
+                var fixtures = new DefaultSuiteBuilder();
+                foreach (Type type in assembly.GetTypes())
+                {
+                    var wrapped = new TypeWrapper(type);
+                    if (fixtures.CanBuildFrom(wrapped))
+                    {
+                        all.Add(fixtures.BuildFrom(wrapped));
+                    }
+                }
+                all.ApplyAttributesToTest(assembly);
+                return all;
+            }
+
+            public ITest Build(string assemblyName, IDictionary<string, object> options) =>
+                throw new NotSupportedException();
+        }
 
         /// <summary>Prints failures as they happen, so that a program that ends early says where.</summary>
         private sealed class Listener : ITestListener
