@@ -15,7 +15,8 @@ namespace HaptoFlow.RepositoryTests
         public void EveryStructOfTheHeaderIsComparedWithTheLibrary()
         {
             string header = File.ReadAllText(RepositoryFiles.In("NativePlugin", "include", "haptoflow", "haptoflow.h"));
-            string[] declared = System.Text.RegularExpressions.Regex.Matches(header, @"typedef struct (haptoflow_\w+) \{")
+            string[] declared = System.Text.RegularExpressions.Regex
+                .Matches(header, @"typedef struct (haptoflow_\w+) \{")
                 .Select(match => match.Groups[1].Value).ToArray();
             Assert.That(LibraryAgreement.Structs.Keys, Is.EquivalentTo(declared));
             Assert.DoesNotThrow(LibraryAgreement.Require);
