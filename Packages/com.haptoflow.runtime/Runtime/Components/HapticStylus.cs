@@ -18,7 +18,7 @@ namespace HaptoFlow
     /// <summary>Tracks a tip, finds the surface it touches and plays that surface's vibration.</summary>
     [AddComponentMenu("HaptoFlow/Haptic Stylus")]
     [DefaultExecutionOrder(1000)]
-    [HelpURL(HelpPages.Components + "haptic-stylus")]
+    [HelpPage(HelpPages.Components + "haptic-stylus")]
     public sealed class HapticStylus : MonoBehaviour
     {
         [SerializeField, Tooltip("The transform at the centre of the tip. Leave it empty for this object.")]

@@ -22,7 +22,7 @@ namespace HaptoFlow
     /// tracked. Requires the Input System, like OpenXR itself.</summary>
     [AddComponentMenu("HaptoFlow/XR Pen")]
     [DisallowMultipleComponent]
-    [HelpURL(HelpPages.Components + "xr-pen")]
+    [HelpPage(HelpPages.Components + "xr-pen")]
     public sealed class XrPen : PressureTipForce
     {
         [SerializeField, Tooltip("The hand that holds the pen.")]

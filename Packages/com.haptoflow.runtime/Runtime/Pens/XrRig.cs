@@ -17,7 +17,7 @@ namespace HaptoFlow
     [AddComponentMenu("HaptoFlow/XR Rig")]
     [DefaultExecutionOrder(100)]
     [DisallowMultipleComponent]
-    [HelpURL(HelpPages.Components + "xr-rig")]
+    [HelpPage(HelpPages.Components + "xr-rig")]
     public sealed class XrRig : MonoBehaviour
     {
         [SerializeField, Tooltip("The camera that follows the head. When it is empty, the scene's main camera is " +

@@ -7,7 +7,7 @@ namespace HaptoFlow
     /// <summary>Tip force from an action of the Input System. For MX Ink through OpenXR: enable its interaction profile
     /// and bind the action to tip_logitech/force.</summary>
     [AddComponentMenu("HaptoFlow/Tip Force (Input Action)")]
-    [HelpURL(HelpPages.Components + "tip-force-input-action")]
+    [HelpPage(HelpPages.Components + "tip-force-input-action")]
     public sealed class InputActionTipForce : PressureTipForce
     {
         [SerializeField, Tooltip("The value action of type Axis that reports the pressure, 0 to 1.")]

@@ -9,7 +9,7 @@ namespace HaptoFlow
     /// and after a failure only when something changed: the focus returns, a controller connects or disconnects, the
     /// action gets another name, or this component is enabled again.</remarks>
     [AddComponentMenu("HaptoFlow/Tip Force (Meta)")]
-    [HelpURL(HelpPages.Components + "tip-force-meta")]
+    [HelpPage(HelpPages.Components + "tip-force-meta")]
     public sealed class MetaActionTipForce : PressureTipForce
     {
         [SerializeField, Tooltip("The name of the float action in the project's action sets.")]

@@ -10,7 +10,7 @@ namespace HaptoFlow
     [DisallowMultipleComponent]
     [DefaultExecutionOrder(1100)]
     [AddComponentMenu("HaptoFlow/Auto Output")]
-    [HelpURL(HelpPages.Home + "effects-and-outputs.html#auto")]
+    [HelpPage(HelpPages.Outputs + "auto")]
     public sealed class AutoOutput : DeviceOutput
     {
         private bool isMade;

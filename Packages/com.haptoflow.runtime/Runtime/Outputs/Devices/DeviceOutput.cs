@@ -104,6 +104,18 @@ namespace HaptoFlow
         /// <summary>Name of the device in use, for people; empty without one.</summary>
         public string DeviceName => HasDevice ? device!.Name : "";
 
+        /// <summary>The form in which the device is driven; null without one.</summary>
+        public HapticForm? Form => !HasDevice ? (HapticForm?)null : device switch
+        {
+            IWaveformSink _ => HapticForm.Waveform,
+            IParametricSink _ => HapticForm.Parametric,
+            _ => HapticForm.Amplitude,
+        };
+
+        /// <summary>The hand whose device is searched for: the field's, else the stylus's.</summary>
+        internal HapticHand SearchedHand =>
+            hand != HapticHand.None ? hand : attached != null ? attached.Hand : HapticHand.None;
+
         /// <summary>Statistics since the device was connected.</summary>
         public HapticQueueStatistics Statistics => queue?.Statistics ?? default;
 
@@ -143,7 +155,7 @@ namespace HaptoFlow
         /// <summary>Searches for a device now. Main thread.</summary>
         private protected void FindDevice()
         {
-            HapticHand held = hand != HapticHand.None ? hand : attached != null ? attached.Hand : HapticHand.None;
+            HapticHand held = SearchedHand;
             if (held != openedFor)
             {
                 Close();
