@@ -1025,6 +1025,14 @@ HAPTOFLOW_API haptoflow_status haptoflow_device_wave_process(haptoflow_device_wa
  * effect; the change then fades over 10 ms. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. [publisher] */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_set_listen(haptoflow_voice voice, uint32_t is_on);
 
+/* ---------------------------------------------------------------------------------------------------- agreement */
+
+/* Sets *bytes to the size with which the library was built of a struct of this header, for example of
+ * "haptoflow_engine_options". A caller that declares the structs itself, in another language, compares its own sizes
+ * with these before the first call that passes one. Errors: INVALID_ARGUMENT, also for a name that this library's
+ * header does not have. [any-thread] Never blocks; allocates only to report an error. */
+HAPTOFLOW_API haptoflow_status haptoflow_struct_size(const char* name, uint32_t* bytes);
+
 #ifdef __cplusplus
 }
 #endif
