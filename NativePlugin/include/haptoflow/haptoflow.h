@@ -575,10 +575,12 @@ enum {
     /* The filter of a material's tone and of a surface's tone_db_per_octave; directly after the texture. */
     HAPTOFLOW_EFFECT_TONE = 6,
     /* The sine of a latency study, which replaces texture, impact and edge: haptoflow_voice_set_signal. */
-    HAPTOFLOW_EFFECT_SIGNAL = 7
+    HAPTOFLOW_EFFECT_SIGNAL = 7,
+    /* Louder and brighter for ears: haptoflow_voice_set_listen. */
+    HAPTOFLOW_EFFECT_LISTEN = 8
 };
 
-#define HAPTOFLOW_EFFECT_COUNT 8
+#define HAPTOFLOW_EFFECT_COUNT 9
 /* Sets of effects: one bit for each, and one for the empty set. */
 #define HAPTOFLOW_ASKS_FOR_TEXTURE 0x1u
 #define HAPTOFLOW_ASKS_FOR_IMPACT 0x2u
@@ -978,6 +980,58 @@ HAPTOFLOW_API haptoflow_status haptoflow_learning_report(const haptoflow_learnin
 /* Closes *learning and sets it to null; a null handle is allowed. Errors: INVALID_ARGUMENT.
  * [any-thread] Blocks while another thread opens or closes a handle. */
 HAPTOFLOW_API haptoflow_status haptoflow_learning_close(haptoflow_learning** learning);
+
+/* --------------------------------------------------------------------------------------- loudness of outputs */
+
+/* How a device in the hand takes a vibration. Each kind has a level of its own. */
+typedef int32_t haptoflow_device_kind;
+enum {
+    /* One amplitude at a time, for a motor. */
+    HAPTOFLOW_DEVICE_MOTOR = 0,
+    /* Amplitude and frequency over time. */
+    HAPTOFLOW_DEVICE_PARAMETRIC = 1,
+    /* The waveform itself. */
+    HAPTOFLOW_DEVICE_WAVEFORM = 2
+};
+
+/* Sets *share to the part of the device's range, 0 to below 1, at which an acceleration amplitude (peak, m/s^2) is
+ * played: the loudness law of Documentation~/effects-and-outputs.md, which keeps the order of any two amplitudes. An
+ * amplitude that is not above 0 gives 0. Errors: INVALID_ARGUMENT.
+ * [any-thread] Never blocks; allocates only to report an error. */
+HAPTOFLOW_API haptoflow_status haptoflow_device_share(haptoflow_device_kind kind, float amplitude_mps2, float* share);
+
+/* Applies the loudness law of HAPTOFLOW_DEVICE_WAVEFORM to a wave, by a gain that follows its envelope; delays the wave
+ * by 1 ms. */
+typedef struct haptoflow_device_wave haptoflow_device_wave;
+
+/* Creates a device wave for a sample rate of 2000 to 192000 Hz. Close it with haptoflow_device_wave_close. Errors:
+ * INVALID_ARGUMENT, OUT_OF_MEMORY. [any-thread] Blocks while another thread opens or closes a handle; allocates. */
+HAPTOFLOW_API haptoflow_status haptoflow_device_wave_create(double sample_rate_hz, haptoflow_device_wave** wave);
+
+/* Closes *wave and sets it to null; a null handle is allowed. Errors: INVALID_ARGUMENT.
+ * [any-thread] Blocks while another thread opens or closes a handle. */
+HAPTOFLOW_API haptoflow_status haptoflow_device_wave_close(haptoflow_device_wave** wave);
+
+/* Continues with silence. Errors: INVALID_ARGUMENT. [any-thread] Blocks while another thread uses this wave. */
+HAPTOFLOW_API haptoflow_status haptoflow_device_wave_reset(haptoflow_device_wave* wave);
+
+/* Replaces the next sample_count samples, +-1 at full_scale_mps2, by those for the device, within +-1. Samples that are
+ * not finite count as 0. Errors: INVALID_ARGUMENT. [any-thread] Blocks while another thread uses this wave. */
+HAPTOFLOW_API haptoflow_status haptoflow_device_wave_process(haptoflow_device_wave* wave, float* samples,
+                                                             uint64_t sample_count, float full_scale_mps2);
+
+/* Makes a voice audible on loudspeakers (is_on 1): louder, and brighter from 150 Hz on, after every other effect and
+ * before the limiter; delays it by 1 ms. For ears only: 0 for an output that feeds an actuator. The worker prepares the
+ * effect; the change then fades over 10 ms. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. [publisher] */
+HAPTOFLOW_API haptoflow_status haptoflow_voice_set_listen(haptoflow_voice voice, uint32_t is_on);
+
+/* ---------------------------------------------------------------------------------------------------- agreement */
+
+/* Sets *bytes to the size with which the library was built of a struct of this header, for example of
+ * "haptoflow_engine_options". A caller that declares the structs itself, in another language, compares its own sizes
+ * with these before the first call that passes one. Errors: INVALID_ARGUMENT, also for a name that this library's
+ * header does not have. [any-thread] Never blocks; allocates only to report an error. */
+HAPTOFLOW_API haptoflow_status haptoflow_struct_size(const char* name, uint32_t* bytes);
 
 #ifdef __cplusplus
 }

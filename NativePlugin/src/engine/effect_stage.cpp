@@ -30,9 +30,10 @@ void forEach(const Processors* processors, const Visit& visit) {
     if (processors == nullptr) {
         return;
     }
-    const std::array<std::pair<effects::Effect*, EffectKind>, 2> stages{{
+    const std::array<std::pair<effects::Effect*, EffectKind>, 3> stages{{
         {processors->delay.get(), EffectKind::delay},
         {processors->compensation.get(), EffectKind::compensation},
+        {processors->listen.get(), EffectKind::listen},
     }};
     for (const auto& [effect, kind] : stages) {
         if (effect != nullptr) {

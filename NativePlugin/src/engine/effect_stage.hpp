@@ -47,6 +47,7 @@ struct Processors {
     double rateHz = 0.0;
     std::unique_ptr<effects::Delay> delay;
     std::unique_ptr<effects::Effect> compensation;
+    std::unique_ptr<effects::Effect> listen;
     /// Switched off if the voice only had a guard before.
     std::unique_ptr<effects::ExposureGuard> exposureGuard;
     /// Not used: the voice keeps its present delay, which holds the signal.

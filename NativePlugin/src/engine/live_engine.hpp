@@ -95,6 +95,8 @@ public:
     ContactAction publish(LiveVoice& voice, const ContactState& state) noexcept;
     /// `change` edits the voice's settings and returns whether they have changed; the worker then prepares the new
     /// processors. Any thread except the audio callback's.
+    /// Any thread. The acceleration that is +-1 at every voice's output.
+    [[nodiscard]] double fullScaleMps2() const noexcept { return static_cast<double>(settings_.fullScaleMps2); }
     void changeProcessors(LiveVoice& voice, const std::function<bool(ProcessorSettings&)>& change);
 
     /// Runs one round on the calling thread, for an engine without a worker.

@@ -1,6 +1,7 @@
 #include "engine/processor_settings.hpp"
 
 #include "effects/compensation.hpp"
+#include "effects/listen.hpp"
 
 namespace haptoflow::engine {
 
@@ -18,6 +19,9 @@ std::unique_ptr<Processors> makeProcessors(const ProcessorSettings& settings, do
     }
     if (settings.actuator != nullptr) {
         made->compensation = std::make_unique<effects::Compensation>(*settings.actuator, rateHz);
+    }
+    if (settings.listenFullScaleMps2 > 0.0) {
+        made->listen = std::make_unique<effects::Listen>(rateHz, settings.listenFullScaleMps2);
     }
     if (settings.hasExposureGuard || keepsExposure) {
         made->exposureGuard = std::make_unique<effects::ExposureGuard>(rateHz);

@@ -16,6 +16,8 @@ struct ProcessorSettings {
     bool hasExposureGuard = false;
     /// Profile of the actuator to compensate; null for no compensation.
     std::shared_ptr<const effects::ActuatorProfile> actuator;
+    /// Acceleration that is +-1 at the output of a voice that is made audible; 0 for a voice that is not.
+    double listenFullScaleMps2 = 0.0;
 };
 
 /// Designs and allocates the processors, which takes milliseconds: not on the audio thread. Null for version 0. With

@@ -65,6 +65,7 @@ void Voice::exchangeProcessors(std::unique_ptr<Processors> fresh) noexcept {
     if (fresh->exposureGuard != nullptr && fresh->exposureGuard->isOn()) {
         note(fresh->exposureGuard.get(), effects::EffectKind::exposureGuard);
     }
+    note(fresh->listen.get(), effects::EffectKind::listen);
     output_->effects.exchange(std::move(fresh));
 }
 

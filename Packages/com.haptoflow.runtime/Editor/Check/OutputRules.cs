@@ -44,6 +44,13 @@ namespace HaptoFlow.Editor
                 {
                     yield return finding;
                 }
+                if (output.Processing.ListensToActuator(output.Channel))
+                {
+                    yield return new Finding(MessageType.Warning,
+                        $"{output.name} has Listen switched on, but an actuator or a channel of its own is chosen: " +
+                        "Listen is for ears, and an actuator would play everything far too strongly. Switch Listen " +
+                        "off, or choose Uncompensated and channel -1 for loudspeakers.", new[] { output });
+                }
                 if (output.Processing.LacksProfile)
                 {
                     yield return new Finding(MessageType.Warning,

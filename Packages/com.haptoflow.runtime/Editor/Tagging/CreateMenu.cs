@@ -29,7 +29,7 @@ namespace HaptoFlow.Editor
             int group = Undo.GetCurrentGroup();
             if (All<HapticOutput>().Length == 0)
             {
-                CreateOutput(command);
+                AddOutput(command).Processing.Listen = true;
             }
             Transform? rig = HeadsetRig.Find();
             HapticSurface? before = All<HapticSurface>().FirstOrDefault(surface => surface.name == PlateName);
@@ -77,11 +77,13 @@ namespace HaptoFlow.Editor
 
         /// <summary>Creates an output. It plays on every channel until one is chosen.</summary>
         [MenuItem("GameObject/HaptoFlow/Haptic Output", false, Priority)]
-        internal static void CreateOutput(MenuCommand command)
+        internal static void CreateOutput(MenuCommand command) => AddOutput(command);
+
+        private static HapticOutput AddOutput(MenuCommand command)
         {
-            var owner = new GameObject("Haptic Output");
-            owner.AddComponent<HapticOutput>();
-            Add(owner, command);
+            var output = new GameObject("Haptic Output").AddComponent<HapticOutput>();
+            Add(output.gameObject, command);
+            return output;
         }
 
         /// <summary>Creates the pen below the parent of the main camera, which is the tracking space in an XR rig.

@@ -175,6 +175,10 @@ namespace HaptoFlow
         public void SetExposureGuard(bool isOn, float actuatorGain = 1f) =>
             NativeCall.Check(NativeMethods.VoiceSetExposureGuard(Id, isOn ? 1u : 0u, actuatorGain));
 
+        /// <summary>Makes the voice audible on loudspeakers: louder and brighter. For ears only, not for an
+        /// actuator.</summary>
+        public void SetListen(bool isOn) => NativeCall.Check(NativeMethods.VoiceSetListen(Id, isOn ? 1u : 0u));
+
         /// <summary>Measurements of the exposure guard; zeros and a gain of 1 without one that is on.</summary>
         public HapticExposure Exposure()
         {

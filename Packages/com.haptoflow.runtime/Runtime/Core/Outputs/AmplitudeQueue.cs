@@ -68,8 +68,8 @@ namespace HaptoFlow.Outputs
             {
                 return;
             }
-            float sent = Limited(amplitude);
-            if (sent <= Inaudible)
+            float sent = Sent(HapticForm.Amplitude, amplitude);
+            if (Math.Min(sent, amplitude) <= Inaudible)
             {
                 End();
                 return;

@@ -60,9 +60,14 @@ namespace HaptoFlow.Outputs
             Source = source;
         }
 
-        /// <summary>Gain from the wave's full scale to the device's: 1 or more for a weaker device. Changes take effect
-        /// with the next submissions.</summary>
+        /// <summary>Gain on what is sent. With <see cref="TrueLevel"/> it is the ratio of the wave's full scale to the
+        /// device's; otherwise it makes a device stronger or weaker than its loudness law. Changes take effect with the
+        /// next submissions.</summary>
         public float Gain { get; set; } = 1f;
+
+        /// <summary>True for an amplitude in proportion to the acceleration; false for the loudness law of the device's
+        /// kind. Changes take effect with the next submissions.</summary>
+        public virtual bool TrueLevel { get; set; } = true;
 
         /// <summary>Limit of the magnitude sent, 0 to 1.</summary>
         public float Ceiling
@@ -72,7 +77,7 @@ namespace HaptoFlow.Outputs
         }
 
         /// <summary>Full scale: the acceleration that a sample of 1 represents, in m/s^2.</summary>
-        public float FullScaleMps2 { get; set; } = (float)HapticEngineOptions.DefaultFullScaleMps2;
+        public virtual float FullScaleMps2 { get; set; } = (float)HapticEngineOptions.DefaultFullScaleMps2;
 
         /// <summary>Time of the clock of <see cref="Update"/> until which the device belongs to another vibration: nothing
         /// is sent to it, not even a stop, and what was sent ends by itself.</summary>
@@ -222,6 +227,10 @@ namespace HaptoFlow.Outputs
             }
             return Math.Sign(sample) * magnitude;
         }
+
+        /// <summary>What a device of the form gets for an amplitude of the wave's features.</summary>
+        protected float Sent(HapticForm form, float amplitude) =>
+            Limited(TrueLevel ? amplitude : DeviceLoudness.Share(form, amplitude * FullScaleMps2));
 
         /// <summary>Smaller magnitudes cannot be felt; the device need not play them.</summary>
         protected const float Inaudible = 1e-5f;
