@@ -96,6 +96,7 @@ namespace HaptoFlow.Samples.LatencyStudy
             view.Output = output;
             view.Detail = Detail;
             view.Begin = Begin;
+            view.Advice = number => StudyLog.NumbersLeftOut(settings.Folder, StudyKind.Latency, number);
             answers = new AnswerButtons(settings.PenHand);
             output.SetSignal(settings.ToneHertz, settings.ToneMps2);
             output.Muted = true;

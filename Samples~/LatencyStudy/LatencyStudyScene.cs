@@ -11,6 +11,8 @@ namespace HaptoFlow.Samples.LatencyStudy
     {
         // The top of the plate is at y = 0.
         private static readonly Vector3 PlateSize = new Vector3(0.3f, 0.02f, 0.22f);
+        private static readonly Vector3 PlatePlace = new Vector3(0f, -0.5f * PlateSize.y, 0f);
+        private static readonly Color PlateColour = new Color(0.35f, 0.37f, 0.4f);
 
         [SerializeField, Tooltip("The settings hold everything that a laboratory decides about the study.")]
         private LatencyStudySettings? settings;
@@ -26,6 +28,9 @@ namespace HaptoFlow.Samples.LatencyStudy
         /// <summary>The study's procedure.</summary>
         public LatencyStudy Study { get; private set; } = null!;
 
+        /// <inheritdoc/>
+        public override void Sketch() => SceneSketch.DrawBox(PlatePlace, PlateSize, PlateColour);
+
         private void Awake()
         {
             UseModelIfNoneIsSet();
@@ -33,7 +38,7 @@ namespace HaptoFlow.Samples.LatencyStudy
                 ? settings
                 : ScriptableObject.CreateInstance<LatencyStudySettings>();
             GameObject plate = SceneObjects.AddSolid("Plate", PrimitiveType.Cube,
-                new Vector3(0f, -0.5f * PlateSize.y, 0f), PlateSize, new Color(0.35f, 0.37f, 0.4f));
+                PlatePlace, PlateSize, PlateColour);
             SceneObjects.AddSurface(plate, "wood");
             HapticOutput output = chosen.AddOutput(View!.gameObject, out MaskingNoise noise);
             Study = gameObject.AddComponent<LatencyStudy>();

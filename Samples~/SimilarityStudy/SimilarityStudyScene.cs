@@ -128,6 +128,26 @@ namespace HaptoFlow.Samples.SimilarityStudy
             }
         }
 
+        /// <summary>Draws both objects in the scene view before the scene is played.</summary>
+        public void Sketch()
+        {
+            if (settings != null)
+            {
+                Vector3 size = settings.SampleMetres;
+                var down = new Vector3(0f, -0.5f * size.y, 0f);
+                SceneSketch.DrawBox(down, size, StudyObject.Grey);
+                SceneSketch.DrawBox(settings.VirtualMetres + down, size, StudyObject.Grey);
+            }
+        }
+
+        private void OnDrawGizmos()
+        {
+            if (!Application.isPlaying)
+            {
+                Sketch();
+            }
+        }
+
         private void Awake()
         {
             // Before the first trial, the pen feels by the model of the project's settings, if they name one.
@@ -153,6 +173,8 @@ namespace HaptoFlow.Samples.SimilarityStudy
             Operator.Output = output;
             Operator.Detail = Detail;
             Operator.Begin = Begin;
+            Operator.Advice = number => settings == null
+                ? "" : StudyLog.NumbersLeftOut(settings.Folder, StudyKind.Similarity, number);
             AlignmentButtons.Create(this);
             pair = new GameObject("Objects");
             Alignment = SampleAlignment.Create(pair, rig, SaveName);

@@ -53,6 +53,11 @@ namespace HaptoFlow.Samples.SimilarityStudy
             "participants have the same delay.")]
         private float equalDelayMilliseconds;
 
+        [SerializeField, Range(0.1f, 3f), Tooltip("Two methods count as equally similar when their ratings differ by " +
+            "less than this, in points of the scale. Decide before the first participant; the log records it, and " +
+            "the analysis tests against it.")]
+        private float equivalencePoints = 0.5f;
+
         /// <summary>The real samples; the first one is used for practice.</summary>
         public IReadOnlyList<StudyMaterial> Materials => materials;
 
@@ -93,6 +98,9 @@ namespace HaptoFlow.Samples.SimilarityStudy
             get => equalDelayMilliseconds;
             set => equalDelayMilliseconds = value;
         }
+
+        /// <summary>Ratings that differ by less count as equal, in points of the scale.</summary>
+        public float EquivalencePoints => equivalencePoints;
 
         /// <summary>Sets materials and methods. Call it before the component of the scene wakes.</summary>
         public void Compare(IEnumerable<StudyMaterial> chosenMaterials, IEnumerable<StudyMethod> chosenMethods)
@@ -155,6 +163,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
             { "haptic_channel", HapticChannel },
             { "noise", NoiseFields() },
             { "equal_delay_ms", equalDelayMilliseconds },
+            { "equivalence_points", equivalencePoints },
         };
 
         private void Require(bool holds, string what, string expected)

@@ -8,7 +8,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
     public sealed class StudyObject
     {
         private const float MarkMetres = 0.003f;
-        private static readonly Color Grey = new Color(0.62f, 0.62f, 0.64f);
+        internal static readonly Color Grey = new Color(0.62f, 0.62f, 0.64f);
         private static readonly Color Bright = new Color(0.95f, 0.85f, 0.2f);
 
         private readonly GameObject[] marks = new GameObject[EdgeTracing.EdgeCount];

@@ -16,6 +16,15 @@ namespace HaptoFlow.Samples.StylusTracing
         /// <summary>The pen under the mouse.</summary>
         public MousePen Pen { get; private set; } = null!;
 
+        /// <inheritdoc/>
+        public override void Sketch()
+        {
+            foreach (Exhibit each in Exhibits.All)
+            {
+                SceneSketch.Draw(each.Shape, each.Position, each.Rotation, each.Size, each.Colour);
+            }
+        }
+
         private void Awake()
         {
             UseModelIfNoneIsSet();

@@ -17,6 +17,8 @@ namespace HaptoFlow.Samples.TextureGallery
         private const float TextOffsetZ = -0.012f;
         private const float TextOffsetY = -0.055f;
 
+        private static readonly Color BoardColour = new Color(0.82f, 0.8f, 0.76f);
+
         private readonly List<HapticSurface> tiles = new List<HapticSurface>();
 
         /// <summary>The surfaces of the tiles, one for each label of the model, in the model's order.</summary>
@@ -28,22 +30,38 @@ namespace HaptoFlow.Samples.TextureGallery
         /// <summary>The pen under the mouse.</summary>
         public MousePen Pen { get; private set; } = null!;
 
+        /// <inheritdoc/>
+        public override void Sketch()
+        {
+            int labels = LabelsOfModel().Count;
+            var wall = new Wall(Math.Max(1, labels));
+            for (int index = 0; index < labels; ++index)
+            {
+                SceneSketch.DrawBox(wall.Place(index), Wall.TileSize, ColourOf(index, labels));
+            }
+            SceneSketch.DrawBox(PlaceOfBoard(wall), SizeOfBoard(wall), BoardColour);
+        }
+
+        private static Vector3 PlaceOfBoard(in Wall wall) =>
+            new Vector3(0f, -0.5f * (wall.Size.y + BoardHeight), 0f);
+
+        private static Vector3 SizeOfBoard(in Wall wall) =>
+            new Vector3(wall.Size.x, BoardHeight, Wall.TileSize.z);
+
         private void Awake()
         {
             UseModelIfNoneIsSet();
-            HapticModelAsset? model = HaptoFlowSettings.Active.Model;
-            IReadOnlyList<ModelLabel> labels = model != null ? model.Header.Labels : Array.Empty<ModelLabel>();
+            IReadOnlyList<ModelLabel> labels = LabelsOfModel();
             var wall = new Wall(Math.Max(1, labels.Count));
             for (int index = 0; index < labels.Count; ++index)
             {
                 AddTile(labels[index].Name, wall.Place(index), ColourOf(index, labels.Count));
             }
-            float boardY = -0.5f * (wall.Size.y + BoardHeight);
-            Board = AddCube("Board", labels.Count > 0 ? labels[0].Name : "", new Vector3(0f, boardY, 0f),
-                new Vector3(wall.Size.x, BoardHeight, Wall.TileSize.z), new Color(0.82f, 0.8f, 0.76f));
+            Vector3 board = PlaceOfBoard(wall);
+            Board = AddCube("Board", labels.Count > 0 ? labels[0].Name : "", board, SizeOfBoard(wall), BoardColour);
             Pen = MousePen.Create(View!);
             Pen.Stylus.TouchBegan += PickLabel;
-            var place = new Vector3(0f, boardY - 0.5f * BoardHeight - 0.04f, 0f);
+            Vector3 place = board - new Vector3(0f, 0.5f * BoardHeight + 0.04f, 0f);
             StatusBoard.Create(Pen.Stylus, Hint, place, Quaternion.identity);
         }
 

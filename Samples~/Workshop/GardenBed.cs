@@ -11,7 +11,10 @@ namespace HaptoFlow.Samples.Workshop
     {
         private const int Corners = 33;
         private const int Texels = 32;
-        private static readonly Vector3 Size = new Vector3(0.42f, 0.012f, 0.26f);
+
+        /// <summary>The size of the whole, in metres.</summary>
+        public static readonly Vector3 Size = new Vector3(0.42f, 0.012f, 0.26f);
+
         private static readonly (string Layer, string Label, Color Colour)[] Layers =
         {
             ("Gravel", "concrete", new Color(0.6f, 0.6f, 0.58f)),

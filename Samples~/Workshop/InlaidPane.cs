@@ -10,7 +10,10 @@ namespace HaptoFlow.Samples.Workshop
     internal sealed class InlaidPane
     {
         private const int Texels = 128;
-        private static readonly Vector3 Size = new Vector3(0.26f, 0.008f, 0.18f);
+
+        /// <summary>The size of the whole, in metres.</summary>
+        public static readonly Vector3 Size = new Vector3(0.26f, 0.008f, 0.18f);
+
         private static readonly Color32 Ceramic = new Color32(225, 228, 222, 255);
         private static readonly Color32 Jute = new Color32(181, 154, 76, 255);
 

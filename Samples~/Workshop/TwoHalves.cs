@@ -9,6 +9,10 @@ namespace HaptoFlow.Samples.Workshop
     internal sealed class TwoHalves
     {
         private static readonly Vector3 Half = new Vector3(0.19f, 0.012f, 0.22f);
+
+        /// <summary>The size of both halves together, in metres.</summary>
+        public static readonly Vector3 Size = new Vector3(2f * Half.x, Half.y, Half.z);
+
         private static readonly (string Paint, string Label, Color Colour)[] Sides =
         {
             ("Oak", "wood", new Color(0.64f, 0.45f, 0.25f)), ("Steel", "metal mesh", new Color(0.55f, 0.6f, 0.68f)),

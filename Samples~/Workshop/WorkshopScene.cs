@@ -12,6 +12,17 @@ namespace HaptoFlow.Samples.Workshop
         private const string Hint = "hold the left mouse button and draw: the line above says why it feels so";
         private const int Water = 4;
 
+        private static readonly Vector3 GardenCorner = new Vector3(-0.45f, 0.001f, -0.02f);
+        private static readonly Vector3 HalvesPlace = new Vector3(0.24f, 0f, 0.11f);
+        private static readonly Vector3 InlayPlace = new Vector3(-0.25f, 0f, -0.16f);
+        private static readonly Color PaneColour = new Color(0.6f, 0.53f, 0.46f);
+        private static readonly Solid Bench = new Solid("Bench",
+            new Vector3(0f, -0.01f, 0f), new Vector3(1f, 0.02f, 0.6f), new Color(0.73f, 0.47f, 0.25f));
+        private static readonly Solid Puddle = new Solid("Puddle",
+            new Vector3(0.02f, 0.001f, -0.16f), new Vector3(0.16f, 0.002f, 0.14f), new Color(0.45f, 0.66f, 0.85f));
+        private static readonly Solid SpecimenSolid = new Solid("Specimen",
+            new Vector3(0.27f, 0.004f, -0.16f), new Vector3(0.2f, 0.008f, 0.14f), new Color(0.82f, 0.8f, 0.76f));
+
         private readonly List<Object> createdAssets = new List<Object>();
 
         /// <summary>The rules of the scene.</summary>
@@ -39,6 +50,18 @@ namespace HaptoFlow.Samples.Workshop
         /// <summary>The pen under the mouse.</summary>
         public MousePen Pen { get; private set; } = null!;
 
+        /// <inheritdoc/>
+        public override void Sketch()
+        {
+            foreach (Solid each in new[] { Bench, Puddle, SpecimenSolid })
+            {
+                SceneSketch.DrawBox(each.Place, each.Size, each.Colour);
+            }
+            SceneSketch.DrawBox(GardenCorner + 0.5f * GardenBed.Size, GardenBed.Size, PaneColour);
+            SceneSketch.DrawBox(HalvesPlace + new Vector3(0f, 0.5f * TwoHalves.Size.y, 0f), TwoHalves.Size, PaneColour);
+            SceneSketch.DrawBox(InlayPlace + new Vector3(0f, 0.5f * InlaidPane.Size.y, 0f), InlaidPane.Size, PaneColour);
+        }
+
         private void Awake()
         {
             UseModelIfNoneIsSet();
@@ -46,9 +69,9 @@ namespace HaptoFlow.Samples.Workshop
             Map = Keep(ScriptableObject.CreateInstance<HapticMaterialMap>());
             Map.name = "Workshop";
             MakeSolids();
-            Garden = new GardenBed(new Vector3(-0.45f, 0.001f, -0.02f), Keep).Build(Map, CreateMaterial);
-            Halves = new TwoHalves(new Vector3(0.24f, 0f, 0.11f), Keep).Build(Map, CreateMaterial);
-            Inlay = new InlaidPane(new Vector3(-0.25f, 0f, -0.16f), Keep).Build(Map, CreateMaterial);
+            Garden = new GardenBed(GardenCorner, Keep).Build(Map, CreateMaterial);
+            Halves = new TwoHalves(HalvesPlace, Keep).Build(Map, CreateMaterial);
+            Inlay = new InlaidPane(InlayPlace, Keep).Build(Map, CreateMaterial);
             // Last, because the first rule that matches decides.
             Map.Add(HapticMaterialRule.ForName("Bench", CreateMaterial("wood")));
             gameObject.AddComponent<HapticMaterialMapScope>().Map = Map;
@@ -67,14 +90,11 @@ namespace HaptoFlow.Samples.Workshop
 
         private void MakeSolids()
         {
-            SceneObjects.AddSolid("Bench", PrimitiveType.Cube, new Vector3(0f, -0.01f, 0f),
-                new Vector3(1f, 0.02f, 0.6f), new Color(0.73f, 0.47f, 0.25f));
-            GameObject puddle = SceneObjects.AddSolid("Puddle", PrimitiveType.Cube, new Vector3(0.02f, 0.001f, -0.16f),
-                new Vector3(0.16f, 0.002f, 0.14f), new Color(0.45f, 0.66f, 0.85f));
+            Bench.Add();
+            GameObject puddle = Puddle.Add();
             puddle.layer = Water;
             Map.Add(HapticMaterialRule.ForLayer(Water, CreateMaterial("glass")));
-            Specimen = SceneObjects.AddSolid("Specimen", PrimitiveType.Cube, new Vector3(0.27f, 0.004f, -0.16f),
-                new Vector3(0.2f, 0.008f, 0.14f), new Color(0.82f, 0.8f, 0.76f));
+            Specimen = SpecimenSolid.Add();
             SpecimenMaterial = CreateMaterial("cardboard");
             Map.Add(HapticMaterialRule.ForName("Specimen", SpecimenMaterial));
             PanelPlace = new GameObject("Panel Place").transform;
@@ -95,6 +115,28 @@ namespace HaptoFlow.Samples.Workshop
         {
             createdAssets.Add(asset);
             return asset;
+        }
+
+        /// <summary>A cuboid of the bench.</summary>
+        private readonly struct Solid
+        {
+            private readonly string name;
+
+            public Solid(string name, Vector3 place, Vector3 size, Color colour)
+            {
+                this.name = name;
+                Place = place;
+                Size = size;
+                Colour = colour;
+            }
+
+            public Vector3 Place { get; }
+
+            public Vector3 Size { get; }
+
+            public Color Colour { get; }
+
+            public GameObject Add() => SceneObjects.AddSolid(name, PrimitiveType.Cube, Place, Size, Colour);
         }
     }
 }

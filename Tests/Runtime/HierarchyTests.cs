@@ -46,6 +46,36 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
+        public IEnumerator ANearColliderThatGetsASurfaceIsFeltInTheNextFrame()
+        {
+            GameObject cube = Cube();
+            yield return null;
+            yield return null;
+            Assert.That(stylus.IsTouching, Is.False);
+            var surface = cube.AddComponent<HapticSurface>();
+            yield return null;
+            Assert.That(Touched(), Is.SameAs(surface));
+        }
+
+        // Unity reports a move of direct children only.
+        [UnityTest]
+        public IEnumerator ANearColliderMovedDeepBelowASurfaceIsFeltWithinThirtyFrames()
+        {
+            GameObject child = Make("child");
+            child.transform.SetParent(parent.transform, false);
+            GameObject cube = Cube();
+            yield return null;
+            yield return null;
+            Assert.That(stylus.IsTouching, Is.False);
+            cube.transform.SetParent(child.transform, true);
+            for (int frame = 0; frame <= UntaggedColliders.Lookups; ++frame)
+            {
+                yield return null;
+            }
+            Assert.That(Touched(), Is.SameAs(parent));
+        }
+
+        [UnityTest]
         public IEnumerator ARemovedNestedSurfaceLeavesItsCollidersToTheSurfaceAbove()
         {
             GameObject cube = Cube();

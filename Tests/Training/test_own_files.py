@@ -287,3 +287,32 @@ def test_motion_files_in_a_folder_are_not_recordings(tmp_path: Path) -> None:
     assert re.search(r"1 recordings are left out: no sidecar has a key 'label' for nameless\.csv", dataset.left_out)
     assert dataset.provenance["source"] == "unknown, a hat"
     assert [path.name for path in dataset.recordings[1].paths] == ["slow.wav", "slow.json", "slow.motion.csv"]
+
+
+def test_endings_in_any_case_are_read_and_none_is_overlooked(tmp_path: Path) -> None:
+    made = stroke(3.0)
+    for name, ending in (("one", ".CSV"), ("two", ".Csv")):
+        path = csv_one_axis(tmp_path, name, "denim", made)
+        path.rename(path.with_suffix(ending))
+    path = wav_with_motion(tmp_path, "three", "felt", made)
+    path.rename(path.with_suffix(".WAV"))
+    (tmp_path / "three.motion.csv").rename(tmp_path / "three.Motion.CSV")
+    for name, ending in (("one", ".JSON"), ("three", ".Json")):
+        (tmp_path / f"{name}.json").rename(tmp_path / f"{name}{ending}")
+    (tmp_path / "Recordings.JSON").write_text('{"licence": "CC0"}', encoding="utf-8")
+    dataset = open_own_dataset(tmp_path)
+    assert {entry.path.name: entry.label for entry in dataset} == {
+        "one.CSV": "denim", "two.Csv": "denim", "three.WAV": "felt"
+    }  # fmt: skip
+    assert dataset.provenance["licence"] == "CC0" and not dataset.problems
+    for entry in dataset:
+        assert entry.load().acceleration_g.size > 0
+    three = next(entry for entry in dataset if entry.label == "felt")
+    assert {path.name for path in three.paths} == {"three.WAV", "three.Json", "Recordings.JSON", "three.Motion.CSV"}
+    assert len(list(open_own_dataset(tmp_path / "one.CSV"))) == 1
+
+
+def test_a_sidecar_of_exactly_the_name_comes_before_one_in_another_case(tmp_path: Path) -> None:
+    path = csv_one_axis(tmp_path, "one", "denim", stroke(3.0))
+    (tmp_path / "one.JSON").write_text('{"label": "felt"}', encoding="utf-8")
+    assert [entry.label for entry in open_own_dataset(path)] == ["denim"]

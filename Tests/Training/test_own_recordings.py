@@ -190,3 +190,37 @@ def parsed(words: list[str]) -> argparse.Namespace:
     parser = argparse.ArgumentParser()
     train.register(parser.add_subparsers(), "")
     return parser.parse_args(words)
+
+
+def test_a_label_whose_files_are_damaged_names_them_before_it_asks_for_more(tmp_path: Path) -> None:
+    folder = recorded(tmp_path / "recordings", NAMES)
+    for path in (folder / "sensor_data" / "force").glob("66_*"):
+        path.write_text("time,force\n0,1\n", encoding="utf-8")
+    (folder / "sensor_data" / "position" / "0_45_30_500_1.csv").unlink()
+    labels = labels_file(tmp_path / "labels.toml", "denim", "felt")
+    with pytest.raises(InputError) as refused:
+        opened(folder, labels, tmp_path / "store")
+    said = str(refused.value)
+    assert said.startswith("nothing to train with for felt (0 train, 0 validation, 0 test): files could not be used:")
+    assert re.search(r"\n  skipped: 66_0_20_500_0: .*force/66_0_20_500_0\.csv", said)
+    assert re.search(r"\n  skipped: .*position/0_45_30_500_1\.csv: missing file", said)
+    assert "\nmend or replace these files, record more of these labels, leave the labels out" in said
+    assert "denim (" not in said
+
+
+def test_a_long_list_of_damaged_files_is_shortened(tmp_path: Path) -> None:
+    names = tuple(f"66_{direction}_{speed}_500_0" for direction in range(0, 360, 45) for speed in (20, 30))
+    folder = recorded(tmp_path / "recordings", (*NAMES[:1], *GRID[:8], *names))
+    for path in (folder / "sensor_data" / "force").glob("66_*"):
+        path.write_text("", encoding="utf-8")
+    with pytest.raises(InputError, match=r"\n  and 6 more\n"):
+        opened(folder, labels_file(tmp_path / "labels.toml", "denim", "felt"), tmp_path / "store")
+
+
+def test_the_published_layout_is_read_with_endings_in_upper_case(tmp_path: Path) -> None:
+    folder = recorded(tmp_path / "recordings", FEW)
+    for path in list((folder / "sensor_data").rglob("*.csv")):
+        path.rename(path.with_suffix(".CSV"))
+    dataset = open_dataset(folder)
+    assert len(dataset.recordings) == 3 and not dataset.problems
+    assert dataset.recordings[0].load().acceleration_g.size > 0

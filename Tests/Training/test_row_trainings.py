@@ -16,7 +16,7 @@ from haptoflow_benchmark.rows.row_plan import PlannedRow
 from haptoflow_benchmark.rows.row_runner import made_from
 from haptoflow_benchmark.rows.row_training import train_models
 from haptoflow_benchmark.rows.workplace import Workplace
-from haptoflow_training.training.config import load_config
+from haptoflow_training.training.config import DataConfig, load_config
 from haptoflow_training.training.job_lanes import Job
 
 _ROW = PlannedRow("row", "as-published", model="small")
@@ -31,6 +31,7 @@ def started(monkeypatch: pytest.MonkeyPatch) -> list[Job]:
         jobs.extend(given)
 
     monkeypatch.setattr(row_training, "run_jobs", remember)
+    monkeypatch.setattr(row_training, "open_source", lambda data, store, workers: None)
     return jobs
 
 
@@ -83,6 +84,24 @@ def test_rows_in_a_codec_s_latents_train_the_codec_once(place: Workplace, starte
     assert [job.name for job in started] == ["the small codec", "one, seed 1", "two, seed 1"]
     # The checkpoint's path is relative to the repository, whatever the current folder.
     assert {job.folder for job in started} == {place.root}
+
+
+def test_the_store_is_prepared_once_before_trainings_and_codecs_start_and_not_where_nothing_is_trained(
+    place: Workplace, started: list[Job], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    latent = '\n[model]\npatch = 5\n[model.representation]\nkind = "small-codec"\ncheckpoint = "codec/small-codec.pt"\n'
+    (place.root / "latent.toml").write_text(f'name = "latent"\n[data]\nlabels = ["wood"]\n{latent}', encoding="utf-8")
+    prepared = []
+
+    def prepare(data: DataConfig, store: Path, workers: int) -> None:
+        prepared.append((data.labels, store, workers, len(started)))
+
+    monkeypatch.setattr(row_training, "open_source", prepare)
+    train_models(place, [(PlannedRow("latent", "as-published", model="latent"), 1), (_ROW, 1)], 2)
+    assert prepared == [(("wood",), place.store, 2, 0)] and len(started) == 3
+    _leave_as_trained(place)
+    train_models(place, [(_ROW, 1)], 2)
+    assert len(prepared) == 1
 
 
 def test_further_seeds_of_the_shipped_model_are_trainings_of_its_recipe(place: Workplace, started: list[Job]) -> None:

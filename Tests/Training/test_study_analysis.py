@@ -13,7 +13,7 @@ from study_samples import SMALL, change_field, change_lines, change_sidecar, lat
 
 from haptoflow_training.cli import main
 from haptoflow_training.errors import InputError
-from haptoflow_training.studies.figures import brackets_of
+from haptoflow_training.studies.figures import brackets_of, mean_interval
 from haptoflow_training.studies.latency_analysis import analyse_latency, answers_of
 from haptoflow_training.studies.log_columns import LATENCY, SIMILARITY
 from haptoflow_training.studies.rating_tests import Pair
@@ -128,7 +128,9 @@ def test_a_planted_difference_is_found_on_its_materials_and_drawn_with_a_star(tm
     assert differs == {("haptoflow", "spsi"), ("transformer", "spsi"), ("dstn", "spsi")}
     assert all(pair["p_shaffer"] is None for pair in wood["pairs"])
     (picture,) = pictures_of(page)
-    assert picture.count(">*</text>") == 3 and ">≈</text>" in picture
+    assert picture.count(">*</text>") == 3
+    equal = [pair for one in (jute, wood) for pair in one["pairs"] if pair["p_holm"] < 0.05]
+    assert picture.count(">≈</text>") == len(equal)
 
 
 def test_ratings_stay_with_their_material_method_and_participant(tmp_path: Path) -> None:
@@ -163,7 +165,7 @@ def test_names_with_markup_are_escaped_in_the_report(tmp_path: Path) -> None:
     page, _ = analysed(similarity_study(tmp_path / "logs", 6, 1, model), tmp_path)
     assert "<script>" not in page and "&lt;script&gt;alert(1)&lt;/script&gt;" in page and "<b>" not in page
     (picture,) = pictures_of(page)
-    assert "<script>" not in picture and ">ジュート</text>" in picture and ">$\\frac$ 1$</text>" in picture
+    assert "<script>" not in picture and ">ジュート (n = 6)</text>" in picture and ">$\\frac$ 1$</text>" in picture
 
 
 @pytest.mark.parametrize(("methods", "brackets"), [(2, 1), (6, 15)])
@@ -223,7 +225,8 @@ def test_results_are_not_written_among_the_logs(tmp_path: Path, capsys: pytest.C
 
 def test_brackets_never_cross_and_have_the_sign_of_their_p_value() -> None:
     def pair(first: int, second: int, p: float | None, equivalent: float) -> Pair:
-        return Pair(first, second, 0.0, p, p, 0.0, 0.0, 1.0, equivalent)
+        # The sign follows the corrected p-value.
+        return Pair(first, second, 0.0, p, p, 0.0, 0.0, 1.0, 0.0, equivalent)
 
     pairs = [pair(0, 1, 0.03, 0.9), pair(0, 2, 0.07, 0.9), pair(1, 2, 0.5, 0.01), pair(0, 3, 0.2, 0.2)]
     found = brackets_of([*pairs, pair(2, 3, None, 0.04)])
@@ -233,3 +236,101 @@ def test_brackets_never_cross_and_have_the_sign_of_their_p_value() -> None:
         for other in found:
             if one is not other and one.level == other.level:
                 assert one.second <= other.first or other.second <= one.first
+
+
+def test_a_participant_missing_in_the_middle_is_noted_with_what_to_do(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    logs = similarity_study(latency_study(tmp_path / "logs", 8), 4)
+    for participant in (3, 5, 6):
+        for path in logs.glob(f"latency-P{participant:02d}-*"):
+            path.unlink()
+    page, results = analysed(logs, tmp_path)
+    note = (
+        "latency: participants 3, 5 to 6 missing below participant 8: the order of trials is not counterbalanced; run "
+        "somebody under each of these numbers before higher ones"
+    )
+    assert note in page and note in results["notes"]  # type: ignore[operator]
+    notes: list[str] = results["notes"]  # type: ignore[assignment]
+    assert not any(one.startswith("similarity: participant") for one in notes)
+    assert main(["study", "check", str(logs)]) == 0 and f"note: {note}" in capsys.readouterr().out
+
+
+def test_a_pilot_of_one_study_does_not_keep_back_the_report_of_the_other(tmp_path: Path) -> None:
+    logs = similarity_study(latency_study(tmp_path / "logs", 1), 1)
+    page, results = analysed(logs, tmp_path)
+    assert "1 participant of the similarity study; its tests need 3." in page and "Delay tolerance" in page
+    assert results["latency"]["participants"] == 1 and "statement" in results["similarity"]  # type: ignore[index]
+    assert len(pictures_of(page)) == 1
+
+
+def test_ratings_that_are_all_equal_are_a_dash_and_partly_equal_ones_are_named(tmp_path: Path) -> None:
+    logs = similarity_study(tmp_path / "logs", 6)
+    for path in logs.glob("*.csv"):
+        rows = path.read_text(encoding="utf-8").splitlines()
+        names = rows[0].split(",")
+        for number, row in enumerate(rows[1:], start=2):
+            fields = dict(zip(names, row.split(","), strict=True))
+            if fields["material"] == "jute" or fields["method"] == "ours":
+                change_field(path, number, "rating", "4")
+    page, _ = analysed(logs, tmp_path)
+    assert re.search(r"<td>jute</td><td>-</td>", page)
+    assert re.search(r"<td>wood</td><td>rejected for \d of 2; 1 not tested, all ratings equal</td>", page)
+    assert "of 0" not in page
+
+
+def test_figures_name_their_counts_and_show_every_answer_and_rating(tmp_path: Path) -> None:
+    page, results = analysed(similarity_study(latency_study(tmp_path / "logs", 6), 6), tmp_path)
+    latency, similarity = pictures_of(page)
+    assert ">6 participants; ticks above and below are single answers</text>" in latency
+    assert latency.count("(n = 66 answers)") == 2
+    assert similarity.count("(n = 6)") == 2
+    # A mark for each of 132 answers, and for each of 36 ratings.
+    assert latency.count("<use ") > 132 and similarity.count("<use ") > 36
+    assert results["similarity"]["equivalence_points"] == 0.5  # type: ignore[index]
+
+
+def test_points_at_0_and_100_percent_have_intervals(tmp_path: Path) -> None:
+    logs = latency_study(tmp_path / "logs", 6)
+    for path in logs.glob("*.csv"):
+        change_lines(path, lambda lines: [lines[0], *(line.replace(",no,", ",yes,") for line in lines[1:])])
+    result = analyse_latency(read_faultless(logs).of(LATENCY))
+    for point in result.points["turn-on"]:
+        assert point.percent == 100.0 and point.low_percent == pytest.approx(60.97, abs=0.01)
+        assert point.high_percent == pytest.approx(100.0)
+
+
+def test_intervals_of_means_stay_on_the_scale() -> None:
+    low, high = mean_interval(np.array([[7.0, 4.0], [1.0, 4.0], [7.0, 4.0]]))
+    assert (low[0], high[0]) == (1.0, 7.0) and (low[1], high[1]) == (4.0, 4.0)
+
+
+def test_the_bound_of_equivalence_is_that_of_the_settings_and_the_smallest_where_they_differ(tmp_path: Path) -> None:
+    logs = similarity_study(tmp_path / "logs", 4)
+    for path in logs.glob("*.csv"):
+        change_sidecar(path, lambda sidecar: sidecar | {"settings": sidecar["settings"] | {"equivalence_points": 1.25}})
+    read = read_faultless(logs)
+    assert analyse_similarity(read.of(SIMILARITY)).bound == 1.25
+    assert not any("equivalence" in note for note in read.notes)
+    change_sidecar(
+        log_of(logs, 2, "similarity"), lambda side: side | {"settings": side["settings"] | {"equivalence_points": 0.75}}
+    )
+    page, _ = analysed(logs, tmp_path)
+    assert "lies within 0.75 points of rating" in page
+    assert "2 different values of &#x27;settings&#x27;" in page
+
+
+@pytest.mark.parametrize("value", [None, 0, -1, 7, "0.5", True])
+def test_logs_without_a_bound_are_tested_with_the_usual_one_and_a_note_says_so(tmp_path: Path, value: object) -> None:
+    logs = similarity_study(tmp_path / "logs", 3)
+
+    def changed(sidecar: dict[str, object]) -> dict[str, object]:
+        settings = {**sidecar["settings"], "equivalence_points": value}  # type: ignore[dict-item]
+        if value is None:
+            del settings["equivalence_points"]
+        return sidecar | {"settings": settings}
+
+    change_sidecar(log_of(logs, 3, "similarity"), changed)
+    read = read_faultless(logs)
+    assert analyse_similarity(read.of(SIMILARITY)).bound == 0.5
+    assert any("the bound of equivalence was not fixed before the answers" in note for note in read.notes)

@@ -392,7 +392,7 @@ def test_a_session_of_the_similarity_sample_is_analysed_together_with_those_of_t
     for path in (recorded, recorded.with_suffix(".json")):
         shutil.copy(path, logs)
     assert main(["study", "analyse", str(logs), "--out", str(report)]) == 3
-    assert capsys.readouterr().err.endswith("1 participants of the similarity study; its tests need 3\n")
+    assert capsys.readouterr().err.endswith("1 participant of the similarity study; its tests need 3\n")
     for participant in (8, 9):
         log = logs / f"similarity-P{participant:02d}-0000000{participant}.csv"
         shutil.copy(recorded, log)

@@ -150,7 +150,8 @@ def test_points_of_the_plot_have_the_share_of_yes_and_its_standard_error() -> No
     yes = np.zeros((4, 11))
     yes[0, 3] = 1
     rows = percent_yes(answers_of(yes), [110.0], np.tile(LEVELS, 4))
-    assert rows == [(110.0, 25.0, pytest.approx(25.0), 4)]
+    # Wilson's interval of one in four.
+    assert rows == [(110.0, 25.0, pytest.approx(4.56, abs=0.01), pytest.approx(69.94, abs=0.01), 4)]
 
 
 def test_the_expanded_interval_is_wider_than_the_percentiles_by_students_t_and_the_count() -> None:

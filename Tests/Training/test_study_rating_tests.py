@@ -9,7 +9,7 @@ import pytest
 from scipy import stats
 
 from haptoflow_training.studies.rating_tests import (
-    analysed, cohen_dz, equivalence, friedman, normality, rank_biserial, signed_rank_p,
+    EQUIVALENCE_POINTS, analysed, cohen_dz, equivalence, friedman, holm, normality, rank_biserial, signed_rank_p,
 )  # fmt: skip
 
 
@@ -88,7 +88,9 @@ def test_kendalls_w_is_one_for_full_agreement_and_follows_from_friedmans_chi_squ
 def test_ratings_that_are_all_equal_get_a_reason_in_place_of_tests() -> None:
     result = analysed(np.full((24, 4), 4.0))
     assert result.friedman is None and result.friedman_statement == "every participant rated all methods alike"
-    assert all(pair.p is None and pair.p_shaffer is None and pair.p_equivalence is None for pair in result.pairs)
+    assert all(pair.p is None and pair.p_shaffer is None for pair in result.pairs)
+    # That all ratings are equal is the strongest evidence for equivalence.
+    assert all(pair.p_equivalence < 0.001 for pair in result.pairs)
     assert all(one.p is None for one in result.normality)
 
 
@@ -109,20 +111,35 @@ def test_two_methods_are_tested_directly() -> None:
 
 
 def test_equal_methods_are_equivalent_with_enough_participants_and_different_ones_never() -> None:
-    bound, p = equivalence(*ratings_of(8, 60, [4.0, 4.0]).T)
-    assert bound is not None and 0.8 < bound < 1.2 and p is not None and p < 0.001
-    _, p = equivalence(*ratings_of(8, 60, [5.5, 3.0]).T)
-    assert p is not None and p > 0.99
+    assert equivalence(*ratings_of(8, 300, [4.0, 4.0]).T, 0.5) < 0.001
+    assert equivalence(*ratings_of(8, 300, [5.5, 3.0]).T, 0.5) > 0.99
 
 
-def test_the_bound_is_eight_tenths_of_the_pooled_standard_deviation_and_its_larger_side_decides() -> None:
+def test_the_larger_side_of_equivalence_decides_and_a_wider_bound_is_easier() -> None:
     first, second = ratings_of(9, 24, [4.2, 4.0]).T
-    bound, p = equivalence(first, second)
-    pooled = np.sqrt((np.var(first, ddof=1) + np.var(second, ddof=1)) / 2)
-    assert bound == pytest.approx(0.8 * pooled)
-    below, above = signed_rank_p(first - second - bound, "less"), signed_rank_p(first - second + bound, "greater")
-    assert p == max(below, above)  # type: ignore[type-var]
-    assert equivalence(np.full(24, 4.0), np.full(24, 4.0)) == (None, None)
+    below, above = signed_rank_p(first - second - 0.5, "less"), signed_rank_p(first - second + 0.5, "greater")
+    assert equivalence(first, second, 0.5) == max(below, above)  # type: ignore[type-var]
+    assert equivalence(first, second, 2.0) < equivalence(first, second, 1.0) < equivalence(first, second, 0.5)
+    # All differences at the bound are no evidence for a smaller one.
+    assert equivalence(np.full(24, 5.0), np.full(24, 4.0), 1.0) == 1.0
+
+
+def test_scatter_does_not_widen_the_bound() -> None:
+    calm, wild = (ratings_of(3, 24, [4.6, 4.0], spread) for spread in (0.6, 3.0))
+    assert equivalence(*wild.T, 1.0) > equivalence(*calm.T, 1.0)
+    assert {pair.bound for pair in (*analysed(calm).pairs, *analysed(wild).pairs)} == {EQUIVALENCE_POINTS}
+
+
+def test_holm_s_correction_is_that_of_its_definition() -> None:
+    assert holm([0.01, 0.04, 0.03, 0.005]) == pytest.approx([0.03, 0.06, 0.06, 0.02])
+    assert holm([0.9, 0.6]) == [1.0, 1.0] and holm([0.2]) == [0.2]
+
+
+def test_equivalence_is_corrected_for_the_number_of_pairs() -> None:
+    result = analysed(ratings_of(8, 24, [4.0] * 4), 1.0)
+    assert [pair.p_holm for pair in result.pairs] == holm([pair.p_equivalence for pair in result.pairs])
+    assert max(pair.p_holm for pair in result.pairs) > max(pair.p_equivalence for pair in result.pairs) - 1e-12
+    assert min(pair.p_holm for pair in result.pairs) == pytest.approx(6 * min(p.p_equivalence for p in result.pairs))
 
 
 def test_a_method_that_everyone_rates_alike_can_still_be_compared_with_one_that_varies() -> None:

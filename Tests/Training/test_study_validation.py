@@ -15,7 +15,9 @@ from haptoflow_training.studies.plans import CONDITIONS
 from haptoflow_training.studies.power import latency_power, planned_signed_rank_power, rating_power
 from haptoflow_training.studies.rating_tests import analysed
 from haptoflow_training.studies.simulated_participants import PAPER_CURVES, AnswerModel, RatingModel
-from haptoflow_training.studies.validation import bca_interval, recovered_differences, recovered_thresholds
+from haptoflow_training.studies.validation import (
+    bca_interval, measured_equivalence, recovered_differences, recovered_thresholds,
+)  # fmt: skip
 
 ROOT = Path(__file__).parents[2]
 RESULTS = ROOT / "Training" / "results" / "study-validation.json"
@@ -84,11 +86,18 @@ def test_the_planned_power_of_one_pair_is_that_of_wilcoxons_test_on_normal_diffe
 
 
 def test_power_grows_with_participants_and_equals_the_level_without_a_difference() -> None:
-    few, many = (rating_power(count, 3, 0.67, simulations=80, seed=4) for count in (10, 40))
+    few, many = (rating_power(count, 3, 0.67, simulations=80, seed=4, bound=1.0) for count in (10, 40))
     assert many.pair.rate > few.pair.rate and many.equivalence is not None and few.equivalence is not None
     assert many.equivalence.rate > few.equivalence.rate
     assert rating_power(24, 3, 0.0, simulations=150, seed=4).friedman.rate < 0.12
     assert rating_power(24, 2, 0.67, simulations=20, seed=4).equivalence is None
+
+
+def test_methods_that_differ_by_the_bound_are_called_equal_no_more_often_than_the_level() -> None:
+    for one in measured_equivalence(40, 3).values():
+        # Six of 40 or more would occur less than once in a hundred times at 5 %.
+        assert one["at_the_bound"]["rate"] * 40 < 6.5 and one["any_of_four"]["rate"] * 40 < 6.5
+        assert one["alike"]["144"]["rate"] >= one["alike"]["24"]["rate"]
 
 
 def test_shares_have_wilsons_interval() -> None:
@@ -124,6 +133,7 @@ def test_the_validation_writes_its_figures_and_the_pages_part(
     [
         (["similarity", "--participants", "4"], "--participants 4: expected 5 to 999"),
         (["similarity", "--methods", "7"], "--methods 7: expected 2 to 6"),
+        (["similarity", "--equivalence-points", "0"], "--equivalence-points 0: expected 0.1 to 6"),
         (["latency", "--simulations", "1"], "--simulations 1: expected 10 to 100000"),
         (["latency", "--seed", "-1"], "--seed -1: expected 0 or more"),
     ],

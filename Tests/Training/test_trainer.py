@@ -14,6 +14,7 @@ import torch
 from training_fixtures import make_store
 
 from haptoflow_training.errors import InputError
+from haptoflow_training.training import trainer as trainer_module
 from haptoflow_training.training.config import BatchConfig, ModelConfig, OptimiserConfig, TrainingConfig
 from haptoflow_training.training.processes import Processes
 from haptoflow_training.training.trainer import Trainer, TrainingStopped, load_trained
@@ -141,3 +142,60 @@ def test_two_torchrun_processes_end_with_equal_weights_on_a_machine_whose_name_d
     assert run["processes"] == 2
     for name, weights in first.items():
         torch.testing.assert_close(second[name], weights, rtol=0.0, atol=0.0, msg=name)
+
+
+def test_a_slow_run_writes_its_first_checkpoint_after_half_a_minute_and_a_killed_one_goes_on_from_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    store, now = make_store(), [0.0]
+    monkeypatch.setattr(trainer_module.time, "monotonic", lambda: now[0])
+    Trainer(_config(), store, tmp_path / "whole", ALONE).run()
+    killed = Trainer(_config(), store, tmp_path / "run", ALONE)
+    train_step = killed._train_step
+
+    def slow(*arguments: object) -> object:
+        now[0] += 4.0
+        if killed._step == 25:
+            raise MemoryError
+        return train_step(*arguments)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(killed, "_train_step", slow)
+    with pytest.raises(MemoryError):
+        killed.run()
+    assert torch.load(tmp_path / "run" / "checkpoint.pt")["step"] == 24
+    Trainer(_config(), store, tmp_path / "run", ALONE).run()
+    whole, resumed = (load_trained(tmp_path / name)[2].state_dict() for name in ("whole", "run"))
+    for name, weights in whole.items():
+        torch.testing.assert_close(resumed[name], weights, msg=name)
+
+
+def test_a_run_killed_between_the_two_files_of_a_checkpoint_goes_on_from_the_one_before(tmp_path: Path) -> None:
+    store = make_store()
+    Trainer(_config(), store, tmp_path / "whole", ALONE).run()
+    for step in (20, 33):
+        interrupted = Trainer(_config(), store, tmp_path / "run", ALONE)
+        ask_to_stop_after(interrupted, step)
+        before = (tmp_path / "run" / "checkpoint.pt").read_bytes() if step == 33 else b""
+        with pytest.raises(TrainingStopped):
+            interrupted.run()
+    (tmp_path / "run" / "checkpoint.pt").write_bytes(before)
+    Trainer(_config(), store, tmp_path / "run", ALONE).run()
+    whole, resumed = (load_trained(tmp_path / name)[2].state_dict() for name in ("whole", "run"))
+    for name, weights in whole.items():
+        torch.testing.assert_close(resumed[name], weights, msg=name)
+
+
+def test_a_signal_after_the_last_step_stops_the_run_too(tmp_path: Path) -> None:
+    trainer = Trainer(_config(), make_store(), tmp_path, ALONE)
+    save = trainer._save
+
+    def save_and_be_asked() -> None:
+        save()
+        if trainer._step == trainer._total:
+            trainer._ask_to_stop(15, None)
+
+    trainer._save = save_and_be_asked  # type: ignore[method-assign]
+    with pytest.raises(TrainingStopped, match="step 60 of 60"):
+        trainer.run()
+    Trainer(_config(), make_store(), tmp_path, ALONE).run()
+    assert (tmp_path / "run.json").exists()

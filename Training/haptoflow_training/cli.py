@@ -1,6 +1,6 @@
 """`haptoflow-training`: one program, one subcommand a module; a subcommand's module is imported only when it is used.
 
-Exit codes: 0 done, 2 wrong usage, 3 bad input, 4 internal error.
+Exit codes: 0 done, 2 wrong usage, 3 bad input, 4 internal error, 128 and a signal's number where it ended the program.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from haptoflow_training.errors import InputError
+from haptoflow_training.stopping import Stopped, stoppable
 
 
 @dataclass(frozen=True)
@@ -70,10 +71,14 @@ def run_program(
             subparsers.add_parser(key, help=command.summary, add_help=False)
     options = parser.parse_args(words)
     try:
-        return int(options.run(options))
+        with stoppable():
+            return int(options.run(options))
     except InputError as error:
         print(f"{name}: {error}", file=sys.stderr)
         return 3
+    except Stopped as stop:
+        print(f"{name}: {stop}", file=sys.stderr)
+        return stop.exit_code
     except BrokenPipeError:
         return 0
 

@@ -1,6 +1,7 @@
 import { copyFileSync, existsSync, mkdirSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { inRepository } from '../lib/repository.mjs';
+import { writeHtmlPages } from './html_pages.mjs';
 import { folderGuids, folderMeta, placeInPackage } from './layout.mjs';
 import { pluginsFolder } from './natives.mjs';
 
@@ -18,6 +19,7 @@ export function stagePackage(folder, files, natives) {
   }
   for (const { platform, file } of natives) copyTo(file, path.join(folder, pluginsFolder, platform.place));
   dropMetasOfAbsent(path.join(folder, pluginsFolder));
+  if (existsSync(path.join(folder, 'Documentation~'))) writeHtmlPages(path.join(folder, 'Documentation~'));
   for (const [place, guid] of Object.entries(folderGuids)) {
     if (existsSync(path.join(folder, place))) writeFileSync(path.join(folder, `${place}.meta`), folderMeta(guid));
   }

@@ -11,11 +11,11 @@ using HaptoFlow.Tests.Support;
 using NUnit.Framework;
 using UnityEditor.Overlays;
 using UnityEngine;
+using UnityShim;
 
 namespace HaptoFlow.EditorTests
 {
-    /// <summary>The help buttons of the Inspectors and the links of the Package Manager lead to existing pages.
-    /// </summary>
+    /// <summary>Help buttons, menu and Package Manager lead to pages that exist inside the package.</summary>
     public sealed class HelpTests
     {
         private static readonly Assembly[] Assemblies =
@@ -23,6 +23,19 @@ namespace HaptoFlow.EditorTests
             typeof(HapticSurface).Assembly, typeof(MousePen).Assembly, typeof(InputActionTipForce).Assembly,
             typeof(MaskingNoise).Assembly,
         };
+
+        private static string folder = "";
+
+        [SetUp]
+        public void MakeFolder() => folder = Directory.CreateTempSubdirectory("haptoflow-help-").FullName;
+
+        [TearDown]
+        public void RemoveFolder()
+        {
+            HelpPages.FindFolder = null;
+            EditorSession.PackageFolder = null;
+            Directory.Delete(folder, true);
+        }
 
         private static IEnumerable<Type> Components() => Assemblies.SelectMany(assembly => assembly.GetTypes())
             .Where(type => type.IsPublic && !type.IsAbstract &&
@@ -34,29 +47,78 @@ namespace HaptoFlow.EditorTests
         [TestCaseSource(nameof(Components))]
         public void TheHelpOfAComponentLeadsToASectionOfAPage(Type component)
         {
-            string? url = component.GetCustomAttribute<HelpURLAttribute>(false)?.URL;
-            Assert.That(url, Does.StartWith(HelpPages.Home), component.Name + " has no [HelpURL]");
-            string[] parts = url!.Substring(HelpPages.Home.Length).Split('#');
-            string page = Page(parts[0]);
-            IEnumerable<string> anchors = Regex.Matches(page, "^#+ (.*)$", RegexOptions.Multiline)
+            string? help = component.GetCustomAttribute<HelpPageAttribute>(false)?.Page;
+            Assert.That(help, Is.Not.Null, component.Name + " has no [HelpPage]");
+            string[] parts = help!.Split('#');
+            IEnumerable<string> anchors = Regex.Matches(Page(parts[0]), "^#+ (.*)$", RegexOptions.Multiline)
                 .Select(heading => AnchorOf(heading.Groups[1].Value));
-            Assert.That(anchors.Count(anchor => anchor == parts[1]), Is.EqualTo(1), url);
+            Assert.That(anchors.Count(anchor => anchor == parts[1]), Is.EqualTo(1), help);
         }
 
         [Test]
         public void EveryComponentHasItsOwnHelp() => Assert.That(
-            Components().Select(type => type.GetCustomAttribute<HelpURLAttribute>(false)?.URL), Is.Unique);
+            Components().Select(type => type.GetCustomAttribute<HelpPageAttribute>(false)?.Page), Is.Unique);
 
         [Test]
-        public void ThePackageManagersLinksLeadToExistingPages()
+        public void HelpOpensTheSectionOfThePageInsideAnInstalledPackage()
+        {
+            string pages = InstalledPages("a folder");
+            File.WriteAllText(Path.Combine(pages, "components.html"), "<h2>Haptic Surface</h2>");
+            string? url = typeof(HapticSurface).GetCustomAttribute<HelpURLAttribute>(false)?.URL;
+            Assert.That(url, Is.EqualTo(
+                new Uri(Path.Combine(pages, "components.html")).AbsoluteUri + "#haptic-surface"));
+            Assert.That(url, Does.StartWith("file:///").And.Contain("a%20folder").And.Contain("Documentation~/"));
+        }
+
+        [Test]
+        public void HelpOfAPackageUsedFromItsSourcesOpensTheMarkdown()
+        {
+            string pages = InstalledPages("sources");
+            File.WriteAllText(Path.Combine(pages, "components.md"), "## Haptic Surface");
+            Assert.That(typeof(HapticSurface).GetCustomAttribute<HelpURLAttribute>(false)?.URL,
+                Is.EqualTo(new Uri(Path.Combine(pages, "components.md")).AbsoluteUri));
+        }
+
+        [Test]
+        public void WithoutPagesOrEditorThereIsNoHelpAndNoError()
+        {
+            InstalledPages("empty");
+            Assert.That(typeof(HapticSurface).GetCustomAttribute<HelpURLAttribute>(false)?.URL, Is.Empty);
+            HelpPages.FindFolder = null;
+            Assert.That(typeof(HapticSurface).GetCustomAttribute<HelpURLAttribute>(false)?.URL, Is.Empty);
+        }
+
+        [Test]
+        public void PublishedPagesTakeThePlaceOfThoseInThePackage() => Assert.That(
+            HelpPages.AddressOf("components.html#haptic-surface", "https://pages.example/"),
+            Is.EqualTo("https://pages.example/components.html#haptic-surface"));
+
+        [Test]
+        public void TheMenuOpensTheFirstPage()
+        {
+            string pages = InstalledPages("menu");
+            File.WriteAllText(Path.Combine(pages, "index.html"), "");
+            DocumentationMenu.Open();
+            Assert.That(World.OpenedUrl, Is.EqualTo(new Uri(Path.Combine(pages, "index.html")).AbsoluteUri));
+        }
+
+        // Without an address the Package Manager opens Documentation~/index.md and CHANGELOG.md of the package.
+        [Test]
+        public void ThePackageManagerIsSentToNoAddress()
         {
             using JsonDocument manifest = JsonDocument.Parse(File.ReadAllText(
                 RepositoryFiles.In("Packages", "com.haptoflow.runtime", "package.json")));
-            string documentation = manifest.RootElement.GetProperty("documentationUrl").GetString()!;
-            string changes = manifest.RootElement.GetProperty("changelogUrl").GetString()!;
-            Assert.That(documentation, Is.EqualTo(HelpPages.Home + "index.html"));
-            Assert.That(changes, Is.EqualTo(HelpPages.Home + "changelog.html"));
+            Assert.That(manifest.RootElement.TryGetProperty("documentationUrl", out _), Is.False);
+            Assert.That(manifest.RootElement.TryGetProperty("changelogUrl", out _), Is.False);
             Assert.That(Page("index.html"), Does.Contain("](installation.md)").And.Contain("](first-scene.md)"));
+        }
+
+        private static string InstalledPages(string name)
+        {
+            string package = Path.Combine(folder, name);
+            EditorSession.PackageFolder = package;
+            EditorLifecycle.Begin();
+            return Directory.CreateDirectory(Path.Combine(package, "Documentation~")).FullName;
         }
 
         [Test]

@@ -55,6 +55,25 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
+        public void AdviceOnTheChosenNumberIsShownAndAskedForOnceANumber()
+        {
+            var asked = new List<int>();
+            view.Session = null;
+            view.Advice = number =>
+            {
+                asked.Add(number);
+                return number == 3 ? "participant P02 has no log here" : "";
+            };
+            view.Participant = 2;
+            PassFor(1.0);
+            Assert.That(Text(), Does.Not.Contain("NOTE"));
+            view.Participant = 3;
+            PassFor(1.0);
+            Assert.That(Text(), Does.Contain("NOTE: participant P02 has no log here"));
+            Assert.That(asked, Is.EqualTo(new[] { 2, 3 }));
+        }
+
+        [Test]
         public void TheOperatorChoosesTheParticipantBeforeASession()
         {
             int begun = 0;

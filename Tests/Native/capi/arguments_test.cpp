@@ -281,6 +281,7 @@ TEST(ArgumentTest, ClosingANullHandleIsFine) {
     EXPECT_EQ(haptoflow_cancellation_close(&cancellation), HAPTOFLOW_OK);
     EXPECT_EQ(haptoflow_runtime_close(&runtime), HAPTOFLOW_OK);
     EXPECT_EQ(haptoflow_model_close(&model), HAPTOFLOW_OK);
+    EXPECT_EQ(haptoflow_device_wave_close(&deviceWave), HAPTOFLOW_OK);
     EXPECT_EQ(haptoflow_generator_close(&generator), HAPTOFLOW_OK);
     EXPECT_EQ(haptoflow_engine_close(&engine), HAPTOFLOW_OK);
     EXPECT_EQ(haptoflow_voice_destroy(&voice), HAPTOFLOW_OK);

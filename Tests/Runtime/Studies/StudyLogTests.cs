@@ -42,6 +42,36 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
+        public void ANumberThatWasLeftOutIsNamedBeforeAHigherOneIsBegun()
+        {
+            Assert.That(LeftOutBelow(1), Is.Empty);
+            Assert.That(LeftOutBelow(2), Does.StartWith("participant P01 has no log here"));
+            folder.Open(StudyFolder.Description(1));
+            Assert.That(LeftOutBelow(2), Is.Empty);
+            Assert.That(LeftOutBelow(5), Does.StartWith("participant P02 and 2 more has no log here"));
+            folder.Open(StudyFolder.Description(4));
+            Assert.That(LeftOutBelow(5), Does.StartWith("participant P02 and 1 more has no log here"));
+            folder.Open(StudyFolder.Description(2));
+            folder.Open(StudyFolder.Description(3));
+            Assert.That(LeftOutBelow(5), Is.Empty);
+            Assert.That(StudyLog.NumbersLeftOut(folder.Path, StudyKind.Similarity, 2), Is.Not.Empty,
+                "each study has participants of its own");
+        }
+
+        [Test]
+        public void OtherFilesAndFoldersThatCannotBeReadAreNoParticipants()
+        {
+            Assert.That(StudyLog.NumbersLeftOut("\0", StudyKind.Latency, 5), Is.Empty.Or.Contains("P01"));
+            Directory.CreateDirectory(folder.Path);
+            File.WriteAllText(Path.Combine(folder.Path, "latency-Px1-12345678.csv"), "");
+            File.WriteAllText(Path.Combine(folder.Path, "latency-P01.csv"), "");
+            Assert.That(LeftOutBelow(2), Does.StartWith("participant P01 has no log here"));
+        }
+
+        private string LeftOutBelow(int participant) =>
+            StudyLog.NumbersLeftOut(folder.Path, StudyKind.Latency, participant);
+
+        [Test]
         public void TheSidecarContainsStudyDeviceDelaySettingsAndPlan()
         {
             StudyLog log = folder.Open(StudyFolder.Description(seed: (1ul << 63) + 5));

@@ -14,6 +14,9 @@ namespace UnityShim
         /// <summary>Whether the dark skin is in use.</summary>
         public static bool DarkSkin { get; set; } = true;
 
+        /// <summary>Where this package is installed; null as where the assemblies are of no package.</summary>
+        public static string? PackageFolder { get; set; }
+
         /// <summary>The object that was pinged last.</summary>
         public static Object? Pinged { get; internal set; }
 

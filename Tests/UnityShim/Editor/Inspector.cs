@@ -9,9 +9,22 @@ namespace UnityEditor
 {
     public partial class CustomEditor : Attribute
     {
-        internal readonly Type InspectedType;
+        private readonly Type inspectedType;
+        private readonly bool editorForChildClasses;
 
-        public CustomEditor(Type inspectedType) => InspectedType = inspectedType;
+        public CustomEditor(Type inspectedType)
+            : this(inspectedType, false)
+        {
+        }
+
+        public CustomEditor(Type inspectedType, bool editorForChildClasses)
+        {
+            this.inspectedType = inspectedType;
+            this.editorForChildClasses = editorForChildClasses;
+        }
+
+        internal bool Inspects(Type type) =>
+            inspectedType == type || (editorForChildClasses && inspectedType.IsAssignableFrom(type));
     }
 
     [AttributeUsage(AttributeTargets.Class, Inherited = false)]
@@ -60,7 +73,7 @@ namespace UnityEditor
         public static Editor CreateEditor(Object[] targetObjects)
         {
             Type type = EditorTypes.All.FirstOrDefault(candidate => candidate.GetCustomAttributes<CustomEditor>()
-                .Any(found => found.InspectedType == targetObjects[0].GetType())) ?? typeof(Editor);
+                .Any(found => found.Inspects(targetObjects[0].GetType()))) ?? typeof(Editor);
             if (targetObjects.Length > 1 && type.GetCustomAttribute<CanEditMultipleObjects>() == null)
             {
                 throw new InvalidOperationException($"{type} cannot edit several objects");

@@ -17,6 +17,8 @@ namespace UnityEngine
 
         public static RuntimePlatform platform => RuntimePlatform.LinuxEditor;
 
+        public static void OpenURL(string url) => World.OpenedUrl = url;
+
         public static event Action? quitting
         {
             add => World.Quitting += value;

@@ -73,7 +73,7 @@ namespace UnityEngine
         public int order { get; set; }
     }
 
-    [AttributeUsage(AttributeTargets.Class, Inherited = false, AllowMultiple = false)]
+    [AttributeUsage(AttributeTargets.Class, AllowMultiple = false)]
     public class HelpURLAttribute : Attribute
     {
         public HelpURLAttribute(string url) => URL = url;

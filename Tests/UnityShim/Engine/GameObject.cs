@@ -42,6 +42,7 @@ namespace UnityEngine
 
         public bool TryGetComponent<T>(out T component)
         {
+            ++ComponentSearchCount<T>.Searches;
             foreach (Component each in Components)
             {
                 if (each is T found)

@@ -117,13 +117,6 @@ namespace UnityEngine
 
         public static void SyncTransforms() => PhysicsWorld.Sync();
 
-        public static int OverlapSphereNonAlloc(Vector3 position, float radius, Collider[] results, int layerMask,
-            QueryTriggerInteraction queryTriggerInteraction)
-        {
-            World.RequireMainThread();
-            return PhysicsWorld.Overlap(position, radius, results, layerMask, queryTriggerInteraction);
-        }
-
         public static Vector3 ClosestPoint(Vector3 point, Collider collider, Vector3 position, Quaternion rotation) =>
             Geometry.ClosestPoint(collider, point, position, rotation);
     }

@@ -51,7 +51,9 @@ namespace UnityEngine
             return tagText == tag;
         }
 
-        public SceneManagement.Scene scene => default;
+        public SceneManagement.Scene scene => transform.parent is { } parent ? parent.gameObject.scene : OwnScene;
+
+        internal SceneManagement.Scene OwnScene;
     }
 
     [AttributeUsage(AttributeTargets.Class, AllowMultiple = true)]
@@ -81,24 +83,6 @@ namespace UnityEngine.Rendering
         public static RenderPipelineAsset? defaultRenderPipeline { get; set; }
 
         public static RenderPipelineAsset? currentRenderPipeline => defaultRenderPipeline;
-    }
-}
-
-namespace UnityEngine.SceneManagement
-{
-    /// <summary>The physics scene. The shim has only one.</summary>
-    public partial struct Scene
-    {
-        public static bool operator ==(Scene lhs, Scene rhs) => true;
-
-        public static bool operator !=(Scene lhs, Scene rhs) => !(lhs == rhs);
-
-        public override bool Equals(object? other) => other is Scene;
-
-        public override int GetHashCode() => 0;
-
-        public GameObject[] GetRootGameObjects() =>
-            World.AllObjects.Where(each => each.transform.parent is null).ToArray();
     }
 }
 

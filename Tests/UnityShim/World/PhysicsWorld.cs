@@ -64,14 +64,16 @@ namespace UnityShim
             }
         }
 
+        /// <param name="world">Number of the physics scene.</param>
         public static int Overlap(
-            Vector3 position, float radius, Collider[] results, int layerMask, QueryTriggerInteraction triggers)
+            int world, Vector3 position, float radius, Collider[] results, int layerMask, QueryTriggerInteraction triggers)
         {
             int count = 0;
             for (int index = 0; index < Colliders.Count && count < results.Length; ++index)
             {
                 Collider collider = Colliders[index];
                 bool isCandidate = collider.enabled && collider.gameObject.activeInHierarchy &&
+                    collider.gameObject.scene.PhysicsNumber == world &&
                     (layerMask & (1 << collider.gameObject.layer)) != 0 &&
                     (!collider.isTrigger || triggers != QueryTriggerInteraction.Ignore);
                 if (isCandidate && Geometry.Reaches(collider, position, radius))

@@ -6,4 +6,11 @@ namespace UnityShim
         /// <summary>The number of rays cast at single colliders. Tests reset it.</summary>
         public static int Rays { get; set; }
     }
+
+    /// <summary>Counts the searches of scripts for a kind of component.</summary>
+    public static class ComponentSearchCount<T>
+    {
+        /// <summary>The number of calls of TryGetComponent. Tests reset it.</summary>
+        public static int Searches { get; set; }
+    }
 }

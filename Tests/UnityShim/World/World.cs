@@ -21,6 +21,9 @@ namespace UnityShim
 
         public static bool IsPlaying { get; private set; }
 
+        /// <summary>The address that was opened last in the system's browser.</summary>
+        public static string? OpenedUrl { get; internal set; }
+
         public static event Action? Quitting;
 
         /// <summary>The frame rate of <see cref="Frame()"/>.</summary>

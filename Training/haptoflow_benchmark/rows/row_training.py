@@ -14,6 +14,7 @@ from haptoflow_benchmark.rows.row_plan import PlannedRow
 from haptoflow_benchmark.rows.workplace import Workplace, is_of_repository
 from haptoflow_training.training.config import load_config
 from haptoflow_training.training.job_lanes import Job, run_jobs
+from haptoflow_training.training.recordings_source import open_source
 
 # Rows need rivals and codecs, which haptoflow_training alone does not have.
 _PROGRAM = (sys.executable, "-m", "haptoflow_benchmark")
@@ -32,6 +33,8 @@ def train_models(place: Workplace, rows: Sequence[tuple[PlannedRow, int]], lanes
         if not (out.exists() and _is_as_configured(place, model, seed))
     ]
     codecs = {job.product: job for model, _ in wanted.values() for job in _codec_training(place, model)}
+    if jobs:
+        _prepare_store(place, next(iter(wanted.values()))[0], lanes)
     with tqdm(total=len(jobs) + len(codecs), desc="trainings", unit="model") as bar:
 
         def show_progress(finished: int) -> None:
@@ -40,6 +43,11 @@ def train_models(place: Workplace, rows: Sequence[tuple[PlannedRow, int]], lanes
 
         run_jobs(list(codecs.values()), lanes, show_progress)
         run_jobs(jobs, lanes, lambda finished: show_progress(len(codecs) + finished))
+
+
+def _prepare_store(place: Workplace, model: str, workers: int) -> None:
+    """Prepare the recordings once, before several trainings, and the codec's, need them."""
+    open_source(load_config(place.config_file(model)).data, place.store, workers)
 
 
 def _is_as_configured(place: Workplace, model: str, seed: int) -> bool:

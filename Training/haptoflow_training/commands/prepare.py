@@ -11,6 +11,7 @@ from haptoflow_training.preprocessing.preparation import prepare_cut_where_neede
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.preprocessing.split import SPLITS
 from haptoflow_training.preprocessing.store import SegmentStore
+from haptoflow_training.preprocessing.store_lock import store_lock
 from haptoflow_training.recordings.labels import LabelMap, load_labels
 from haptoflow_training.recordings.open_recordings import Dataset, open_recordings
 
@@ -73,15 +74,16 @@ def run(options: argparse.Namespace) -> int:
     begun = time.perf_counter()
     # Synthetic recordings are split by their names alone.
     prepare = prepare_store if all(dataset.synthetic for dataset in datasets) else prepare_cut_where_needed
-    store = prepare(
-        entries,
-        _labels(datasets, options.labels),
-        options.out,
-        settings,
-        options.seed,
-        provenance={"recordings": [dataset.provenance for dataset in datasets]},
-        workers=options.workers,
-    )
+    with store_lock(options.out):
+        store = prepare(
+            entries,
+            _labels(datasets, options.labels),
+            options.out,
+            settings,
+            options.seed,
+            provenance={"recordings": [dataset.provenance for dataset in datasets]},
+            workers=options.workers,
+        )
     _report(store, time.perf_counter() - begun)
     return 0
 

@@ -34,7 +34,9 @@ def register(parser: argparse.ArgumentParser) -> None:
 def _run(options: argparse.Namespace) -> int:
     from haptoflow_training.studies.latency_analysis import analyse_latency
     from haptoflow_training.studies.report import Analysed, report, results
-    from haptoflow_training.studies.similarity_analysis import analyse_similarity
+    from haptoflow_training.studies.similarity_analysis import (
+        MINIMUM_PARTICIPANTS, analyse_similarity, too_few_words,
+    )  # fmt: skip
 
     if options.seed < 0:
         raise InputError(f"--seed {options.seed}: expected 0 or more")
@@ -43,11 +45,14 @@ def _run(options: argparse.Namespace) -> int:
             raise InputError(f"{out}: lies in the folder of the logs, where only logs may be; expected another folder")
     read = read_faultless(options.folder)
     latency, similarity = read.of(LATENCY), read.of(SIMILARITY)
+    # A pilot of the one study does not keep back the report of the other.
+    is_pilot = bool(latency) and 0 < len(similarity) < MINIMUM_PARTICIPANTS
     analysed = Analysed(
         [*latency, *similarity],
         read.notes,
         analyse_latency(latency, seed=options.seed) if latency else None,
-        analyse_similarity(similarity) if similarity else None,
+        analyse_similarity(similarity) if similarity and not is_pilot else None,
+        too_few_words(len(similarity)) if is_pilot else "",
     )
     write_whole(options.out, report(analysed).encode())
     if options.results is not None:

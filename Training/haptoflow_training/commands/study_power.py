@@ -26,6 +26,10 @@ def register(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--participants", type=int, default=24, help="5 to 999 (default 24)")
     parser.add_argument("--methods", type=int, default=4, help="similarity only: 2 to 6 (default 4)")
     parser.add_argument("--difference", type=float, default=0.67, help="similarity only: d_z, 0 to 5 (default 0.67)")
+    parser.add_argument(
+        "--equivalence-points", type=float, default=0.5, metavar="POINTS",
+        help="similarity only: differences below it count as equal, in points of rating, 0.1 to 6 (default 0.5)",
+    )  # fmt: skip
     parser.add_argument("--simulations", type=int, default=500, help="studies, 10 to 100000 (default 500)")
     parser.add_argument("--seed", type=int, default=1, help="0 or more (default 1)")
     parser.set_defaults(run=_run)
@@ -35,6 +39,7 @@ def _run(options: argparse.Namespace) -> int:
     _in_range("--participants", options.participants, 5, 999)
     _in_range("--methods", options.methods, 2, 6)
     _in_range("--difference", options.difference, 0, 5)
+    _in_range("--equivalence-points", options.equivalence_points, 0.1, 6)
     _in_range("--simulations", options.simulations, 10, 100_000)
     if options.seed < 0:
         raise InputError(f"--seed {options.seed}: expected 0 or more")
@@ -47,7 +52,8 @@ def _similarity(options: argparse.Namespace) -> int:
     with tqdm(total=options.simulations, unit="study", disable=None) as progress:
         found = rating_power(
             options.participants, options.methods, options.difference,
-            simulations=options.simulations, seed=options.seed, advance=progress.update,
+            simulations=options.simulations, seed=options.seed, bound=options.equivalence_points,
+            advance=progress.update,
         )  # fmt: skip
     planned = planned_signed_rank_power(options.participants, options.difference)
     print(f"{options.participants} participants, {options.methods} methods, d_z {options.difference:g}:")
@@ -58,7 +64,8 @@ def _similarity(options: argparse.Namespace) -> int:
     print(f"  planned for it by the formula, not rounded:  {100 * planned:.1f} %")
     if found.equivalence is not None:
         print(f"  methods that are alike differ in             {found.false_pair}")
-        print(f"  the first two methods are equivalent in      {found.equivalence}")
+        within = f"within {options.equivalence_points:g} points"
+        print(f"  the first two methods are equivalent in      {found.equivalence}, {within}, after correction")
     return 0
 
 

@@ -6,6 +6,7 @@ import argparse
 import dataclasses
 import math
 import sys
+import sys
 import time
 from pathlib import Path
 
@@ -19,7 +20,8 @@ from haptoflow_training.training.config import TrainingConfig, check_available, 
 from haptoflow_training.training.processes import join_processes
 from haptoflow_training.training.recordings_source import Source, open_source
 from haptoflow_training.training.run_log import write_json
-from haptoflow_training.training.trainer import Trainer, TrainingStopped
+from haptoflow_training.stopping import Stopped, end_if_stopped
+from haptoflow_training.training.trainer import Trainer, TrainingStopped, check_start
 
 OWN_CONFIGURATION = Path(__file__).resolve().parents[2] / "configs" / "own.toml"
 
@@ -31,7 +33,8 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
         description=(
             "Prepares the recordings that the configuration names (once), trains the level model and the velocity "
             "field, and writes checkpoint.pt, metrics.csv, metrics.png and run.json into --out. Run it again to resume "
-            "after an interruption: the result is the same. Paths are relative to the current folder; those in a "
+            "after an interruption (the exit code is then not 0): the result is the same. "
+            "Paths are relative to the current folder; those in a "
             "configuration file are relative to that file."
         ),
         epilog=(
@@ -126,17 +129,28 @@ def report_left_out(source: Source) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    try:
+        return _run(options)
+    except TrainingStopped:
+        raise
+    except Stopped as stop:
+        words = f"{stop}, no model is written yet; run the same command again to go on"
+        raise Stopped(stop.number, words) from None
+
+
+def _run(options: argparse.Namespace) -> int:
     begun = time.monotonic()
     config = configuration(options)
     check_available(config)
     store_folder = options.store or options.out.parent / "store"
     with join_processes() as processes:
+        check_start(config, processes, options.base)
+        if options.minutes is not None and processes.count > 1:
+            raise InputError("--minutes works with one process only; leave it out under torchrun")
         if processes.is_first:
             report_left_out(open_source(config.data, store_folder, options.workers))
         processes.wait()
         source = open_source(config.data, store_folder, options.workers)
-        if options.minutes is not None and processes.count > 1:
-            raise InputError("--minutes works with one process only; leave it out under torchrun")
         trainer = Trainer(
             config, source.store, options.out, processes, options.base, source.wave_vectors, options.start
         )
@@ -147,13 +161,10 @@ def run(options: argparse.Namespace) -> int:
             )
             trainer.limit_time(shares.limit)
             extent = shares.extent
-        try:
-            trainer.run()
-        except TrainingStopped as stop:
-            print(f"haptoflow-training: {stop}", file=sys.stderr)
-            return 0
+        trainer.run()
         if processes.is_first and options.export is not None:
             measured = measured_levels(options.out, source, extent) if calibrates(config) else MeasuredLevels()
+            end_if_stopped()
             checksum = export_run(
                 options.out, source.store, source.labels, source.provenance, options.export, options.parity,
                 level_offsets_db=measured.offsets_db, level_tables=measured.tables,

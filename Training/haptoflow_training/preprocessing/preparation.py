@@ -4,8 +4,11 @@ all."""
 from __future__ import annotations
 
 import dataclasses
+import multiprocessing
 import os
 import shutil
+import signal
+import threading
 from collections import deque
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor
@@ -26,6 +29,7 @@ from haptoflow_training.preprocessing.split import SPLITS, Split, split_of
 from haptoflow_training.preprocessing.store import SegmentStore, SkippedRecording, StoredRecording
 from haptoflow_training.preprocessing.time_split import cut, labels_to_cut, labels_without_a_split, time_parts
 from haptoflow_training.recordings.recording import Recording, RecordingIdentity
+from haptoflow_training.stopping import deferred, end_if_stopped
 
 _PEAK_PERCENTILE = 80.0
 _RESCALE_SAMPLES = 1 << 20
@@ -80,7 +84,8 @@ def prepare_store(
 
     A recording that cannot be prepared is skipped and listed in the store; one with gaps becomes one for each stretch
     between them. InputError: none was usable, a name occurred twice, a label is not in `labels`, or the disk is full;
-    `out` is then unchanged. The result is the same for any number of `workers`.
+    `out` is then unchanged. The result is the same for any number of `workers`. Two programs must not prepare one
+    folder at a time: see store_lock.py.
     """
     settings = settings or PreprocessingSettings()
     out = Path(out).absolute()
@@ -91,8 +96,9 @@ def prepare_store(
         shutil.rmtree(unfinished, ignore_errors=True)
         unfinished.mkdir(parents=True)
         prepared = _prepare_each(recordings, labels, settings, seed, workers, cut_labels)
-        bar = tqdm(prepared, disable=not progress, unit=" recordings", desc="prepare")
-        stored, skipped = _append_all(bar, labels, unfinished, settings, seed)
+        with deferred():
+            bar = tqdm(prepared, disable=not progress, unit=" recordings", desc="prepare")
+            stored, skipped = _append_all(bar, labels, unfinished, settings, seed)
         peak_mps2 = _peak(stored, skipped)
         _rescale(unfinished / store_module.WAVEFORM_FILE, peak_mps2)
         store_module.write_header(
@@ -105,6 +111,7 @@ def prepare_store(
             settings=settings,
             provenance=provenance or {},
         )
+        end_if_stopped()
         _replace(unfinished, out)
     except OSError as error:
         raise InputError(
@@ -154,7 +161,7 @@ def _prepare_each(
         yield from (_prepare_one(item, settings, seed, item.label in cut_labels) for item in checked)
         return
     pending: deque[Future[list[_Prepared]]] = deque()
-    with ProcessPoolExecutor(workers) as pool:
+    with ProcessPoolExecutor(workers, initializer=_join_parent) as pool:
         try:
             for item in checked:
                 pending.append(pool.submit(_prepare_one, item, settings, seed, item.label in cut_labels))
@@ -164,6 +171,20 @@ def _prepare_each(
                 yield pending.popleft().result()
         finally:
             pool.shutdown(wait=True, cancel_futures=True)
+
+
+def _join_parent() -> None:
+    """A worker leaves signals to its parent, and ends with it: even if the parent is killed, which closes no queue."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    parent = multiprocessing.parent_process()
+
+    def end_with_parent() -> None:
+        if parent is not None:
+            parent.join()
+        os._exit(1)
+
+    threading.Thread(target=end_with_parent, daemon=True).start()
 
 
 def _checked(
@@ -233,8 +254,9 @@ def _append_all(
     with ExitStack() as opened:
         files = [opened.enter_context((folder / name).open("wb")) for name in store_module.ARRAY_FILES]
         for item in (part for parts in prepared for part in parts):
+            end_if_stopped()
             if item.padded is None:
-                skipped.append(SkippedRecording(item.name, item.problem or ""))
+                skipped.append(SkippedRecording(item.name, item.problem or "", item.label))
                 continue
             whole = item.padded.prepared
             length = len(whole.waveform_mps2)

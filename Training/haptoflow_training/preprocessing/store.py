@@ -61,10 +61,11 @@ class StoredRecording:
 
 @dataclass(frozen=True)
 class SkippedRecording:
-    """A recording that could not be prepared, with the reason."""
+    """A recording that could not be prepared, with the reason. label: empty in stores of older versions."""
 
     name: str
     reason: str
+    label: str = ""
 
     def __str__(self) -> str:
         return f"{self.name}: {self.reason}"

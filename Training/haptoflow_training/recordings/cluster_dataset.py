@@ -30,6 +30,7 @@ from haptoflow_training.recordings.dataset_layout import (
     SENSOR_KINDS,
     is_published_list,
 )
+from haptoflow_training.recordings.file_names import ending_of
 from haptoflow_training.recordings.labels import LabelMap
 from haptoflow_training.recordings.recording import Recording, RecordingIdentity
 
@@ -195,7 +196,7 @@ def _list_sensor(folder: Path, problems: list[DatasetProblem]) -> dict[Recording
     files: dict[RecordingIdentity, Path] = {}
     if not folder.is_dir():
         return files
-    paths = [path for pattern in ("*", "*/*") for path in folder.glob(pattern) if path.suffix in _ENDINGS]
+    paths = [path for pattern in ("*", "*/*") for path in folder.glob(pattern) if ending_of(path) in _ENDINGS]
     for path in sorted(paths):
         if path.name.startswith("."):
             continue
@@ -247,7 +248,7 @@ def _provenance(root: Path, listed: dict[int, str], problems: list[DatasetProble
 
 def _count_audio(sensors: Path) -> int:
     return sum(
-        path.suffix in AUDIO_ENDINGS
+        ending_of(path) in AUDIO_ENDINGS
         for folder in AUDIO_FOLDERS
         for pattern in ("*", "*/*")
         for path in (sensors / folder).glob(pattern)

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from haptoflow_training.errors import InputError
 from haptoflow_training.recordings.dataset_layout import SensorKind
+from haptoflow_training.recordings.file_names import ending_of
 
 if TYPE_CHECKING:
     import pandas
@@ -37,7 +38,7 @@ def read_table(path: Path) -> pandas.DataFrame:
     """CSV or Parquet by the file's ending; Parquet needs pyarrow or fastparquet."""
     import pandas
 
-    if path.suffix == ".parquet":
+    if ending_of(path) == ".parquet":
         try:
             return pandas.read_parquet(path)
         except ImportError as error:

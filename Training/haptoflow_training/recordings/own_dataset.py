@@ -10,6 +10,7 @@ from typing import Any
 from haptoflow_training.errors import InputError
 from haptoflow_training.recordings.cluster_dataset import UNKNOWN, DatasetProblem
 from haptoflow_training.recordings.cluster_dataset_files import DatasetFileError
+from haptoflow_training.recordings.file_names import ending_of
 from haptoflow_training.recordings.labels import LabelMap
 from haptoflow_training.recordings.own_files import OWN_ENDINGS, OwnRecordingFile, is_motion_file, own_identity
 from haptoflow_training.recordings.own_table import column_names, unknown_columns
@@ -101,14 +102,14 @@ def open_own_dataset(root: Path, labels: LabelMap | None = None) -> OwnDataset:
 
 def _files(root: Path) -> list[Path]:
     if root.is_file():
-        if root.suffix not in OWN_ENDINGS:
+        if ending_of(root) not in OWN_ENDINGS:
             raise InputError(f"{root}: expected a recording that ends with {', '.join(OWN_ENDINGS)}")
         return [root]
     if not root.is_dir():
         raise InputError(
             f"{root}: does not exist; expected the folder that holds sensor_data, a folder of recordings, or one file"
         )
-    found = [path for path in root.rglob("*") if path.suffix in OWN_ENDINGS and path.is_file()]
+    found = [path for path in root.rglob("*") if ending_of(path) in OWN_ENDINGS and path.is_file()]
     visible = [path for path in found if not any(part.startswith(".") for part in path.relative_to(root).parts)]
     if not visible:
         raise InputError(
@@ -131,5 +132,5 @@ def _named_motions(files: list[Path]) -> set[Path]:
 
 
 def _ignored(path: Path) -> list[str]:
-    unknown = unknown_columns(column_names(path)) if path.suffix == ".csv" else ()
+    unknown = unknown_columns(column_names(path)) if ending_of(path) == ".csv" else ()
     return [f"{path}: columns {', '.join(unknown)} are not known and are ignored"] if unknown else []

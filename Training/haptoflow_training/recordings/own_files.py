@@ -12,7 +12,10 @@ from numpy.typing import NDArray
 from scipy import signal
 
 from haptoflow_training.recordings.cluster_dataset_files import DatasetFileError
-from haptoflow_training.recordings.own_sidecar import MAXIMUM_RATE_HZ, MINIMUM_RATE_HZ, Sidecar, read_sidecar
+from haptoflow_training.recordings.file_names import beside, ending_of, sidecar_of
+from haptoflow_training.recordings.own_sidecar import (
+    DEFAULTS_FILE, MAXIMUM_RATE_HZ, MINIMUM_RATE_HZ, Sidecar, read_sidecar,
+)  # fmt: skip
 from haptoflow_training.recordings.own_table import (
     FORCE_FORMS,
     POSITION_FORMS,
@@ -52,8 +55,8 @@ class OwnRecordingFile:
     @property
     def paths(self) -> tuple[Path, ...]:
         """Every file that the recording is made from."""
-        beside = (self.path.with_suffix(".json"), self.path.parent / "recordings.json", self.sidecar.motion)
-        return (self.path, *(path for path in beside if path is not None and path.is_file()))
+        others = (sidecar_of(self.path), beside(self.path, DEFAULTS_FILE), self.sidecar.motion)
+        return (self.path, *(path for path in others if path is not None and path.is_file()))
 
     def path_of(self, sensor: str) -> Path:
         """The file of acceleration, force or position."""
@@ -73,7 +76,7 @@ def own_identity(name: str) -> RecordingIdentity:
 
 def is_motion_file(path: Path) -> bool:
     """Whether the file's name marks it as the motion of another recording (NAME.motion.csv)."""
-    return path.stem.endswith(_MOTION_MARK)
+    return path.stem.lower().endswith(_MOTION_MARK)
 
 
 def read_own_recording(path: Path, identity: RecordingIdentity, label: str) -> Recording:
@@ -83,7 +86,7 @@ def read_own_recording(path: Path, identity: RecordingIdentity, label: str) -> R
     """
     sidecar = read_sidecar(path)
     tables: list[OwnTable] = []
-    if path.suffix == ".wav":
+    if ending_of(path) == ".wav":
         acceleration = read_own_wav(path, sidecar)
     else:
         table = read_own_table(path, sidecar.rate_hz)

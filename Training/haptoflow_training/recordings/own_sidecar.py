@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from haptoflow_training.recordings.cluster_dataset_files import DatasetFileError
+from haptoflow_training.recordings.file_names import beside, sidecar_of
 
 DEFAULTS_FILE = "recordings.json"
 KEYS = (
@@ -43,10 +44,10 @@ def read_sidecar(recording: Path) -> Sidecar:
 
     DatasetFileError names the file, the key, what was found and what is expected.
     """
-    path = recording.with_suffix(".json")
+    path = sidecar_of(recording)
     values: dict[str, Any] = {}
     origins: dict[str, Path] = {}
-    for file in (recording.parent / DEFAULTS_FILE, path):
+    for file in (beside(recording, DEFAULTS_FILE), path):
         own = _document(file)
         if "speed_mps" in own and "velocity_mps" in own:
             raise DatasetFileError(file, "keys speed_mps and velocity_mps", "one of them")
@@ -131,7 +132,7 @@ def _motion(values: dict[str, Any], origins: dict[str, Path]) -> Path | None:
     if not name:
         return None
     origin = origins["motion"]
-    path = origin.parent / name
+    path = beside(origin, name)
     if not path.is_file():
         raise DatasetFileError(origin, f"key 'motion' names {name}, which is not there", "a table beside the recording")
     return path

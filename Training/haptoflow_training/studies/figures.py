@@ -9,9 +9,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from scipy import stats
 
 from haptoflow_training.studies.latency_analysis import LatencyResult
 from haptoflow_training.studies.plans import TURN_OFF, TURN_ON
+from haptoflow_training.studies.psychometric import Answers
 from haptoflow_training.studies.rating_tests import SIGNIFICANCE, TREND, Pair
 from haptoflow_training.studies.similarity_analysis import SimilarityResult
 
@@ -39,17 +41,26 @@ class Bracket:
 
 
 def latency_figure(result: LatencyResult, *, is_simulated: bool) -> str:
-    """Percentage of yes with standard errors, fitted curves dashed, thresholds with their intervals."""
-    figure, (axis,) = _figure(1, 1, 7.2, 4.6, is_simulated)
-    for condition, (words, colour, marker) in _CONDITIONS.items():
+    """Percentage of yes with Wilson's intervals, every single answer, fitted curves dashed, thresholds with their
+    intervals."""
+    figure, (axis,) = _figure(1, 1, 7.6, 5.0, is_simulated)
+    every = np.concatenate([result.single[condition].delay_ms for condition in _CONDITIONS])
+    # Conditions have the same levels: they stand side by side, so that neither hides the other.
+    aside_ms = 0.008 * float(np.ptp(every)) if len(every) else 0.0
+    for place, (condition, (words, colour, marker)) in enumerate(_CONDITIONS.items()):
         points, fit = result.points[condition], result.fits[condition]
+        shift_ms = aside_ms if place else -aside_ms
         if points:
+            percent = np.array([point.percent for point in points])
+            # Rounding may put an end of the interval beyond its point.
+            below = np.maximum(0.0, percent - [point.low_percent for point in points])
+            above = np.maximum(0.0, [point.high_percent for point in points] - percent)
             axis.errorbar(
-                [point.delivered_ms for point in points],
-                [point.percent for point in points],
-                [0.0 if np.isnan(point.error_percent) else point.error_percent for point in points],
-                fmt=marker, color=colour, capsize=3, label=words,
+                [point.delivered_ms + shift_ms for point in points], percent, [below, above],
+                fmt=marker, color=colour, capsize=3, markersize=5,
+                label=f"{words} (n = {result.answers[condition]} answers)",
             )  # fmt: skip
+            _draw_answers(axis, result.single[condition], place, shift_ms, colour)
         if fit.curve is None:
             continue
         delays = [point.delivered_ms for point in points]
@@ -57,18 +68,38 @@ def latency_figure(result: LatencyResult, *, is_simulated: bool) -> str:
         axis.plot(drawn, fit.curve.percent(drawn), "--", color=colour, label=f"{words}: {fit.curve.x0:.1f} ms")
         if fit.threshold_interval is not None:
             low, high = fit.threshold_interval.low, fit.threshold_interval.high
-            axis.plot([low, high], [50.0, 50.0], color=colour, alpha=0.35, linewidth=6, solid_capstyle="butt")
+            height = 48.2 if place else 51.8
+            axis.plot([low, high], [height, height], color=colour, alpha=0.45, linewidth=5, solid_capstyle="butt")
     axis.axhline(50.0, color="grey", linewidth=0.8)
-    axis.set_ylim(-4.0, 104.0)
+    axis.set_ylim(-14.0, 114.0)
+    axis.set_yticks(range(0, 101, 20))
+    axis.set_title(f"{_participants(result.participants)}; ticks above and below are single answers", fontsize=9)
     axis.set_xlabel("delay (ms)")
     axis.set_ylabel("delay perceived (%)")
     axis.grid(alpha=0.3)
-    axis.legend(fontsize=8, loc="lower right")
+    # Below the axis, where no answer and no interval lies.
+    axis.legend(fontsize=8, loc="upper center", bbox_to_anchor=(0.5, -0.13), ncols=2, frameon=False)
     return _svg(figure)
 
 
+def _draw_answers(axis: Axes, answers: Answers, place: int, shift_ms: float, colour: str) -> None:
+    """A tick for each answer: yes above 100 %, no below 0 %, a row for each condition; ticks of equal delay lie beside
+    each other by participant."""
+    spread = 3.0 * abs(shift_ms) * ((answers.participant + 0.5) / max(1, answers.participants) - 0.5)
+    for is_yes in (True, False):
+        chosen = answers.yes.astype(bool) == is_yes
+        height = (105.0 + 4.5 * place) if is_yes else (-5.0 - 4.5 * place)
+        delays = answers.delay_ms[chosen] + shift_ms + spread[chosen]
+        heights = np.full(len(delays), height)
+        axis.plot(delays, heights, "|", color=colour, alpha=0.75, markersize=5, markeredgewidth=0.8)
+
+
+def _participants(count: int) -> str:
+    return f"{count} participant{'' if count == 1 else 's'}"
+
+
 def similarity_figure(result: SimilarityResult, *, is_simulated: bool) -> str:
-    """A plot for each material: mean ratings with standard errors, brackets over pairs that differ or are
+    """A plot for each material: every rating, means with their intervals, brackets over pairs that differ or are
     equivalent."""
     count, methods = len(result.materials), len(result.methods)
     columns = min(_COLUMNS, count)
@@ -76,20 +107,22 @@ def similarity_figure(result: SimilarityResult, *, is_simulated: bool) -> str:
     brackets = {name: brackets_of(result.by_material[name].pairs) for name in result.materials}
     levels = max((bracket.level + 1 for found in brackets.values() for bracket in found), default=0)
     top = 7.3 + _BRACKET_STEP * levels
-    width, height = 1.4 + 0.55 * methods * columns, 0.9 + rows * (1.9 + 0.22 * levels)
+    width, height = 1.4 + 0.65 * methods * columns, 0.9 + rows * (2.2 + 0.22 * levels)
     figure, axes = _figure(rows, columns, width, height, is_simulated)
     for axis in axes[count:]:
         axis.set_visible(False)
     for place, (material, axis) in enumerate(zip(result.materials, axes, strict=False)):
         ratings = result.ratings[place]
-        errors = np.std(ratings, axis=0, ddof=1) / np.sqrt(len(ratings))
+        means = ratings.mean(axis=0)
+        errors = np.abs(mean_interval(ratings) - means)
         colours = [_METHOD_COLOURS[method % len(_METHOD_COLOURS)] for method in range(methods)]
-        heights = ratings.mean(axis=0) - 1.0
-        axis.bar(range(methods), heights, bottom=1.0, yerr=errors, capsize=3, color=colours, width=0.7)
+        axis.bar(range(methods), means - 1.0, bottom=1.0, color=colours, alpha=0.35, width=0.8)
+        _draw_ratings(axis, ratings, colours)
+        axis.errorbar(range(methods), means, errors, fmt="_", color="#111111", capsize=3, markersize=9, zorder=4)
         for bracket in brackets[material]:
             _draw(axis, bracket)
-        axis.set_title(_plain(material), fontsize=10)
-        axis.set_ylim(1.0, top)
+        axis.set_title(f"{_plain(material)} (n = {len(ratings)})", fontsize=10)
+        axis.set_ylim(0.7, top)
         axis.set_yticks(range(1, 8))
         axis.set_xticks(range(methods), [_plain(name) for name in result.methods], fontsize=7, rotation=30, ha="right")
         axis.grid(axis="y", alpha=0.3)
@@ -99,6 +132,24 @@ def similarity_figure(result: SimilarityResult, *, is_simulated: bool) -> str:
     return _svg(figure)
 
 
+def mean_interval(ratings: np.ndarray) -> np.ndarray:
+    """Both ends (rows) of each column's interval of 95 % for its mean, by Student's t, within the scale of 1 to 7."""
+    count = len(ratings)
+    half = stats.t.ppf(0.975, count - 1) * np.std(ratings, axis=0, ddof=1) / np.sqrt(count)
+    means = ratings.mean(axis=0)
+    return np.clip(np.stack([means - half, means + half]), 1.0, 7.0)
+
+
+def _draw_ratings(axis: Axes, ratings: np.ndarray, colours: Sequence[str]) -> None:
+    """A dot for each rating; equal ones lie side by side, as wide as a bar for all participants."""
+    step = min(0.09, 0.72 / len(ratings))
+    for method, colour in enumerate(colours):
+        for value in np.unique(ratings[:, method]):
+            count = int(np.count_nonzero(ratings[:, method] == value))
+            places = method + step * (np.arange(count) - 0.5 * (count - 1))
+            axis.plot(places, np.full(count, value), "o", color=colour, markersize=2.2, markeredgewidth=0.0, zorder=3)
+
+
 def brackets_of(pairs: Sequence[Pair]) -> list[Bracket]:
     """A dagger for p < 0.1, a star for p < 0.05 after correction, a green sign for equivalence; short brackets at
     the bottom."""
@@ -106,7 +157,7 @@ def brackets_of(pairs: Sequence[Pair]) -> list[Bracket]:
     for pair in pairs:
         if pair.p_shaffer is not None and pair.p_shaffer < TREND:
             wanted.append((pair, "*" if pair.p_shaffer < SIGNIFICANCE else "†", "#222222"))
-        if pair.p_equivalence is not None and pair.p_equivalence < SIGNIFICANCE:
+        if pair.p_holm < SIGNIFICANCE:
             wanted.append((pair, "≈", _GREEN))
     taken: list[list[Bracket]] = []
     for pair, sign, colour in sorted(wanted, key=lambda each: (each[0].second - each[0].first, each[0].first)):

@@ -15,41 +15,44 @@ from haptoflow_training.studies.session_file import Session
 
 @dataclass(frozen=True)
 class Point:
-    """One planned level: the mean delivered delay, percentage of yes, its standard error, number of answers."""
+    """One planned level: the mean delivered delay, percentage of yes with its interval of 95 %, number of answers."""
 
     level_ms: float
     delivered_ms: float
     percent: float
-    error_percent: float
+    low_percent: float
+    high_percent: float
     count: int
 
 
 @dataclass(frozen=True)
 class LatencyResult:
-    """difference: turn-on threshold less turn-off threshold, with its interval; None if either has none."""
+    """single: each answer of the main trials. difference: turn-on threshold less turn-off threshold, with its interval;
+    None if either has none."""
 
     participants: int
     points: Mapping[str, Sequence[Point]]
     fits: Mapping[str, Fit]
     answers: Mapping[str, int]
+    single: Mapping[str, Answers]
     difference_ms: float | None
     difference_interval: Interval | None
 
 
 def analyse_latency(sessions: Sequence[Session], *, resamples: int = RESAMPLES, seed: int = 0) -> LatencyResult:
     """Analyse the sessions; practice trials are left out."""
-    points, fits, counts = {}, {}, {}
+    points, fits, counts, single = {}, {}, {}, {}
     for condition in CONDITIONS:
         answers, levels = answers_of(sessions, condition)
         found = np.unique(levels)
         rows = percent_yes(answers, list(found), levels)
         points[condition] = [Point(float(level), *row) for level, row in zip(found, rows, strict=True)]
         fits[condition] = fit(answers, resamples=resamples, seed=seed)
-        counts[condition] = len(levels)
+        counts[condition], single[condition] = len(levels), answers
     first, second = (fits[condition] for condition in CONDITIONS)
     difference = first.curve.x0 - second.curve.x0 if first.curve and second.curve else None
     interval = threshold_difference(first, second, len(sessions))
-    return LatencyResult(len(sessions), points, fits, counts, difference, interval)
+    return LatencyResult(len(sessions), points, fits, counts, single, difference, interval)
 
 
 def answers_of(sessions: Sequence[Session], condition: str) -> tuple[Answers, np.ndarray]:

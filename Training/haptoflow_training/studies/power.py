@@ -13,7 +13,7 @@ from scipy import stats
 from haptoflow_training.studies.intervals import Share, share
 from haptoflow_training.studies.plans import CONDITIONS
 from haptoflow_training.studies.psychometric import Answers, fit, threshold_difference
-from haptoflow_training.studies.rating_tests import SIGNIFICANCE, RatingResult, analysed
+from haptoflow_training.studies.rating_tests import EQUIVALENCE_POINTS, SIGNIFICANCE, RatingResult, analysed
 from haptoflow_training.studies.simulated_participants import LEVELS_MS, AnswerModel, RatingModel
 
 _RESAMPLES = 1000
@@ -39,7 +39,7 @@ class RatingPower:
 
     friedman: a difference was found at all; pair: that of the first and the last method, after correction; pair_alone:
     the same without Friedman's test and correction; false_pair: a difference between methods that are alike;
-    equivalence: of the first two methods, which are alike (None for two methods).
+    equivalence: of the first two methods, which are alike, after correction (None for two methods).
     """
 
     friedman: Share
@@ -56,15 +56,16 @@ def rating_power(
     *,
     simulations: int,
     seed: int,
+    bound: float = EQUIVALENCE_POINTS,
     advance: Callable[[], object] = int,
 ) -> RatingPower:
-    """participants: at least 3; methods: at least 2."""
+    """participants: at least 3; methods: at least 2; bound: of equivalence, in points of rating."""
     names = [f"method {place}" for place in range(1, methods + 1)]
     model = RatingModel(["material"], names, {("material", names[-1]): difference_dz})
     random = np.random.default_rng(seed)
     counts: Counter[str] = Counter()
     for _ in range(simulations):
-        counts.update(_found(analysed(model.ratings(random, participants)[0]), methods - 1))
+        counts.update(_found(analysed(model.ratings(random, participants)[0], bound), methods - 1))
         advance()
     shares = {key: share(counts[key], simulations) for key in ("friedman", "pair", "alone", "false", "equivalence")}
     equivalence = shares["equivalence"] if methods > 2 else None
@@ -86,8 +87,7 @@ def _found(result: RatingResult, lowered: int) -> list[str]:
     if any(pair.p_shaffer is not None and pair.p_shaffer < SIGNIFICANCE for pair in alike):
         found.append("false")
     if lowered > 1:
-        p = pairs[0, 1].p_equivalence
-        if p is not None and p < SIGNIFICANCE:
+        if pairs[0, 1].p_holm < SIGNIFICANCE:
             found.append("equivalence")
     return found
 

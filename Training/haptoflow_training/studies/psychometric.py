@@ -13,7 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import special
 
-from haptoflow_training.studies.intervals import Interval, expanded_interval, jackknife_error, participant_weights
+from haptoflow_training.studies.intervals import (
+    Interval, expanded_interval, jackknife_error, participant_weights, share,
+)  # fmt: skip
 
 RESAMPLES = 2000
 MINIMUM_PARTICIPANTS = 5
@@ -217,13 +219,15 @@ def _curves(counted: _Counts, weights: np.ndarray) -> tuple[np.ndarray, np.ndarr
 
 def percent_yes(
     answers: Answers, level_ms: Sequence[float], levels: np.ndarray
-) -> list[tuple[float, float, float, int]]:
-    """For each level: mean delivered delay, percentage of yes, its standard error (sd / sqrt(n)), and the count n."""
+) -> list[tuple[float, float, float, float, int]]:
+    """For each level: mean delivered delay, percentage of yes, both ends of Wilson's interval of 95 %, and the count.
+
+    Each participant answers once at a level, so that the answers at one level are independent of each other.
+    """
     rows = []
     for level in level_ms:
         chosen = levels == level
-        yes = answers.yes[chosen].astype(float)
-        count = len(yes)
-        error = float(np.std(yes, ddof=1) / np.sqrt(count)) if count > 1 else float("nan")
-        rows.append((float(answers.delay_ms[chosen].mean()), 100.0 * float(yes.mean()), 100.0 * error, count))
+        found = share(int(answers.yes[chosen].sum()), int(chosen.sum()))
+        delivered = float(answers.delay_ms[chosen].mean())
+        rows.append((delivered, 100.0 * found.rate, 100.0 * found.low, 100.0 * found.high, found.of))
     return rows

@@ -13,7 +13,7 @@ applied as follows:
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
@@ -24,8 +24,10 @@ from haptoflow_training.studies.shaffer import adjusted
 
 SIGNIFICANCE = 0.05
 TREND = 0.1
-# Cohen's d of the smallest difference that counts as relevant: "large" in Cohen's terms, as in the paper.
-EQUIVALENCE_BOUND = 0.8
+# The smallest difference that people call one, on scales of seven points: half a point (Jaeschke, Singer and Guyatt
+# 1989, Measurement of health status: ascertaining the minimal clinically important difference, Controlled Clinical
+# Trials 10, 407-415). Used where the settings of a study name no bound of its own.
+EQUIVALENCE_POINTS = 0.5
 _MAXIMUM_COUNTED_SIGNS = 12
 # Rounding restores ties that a shift by an equivalence bound breaks in the last bits.
 _DECIMALS = 9
@@ -54,8 +56,8 @@ class Pair:
 
     p: of Wilcoxon's test, two-sided; p_shaffer: adjusted, None if Friedman's test was not significant. rank_biserial:
     the share of the ranks that favours `first` less that for `second`, -1 to 1. cohen_dz: the mean difference in
-    standard deviations of the differences. bound: in points of rating; p_equivalence: the larger of the two one-sided
-    tests' p-values. None if the differences are all zero, or have no spread.
+    standard deviations of the differences. None if the differences are all zero, or have no spread. bound: in points of
+    rating; p_equivalence: the larger of the two one-sided tests' p-values; p_holm: corrected for the number of pairs.
     """
 
     first: int
@@ -65,8 +67,9 @@ class Pair:
     p_shaffer: float | None
     rank_biserial: float | None
     cohen_dz: float | None
-    bound: float | None
-    p_equivalence: float | None
+    bound: float
+    p_equivalence: float
+    p_holm: float
 
 
 @dataclass(frozen=True)
@@ -110,21 +113,39 @@ def _counted_p(differences: np.ndarray, alternative: str) -> float:
     return float(min(1.0, test.pvalue))
 
 
-def equivalence(first: np.ndarray, second: np.ndarray) -> tuple[float | None, float | None]:
-    """Bound in points of rating and p-value of two one-sided Wilcoxon tests; None, None if no rating varies.
+def equivalence(first: np.ndarray, second: np.ndarray, bound: float) -> float:
+    """The larger p-value of two one-sided Wilcoxon tests against differences of `bound` points of rating.
 
-    The bound is 0.8 pooled standard deviations of the two methods' ratings. It is estimated from the same ratings, so
-    the rate of false equivalence is near the level, but not bounded by it.
+    Schuirmann (1987), A comparison of the two one-sided tests procedure and the power approach, J. Pharmacokinetics and
+    Biopharmaceutics 15, 657-680. The bound is chosen before the ratings are known: one that is estimated from them
+    grows with their scatter, so that careless ratings would look equal.
     """
-    pooled = float(np.sqrt((np.var(first, ddof=1) + np.var(second, ddof=1)) / 2.0))
-    if pooled == 0.0 or np.isnan(pooled):
-        return None, None
-    bound = EQUIVALENCE_BOUND * pooled
     differences = first - second
     above = signed_rank_p(differences + bound, "greater")
     below = signed_rank_p(differences - bound, "less")
     # Differences that all lie at a bound are no evidence against it.
-    return bound, max(1.0 if p is None else p for p in (above, below))
+    return max(1.0 if p is None else p for p in (above, below))
+
+
+def holm(p_values: Sequence[float]) -> list[float]:
+    """Adjusted p-values in the given order (Holm 1979, A simple sequentially rejective multiple test procedure, Scand.
+    J. Statistics 6, 65-70): valid however the tests depend on each other.
+
+    Shaffer's smaller factors are for hypotheses of equality, of which one implies others; two pairs that are equivalent
+    do not make the third one so.
+    """
+    result, largest = [0.0] * len(p_values), 0.0
+    for rank, place in enumerate(sorted(range(len(p_values)), key=lambda index: p_values[index])):
+        largest = max(largest, min(1.0, (len(p_values) - rank) * p_values[place]))
+        result[place] = largest
+    return result
+
+
+def equivalences(ratings: np.ndarray, bound: float) -> list[tuple[float, float]]:
+    """p of equivalence for each pair of columns, and the same after Holm's correction."""
+    pairs = combinations(range(ratings.shape[1]), 2)
+    found = [equivalence(ratings[:, first], ratings[:, second], bound) for first, second in pairs]
+    return list(zip(found, holm(found), strict=True))
 
 
 def rank_biserial(differences: np.ndarray) -> float | None:
@@ -159,8 +180,9 @@ def friedman(ratings: np.ndarray) -> Friedman | None:
     return Friedman(chi_square, float(result.pvalue), chi_square / (participants * (methods - 1)))
 
 
-def analysed(ratings: np.ndarray) -> RatingResult:
-    """All tests of one material. ratings: participants by methods, at least two methods, without gaps."""
+def analysed(ratings: np.ndarray, bound: float = EQUIVALENCE_POINTS) -> RatingResult:
+    """All tests of one material. ratings: participants by methods, at least two methods, without gaps. bound: of
+    equivalence, in points of rating."""
     methods = ratings.shape[1]
     found = friedman(ratings) if methods > 2 else None
     statement = ""
@@ -174,11 +196,12 @@ def analysed(ratings: np.ndarray) -> RatingResult:
     names = list(combinations(range(methods), 2))
     raw = {pair: signed_rank_p(ratings[:, pair[0]] - ratings[:, pair[1]]) for pair in names}
     corrected = _corrected(raw, methods) if follows_up else dict.fromkeys(names)
+    pairs = [(pair, *ps) for pair, ps in zip(names, equivalences(ratings, bound), strict=True)]
     return RatingResult(
         tuple(normality(column) for column in ratings.T),
         found,
         statement,
-        tuple(_pair(ratings, pair, raw[pair], corrected[pair]) for pair in names),
+        tuple(_pair(ratings, pair, raw[pair], corrected[pair], bound, p, p_holm) for pair, p, p_holm in pairs),
     )
 
 
@@ -189,10 +212,16 @@ def _corrected(raw: Mapping[tuple[int, int], float | None], methods: int) -> dic
     return {pair: None if raw[pair] is None else value for pair, value in zip(raw, values, strict=True)}
 
 
-def _pair(ratings: np.ndarray, pair: tuple[int, int], p: float | None, p_shaffer: float | None) -> Pair:
-    first, second = ratings[:, pair[0]], ratings[:, pair[1]]
-    differences = first - second
-    bound, p_equivalence = equivalence(first, second)
+def _pair(
+    ratings: np.ndarray,
+    pair: tuple[int, int],
+    p: float | None,
+    p_shaffer: float | None,
+    bound: float,
+    p_equivalence: float,
+    p_holm: float,
+) -> Pair:
+    differences = ratings[:, pair[0]] - ratings[:, pair[1]]
     return Pair(
         *pair,
         mean_difference=float(differences.mean()),
@@ -202,4 +231,5 @@ def _pair(ratings: np.ndarray, pair: tuple[int, int], p: float | None, p_shaffer
         cohen_dz=cohen_dz(differences),
         bound=bound,
         p_equivalence=p_equivalence,
+        p_holm=p_holm,
     )

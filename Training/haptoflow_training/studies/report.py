@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from haptoflow_training.studies import report_words as words
-from haptoflow_training.studies.figures import SIMULATED_WORDS, latency_figure, similarity_figure
+from haptoflow_training.studies.figures import SIMULATED_WORDS, latency_figure, mean_interval, similarity_figure
 from haptoflow_training.studies.html import heading, listing, page, paragraph, picture, table
 from haptoflow_training.studies.intervals import Interval
 from haptoflow_training.studies.latency_analysis import LatencyResult
@@ -28,6 +28,8 @@ class Analysed:
     notes: Sequence[str]
     latency: LatencyResult | None
     similarity: SimilarityResult | None
+    # Why there is no similarity in spite of sessions; empty if there is.
+    similarity_statement: str = ""
 
     @property
     def is_simulated(self) -> bool:
@@ -44,6 +46,8 @@ def report(analysed: Analysed) -> str:
         parts += _latency(analysed.latency, simulated)
     if analysed.similarity is not None:
         parts += _similarity(analysed.similarity, simulated)
+    elif analysed.similarity_statement:
+        parts += [heading("Similarity"), paragraph(f"{analysed.similarity_statement}.")]
     parts += [heading("What was analysed"), _sessions(analysed.sessions)]
     if analysed.notes:
         parts.append(listing(analysed.notes))
@@ -57,6 +61,8 @@ def results(analysed: Analysed) -> dict[str, Any]:
         found["latency"] = _latency_results(analysed.latency)
     if analysed.similarity is not None:
         found["similarity"] = _similarity_results(analysed.similarity)
+    elif analysed.similarity_statement:
+        found["similarity"] = {"statement": analysed.similarity_statement}
     return found | {"notes": list(analysed.notes)}
 
 
@@ -64,7 +70,7 @@ def _latency(result: LatencyResult, is_simulated: bool) -> list[str]:
     rows = [_fit_row(condition, result.fits[condition], result.answers[condition]) for condition in CONDITIONS]
     parts = [
         heading("Delay tolerance"),
-        paragraph(f"{result.participants} participants. {words.LATENCY}"),
+        paragraph(f"{_participants(result.participants)}. {words.LATENCY}"),
         picture(latency_figure(result, is_simulated=is_simulated), _marked(words.LATENCY_CAPTION, is_simulated)),
         table(words.FIT_HEADINGS, rows),
         *(
@@ -78,7 +84,7 @@ def _latency(result: LatencyResult, is_simulated: bool) -> list[str]:
     points = [
         [
             condition, f"{point.level_ms:g}", f"{point.delivered_ms:.1f}", f"{point.percent:.1f}",
-            _number(point.error_percent, 1), str(point.count),
+            f"{point.low_percent:.1f} to {point.high_percent:.1f}", str(point.count),
         ]
         for condition in CONDITIONS
         for point in result.points[condition]
@@ -113,7 +119,7 @@ def _difference_words(difference: float, interval: Interval | None) -> str:
 def _similarity(result: SimilarityResult, is_simulated: bool) -> list[str]:
     parts = [
         heading("Similarity"),
-        paragraph(f"{result.participants} participants. {words.SIMILARITY}"),
+        paragraph(f"{_participants(result.participants)}. {words.similarity(result.bound)}"),
         picture(similarity_figure(result, is_simulated=is_simulated), _marked(words.SIMILARITY_CAPTION, is_simulated)),
         table(words.MATERIAL_HEADINGS, [_material_row(result, name) for name in result.materials]),
         listing(words.EFFECT_SIZES),
@@ -124,11 +130,10 @@ def _similarity(result: SimilarityResult, is_simulated: bool) -> list[str]:
         if found.friedman_statement:
             parts.append(paragraph(f"{found.friedman_statement[:1].upper()}{found.friedman_statement[1:]}."))
         ratings = result.ratings[place]
-        errors = ratings.std(axis=0, ddof=1) / len(ratings) ** 0.5
         means = [
-            [method, f"{mean:.2f}", f"{error:.2f}", _p(one.p)]
-            for method, mean, error, one in zip(
-                result.methods, ratings.mean(axis=0), errors, found.normality, strict=True
+            [method, f"{mean:.2f}", f"{low:.2f} to {high:.2f}", _p(one.p)]
+            for method, mean, low, high, one in zip(
+                result.methods, ratings.mean(axis=0), *mean_interval(ratings), found.normality, strict=True
             )
         ]
         parts += [
@@ -140,11 +145,24 @@ def _similarity(result: SimilarityResult, is_simulated: bool) -> list[str]:
 
 def _material_row(result: SimilarityResult, name: str) -> list[str]:
     found = result.by_material[name]
-    rejected = sum(one.p is not None and one.p < 0.05 for one in found.normality)
-    normal = f"rejected for {rejected} of {len(found.normality)}"
+    normal = _normality_words([one.p for one in found.normality])
     if found.friedman is None:
         return [name, normal, _NONE, _NONE, _NONE]
     return [name, normal, f"{found.friedman.chi_square:.2f}", _p(found.friedman.p), f"{found.friedman.kendall_w:.2f}"]
+
+
+def _normality_words(p_values: Sequence[float | None]) -> str:
+    """Ratings that are all equal cannot be tested: they count neither as normal nor as not."""
+    tested = [p for p in p_values if p is not None]
+    if not tested:
+        return _NONE
+    said = f"rejected for {sum(p < 0.05 for p in tested)} of {len(tested)}"
+    untested = len(p_values) - len(tested)
+    return f"{said}; {untested} not tested, all ratings equal" if untested else said
+
+
+def _participants(count: int) -> str:
+    return f"{count} participant{'' if count == 1 else 's'}"
 
 
 def _pair_row(result: SimilarityResult, pair: Pair) -> list[str]:
@@ -156,8 +174,8 @@ def _pair_row(result: SimilarityResult, pair: Pair) -> list[str]:
         _p(pair.p_shaffer),
         _number(pair.rank_biserial, 2),
         _number(pair.cohen_dz, 2),
-        _NONE if pair.bound is None else f"±{pair.bound:.2f}",
         _p(pair.p_equivalence),
+        _p(pair.p_holm),
     ]
 
 
@@ -230,6 +248,7 @@ def _similarity_results(result: SimilarityResult) -> dict[str, Any]:
     return {
         "participants": result.participants,
         "methods": list(result.methods),
+        "equivalence_points": result.bound,
         "materials": {
             name: {
                 "means": [float(value) for value in result.ratings[place].mean(axis=0)],

@@ -18,19 +18,29 @@ LATENCY = (
     "out."
 )
 LATENCY_CAPTION = (
-    "Percentage of trials in which a delay was perceived. Points are means at the delivered delay, bars are "
-    "standard errors, dashed lines the fitted curves, thick lines at 50 % the intervals of the thresholds."
+    "Percentage of trials in which a delay was perceived. Points are percentages at the mean delivered delay, bars "
+    "their intervals of 95 % (Wilson's, which do not vanish at 0 and 100 %), dashed lines the fitted curves, thick "
+    "lines about 50 % the intervals of the thresholds. A tick is a single answer: yes above, no below. The two "
+    "conditions are drawn a little aside, so that neither hides the other."
 )
-SIMILARITY = (
+_SIMILARITY = (
     "Each participant rated from 1 to 7 how similar each method's virtual material feels to the real one. For each "
     "material, Friedman's test asks whether the methods differ at all; where p < 0.05, every pair is compared by "
     "Wilcoxon's signed-rank test with Shaffer's static correction over the material's pairs. Two one-sided Wilcoxon "
-    "tests ask of every pair whether its difference lies within 0.8 pooled standard deviations. Practice is left "
-    "out."
+    "tests ask of every pair whether its difference lies within {bound:g} points of rating, with Holm's correction "
+    "over the material's pairs. Practice is left out."
 )
+
+
+def similarity(bound: float) -> str:
+    """bound: of equivalence, in points of rating."""
+    return _SIMILARITY.format(bound=bound)
+
+
 SIMILARITY_CAPTION = (
-    "Mean similarity ratings with standard errors. Brackets: † p < 0.1 and * p < 0.05 for a difference after "
-    "Shaffer's correction, green ≈ p < 0.05 for equivalence."
+    "Similarity ratings: a dot is one participant's rating, a dash the mean, bars its interval of 95 % (Student's t; "
+    "each participant rated every method, so that intervals that overlap say little about a difference). Brackets: "
+    "† p < 0.1 and * p < 0.05 for a difference after Shaffer's correction, green ≈ p < 0.05 for equivalence after Holm's."
 )
 EFFECT_SIZES = (
     "Kendall's W: how far participants agree on the order of the methods, from 0 (not at all) to 1 (fully).",
@@ -41,18 +51,17 @@ EFFECT_SIZES = (
 LIMITS = (
     "No correction is made over materials: with six of them and no difference anywhere, one in four such studies "
     "finds a difference on some material.",
-    "Equivalence is tested without correction over pairs, against a bound that is estimated from the same ratings.",
     "A pair without * and without ≈ is undecided: no difference was found, and none was excluded.",
 )
 FIT_HEADINGS = (
     "condition", "answers", "threshold x0 (ms)", "95 % interval", "standard error", "k (1/ms)", "95 % interval",
     "standard error",
 )  # fmt: skip
-POINT_HEADINGS = ("condition", "planned (ms)", "delivered (ms)", "yes (%)", "standard error (%)", "answers")
+POINT_HEADINGS = ("condition", "planned (ms)", "delivered (ms)", "yes (%)", "95 % interval", "answers")
 MATERIAL_HEADINGS = ("material", "normality (Shapiro-Wilk, p < 0.05)", "Friedman chi-square", "p", "Kendall's W")
-METHOD_HEADINGS = ("method", "mean rating", "standard error", "Shapiro-Wilk p")
+METHOD_HEADINGS = ("method", "mean rating", "95 % interval", "Shapiro-Wilk p")
 PAIR_HEADINGS = (
-    "pair", "mean difference", "Wilcoxon p", "p after Shaffer", "rank-biserial r", "d_z", "equivalence bound",
-    "equivalence p",
+    "pair", "mean difference", "Wilcoxon p", "p after Shaffer", "rank-biserial r", "d_z", "equivalence p",
+    "p after Holm",
 )  # fmt: skip
 SESSION_HEADINGS = ("session", "seed", "resumptions", "simulated", "headset", "device delay", "HaptoFlow")

@@ -10,21 +10,23 @@ import numpy as np
 
 from haptoflow_training.errors import InputError
 from haptoflow_training.studies.plans import MAIN
-from haptoflow_training.studies.rating_tests import RatingResult, analysed
+from haptoflow_training.studies.rating_tests import EQUIVALENCE_POINTS, RatingResult, analysed
 from haptoflow_training.studies.session_file import Session
 
-_MINIMUM_PARTICIPANTS = 3
+MINIMUM_PARTICIPANTS = 3
+EQUIVALENCE_KEY = "equivalence_points"
 _MAXIMUM_METHODS = 12
 
 
 @dataclass(frozen=True)
 class SimilarityResult:
-    """ratings: materials by participants by methods."""
+    """ratings: materials by participants by methods. bound: of equivalence, in points of rating."""
 
     materials: Sequence[str]
     methods: Sequence[str]
     ratings: np.ndarray
     by_material: Mapping[str, RatingResult]
+    bound: float
 
     @property
     def participants(self) -> int:
@@ -33,10 +35,8 @@ class SimilarityResult:
 
 def analyse_similarity(sessions: Sequence[Session]) -> SimilarityResult:
     """Analyse the sessions; practice trials are left out. InputError names a rating that is missing or duplicate."""
-    if len(sessions) < _MINIMUM_PARTICIPANTS:
-        raise InputError(
-            f"{len(sessions)} participants of the similarity study; its tests need {_MINIMUM_PARTICIPANTS}"
-        )
+    if len(sessions) < MINIMUM_PARTICIPANTS:
+        raise InputError(too_few_words(len(sessions)))
     materials, methods = _names(sessions, "material"), _names(sessions, "method")
     if not 2 <= len(methods) <= _MAXIMUM_METHODS:
         raise InputError(f"{len(methods)} methods in the similarity study; it can compare 2 to {_MAXIMUM_METHODS}")
@@ -50,8 +50,26 @@ def analyse_similarity(sessions: Sequence[Session]) -> SimilarityResult:
                 raise InputError(f"{session.path}: {row['method']} on {row['material']} is rated twice; expected once")
             ratings[cell] = row["rating"]
     _refuse_gaps(ratings, materials, methods, sessions)
-    by_material = {name: analysed(of_material) for name, of_material in zip(materials, ratings, strict=True)}
-    return SimilarityResult(materials, methods, ratings, by_material)
+    bound = bound_of(sessions)
+    by_material = {name: analysed(of_material, bound) for name, of_material in zip(materials, ratings, strict=True)}
+    return SimilarityResult(materials, methods, ratings, by_material, bound)
+
+
+def too_few_words(participants: int) -> str:
+    count = f"{participants} participant{'' if participants == 1 else 's'}"
+    return f"{count} of the similarity study; its tests need {MINIMUM_PARTICIPANTS}"
+
+
+def bound_of(sessions: Sequence[Session]) -> float:
+    """The bound of equivalence that the settings fixed before the first answer; the smallest if sessions differ."""
+    return min(session_bound(session) or EQUIVALENCE_POINTS for session in sessions)
+
+
+def session_bound(session: Session) -> float | None:
+    """None if the settings name none, as in logs of older versions."""
+    value = session.sidecar["settings"].get(EQUIVALENCE_KEY)
+    is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
+    return float(value) if is_number and 0.0 < value <= 6.0 else None
 
 
 def _names(sessions: Sequence[Session], key: str) -> list[str]:

@@ -14,7 +14,9 @@ from haptoflow_training.errors import InputError
 from haptoflow_training.studies.log_columns import LATENCY, SIMILARITY, STUDIES
 from haptoflow_training.studies.plans import MAIN, LatencyTrial, SimilarityTrial, latency_plan, similarity_plan
 from haptoflow_training.studies.session_file import NAME
+from haptoflow_training.studies.rating_tests import EQUIVALENCE_POINTS
 from haptoflow_training.studies.session_writer import write_session
+from haptoflow_training.studies.similarity_analysis import EQUIVALENCE_KEY
 from haptoflow_training.studies.simulated_participants import LEVELS_MS, AnswerModel, RatingModel
 
 _WORDS = "simulated: haptoflow-training study simulate"
@@ -61,7 +63,8 @@ def simulate_similarity(
         for (material, method), value in model.lowered.items()
     ]
     settings = {
-        "materials": list(model.materials), "methods": list(model.methods), "simulated_truth": {"lowered": lowered},
+        "materials": list(model.materials), "methods": list(model.methods), EQUIVALENCE_KEY: EQUIVALENCE_POINTS,
+        "simulated_truth": {"lowered": lowered},
     }  # fmt: skip
     for participant in range(1, participants + 1):
         plan = similarity_plan(participant, seed, model.materials, model.methods)

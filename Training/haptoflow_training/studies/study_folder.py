@@ -10,9 +10,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.studies.log_columns import STUDIES
-from haptoflow_training.studies.problems import Problem
+from haptoflow_training.studies.log_columns import SIMILARITY, STUDIES
+from haptoflow_training.studies.problems import Problem, ranges
 from haptoflow_training.studies.session_file import NAME, Session, read_session
+from haptoflow_training.studies.similarity_analysis import EQUIVALENCE_KEY, session_bound
 
 _MAXIMUM_SHOWN = 20
 _OWN_SETTINGS = ("pen_hand",)
@@ -123,7 +124,27 @@ def _notes(sessions: Sequence[Session]) -> list[str]:
             kinds = {json.dumps(_compared(session.sidecar[key]), sort_keys=True) for session in of_study}
             if len(kinds) > 1:
                 notes.append(f"{study}: {len(kinds)} different values of '{key}' in the sidecars: {why}")
+        notes += _missing(study, of_study)
+        if study == SIMILARITY and any(session_bound(session) is None for session in of_study):
+            notes.append(
+                f"{study}: not every sidecar's settings name '{EQUIVALENCE_KEY}': the bound of equivalence was not "
+                "fixed before the answers"
+            )
         estimated = sum(session.sidecar["device"]["device_delay_source"] == "estimated" for session in of_study)
         if estimated:
             notes.append(f"{study}: the device delay of {estimated} of {len(of_study)} sessions is an estimate")
     return notes
+
+
+def _missing(study: str, sessions: Sequence[Session]) -> list[str]:
+    """A note about the numbers below the highest one without a session: each number has an order of its own."""
+    present = {session.participant for session in sessions}
+    missing = [number for number in range(1, max(present, default=0)) if number not in present]
+    if not missing:
+        return []
+    are = "participant" if len(missing) == 1 else "participants"
+    return [
+        f"{study}: {are} {ranges(missing)} missing below participant {max(present)}: the order of trials is not "
+        f"counterbalanced; run somebody under {'this number' if len(missing) == 1 else 'each of these numbers'} before "
+        "higher ones"
+    ]

@@ -12,14 +12,14 @@ import numpy as np
 import scipy
 from scipy.stats import norm
 
-from haptoflow_training.studies.intervals import Interval, Share, share
+from haptoflow_training.studies.intervals import Interval, share
 from haptoflow_training.studies.latency_analysis import analyse_latency
 from haptoflow_training.studies.log_columns import LATENCY, SIMILARITY
 from haptoflow_training.studies.plans import CONDITIONS
 from haptoflow_training.studies.power import latency_answers, planned_signed_rank_power, rating_power
 from haptoflow_training.studies.psychometric import Answers, Fit, fit, leave_one_out
 from haptoflow_training.studies.rating_tests import (
-    EQUIVALENCE_BOUND, SIGNIFICANCE, analysed, equivalence, signed_rank_p,
+    EQUIVALENCE_POINTS, SIGNIFICANCE, analysed, equivalences, signed_rank_p,
 )  # fmt: skip
 from haptoflow_training.studies.similarity_analysis import analyse_similarity
 from haptoflow_training.studies.simulated_participants import (
@@ -30,12 +30,14 @@ from haptoflow_training.studies.study_folder import read_faultless
 
 PARTICIPANTS = 24
 BETWEEN = (0.0, 0.3, 0.6)
+EQUIVALENCE_BOUNDS = (EQUIVALENCE_POINTS, 0.75, 1.0)
+EQUIVALENCE_PARTICIPANTS = (PARTICIPANTS, 48, 96, 144)
 Advance = Callable[[], object]
 
 
 def steps_of(studies: int, simulations: int) -> int:
     """How often `validated` calls advance."""
-    return 2 * studies + (len(BETWEEN) + 5) * simulations
+    return 2 * studies + (len(BETWEEN) + 4 + len(EQUIVALENCE_BOUNDS) + len(EQUIVALENCE_PARTICIPANTS)) * simulations
 
 
 def validated(*, studies: int, simulations: int, seed: int, advance: Advance = int) -> dict[str, Any]:
@@ -53,6 +55,7 @@ def validated(*, studies: int, simulations: int, seed: int, advance: Advance = i
         "planned": _planned_power(simulations, seed, advance),
         "intervals": [compared_intervals(between, simulations, seed, advance) for between in BETWEEN],
         "false_positives": false_positives(simulations, seed, advance),
+        "equivalence": measured_equivalence(simulations, seed, advance),
     }
 
 
@@ -206,7 +209,7 @@ def false_positives(simulations: int, seed: int, advance: Advance = int) -> dict
             ("any_pair_crowded", "crowded any"),
             ("any_pair_of_three_alike_beside_a_lower_one", "one_lower any"),
         )
-    } | {"equivalence_at_the_bound": _equivalence_at_the_bound(simulations, random, advance).as_json()}
+    }
 
 
 def _false_findings(model: RatingModel, random: np.random.Generator) -> Sequence[str]:
@@ -222,18 +225,46 @@ def _false_findings(model: RatingModel, random: np.random.Generator) -> Sequence
     return found
 
 
-def _equivalence_at_the_bound(simulations: int, random: np.random.Generator, advance: Advance) -> Share:
-    """Two methods whose means are 0.8 standard deviations of the ratings apart, just not equivalent.
+def measured_equivalence(simulations: int, seed: int, advance: Advance = int) -> dict[str, Any]:
+    """How often methods that are just not equivalent are called so, and how often methods that are alike are found so.
 
-    The ratings are not rounded: rounding would move means and standard deviations off the bound.
+    at_the_bound: two methods whose means are the bound apart, one test alone. any_of_four: four methods of which two
+    are alike and the other two the bound above them, so that four pairs are not equivalent: any of these after correction.
+    alike: four methods without a difference, a given pair after correction, by number of participants.
     """
+    random = np.random.default_rng((seed, 6))
+    by_bound = {}
+    for bound in EQUIVALENCE_BOUNDS:
+        alone = any_of_four = 0
+        for _ in range(simulations):
+            ratings = _apart(random, bound)
+            # The pairs in order: 1-2, 1-3, 1-4, 2-3, 2-4, 3-4.
+            apart = equivalences(ratings, bound)[1:5]
+            alone += apart[0][0] < SIGNIFICANCE
+            any_of_four += any(corrected < SIGNIFICANCE for _, corrected in apart)
+            advance()
+        by_bound[str(bound)] = {
+            "at_the_bound": share(alone, simulations).as_json(),
+            "any_of_four": share(any_of_four, simulations).as_json(),
+            "alike": {},
+        }
+    for count in EQUIVALENCE_PARTICIPANTS:
+        found: Counter[float] = Counter()
+        for _ in range(simulations):
+            ratings = RatingModel(["m"]).ratings(random, count)[0]
+            for bound in EQUIVALENCE_BOUNDS:
+                found[bound] += equivalences(ratings, bound)[0][1] < SIGNIFICANCE
+            advance()
+        for bound in EQUIVALENCE_BOUNDS:
+            by_bound[str(bound)]["alike"][str(count)] = share(found[bound], simulations).as_json()
+    return by_bound
+
+
+def _apart(random: np.random.Generator, points: float) -> np.ndarray:
+    """Whole ratings from 1 to 7 of four methods; the last two have means that lie `points` above the first two."""
     model = RatingModel(["m"])
-    apart = EQUIVALENCE_BOUND * float(np.hypot(model.between, model.noise))
-    found = 0
-    for _ in range(simulations):
-        own = random.normal(0.0, model.between, PARTICIPANTS)
-        first, second = (own + random.normal(0.0, model.noise, PARTICIPANTS) for _ in range(2))
-        _, p = equivalence(first + apart, second)
-        found += p is not None and p < SIGNIFICANCE
-        advance()
-    return share(found, simulations)
+    own = random.normal(0.0, model.between, (PARTICIPANTS, 1))
+    # About the middle of the scale its ends shorten both sides alike.
+    means = 4.0 + points * np.array([-0.5, -0.5, 0.5, 0.5])
+    values = means + own + random.normal(0.0, model.noise, (PARTICIPANTS, len(METHODS)))
+    return np.asarray(np.clip(np.round(values), 1, 7))

@@ -15,6 +15,7 @@ def page_words(found: Mapping[str, Any]) -> str:
             "\n".join(_intervals(found)),
             "\n".join(_false_positives(found)),
             "\n".join(_planted(found)),
+            "\n".join(_equivalence(found)),
         ]
     )
 
@@ -61,7 +62,6 @@ _FALSE_POSITIVES = {
     "wilcoxon_crowded": "the same: one pair by Wilcoxon's test alone",
     "any_pair_crowded": "the same: any of the six pairs, after Friedman's test and correction",
     "any_pair_of_three_alike_beside_a_lower_one": "one method lower by d_z 1.5: any pair of the three others",
-    "equivalence_at_the_bound": "a difference that is just not equivalent, called equivalent",
 }
 
 
@@ -90,4 +90,25 @@ def _planted(found: Mapping[str, Any]) -> list[str]:
         f"Three materials of each study had no difference; Friedman's test found one on "
         f"{_rate(planted['friedman_without_difference'])} of them. For differences that are not rounded, G*Power's "
         f"formula plans {100 * planned['formula']:.1f} %, and Wilcoxon's test found {_rate(planned['unrounded'])}.",
+    ]
+
+
+def _equivalence(found: Mapping[str, Any]) -> list[str]:
+    by_bound = found["equivalence"]
+    counts = list(next(iter(by_bound.values()))["alike"])
+    studies = round(next(iter(by_bound.values()))["at_the_bound"]["of"])
+    return [
+        f"Equivalence, {studies} studies each. False \"equal\": the means are just the bound apart; the last "
+        "columns: a given pair of four methods that are alike is found equivalent, after Holm's correction:",
+        "",
+        '| bound, points | false "equal", one pair alone | any of four such pairs of six, corrected '
+        + "".join(f"| found with {count} participants " for count in counts)
+        + "|",
+        "|---" * (3 + len(counts)) + "|",
+        *(
+            f"| {bound} | {_rate(one['at_the_bound'])} | {_rate(one['any_of_four'])} | "
+            + " | ".join(_rate(one["alike"][count]) for count in counts)
+            + " |"
+            for bound, one in by_bound.items()
+        ),
     ]

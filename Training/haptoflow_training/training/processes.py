@@ -31,6 +31,14 @@ class Processes:
         distributed.all_reduce(total)
         return total / self.count
 
+    def any(self, *flags: bool) -> tuple[bool, ...]:
+        """Each flag, true if it is true in any process."""
+        if self.count == 1:
+            return flags
+        raised = torch.tensor(flags, dtype=torch.int32)
+        distributed.all_reduce(raised, op=distributed.ReduceOp.MAX)
+        return tuple(bool(flag) for flag in raised)
+
     def wait(self) -> None:
         """Wait until every process has reached this call."""
         if self.count > 1:

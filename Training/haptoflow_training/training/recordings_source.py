@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import hashlib
 import json
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -17,6 +17,7 @@ from haptoflow_training.export.seed_bank import SEED_SAMPLES
 from haptoflow_training.preprocessing.preparation import prepare_cut_where_needed, prepare_store
 from haptoflow_training.preprocessing.split import SPLITS
 from haptoflow_training.preprocessing.store import SegmentStore
+from haptoflow_training.preprocessing.store_lock import store_lock
 from haptoflow_training.recordings.cluster_dataset import UNKNOWN
 from haptoflow_training.recordings.labels import LabelDefinition, LabelMap, load_labels
 from haptoflow_training.recordings.landing import landing_of
@@ -35,6 +36,7 @@ from haptoflow_training.recordings.synthetic.materials import select_materials
 from haptoflow_training.training.config import DataConfig
 from haptoflow_training.training.found_wave_vectors import with_found_wave_vectors
 
+_MAXIMUM_SHOWN = 10
 SYNTHETIC_STATEMENT = "trained on synthetic recordings"
 
 
@@ -119,20 +121,28 @@ def _open_or_prepare(
     further: dict[str, Any] | None = None,
 ) -> SegmentStore:
     fingerprint = _fingerprint(data, further or {})
-    if (out / "store.json").exists():
-        store = SegmentStore.open(out)
-        if store.provenance.get("made_from") == fingerprint:
-            return store
+    if (found := _open_if_made_from(out, fingerprint)) is not None:
+        return found
     # Synthetic recordings are split by their names alone, so that existing stores stay valid.
     prepare = prepare_store if data.source == "synthetic" else prepare_cut_where_needed
-    return prepare(
-        recordings,
-        labels,
-        out,
-        seed=data.recordings_seed,
-        provenance={"made_from": fingerprint},
-        workers=workers,
-    )
+    with store_lock(out):
+        if (found := _open_if_made_from(out, fingerprint)) is not None:
+            return found
+        return prepare(
+            recordings,
+            labels,
+            out,
+            seed=data.recordings_seed,
+            provenance={"made_from": fingerprint},
+            workers=workers,
+        )
+
+
+def _open_if_made_from(out: Path, fingerprint: dict[str, Any]) -> SegmentStore | None:
+    if not (out / "store.json").exists():
+        return None
+    store = SegmentStore.open(out)
+    return store if store.provenance.get("made_from") == fingerprint else None
 
 
 def synthetic_label_infos(data: DataConfig) -> list[LabelInfo]:
@@ -206,7 +216,7 @@ def _open_folders(data: DataConfig, store_folder: Path, workers: int) -> Source:
     infos = [info for name, info in known.items() if name in found]
     further = {"files": _files_of(entries), "labels": labels_made_from, "split_by_time": True}
     store = _open_or_prepare(data, store_folder, entries, [info.name for info in infos], workers, further)
-    _require_splits(store)
+    _require_splits(store, [f"skipped: {problem}" for root in roots for problem in root.problems])
     counted = f"{len(store.recordings)} recordings of {len(infos)} labels"
     if synthetic:
         return Source(store, infos, Provenance(SYNTHETIC_STATEMENT, f"synthetic recorder: {counted}", "MIT", ""))
@@ -233,29 +243,40 @@ def _left_out(roots: list[Dataset]) -> tuple[str, ...]:
     return tuple(lines + [root.left_out for root in roots if root.left_out])
 
 
-def _require_splits(store: SegmentStore) -> None:
-    """InputError if a label has nothing to train on, or nothing is left for validation; raised before training."""
+def _require_splits(store: SegmentStore, unusable: Sequence[str]) -> None:
+    """InputError if a label has nothing to train on, or nothing is left for validation; raised before training.
+    unusable: lines about files that were excluded before preparation."""
     counts = {label: dict.fromkeys(SPLITS, 0) for label in store.labels}
     for recording in store.recordings:
         # Shorter recordings contain no window for the seed bank.
         if recording.split != "train" or recording.length > SEED_SAMPLES:
             counts[store.labels[recording.label_index]][recording.split] += 1
-    lacking = [
-        f"{label} ({', '.join(f'{number} {split}' for split, number in of_label.items())})"
-        for label, of_label in counts.items()
-        if of_label["train"] == 0
-    ]
+    lacking = [label for label, of_label in counts.items() if of_label["train"] == 0]
     if lacking:
+        counted = (f"{label} ({', '.join(f'{counts[label][split]} {split}' for split in SPLITS)})" for label in lacking)
+        damaged = [f"skipped: {one}" for one in store.skipped if one.label in lacking]
         raise InputError(
-            f"nothing to train with for {'; '.join(lacking)}: recordings are split 70:10:20 by their names, or by time "
-            "where there are few and they last 2 s at least; record more of these labels, leave the labels out "
-            "(data.labels), or draw another split (data.recordings_seed)"
+            f"nothing to train with for {'; '.join(counted)}: {_remedy([*damaged, *unusable], ' of these labels')}, "
+            "leave the labels out (data.labels), or draw another split (data.recordings_seed)"
         )
     if not any(of_label["validation"] for of_label in counts.values()):
+        damaged = [f"skipped: {one}" for one in store.skipped]
         raise InputError(
-            "no recording is left for validation: recordings are split 70:10:20 by their names, or by time where there "
-            "are few and they last 2 s at least; record more, or draw another split (data.recordings_seed)"
+            f"no recording is left for validation: {_remedy([*damaged, *unusable], '')}, or draw another split "
+            "(data.recordings_seed)"
         )
+
+
+def _remedy(unusable: Sequence[str], of_what: str) -> str:
+    """The reason and its remedy: files that could not be used are named first, because mending them may suffice."""
+    if unusable:
+        more = [f"and {len(unusable) - _MAXIMUM_SHOWN} more"] if len(unusable) > _MAXIMUM_SHOWN else []
+        listed = "\n  ".join(["files could not be used:", *unusable[:_MAXIMUM_SHOWN], *more])
+        return f"{listed}\nmend or replace these files, record more{of_what}"
+    return (
+        "recordings are split 70:10:20 by their names, or by time where there are few and they last 2 s at least; "
+        f"record more{of_what}"
+    )
 
 
 def _label_map(data: DataConfig, roots: list[Dataset]) -> LabelMap:

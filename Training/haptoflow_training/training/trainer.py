@@ -30,6 +30,7 @@ from haptoflow_training.models.level_model import ConstantLevel, LevelModel
 from haptoflow_training.models.representation import build_representation
 from haptoflow_training.models.segment_network import SegmentNetwork
 from haptoflow_training.models.velocity_field import VelocityField
+from haptoflow_training.stopping import Stopped, end_if_stopped
 from haptoflow_training.training.batches import SegmentBatches, Store
 from haptoflow_training.training.budget import Budget
 from haptoflow_training.training.config import TrainingConfig, config_from_dict
@@ -42,6 +43,8 @@ from haptoflow_training.training.run_log import MetricsLog, plot_metrics, source
 _COLUMNS = ("step", "phase", "field_loss", "level_loss", "validation_field_loss", "validation_level_loss", "seconds")
 _LOG_EVERY = 100
 _CHECKPOINT_EVERY = 1000
+# A slow machine takes minutes for so many steps, and a killed program should not lose them.
+_CHECKPOINT_SECONDS = 30.0
 _VALIDATION_BATCH = 512
 # Steps of each phase that are timed before a budget is divided, after warm-up steps.
 _REHEARSED_STEPS, _WARM_UP_STEPS = 12, 2
@@ -54,7 +57,7 @@ _SECONDS_BETWEEN_BARS = 0.5
 _REHEARSED_PAIRS = 500
 
 
-class TrainingStopped(Exception):
+class TrainingStopped(Stopped):
     """The run was asked to stop; its checkpoint is written."""
 
 
@@ -147,6 +150,17 @@ def planned_steps(config: TrainingConfig) -> list[int]:
     return [phase.steps for phase in _phases(config)]
 
 
+def check_start(config: TrainingConfig, processes: Processes, base: Path | None) -> None:
+    """InputError for a run that cannot begin, whatever its recordings; asked before they are prepared."""
+    if config.optimiser.budget_seconds and processes.count > 1:
+        raise InputError("optimiser.budget_seconds works with one process only; leave it out under torchrun")
+    if config.recipe.shares_base != (base is not None):
+        raise InputError(
+            "--base FOLDER and recipe.shares_base = true go together: the one names the run whose level is kept, "
+            "the other says that it is"
+        )
+
+
 class Trainer:
     """Trains one configuration on one store into one folder."""
 
@@ -171,13 +185,7 @@ class Trainer:
         torch.set_num_threads(config.threads)
         torch.manual_seed(config.seed)
         self.model = build_model(config, wave_vectors or [()] * len(store.labels))
-        if optimiser.budget_seconds and processes.count > 1:
-            raise InputError("optimiser.budget_seconds works with one process only; leave it out under torchrun")
-        if config.recipe.shares_base != (base is not None):
-            raise InputError(
-                "--base FOLDER and recipe.shares_base = true go together: the one names the run whose level is kept, "
-                "the other says that it is"
-            )
+        check_start(config, processes, base)
         if base is not None:
             adopt_base(self.model, base, list(store.labels))
         if start is not None:
@@ -198,6 +206,9 @@ class Trainer:
         self._step = 0
         self._seconds = 0.0
         self._stop = False
+        self._signal = int(signal.SIGTERM)
+        self._own_saved: dict[str, Any] | None = None
+        self._saved_at = 0.0
 
     def limit_time(self, limit: TimeLimit) -> None:
         """Call before `run`: a wall-clock limit in place of the configuration's budget and steps. One process only."""
@@ -228,6 +239,10 @@ class Trainer:
         # The commit at the start of training; the tree may change while the run goes on.
         commit = source_commit(Path(__file__).parent)
         log = MetricsLog(self._folder / "metrics.csv", _COLUMNS, self._step) if self._processes.is_first else None
+        # Until the first step there is nothing to save: a signal ends the program at once.
+        if (self._config.optimiser.budget_seconds or self._limit is not None) and self._budget is None:
+            self._budget = self._shared_out_budget()
+        end_if_stopped()
         previous_handlers = {
             number: signal.signal(number, self._ask_to_stop) for number in (signal.SIGINT, signal.SIGTERM)
         }
@@ -236,12 +251,19 @@ class Trainer:
         finally:
             for number, handler in previous_handlers.items():
                 signal.signal(number, handler)
+        if self._stop:
+            # The signal came after the last step.
+            raise self._stopped()
         if log is not None:
             self._write_summary(commit)
             plot_metrics(log, self._folder / "metrics.png")
 
     def _ask_to_stop(self, number: int, frame: FrameType | None) -> None:
-        self._stop = True
+        self._stop, self._signal = True, number
+
+    def _stopped(self) -> TrainingStopped:
+        words = f"stopped at step {self._step} of {self._total}, no model is written yet"
+        return TrainingStopped(self._signal, f"{words}; run the same command again to go on from there")
 
     def _learning_rate(self, phase: _Phase) -> float:
         peak, done = phase.learning_rate, self._step - phase.first_step
@@ -254,8 +276,7 @@ class Trainer:
         losses: nn.Module = self._losses
         if self._processes.count > 1:
             losses = DistributedDataParallel(self._losses, find_unused_parameters=True)
-        if (self._config.optimiser.budget_seconds or self._limit is not None) and self._budget is None:
-            self._budget = self._shared_out_budget()
+        self._saved_at = clock
         bar = tqdm(
             total=self._total, initial=self._step, unit="step", disable=log is None, desc=self._config.name,
             bar_format=None if self._limit is None else _LIMITED_BAR,
@@ -272,10 +293,13 @@ class Trainer:
                     self._seconds += time.monotonic() - clock
                     clock = time.monotonic()
                     self._report(log, phase, level, field, bar)
-                if self._step % _CHECKPOINT_EVERY == 0 or self._step == self._total or self._stop:
+                is_due = time.monotonic() - self._saved_at >= _CHECKPOINT_SECONDS
+                # Processes that train together save and stop at the same step.
+                is_due, self._stop = self._processes.any(is_due, self._stop)
+                if self._step % _CHECKPOINT_EVERY == 0 or self._step == self._total or is_due or self._stop:
                     self._save()
                 if self._stop:
-                    raise TrainingStopped(f"stopped at step {self._step} of {self._total}; start again to go on")
+                    raise self._stopped()
         bar.close()
 
     def _show_progress(self, bar: tqdm) -> None:
@@ -438,7 +462,10 @@ class Trainer:
             "balance": self._balance.state(),
         }
         path = self._folder / f"generators-{self._processes.rank}.pt"
-        _save_atomically({"step": self._step, **own}, path)
+        # A program that is killed between the two files goes on from the checkpoint before.
+        now = {"step": self._step, **own}
+        _save_atomically({**now, "before": self._own_saved}, path)
+        self._own_saved = now
         if self._processes.is_first:
             content = {
                 "config": self._config.to_dict(),
@@ -453,6 +480,7 @@ class Trainer:
             }
             _save_atomically(content, self.checkpoint_path)
         self._processes.wait()
+        self._saved_at = time.monotonic()
 
     def _load(self) -> None:
         content = torch.load(self.checkpoint_path, map_location="cpu")
@@ -463,6 +491,8 @@ class Trainer:
                 f"{self.checkpoint_path} belongs to another configuration: choose another --out, or delete the folder"
             )
         if own["step"] != content["step"]:
+            own = own.get("before") or own
+        if own["step"] != content["step"]:
             raise InputError(f"{self._folder}: checkpoint and generators disagree: delete the folder and start again")
         self.model.load_state_dict(content["model"])
         self._average.restore(content["average"])
@@ -470,6 +500,7 @@ class Trainer:
         self._step, self._seconds = content["step"], content["seconds"]
         self._plan(content["steps"])
         self._budget = Budget(*content["budget"], clock=self._clock) if content["budget"] else None
+        self._own_saved = {key: value for key, value in own.items() if key != "before"}
         self._noise.set_state(own["noise"])
         self._batches.restore(own["batches"])
         self._balance.restore(own["balance"])

@@ -15,6 +15,7 @@ namespace HaptoFlow.Editor
         {
             return SettingsRules.Check()
                 .Concat(StylusRules.Check(scene))
+                .Concat(PenRules.Check(scene))
                 .Concat(SurfaceRules.Check(scene))
                 .Concat(LearntMaterialRules.Check(scene))
                 .Concat(ColliderRules.Check(scene))

@@ -1,6 +1,9 @@
 #nullable enable
+using System.IO;
 using UnityEditor;
 using UnityEngine;
+using Object = UnityEngine.Object;
+using PackageInfo = UnityEditor.PackageManager.PackageInfo;
 
 namespace HaptoFlow.Editor
 {
@@ -14,6 +17,7 @@ namespace HaptoFlow.Editor
         internal static void Begin()
         {
             HaptoFlowSettings.FindProjectSettings = SettingsOfProject;
+            HelpPages.FindFolder = FolderOfPages;
             AssemblyReloadEvents.beforeAssemblyReload += HapticSession.ShutDown;
             AssemblyReloadEvents.beforeAssemblyReload += HapticLearning.EndAll;
             AssemblyReloadEvents.beforeAssemblyReload += ForgetBuiltIn;
@@ -23,6 +27,12 @@ namespace HaptoFlow.Editor
             EditorApplication.projectChanged += ProjectSettingsAsset.Forget;
             // In play mode, names of objects are read again only after this call, because reading them allocates.
             EditorApplication.hierarchyChanged += MaterialMaps.Change;
+        }
+
+        private static string? FolderOfPages()
+        {
+            PackageInfo? package = PackageInfo.FindForAssembly(typeof(HapticSurface).Assembly);
+            return package == null ? null : Path.Combine(package.resolvedPath, "Documentation~");
         }
 
         private static void OnPlayModeChanged(PlayModeStateChange change)

@@ -15,7 +15,7 @@ namespace HaptoFlow
     /// cref="TakePoint"/> while the tip is on the mark. The pose is saved under <see cref="SaveName"/>, relative to the
     /// parent: it stays valid as long as the tracking space does.</remarks>
     [AddComponentMenu("HaptoFlow/Haptic Alignment")]
-    [HelpURL(HelpPages.Components + "haptic-alignment")]
+    [HelpPage(HelpPages.Components + "haptic-alignment")]
     [DefaultExecutionOrder(1100)]
     [DisallowMultipleComponent]
     public sealed class HapticAlignment : MonoBehaviour

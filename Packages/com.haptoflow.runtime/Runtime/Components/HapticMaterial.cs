@@ -182,7 +182,7 @@ namespace HaptoFlow
     /// <summary>A material that several surfaces share: made of labels of the model, or learnt from a recording and
     /// carrying its own embedding.</summary>
     [CreateAssetMenu(menuName = "HaptoFlow/Haptic Material", fileName = "HapticMaterial", order = 1)]
-    [HelpURL(HelpPages.Components + "haptic-material")]
+    [HelpPage(HelpPages.Components + "haptic-material")]
     public sealed class HapticMaterial : ScriptableObject
     {
         [SerializeField]

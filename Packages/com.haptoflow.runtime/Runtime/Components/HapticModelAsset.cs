@@ -6,7 +6,7 @@ using UnityEngine;
 namespace HaptoFlow
 {
     /// <summary>A .haptoflow model as an asset: the bytes of the file, unchanged.</summary>
-    [HelpURL(HelpPages.Components + "haptic-model")]
+    [HelpPage(HelpPages.Components + "haptic-model")]
     public sealed class HapticModelAsset : ScriptableObject
     {
         [SerializeField, HideInInspector]

@@ -11,7 +11,7 @@ namespace HaptoFlow
     /// colliders are ignored.</remarks>
     [AddComponentMenu("HaptoFlow/Haptic Surface")]
     [DisallowMultipleComponent]
-    [HelpURL(HelpPages.Components + "haptic-surface")]
+    [HelpPage(HelpPages.Components + "haptic-surface")]
     public sealed class HapticSurface : MonoBehaviour
     {
         [SerializeField, Tooltip("A material shared with other surfaces. Leave it empty to describe one here.")]
@@ -77,7 +77,7 @@ namespace HaptoFlow
             set
             {
                 includeChildren = value;
-                isStale = true;
+                MarkStale();
             }
         }
 
@@ -171,6 +171,7 @@ namespace HaptoFlow
         private void OnEnable()
         {
             Register();
+            SurfaceRegistry.Changed();
             InvalidateSurfaceAbove();
             HapticSession.Existing?.Prepare(SharedDescription);
         }
@@ -180,12 +181,18 @@ namespace HaptoFlow
         private void OnDestroy() => InvalidateSurfaceAbove();
 
         // Unity reports direct children only; changes deeper below are detected when a tip comes near.
-        private void OnTransformChildrenChanged() => isStale = true;
+        private void OnTransformChildrenChanged() => MarkStale();
 
         private void OnValidate()
         {
             own.MarkChanged();
+            MarkStale();
+        }
+
+        private void MarkStale()
+        {
             isStale = true;
+            SurfaceRegistry.Changed();
         }
 
         /// <summary>Makes the surface above search again: colliders here belonged to it, or will.</summary>

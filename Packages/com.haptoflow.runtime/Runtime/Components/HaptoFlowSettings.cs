@@ -8,7 +8,7 @@ namespace HaptoFlow
     /// HaptoFlowSettings in a Resources folder, are found automatically; a script can set another before the first
     /// stylus is enabled.</summary>
     [CreateAssetMenu(menuName = "HaptoFlow/Settings", fileName = ResourceName, order = 2)]
-    [HelpURL(HelpPages.Components + "haptoflow-settings")]
+    [HelpPage(HelpPages.Components + "haptoflow-settings")]
     public sealed class HaptoFlowSettings : ScriptableObject
     {
         internal const string ResourceName = "HaptoFlowSettings";

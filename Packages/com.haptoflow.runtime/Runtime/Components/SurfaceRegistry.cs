@@ -10,6 +10,8 @@ namespace HaptoFlow
         private static readonly Dictionary<Collider, HapticSurface> Surfaces =
             new Dictionary<Collider, HapticSurface>();
 
+        private static readonly UntaggedColliders Untagged = new UntaggedColliders();
+
         public static void Add(Collider collider, HapticSurface surface) => Surfaces[collider] = surface;
 
         public static void Remove(Collider collider, HapticSurface surface)
@@ -34,14 +36,25 @@ namespace HaptoFlow
             Surfaces.TryGetValue(collider, out HapticSurface registered) && ReferenceEquals(registered, surface) &&
             surface.Keeps(collider);
 
+        /// <summary>Makes colliders that belonged to no surface be searched again: a surface came, changed or moved.
+        /// </summary>
+        public static void Changed() => Untagged.Forget();
+
         /// <summary>Finds the surface of a collider by the collider's present place in the hierarchy, so that colliders
-        /// added or moved since the last search are found. Null for an untagged collider.</summary>
+        /// added or moved since the last search are found. Null for an untagged collider, which is remembered for
+        /// <see cref="UntaggedColliders.Lookups"/> look-ups: Unity does not report a move deep in the hierarchy.
+        /// </summary>
         public static HapticSurface? Resolve(Collider collider)
         {
+            if (Untagged.Holds(collider))
+            {
+                return null;
+            }
             HapticSurface? owner = OwnerOf(collider.transform);
             if (owner == null || !owner.isActiveAndEnabled || !owner.Reaches(collider))
             {
                 Surfaces.Remove(collider);
+                Untagged.Remember(collider);
                 return null;
             }
             owner.Adopt(collider);
@@ -62,6 +75,10 @@ namespace HaptoFlow
         }
 
         [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.SubsystemRegistration)]
-        private static void Forget() => Surfaces.Clear();
+        private static void Forget()
+        {
+            Surfaces.Clear();
+            Untagged.Forget();
+        }
     }
 }

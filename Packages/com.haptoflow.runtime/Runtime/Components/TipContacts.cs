@@ -110,7 +110,8 @@ namespace HaptoFlow
         private bool ConsiderWithin(
             double metres, double stepSeconds, int layers, HapticSession session, bool takesPlaces)
         {
-            int count = Physics.OverlapSphereNonAlloc(
+            // A scene may have been loaded with a physics world of its own, of which Physics knows nothing.
+            int count = stylus.gameObject.scene.GetPhysicsScene().OverlapSphere(
                 Tracker.TipMetres.ToVector(), (float)metres, colliders, layers, QueryTriggerInteraction.Ignore);
             bool hasAll = count < colliders.Length;
             for (int index = 0; index < count; ++index)

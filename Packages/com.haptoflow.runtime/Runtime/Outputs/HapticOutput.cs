@@ -24,7 +24,7 @@ namespace HaptoFlow
     /// <summary>Plays the vibration of styluses through Unity's audio output.</summary>
     [AddComponentMenu("HaptoFlow/Haptic Output")]
     [DisallowMultipleComponent]
-    [HelpURL(HelpPages.Components + "haptic-output")]
+    [HelpPage(HelpPages.Components + "haptic-output")]
     public sealed class HapticOutput : MonoBehaviour, IVoiceTarget
     {
         [SerializeField, Tooltip("How the output reaches the audio device.")]

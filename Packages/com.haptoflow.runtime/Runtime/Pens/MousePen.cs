@@ -8,7 +8,7 @@ namespace HaptoFlow
     [AddComponentMenu("HaptoFlow/Mouse Pen")]
     [RequireComponent(typeof(HapticStylus))]
     [DisallowMultipleComponent]
-    [HelpURL(HelpPages.Components + "mouse-pen")]
+    [HelpPage(HelpPages.Components + "mouse-pen")]
     public sealed class MousePen : MonoBehaviour
     {
         // The speed of a hand; a mouse button would be instantaneous.
@@ -93,8 +93,8 @@ namespace HaptoFlow
             }
             Ray ray = camera.ScreenPointToRay(new Vector3(pixels.x, pixels.y, 0f));
             // Query only what the stylus can touch: no triggers, and only its layers.
-            bool isOver = Physics.Raycast(
-                ray, out RaycastHit hit, reachMetres, Stylus.Layers, QueryTriggerInteraction.Ignore);
+            bool isOver = gameObject.scene.GetPhysicsScene().Raycast(ray.origin, ray.direction, out RaycastHit hit,
+                reachMetres, Stylus.Layers, QueryTriggerInteraction.Ignore);
             if (isOver)
             {
                 point = hit.point;

@@ -12,7 +12,7 @@ namespace HaptoFlow
     [AddComponentMenu("HaptoFlow/Pipeline Material")]
     [DefaultExecutionOrder(-1000)]
     [DisallowMultipleComponent]
-    [HelpURL(HelpPages.Components + "pipeline-material")]
+    [HelpPage(HelpPages.Components + "pipeline-material")]
     public sealed class PipelineMaterial : MonoBehaviour
     {
         private static Material? ofScene;

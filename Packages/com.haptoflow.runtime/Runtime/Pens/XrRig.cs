@@ -17,7 +17,7 @@ namespace HaptoFlow
     [AddComponentMenu("HaptoFlow/XR Rig")]
     [DefaultExecutionOrder(100)]
     [DisallowMultipleComponent]
-    [HelpURL(HelpPages.Components + "xr-rig")]
+    [HelpPage(HelpPages.Components + "xr-rig")]
     public sealed class XrRig : MonoBehaviour
     {
         [SerializeField, Tooltip("The camera that follows the head. When it is empty, the scene's main camera is " +
@@ -136,8 +136,13 @@ namespace HaptoFlow
             transform.position = camera.transform.position - transform.rotation * position!.ReadValue<Vector3>();
             camera.transform.SetParent(transform, false);
             var driver = camera.gameObject.AddComponent<TrackedPoseDriver>();
+#if HAPTOFLOW_INPUT_SYSTEM_1_1
             driver.positionInput = new InputActionProperty(position);
             driver.rotationInput = new InputActionProperty(rotation);
+#else
+            driver.positionAction = position;
+            driver.rotationAction = rotation;
+#endif
         }
 
         private static InputAction Enabled(string binding)

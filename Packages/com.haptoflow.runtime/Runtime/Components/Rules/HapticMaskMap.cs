@@ -76,7 +76,7 @@ namespace HaptoFlow
     /// time only its compact copy is needed. Works on mesh colliders that are not convex and whose mesh is readable:
     /// only these have texture coordinates at the touched place.</summary>
     [CreateAssetMenu(menuName = "HaptoFlow/Haptic Mask Map", fileName = "HapticMaskMap", order = 4)]
-    [HelpURL(HelpPages.Components + "haptic-mask-map")]
+    [HelpPage(HelpPages.Components + "haptic-mask-map")]
     public sealed class HapticMaskMap : ScriptableObject
     {
         internal const int Channels = 4;

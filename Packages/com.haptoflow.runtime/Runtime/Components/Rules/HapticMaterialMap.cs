@@ -12,7 +12,7 @@ namespace HaptoFlow
     /// collider's tag, layer, materials or mesh change, or any map changes. After renaming an object, or adding layers
     /// to a terrain, call <see cref="Refresh"/>. Main thread.</remarks>
     [CreateAssetMenu(menuName = "HaptoFlow/Haptic Material Map", fileName = "HapticMaterialMap", order = 3)]
-    [HelpURL(HelpPages.Components + "haptic-material-map")]
+    [HelpPage(HelpPages.Components + "haptic-material-map")]
     public sealed class HapticMaterialMap : ScriptableObject
     {
         [SerializeField, Tooltip("The rules in order. The first rule that matches an object applies.")]

@@ -6,7 +6,7 @@ namespace HaptoFlow
     /// <summary>Applies a <see cref="HapticMaterialMap"/> to the scene of this object, before the project's
     /// map.</summary>
     [AddComponentMenu("HaptoFlow/Haptic Material Map Scope")]
-    [HelpURL(HelpPages.Components + "haptic-material-map-scope")]
+    [HelpPage(HelpPages.Components + "haptic-material-map-scope")]
     public sealed class HapticMaterialMapScope : MonoBehaviour
     {
         [SerializeField, Tooltip("The map that applies to this scene.")]

@@ -131,13 +131,14 @@ namespace HaptoFlow.Outputs
         private bool Begin(double nowSeconds, double elapsedSeconds)
         {
             long first = RenderSilently(elapsedSeconds);
+            bool returns = TakeReturn();
             if (first < 0)
             {
                 return false;
             }
             // The filter's input before the first sample is silence, so starting costs no delay.
             SetAnchor(nowSeconds, first);
-            entryGain = 1f;
+            entryGain = returns ? 0f : 1f;
             stretchSeconds = 0.0;
             IsPlaying = true;
             return true;

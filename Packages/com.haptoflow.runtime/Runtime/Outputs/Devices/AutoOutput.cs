@@ -10,9 +10,10 @@ namespace HaptoFlow
     [DisallowMultipleComponent]
     [DefaultExecutionOrder(1100)]
     [AddComponentMenu("HaptoFlow/Auto Output")]
-    [HelpURL(HelpPages.Home + "effects-and-outputs.html#auto")]
+    [HelpPage(HelpPages.Outputs + "auto")]
     public sealed class AutoOutput : DeviceOutput
     {
+        private readonly HashSet<string> said = new HashSet<string>();
         private bool isMade;
         private bool hadDevice;
 
@@ -79,8 +80,13 @@ namespace HaptoFlow
             string chosen = form == HapticForm.Waveform
                 ? "plays the waveform, which the device supports"
                 : "drives the motor with the envelope, since the device does not support waveforms";
-            Debug.Log($"HaptoFlow: {(Stylus != null ? Stylus.name : name)} is felt through {sink.Name} ({held} " +
-                $"hand): {reason}Auto Output {chosen}.", this);
+            string message = $"HaptoFlow: {(Stylus != null ? Stylus.name : name)} is felt through {sink.Name} ({held} " +
+                $"hand): {reason}Auto Output {chosen}.";
+            // A route that fails and returns comes here again and again.
+            if (said.Add(message))
+            {
+                Debug.Log(message, this);
+            }
         }
     }
 }

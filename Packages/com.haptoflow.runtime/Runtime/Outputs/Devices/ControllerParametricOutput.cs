@@ -11,7 +11,7 @@ namespace HaptoFlow
     [DisallowMultipleComponent]
     [DefaultExecutionOrder(1100)]
     [AddComponentMenu("HaptoFlow/Controller Parametric Output")]
-    [HelpURL(HelpPages.Home + "effects-and-outputs.html#controller-parametric")]
+    [HelpPage(HelpPages.Outputs + "controller-parametric")]
     public sealed class ControllerParametricOutput : DeviceOutput
     {
         [SerializeField, Tooltip("Parametric haptics are experimental at Meta: the store does not accept " +

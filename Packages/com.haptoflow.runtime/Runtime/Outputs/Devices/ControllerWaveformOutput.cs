@@ -10,7 +10,7 @@ namespace HaptoFlow
     [DisallowMultipleComponent]
     [DefaultExecutionOrder(1100)]
     [AddComponentMenu("HaptoFlow/Controller Waveform Output")]
-    [HelpURL(HelpPages.Home + "effects-and-outputs.html#controller-waveform")]
+    [HelpPage(HelpPages.Outputs + "controller-waveform")]
     public sealed class ControllerWaveformOutput : DeviceOutput
     {
         [SerializeField, Tooltip("Queues each submission behind the last one instead of replacing it. Switch it on " +

@@ -19,6 +19,7 @@ namespace HaptoFlow
         public const float MaximumDeviceLoudness = 2f;
 
         private const double SearchIntervalSeconds = 0.5;
+        private const double LostSeconds = 0.1;
 
         [SerializeField, Tooltip("The stylus to play. Leave it empty for the one on this object or above it.")]
         private HapticStylus? stylus;
@@ -132,6 +133,18 @@ namespace HaptoFlow
         /// <summary>Name of the device in use, for people; empty without one.</summary>
         public string DeviceName => HasDevice ? device!.Name : "";
 
+        /// <summary>The form in which the device is driven; null without one.</summary>
+        public HapticForm? Form => !HasDevice ? (HapticForm?)null : device switch
+        {
+            IWaveformSink _ => HapticForm.Waveform,
+            IParametricSink _ => HapticForm.Parametric,
+            _ => HapticForm.Amplitude,
+        };
+
+        /// <summary>The hand whose device is searched for: the field's, else the stylus's.</summary>
+        internal HapticHand SearchedHand =>
+            hand != HapticHand.None ? hand : attached != null ? attached.Hand : HapticHand.None;
+
         /// <summary>Statistics since the device was connected.</summary>
         public HapticQueueStatistics Statistics => queue?.Statistics ?? default;
 
@@ -171,7 +184,7 @@ namespace HaptoFlow
         /// <summary>Searches for a device now. Main thread.</summary>
         private protected void FindDevice()
         {
-            HapticHand held = hand != HapticHand.None ? hand : attached != null ? attached.Hand : HapticHand.None;
+            HapticHand held = SearchedHand;
             if (held != openedFor)
             {
                 Close();
@@ -230,6 +243,12 @@ namespace HaptoFlow
         private void LateUpdate()
         {
             double now = Time.realtimeSinceStartupAsDouble;
+            if (wasThere && !HasDevice)
+            {
+                // Another route may reach a device that this one has lost, unless it is back at once.
+                wasThere = false;
+                nextSearchSeconds = now + LostSeconds;
+            }
             if (now >= nextSearchSeconds)
             {
                 nextSearchSeconds = now + SearchIntervalSeconds;
@@ -249,6 +268,7 @@ namespace HaptoFlow
                     source.Forget();
                 }
                 wasThere = isThere;
+                queue.YieldUntilSeconds = HandYields.UntilSeconds(openedFor);
                 queue.Update(now);
             }
         }

@@ -10,7 +10,7 @@ namespace HaptoFlow
     [DisallowMultipleComponent]
     [DefaultExecutionOrder(1100)]
     [AddComponentMenu("HaptoFlow/Motor Output")]
-    [HelpURL(HelpPages.Home + "effects-and-outputs.html#motor")]
+    [HelpPage(HelpPages.Outputs + "motor")]
     public sealed class MotorOutput : DeviceOutput
     {
         private protected override void OpenSinks(HapticHand wanted, List<HapticSinks.OpenSink> into) =>

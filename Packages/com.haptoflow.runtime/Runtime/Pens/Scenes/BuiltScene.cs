@@ -1,4 +1,7 @@
 #nullable enable
+using System;
+using System.Collections.Generic;
+using HaptoFlow.Model;
 using UnityEngine;
 
 namespace HaptoFlow
@@ -27,6 +30,25 @@ namespace HaptoFlow
         {
             get => view;
             set => view = value;
+        }
+
+        /// <summary>Draws in the scene view what the scene will build. It is called before play mode only; use
+        /// <see cref="SceneSketch"/>.</summary>
+        public abstract void Sketch();
+
+        /// <summary>The labels of the model in use, before play mode too; none without a model.</summary>
+        protected IReadOnlyList<ModelLabel> LabelsOfModel()
+        {
+            HapticModelAsset? used = HaptoFlowSettings.Active.Model != null ? HaptoFlowSettings.Active.Model : model;
+            return used != null ? used.Header.Labels : Array.Empty<ModelLabel>();
+        }
+
+        private void OnDrawGizmos()
+        {
+            if (!Application.isPlaying)
+            {
+                Sketch();
+            }
         }
 
         /// <summary>Gives the project's settings the scene's model if they name none.</summary>

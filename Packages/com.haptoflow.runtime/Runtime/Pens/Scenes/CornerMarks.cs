@@ -6,7 +6,7 @@ namespace HaptoFlow
     /// <summary>Makes three corners of a horizontal rectangle the marks of a <see cref="HapticAlignment"/>, and shows a
     /// red ball at the corner that the pen has to touch next.</summary>
     [DisallowMultipleComponent]
-    [HelpURL(HelpPages.Components + "corner-marks")]
+    [HelpPage(HelpPages.Components + "corner-marks")]
     public sealed class CornerMarks : MonoBehaviour
     {
         private static readonly string[] CornerNames = { "near left", "near right", "far left" };

@@ -7,7 +7,7 @@ namespace HaptoFlow
     /// <summary>Shows in the scene which label a stylus touches, how fast and how hard, or why there are no haptics.
     /// </summary>
     [DisallowMultipleComponent]
-    [HelpURL(HelpPages.Components + "status-board")]
+    [HelpPage(HelpPages.Components + "status-board")]
     public sealed class StatusBoard : MonoBehaviour
     {
         // Every new text allocates; four a second are enough to read.

@@ -63,6 +63,45 @@ namespace HaptoFlow.Studies
         /// <summary>Why the last attempt to write failed, for the operator; null without an error.</summary>
         public string? Problem { get; private set; }
 
+        /// <summary>What the operator should know about the numbers below the chosen one, because each number has an
+        /// order of trials of its own, and only all of them together are counterbalanced; empty where each of them
+        /// has a log, or where the folder cannot be read. Any thread. Reads the folder and allocates.</summary>
+        /// <param name="kind">The kind of study.</param>
+        /// <param name="participant">The number that would be begun next.</param>
+        public static string NumbersLeftOut(string folder, StudyKind kind, int participant) =>
+            NumbersLeftOut(folder, kind, participant, new DiskFiles());
+
+        internal static string NumbersLeftOut(string folder, StudyKind kind, int participant, IStudyFiles files)
+        {
+            try
+            {
+                var present = new HashSet<int>();
+                foreach (string path in files.Find(folder, kind.Name + "-P*.csv"))
+                {
+                    string[] words = Path.GetFileNameWithoutExtension(path).Split('-');
+                    if (words.Length == 3 && int.TryParse(words[1].Substring(1),
+                        System.Globalization.NumberStyles.None, System.Globalization.CultureInfo.InvariantCulture,
+                        out int number))
+                    {
+                        present.Add(number);
+                    }
+                }
+                int[] missing = Enumerable.Range(1, Math.Max(0, participant - 1))
+                    .Where(each => !present.Contains(each)).ToArray();
+                if (missing.Length == 0)
+                {
+                    return "";
+                }
+                string more = missing.Length > 1 ? $" and {missing.Length - 1} more" : "";
+                return $"participant P{missing[0]:00}{more} has no log here: begin the lowest number first, or the " +
+                    "order of trials is not counterbalanced";
+            }
+            catch (Exception error) when (IsOfDisk(error) || IsOfPath(error))
+            {
+                return "";
+            }
+        }
+
         /// <summary>Starts a participant's session, or resumes an interrupted one.</summary>
         /// <exception cref="StudyException">The participant has finished this study, the interrupted session used other
         /// settings, a file is damaged, or the folder is not writable. Nothing was overwritten.</exception>

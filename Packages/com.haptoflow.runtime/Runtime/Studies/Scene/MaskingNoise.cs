@@ -18,7 +18,7 @@ namespace HaptoFlow.Studies
     /// haptic one carry it. Add it to the Audio Listener's object.</summary>
     [AddComponentMenu("HaptoFlow/Masking Noise")]
     [DisallowMultipleComponent]
-    [HelpURL(HelpPages.Components + "masking-noise")]
+    [HelpPage(HelpPages.Components + "masking-noise")]
     public sealed class MaskingNoise : MonoBehaviour
     {
         /// <summary>Lower limit of the level, in dB of full scale.</summary>

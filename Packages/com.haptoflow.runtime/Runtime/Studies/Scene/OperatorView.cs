@@ -9,7 +9,7 @@ namespace HaptoFlow.Studies
     /// <summary>The operator's view of a study: progress, level, state of the disk, and buttons. Drawn with Unity's
     /// immediate mode, which appears on screens but not in headsets. Main thread.</summary>
     [DisallowMultipleComponent]
-    [HelpURL(HelpPages.Components + "operator-view")]
+    [HelpPage(HelpPages.Components + "operator-view")]
     public sealed class OperatorView : MonoBehaviour
     {
         // New text makes garbage, and faster updates cannot be read.
@@ -28,6 +28,8 @@ namespace HaptoFlow.Studies
 
         private readonly List<string> lines = new List<string>();
         private double nextSeconds;
+        private int advisedParticipant;
+        private string advice = "";
 
         /// <summary>The session to show; null until there is one.</summary>
         public StudySession? Session { get; set; }
@@ -38,6 +40,10 @@ namespace HaptoFlow.Studies
 
         /// <summary>Starts the study for a participant; null where that is done elsewhere.</summary>
         public Action<int>? Begin { get; set; }
+
+        /// <summary>What the operator should know before this number is begun, empty where there is nothing; null
+        /// without such advice. Called when the view appears and when the number changes.</summary>
+        public Func<int, string>? Advice { get; set; }
 
         /// <summary>The output whose level the meter shows.</summary>
         public HapticOutput? Output { get; set; }
@@ -118,6 +124,11 @@ namespace HaptoFlow.Studies
         private void Write()
         {
             lines.Clear();
+            if (Session != null && Session.Phase != StudyPhase.Finished)
+            {
+                // The session adds a log: the next choice is advised anew.
+                advisedParticipant = 0;
+            }
             if (Session != null)
             {
                 lines.Add($"participant P{Session.Plan.Participant:00}, study {Session.Plan.Kind.Name}, " +
@@ -127,6 +138,7 @@ namespace HaptoFlow.Studies
             if (Session == null || Session.Phase == StudyPhase.Finished)
             {
                 lines.Add($"participant P{Participant:00}: choose the number and press Begin");
+                AddAdvice();
             }
             if (Detail != null)
             {
@@ -145,6 +157,20 @@ namespace HaptoFlow.Studies
             if (Problem != null)
             {
                 lines.Add("STOPPED: " + Problem);
+            }
+        }
+
+        private void AddAdvice()
+        {
+            // Reading a folder several times a second would make garbage for nothing.
+            if (Advice != null && advisedParticipant != Participant)
+            {
+                advice = Advice(Participant);
+                advisedParticipant = Participant;
+            }
+            if (advice.Length > 0)
+            {
+                lines.Add("NOTE: " + advice);
             }
         }
 

@@ -1,25 +1,21 @@
-using UnityShim;
+using UnityEngine;
 
-namespace UnityEngine
+namespace UnityShim
 {
-    public partial class Physics
+    /// <summary>Rays through a physics scene.</summary>
+    internal static class PhysicsRays
     {
-        // As in Unity: all 32 layers except layer 2, Ignore Raycast.
-        private const int LayersByDefault = ~(1 << 2);
         private const float HitMetres = 1e-5f;
         private const int MaximumSteps = 512;
         private static readonly Collider[] Found = new Collider[1024];
 
-        public static bool Raycast(Ray ray, out RaycastHit hitInfo, float maxDistance) =>
-            Raycast(ray, out hitInfo, maxDistance, LayersByDefault, QueryTriggerInteraction.Collide);
-
-        public static bool Raycast(Ray ray, out RaycastHit hitInfo, float maxDistance, int layerMask,
+        /// <param name="world">Number of the physics scene.</param>
+        public static bool Cast(int world, Ray ray, out RaycastHit hitInfo, float maxDistance, int layerMask,
             QueryTriggerInteraction queryTriggerInteraction)
         {
-            World.RequireMainThread();
             hitInfo = default;
             bool hasHit = false;
-            int count = PhysicsWorld.Overlap(ray.origin, maxDistance, Found, layerMask, queryTriggerInteraction);
+            int count = PhysicsWorld.Overlap(world, ray.origin, maxDistance, Found, layerMask, queryTriggerInteraction);
             for (int index = 0; index < count; ++index)
             {
                 Collider collider = Found[index];

@@ -1,0 +1,86 @@
+using System.Linq;
+using UnityEngine.SceneManagement;
+using UnityShim;
+
+namespace UnityEngine.SceneManagement
+{
+    [System.Flags]
+    public enum LocalPhysicsMode
+    {
+        None = 0x0,
+        Physics2D = 0x1,
+        Physics3D = 0x2,
+    }
+
+    public struct CreateSceneParameters
+    {
+        public CreateSceneParameters(LocalPhysicsMode physicsMode) => localPhysicsMode = physicsMode;
+
+        public LocalPhysicsMode localPhysicsMode { get; set; }
+    }
+
+    /// <summary>A scene. The default value is the scene that the shim opens.</summary>
+    public partial struct Scene
+    {
+        internal int Number;
+
+        /// <summary>Number of the world of bodies that the scene has; 0 for the one that scenes share.</summary>
+        internal int PhysicsNumber;
+
+        public static bool operator ==(Scene lhs, Scene rhs) => lhs.Number == rhs.Number;
+
+        public static bool operator !=(Scene lhs, Scene rhs) => !(lhs == rhs);
+
+        public override bool Equals(object? other) => other is Scene scene && this == scene;
+
+        public override int GetHashCode() => Number;
+
+        public GameObject[] GetRootGameObjects()
+        {
+            Scene scene = this;
+            return World.AllObjects.Where(each => each.transform.parent is null && each.scene == scene).ToArray();
+        }
+    }
+
+    public partial class SceneManager
+    {
+        private static int count;
+
+        public static Scene CreateScene(string sceneName, CreateSceneParameters parameters) => new Scene
+        {
+            Number = ++count,
+            PhysicsNumber = (parameters.localPhysicsMode & LocalPhysicsMode.Physics3D) != 0 ? count : 0,
+        };
+
+        public static void MoveGameObjectToScene(GameObject go, Scene scene) => go.OwnScene = scene;
+    }
+}
+
+namespace UnityEngine
+{
+    public partial struct PhysicsScene
+    {
+        internal int Number;
+
+        public int OverlapSphere(Vector3 position, float radius, Collider[] results, int layerMask,
+            QueryTriggerInteraction queryTriggerInteraction)
+        {
+            World.RequireMainThread();
+            return PhysicsWorld.Overlap(Number, position, radius, results, layerMask, queryTriggerInteraction);
+        }
+
+        public bool Raycast(Vector3 origin, Vector3 direction, out RaycastHit hitInfo, float maxDistance,
+            int layerMask, QueryTriggerInteraction queryTriggerInteraction)
+        {
+            World.RequireMainThread();
+            return PhysicsRays.Cast(Number, new Ray(origin, direction), out hitInfo, maxDistance, layerMask,
+                queryTriggerInteraction);
+        }
+    }
+
+    public static class PhysicsSceneExtensions
+    {
+        public static PhysicsScene GetPhysicsScene(this Scene scene) =>
+            new PhysicsScene { Number = scene.PhysicsNumber };
+    }
+}
