@@ -22,6 +22,7 @@ namespace HaptoFlow.Editor
                 .Concat(MapRules.Check(scene))
                 .Concat(OutputRules.Check(scene))
                 .Concat(SilentOutputRules.Check(scene))
+                .Concat(PlaceRules.Check(scene))
                 .Concat(RealObjectRules.Check(scene))
                 .Concat(EffectRules.Check(scene))
                 .OrderByDescending(finding => finding.Severity)

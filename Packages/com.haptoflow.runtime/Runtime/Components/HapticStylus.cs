@@ -202,6 +202,9 @@ namespace HaptoFlow
         /// <summary>Centre of the tip, in world space.</summary>
         internal Vector3 TipPosition => tip != null ? tip.position : transform.position;
 
+        /// <summary>The name that people know: the pen's, for a stylus on the child Tip of a pen.</summary>
+        internal string PenName => name == "Tip" && transform.parent != null ? transform.parent.name : name;
+
         /// <summary>The voices of this stylus, one for each of its outputs.</summary>
         internal StylusVoices Voices => voices ??= new StylusVoices(this);
 

@@ -74,6 +74,9 @@ namespace HaptoFlow
             }
         }
 
+        /// <summary>The stylus that the output plays, or would play if it were enabled; null without one.</summary>
+        internal HapticStylus? Played => Wanted();
+
         /// <summary>The hand whose device is used; <see cref="HapticHand.None"/> for the stylus's.</summary>
         public HapticHand Hand
         {
