@@ -54,7 +54,7 @@ std::string renderReport(const RenderIdentity& identity, const engine::OfflineFi
           {"outlier_share", figures.seamStatistics.outlierShare},
           {"jump_ratio", figures.seamStatistics.jumpRatio}}},
     };
-    return report.dump(2) + '\n';
+    return report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
 }
 
 }  // namespace haptoflow::cli

@@ -11,12 +11,14 @@ export const packagesByPurpose = {
     'python3', 'python3-torch', 'python3-onnx', 'python3-numpy', 'python3-scipy', 'python3-pandas', 'python3-matplotlib',
     'python3-tqdm', 'python3-pytest', 'python3-pytest-xdist', 'python3-openpyxl', 'libopenblas0-pthread',
   ],
-  platforms: [
-    'g++-mingw-w64-x86-64-posix', 'binutils-mingw-w64-x86-64', 'wine', 'wine64', 'g++-aarch64-linux-gnu', 'qemu-user',
-    'googletest',
-  ],
+  // The compilers for Windows x64 and Linux arm64.
+  cross: ['g++-mingw-w64-x86-64-posix', 'binutils-mingw-w64-x86-64', 'g++-aarch64-linux-gnu'],
+  // What the tests of those libraries need besides; debootstrap makes the system with an older C library.
+  platforms: ['wine', 'wine64', 'qemu-user', 'googletest', 'debootstrap'],
   // Libraries that the SDK needs, and curl for Microsoft's install script: see dotnet.mjs.
   dotnet: ['ca-certificates', 'curl', 'libicu-dev'],
+  // mono-devel has the facades of .NET Standard.
+  mono: ['mono-runtime', 'mono-devel'],
   // The font of the charts that the C# tests draw.
   pictures: ['fonts-inter'],
   // git lists the files that belong to the project.
@@ -30,6 +32,7 @@ export const packageOfProgram = {
   ctest: 'cmake',
   ninja: 'ninja-build',
   nm: 'binutils',
+  mono: 'mono-runtime',
   curl: 'curl',
   git: 'git',
   'clang-format': 'clang-format',
@@ -44,6 +47,7 @@ export const packageOfProgram = {
   wine: 'wine',
   wine64: 'wine64',
   'qemu-aarch64': 'qemu-user',
+  debootstrap: 'debootstrap',
   'x86_64-w64-mingw32-objdump': 'binutils-mingw-w64-x86-64',
   'x86_64-w64-mingw32-gcc-posix': 'g++-mingw-w64-x86-64-posix',
   'x86_64-w64-mingw32-g++-posix': 'g++-mingw-w64-x86-64-posix',
@@ -63,7 +67,11 @@ export const optionalPurposes = {
   realtime:
     'RealtimeSanitizer is left out: it needs Clang 22, which this system\'s packages do not have. Debian 12 has it in ' +
     'bookworm-security (clang-22, libclang-rt-22-dev); elsewhere the packages of apt.llvm.org bring it',
+  mono:
+    'The run under Mono is left out: it needs Mono 6.8, which this system\'s packages do not have. Debian 12 and Ubuntu ' +
+    '24.04 have it (mono-runtime, mono-devel)',
 };
+
 /** Every package of the purposes, each once, in order. Throws RangeError for a purpose that does not exist. */
 export function selectPackages(purposes) {
   const selected = new Set();

@@ -146,7 +146,9 @@ enum {
     HAPTOFLOW_SILENCE_RATE = 6,
     HAPTOFLOW_SILENCE_CLOSING = 7,
     /* The engine's worker thread has ended: haptoflow_engine_last_failure says why. */
-    HAPTOFLOW_SILENCE_WORKER_DEAD = 8
+    HAPTOFLOW_SILENCE_WORKER_DEAD = 8,
+    /* The voice's strength or ceiling is 0. */
+    HAPTOFLOW_SILENCE_TURNED_DOWN = 9
 };
 
 /* Returns a reason's name, for example "HAPTOFLOW_SILENCE_STALE", or "HAPTOFLOW_UNKNOWN_SILENCE" for any other number.
@@ -399,7 +401,7 @@ typedef int32_t haptoflow_quality;
 enum {
     /* Measures the model's tiers on this machine while nothing touches and uses the most accurate one (by the figures
      * in the model's header) that fits the budget. Changes to a faster tier when the machine cannot keep up, and to a
-     * more accurate one when it can again. */
+     * more accurate one when it can again. Needs a worker: an engine without one refuses it with INVALID_ARGUMENT. */
     HAPTOFLOW_QUALITY_AUTO = 0,
     /* The tier "draft", or the model's first tier if it has no such tier. */
     HAPTOFLOW_QUALITY_DRAFT = 1,
@@ -426,7 +428,8 @@ typedef struct haptoflow_engine_options {
     uint64_t seed;
     /* Voices that one run of a graph computes, 1 to 64; 0 for 8. More voices take several runs. */
     uint32_t batch_voices;
-    /* 1 for an engine without a worker thread: the caller calls haptoflow_engine_step. 0 otherwise. */
+    /* 1 for an engine without a worker thread: the caller calls haptoflow_engine_step and sets a fixed quality. 0
+     * otherwise. */
     uint32_t without_worker;
     /* Lead: the time from a contact state to the first sample generated from it, above 0 to 50 ms; 0 for the shortest
      * that the engine can keep on this machine. With a fixed lead, an engine without worker is deterministic. */
@@ -588,7 +591,11 @@ typedef struct haptoflow_contact_state {
     uint32_t struct_size;
     /* 1 while the tip touches a surface, 0 otherwise. */
     uint32_t touching;
-    /* Incremented at each touch-down, so that a touch that began and ended between two states is still rendered. */
+    /* Incremented at each touch-down, so that a touch that began and ended between two states is still rendered. A
+     * touch begins with another number, or with `touching` after a state that did not touch: it has an onset and an
+     * impact of approach_speed_mps, and it ends a panic. If `touching` returns while the number stays the same and is
+     * not 0, the touch was only interrupted, say by a surface without a material, and has no second impact. A caller
+     * that does not count leaves it at 0: each return of `touching` then has its impact. */
     uint32_t touch_counter;
     /* Used entries of labels and weights, 0 to HAPTOFLOW_MAXIMUM_BLEND. */
     uint32_t label_count;
@@ -676,6 +683,8 @@ typedef struct haptoflow_voice_statistics {
     haptoflow_silence silence;
     /* 0 if the newest block's rate is outside 8 to 192 kHz, 1 otherwise. */
     uint32_t is_rate_supported;
+    /* Impacts and edges that were lost, because more than 64 were published between two blocks; the strongest sound. */
+    uint64_t lost_blows;
 } haptoflow_voice_statistics;
 
 /* Creates a voice. sample_rate_hz is that of the output, 8000 to 192000; 0 for 48000. It may change later: see
@@ -690,8 +699,9 @@ HAPTOFLOW_API haptoflow_status haptoflow_voice_create(haptoflow_engine* engine, 
 HAPTOFLOW_API haptoflow_status haptoflow_voice_destroy(haptoflow_voice* voice);
 
 /* Publishes what the tip does now: once a frame, also while nothing touches. A touch sounds from the next block on and
- * falls silent after 100 ms of output without a new state. Values that are not finite or out of range are corrected and
- * counted. Errors: INVALID_ARGUMENT, BUSY.
+ * falls silent after 100 ms of output without a new state. All impacts and edges published between two blocks sound:
+ * the first at once, the others at their distance from it, for which states are taken to come evenly. Values that are
+ * not finite or out of range are corrected and counted. Errors: INVALID_ARGUMENT, BUSY.
  * [publisher] */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_publish(haptoflow_voice voice, const haptoflow_contact_state* state);
 
@@ -705,8 +715,9 @@ HAPTOFLOW_API haptoflow_status haptoflow_voice_publish(haptoflow_voice voice, co
 HAPTOFLOW_API haptoflow_status haptoflow_voice_render(haptoflow_voice voice, float* interleaved, uint32_t frame_count,
                                                       uint32_t channel_count, int32_t channel, double sample_rate_hz);
 
-/* Sets the gain of the output before the limiter, 0 to 1. It changes within 10 ms while the voice sounds; set while the
- * voice is silent, it applies from the first sample of the next touch. Errors: INVALID_ARGUMENT. [publisher] */
+/* Sets the gain of the output before the limiter, 0 to 1. It changes within 10 ms while the voice sounds, delayed sound
+ * included; set while the voice is silent, it applies from the first sample of the next touch.
+ * Errors: INVALID_ARGUMENT. [publisher] */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_set_strength(haptoflow_voice voice, float strength);
 
 /* Sets the maximum magnitude of the output, 0 to 1; no sample ever exceeds it. The limiter's curve begins at 0.7 of the
@@ -737,8 +748,9 @@ HAPTOFLOW_API haptoflow_status haptoflow_voice_get_statistics(haptoflow_voice vo
 HAPTOFLOW_API haptoflow_status haptoflow_voice_effect_statistics(haptoflow_voice voice, haptoflow_effect effect,
                                                                  haptoflow_effect_statistics* statistics);
 
-/* Delays the whole signal, for studies and slow displays: 0 to 0.5 s, 0 for no delay. A change fades within 20 ms. The
- * texture closes at lift-off before the delay; mute, pause and panic act after it, at once.
+/* Delays the whole signal, for studies and slow displays: 0 to 0.5 s, 0 for no delay. A change fades within 20 ms.
+ * Lift-off closes the texture before the delay; strength, ceiling, mute, pause, panic and missing states act after it,
+ * at once.
  * Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. [publisher] */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_set_delay(haptoflow_voice voice, double seconds);
 
@@ -780,7 +792,8 @@ HAPTOFLOW_API haptoflow_status haptoflow_voice_set_actuator(haptoflow_voice voic
                                                             uint64_t length);
 
 /* is_on: 1 switches the exposure guard on, which slowly lowers a level that stays high for too long, but never to
- * silence; 0 switches it off. actuator_gain: acceleration at the hand per m/s^2 of the voice, above 0 to 1000; 0 for 1.
+ * silence; 0 switches it off. Switched off it measures on, and switched on again it knows the exposure of the whole day
+ * since it was first on. actuator_gain: acceleration at the hand per m/s^2 of the voice, above 0 to 1000; 0 for 1.
  * Documentation~/effects-and-outputs.md gives the law. The guard is not a medical device.
  * Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. [publisher] */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_set_exposure_guard(haptoflow_voice voice, uint32_t is_on,
@@ -796,7 +809,8 @@ enum {
     HAPTOFLOW_EXPOSURE_DOSE = 2
 };
 
-/* State of the exposure guard after the newest block. Without a guard all values are zero and the gain is 1. */
+/* State of the exposure guard after the newest block. Without a guard that is on, all values are zero and the gain is
+ * 1. */
 typedef struct haptoflow_exposure {
     uint32_t struct_size;
     haptoflow_exposure_reason reason;
@@ -1010,6 +1024,14 @@ HAPTOFLOW_API haptoflow_status haptoflow_device_wave_process(haptoflow_device_wa
  * before the limiter; delays it by 1 ms. For ears only: 0 for an output that feeds an actuator. The worker prepares the
  * effect; the change then fades over 10 ms. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. [publisher] */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_set_listen(haptoflow_voice voice, uint32_t is_on);
+
+/* ---------------------------------------------------------------------------------------------------- agreement */
+
+/* Sets *bytes to the size with which the library was built of a struct of this header, for example of
+ * "haptoflow_engine_options". A caller that declares the structs itself, in another language, compares its own sizes
+ * with these before the first call that passes one. Errors: INVALID_ARGUMENT, also for a name that this library's
+ * header does not have. [any-thread] Never blocks; allocates only to report an error. */
+HAPTOFLOW_API haptoflow_status haptoflow_struct_size(const char* name, uint32_t* bytes);
 
 #ifdef __cplusplus
 }

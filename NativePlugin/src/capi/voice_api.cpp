@@ -18,6 +18,7 @@ using effects::EffectKind;
 static_assert(engine::MaterialBlend::capacity == HAPTOFLOW_MAXIMUM_BLEND);
 static_assert(effects::effectKinds == HAPTOFLOW_EFFECT_COUNT);
 static_assert(static_cast<int>(effects::ExposureReason::dose) == HAPTOFLOW_EXPOSURE_DOSE);
+static_assert(static_cast<int>(engine::Silence::turnedDown) == HAPTOFLOW_SILENCE_TURNED_DOWN);
 static_assert(static_cast<int>(EffectKind::exposureGuard) == HAPTOFLOW_EFFECT_EXPOSURE_GUARD);
 static_assert(static_cast<int>(EffectKind::tone) == HAPTOFLOW_EFFECT_TONE);
 static_assert(static_cast<int>(EffectKind::signal) == HAPTOFLOW_EFFECT_SIGNAL);
@@ -208,6 +209,7 @@ haptoflow_status haptoflow_voice_get_statistics(haptoflow_voice voice, haptoflow
         content.device_rate_hz = channels.deviceRateHz;
         content.silence = static_cast<haptoflow_silence>(channels.silence.load());
         content.is_rate_supported = channels.isRateSupported ? 1 : 0;
+        content.lost_blows = counters.lostBlows;
         writeDescriptor(statistics, content, "statistics");
     });
 }

@@ -98,6 +98,7 @@ LiveVoiceSettings voiceSettings(const OfflineSettings& settings) {
     voice.planner.minimumHopSamples = 0;
     voice.outputRateHz = settings.outputRateHz;
     voice.fullScaleMps2 = settings.fullScaleMps2;
+    voice.isRealTime = false;
     return voice;
 }
 

@@ -6,7 +6,7 @@
 namespace haptoflow::engine {
 
 std::unique_ptr<Processors> makeProcessors(const ProcessorSettings& settings, double rateHz, double delaySeconds,
-                                           double actuatorGain) {
+                                           double actuatorGain, bool keepsExposure) {
     if (settings.version == 0) {
         return nullptr;
     }
@@ -23,8 +23,9 @@ std::unique_ptr<Processors> makeProcessors(const ProcessorSettings& settings, do
     if (settings.listenFullScaleMps2 > 0.0) {
         made->listen = std::make_unique<effects::Listen>(rateHz, settings.listenFullScaleMps2);
     }
-    if (settings.hasExposureGuard) {
+    if (settings.hasExposureGuard || keepsExposure) {
         made->exposureGuard = std::make_unique<effects::ExposureGuard>(rateHz);
+        made->exposureGuard->switchOn(settings.hasExposureGuard);
         made->exposureGuard->setActuatorGain(actuatorGain);
     }
     return made;

@@ -286,7 +286,7 @@ namespace HaptoFlow.EditorTests
             GameObject rig = Make("Rig");
             rig.AddComponent<OVRCameraRig>();
             camera.transform.SetParent(Make("Tracking Space", rig).transform, false);
-            OVRInput.Connected = OVRInput.Controller.LTouch | OVRInput.Controller.RTouch;
+            OVRPlugin.Connected = OVRPlugin.Controller.LTouch | OVRPlugin.Controller.RTouch;
             SetTracked("Left", false);
             SetTracked("Right", false);
         }

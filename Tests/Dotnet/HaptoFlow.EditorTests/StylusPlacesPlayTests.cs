@@ -49,7 +49,7 @@ namespace HaptoFlow.EditorTests
             {
                 stylus.gameObject.AddComponent<AutoOutput>().enabled = device == "on";
             }
-            OVRInput.Connected = isConnected ? OVRInput.Controller.RTouch : OVRInput.Controller.None;
+            OVRPlugin.Connected = isConnected ? OVRPlugin.Controller.RTouch : OVRPlugin.Controller.None;
             StylusPlaces said = StylusPlaces.Of(new SceneContents()).Single();
 
             EditorSession.Play();

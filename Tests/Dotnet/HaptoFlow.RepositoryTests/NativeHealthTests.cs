@@ -13,13 +13,13 @@ namespace HaptoFlow.RepositoryTests
         [Test]
         public void EveryReasonForSilenceHasTheLibrarysName()
         {
-            foreach (HapticSilence silence in Enum.GetValues<HapticSilence>())
+            foreach (HapticSilence silence in Enum.GetValues(typeof(HapticSilence)))
             {
                 string name = Marshal.PtrToStringUTF8(NativeMethods.SilenceName((int)silence))!;
                 Assert.That(name.Replace("HAPTOFLOW_SILENCE_", "").Replace("_", ""),
                     Is.EqualTo(silence.ToString()).IgnoreCase);
             }
-            Assert.That(Marshal.PtrToStringUTF8(NativeMethods.SilenceName(9)), Is.EqualTo("HAPTOFLOW_UNKNOWN_SILENCE"));
+            Assert.That(Marshal.PtrToStringUTF8(NativeMethods.SilenceName(10)), Is.EqualTo("HAPTOFLOW_UNKNOWN_SILENCE"));
         }
 
         [Test]

@@ -30,7 +30,7 @@ namespace HaptoFlow.ShimTests
             Board();
             stylus = Circling();
             stylus.Hand = HapticHand.Right;
-            OVRInput.Connected = OVRInput.Controller.RTouch;
+            OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
         }
 
         [TearDown]
@@ -95,7 +95,7 @@ namespace HaptoFlow.ShimTests
             AudioTap tap = Output(out _);
             HapticStylus left = Circling();
             left.Hand = HapticHand.Left;
-            OVRInput.Connected = OVRInput.Controller.RTouch | OVRInput.Controller.LTouch;
+            OVRPlugin.Connected = OVRPlugin.Controller.RTouch | OVRPlugin.Controller.LTouch;
             World.Frames(72);
             foreach (OVRInput.Controller hand in new[] { OVRInput.Controller.LTouch, OVRInput.Controller.RTouch })
             {
@@ -107,11 +107,11 @@ namespace HaptoFlow.ShimTests
         [Test]
         public void AnOutputOnAllChannelsPlaysUntilTheDeviceConnects()
         {
-            OVRInput.Connected = OVRInput.Controller.None;
+            OVRPlugin.Connected = OVRPlugin.Controller.None;
             AudioTap tap = Output(out _);
             World.Frames(72);
             Assert.That(tap.Peak(), Is.GreaterThan(Audible));
-            OVRInput.Connected = OVRInput.Controller.RTouch;
+            OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
             World.Frames(72);
             Assert.That(OVRInput.Waves, Is.Not.Empty);
             tap.Restart();
@@ -185,7 +185,7 @@ namespace HaptoFlow.ShimTests
         [TestCase(false)]
         public void RecompilingWhilePlayingMakesNoSecondOutput(bool withDevice)
         {
-            OVRInput.Connected = withDevice ? OVRInput.Controller.RTouch : OVRInput.Controller.None;
+            OVRPlugin.Connected = withDevice ? OVRPlugin.Controller.RTouch : OVRPlugin.Controller.None;
             World.Frames(36);
             MonoBehaviour[] made = All<AutoOutput>().Concat<MonoBehaviour>(All<HapticOutput>()).ToArray();
             Recompile();
