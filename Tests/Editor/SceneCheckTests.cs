@@ -114,6 +114,22 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
+        public void ListenBesideAnActuatorOrAChannelOfItsOwnIsAWarning()
+        {
+            HapticOutput output = ScenesOutput;
+            output.Processing.Listen = true;
+            output.Channel = HapticVoice.AllChannels;
+            Assert.That(Texts(), Has.None.Contains("Listen"), "loudspeakers");
+            output.Processing.Actuator = OutputActuator.VoiceCoil;
+            Assert.That(Only("Listen is for ears").Severity, Is.EqualTo(MessageType.Warning));
+            output.Processing.Actuator = OutputActuator.Uncompensated;
+            output.Channel = 0;
+            Only("Listen is for ears");
+            output.Processing.Listen = false;
+            Assert.That(Texts(), Has.None.Contains("Listen is for ears"));
+        }
+
+        [Test]
         public void TheMostSevereFindingComesFirst()
         {
             ScenesStylus.Layers = 0;

@@ -337,7 +337,7 @@ namespace HaptoFlow.ShimTests
             OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
             Output(out _);
             float fullScaleMps2 = HaptoFlowSettings.Active.FullScaleMps2;
-            Add<ControllerWaveformOutput>().FullScaleMps2 = fullScaleMps2;
+            AddAtTrueLevel<ControllerWaveformOutput>(fullScaleMps2);
             World.Frames(72);
             AudioDevice.Forget();
             OVRInput.Waves.Clear();
@@ -358,7 +358,7 @@ namespace HaptoFlow.ShimTests
         {
             OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
             Output(out _);
-            Add<ControllerWaveformOutput>().FullScaleMps2 = HaptoFlowSettings.Active.FullScaleMps2;
+            AddAtTrueLevel<ControllerWaveformOutput>(HaptoFlowSettings.Active.FullScaleMps2);
             World.Frames(72);
             AudioDevice.Forget();
             OVRInput.Waves.Clear();
@@ -399,7 +399,7 @@ namespace HaptoFlow.ShimTests
         public void AnOutputEnabledDuringATouchDoesNotRepeatTheImpact()
         {
             XrHand.Right.Take("A controller", true);
-            Add<MotorOutput>().FullScaleMps2 = HaptoFlowSettings.Active.FullScaleMps2;
+            AddAtTrueLevel<MotorOutput>(HaptoFlowSettings.Active.FullScaleMps2);
             All<HapticSurface>().Single().Material.Effects = HapticEffects.Impact;
             // The tip comes down fast and then rests on the board.
             double start = Clock.Seconds;
@@ -431,7 +431,7 @@ namespace HaptoFlow.ShimTests
             XrHand.Right.Take("A controller", true);
             Output(out _);
             float fullScaleMps2 = HaptoFlowSettings.Active.FullScaleMps2;
-            Add<MotorOutput>().FullScaleMps2 = fullScaleMps2;
+            AddAtTrueLevel<MotorOutput>(fullScaleMps2);
             World.Frames(72);
             AudioDevice.Forget();
             XrHand.Right.Impulses.Clear();
@@ -457,6 +457,34 @@ namespace HaptoFlow.ShimTests
             long bytes = BytesOf(180);
             Assert.That(bytes, Is.Zero);
             Assert.That(waveform ? OVRInput.Submissions : XrHand.Right.Impulses.Count, Is.GreaterThan(200));
+        }
+
+        private void AddAtTrueLevel<T>(float fullScaleMps2)
+            where T : DeviceOutput
+        {
+            T output = Add<T>();
+            output.TrueLevel = true;
+            output.FullScaleMps2 = fullScaleMps2;
+        }
+
+        [Test]
+        public void AMotorPlaysMoreByTheLoudnessLawThanInProportionAndByDeviceLoudness()
+        {
+            XrHand.Right.Take("A controller", true);
+            var output = Add<MotorOutput>();
+            double Average()
+            {
+                World.Frames(36);
+                XrHand.Right.Impulses.Clear();
+                World.Frames(144);
+                return XrHand.Right.Impulses.Average(each => each.Amplitude);
+            }
+            double byLaw = Average();
+            Assert.That(byLaw, Is.InRange(0.1, 0.9));
+            output.DeviceLoudness = 0.5f;
+            Assert.That(Average(), Is.EqualTo(0.5 * byLaw).Within(0.15 * byLaw));
+            output.TrueLevel = true;
+            Assert.That(Average(), Is.LessThan(0.5 * byLaw));
         }
 
         [MethodImpl(MethodImplOptions.NoInlining)]

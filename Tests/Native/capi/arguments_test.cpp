@@ -257,7 +257,6 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
           [&] { return haptoflow_wave_features_process(features, nullptr, 1, &frame, 1, &length); },
           [&] { return haptoflow_wave_features_process(features, numbers.data(), 1, nullptr, 1, &length); },
           [&] { return haptoflow_wave_features_process(features, numbers.data(), 1, &frame, 1, nullptr); }}},
-        {"haptoflow_voice_set_listen", {[&] { return haptoflow_voice_set_listen(0, 1); }}},
         {"haptoflow_device_share",
          {[&] { return haptoflow_device_share(HAPTOFLOW_DEVICE_MOTOR, 1.0F, nullptr); }}},
         {"haptoflow_device_wave_create", {[&] { return haptoflow_device_wave_create(8000.0, nullptr); }}},
@@ -303,6 +302,7 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
     EXPECT_EQ(noLearning, nullptr);
     EXPECT_EQ(haptoflow_learning_close(&learning), HAPTOFLOW_OK);
     EXPECT_EQ(haptoflow_generator_close(&generator), HAPTOFLOW_OK);
+    EXPECT_EQ(haptoflow_device_wave_close(&deviceWave), HAPTOFLOW_OK);
 }
 
 TEST(ArgumentTest, ClosingANullHandleIsFine) {

@@ -568,6 +568,36 @@ TEST_F(ProcessorsTest, ProcessorChangesAtAnyTimeDoNotClick) {
     }
 }
 
+TEST_F(ProcessorsTest, ListenSwitchedWhileATextureSoundsFadesWithoutAClick) {
+    SimulatedDevice device(model_, tone_);
+    const auto slide = [](double) { return testing::sliding(); };
+    const auto isOn = [](bool on) {
+        return [on](ProcessorSettings& settings) { settings.listenFullScaleMps2 = on ? 60.0 : 0.0; };
+    };
+    device.run(0.5, slide);
+    const float quiet = testing::peak(from(device, device.output.size() - 4800));
+    EXPECT_EQ(of(device, EffectKind::listen).prepared + of(device, EffectKind::listen).runs, 0U);
+    ask(device, isOn(true));
+    device.run(0.5, slide);
+    const auto settled = from(device, device.output.size() - 4800);
+    const float loud = testing::peak(settled);
+    const float tone = testing::largestStep(settled);
+    EXPECT_GT(loud, 2.0F * quiet);
+    EXPECT_LT(loud, 1.0F);
+    std::mt19937 random(12);
+    for (int change = 0; change < 200; ++change) {
+        ask(device, isOn(change % 2 == 1));
+        device.run(0.003 * static_cast<double>(random() % 20), slide);
+    }
+    EXPECT_LT(testing::largestStep(device.output), 1.5F * tone);
+    ask(device, isOn(false));
+    device.run(0.1, slide);
+    const std::uint64_t runs = of(device, EffectKind::listen).runs;
+    device.run(0.3, slide);
+    EXPECT_EQ(of(device, EffectKind::listen).runs, runs) << "Listen that is switched off must not run";
+    EXPECT_NEAR(testing::peak(from(device, device.output.size() - 4800)), quiet, 0.05F * quiet);
+}
+
 TEST_F(ProcessorsTest, TheDelaysSignalSurvivesAChangeOfOtherProcessors) {
     SimulatedDevice device(model_, tone_);
     const auto profile =
