@@ -1,10 +1,12 @@
 // test: runs the tests and sums them into out/test/summary.json (--all: the long form; --only NAME; --help)
 import { mkdirSync, writeFileSync } from 'node:fs';
 import { parseArgs } from 'node:util';
+import { bringDotnet } from './lib/dotnet.mjs';
 import { CommandError, runMain } from './lib/process.mjs';
 import { inRepository } from './lib/repository.mjs';
-import { setUp } from './lib/setup.mjs';
+import { rootCommand, setUp } from './lib/setup.mjs';
 import { addCounts, closingLine, noCounts } from './lib/test_counts.mjs';
+import { exitCodeOf, runRunners } from './lib/test_run.mjs';
 import { chosenRunners, purposesOf, runners } from './lib/test_runners.mjs';
 
 function optionsOf(words) {
@@ -13,21 +15,6 @@ function optionsOf(words) {
   } catch (error) {
     throw new CommandError(error.message, 2);
   }
-}
-
-/** Runs one runner. An error that keeps it from running counts as one failed test. */
-async function execute(name, all) {
-  const begin = performance.now();
-  console.log(`test: ${name}`);
-  let counts;
-  try {
-    counts = await runners[name].execute({ all });
-  } catch (error) {
-    if (!(error instanceof CommandError)) throw error;
-    console.error(`test: ${name}: ${error.message}`);
-    counts = { ...noCounts, failed: 1 };
-  }
-  return { name, ...counts, seconds: Math.round((performance.now() - begin) / 100) / 10 };
 }
 
 function showTable(rows) {
@@ -42,6 +29,7 @@ const help = `usage: ./run test [--all] [--only NAME]
 
 Installs what is missing (Debian, with root or sudo; the .NET SDK 10 without), builds, runs the tests and sums them into
 out/test/summary.json. What the system's packages do not have is named, with where to get it, and counted as skipped.
+Where the .NET SDK can't be reached everything else runs; the exit code is then 2, and 1 where a test failed.
 
   --all        the long form: every test, all sanitizers, libc++ and the other platforms
   --only NAME  one runner. Of the default form: ${namesOf(false)}; of the long form: ${namesOf(true)}
@@ -52,14 +40,18 @@ await runMain('test', async (words) => {
   const { only, all } = optionsOf(words);
   const chosen = chosenRunners({ only, all });
   const leftOut = await setUp([...new Set(chosen.flatMap((name) => purposesOf(name, all)))]);
-  const rows = [];
-  for (const name of chosen) rows.push(await execute(name, all));
+  const { rows, notRun } = await runRunners(chosen, {
+    execute: (name) => runners[name].execute({ all }),
+    needsSdk: (name) => runners[name].purposes.includes('dotnet'),
+    bringSdk: () => bringDotnet({ asRoot: rootCommand() }),
+  });
   const { passed, failed, skipped } = rows.reduce(addCounts, noCounts);
   mkdirSync(inRepository('out', 'test'), { recursive: true });
-  writeFileSync(inRepository('out', 'test', 'summary.json'), `${JSON.stringify({ passed, failed, skipped, left_out: leftOut, runners: rows }, null, 2)}\n`);
+  writeFileSync(inRepository('out', 'test', 'summary.json'), `${JSON.stringify({ passed, failed, skipped, left_out: leftOut, not_run: notRun, runners: rows }, null, 2)}\n`);
   showTable(rows);
   if (leftOut.length > 0) console.log('');
   leftOut.forEach((sentence) => console.log(`test: ${sentence}`));
   console.log(`\n${closingLine({ passed, failed, skipped })}`);
-  return failed > 0 ? 1 : 0;
+  if (notRun !== null) console.error(`test: ${notRun}`);
+  return exitCodeOf({ failed, notRun });
 }, { help });

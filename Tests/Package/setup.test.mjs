@@ -116,6 +116,7 @@ const starters = [
   { files: () => filesBelow('NativePlugin/cmake', /\.cmake$/), purposes: purposesOfRunners('platforms') },
   { files: () => ['scripts/lib/platform_tests.mjs', 'scripts/lib/exported_names.mjs', 'scripts/lib/android_pages.mjs', 'Tests/Platforms/android-stand-in.cmake'], purposes: purposesOfRunners('platforms') },
   { files: () => ['CMakePresets.json', 'scripts/lib/test_runners.mjs', 'scripts/lib/native_build.mjs'], purposes: Object.values(runners).flatMap(({ purposes, longPurposes = [] }) => [...purposes, ...longPurposes]) },
+  { files: () => ['scripts/lib/runtime_tests.mjs'], purposes: purposesOfRunners('mono') },
   { files: () => ['scripts/lib/dotnet.mjs'], purposes: purposesOfRunners('dotnet') },
   { files: () => filesBelow('scripts/lint', /\.mjs$/), purposes: purposesOf('lint.mjs') },
   { files: () => filesBelow('scripts/pack', /\.(mjs|py)$/), purposes: purposesOf('pack.mjs') },

@@ -45,8 +45,8 @@ export async function bringDotnet({ folder = dotnetFolder(), env = process.env, 
   const brought = findDotnet({ folder, env });
   if (brought) return brought;
   throw new CommandError(
-    `the C# tests need the .NET SDK 10 and it could not be installed (${reasons.filter(Boolean).join('; ')}). Run this where ` +
-      `the network allows it, then again what you ran: curl -fsSL ${script} | bash -s -- --channel 10.0 --install-dir ${folder}`,
+    `the .NET SDK 10 could not be installed (${reasons.filter(Boolean).join('; ')}); where the network allows it, run this, ` +
+      `then again what you ran: curl -fsSL ${script} | bash -s -- --channel 10.0 --install-dir ${folder}`,
     2,
   );
 }

@@ -17,6 +17,8 @@ export const packagesByPurpose = {
   ],
   // Libraries that the SDK needs, and curl for Microsoft's install script: see dotnet.mjs.
   dotnet: ['ca-certificates', 'curl', 'libicu-dev'],
+  // mono-devel has the facades of .NET Standard.
+  mono: ['mono-runtime', 'mono-devel'],
   // The font of the charts that the C# tests draw.
   pictures: ['fonts-inter'],
   // git lists the files that belong to the project.
@@ -30,6 +32,7 @@ export const packageOfProgram = {
   ctest: 'cmake',
   ninja: 'ninja-build',
   nm: 'binutils',
+  mono: 'mono-runtime',
   curl: 'curl',
   git: 'git',
   'clang-format': 'clang-format',
@@ -63,7 +66,11 @@ export const optionalPurposes = {
   realtime:
     'RealtimeSanitizer is left out: it needs Clang 22, which this system\'s packages do not have. Debian 12 has it in ' +
     'bookworm-security (clang-22, libclang-rt-22-dev); elsewhere the packages of apt.llvm.org bring it',
+  mono:
+    'The run under Mono is left out: it needs Mono 6.8, which this system\'s packages do not have. Debian 12 and Ubuntu ' +
+    '24.04 have it (mono-runtime, mono-devel)',
 };
+
 /** Every package of the purposes, each once, in order. Throws RangeError for a purpose that does not exist. */
 export function selectPackages(purposes) {
   const selected = new Set();

@@ -1,26 +1,25 @@
 import { spawnSync } from 'node:child_process';
 import { existsSync, readFileSync } from 'node:fs';
-import { bringDotnet } from './dotnet.mjs';
 import { missingFromLock, missingPackages, offeredPackages, optionalPurposes, selectPackages } from './packages.mjs';
 import { CommandError, runNpmOrFail, runOrFail, succeeds } from './process.mjs';
 import { inRepository } from './repository.mjs';
 
 /**
- * Installs what a command needs and prints what it installs: system packages (Debian), the .NET SDK, then npm packages.
+ * Installs what a command needs and prints what it installs: system packages (Debian), then npm packages. The .NET SDK
+ * is brought apart (dotnet.mjs), since most of the tests run without it.
  * @param {string[]} purposes of packages.mjs
  * @returns {Promise<string[]>} a sentence for each optional purpose that is skipped (see optionalPurposes)
  * @throws CommandError with exit code 2 and one command to type where this process may not install.
  */
 export async function setUp(purposes) {
   const leftOut = await installSystemPackages(purposes);
-  if (purposes.includes('dotnet')) await bringDotnet({ asRoot: rootCommand() });
   await installNodePackages();
   leftOut.forEach((sentence) => console.log(`setup: ${sentence}`));
   return leftOut;
 }
 
 /** The words that run a command as root: none for root itself, null where this process cannot become root. */
-function rootCommand() {
+export function rootCommand() {
   if (process.getuid?.() === 0) return [];
   return succeeds('sudo', ['-n', 'true']) ? ['sudo', '-n'] : null;
 }
@@ -82,7 +81,7 @@ async function runApt(asRoot, words) {
 }
 
 /** The program whose presence stands for a purpose on systems without apt. */
-const programOf = (purpose) => ({ libcxx: 'clang++-16', realtime: 'clang++-22' })[purpose];
+const programOf = (purpose) => ({ libcxx: 'clang++-16', realtime: 'clang++-22', mono: 'mono' })[purpose];
 
 /** On other systems nothing is installed: names what is missing, and the file that lists it. */
 function checkForeignSystem(purposes) {

@@ -9,6 +9,7 @@ import { buildNative, presetFolder } from './native_build.mjs';
 import { bringArmRuntime, platformTests } from './platform_tests.mjs';
 import { CommandError, run, succeeds } from './process.mjs';
 import { inRepository } from './repository.mjs';
+import { aot, mono } from './runtime_tests.mjs';
 import { pythonOrFail } from './setup.mjs';
 import { addCounts, countsOfTap, countsOfTrx, judged, noCounts } from './test_counts.mjs';
 
@@ -163,6 +164,8 @@ export const runners = {
   package: { purposes: ['files'], execute: packageTests },
   sanitizers: { purposes: ['build', 'test'], longPurposes: ['realtime'], long: true, execute: sanitizers },
   libcxx: { purposes: ['build', 'libcxx'], long: true, execute: libcxx },
+  mono: { purposes: ['build', 'dotnet', 'pictures', 'mono'], long: true, execute: mono },
+  aot: { purposes: ['build', 'dotnet'], long: true, execute: aot },
   platforms: { purposes: ['build', 'test', 'platforms'], long: true, execute: platformTests },
 };
 

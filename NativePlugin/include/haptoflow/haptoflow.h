@@ -965,6 +965,14 @@ HAPTOFLOW_API haptoflow_status haptoflow_learning_report(const haptoflow_learnin
  * [any-thread] Blocks while another thread opens or closes a handle. */
 HAPTOFLOW_API haptoflow_status haptoflow_learning_close(haptoflow_learning** learning);
 
+/* ---------------------------------------------------------------------------------------------------- agreement */
+
+/* Sets *bytes to the size with which the library was built of a struct of this header, for example of
+ * "haptoflow_engine_options". A caller that declares the structs itself, in another language, compares its own sizes
+ * with these before the first call that passes one. Errors: INVALID_ARGUMENT, also for a name that this library's
+ * header does not have. [any-thread] Never blocks; allocates only to report an error. */
+HAPTOFLOW_API haptoflow_status haptoflow_struct_size(const char* name, uint32_t* bytes);
+
 #ifdef __cplusplus
 }
 #endif

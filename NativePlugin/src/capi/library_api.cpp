@@ -1,7 +1,11 @@
 #include "capi/boundary.hpp"
 #include "inference/gaussian_noise.hpp"
 
+#include <algorithm>
+#include <array>
+#include <iterator>
 #include <span>
+#include <string>
 #include <string_view>
 
 using namespace haptoflow;
@@ -9,6 +13,41 @@ using namespace haptoflow::capi;
 
 static_assert(std::string_view(HAPTOFLOW_VERSION_TEXT) == HAPTOFLOW_VERSION,
               "the version macros of haptoflow.h differ from package.json");
+
+namespace {
+
+struct StructSize {
+    std::string_view name;
+    uint32_t bytes;
+};
+
+template <typename Struct>
+constexpr StructSize sizeOf(std::string_view name) {
+    return {name, static_cast<uint32_t>(sizeof(Struct))};
+}
+
+/// Every struct of haptoflow.h; a test compares the names with the header.
+constexpr std::array structSizes{
+    sizeOf<haptoflow_runtime_options>("haptoflow_runtime_options"),
+    sizeOf<haptoflow_model_options>("haptoflow_model_options"),
+    sizeOf<haptoflow_label_info>("haptoflow_label_info"),
+    sizeOf<haptoflow_tier_info>("haptoflow_tier_info"),
+    sizeOf<haptoflow_generator_options>("haptoflow_generator_options"),
+    sizeOf<haptoflow_batch>("haptoflow_batch"),
+    sizeOf<haptoflow_engine_options>("haptoflow_engine_options"),
+    sizeOf<haptoflow_tier_times>("haptoflow_tier_times"),
+    sizeOf<haptoflow_engine_statistics>("haptoflow_engine_statistics"),
+    sizeOf<haptoflow_contact_state>("haptoflow_contact_state"),
+    sizeOf<haptoflow_effect_statistics>("haptoflow_effect_statistics"),
+    sizeOf<haptoflow_voice_statistics>("haptoflow_voice_statistics"),
+    sizeOf<haptoflow_signal_statistics>("haptoflow_signal_statistics"),
+    sizeOf<haptoflow_exposure>("haptoflow_exposure"),
+    sizeOf<haptoflow_wave_features_options>("haptoflow_wave_features_options"),
+    sizeOf<haptoflow_wave_frame>("haptoflow_wave_frame"),
+    sizeOf<haptoflow_learning_options>("haptoflow_learning_options"),
+};
+
+}  // namespace
 
 const char* haptoflow_version(void) {
     return HAPTOFLOW_VERSION_TEXT;
@@ -95,5 +134,16 @@ haptoflow_status haptoflow_noise_fill(uint64_t seed, uint32_t voice, uint64_t se
         }
         const std::span<float> target(require(noise, "noise"), static_cast<std::size_t>(count));
         inference::fillStandardNormal({seed, voice, segment}, target);
+    });
+}
+
+haptoflow_status haptoflow_struct_size(const char* name, uint32_t* bytes) {
+    return guarded([&] {
+        const std::string_view wanted(require(name, "name"));
+        const auto entry = std::ranges::find(structSizes, wanted, &StructSize::name);
+        if (entry == std::end(structSizes)) {
+            throw std::invalid_argument("the header of this library has no struct \"" + std::string(wanted) + "\"");
+        }
+        *require(bytes, "bytes") = entry->bytes;
     });
 }

@@ -11,4 +11,5 @@ using System.Runtime.CompilerServices;
 [assembly: InternalsVisibleTo("HaptoFlow.Tests")]
 [assembly: InternalsVisibleTo("HaptoFlow.ShimTests")]
 [assembly: InternalsVisibleTo("HaptoFlow.MissingLibraryTests")]
+[assembly: InternalsVisibleTo("HaptoFlow.WrongLibraryTests")]
 [assembly: InternalsVisibleTo("HaptoFlow.SampleTests")]

@@ -70,7 +70,7 @@ namespace HaptoFlow.PreviewTests
                 .Sum(bin => Math.Pow(10.0, spectrum.Decibels(bin * spectrum.HertzPerBin) / 10.0));
             power *= spectrum.HertzPerBin;
             Assert.That(power, Is.EqualTo(8.0).Within(0.02));
-            double peak = Enumerable.Range(20, 981).MaxBy(hertz => spectrum.Decibels(hertz));
+            double peak = Enumerable.Range(20, 981).OrderByDescending(hertz => spectrum.Decibels(hertz)).First();
             Assert.That(peak, Is.EqualTo(250.0).Within(spectrum.HertzPerBin));
         }
 
@@ -112,8 +112,8 @@ namespace HaptoFlow.PreviewTests
             double Loudest(double seconds)
             {
                 var column = (int)(seconds / sound.DurationSeconds * spectrogram.Columns);
-                return Enumerable.Range(0, spectrogram.Rows).MaxBy(row => spectrogram.Decibels(column, row)) *
-                    spectrogram.HertzPerRow;
+                return Enumerable.Range(0, spectrogram.Rows)
+                    .OrderByDescending(row => spectrogram.Decibels(column, row)).First() * spectrogram.HertzPerRow;
             }
 
             Assert.That(Loudest(0.5), Is.EqualTo(100.0).Within(spectrogram.HertzPerRow));

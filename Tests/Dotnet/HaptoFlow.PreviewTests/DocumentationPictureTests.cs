@@ -74,8 +74,12 @@ namespace HaptoFlow.PreviewTests
         private static void Save(SkiaCanvas picture, string path)
         {
             picture.Save(path);
-            using Process stamp = Process.Start(
-                "node", new[] { RepositoryFiles.In("scripts", "pack", "stamp_picture.mjs"), path });
+            var command = new ProcessStartInfo("node")
+            {
+                ArgumentList = { RepositoryFiles.In("scripts", "pack", "stamp_picture.mjs"), path },
+                UseShellExecute = false,
+            };
+            using Process stamp = Process.Start(command)!;
             stamp.WaitForExit();
             Assert.That(stamp.ExitCode, Is.Zero);
             Assert.That(new FileInfo(path).Length, Is.GreaterThan(50_000));

@@ -8,7 +8,8 @@ namespace HaptoFlow.PreviewTests
     internal sealed class StrokeTests
     {
         private static readonly StrokePreset[] Presets =
-            Enum.GetValues<StrokePreset>().Where(preset => preset != StrokePreset.Drawn).ToArray();
+            Enum.GetValues(typeof(StrokePreset)).Cast<StrokePreset>().Where(preset => preset != StrokePreset.Drawn)
+                .ToArray();
 
         private static readonly StrokeSettings Usual = new StrokeSettings(0.1, 1.0, 30.0, 2.0);
 

@@ -33,6 +33,22 @@ namespace HaptoFlow.RepositoryTests
             Assert.That(Marshal.SizeOf(type), Is.EqualTo(expectedBytes));
 
         [Test]
+        public void EveryStructOfTheHeaderIsComparedWithTheLibrary()
+        {
+            string header = File.ReadAllText(RepositoryFiles.In("NativePlugin", "include", "haptoflow", "haptoflow.h"));
+            string[] declared = System.Text.RegularExpressions.Regex.Matches(header, @"typedef struct (haptoflow_\w+) \{")
+                .Select(match => match.Groups[1].Value).ToArray();
+            Assert.That(LibraryAgreement.Structs.Keys, Is.EquivalentTo(declared));
+            Assert.DoesNotThrow(LibraryAgreement.Require);
+        }
+
+        [Test]
+        public void TheScriptsHaveThePackagesVersion() => Assert.That(
+            (string?)Newtonsoft.Json.Linq.JObject.Parse(File.ReadAllText(
+                RepositoryFiles.In("Packages", "com.haptoflow.runtime", "package.json")))["version"],
+            Is.EqualTo(LibraryAgreement.Version).And.EqualTo(OnnxRuntime.LibraryVersion()));
+
+        [Test]
         public void NativeStructsAndCallbacksArePreservedFromStripping()
         {
             const BindingFlags anyField = BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic;

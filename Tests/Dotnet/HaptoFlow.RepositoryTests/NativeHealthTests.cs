@@ -13,7 +13,7 @@ namespace HaptoFlow.RepositoryTests
         [Test]
         public void EveryReasonForSilenceHasTheLibrarysName()
         {
-            foreach (HapticSilence silence in Enum.GetValues<HapticSilence>())
+            foreach (HapticSilence silence in Enum.GetValues(typeof(HapticSilence)))
             {
                 string name = Marshal.PtrToStringUTF8(NativeMethods.SilenceName((int)silence))!;
                 Assert.That(name.Replace("HAPTOFLOW_SILENCE_", "").Replace("_", ""),

@@ -1,6 +1,7 @@
 using System;
 using System.IO;
 using System.Runtime.CompilerServices;
+using System.Runtime.InteropServices;
 
 namespace HaptoFlow.Tests.Support
 {
@@ -15,9 +16,9 @@ namespace HaptoFlow.Tests.Support
         public static string NativeFolder =>
             Environment.GetEnvironmentVariable("HAPTOFLOW_NATIVE_DIR") is { Length: > 0 } folder ? folder : In("build", "native");
 
-        public static string OnnxRuntime => OperatingSystem.IsWindows()
+        public static string OnnxRuntime => RuntimeInformation.IsOSPlatform(OSPlatform.Windows)
             ? In("node_modules", "com.github.asus4.onnxruntime", "Plugins", "Windows", "x64", "onnxruntime.dll")
-            : OperatingSystem.IsMacOS()
+            : RuntimeInformation.IsOSPlatform(OSPlatform.OSX)
                 ? In("node_modules", "com.github.asus4.onnxruntime", "Plugins", "macOS", "arm64", "libonnxruntime.dylib")
                 : In("node_modules", "com.github.asus4.onnxruntime", "Plugins", "Linux", "x64", "libonnxruntime.so");
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <functional>
 #include <map>
+#include <regex>
 #include <string>
 #include <thread>
 #include <vector>
@@ -63,6 +64,36 @@ TEST(LibraryApiTest, NoiseDependsOnlyOnItsKey) {
     EXPECT_FLOAT_EQ(noise[0], -1.0514221F);
     EXPECT_FLOAT_EQ(noise[3], -0.25481707F);
     EXPECT_EQ(haptoflow_noise_fill(1, 2, 3, noise.data(), UINT64_MAX), HAPTOFLOW_INVALID_ARGUMENT);
+}
+
+TEST(LibraryApiTest, TheSizeOfEveryStructOfTheHeaderIsKnown) {
+    const std::string text = headerText();
+    const std::regex declaration(R"(typedef struct (haptoflow_\w+) \{)");
+    std::size_t count = 0;
+    for (std::sregex_iterator match(text.begin(), text.end(), declaration), end; match != end; ++match, ++count) {
+        const std::string name = (*match)[1];
+        uint32_t bytes = 0;
+        EXPECT_EQ(haptoflow_struct_size(name.c_str(), &bytes), HAPTOFLOW_OK) << name;
+        EXPECT_GE(bytes, 2 * sizeof(uint32_t)) << name;
+    }
+    EXPECT_GE(count, 17U);
+}
+
+TEST(LibraryApiTest, TheSizeOfAStructIsThatOfItsDeclaration) {
+    uint32_t bytes = 0;
+    ASSERT_EQ(haptoflow_struct_size("haptoflow_engine_options", &bytes), HAPTOFLOW_OK);
+    EXPECT_EQ(bytes, sizeof(haptoflow_engine_options));
+    ASSERT_EQ(haptoflow_struct_size("haptoflow_contact_state", &bytes), HAPTOFLOW_OK);
+    EXPECT_EQ(bytes, sizeof(haptoflow_contact_state));
+    ASSERT_EQ(haptoflow_struct_size("haptoflow_wave_frame", &bytes), HAPTOFLOW_OK);
+    EXPECT_EQ(bytes, sizeof(haptoflow_wave_frame));
+}
+
+TEST(LibraryApiTest, TheSizeOfAnUnknownStructIsRefusedWithItsName) {
+    uint32_t bytes = 7;
+    EXPECT_EQ(haptoflow_struct_size("haptoflow_engine", &bytes), HAPTOFLOW_INVALID_ARGUMENT);
+    EXPECT_EQ(bytes, 7U) << "a call that fails leaves its outputs unchanged";
+    EXPECT_THAT(message(), ::testing::HasSubstr("\"haptoflow_engine\""));
 }
 
 /// Calls of a function, each with one null pointer and otherwise valid arguments.
@@ -235,6 +266,9 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
           [&] { return haptoflow_learning_report(learning, nullptr); }}},
         {"haptoflow_learning_close", {[&] { return haptoflow_learning_close(nullptr); }}},
         {"haptoflow_noise_fill", {[&] { return haptoflow_noise_fill(0, 0, 0, nullptr, 1); }}},
+        {"haptoflow_struct_size",
+         {[&] { return haptoflow_struct_size(nullptr, &count); },
+          [&] { return haptoflow_struct_size("haptoflow_batch", nullptr); }}},
     };
     std::map<std::string, std::size_t> called;
     for (const auto& [function, calls] : table) {

@@ -11,3 +11,5 @@ using System.Runtime.CompilerServices;
 [assembly: InternalsVisibleTo("HaptoFlow.ShimTests")]
 [assembly: InternalsVisibleTo("HaptoFlow.SampleTests")]
 [assembly: InternalsVisibleTo("HaptoFlow.MissingLibraryTests")]
+[assembly: InternalsVisibleTo("HaptoFlow.WrongLibraryTests")]
+[assembly: InternalsVisibleTo("HaptoFlow.AotTests")]

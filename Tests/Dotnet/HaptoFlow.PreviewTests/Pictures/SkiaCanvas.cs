@@ -142,7 +142,7 @@ namespace HaptoFlow.PreviewTests
                 return SKTypeface.FromFile(path);
             }
             // Without fontconfig, SkiaSharp finds no font of the system on Linux.
-            return !OperatingSystem.IsLinux()
+            return !RuntimeInformation.IsOSPlatform(OSPlatform.Linux)
                 ? SKTypeface.Default
                 : throw new FileNotFoundException(
                     $"The charts' font {path} is missing; run: apt-get install {FontPackage}", path);

@@ -50,7 +50,8 @@ namespace HaptoFlow.SampleTests.Similarity
             List<Dictionary<string, string>> rows = Rows();
             Assert.That(rows.Select(row => int.Parse(row["trial"], CultureInfo.InvariantCulture)),
                 Is.EqualTo(Enumerable.Range(1, plan.Trials.Count)));
-            foreach ((Dictionary<string, string> row, PlannedTrial trial) in rows.Zip(plan.Trials))
+            foreach ((Dictionary<string, string> row, PlannedTrial trial) in
+                rows.Zip(plan.Trials, (row, trial) => (row, trial)))
             {
                 string where = $"trial {trial.Trial}";
                 Assert.That((row["block"], row["material"], row["method"]),
@@ -76,7 +77,8 @@ namespace HaptoFlow.SampleTests.Similarity
             Assert.That(sidecar, Does.Match("\"resumptions\": ?1").And.Match("\"simulated\": ?true"));
             foreach (StudyMethod method in settings.Methods)
             {
-                string hash = Convert.ToHexString(System.Security.Cryptography.SHA256.HashData(method.Model!.File));
+                using var sha256 = System.Security.Cryptography.SHA256.Create();
+                string hash = BitConverter.ToString(sha256.ComputeHash(method.Model!.File)).Replace("-", "");
                 Assert.That(sidecar, Does.Contain(hash.ToLowerInvariant()));
                 Assert.That(sidecar, Does.Contain(method.Model.name + ".haptoflow"));
             }

@@ -13,6 +13,7 @@ namespace HaptoFlow
         {
             try
             {
+                LibraryAgreement.Require();
                 IntPtr opened;
                 NativeCall.Check(NativeMethods.CancellationCreate(&opened));
                 Handle = new CancellationHandle(opened);

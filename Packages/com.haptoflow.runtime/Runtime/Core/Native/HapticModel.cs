@@ -197,6 +197,7 @@ namespace HaptoFlow
 
         private static HapticModel Open(ModelOptions* options)
         {
+            LibraryAgreement.Require();
             IntPtr opened;
             NativeCall.Check(NativeMethods.ModelOpen(options, &opened));
             return new HapticModel(opened);

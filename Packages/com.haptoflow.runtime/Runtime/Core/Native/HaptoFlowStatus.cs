@@ -65,5 +65,8 @@ namespace HaptoFlow
 
         /// <summary>The native library audioplugin_haptoflow, or a function of it, is missing.</summary>
         LibraryUnavailable = 100,
+
+        /// <summary>The native library belongs to another version of the package than its C# scripts.</summary>
+        LibraryMismatch = 101,
     }
 }

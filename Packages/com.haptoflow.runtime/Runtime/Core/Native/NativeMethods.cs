@@ -213,5 +213,8 @@ namespace HaptoFlow.Native
 
         [DllImport(Library, EntryPoint = "haptoflow_noise_fill")]
         public static extern int NoiseFill(ulong seed, uint voice, ulong segment, float* noise, ulong count);
+
+        [DllImport(Library, EntryPoint = "haptoflow_struct_size")]
+        public static extern int StructSize(byte* name, uint* bytes);
     }
 }

@@ -13,12 +13,13 @@ namespace HaptoFlow
 
         /// <summary>Opens the ONNX Runtime of this platform's package (onnxruntime). Any thread that may block for the
         /// disk.</summary>
-        /// <exception cref="HaptoFlowException">A library is missing, or ONNX Runtime is older than version
-        /// 1.16.</exception>
+        /// <exception cref="HaptoFlowException">A library is missing or belongs to another version of the
+        /// package, or ONNX Runtime is older than version 1.16.</exception>
         public static OnnxRuntime Open()
         {
             try
             {
+                LibraryAgreement.Require();
                 var options = new RuntimeOptions
                 {
                     StructSize = (uint)sizeof(RuntimeOptions),

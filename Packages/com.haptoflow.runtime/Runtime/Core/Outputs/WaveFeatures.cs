@@ -66,6 +66,7 @@ namespace HaptoFlow.Outputs
                 SampleRateHz = (uint)rateHz,
                 FrameSeconds = frameSeconds,
             };
+            LibraryAgreement.Require();
             IntPtr opened;
             NativeCall.Check(NativeMethods.WaveFeaturesCreate(&options, &opened));
             handle = new WaveFeaturesHandle(opened);

@@ -1,0 +1,133 @@
+using System;
+using System.Collections.Generic;
+using System.Globalization;
+using System.IO;
+using System.Linq;
+using System.Xml;
+using NUnit.Framework.Api;
+using NUnit.Framework.Interfaces;
+using NUnit.Framework.Internal;
+
+namespace HaptoFlow.Tests.OwnProgram
+{
+    /// <summary>Runs the tests of its own assembly, for runtimes on which `dotnet test` cannot: Mono, and programs
+    /// compiled ahead of time. Arguments: the JUnit file to write, then names (or parts of full names) of tests to leave
+    /// out; a word after "--only" is the part of the full name that all tests have.</summary>
+    internal static class TestProgram
+    {
+        private static int Main(string[] words)
+        {
+            int only = Array.IndexOf(words, "--only");
+            var filter = new NameFilter(
+                words.Skip(1).Take(only < 0 ? int.MaxValue : only - 1).ToArray(),
+                only < 0 ? "" : words[only + 1]);
+            var runner = new NUnitTestAssemblyRunner(new DefaultTestAssemblyBuilder());
+            var settings = new Dictionary<string, object> { ["NumberOfTestWorkers"] = 0 };
+            runner.Load(typeof(TestProgram).Assembly, settings);
+            ITestResult[] results = Leaves(runner.Run(new Listener(Console.Out), filter)).ToArray();
+            WriteJunit(words[0], results);
+            int failed = results.Count(result => Outcome(result) == "failure");
+            int skipped = results.Count(result => Outcome(result) == "skipped");
+            Console.WriteLine($"{results.Length - failed - skipped} passed, {failed} failed, {skipped} skipped");
+            return failed > 0 ? 1 : 0;
+        }
+
+        /// <summary>The results of single tests, and of fixtures that failed outside of their tests.</summary>
+        private static IEnumerable<ITestResult> Leaves(ITestResult result) =>
+            result.HasChildren ? result.Children.SelectMany(Leaves)
+                : result.Test.IsSuite && result.ResultState.Status != TestStatus.Failed ? Enumerable.Empty<ITestResult>()
+                : new[] { result };
+
+        private static string Outcome(ITestResult result) => result.ResultState.Status switch
+        {
+            TestStatus.Passed => "",
+            TestStatus.Warning => "",
+            TestStatus.Failed => "failure",
+            _ => "skipped",
+        };
+
+        private static void WriteJunit(string path, ITestResult[] results)
+        {
+            using XmlWriter xml = XmlWriter.Create(path, new XmlWriterSettings { Indent = true });
+            xml.WriteStartElement("testsuite");
+            xml.WriteAttributeString("name", typeof(TestProgram).Assembly.GetName().Name);
+            Number("tests", results.Length);
+            Number("failures", results.Count(result => Outcome(result) == "failure"));
+            Number("skipped", results.Count(result => Outcome(result) == "skipped"));
+            foreach (ITestResult result in results)
+            {
+                xml.WriteStartElement("testcase");
+                xml.WriteAttributeString("name", Printable(result.FullName));
+                xml.WriteAttributeString("time", result.Duration.ToString("F3", CultureInfo.InvariantCulture));
+                if (Outcome(result).Length > 0)
+                {
+                    xml.WriteStartElement(Outcome(result));
+                    xml.WriteAttributeString("message", Printable(result.Message ?? ""));
+                    xml.WriteString(Printable(result.StackTrace ?? ""));
+                    xml.WriteEndElement();
+                }
+                xml.WriteEndElement();
+            }
+            xml.WriteEndElement();
+
+            void Number(string name, int value) =>
+                xml.WriteAttributeString(name, value.ToString(CultureInfo.InvariantCulture));
+        }
+
+        /// <summary>The text without characters that XML does not allow.</summary>
+        private static string Printable(string text) =>
+            new string(text.Select(letter => XmlConvert.IsXmlChar(letter) ? letter : '?').ToArray());
+
+        /// <summary>Prints failures as they happen, so that a program that ends early says where.</summary>
+        private sealed class Listener : ITestListener
+        {
+            // NUnit takes the console's own output while tests run.
+            private readonly TextWriter console;
+
+            public Listener(TextWriter console) => this.console = console;
+
+            public void TestStarted(ITest test)
+            {
+            }
+
+            public void TestFinished(ITestResult result)
+            {
+                if (!result.HasChildren && Outcome(result) == "failure")
+                {
+                    console.WriteLine($"FAILED {result.FullName}\n{result.Message}\n{result.StackTrace}");
+                }
+            }
+
+            public void TestOutput(TestOutput output)
+            {
+            }
+
+            public void SendMessage(TestMessage message)
+            {
+            }
+        }
+
+        private sealed class NameFilter : TestFilter
+        {
+            private readonly string[] except;
+            private readonly string only;
+
+            public NameFilter(string[] except, string only)
+            {
+                this.except = except;
+                this.only = only;
+            }
+
+            public override bool Match(ITest test) => test.IsSuite ||
+                (test.FullName.Contains(only, StringComparison.Ordinal) &&
+                !except.Any(name => test.FullName.Contains(name, StringComparison.Ordinal)));
+
+            public override bool Pass(ITest test, bool negated) =>
+                test.IsSuite ? test.Tests.Any(child => Pass(child, negated)) : Match(test);
+
+            public override bool IsExplicitMatch(ITest test) => false;
+
+            public override TNode AddToXml(TNode parentNode, bool recursive) => parentNode.AddElement("filter");
+        }
+    }
+}

@@ -1,0 +1,83 @@
+import { existsSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import os from 'node:os';
+import path from 'node:path';
+import { dotnetEnvironment, findDotnet } from './dotnet.mjs';
+import { judgeJunit, results } from './judge_junit.mjs';
+import { withoutReadOnlyMarks } from './mono_signatures.mjs';
+import { buildNative, presetFolder } from './native_build.mjs';
+import { CommandError, runOrFail, succeeds } from './process.mjs';
+import { inRepository } from './repository.mjs';
+import { addCounts, noCounts } from './test_counts.mjs';
+
+/** The test projects that run under Mono. Documentation~/testing.md says what is not among them, and why. */
+export const monoProjects = ['RepositoryTests', 'Tests', 'EditorTests', 'ShimTests', 'PreviewTests', 'SampleTests', 'MissingLibraryTests'];
+
+/**
+ * Tests that another runtime leaves out, and why.
+ * @type {Record<string, {because: string, tests: string[]}[]>} tests: parts of full names
+ */
+export const leftOut = {
+  mono: [],
+  aot: [],
+};
+
+const exceptions = (runner) => leftOut[runner].flatMap(({ tests }) => tests);
+
+const onnxRuntime = () => inRepository('node_modules', 'com.github.asus4.onnxruntime', 'Plugins', 'Linux', 'x64');
+
+/** Where the own programs of tests find the native libraries. */
+const libraries = (...folders) => ({ LD_LIBRARY_PATH: folders.join(path.delimiter) });
+
+function sdkOrFail() {
+  const command = findDotnet();
+  if (command === null) throw new CommandError('the C# tests need the .NET SDK 10, on PATH or in build/dotnet', 2);
+  return command;
+}
+
+/** The tests of the package's C# under Debian's Mono, each project as a program of its own. */
+export async function mono() {
+  if (!succeeds('mono', ['--version'])) return { ...noCounts, skipped: monoProjects.length };
+  const command = sdkOrFail();
+  await buildNative({ targets: ['audioplugin_haptoflow'] });
+  const build = inRepository('build', 'mono');
+  const words = [`-m:${os.cpus().length}`, '-c', 'Release', '--nologo', '-v', 'quiet', '-p:TestRuntime=mono', `-p:ArtifactsPath=${build}`];
+  let counts = noCounts;
+  for (const project of monoProjects) {
+    await runOrFail(command, ['build', inRepository('Tests', 'Dotnet', `HaptoFlow.${project}`), ...words], { env: dotnetEnvironment(command) });
+    const folder = path.join(build, 'bin', `HaptoFlow.${project}`, 'release');
+    for (const name of readdirSync(folder).filter((each) => /^HaptoFlow.*\.dll$/.test(each))) {
+      const bytes = readFileSync(path.join(folder, name));
+      if (withoutReadOnlyMarks(bytes) > 0) writeFileSync(path.join(folder, name), bytes);
+    }
+    const isWithoutLibrary = project === 'MissingLibraryTests';
+    const env = isWithoutLibrary ? {} : libraries(inRepository(presetFolder('release')), onnxRuntime());
+    const file = `mono-${project.toLowerCase()}.xml`;
+    const args = ['--debug', path.join(folder, `HaptoFlow.${project}.dll`), results(file), ...exceptions('mono')];
+    counts = addCounts(counts, await judgeJunit(file, 'mono', args, { env, limitSeconds: 1800 }));
+  }
+  return counts;
+}
+
+/** The compiler's complaints about the core: of code that trimming or compiling ahead of time may break. */
+export const complaintsAboutCore = (output) => [...new Set(output.split('\n').filter((line) => /warning IL\d+/.test(line) && /HaptoFlow\.Core\b|com\.haptoflow\.runtime/.test(line)))];
+
+/**
+ * The tests of the engine-free core as a program that is trimmed and compiled ahead of time, and one more: the compiler has
+ * no complaint about the core.
+ */
+export async function aot() {
+  if (process.platform !== 'linux' || process.arch !== 'x64') return { ...noCounts, skipped: 1 };
+  const command = sdkOrFail();
+  await buildNative({ targets: ['audioplugin_haptoflow'] });
+  const build = inRepository('build', 'aot');
+  const words = ['publish', inRepository('Tests', 'Dotnet', 'HaptoFlow.AotTests'), '-c', 'Release', '--nologo', '-v', 'quiet'];
+  // The compiler complains only where it compiles.
+  rmSync(path.join(build, 'obj', 'HaptoFlow.AotTests'), { recursive: true, force: true });
+  const output = await runOrFail(command, [...words, `-p:ArtifactsPath=${build}`], { env: dotnetEnvironment(command), quiet: true });
+  const complaints = complaintsAboutCore(output);
+  complaints.forEach((line) => console.error(`test: ${line}`));
+  const program = path.join(build, 'publish', 'HaptoFlow.AotTests', 'release_linux-x64', 'HaptoFlow.AotTests');
+  if (!existsSync(program)) throw new CommandError(`${program} was not built`);
+  const counts = await judgeJunit('aot.xml', program, [results('aot.xml'), ...exceptions('aot')], { limitSeconds: 1800 });
+  return addCounts(counts, { ...noCounts, passed: complaints.length === 0 ? 1 : 0, failed: complaints.length === 0 ? 0 : 1 });
+}
