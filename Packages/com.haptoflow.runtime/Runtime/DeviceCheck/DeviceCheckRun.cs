@@ -126,7 +126,15 @@ namespace HaptoFlow
             }
         }
 
-        private void OnDestroy() => EndStroke();
+        private void OnDestroy()
+        {
+            if (stages.Count > 0)
+            {
+                // Leaves what has begun: restores the audio device, stops the vibration.
+                (stages.Peek().Steps as IDisposable)?.Dispose();
+            }
+            EndStroke();
+        }
 
         private void OnGUI()
         {
@@ -305,15 +313,21 @@ namespace HaptoFlow
             if (facts.WasAccepted)
             {
                 AudioSettings.GetDSPBufferSize(out facts.NewFrames, out _);
-                ulong segments = stroke!.Statistics.Inferences;
-                stroke.Record();
-                for (double end = Now + AfterSeconds; Now < end;)
+                try
                 {
-                    yield return null;
+                    ulong segments = stroke!.Statistics.Inferences;
+                    stroke.Record();
+                    for (double end = Now + AfterSeconds; Now < end;)
+                    {
+                        yield return null;
+                    }
+                    facts.BlocksAfter = stroke.Blocks.Blocks;
+                    facts.SegmentsAfter = stroke.Statistics.Inferences - segments;
                 }
-                facts.BlocksAfter = stroke.Blocks.Blocks;
-                facts.SegmentsAfter = stroke.Statistics.Inferences - segments;
-                AudioSettings.Reset(before);
+                finally
+                {
+                    AudioSettings.Reset(before);
+                }
             }
             facts.AddTo(Report.Lines);
             EndStroke();
@@ -327,24 +341,30 @@ namespace HaptoFlow
                 var trials = new List<RouteTrial>();
                 HapticSinks.ForEach((route, form, maker) =>
                     trials.Add(new RouteTrial(hand.ToString(), route, form, maker(hand))));
-                // Routes ask for a device only every half second.
-                for (double end = Now + SettlingSeconds; Now < end && !trials.TrueForAll(each => each.HasDevice);)
-                {
-                    yield return null;
-                }
                 bool isAny = false;
-                foreach (RouteTrial trial in trials.Where(each => each.HasDevice).ToArray())
+                try
                 {
-                    isAny = true;
-                    for (double end = Now + RouteSeconds; Now < end;)
+                    // Routes ask for a device only every half second.
+                    for (double end = Now + SettlingSeconds; Now < end && !trials.TrueForAll(each => each.HasDevice);)
                     {
-                        trial.Update(Now);
                         yield return null;
                     }
-                    trial.Facts().AddTo(Report.Lines);
-                    trial.Stop(Now);
+                    foreach (RouteTrial trial in trials.FindAll(each => each.HasDevice))
+                    {
+                        isAny = true;
+                        for (double end = Now + RouteSeconds; Now < end;)
+                        {
+                            trial.Update(Now);
+                            yield return null;
+                        }
+                        trial.Facts().AddTo(Report.Lines);
+                        trial.Stop(Now);
+                    }
                 }
-                trials.ForEach(each => each.Dispose());
+                finally
+                {
+                    trials.ForEach(each => each.Dispose());
+                }
                 if (!isAny)
                 {
                     Report.Lines.Add(RouteFacts.None(hand.ToString()));

@@ -56,9 +56,14 @@ namespace HaptoFlow.DeviceCheck
 
         public void Stop(double nowSeconds) => queue?.Flush(nowSeconds);
 
+        /// <summary>Stops the device and leaves it.</summary>
         public void Dispose()
         {
-            queue?.Dispose();
+            if (queue != null)
+            {
+                sink.Stop();
+                queue.Dispose();
+            }
             sink.Dispose();
         }
 
