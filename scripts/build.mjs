@@ -1,19 +1,19 @@
 // build: builds the native plugin and the command line (--platform NAME for one of the package's platforms, --help)
-import { existsSync } from 'node:fs';
 import path from 'node:path';
 import { parseArgs } from 'node:util';
 import { buildAndroid, androidTools } from './build/android_build.mjs';
 import { buildNative } from './lib/native_build.mjs';
 import { CommandError, runMain } from './lib/process.mjs';
 import { inRepository } from './lib/repository.mjs';
-import { setUp } from './lib/setup.mjs';
+import { onDebian, setUp } from './lib/setup.mjs';
 
 /** The values of --platform: what each needs, and how it is built (a preset, or the Android tools found on the machine). */
 const platforms = {
   'linux-x64': { preset: () => 'release', purposes: ['build'], needs: 'a Linux x64 machine' },
-  'windows-x64': { preset: () => (process.platform === 'win32' ? 'windows-msvc' : 'windows-x64'), purposes: ['build', 'platforms'], needs: 'mingw-w64 on Linux, Visual Studio 2022 on Windows' },
+  'linux-arm64': { preset: () => (process.arch === 'arm64' ? 'release' : 'linux-arm64'), purposes: ['build', 'cross'], needs: 'Linux' },
+  'windows-x64': { preset: () => (process.platform === 'win32' ? 'windows-msvc' : 'windows-x64'), purposes: ['build', 'cross'], needs: 'mingw-w64 on Linux, Visual Studio 2022 on Windows' },
   macos: { preset: () => 'macos', purposes: ['build'], needs: 'a Mac' },
-  'android-arm64': { needs: 'the Android NDK and CMake: those that Unity\'s Hub installs, ANDROID_NDK_HOME, or Android Studio\'s' },
+  'android-arm64': { needs: 'the Android NDK and CMake: those that Unity\'s Hub installs, ANDROID_NDK_ROOT, or Android Studio\'s' },
 };
 
 const help = `usage: npm run build -- [--platform NAME] [--help]
@@ -33,7 +33,7 @@ function optionsOf(words) {
 
 /** On Debian set-up installs the build tools; on other systems those of the Android SDK are enough. */
 async function buildForAndroid() {
-  await setUp(existsSync('/etc/debian_version') ? ['build'] : []);
+  await setUp(onDebian() ? ['build'] : []);
   const library = await buildAndroid(androidTools());
   console.log(`build: ${path.relative(inRepository(), library)}; \`npm run pack\` takes it in`);
 }

@@ -5,33 +5,36 @@ import { parseArgs } from 'node:util';
 import { repositoryFiles } from './lint/files.mjs';
 import { CommandError, runMain } from './lib/process.mjs';
 import { inRepository } from './lib/repository.mjs';
-import { setUp } from './lib/setup.mjs';
 import { checkPackage } from './pack/check_package.mjs';
 import { packDependency } from './pack/dependency.mjs';
-import { buildNatives, findNatives, platforms } from './pack/natives.mjs';
+import { buildNatives, findNatives, foldersFor, platforms } from './pack/natives.mjs';
 import { PackageFiles } from './pack/package_files.mjs';
-import { stagePackage } from './pack/stage.mjs';
+import { tableOfContents } from './pack/sizes.mjs';
 import { makeTarball } from './pack/tarball.mjs';
 
 const help = `usage: npm run pack -- [--no-build] [--require NAMES] [--help]
 
-Builds the native library for this machine, and for every other preset that is configured, puts the package together in
-out/package, checks it as Unity would read it, and makes out/com.haptoflow.runtime-VERSION.tgz.
-Beside it goes the tarball of com.github.asus4.onnxruntime (ONNX Runtime for Unity), which the package needs.
-In Unity: Window > Package Manager > + > Install package from tarball, that one first.
+Builds the native libraries that this machine can build, puts the package together in out/package, checks it as Unity would
+read it, and makes out/com.haptoflow.runtime-VERSION.tgz. Beside it goes the tarball of com.github.asus4.onnxruntime (ONNX
+Runtime for Unity), which the package needs. Two lines at the end say where to click in Unity.
 
   --no-build   pack the libraries that are in build/ (HAPTOFLOW_NATIVE_DIR replaces build/native)
   --require    names of platforms whose library must go in, for example linux-x64,windows-x64,android-arm64: without one of
                them no tarball is made and the exit code is 1
   --help       this text
 
+On Debian for x64 the libraries of Linux x64, Linux arm64 and Windows x64 are built; the cross compilers are installed first
+(125 MB to download). Android's is built where an NDK is found: Unity's own, or that of ANDROID_NDK_ROOT. The first run
+compiles each library for up to five minutes of one core; later runs compile what changed.
+
 What goes in: Packages/com.haptoflow.runtime with the model, Samples~, Documentation~, Tests/Runtime, Tests/Editor, and a
-native library for each platform that has one:
+native library for each platform that has one. One command adds one library, then pack again:
 
-${platforms.map(({ name, id, presets, needs }) => `  ${name.padEnd(15)} ${id.padEnd(14)} cmake --preset ${presets[0].padEnd(14)} needs ${needs}`).join('\n')}
+${platforms.map(({ name, id, where }) => `  ${name.padEnd(15)} npm run build -- --platform ${id.padEnd(14)} ${where}`).join('\n')}
 
-A library that was built on another machine goes to the same place below build/. Platforms without a library are named at
-the end; there, scenes go on without haptics. Without any library no tarball is made and the exit code is 1.`;
+A library that was built on another machine goes to the same place below build/. The table at the end lists platforms with
+their size on a device, and platforms without a library; there, scenes go on without haptics. Without any library no tarball
+is made and the exit code is 1.`;
 
 function optionsOf(words) {
   try {
@@ -64,13 +67,12 @@ const mebibytes = (bytes) => `${(bytes / 2 ** 20).toFixed(1)} MiB`;
 
 await runMain('pack', async (words) => {
   const options = optionsOf(words);
-  if (!options['no-build']) {
-    await setUp(['build', 'files']);
-    await buildNatives();
-  }
-  const { found, absent } = findNatives();
+  const failed = options['no-build'] ? new Set() : await buildNatives();
+  const { found, absent } = findNatives(foldersFor, failed);
   requireNatives({ found, absent }, options.required);
   const folder = inRepository('out', 'package');
+  // Imported here, since set-up may just have installed the package that it needs.
+  const { stagePackage } = await import('./pack/stage.mjs');
   stagePackage(folder, await repositoryFiles(), found);
   const files = PackageFiles.inFolder(folder);
   const complaints = checkPackage(files);
@@ -80,11 +82,11 @@ await runMain('pack', async (words) => {
   console.log(`pack: ${files.names.length} files, checked`);
 
   mkdirSync(inRepository('out'), { recursive: true });
+  console.log('pack: packing ONNX Runtime (385 MB) and HaptoFlow');
   const runtime = await packDependency(inRepository('out'));
-  console.log(`pack: ${runtime.file} (${mebibytes(runtime.bytes)}${runtime.isNew ? '' : ', made before'}): install it first`);
   const tarball = await makeTarball(folder, inRepository('out'));
-  for (const { platform, file } of found) console.log(`pack: with ${platform.name} (${path.relative(inRepository(), file)})`);
-  for (const { platform, why } of absent) console.log(`pack: without ${platform.name}: ${why}`);
-  console.log(`pack: ${tarball.file} (${mebibytes(tarball.bytes)}, ${mebibytes(tarball.unpackedBytes)} unpacked)`);
+  console.log(`\n${tableOfContents({ found, absent }).join('\n')}\n`);
+  console.log('In Unity: Window > Package Manager > + > Install package from tarball... (2022.3: Add package from tarball...), twice:');
+  for (const [index, { file, bytes }] of [runtime, tarball].entries()) console.log(`  ${index + 1}. ${file} (${mebibytes(bytes)})`);
   return 0;
 }, { help });

@@ -6,6 +6,8 @@
 #include "exit_codes.hpp"
 #include "exponential_sweep.hpp"
 #include "input_file.hpp"
+#include "messages.hpp"
+#include "model/plain_text.hpp"
 #include "model_location.hpp"
 #include "option_values.hpp"
 #include "output_file.hpp"
@@ -72,7 +74,7 @@ void runSweep(const SweepOptions& options) {
                          std::to_string(options.rateHz) + "; at most " + fixedDecimals(0.45 * options.rateHz, 0) +
                          " Hz");
     }
-    OutputFile file(options.outputPath);
+    OutputFile file("-o", options.outputPath);
     WavWriter writer(file.partial(), static_cast<int>(options.rateHz), options.outputPath, sweep.describe());
     writer.write(sweep.samples(options.rateHz));
     writer.write(std::vector<float>(
@@ -82,7 +84,7 @@ void runSweep(const SweepOptions& options) {
 }
 
 ExponentialSweep readSweep(const std::string& path) {
-    const std::optional<ExponentialSweep> sweep = ExponentialSweep::parse(readRecording(path).comment);
+    const std::optional<ExponentialSweep> sweep = ExponentialSweep::parse(readRecording("--sweep", path).comment);
     if (!sweep) {
         throw InputError(
             path +
@@ -125,7 +127,8 @@ std::string plotOf(const Identification& found) {
 }
 
 void describe(const ActuatorProfile& profile) {
-    std::cout << profile.name << (profile.isApproximate ? " (approximate)" : "") << '\n' << profile.provenance << '\n';
+    std::cout << model::printable(profile.name) << (profile.isApproximate ? " (approximate)" : "") << '\n'
+              << model::printable(profile.provenance) << '\n';
     std::cout << "  range         " << fixedDecimals(profile.frequencyHz.front(), 1) << " to "
               << fixedDecimals(profile.frequencyHz.back(), 1) << " Hz, " << profile.frequencyHz.size() << " points"
               << (profile.phaseDegrees.empty() ? ", no phase" : "") << '\n';
@@ -149,22 +152,26 @@ void describe(const ActuatorProfile& profile) {
 }
 
 void runIdentify(const IdentifyOptions& options) {
-    requireApart(
-        std::array{NamedPath{"-o", options.outputPath}, NamedPath{"--plot", options.plotPath}},
-        std::array{NamedPath{"the recording", options.recordingPath}, NamedPath{"--sweep", options.sweepPath}});
     const ExponentialSweep sweep = readSweep(options.sweepPath);
-    const Recording recording = readRecording(options.recordingPath, options.channel);
-    OutputFile file(options.outputPath);
+    const Recording recording = readRecording("the recording", options.recordingPath, options.channel);
+    OutputFile file("-o", options.outputPath);
     std::optional<OutputFile> plot;
     if (!options.plotPath.empty()) {
-        plot.emplace(options.plotPath);
+        plot.emplace("--plot", options.plotPath);
     }
-    const std::filesystem::path output(options.outputPath);
-    const Identification found = identifyActuator(recording, sweep,
-                                                  {.name = options.name.empty() ? output.stem().string() : options.name,
-                                                   .recordingName = options.recordingPath,
-                                                   .mps2PerUnit = options.mps2PerUnit});
-    writeText(file, found.profile.toJson());
+    // Paths may hold bytes that a profile may not.
+    constexpr std::size_t maximumNameBytes = 128;
+    constexpr std::size_t maximumPathBytes = 2048;
+    const std::string stem = model::printable(std::filesystem::path(options.outputPath).stem().string());
+    const std::string recordingName = model::printable(options.recordingPath);
+    const Identification found = identifyActuator(
+        recording, sweep,
+        {.name = options.name.empty() ? std::string(model::shortened(stem, maximumNameBytes)) : options.name,
+         .recordingName = std::string(model::shortened(recordingName, maximumPathBytes)),
+         .mps2PerUnit = options.mps2PerUnit});
+    const std::string profile = found.profile.toJson();
+    (void)ActuatorProfile::parse(profile);
+    writeText(file, profile);
     if (plot) {
         writeText(*plot, plotOf(found));
     }
@@ -175,9 +182,9 @@ void runIdentify(const IdentifyOptions& options) {
     describe(found.profile);
     constexpr double noticeablePercent = 10.0;
     if (found.profile.measurement->distortionPercent > noticeablePercent) {
-        std::cerr << "haptoflow: note: " << options.recordingPath << ": the actuator distorts by "
-                  << fixedDecimals(found.profile.measurement->distortionPercent, 0)
-                  << " %; a quieter sweep (--level) measures it at the levels of textures.\n";
+        note(options.recordingPath + ": the actuator distorts by " +
+             fixedDecimals(found.profile.measurement->distortionPercent, 0) +
+             " %; a quieter sweep (--level) measures it at the levels of textures.");
     }
 }
 
@@ -269,9 +276,11 @@ void runShow(const ShowOptions& options) {
     if (!options.modelPath.empty() && !options.labels) {
         throw UsageError("--model has no effect without --labels; give both or neither");
     }
-    requireApart(std::array{NamedPath{"--plot", options.plotPath}},
-                 std::array{NamedPath{"the profile", options.profile}, NamedPath{"the model", options.modelPath}});
     const ActuatorProfile profile = readActuatorProfile(options.profile);
+    std::optional<OutputFile> plot;
+    if (!options.plotPath.empty()) {
+        plot.emplace("--plot", options.plotPath);
+    }
     constexpr double shownRateHz = 48000.0;
     effects::Compensation compensation(profile, shownRateHz, options.compensation);
     describe(profile);
@@ -279,10 +288,9 @@ void runShow(const ShowOptions& options) {
     if (options.labels) {
         describeLabels(options, profile);
     }
-    if (!options.plotPath.empty()) {
-        OutputFile plot(options.plotPath);
-        writeText(plot, plotOf(profile, compensation));
-        plot.commit();
+    if (plot) {
+        writeText(*plot, plotOf(profile, compensation));
+        plot->commit();
     }
 }
 
@@ -334,10 +342,10 @@ void addIdentify(CLI::App& actuator, CommandOutcome& outcome) {
         ->type_name("PLOT.svg");
     command->add_option("--name", options->name, "Name of the profile (default: the file's name)")
         ->check([](const std::string& name) {
-            const bool isPlain = std::ranges::none_of(
-                name, [](char letter) { return static_cast<unsigned char>(letter) < 0x20 || letter == 0x7F; });
-            return isPlain && !name.empty() && name.size() <= 128 ? std::string()
-                                                                  : std::string("expected one line of 1 to 128 bytes");
+            const bool isPlain = model::isUtf8(name) && !model::hasControlCharacter(name);
+            return isPlain && !name.empty() && name.size() <= 128
+                       ? std::string()
+                       : std::string("expected one line of 1 to 128 bytes in UTF-8");
         });
     command->add_option("--channel", options->channel, "Channel of the recording, from 1; needed if it has several")
         ->transform(wholeBetween(1, 1024, ""));

@@ -1,5 +1,6 @@
 #include "bench/bench.hpp"
 
+#include "command_files.hpp"
 #include "commands.hpp"
 #include "exit_codes.hpp"
 #include "inference/onnx_runtime.hpp"
@@ -34,7 +35,7 @@ struct BenchCommandOptions {
 
 void writeReport(OutputFile& output, const nlohmann::ordered_json& report) {
     std::ofstream file(output.partial());
-    file << report.dump(2) << '\n';
+    file << report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
     if (!file.flush()) {
         throw InputError(output.path().string() + ": could not be written to its end; is the disk full?");
     }
@@ -42,11 +43,18 @@ void writeReport(OutputFile& output, const nlohmann::ordered_json& report) {
     output.commit();
 }
 
-nlohmann::ordered_json measure(const BenchCommandOptions& options) {
+bench::SubjectFiles filesOf(const BenchCommandOptions& options) {
+    if (!options.paperModelPath.empty()) {
+        claimInput("--paper-model", options.paperModelPath);
+    }
+    return {.runtimeLibrary = findOnnxRuntime(),
+            .model = findModel(options.modelPath),
+            .paperModel = options.paperModelPath};
+}
+
+nlohmann::ordered_json measure(const BenchCommandOptions& options, const bench::SubjectFiles& files) {
     bench::BenchOptions wanted;
-    wanted.files = {.runtimeLibrary = findOnnxRuntime(),
-                    .model = findModel(options.modelPath),
-                    .paperModel = options.paperModelPath};
+    wanted.files = files;
     wanted.plan = options.quick ? bench::BenchPlan::quick() : bench::BenchPlan::full();
     wanted.plan.events = options.events.value_or(wanted.plan.events);
     wanted.only = options.only;
@@ -61,17 +69,15 @@ nlohmann::ordered_json measure(const BenchCommandOptions& options) {
 }
 
 void runBench(const BenchCommandOptions& options) {
-    requireApart(
-        std::array{NamedPath{"-o", options.outputPath}},
-        std::array{NamedPath{"--model", options.modelPath}, NamedPath{"--paper-model", options.paperModelPath}});
+    const bench::SubjectFiles files = filesOf(options);
     // Checked before minutes of measuring: the file must be writable.
     std::optional<OutputFile> output;
     if (!options.outputPath.empty()) {
-        output.emplace(options.outputPath);
+        output.emplace("-o", options.outputPath);
     }
-    const nlohmann::ordered_json report = measure(options);
+    const nlohmann::ordered_json report = measure(options, files);
     if (options.json) {
-        std::cout << report.dump(2) << '\n';
+        std::cout << report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
     } else {
         bench::printTables(std::cout, report);
     }

@@ -61,9 +61,6 @@ bool asksForStiffness(const headless::Scene& scene) {
 }
 
 void runContact(const ContactOptions& options) {
-    requireApart(std::array{NamedPath{"-o", options.outputPath}},
-                 std::array{NamedPath{"the scene", options.scenePath}, NamedPath{"the stroke", options.strokePath},
-                            NamedPath{"the model", options.modelPath}});
     const headless::Scene scene = readSceneFile(options.scenePath);
     const Stroke stroke = readStrokeFile(options.strokePath);
     headless::ContactSettings settings = options.settings;
@@ -83,7 +80,7 @@ void runContact(const ContactOptions& options) {
         writeContactStates(std::cout, scene, stroke, options.strokePath, settings);
         return;
     }
-    OutputFile output(options.outputPath);
+    OutputFile output("-o", options.outputPath);
     std::ofstream file(output.partial(), std::ios::binary);
     writeContactStates(file, scene, stroke, options.strokePath, settings);
     file.close();

@@ -42,6 +42,24 @@ std::optional<double> unsignedOrNegative(std::string_view text) {
 
 #endif
 
+struct Parts {
+    double whole = 0.0;
+    double fraction = 0.0;
+};
+
+/// A decimal before and after its point; a number with an exponent is its whole part.
+std::optional<Parts> partsOf(std::string_view text) {
+    const std::optional<double> value = decimalNumber(text);
+    const std::size_t point = text.find('.');
+    if (!value || point == std::string_view::npos || text.find_first_of("eE") != std::string_view::npos) {
+        return value ? std::optional(Parts{.whole = *value}) : std::nullopt;
+    }
+    // Not the truncated value, which may have been rounded up.
+    const std::optional<double> whole = decimalNumber(text.substr(0, point));
+    const std::optional<double> fraction = decimalNumber("0" + std::string(text.substr(point)));
+    return Parts{.whole = whole.value_or(0.0), .fraction = std::copysign(fraction.value_or(0.0), *value)};
+}
+
 }  // namespace
 
 std::optional<double> decimalNumber(std::string_view text) {
@@ -49,6 +67,15 @@ std::optional<double> decimalNumber(std::string_view text) {
         text.remove_prefix(1);
     }
     return unsignedOrNegative(text);
+}
+
+std::optional<double> decimalDifference(std::string_view text, std::string_view origin) {
+    const std::optional<Parts> number = partsOf(text);
+    const std::optional<Parts> start = partsOf(origin);
+    if (!number || !start) {
+        return std::nullopt;
+    }
+    return (number->whole - start->whole) + (number->fraction - start->fraction);
 }
 
 std::string fixedDecimals(double value, int digits) {

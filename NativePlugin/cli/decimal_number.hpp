@@ -10,6 +10,10 @@ namespace haptoflow::cli {
 /// any other text, and for numbers too large or too small to represent.
 [[nodiscard]] std::optional<double> decimalNumber(std::string_view text);
 
+/// `decimalNumber(text) - decimalNumber(origin)` of two decimals, such as seconds since 1970, with the digits that
+/// their own rounding to a double would lose. Empty if one of them is no number.
+[[nodiscard]] std::optional<double> decimalDifference(std::string_view text, std::string_view origin);
+
 /// The number with a fixed count of digits after the decimal point, in every locale; never "-0".
 [[nodiscard]] std::string fixedDecimals(double value, int digits);
 

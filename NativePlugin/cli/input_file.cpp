@@ -1,5 +1,7 @@
 #include "input_file.hpp"
 
+#include "command_files.hpp"
+
 #include <array>
 #include <filesystem>
 #include <fstream>
@@ -7,7 +9,8 @@
 
 namespace haptoflow::cli {
 
-std::string readInputFile(const std::string& path, const std::string& expected) {
+std::string readInputFile(const std::string& role, const std::string& path, const std::string& expected) {
+    claimInput(role, path);
     std::error_code ignored;
     if (std::filesystem::is_directory(path, ignored)) {
         throw InputError(path + ": is a folder; expected " + expected);

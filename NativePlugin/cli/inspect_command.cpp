@@ -2,6 +2,7 @@
 #include "exit_codes.hpp"
 #include "input_file.hpp"
 #include "model/material_file.hpp"
+#include "model/plain_text.hpp"
 #include "model_location.hpp"
 
 #include <nlohmann/json.hpp>
@@ -40,8 +41,9 @@ std::string hexadecimal(std::uint32_t value) {
     return stream.str();
 }
 
+/// A text of the file, for the terminal.
 std::string orDash(const std::string& text) {
-    return text.empty() ? "-" : text;
+    return text.empty() ? "-" : model::printable(text);
 }
 
 /// Left-aligned columns, two spaces apart; the first row is the heading.
@@ -81,11 +83,11 @@ void printGeneral(std::ostream& stream, const std::string& path, const model::Mo
     const auto interval = [](const model::TrainedInterval& range) {
         return inWords(range.minimum) + " to " + inWords(range.maximum);
     };
-    stream << header.name << '\n' << orDash(header.description) << "\n\n";
-    printTable(stream, {{"file", path},
+    stream << model::printable(header.name) << '\n' << orDash(header.description) << "\n\n";
+    printTable(stream, {{"file", model::printable(path)},
                         {"size", std::to_string(file.byteCount()) + " bytes, CRC-32 " + hexadecimal(file.checksum()) +
                                      ", all checksums verified"},
-                        {"provenance", provenance.statement},
+                        {"provenance", orDash(provenance.statement)},
                         {"recordings", orDash(provenance.recordings)},
                         {"licence", orDash(provenance.licence)},
                         {"created", orDash(provenance.created)},
@@ -101,10 +103,11 @@ void printLabels(std::ostream& stream, const model::ModelHeader& header) {
     std::vector<Row> rows{{"label", "category", "level exponents (speed, force)", "frequency exponent", "wavelength mm",
                            "stiffness N/m", "friction"}};
     for (const model::Label& label : header.labels) {
-        rows.push_back(
-            {label.name, label.category, inWords(label.speedLevelExponent) + ", " + inWords(label.forceLevelExponent),
-             inWords(label.frequencyExponent), label.wavelengthMetres ? inWords(*label.wavelengthMetres * 1000.0) : "-",
-             inWords(label.stiffnessNewtonsPerMetre), inWords(label.frictionCoefficient)});
+        rows.push_back({orDash(label.name), orDash(label.category),
+                        inWords(label.speedLevelExponent) + ", " + inWords(label.forceLevelExponent),
+                        inWords(label.frequencyExponent),
+                        label.wavelengthMetres ? inWords(*label.wavelengthMetres * 1000.0) : "-",
+                        inWords(label.stiffnessNewtonsPerMetre), inWords(label.frictionCoefficient)});
     }
     stream << "\nLabels (" << header.labels.size() << ")\n";
     printTable(stream, rows);
@@ -117,10 +120,10 @@ void printTiers(std::ostream& stream, const model::ModelFile& file) {
         const model::Tier& tier = header.tiers[index];
         const bool direct = tier.kind == model::TierKind::direct;
         rows.push_back(
-            {tier.name + (index == header.defaultTier ? " (default)" : ""), std::string(model::kindName(tier.kind)),
-             direct ? "-" : std::string(model::solverName(tier.solver)), direct ? "-" : std::to_string(tier.steps),
-             std::to_string(tier.parameters), std::to_string(file.blob(tier.field).size()), figures(tier.accuracyJson),
-             figures(tier.costJson)});
+            {orDash(tier.name) + (index == header.defaultTier ? " (default)" : ""),
+             std::string(model::kindName(tier.kind)), direct ? "-" : std::string(model::solverName(tier.solver)),
+             direct ? "-" : std::to_string(tier.steps), std::to_string(tier.parameters),
+             std::to_string(file.blob(tier.field).size()), figures(tier.accuracyJson), figures(tier.costJson)});
     }
     stream << "\nTiers (" << header.tiers.size() << ")\n";
     printTable(stream, rows);
@@ -133,7 +136,7 @@ void printJson(std::ostream& stream, const std::string& path, const model::Model
                                      {"crc32", hexadecimal(file.checksum())},
                                      {"checksums_verified", true}}},
                                    {"header", nlohmann::json::parse(file.headerText())}};
-    stream << report.dump(2) << '\n';
+    stream << report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
 }
 
 std::string between(const std::array<double, 2>& range) {
@@ -171,14 +174,14 @@ std::string toneOf(const model::Label& label) {
 void printMaterial(std::ostream& stream, const std::string& path, const model::MaterialFile& material) {
     const model::Label& label = material.label;
     const model::MaterialProvenance& provenance = material.provenance;
-    stream << label.name << '\n' << orDash(material.description) << "\n\n";
+    stream << model::printable(label.name) << '\n' << orDash(material.description) << "\n\n";
     printTable(stream,
-               {{"file", path},
+               {{"file", model::printable(path)},
                 {"space", material.space + ": works with the models of this space"},
-                {"category", label.category},
+                {"category", orDash(label.category)},
                 {"provenance", orDash(provenance.statement)},
                 {"recordings", orDash(provenance.recordings)},
-                {"licence", provenance.licence},
+                {"licence", orDash(provenance.licence)},
                 {"learnt from", inWords(provenance.seconds) + " s"},
                 {"created", orDash(provenance.created)},
                 {"speed", between(material.speedMps) + " m/s"},
@@ -193,13 +196,13 @@ void printMaterial(std::ostream& stream, const std::string& path, const model::M
 }
 
 void inspectMaterial(const InspectOptions& options) {
-    const std::string text = readInputFile(options.modelPath, "a material file");
+    const std::string text = readInputFile("the material", options.modelPath, "a material file");
     try {
         const model::MaterialFile material = model::parseMaterial(text);
         if (options.json) {
             const nlohmann::json report = {{"file", {{"path", options.modelPath}, {"bytes", text.size()}}},
                                            {"material", nlohmann::json::parse(text)}};
-            std::cout << report.dump(2) << '\n';
+            std::cout << report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
             return;
         }
         printMaterial(std::cout, options.modelPath, material);

@@ -1,18 +1,22 @@
 #include "commands.hpp"
+#include "csv_lines.hpp"
 #include "decimal_number.hpp"
 #include "exit_codes.hpp"
 #include "inference/onnx_segment_generator.hpp"
 #include "inference/tier_graphs.hpp"
 #include "learning/learner.hpp"
+#include "material_output.hpp"
 #include "material_recording.hpp"
+#include "messages.hpp"
 #include "model/model_file.hpp"
+#include "model/name_index.hpp"
+#include "model/plain_text.hpp"
 #include "model_location.hpp"
 #include "option_values.hpp"
 #include "output_file.hpp"
 #include "progress_bar.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
 #include <filesystem>
@@ -20,6 +24,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 
 namespace haptoflow::cli {
@@ -28,7 +33,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t batchOfFit = 64;
-constexpr std::size_t maximumName = 128;
 
 struct LearnOptions {
     std::string recordingPath;
@@ -46,28 +50,47 @@ struct LearnOptions {
 
 /// A material's name from a file's name or a sidecar's label: lower case, without punctuation at its ends.
 std::string plainName(const std::string& text) {
+    const bool isUtf8 = model::isUtf8(text);
     std::string name;
     for (const char letter : text) {
         const auto code = static_cast<unsigned char>(letter);
-        const bool isSpace = letter == '_' || letter == '-' || std::isspace(code) != 0 || std::iscntrl(code) != 0;
+        const bool isSpace = letter == '_' || letter == '-' || std::isspace(code) != 0 || std::iscntrl(code) != 0 ||
+                             (code >= 0x80U && !isUtf8);
         name += isSpace ? ' ' : static_cast<char>(code < 0x80U ? std::tolower(code) : code);
     }
-    const std::size_t first = name.find_first_not_of(' ');
-    if (first == std::string::npos) {
-        return "material";
-    }
-    name = name.substr(first, name.find_last_not_of(' ') - first + 1);
-    return name.substr(0, maximumName);
+    name = trimmed(model::shortened(trimmed(name), model::nameBytes));
+    return name.empty() ? "material" : name;
 }
 
-void requireName(const std::string& name) {
-    const bool isPlain = !name.empty() && name.size() <= maximumName && std::ranges::none_of(name, [](char letter) {
-        return std::iscntrl(static_cast<unsigned char>(letter)) != 0 || (letter >= 'A' && letter <= 'Z');
-    });
-    if (!isPlain) {
-        throw UsageError("--name '" + name + "': expected 1 to " + std::to_string(maximumName) +
-                         " characters without capital letters, as labels have");
+/// The texts of the command line are checked by the rules of material files before anything is read.
+void requireTexts(const LearnOptions& options) {
+    const auto isLine = [](const std::string& text, std::size_t longest) {
+        return text.size() <= longest && model::isUtf8(text) && !model::hasControlCharacter(text);
+    };
+    const auto require = [&](const char* option, const std::string& text, std::size_t longest) {
+        if (!isLine(text, longest)) {
+            throw UsageError(std::string(option) + " '" + std::string(model::shortened(text, 60)) +
+                             "': expected one line of text in UTF-8, without control characters, of " +
+                             std::to_string(longest) + " bytes at most");
+        }
+    };
+    require("--category", options.category, model::nameBytes);
+    require("--licence", options.licence, model::maximumTextBytes);
+    if (options.name) {
+        const std::string& name = *options.name;
+        const bool hasCapitals = std::ranges::any_of(name, [](char each) { return each >= 'A' && each <= 'Z'; });
+        if (trimmed(name).empty() || hasCapitals || !isLine(name, model::nameBytes)) {
+            throw UsageError("--name '" + std::string(model::shortened(name, 60)) + "': expected 1 to " +
+                             std::to_string(model::nameBytes) +
+                             " characters without capital letters, as labels have, in one line and not all blank");
+        }
     }
+}
+
+/// The default output: named by words of the command line alone, because a name in a file must not choose a path.
+fs::path defaultOutput(const LearnOptions& options) {
+    return fileNameOf(options.name ? *options.name : fs::path(options.recordingPath).stem().string()) +
+           ".haptomaterial";
 }
 
 std::string inMillimetres(double mps) {
@@ -76,7 +99,7 @@ std::string inMillimetres(double mps) {
 
 void tell(const learning::LearningReport& report, const std::string& name, const fs::path& output) {
     std::cout << "Learnt " << name << " from " << fixedDecimals(report.slidingSeconds, 1) << " s of sliding in "
-              << fixedDecimals(report.seconds, 1) << " s: " << output.string() << '\n'
+              << fixedDecimals(report.seconds, 1) << " s: " << model::printable(output.string()) << '\n'
               << "  nearest label      " << report.nearestLabel << " (" << fixedDecimals(report.nearestDistanceDb, 1)
               << " dB away, " << fixedDecimals(report.fittedDistanceDb, 1) << " dB after the fit, "
               << fixedDecimals(report.spectralDistanceDb, 1) << " dB between the mean spectra behind the tone)\n"
@@ -100,19 +123,13 @@ void tell(const learning::LearningReport& report, const std::string& name, const
                   << " degrees from the recording's";
     }
     std::cout << '\n' << "  seeds              " << report.seeds << '\n';
-    for (const std::string& warning : report.warnings) {
-        std::cerr << "haptoflow: note: " << warning << '\n';
-    }
+    std::ranges::for_each(report.warnings, note);
 }
 
 void runLearn(const LearnOptions& options) {
-    if (options.name) {
-        requireName(*options.name);
-    }
+    requireTexts(options);
     const MaterialRecording recording = readMaterialRecording(options.recordingPath, options.words);
-    for (const std::string& note : recording.notes) {
-        std::cerr << "haptoflow: note: " << note << '\n';
-    }
+    std::ranges::for_each(recording.notes, note);
     const fs::path modelPath = findModel(options.modelPath);
     const model::ModelFile model = readModel(modelPath);
     const model::Tier& tier = model.header().tiers[model.header().defaultTier];
@@ -123,29 +140,29 @@ void runLearn(const LearnOptions& options) {
                                                                      : recording.label);
     settings.category = options.category;
     settings.licence = options.licence.empty() ? recording.licence : options.licence;
-    settings.recordings =
-        fs::path(options.recordingPath).filename().string() + (recording.source.empty() ? "" : ", " + recording.source);
+    settings.recordings = model::printable(fs::path(options.recordingPath).filename().string()) +
+                          (recording.source.empty() ? "" : ", " + recording.source);
     settings.seed = options.seed;
     settings.secondsLimit = options.secondsLimit;
     const ProgressBar bar = progressBar("learn", options.quiet);
     settings.progress = [&](double share, const char* doing) { bar(share, doing); };
 
-    const fs::path outputPath = options.outputPath.empty() ? settings.name + ".haptomaterial" : options.outputPath;
-    const std::array<NamedPath, 2> outputs{NamedPath{"--output", outputPath},
-                                           NamedPath{"--report", options.reportPath}};
-    const std::array<NamedPath, 2> inputs{NamedPath{"the recording", options.recordingPath},
-                                          NamedPath{"the model", modelPath}};
-    requireApart(outputs, inputs);
-    OutputFile output(outputPath);
+    try {
+        learning::checkSettings(settings);
+    } catch (const std::invalid_argument& error) {
+        throw InputError(options.recordingPath + ": " + error.what());
+    }
+    const fs::path outputPath = options.outputPath.empty() ? defaultOutput(options) : fs::path(options.outputPath);
+    OutputFile output("--output", outputPath);
     std::optional<OutputFile> report;
     if (!options.reportPath.empty()) {
-        report.emplace(options.reportPath);
+        report.emplace("--report", options.reportPath);
     }
     inference::OnnxSegmentGenerator generator(openRuntime(), model, tier.name, inference::defaultSolver(tier),
                                               batchOfFit);
     try {
         const learning::LearntMaterial learnt = learning::learnMaterial(recording.view(), model, generator, settings);
-        writeText(output, learnt.materialJson);
+        writeMaterial(output, learnt.materialJson, model.header());
         if (report) {
             writeText(*report, learning::reportJson(learnt.report));
         }
@@ -170,7 +187,7 @@ void addLearnCommand(CLI::App& app, CommandOutcome& outcome) {
         ->type_name("RECORDING.(csv|wav)");
     command
         ->add_option("-o,--output", options->outputPath,
-                     "The material file (default: the name with .haptomaterial, here)")
+                     "The material file (default: the --name or the recording's file name with .haptomaterial, here)")
         ->type_name("NAME.haptomaterial");
     command->add_option("--model", options->modelPath, "Model file (default: the one shipped)")->type_name("FILE");
     command->add_option("--name", options->name,
@@ -199,7 +216,7 @@ void addLearnCommand(CLI::App& app, CommandOutcome& outcome) {
         "Examples:\n"
         "  haptoflow learn denim.csv -o denim.haptomaterial\n"
         "  haptoflow learn doormat.wav --full-scale-mps2 100 --speed-mps 0.08 --force-newtons 1\n"
-        "  haptoflow learn tile.csv --name \"kitchen tile\" --category ceramic --report tile.json\n"
+        "  haptoflow learn tile.csv --name \"kitchen tile\" --category ceramic --report tile.report.json\n"
         "Columns of a CSV: time_s; acceleration_mps2 or acceleration_x_mps2, ..y.., ..z.. (or .._g); speed_mps,\n"
         "velocity_x_mps with velocity_y_mps, or position_x_mm with position_y_mm; force_newtons. Constant values may "
         "be\n"

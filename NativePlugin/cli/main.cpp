@@ -1,5 +1,6 @@
 #include "commands.hpp"
 #include "exit_codes.hpp"
+#include "messages.hpp"
 #include "near_words.hpp"
 
 #include "inference/inference_error.hpp"
@@ -111,20 +112,20 @@ int run(int argc, char** argv) {
         suggestOptions(app, words);
         return exitUsage;
     } catch (const UsageError& error) {
-        std::cerr << "haptoflow: " << error.what() << '\n';
+        complain(error.what());
         return exitUsage;
     } catch (const InputError& error) {
-        std::cerr << "haptoflow: " << error.what() << '\n';
+        complain(error.what());
         return exitBadInput;
     } catch (const haptoflow::model::ModelError& error) {
         // An error in one of the model's graphs, found when it is loaded into ONNX Runtime.
-        std::cerr << "haptoflow: model: " << error.what() << '\n';
+        complain(std::string("model: ") + error.what());
         return exitBadInput;
     } catch (const haptoflow::inference::TierTooSlow& error) {
-        std::cerr << "haptoflow: model: " << error.what() << '\n';
+        complain(std::string("model: ") + error.what());
         return exitBadInput;
     } catch (const std::exception& error) {
-        std::cerr << "haptoflow: internal error: " << error.what() << '\n';
+        complain(std::string("internal error: ") + error.what());
         return exitInternal;
     }
 }

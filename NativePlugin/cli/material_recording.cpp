@@ -1,5 +1,6 @@
 #include "material_recording.hpp"
 
+#include "command_files.hpp"
 #include "exit_codes.hpp"
 #include "learning/recording.hpp"
 #include "recording_sidecar.hpp"
@@ -310,6 +311,7 @@ private:
     }
 
     void readWav() {
+        claimInput("the recording", path_);
         constexpr const char* expected = "a WAV file of 1 or 3 channels, PCM or float";
         SF_INFO info{};
         const std::unique_ptr<SNDFILE, int (*)(SNDFILE*)> file(sf_open(path_.c_str(), SFM_READ, &info), sf_close);
@@ -376,6 +378,10 @@ private:
     }
 
     void makeEven(const Track& acceleration) {
+        if (acceleration.timeSeconds.back() - startSeconds_ > learning::maximumSeconds) {
+            recording_.notes.push_back(path_ + ": only the first " + plainNumber(learning::maximumSeconds) +
+                                       " s are read");
+        }
         const double span = std::min(acceleration.timeSeconds.back() - startSeconds_, learning::maximumSeconds);
         const auto count = static_cast<std::size_t>(span * recording_.rateHz) + 1;
         const double maximumStep = std::max(maximumStepSeconds, 4.0 / recording_.rateHz);

@@ -1,5 +1,6 @@
 #include "model_location.hpp"
 
+#include "command_files.hpp"
 #include "exit_codes.hpp"
 #include "inference/inference_error.hpp"
 
@@ -87,22 +88,27 @@ fs::path find(const std::string& what, const char* variable, const std::vector<f
 }  // namespace
 
 fs::path findModel(const std::string& given) {
-    if (!given.empty()) {
-        return given;
-    }
     const fs::path folder = executableFolder();
-    return find("the default model", "HAPTOFLOW_MODEL",
-                {folder / "default.haptoflow",
-                 folder / "../../Packages/com.haptoflow.runtime/Runtime/Models/default.haptoflow"},
-                "Name a model with --model, or run the program that `npm run build` makes inside a checkout.");
+    fs::path model =
+        !given.empty()
+            ? fs::path(given)
+            : find("the default model", "HAPTOFLOW_MODEL",
+                   {folder / "default.haptoflow",
+                    folder / "../../Packages/com.haptoflow.runtime/Runtime/Models/default.haptoflow"},
+                   "Name a model with --model, or run the program that `npm run build` makes inside a checkout.");
+    claimInput("the model", model);
+    return model;
 }
 
 fs::path findOnnxRuntime() {
     const fs::path folder = executableFolder();
     const fs::path package = folder / "../../node_modules/com.github.asus4.onnxruntime/Plugins";
-    return find("ONNX Runtime's library", "HAPTOFLOW_ONNXRUNTIME",
-                {folder / runtimeFile, package / runtimeFolder / runtimeFile},
-                "Run `npm ci` and `npm run build` in the repository's root, or set the variable to the library.");
+    fs::path library =
+        find("ONNX Runtime's library", "HAPTOFLOW_ONNXRUNTIME",
+             {folder / runtimeFile, package / runtimeFolder / runtimeFile},
+             "Run `npm ci` and `npm run build` in the repository's root, or set the variable to the library.");
+    claimInput("ONNX Runtime", library);
+    return library;
 }
 
 model::ModelFile readModel(const fs::path& path) {

@@ -64,7 +64,8 @@ effects::ActuatorProfile readActuatorProfile(const std::string& nameOrPath) {
         return *std::move(builtIn);
     }
     const std::string text =
-        readInputFile(nameOrPath, "an actuator profile (JSON), or the name of a built-in one: flat, voice-coil");
+        readInputFile("the actuator profile", nameOrPath,
+                      "an actuator profile (JSON), or the name of a built-in one: flat, voice-coil");
     try {
         return effects::ActuatorProfile::parse(text);
     } catch (const effects::ProfileError& error) {

@@ -1,5 +1,6 @@
 #include "output_file.hpp"
 
+#include "command_files.hpp"
 #include "exit_codes.hpp"
 
 #include <algorithm>
@@ -18,28 +19,13 @@ namespace fs = std::filesystem;
 
 constexpr const char* remedy = ": cannot be written: name a file in an existing folder with write permission";
 
-/// True for something that is not a regular file, which a rename would replace.
+/// True for something that a rename would replace although it is no file of its own.
 bool isSpecial(const fs::path& path) {
     std::error_code ignored;
     const fs::file_status status = fs::status(path, ignored);
     const std::string name = path.generic_string();
     return (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status)) ||
-           name.starts_with("/dev/") || name.starts_with("/proc/");
-}
-
-/// The final target of a chain of links, whether it exists or not.
-fs::path followLinks(const fs::path& path) {
-    fs::path target = path;
-    std::error_code ignored;
-    for (int link = 0; fs::is_symlink(fs::symlink_status(target, ignored)); ++link) {
-        constexpr int maximumLinks = 40;
-        if (link == maximumLinks) {
-            throw InputError(path.string() + ": is a cycle of links");
-        }
-        const fs::path next = fs::read_symlink(target, ignored);
-        target = next.is_absolute() ? next : target.parent_path() / next;
-    }
-    return target;
+           name.starts_with("/dev/std") || name.starts_with("/dev/fd/") || name.starts_with("/proc/");
 }
 
 /// Creates a new file with a unique name beside `target` (or with its name in `folder`).
@@ -103,43 +89,34 @@ void forgetUnfinished(const fs::path& partial) {
     }
 }
 
-bool isSameFile(const fs::path& one, const fs::path& other) {
-    std::error_code ignored;
-    if (isSpecial(one) || isSpecial(other)) {
-        return false;
-    }
-    if (fs::equivalent(one, other, ignored)) {
-        return true;
-    }
-    const auto whole = [](const fs::path& path) {
-        std::error_code unused;
-        return fs::weakly_canonical(fs::absolute(followLinks(path), unused), unused);
-    };
-    return whole(one) == whole(other);
-}
-
 }  // namespace
 
-OutputFile::OutputFile(const fs::path& path) : path_(path), isWrittenInPlace_(isSpecial(path)) {
+OutputFile::OutputFile(const std::string& role, const fs::path& path)
+    : path_(path), isWrittenInPlace_(isSpecial(path)) {
     std::error_code ignored;
     if (fs::is_directory(path, ignored)) {
         throw InputError(path.string() + ": is a folder; expected the name of a file");
     }
-    if (isWrittenInPlace_) {
-        target_ = path;
-        partial_ = makePartial(fs::temp_directory_path() / "haptoflow", path);
-        rememberUnfinished(partial_);
-        return;
-    }
-    target_ = followLinks(path);
-    if (fs::exists(target_, ignored) && !std::ofstream(target_, std::ios::app)) {
+    target_ = isWrittenInPlace_ ? path : followLinks(path);
+    if (!isWrittenInPlace_ && fs::exists(target_, ignored) && !std::ofstream(target_, std::ios::app)) {
         throw InputError(path.string() + remedy);
     }
-    partial_ = makePartial(target_, path);
+    partial_ = makePartial(isWrittenInPlace_ ? fs::temp_directory_path() / "haptoflow" : target_, path);
     rememberUnfinished(partial_);
+    try {
+        claimOutput({role, path_, target_, isWrittenInPlace_ ? fs::path() : partial_});
+    } catch (...) {
+        removePartial();
+        throw;
+    }
 }
 
 OutputFile::~OutputFile() {
+    releaseOutput(path_);
+    removePartial();
+}
+
+void OutputFile::removePartial() const noexcept {
     std::error_code ignored;
     fs::remove(partial_, ignored);
     forgetUnfinished(partial_);
@@ -172,23 +149,6 @@ void writeText(const OutputFile& file, const std::string& text) {
     stream << text;
     if (!stream.flush()) {
         throw InputError(file.path().string() + ": could not be written to its end; is the disk full?");
-    }
-}
-
-void requireApart(std::span<const NamedPath> outputs, std::span<const NamedPath> inputs) {
-    for (std::size_t index = 0; index < outputs.size(); ++index) {
-        const NamedPath& output = outputs[index];
-        if (output.path.empty()) {
-            continue;
-        }
-        const auto refuse = [&output](const NamedPath& other) {
-            if (!other.path.empty() && isSameFile(output.path, other.path)) {
-                throw UsageError(output.role + " " + output.path.string() + ": is the same file as " + other.role +
-                                 "; name another");
-            }
-        };
-        std::ranges::for_each(inputs, refuse);
-        std::ranges::for_each(outputs.subspan(index + 1), refuse);
     }
 }
 

@@ -1,18 +1,18 @@
 #pragma once
 
 #include <filesystem>
-#include <span>
 #include <string>
 
 namespace haptoflow::cli {
 
 /// A file that is either written completely or not created. The content goes to `partial()`; `commit` moves it to its
-/// final name. Links are followed and kept. Devices, pipes and files of /dev and /proc are written directly and never
+/// final name. Links are followed and kept. Devices, pipes, /dev/stdout and its kin are written directly and never
 /// replaced. Without `commit`, and after SIGINT or SIGTERM, no partial file remains.
 class OutputFile {
 public:
-    /// Throws InputError that names the path if it cannot be written.
-    explicit OutputFile(const std::filesystem::path& path);
+    /// `role` is the option that names the path: "--report". Throws UsageError if the path is an input or another
+    /// output (command_files.hpp), InputError if it cannot be written; both name it.
+    OutputFile(const std::string& role, const std::filesystem::path& path);
     OutputFile(const OutputFile&) = delete;
     OutputFile& operator=(const OutputFile&) = delete;
     OutputFile(OutputFile&&) = delete;
@@ -27,6 +27,8 @@ public:
     void commit();
 
 private:
+    void removePartial() const noexcept;
+
     std::filesystem::path path_;
     std::filesystem::path target_;
     std::filesystem::path partial_;
@@ -36,15 +38,11 @@ private:
 /// Writes the whole text to the partial file; does not commit. Throws InputError that names the path.
 void writeText(const OutputFile& file, const std::string& text);
 
-/// A path of the command line and its role: "the scene", "--report".
+/// A path of the command line and its role: "--waveform".
 struct NamedPath {
     std::string role;
     std::filesystem::path path;
 };
-
-/// Throws UsageError if an output is also an input or another output. Empty paths are ignored; devices and pipes may
-/// occur twice.
-void requireApart(std::span<const NamedPath> outputs, std::span<const NamedPath> inputs);
 
 /// Throws UsageError that suggests a name if the extension of a path is not ".wav". Devices, pipes, empty paths and
 /// names without an extension are accepted.

@@ -1,6 +1,7 @@
 #include "parametric_frames.hpp"
 
 #include "effects/carrier_rendering.hpp"
+#include "effects/device_loudness.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -22,6 +23,11 @@ const effects::WaveFeatureOptions& options() {
 double secondsAt(std::uint64_t sample) {
     constexpr auto delay = static_cast<double>(WaveDecimation::delaySamples);
     return std::max(0.0, (static_cast<double>(sample) - delay) / WaveFeatures::sampleRateHz);
+}
+
+/// The part of the device's range that a controller plays by the loudness law.
+float shareOf(float amplitudeMps2) {
+    return effects::deviceShare(effects::DeviceKind::parametric, amplitudeMps2);
 }
 
 nlohmann::ordered_json errorOf(std::span<const float> wave, std::span<const effects::WaveFrame> frames,
@@ -76,10 +82,11 @@ std::string ParametricFrames::toJson() {
     nlohmann::ordered_json transients = nlohmann::ordered_json::array();
     for (const effects::WaveFrame& frame : frames_) {
         const double seconds = secondsAt(frame.firstSample);
-        frames.push_back({seconds, frame.amplitudeMps2, frame.frequencyHz, frame.intensity});
+        frames.push_back({seconds, frame.amplitudeMps2, frame.frequencyHz, frame.intensity, shareOf(frame.amplitudeMps2)});
         if (frame.transient.amplitudeMps2 > 0.0F) {
             transients.push_back({seconds + static_cast<double>(frame.transient.offsetSeconds),
-                                  frame.transient.amplitudeMps2, frame.transient.frequencyHz});
+                                  frame.transient.amplitudeMps2, frame.transient.frequencyHz,
+                                  shareOf(frame.transient.amplitudeMps2)});
         }
     }
     const nlohmann::ordered_json document{
@@ -87,9 +94,9 @@ std::string ParametricFrames::toJson() {
         {"version", 1},
         {"frame_seconds", options().frameSeconds},
         {"frequency_range_hz", {options().minFrequencyHz, options().maxFrequencyHz}},
-        {"frame_columns", {"seconds", "amplitude_mps2", "frequency_hz", "intensity"}},
+        {"frame_columns", {"seconds", "amplitude_mps2", "frequency_hz", "intensity", "device_share"}},
         {"frames", std::move(frames)},
-        {"transient_columns", {"seconds", "amplitude_mps2", "frequency_hz"}},
+        {"transient_columns", {"seconds", "amplitude_mps2", "frequency_hz", "device_share"}},
         {"transients", std::move(transients)},
         {"intensity_error_db", intensityErrors(wave_, frames_)},
     };

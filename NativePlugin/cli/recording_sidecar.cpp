@@ -1,10 +1,14 @@
 #include "recording_sidecar.hpp"
 
+#include "command_files.hpp"
+#include "csv_lines.hpp"
 #include "exit_codes.hpp"
 #include "input_file.hpp"
 #include "learning/recording.hpp"
 #include "model/bounded_json.hpp"
 #include "model/model_error.hpp"
+#include "model/model_header.hpp"
+#include "model/plain_text.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -35,11 +39,14 @@ std::string allKeys() {
 }
 
 json documentIn(const fs::path& file) {
+    const std::string role = file.filename() == defaultsFile ? "the folder's defaults" : "the recording's sidecar";
+    // Also where it does not exist: a report of that name would be read as the sidecar from then on.
+    claimInput(role, file);
     std::error_code ignored;
     if (!fs::is_regular_file(file, ignored)) {
         return json::object();
     }
-    std::string text = readInputFile(file.string(), "a JSON object");
+    std::string text = readInputFile(role, file.string(), "a JSON object");
     if (text.starts_with("\xEF\xBB\xBF")) {
         text.erase(0, 3);
     }
@@ -83,7 +90,12 @@ public:
         if (!value->is_string()) {
             refuse(key, "a text in quotes");
         }
-        return value->get<std::string>();
+        const std::string text(trimmed(value->get_ref<const std::string&>(), " \t\r\n"));
+        if (text.size() > model::maximumTextBytes || model::hasControlCharacter(text)) {
+            refuse(key, "one line of text without control characters, of " + std::to_string(model::maximumTextBytes) +
+                            " bytes at most");
+        }
+        return text;
     }
 
     [[nodiscard]] std::optional<double> number(const std::string& key, double lowest, double highest,
@@ -121,11 +133,19 @@ public:
         if (name.empty()) {
             return std::nullopt;
         }
-        const fs::path path = origins_.at("motion").parent_path() / name;
+        const fs::path& origin = origins_.at("motion");
+        const fs::path path = origin.parent_path() / name;
         std::error_code ignored;
+        // A name in a file leads no further than its own folder, also by a link.
+        const fs::path folder = fs::weakly_canonical(fs::absolute(origin).parent_path(), ignored);
+        const fs::path inside = fs::weakly_canonical(fs::absolute(path), ignored).lexically_relative(folder);
+        if (inside.empty() || *inside.begin() == "..") {
+            fail(origin,
+                 "key 'motion' names " + name + ", which is outside the folder of " + origin.filename().string(),
+                 "a table beside the recording: copy it there");
+        }
         if (!fs::is_regular_file(path, ignored)) {
-            fail(origins_.at("motion"), "key 'motion' names " + name + ", which is not there",
-                 "a table beside the recording");
+            fail(origin, "key 'motion' names " + name + ", which is not there", "a table beside the recording");
         }
         return path;
     }
@@ -151,7 +171,8 @@ private:
     }
 
     [[noreturn]] void refuse(const std::string& key, const std::string& expected) const {
-        fail(origins_.at(key), "key '" + key + "' is " + values_.at(key).dump().substr(0, 60), expected);
+        fail(origins_.at(key), "key '" + key + "' is " + std::string(model::shortened(values_.at(key).dump(), 60)),
+             expected);
     }
 
     std::map<std::string, json> values_;

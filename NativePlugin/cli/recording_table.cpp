@@ -73,7 +73,8 @@ public:
     TableReader(const std::string& path, bool needsAcceleration)
         : path_(path),
           needsAcceleration_(needsAcceleration),
-          text_(readInputFile(path, "a table (CSV) with the columns time_s and acceleration_mps2")),
+          text_(readInputFile(needsAcceleration ? "the recording" : "the motion file", path,
+                              "a table (CSV) with the columns time_s and acceleration_mps2")),
           lines_(text_) {}
 
     RecordingTable read() {

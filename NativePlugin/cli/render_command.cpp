@@ -5,6 +5,8 @@
 #include "exit_codes.hpp"
 #include "inference/onnx_segment_generator.hpp"
 #include "inference/tier_graphs.hpp"
+#include "learning/recording.hpp"
+#include "messages.hpp"
 #include "model/model_file.hpp"
 #include "model_location.hpp"
 #include "near_words.hpp"
@@ -186,19 +188,19 @@ class RenderFiles final : public engine::OfflineSink {
 public:
     explicit RenderFiles(const RenderOptions& options) : fullScaleMps2_(options.engine.fullScaleMps2) {
         if (!options.outputPath.empty()) {
-            wav_.emplace(options.outputPath);
+            wav_.emplace("-o", options.outputPath);
             wavWriter_.emplace(wav_->partial(), static_cast<int>(options.engine.outputRateHz), options.outputPath);
         }
         if (!options.waveformPath.empty()) {
-            waveform_.emplace(options.waveformPath);
+            waveform_.emplace("--waveform", options.waveformPath);
             waveformWriter_.emplace(waveform_->partial(), static_cast<int>(inference::waveformRateHz),
                                     options.waveformPath);
         }
         if (!options.reportPath.empty()) {
-            report_.emplace(options.reportPath);
+            report_.emplace("--report", options.reportPath);
         }
         if (!options.parametricPath.empty()) {
-            parametric_.emplace(options.parametricPath);
+            parametric_.emplace("-o", options.parametricPath);
             frames_.emplace(options.engine.outputRateHz);
         }
     }
@@ -272,18 +274,10 @@ void requireSoundOptions(const RenderOptions& options) {
         throw UsageError(
             "--quality auto depends on measured times, so that two renders could differ; name a quality of the model");
     }
-    const NamedPath wav{"-o", options.outputPath};
-    const NamedPath waveform{"--waveform", options.waveformPath};
     if (!options.parametricPath.empty() && std::fmod(options.engine.outputRateHz, inference::waveformRateHz) != 0.0) {
         throw UsageError("-o " + options.parametricPath +
                          " needs a --rate that is a multiple of 2000 Hz, such as 48000");
     }
-    requireApart(
-        std::array{wav, waveform, NamedPath{"--report", options.reportPath}, NamedPath{"-o", options.parametricPath}},
-        std::array{NamedPath{"the scene", options.scenePath}, NamedPath{"the stroke", options.strokePath},
-                   NamedPath{"the model", options.modelPath}});
-    requireWavName(wav);
-    requireWavName(waveform);
 }
 
 /// Checks the length first: a WAV file's sizes are 32-bit numbers, and a render can take hours.
@@ -300,20 +294,21 @@ void requireRoom(const headless::Scene& scene, const StrokePlayer& player, const
 /// Prints notes about touches that make no sound.
 void explainSilence(const RenderOptions& options, const engine::OfflineFigures& figures, std::uint64_t missedTouches,
                     double updateRateHz) {
-    const std::string note = "haptoflow: note: " + options.strokePath;
+    const std::string& stroke = options.strokePath;
     if (figures.touches == 0 && missedTouches == 0) {
-        std::cerr << note << " never touches a surface of " << options.scenePath
-                  << ": the output is silent. `haptoflow contact` prints where the tip goes; positions are metres, y "
-                     "up, of the tip's centre.\n";
+        note(
+            stroke + " never touches a surface of " + options.scenePath +
+            ": the output is silent. `haptoflow contact` prints where the tip goes; positions are metres, y up, of the "
+            "tip's centre.");
     }
     if (missedTouches > 0) {
-        std::cerr << note << ": " << missedTouches << " of " << figures.touches + missedTouches
-                  << " touches begin and end between two frames and are not rendered: raise the scene's update_rate ("
-                  << updateRateHz << " Hz).\n";
+        note(stroke + ": " + std::to_string(missedTouches) + " of " + std::to_string(figures.touches + missedTouches) +
+             " touches begin and end between two frames and are not rendered: raise the scene's update_rate (" +
+             learning::plainNumber(updateRateHz) + " Hz).");
     }
     if (figures.silentTouches > 0) {
-        std::cerr << note << ": " << figures.silentTouches << " of " << figures.touches
-                  << " touches make no sound: a texture sounds only while the tip slides.\n";
+        note(stroke + ": " + std::to_string(figures.silentTouches) + " of " + std::to_string(figures.touches) +
+             " touches make no sound: a texture sounds only while the tip slides.");
     }
 }
 
@@ -342,6 +337,8 @@ void runRender(const RenderOptions& options) {
     }
     const effects::EffectMask effects = requestedEffects(options.effects);
     RenderFiles files(options);
+    requireWavName({"-o", options.outputPath});
+    requireWavName({"--waveform", options.waveformPath});
     inference::OnnxSegmentGenerator generator(openRuntime(), model, tier.name, solver, 1);
 
     const ProgressBar bar = progressBar("render", options.quiet);
@@ -427,6 +424,8 @@ void addRenderCommand(CLI::App& app, CommandOutcome& outcome) {
         ->add_option("--actuator", options->actuator,
                      "Compensate for the actuator that plays the output: a profile's file, or flat or voice-coil")
         ->type_name("PROFILE");
+    command->add_flag("--listen", options->engine.listens,
+                      "Make the output audible on loudspeakers: louder and brighter. Not for actuators");
     command->add_option("--delay-ms", options->delayMs, "Delay of the whole output")
         ->check(decimalBetween(0.0, 500.0, "ms"))
         ->capture_default_str();

@@ -10,8 +10,8 @@ namespace {
 
 /// For each effect that ran: its impacts or edges, and the samples that it processed.
 nlohmann::ordered_json effectsOf(const engine::OfflineFigures& figures) {
-    constexpr std::array<const char*, effects::effectKinds> names{"texture",      "impact",         "edge", "delay",
-                                                                  "compensation", "exposure guard", "tone", "signal"};
+    constexpr std::array<const char*, effects::effectKinds> names{
+        "texture", "impact", "edge", "delay", "compensation", "exposure guard", "tone", "signal", "listen"};
     nlohmann::ordered_json effects = nlohmann::ordered_json::object();
     for (std::size_t kind = 0; kind < names.size(); ++kind) {
         if (figures.effectSamples[kind] > 0 || figures.effectEvents[kind] > 0) {
@@ -54,7 +54,7 @@ std::string renderReport(const RenderIdentity& identity, const engine::OfflineFi
           {"outlier_share", figures.seamStatistics.outlierShare},
           {"jump_ratio", figures.seamStatistics.jumpRatio}}},
     };
-    return report.dump(2) + '\n';
+    return report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
 }
 
 }  // namespace haptoflow::cli

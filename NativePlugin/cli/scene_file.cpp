@@ -2,6 +2,7 @@
 
 #include "exit_codes.hpp"
 #include "input_file.hpp"
+#include "model/plain_text.hpp"
 
 #include <algorithm>
 #include <array>
@@ -31,7 +32,7 @@ std::string inWords(const json& value) {
         return (value.is_array() ? "an array of " : "an object of ") + std::to_string(value.size());
     }
     const std::string text = value.dump();
-    return text.size() > 40 ? text.substr(0, 40) + "..." : text;
+    return text.size() > 40 ? std::string(model::shortened(text, 40)) + "..." : text;
 }
 
 /// A JSON value with its path, for error messages.
@@ -346,7 +347,7 @@ headless::Scene parseScene(const json& document, const std::string& fileName) {
 }
 
 headless::Scene readSceneFile(const std::string& path) {
-    const std::string text = readInputFile(path, "a scene file (JSON)");
+    const std::string text = readInputFile("the scene", path, "a scene file (JSON)");
     try {
         DuplicateKeys duplicates(path);
         return parseScene(json::parse(text, std::ref(duplicates)), path);

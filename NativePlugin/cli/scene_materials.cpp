@@ -1,5 +1,6 @@
 #include "scene_materials.hpp"
 
+#include "command_files.hpp"
 #include "engine/material_library.hpp"
 #include "exit_codes.hpp"
 #include "near_words.hpp"
@@ -26,6 +27,7 @@ std::uint32_t SceneMaterials::read(const std::filesystem::path& path, const std:
         throw InputError(complaint + path.string() + ": more than " +
                          std::to_string(engine::MaterialLibrary::maximumRegistered) + " material files");
     }
+    claimInput("the material", path);
     try {
         model::MaterialFile material = model::readMaterial(path);
         model::requireSpace(material, model_.header());

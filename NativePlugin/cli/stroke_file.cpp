@@ -15,6 +15,8 @@ namespace haptoflow::cli {
 namespace {
 
 constexpr double maximumValue = 1e9;
+/// Seconds since 1970 until the year 5138; milliseconds are beyond it.
+constexpr double maximumClockSeconds = 1e11;
 constexpr std::size_t maximumFrames = 10'000'000;
 constexpr std::array<std::string_view, 9> columnNames{"t", "x", "y", "z", "force", "qx", "qy", "qz", "qw"};
 constexpr std::string_view headerForm = "t,x,y,z[,force][,qx,qy,qz,qw]";
@@ -110,14 +112,31 @@ private:
         return *value;
     }
 
-    headless::TipSample readSample() const {
+    /// Times of a clock that started long ago, such as seconds since 1970, count from the first row.
+    double time(const std::vector<std::string_view>& cells) {
+        const std::optional<double> value = decimalNumber(cells[0]);
+        if (!value || !(std::abs(*value) <= maximumClockSeconds)) {
+            fail(0, "expected seconds within +-1e11 with a decimal point");
+        }
+        if (isFirst_ && std::abs(*value) > maximumValue) {
+            clockStart_ = cells[0];
+        }
+        isFirst_ = false;
+        const double seconds = clockStart_ ? decimalDifference(cells[0], *clockStart_).value_or(*value) : *value;
+        if (!(std::abs(seconds) <= maximumValue)) {
+            fail(0, "expected a time within 1e9 s of the first");
+        }
+        return seconds;
+    }
+
+    headless::TipSample readSample() {
         const std::vector<std::string_view> cells = trimmedCells(lines_.line());
         if (cells.size() != layout_.columns()) {
             fail("expected " + std::to_string(layout_.columns()) + " values as in the header, found " +
                  std::to_string(cells.size()) + " (decimals need a point, not a comma)");
         }
         headless::TipSample sample;
-        sample.timeSeconds = number(cells, 0);
+        sample.timeSeconds = time(cells);
         sample.positionMetres = {number(cells, 1), number(cells, 2), number(cells, 3)};
         std::size_t column = 4;
         if (layout_.force) {
@@ -144,6 +163,9 @@ private:
     CsvLines lines_;
     const std::string& file_;
     Layout layout_;
+    bool isFirst_ = true;
+    /// The first row's time, of a clock whose times count from there.
+    std::optional<std::string_view> clockStart_;
 };
 
 }  // namespace
@@ -153,7 +175,7 @@ Stroke parseStroke(std::string_view text, const std::string& fileName) {
 }
 
 Stroke readStrokeFile(const std::string& path) {
-    return parseStroke(readInputFile(path, "a stroke file (CSV)"), path);
+    return parseStroke(readInputFile("the stroke", path, "a stroke file (CSV)"), path);
 }
 
 headless::TipSample sampleStroke(const Stroke& stroke, double timeSeconds) {

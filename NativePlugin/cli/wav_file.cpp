@@ -1,5 +1,6 @@
 #include "wav_file.hpp"
 
+#include "command_files.hpp"
 #include "dsp/sample_rates.hpp"
 #include "exit_codes.hpp"
 
@@ -51,7 +52,8 @@ void WavWriter::close() {
     }
 }
 
-Recording readRecording(const std::string& path, int channel) {
+Recording readRecording(const std::string& role, const std::string& path, int channel) {
+    claimInput(role, path);
     constexpr sf_count_t maximumSeconds = 600;
     SF_INFO info{};
     const std::unique_ptr<SNDFILE, int (*)(SNDFILE*)> file(sf_open(path.c_str(), SFM_READ, &info), sf_close);

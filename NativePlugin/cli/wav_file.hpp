@@ -41,7 +41,8 @@ struct Recording {
 };
 
 /// Reads channel `channel` (from 1 on; 0 for a file that must have a single one) of a sound file of 8 to 192 kHz and at
-/// most ten minutes. Throws InputError that names the path; samples that are not finite are errors, too.
-[[nodiscard]] Recording readRecording(const std::string& path, int channel = 0);
+/// most ten minutes. `role` is the file's part in the command: "the sweep". Throws InputError that names the path;
+/// samples that are not finite are errors, too.
+[[nodiscard]] Recording readRecording(const std::string& role, const std::string& path, int channel = 0);
 
 }  // namespace haptoflow::cli

@@ -81,27 +81,30 @@ namespace HaptoFlow.Samples.StylusTracing
         {
             outputs.ForEach(Destroy);
             outputs.Clear();
-            if (outputChoice == Audio)
+            if (outputChoice == Auto)
             {
-                Add(transform);
+                return;
             }
-            else if (outputChoice != Auto)
+            HapticOutput? audio = outputChoice == Audio ? Add(transform).GetComponent<HapticOutput>() : null;
+            foreach (HapticStylus pen in FindObjectsByType<HapticStylus>(
+                FindObjectsInactive.Include, FindObjectsSortMode.None))
             {
-                foreach (HapticStylus pen in FindObjectsByType<HapticStylus>(
-                    FindObjectsInactive.Include, FindObjectsSortMode.None))
+                pen.Output = audio;
+                if (audio == null)
                 {
                     Add(pen.transform);
                 }
             }
         }
 
-        private void Add(Transform parent)
+        private GameObject Add(Transform parent)
         {
             var owner = new GameObject(Outputs[outputChoice].Name);
             owner.transform.SetParent(parent, false);
             Outputs[outputChoice].AddTo(owner);
             outputs.Add(owner);
             ApplyProcessing(owner);
+            return owner;
         }
 
         private void ApplyProcessing(GameObject owner)

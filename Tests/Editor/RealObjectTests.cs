@@ -47,6 +47,7 @@ namespace HaptoFlow.EditorTests
         [TestCase(HapticSilence.Rate, "8000 to 192000 Hz")]
         [TestCase(HapticSilence.Closing, "closed")]
         [TestCase(HapticSilence.WorkerDead, "has ended")]
+        [TestCase(HapticSilence.TurnedDown, "strength or the ceiling is 0")]
         [TestCase((HapticSilence)99, "99")]
         public void EveryReasonForSilenceIsDescribed(HapticSilence silence, string part) => Assert.That(
             SilenceWords.Of(new VoiceStatistics { Silence = silence }), Does.Contain(part));

@@ -1,6 +1,7 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import { loadAlignment, pageOptions } from '../../scripts/lib/android_pages.mjs';
+import { pageOptions } from '../../scripts/lib/android_pages.mjs';
+import { loadAlignment } from '../../scripts/pack/elf.mjs';
 
 /** A 64-bit ELF with nothing but program headers: [type, alignment] each. */
 function elf(...segments) {

@@ -15,6 +15,7 @@ const pages = {
   'Documentation~/accuracy-and-time.md': 'npm run evaluate',
   'Documentation~/actuator-wiring.md': 'haptoflow-benchmark measure-full-scale --page',
   'Documentation~/benchmarks.md': 'npm run bench -- --publish',
+  'Documentation~/device-loudness.md': '/usr/bin/python3 scripts/pack/device_levels.py',
   'Documentation~/delay-budget.md': 'haptoflow-training study budget --page',
   'Documentation~/own-materials.md': 'haptoflow-benchmark few-shot --page',
   'Documentation~/stability.md': 'npm run test:soak -- --publish',

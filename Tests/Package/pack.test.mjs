@@ -6,10 +6,12 @@ import path from 'node:path';
 import test from 'node:test';
 import { gzipSync } from 'node:zlib';
 import { inRepository } from '../../scripts/lib/repository.mjs';
-import { findNatives, foldersFor, kindOfLibrary, platforms } from '../../scripts/pack/natives.mjs';
+import { findNatives, foldersFor, kindOfLibrary, platforms, presetsToBuild } from '../../scripts/pack/natives.mjs';
 import { placeInPackage } from '../../scripts/pack/layout.mjs';
 import { stagePackage } from '../../scripts/pack/stage.mjs';
+import { filesOfZip, runtimeBytes, tableOfContents } from '../../scripts/pack/sizes.mjs';
 import { readTarball } from '../../scripts/pack/tarball.mjs';
+import { elfOf } from './support/elf.mjs';
 
 const pack = (...words) => spawnSync(process.execPath, [inRepository('scripts', 'pack.mjs'), ...words], { encoding: 'utf8' });
 
@@ -22,12 +24,8 @@ function inFolder(act) {
   }
 }
 
-function elf(machine) {
-  const bytes = Buffer.alloc(64);
-  bytes.writeUInt32BE(0x7f454c46, 0);
-  bytes.writeUInt16LE(machine, 18);
-  return bytes;
-}
+const elf = (machine) => elfOf({ machine });
+const android = (versions = ['LIBC']) => elfOf({ machine: 183, libraries: ['libc.so'], versions });
 
 function pe(machine) {
   const bytes = Buffer.alloc(256);
@@ -35,14 +33,6 @@ function pe(machine) {
   bytes.writeUInt32LE(128, 60);
   bytes.write('PE\0\0', 128, 'latin1');
   bytes.writeUInt16LE(machine, 132);
-  return bytes;
-}
-
-function universal(...machines) {
-  const bytes = Buffer.alloc(8 + 20 * machines.length);
-  bytes.writeUInt32BE(0xcafebabe, 0);
-  bytes.writeUInt32BE(machines.length, 4);
-  machines.forEach((machine, index) => bytes.writeUInt32BE(machine, 8 + 20 * index));
   return bytes;
 }
 
@@ -56,8 +46,16 @@ function macho(machine) {
 test('--help explains the command and builds nothing', () => {
   const { status, stdout } = pack('--help');
   assert.equal(status, 0);
-  for (const word of ['--no-build', 'Install package from tarball', 'HAPTOFLOW_NATIVE_DIR']) assert.ok(stdout.includes(word), word);
-  for (const { name, id, presets } of platforms) assert.match(stdout, new RegExp(`^ {2}${name} +${id} +cmake --preset ${presets[0]} `, 'm'));
+  for (const word of ['--no-build', 'ANDROID_NDK_ROOT', 'HAPTOFLOW_NATIVE_DIR']) assert.ok(stdout.includes(word), word);
+  for (const { name, id, where } of platforms) assert.match(stdout, new RegExp(`^ {2}${name} +npm run build -- --platform ${id} +${where}$`, 'm'));
+});
+
+test('the command starts in a fresh checkout, in which no npm package is installed yet', () => {
+  inFolder((folder) => {
+    for (const name of ['scripts', 'package.json', 'CMakePresets.json']) cpSync(inRepository(name), path.join(folder, name), { recursive: true });
+    const { status, stderr } = spawnSync(process.execPath, [path.join(folder, 'scripts', 'pack.mjs'), '--help'], { encoding: 'utf8' });
+    assert.equal(status, 0, stderr);
+  });
 });
 
 test('an option that does not exist ends with 2 before anything is built', () => {
@@ -70,7 +68,7 @@ test('an option that does not exist ends with 2 before anything is built', () =>
 test('a platform that does not exist cannot be required', () => {
   const { status, stderr } = pack('--no-build', '--require', 'linux-x64,andriod-arm64');
   assert.equal(status, 2);
-  assert.match(stderr, /--require andriod-arm64: expected some of linux-x64, windows-x64, macos, android-arm64/);
+  assert.match(stderr, /--require andriod-arm64: expected some of linux-x64, linux-arm64, windows-x64, macos, android-arm64/);
 });
 
 test('without the library of a required platform, or without any, no tarball is made', () => {
@@ -83,7 +81,7 @@ test('without the library of a required platform, or without any, no tarball is 
     const none = there();
     assert.equal(none.status, 1, none.stdout);
     assert.match(none.stderr, /there is no native library/);
-    assert.match(none.stderr, /Android arm64: not built; the preset android-arm64 needs the Android NDK/);
+    assert.match(none.stderr, /Android arm64: not built; `npm run build -- --platform android-arm64` with Unity's Android Build Support/);
 
     mkdirSync(path.join(folder, 'natives'));
     writeFileSync(path.join(folder, 'natives', 'libaudioplugin_haptoflow.so'), elf(62));
@@ -98,11 +96,11 @@ test('without the library of a required platform, or without any, no tarball is 
 test('the platform of a library is read from its first bytes', () => {
   assert.equal(kindOfLibrary(elf(62)), 'elf-x86-64');
   assert.equal(kindOfLibrary(elf(183)), 'elf-arm64');
+  assert.equal(kindOfLibrary(android()), 'android-arm64');
   assert.equal(kindOfLibrary(pe(0x8664)), 'pe-x86-64');
   assert.equal(kindOfLibrary(pe(0xaa64)), 'pe-arm64');
   assert.equal(kindOfLibrary(macho(0x0100000c)), 'macho-arm64');
-  assert.equal(kindOfLibrary(universal(0x01000007, 0x0100000c)), 'macho-universal');
-  assert.equal(kindOfLibrary(universal(0x01000007)), null);
+  assert.equal(kindOfLibrary(macho(0x01000007)), 'macho-x86-64');
   for (const other of [elf(40), Buffer.alloc(0), Buffer.from('MZ'), Buffer.from('#!/bin/sh\n'), pe(0x8664).subarray(0, 100)]) assert.equal(kindOfLibrary(other), null);
 });
 
@@ -112,22 +110,24 @@ test('each platform takes a library of its own kind from the folders of its own 
       mkdirSync(path.join(folder, path.dirname(place)), { recursive: true });
       writeFileSync(path.join(folder, place), bytes);
     };
-    // On an arm64 Linux machine: an Android library has the same name and kind, and is another file.
+    // On an arm64 Linux machine: an Android library has the same name and processor, and is another file.
     put('release/libaudioplugin_haptoflow.so', elf(183));
+    put('android-arm64/libaudioplugin_haptoflow.so', elf(183));
     put('windows-msvc/Release/audioplugin_haptoflow.dll', pe(0x8664));
-    put('macos/libaudioplugin_haptoflow.dylib', macho(0x0100000c));
+    put('macos/libaudioplugin_haptoflow.dylib', macho(0x01000007));
     const { found, absent } = findNatives(({ presets }) => presets.flatMap((preset) => [path.join(folder, preset), path.join(folder, preset, 'Release')]));
     assert.deepEqual(found.map(({ platform, file }) => [platform.name, path.relative(folder, file)]), [
+      ['Linux arm64', path.join('release', 'libaudioplugin_haptoflow.so')],
       ['Windows x86-64', path.join('windows-msvc', 'Release', 'audioplugin_haptoflow.dll')],
     ]);
-    assert.deepEqual(absent.map(({ platform }) => platform.name), ['Linux x86-64', 'macOS', 'Android arm64']);
+    assert.deepEqual(absent.map(({ platform }) => platform.name), ['Linux x86-64', 'macOS arm64', 'Android arm64']);
   });
 });
 
-test('a platform without a library is listed with the preset that builds it and what the preset needs', () => {
+test('a platform without a library is listed with the one command that adds it, and where that runs', () => {
   const { absent } = findNatives(() => []);
   assert.equal(absent.length, platforms.length);
-  assert.match(absent.find(({ platform }) => platform.name === 'Android arm64').why, /preset android-arm64 needs the Android NDK/);
+  assert.equal(absent.find(({ platform }) => platform.id === 'macos').why, 'not built; `npm run build -- --platform macos` on a Mac adds it');
 });
 
 test('the presets are those of CMakePresets.json, and HAPTOFLOW_NATIVE_DIR stands for the release build\'s folder', () => {
@@ -135,11 +135,52 @@ test('the presets are those of CMakePresets.json, and HAPTOFLOW_NATIVE_DIR stand
   process.env.HAPTOFLOW_NATIVE_DIR = 'elsewhere';
   try {
     const folders = platforms.map((platform) => foldersFor(platform)[0]);
-    assert.deepEqual(folders, ['elsewhere', ...['windows-x64', 'macos', 'android-arm64'].map((preset) => inRepository('build', preset))]);
+    assert.deepEqual(folders, ['elsewhere', ...['linux-arm64', 'windows-x64', 'macos', 'android-arm64'].map((preset) => inRepository('build', preset))]);
   } finally {
     if (before === undefined) delete process.env.HAPTOFLOW_NATIVE_DIR;
     else process.env.HAPTOFLOW_NATIVE_DIR = before;
   }
+});
+
+test('on Debian for x64 three libraries are built, with an NDK four, elsewhere the machine\'s own and what is configured', () => {
+  const debian = { platform: 'linux', arch: 'x64', isDebian: true, hasNdk: false, isConfigured: () => false };
+  assert.deepEqual(presetsToBuild(debian), ['release', 'linux-arm64', 'windows-x64']);
+  assert.deepEqual(presetsToBuild({ ...debian, hasNdk: true }), ['release', 'linux-arm64', 'windows-x64', 'android-arm64']);
+  assert.deepEqual(presetsToBuild({ ...debian, arch: 'arm64' }), ['release']);
+  assert.deepEqual(presetsToBuild({ ...debian, isDebian: false, isConfigured: (preset) => preset === 'windows-x64' }), ['release', 'windows-x64']);
+  assert.deepEqual(presetsToBuild({ ...debian, platform: 'darwin', isDebian: false, hasNdk: true }), ['macos', 'android-arm64']);
+});
+
+test('an older library of a build that failed is left out, and the reason is named', () => {
+  inFolder((folder) => {
+    writeFileSync(path.join(folder, 'libaudioplugin_haptoflow.so'), android());
+    const ids = ({ found }) => found.map(({ platform }) => platform.id);
+    assert.deepEqual(ids(findNatives(() => [folder])), ['android-arm64']);
+    const { found, absent } = findNatives(() => [folder], new Set(['android-arm64']));
+    assert.deepEqual(ids({ found }), []);
+    assert.match(absent.find(({ platform }) => platform.id === 'android-arm64').why, /its build failed/);
+  });
+});
+
+test('the table has sizes on the device, what a library needs, and the command for each platform without one', () => {
+  inFolder((folder) => {
+    const file = path.join(folder, 'library');
+    writeFileSync(file, Buffer.concat([elfOf({ machine: 62, versions: ['GLIBC_2.38'] }), Buffer.alloc(3 * 2 ** 20)]));
+    const [x64, arm64, ...others] = platforms;
+    const lines = tableOfContents({ found: [{ platform: x64, file }, { platform: arm64, file }], absent: others.map((platform) => ({ platform, why: 'not built; do this' })) });
+    assert.equal(lines.length, 6);
+    const [, own, model, runtime, sum] = lines[1].match(/^ {2}Linux x86-64 +([\d.]+) +([\d.]+) +([\d.]+) +([\d.]+) {2}needs glibc 2\.38: built on Debian 12 it would need 2\.31 at most$/);
+    assert.equal(own, '3.0');
+    assert.ok(Math.abs(Number(own) + Number(model) + Number(runtime) - Number(sum)) < 0.2);
+    assert.match(lines[2], /Linux arm64 .* - .*bring ONNX Runtime for it yourself: its package has none/);
+    assert.match(lines[3], /^ {2}Windows x86-64 +missing: not built; do this$/);
+  });
+});
+
+test('ONNX Runtime takes on each device what its package holds for it: uncompressed from the archive for Android', () => {
+  const mebibytes = (id) => Math.round(runtimeBytes(id) / 2 ** 20);
+  assert.deepEqual(['linux-x64', 'linux-arm64', 'windows-x64', 'macos', 'android-arm64'].map(mebibytes), [27, 0, 15, 41, 31]);
+  assert.throws(() => filesOfZip(Buffer.from('no archive')), /no ZIP archive/);
 });
 
 test('files of the package go to their places, and other files of the repository are not packed', () => {

@@ -1,11 +1,16 @@
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
-import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { createHash } from 'node:crypto';
+import { existsSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
 import test from 'node:test';
 import { gzipSync } from 'node:zlib';
 import { inRepository } from '../../scripts/lib/repository.mjs';
+import { platforms } from '../../scripts/pack/natives.mjs';
+import { readTarball } from '../../scripts/pack/tarball.mjs';
+import { changesOf } from '../../scripts/release/draft.mjs';
+import { elfOf } from './support/elf.mjs';
 
 const script = (name, ...words) => spawnSync(process.execPath, [inRepository('scripts', 'release', `${name}.mjs`), ...words], { encoding: 'utf8' });
 const { version } = JSON.parse(readFileSync(inRepository('package.json'), 'utf8'));
@@ -28,26 +33,17 @@ function tarball(files) {
     header.write(`${Buffer.byteLength(text).toString(8).padStart(11, '0')}\0`, 124);
     header.write('0', 156);
     const content = Buffer.alloc(512 * Math.ceil(Buffer.byteLength(text) / 512));
-    content.write(text);
+    Buffer.from(text).copy(content);
     return [header, content];
   });
   return gzipSync(Buffer.concat([...blocks, Buffer.alloc(1024)]));
 }
 
-function elf(machine, alignment) {
-  const bytes = Buffer.alloc(64 + 56);
-  bytes.writeUInt32BE(0x7f454c46, 0);
-  bytes.writeUInt16LE(machine, 18);
-  bytes.writeBigUInt64LE(64n, 32);
-  bytes.writeUInt16LE(56, 54);
-  bytes.writeUInt16LE(1, 56);
-  bytes.writeUInt32LE(1, 64);
-  bytes.writeBigUInt64LE(BigInt(alignment), 64 + 48);
-  return bytes;
-}
+const elf = (machine, alignment) => elfOf({ machine, alignment });
+const android = (alignment) => elfOf({ machine: 183, libraries: ['libc.so'], alignment });
 
 test('every script of a release shows its help', () => {
-  for (const name of ['check_pages', 'check_tag', 'check_tarball', 'collect_natives', 'unity_project', 'upm_branch']) {
+  for (const name of ['check_pages', 'check_tag', 'check_tarball', 'collect_natives', 'draft', 'unity_project', 'upm_branch']) {
     const { status, stdout } = script(name, '--help');
     assert.equal(status, 0, name);
     assert.match(stdout, new RegExp(`^usage: node scripts/release/${name}\\.mjs`), name);
@@ -60,12 +56,15 @@ test('libraries that lie anywhere below a folder go to the build folders of thei
     const [from, to] = [path.join(folder, 'artifacts'), path.join(folder, 'repository')];
     mkdirSync(path.join(from, 'native-android-arm64', 'deep'), { recursive: true });
     mkdirSync(path.join(from, 'native-linux-x64'), { recursive: true });
-    writeFileSync(path.join(from, 'native-android-arm64', 'deep', 'libaudioplugin_haptoflow.so'), elf(183, 16384));
+    mkdirSync(path.join(from, 'native-linux-arm64'), { recursive: true });
+    writeFileSync(path.join(from, 'native-android-arm64', 'deep', 'libaudioplugin_haptoflow.so'), android(16384));
+    writeFileSync(path.join(from, 'native-linux-arm64', 'libaudioplugin_haptoflow.so'), elf(183, 65536));
     writeFileSync(path.join(from, 'native-linux-x64', 'libaudioplugin_haptoflow.so'), elf(62, 4096));
     const { status, stderr } = script('collect_natives', from, to);
     assert.equal(status, 1);
     assert.match(stderr, /has no library for windows-x64, macos/);
-    assert.deepEqual(readFileSync(path.join(to, 'build', 'android-arm64', 'libaudioplugin_haptoflow.so')), elf(183, 16384));
+    assert.deepEqual(readFileSync(path.join(to, 'build', 'android-arm64', 'libaudioplugin_haptoflow.so')), android(16384));
+    assert.deepEqual(readFileSync(path.join(to, 'build', 'linux-arm64', 'libaudioplugin_haptoflow.so')), elf(183, 65536));
     assert.deepEqual(readFileSync(path.join(to, 'build', 'native', 'libaudioplugin_haptoflow.so')), elf(62, 4096));
   });
 });
@@ -73,7 +72,7 @@ test('libraries that lie anywhere below a folder go to the build folders of thei
 test('an Android library aligned to 4 KiB is refused, one aligned to 16 KiB passes, and one for another processor is named', () => {
   inFolder((folder) => {
     const file = path.join(folder, 'library.so');
-    for (const [bytes, status, said] of [[elf(183, 4096), 1, /aligned to 4096 bytes, expected 16384/], [elf(183, 16384), 0, /aligned to 16384 bytes/], [elf(62, 16384), 1, /is elf-x86-64; expected elf-arm64/]]) {
+    for (const [bytes, status, said] of [[android(4096), 1, /aligned to 4096 bytes, expected 16384/], [android(16384), 0, /aligned to 16384 bytes/], [elf(183, 16384), 1, /is elf-arm64; expected android-arm64/]]) {
       writeFileSync(file, bytes);
       const result = script('check_pages', file);
       assert.equal(result.status, status);
@@ -97,6 +96,57 @@ test('a tarball without manifest and library is refused with a line for each com
     assert.match(stderr, /Linux\/x64\/libaudioplugin_haptoflow\.so: is missing; it is the library of linux-x64/);
     assert.equal(script('check_tarball', file, '--require', 'amiga').status, 2);
   });
+});
+
+test('a Linux library that needs a newer glibc than Ubuntu 20.04 has is refused', () => {
+  inFolder((folder) => {
+    const file = path.join(folder, 'new.tgz');
+    const place = 'Runtime/Plugins/Linux/x64/libaudioplugin_haptoflow.so';
+    for (const [version, isRefused] of [['GLIBC_2.34', true], ['GLIBC_2.31', false]]) {
+      writeFileSync(file, tarball({ 'package.json': '{}', [place]: elfOf({ machine: 62, versions: [version] }) }));
+      const { stderr } = script('check_tarball', file);
+      assert.equal(/needs glibc 2\.34; expected 2\.31 or older: build it on Debian 12/.test(stderr), isRefused, stderr);
+    }
+  });
+});
+
+test('a draft has both tarballs, the demo\'s page, checksums that agree, and notes with clicks, platforms and changes', () => {
+  inFolder((folder) => {
+    const names = [`com.github.asus4.onnxruntime-0.4.9.tgz`, `com.haptoflow.runtime-${version}.tgz`];
+    writeFileSync(path.join(folder, names[0]), 'onnxruntime');
+    const library = 'Runtime/Plugins/Windows/x64/audioplugin_haptoflow.dll';
+    writeFileSync(path.join(folder, names[1]), tarball({ 'package.json': JSON.stringify({ version }), [library]: 'MZ' }));
+    mkdirSync(path.join(folder, 'demo'));
+    writeFileSync(path.join(folder, 'demo', 'index.html'), '<p>felt</p>');
+    const draft = path.join(folder, 'release');
+    const { status, stderr } = script('draft', draft, '--tarballs', folder, '--demo', path.join(folder, 'demo'));
+    assert.equal(status, 0, stderr);
+    const archives = [...names, 'haptoflow-demo.tgz'];
+    assert.deepEqual(readdirSync(draft).sort(), ['SHA256SUMS', ...archives, 'notes.md'].sort());
+    const lines = readFileSync(path.join(draft, 'SHA256SUMS'), 'utf8').trim().split('\n').map((line) => line.split('  '));
+    assert.deepEqual(lines.map(([, name]) => name).sort(), archives.sort());
+    for (const [sum, name] of lines) assert.equal(sum, createHash('sha256').update(readFileSync(path.join(draft, name))).digest('hex'), name);
+    assert.deepEqual([...readTarball(readFileSync(path.join(draft, 'haptoflow-demo.tgz'))).keys()], ['haptoflow-demo/index.html']);
+    const notes = readFileSync(path.join(draft, 'notes.md'), 'utf8');
+    for (const text of [...names, 'Package Manager > + > Install package from tarball', '| Windows x86-64 | yes |', '| Linux arm64 | no |', 'Offline engine']) assert.ok(notes.includes(text), text);
+    assert.equal(script('draft', draft, '--tarballs', path.join(folder, 'demo')).status, 1, 'without tarballs');
+  });
+});
+
+test('the changes of a version are those of its own section', () => {
+  const changelog = '# Changelog\n\n## 1.0.1\n\n- Second.\n\n### Part\n\n- More.\n\n## 1.0.10 (2026)\n\n- Tenth.\n\n## 1.0.0\n\n- First.\n';
+  assert.equal(changesOf(changelog, '1.0.1'), '- Second.\n\n### Part\n\n- More.');
+  assert.equal(changesOf(changelog, '1.0.10'), '- Tenth.');
+  assert.throws(() => changesOf(changelog, '2.0.0'), /has no section "## 2\.0\.0"/);
+});
+
+test('the workflow of a release makes a draft from files that the steps before it make, with the library of every platform', () => {
+  const workflow = readFileSync(inRepository('.github', 'workflows', 'release.yml'), 'utf8');
+  const ci = readFileSync(inRepository('.github', 'workflows', 'ci.yml'), 'utf8');
+  const required = platforms.map(({ id }) => id).join(',');
+  assert.equal(workflow.split(`--require ${required}`).length, 3, 'pack and check_tarball require every platform');
+  for (const { id } of platforms) assert.match(ci, new RegExp(`name: native-${id}\n`), id);
+  assert.match(workflow, /gh release create .*--draft .*--notes-file out\/release\/notes\.md out\/release\/\*\.tgz out\/release\/SHA256SUMS/);
 });
 
 const git = (folder, ...words) => {

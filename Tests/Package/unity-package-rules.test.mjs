@@ -3,6 +3,7 @@ import test from 'node:test';
 import { checkPackage, rules } from '../../scripts/pack/check_package.mjs';
 import { importedObjectId, xxHash64 } from '../../scripts/pack/imported_ids.mjs';
 import { PackageFiles } from '../../scripts/pack/package_files.mjs';
+import { elfOf } from './support/elf.mjs';
 
 const guid = (number) => number.toString(16).padStart(32, '0');
 const importerGuid = guid(0xa1);
@@ -31,9 +32,7 @@ const librarySettings = `  isPreloaded: 1
       settings:
         CPU: x86_64
   userData: `;
-const library = Buffer.alloc(64);
-library.writeUInt32BE(0x7f454c46, 0);
-library.writeUInt16LE(62, 18);
+const library = elfOf({ machine: 62 });
 
 const asmdef = (fields) => JSON.stringify({ references: [], includePlatforms: [], defineConstraints: [], versionDefines: [], ...fields });
 const scene = `--- !u!1 &100

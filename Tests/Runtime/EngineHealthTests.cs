@@ -57,7 +57,7 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator ShuttingDownDuringLoadingCausesNoError()
         {
-            HaptoFlowSettings.Active.Quality = HapticQuality.Auto;
+            HaptoFlowSettings.Active.Quality = HapticQuality.Fine;
             HapticSession loading = HapticSession.Current;
             HapticSession.ShutDown();
             loading.FinishLoading();

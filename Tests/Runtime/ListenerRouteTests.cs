@@ -73,6 +73,51 @@ namespace HaptoFlow.Tests
             AudioListener.volume = 1f;
         }
 
+        [UnityTest]
+        public IEnumerator ASourceBypassesTheListenersEffectsAndNotItsOwn()
+        {
+            FinishLoading();
+            Board();
+            GameObject owner = Make("Output");
+            owner.AddComponent<AudioSource>().bypassEffects = true;
+            var output = owner.AddComponent<HapticOutput>();
+            Circling();
+            yield return Frames(40);
+            var source = owner.GetComponent<AudioSource>();
+            Assert.That(source.bypassEffects, Is.False, "the output is a filter of its source");
+            Assert.That(source.bypassListenerEffects && source.bypassReverbZones, Is.True);
+            Assert.That(output.Level, Is.GreaterThan(Audible));
+        }
+
+        [UnityTest]
+        public IEnumerator ASourceBesideTheListenerPlaysOnceAndLeavesOtherSoundsAlone()
+        {
+            FinishLoading();
+            Board();
+            GameObject music = Make("Music");
+            music.AddComponent<AudioSource>();
+            music.AddComponent<SteadySource>();
+            GameObject listener = UnityEngine.Object.FindObjectsByType<AudioListener>(
+                FindObjectsInactive.Exclude, FindObjectsSortMode.None)[0].gameObject;
+            var output = listener.AddComponent<HapticOutput>();
+            var tap = listener.AddComponent<AudioTap>();
+            HapticStylus stylus = Circling();
+            yield return Frames(5);
+            tap.Restart();
+            stylus.TryGetStatistics(out VoiceStatistics before);
+            yield return Frames(40);
+            Assert.That(tap.Peak(0), Is.EqualTo(0.25f).Within(1e-6f), "the game's sound");
+            Assert.That(output.Level, Is.GreaterThan(Audible), "the haptics");
+            Assert.That(stylus.TryGetStatistics(out VoiceStatistics after), Is.True);
+            AudioSettings.GetDSPBufferSize(out int blockFrames, out _);
+            Assert.That(after.RenderedFrames - before.RenderedFrames,
+                Is.EqualTo((ulong)(tap.Blocks * blockFrames)).Within(4 * blockFrames), "each block is rendered once");
+            output.enabled = false;
+            output.enabled = true;
+            yield return Frames(5);
+            Assert.That(output.transform.childCount, Is.EqualTo(1), "no second source");
+        }
+
         private AudioTap Ears(out HapticOutput output)
         {
             GameObject listener = Make("Ears");

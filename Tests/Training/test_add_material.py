@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 import os
 from pathlib import Path
@@ -37,6 +38,21 @@ def add(*words: str | Path) -> int:
     return main(["add-material", "--model", str(DEFAULT), *QUICK, *map(str, words)])
 
 
+def test_a_label_in_a_sidecar_never_chooses_the_output(
+    recording: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    own = tmp_path / "own.csv"
+    own.write_bytes(recording.read_bytes())
+    words = json.loads(recording.with_suffix(".json").read_text()) if recording.with_suffix(".json").exists() else {}
+    own.with_suffix(".json").write_text(json.dumps({**words, "label": "../victim/wood"}))
+    inner = tmp_path / "inner"
+    inner.mkdir()
+    monkeypatch.chdir(inner)
+    assert add("--recording", own, "--steps", 1) == 0
+    assert [path.name for path in inner.iterdir()] == ["own.haptomaterial"]
+    assert read_material(inner / "own.haptomaterial").name == "../victim/wood"
+
+
 @pytest.fixture(scope="module")
 def extended(recording: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     out = tmp_path_factory.mktemp("extended") / "mine.haptoflow"
@@ -50,9 +66,9 @@ def test_a_material_file_states_what_was_recorded(
     monkeypatch.chdir(tmp_path)
     assert add("--recording", recording) == 0
     said = capsys.readouterr().out
-    assert "doormat.haptomaterial" in said
+    assert "mat.haptomaterial" in said
     assert "5.4 s is little" in said
-    material = read_material(tmp_path / "doormat.haptomaterial", space=model_space(read_model_file(DEFAULT)))
+    material = read_material(tmp_path / "mat.haptomaterial", space=model_space(read_model_file(DEFAULT)))
     assert material.name == "doormat"
     assert material.provenance.licence == "CC BY 4.0"
     assert material.provenance.seconds == pytest.approx(5.4, abs=0.1)

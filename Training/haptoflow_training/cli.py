@@ -11,8 +11,9 @@ import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from haptoflow_training.errors import InputError
+from haptoflow_training.errors import InputError, printable
 from haptoflow_training.stopping import Stopped, stoppable
+from haptoflow_training.whole_file import require_apart
 
 
 @dataclass(frozen=True)
@@ -71,10 +72,11 @@ def run_program(
             subparsers.add_parser(key, help=command.summary, add_help=False)
     options = parser.parse_args(words)
     try:
+        require_apart(vars(options))
         with stoppable():
             return int(options.run(options))
     except InputError as error:
-        print(f"{name}: {error}", file=sys.stderr)
+        print(f"{name}: {printable(str(error))}", file=sys.stderr)
         return 3
     except Stopped as stop:
         print(f"{name}: {stop}", file=sys.stderr)

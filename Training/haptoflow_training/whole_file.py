@@ -5,9 +5,43 @@ from __future__ import annotations
 import contextlib
 import errno
 import os
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from haptoflow_training.errors import InputError
+
+# Options of every command that name a file to write.
+_OUTPUT_OPTIONS = ("out", "results", "export", "parity", "page", "chart")
+
+
+def require_apart(options: Mapping[str, object]) -> None:
+    """InputError if an output is the same file as another path of the command's options, by any spelling or link: the
+    one rule for both programs, called before a command runs. Folders are left to the command."""
+    paths = list(_paths_of(options))
+    for option, output in paths:
+        if option not in _OUTPUT_OPTIONS or output.is_dir():
+            continue
+        for other, path in paths:
+            if other != option and _is_same_file(output, path):
+                use = "writes, too" if other in _OUTPUT_OPTIONS else "reads"
+                raise InputError(
+                    f"--{option} {output}: is the same file as {path}, which the command {use}; name another file for "
+                    f"--{option}"
+                )
+
+
+def _paths_of(options: Mapping[str, object]) -> Iterator[tuple[str, Path]]:
+    for option, value in options.items():
+        for path in value if isinstance(value, list) else [value]:
+            if isinstance(path, Path):
+                yield option, path
+
+
+def _is_same_file(one: Path, other: Path) -> bool:
+    try:
+        return one.samefile(other)
+    except OSError:
+        return os.path.normcase(one.resolve()) == os.path.normcase(other.resolve())
 
 
 def write_whole(path: Path, content: bytes) -> None:

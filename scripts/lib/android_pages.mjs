@@ -1,17 +1,10 @@
 import { mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { loadAlignment } from '../pack/elf.mjs';
 import { CommandError, runOrFail } from './process.mjs';
 import { inRepository } from './repository.mjs';
 
 /** Devices with Android 15 and later may have pages of 16 KiB; they load no library whose segments are aligned to less. */
 export const androidPageBytes = 16384;
-
-/** The largest alignment of the segments that a 64-bit little-endian ELF loads; 0 where there is none. */
-export function loadAlignment(elf) {
-  const [offset, size, count] = [Number(elf.readBigUInt64LE(32)), elf.readUInt16LE(54), elf.readUInt16LE(56)];
-  const headers = Array.from({ length: count }, (_, index) => elf.subarray(offset + index * size, offset + (index + 1) * size));
-  const load = 1;
-  return Math.max(0, ...headers.filter((header) => header.readUInt32LE(0) === load).map((header) => Number(header.readBigUInt64LE(48))));
-}
 
 /** The linker options for the page size in a link command. */
 export const pageOptions = (command) => [...command.matchAll(/-Wl,-z,max-page-size=\S+/g)].map(([option]) => option);

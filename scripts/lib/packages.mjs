@@ -11,10 +11,10 @@ export const packagesByPurpose = {
     'python3', 'python3-torch', 'python3-onnx', 'python3-numpy', 'python3-scipy', 'python3-pandas', 'python3-matplotlib',
     'python3-tqdm', 'python3-pytest', 'python3-pytest-xdist', 'python3-openpyxl', 'libopenblas0-pthread',
   ],
-  platforms: [
-    'g++-mingw-w64-x86-64-posix', 'binutils-mingw-w64-x86-64', 'wine', 'wine64', 'g++-aarch64-linux-gnu', 'qemu-user',
-    'googletest',
-  ],
+  // The compilers for Windows x64 and Linux arm64.
+  cross: ['g++-mingw-w64-x86-64-posix', 'binutils-mingw-w64-x86-64', 'g++-aarch64-linux-gnu'],
+  // What the tests of those libraries need besides; debootstrap makes the system with an older C library.
+  platforms: ['wine', 'wine64', 'qemu-user', 'googletest', 'debootstrap'],
   // Libraries that the SDK needs, and curl for Microsoft's install script: see dotnet.mjs.
   dotnet: ['ca-certificates', 'curl', 'libicu-dev'],
   // mono-devel has the facades of .NET Standard.
@@ -47,6 +47,7 @@ export const packageOfProgram = {
   wine: 'wine',
   wine64: 'wine64',
   'qemu-aarch64': 'qemu-user',
+  debootstrap: 'debootstrap',
   'x86_64-w64-mingw32-objdump': 'binutils-mingw-w64-x86-64',
   'x86_64-w64-mingw32-gcc-posix': 'g++-mingw-w64-x86-64-posix',
   'x86_64-w64-mingw32-g++-posix': 'g++-mingw-w64-x86-64-posix',

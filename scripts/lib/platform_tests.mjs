@@ -4,6 +4,7 @@ import { judgeAndroidPages } from './android_pages.mjs';
 import { judgeExportsOfDll } from './exported_names.mjs';
 import { judgeJunit, results } from './judge_junit.mjs';
 import { buildNative, presetFolder } from './native_build.mjs';
+import { runsOnOldGlibc } from './old_glibc.mjs';
 import { runNpmOrFail } from './process.mjs';
 import { inRepository } from './repository.mjs';
 import { addCounts, noCounts } from './test_counts.mjs';
@@ -84,5 +85,8 @@ export async function platformTests() {
     }
   }
   console.log('test: pages of the library for Android');
-  return addCounts(counts, await judgeAndroidPages());
+  counts = addCounts(counts, await judgeAndroidPages());
+  console.log('test: the Linux library on Debian 11');
+  await buildNative({ targets: ['audioplugin_haptoflow'] });
+  return addCounts(counts, await runsOnOldGlibc());
 }

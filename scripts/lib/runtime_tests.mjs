@@ -5,7 +5,7 @@ import { dotnetEnvironment, findDotnet } from './dotnet.mjs';
 import { judgeJunit, results } from './judge_junit.mjs';
 import { withoutReadOnlyMarks } from './mono_signatures.mjs';
 import { buildNative, presetFolder } from './native_build.mjs';
-import { CommandError, runOrFail, succeeds } from './process.mjs';
+import { CommandError, run, runOrFail, succeeds } from './process.mjs';
 import { inRepository } from './repository.mjs';
 import { addCounts, noCounts } from './test_counts.mjs';
 
@@ -18,15 +18,25 @@ export const monoProjects = ['RepositoryTests', 'Tests', 'EditorTests', 'ShimTes
  */
 export const leftOut = {
   mono: [],
-  aot: [],
+  aot: [
+    {
+      because: 'they look for methods and structs of the core by reflection, and trimming removes what only reflection finds',
+      tests: ['NativeStructsAndCallbacksArePreservedFromStripping', 'EveryFunctionOfTheHeaderIsDeclaredAndExported'],
+    },
+    {
+      because: 'NUnit makes the values of their parameters by generic methods or attributes that a compiler cannot make ahead of time',
+      tests: [
+        'RandomStrokesHitchesStopsAndLossesLeaveNoStuckVibration', 'RandomStrokesHitchesStopsAndLossesObeyTheRulesOfStreams',
+        'PlayableFrequenciesKeepTheirLevel', 'AliasingFrequenciesAreSuppressed', 'AHitchCausesAGapWithAFadeAtBothEnds',
+        'AHitchOfAQueueingDeviceEndsAtASmallSampleAndFadesIn',
+      ],
+    },
+  ],
 };
 
 const exceptions = (runner) => leftOut[runner].flatMap(({ tests }) => tests);
 
 const onnxRuntime = () => inRepository('node_modules', 'com.github.asus4.onnxruntime', 'Plugins', 'Linux', 'x64');
-
-/** Where the own programs of tests find the native libraries. */
-const libraries = (...folders) => ({ LD_LIBRARY_PATH: folders.join(path.delimiter) });
 
 function sdkOrFail() {
   const command = findDotnet();
@@ -34,27 +44,33 @@ function sdkOrFail() {
   return command;
 }
 
+/** Builds one project as a program for Mono and runs it. A project that does not build counts as one failure. */
+async function judgeUnderMono(command, project) {
+  const build = inRepository('build', 'mono');
+  const words = ['build', inRepository('Tests', 'Dotnet', `HaptoFlow.${project}`), `-m:${os.cpus().length}`, '-c', 'Release', '--nologo', '-v', 'quiet'];
+  const { exitCode } = await run(command, [...words, '-p:TestRuntime=mono', `-p:ArtifactsPath=${build}`], { env: dotnetEnvironment(command) });
+  if (exitCode !== 0) {
+    console.error(`test: HaptoFlow.${project} does not build for Mono: its tests may use what only .NET has`);
+    return { ...noCounts, failed: 1 };
+  }
+  const folder = path.join(build, 'bin', `HaptoFlow.${project}`, 'release');
+  for (const name of readdirSync(folder).filter((each) => /^HaptoFlow.*\.dll$/.test(each))) {
+    const bytes = readFileSync(path.join(folder, name));
+    if (withoutReadOnlyMarks(bytes) > 0) writeFileSync(path.join(folder, name), bytes);
+  }
+  const env = project === 'MissingLibraryTests' ? {} : { LD_LIBRARY_PATH: [inRepository(presetFolder('release')), onnxRuntime()].join(':') };
+  const file = `mono-${project.toLowerCase()}.xml`;
+  const args = ['--debug', path.join(folder, `HaptoFlow.${project}.dll`), results(file), ...exceptions('mono')];
+  return judgeJunit(file, 'mono', args, { env, limitSeconds: 1800 });
+}
+
 /** The tests of the package's C# under Debian's Mono, each project as a program of its own. */
 export async function mono() {
   if (!succeeds('mono', ['--version'])) return { ...noCounts, skipped: monoProjects.length };
   const command = sdkOrFail();
   await buildNative({ targets: ['audioplugin_haptoflow'] });
-  const build = inRepository('build', 'mono');
-  const words = [`-m:${os.cpus().length}`, '-c', 'Release', '--nologo', '-v', 'quiet', '-p:TestRuntime=mono', `-p:ArtifactsPath=${build}`];
   let counts = noCounts;
-  for (const project of monoProjects) {
-    await runOrFail(command, ['build', inRepository('Tests', 'Dotnet', `HaptoFlow.${project}`), ...words], { env: dotnetEnvironment(command) });
-    const folder = path.join(build, 'bin', `HaptoFlow.${project}`, 'release');
-    for (const name of readdirSync(folder).filter((each) => /^HaptoFlow.*\.dll$/.test(each))) {
-      const bytes = readFileSync(path.join(folder, name));
-      if (withoutReadOnlyMarks(bytes) > 0) writeFileSync(path.join(folder, name), bytes);
-    }
-    const isWithoutLibrary = project === 'MissingLibraryTests';
-    const env = isWithoutLibrary ? {} : libraries(inRepository(presetFolder('release')), onnxRuntime());
-    const file = `mono-${project.toLowerCase()}.xml`;
-    const args = ['--debug', path.join(folder, `HaptoFlow.${project}.dll`), results(file), ...exceptions('mono')];
-    counts = addCounts(counts, await judgeJunit(file, 'mono', args, { env, limitSeconds: 1800 }));
-  }
+  for (const project of monoProjects) counts = addCounts(counts, await judgeUnderMono(command, project));
   return counts;
 }
 

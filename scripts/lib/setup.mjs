@@ -31,8 +31,11 @@ function missingOf(wanted) {
   return missingPackages(wanted, query.stdout ?? '');
 }
 
+/** Whether this system's packages are Debian's, which set-up installs. */
+export const onDebian = () => existsSync('/etc/debian_version') && succeeds('dpkg-query', ['--version']);
+
 async function installSystemPackages(purposes) {
-  if (!existsSync('/etc/debian_version') || !succeeds('dpkg-query', ['--version'])) {
+  if (!onDebian()) {
     checkForeignSystem(purposes);
     return purposes.filter((purpose) => optionalPurposes[purpose] && !succeeds(programOf(purpose), ['--version'])).map((purpose) => optionalPurposes[purpose]);
   }

@@ -166,7 +166,7 @@ export const runners = {
   libcxx: { purposes: ['build', 'libcxx'], long: true, execute: libcxx },
   mono: { purposes: ['build', 'dotnet', 'pictures', 'mono'], long: true, execute: mono },
   aot: { purposes: ['build', 'dotnet'], long: true, execute: aot },
-  platforms: { purposes: ['build', 'test', 'platforms'], long: true, execute: platformTests },
+  platforms: { purposes: ['build', 'test', 'cross', 'platforms'], long: true, execute: platformTests },
 };
 
 /** The names of the runners to run: the one of --only, else those of the form. */

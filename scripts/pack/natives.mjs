@@ -1,35 +1,46 @@
-import { closeSync, existsSync, openSync, readSync } from 'node:fs';
+import { existsSync, readFileSync } from 'node:fs';
 import path from 'node:path';
-import { androidPreset, rebuildAndroid } from '../build/android_build.mjs';
+import { androidPreset, buildAndroid, rebuildAndroid } from '../build/android_build.mjs';
+import { findNdk } from '../build/android_tools.mjs';
 import { buildNative, presetFolder } from '../lib/native_build.mjs';
+import { CommandError } from '../lib/process.mjs';
 import { inRepository } from '../lib/repository.mjs';
+import { onDebian, setUp } from '../lib/setup.mjs';
+import { needsOf } from './elf.mjs';
 
 /** Where the package keeps its native libraries. */
 export const pluginsFolder = 'Runtime/Plugins';
 
 /**
  * The platforms of the package: the library's place below Runtime/Plugins, its binary format, the presets that build it, and
- * what the first of them needs.
+ * where `npm run build -- --platform ID`, the command that adds it, runs.
  */
 export const platforms = [
-  { name: 'Linux x86-64', id: 'linux-x64', place: 'Linux/x64/libaudioplugin_haptoflow.so', kind: 'elf-x86-64', presets: ['release'], needs: 'a Linux x64 machine' },
-  { name: 'Windows x86-64', id: 'windows-x64', place: 'Windows/x64/audioplugin_haptoflow.dll', kind: 'pe-x86-64', presets: ['windows-x64', 'windows-msvc', 'release'], needs: 'mingw-w64' },
-  { name: 'macOS', id: 'macos', place: 'macOS/libaudioplugin_haptoflow.dylib', kind: 'macho-universal', presets: ['macos'], needs: 'a Mac' },
-  { name: 'Android arm64', id: 'android-arm64', place: 'Android/arm64-v8a/libaudioplugin_haptoflow.so', kind: 'elf-arm64', presets: ['android-arm64'], needs: 'the Android NDK' },
+  { name: 'Linux x86-64', id: 'linux-x64', place: 'Linux/x64/libaudioplugin_haptoflow.so', kind: 'elf-x86-64', presets: ['release'], where: 'on Linux x64' },
+  { name: 'Linux arm64', id: 'linux-arm64', place: 'Linux/arm64/libaudioplugin_haptoflow.so', kind: 'elf-arm64', presets: ['linux-arm64', 'release'], where: 'on Linux' },
+  { name: 'Windows x86-64', id: 'windows-x64', place: 'Windows/x64/audioplugin_haptoflow.dll', kind: 'pe-x86-64', presets: ['windows-x64', 'windows-msvc', 'release'], where: 'on Linux or Windows' },
+  { name: 'macOS arm64', id: 'macos', place: 'macOS/libaudioplugin_haptoflow.dylib', kind: 'macho-arm64', presets: ['macos'], where: 'on a Mac' },
+  { name: 'Android arm64', id: 'android-arm64', place: 'Android/arm64-v8a/libaudioplugin_haptoflow.so', kind: 'android-arm64', presets: ['android-arm64'], where: 'with Unity\'s Android Build Support, or ANDROID_NDK_ROOT set' },
 ];
 
-const elfMachines = { 62: 'elf-x86-64', 183: 'elf-arm64' };
+/** The oldest glibc of the systems that Unity 2022.3 supports (Ubuntu 20.04): a library of a release needs no newer one. */
+export const oldestGlibc = [2, 31];
+
+const elfMachines = { 62: 'x86-64', 183: 'arm64' };
 const peMachines = { 0x8664: 'pe-x86-64', 0xaa64: 'pe-arm64' };
 const machoMachines = { 0x0100000c: 'arm64', 0x01000007: 'x86-64' };
 
-/** The format and processor of a library by the first bytes of its file, such as "elf-x86-64"; null for anything else. */
+/** The name of Android's C library differs from that of every other Linux. */
+function kindOfElf(bytes) {
+  const machine = elfMachines[bytes.readUInt16LE(18)];
+  if (machine === undefined) return null;
+  return `${needsOf(bytes).libraries.includes('libc.so') ? 'android' : 'elf'}-${machine}`;
+}
+
+/** The format and processor of a library by its bytes, such as "elf-x86-64"; null for anything else. */
 export function kindOfLibrary(bytes) {
-  if (bytes.length >= 20 && bytes.readUInt32BE(0) === 0x7f454c46) return elfMachines[bytes.readUInt16LE(18)] ?? null;
+  if (bytes.length >= 20 && bytes.readUInt32BE(0) === 0x7f454c46) return kindOfElf(bytes);
   if (bytes.length >= 8 && bytes.readUInt32LE(0) === 0xfeedfacf) return `macho-${machoMachines[bytes.readUInt32LE(4)] ?? 'other'}`;
-  if (bytes.length >= 8 && bytes.readUInt32BE(0) === 0xcafebabe) {
-    const found = Array.from({ length: Math.min(bytes.readUInt32BE(4), Math.floor((bytes.length - 8) / 20)) }, (_, index) => machoMachines[bytes.readUInt32BE(8 + 20 * index)]);
-    return found.includes('arm64') && found.includes('x86-64') ? 'macho-universal' : null;
-  }
   if (bytes.length >= 64 && bytes.toString('latin1', 0, 2) === 'MZ') {
     const header = bytes.readUInt32LE(60);
     const isPe = header + 6 <= bytes.length && bytes.toString('latin1', header, header + 4) === 'PE\0\0';
@@ -38,23 +49,45 @@ export function kindOfLibrary(bytes) {
   return null;
 }
 
-function beginningOf(file) {
-  const bytes = Buffer.alloc(4096);
-  const descriptor = openSync(file, 'r');
-  try {
-    return bytes.subarray(0, readSync(descriptor, bytes, 0, bytes.length, 0));
-  } finally {
-    closeSync(descriptor);
-  }
+/**
+ * The presets that `pack` builds on this machine: its own; on Debian for x64 those of the cross compilers that set-up
+ * installs; where an NDK is found Android's; and every preset that is configured, so that no library in the package is out of
+ * date.
+ * @param {{platform: string, arch: string, isDebian: boolean, hasNdk: boolean, isConfigured: (preset: string) => boolean}} machine
+ */
+export function presetsToBuild({ platform, arch, isDebian, hasNdk, isConfigured }) {
+  const own = platform === 'darwin' ? 'macos' : 'release';
+  const crossed = isDebian && arch === 'x64' ? ['linux-arm64', 'windows-x64'] : [];
+  const ofNdk = hasNdk ? [androidPreset] : [];
+  const configured = platforms.flatMap(({ presets }) => presets).filter(isConfigured);
+  return [...new Set([own, ...crossed, ...configured, ...ofNdk])];
 }
 
-/** Builds the library of this machine and of every configured preset, so that no library in the package is out of date. */
+/** Builds the libraries that this machine can build. @returns {Promise<Set<string>>} the presets that could not be built */
 export async function buildNatives() {
-  const own = process.platform === 'darwin' ? 'macos' : 'release';
-  const configured = platforms.flatMap(({ presets }) => presets).filter((preset) => existsSync(inRepository(presetFolder(preset), 'build.ninja')));
-  for (const preset of new Set([own, ...configured])) {
-    if (preset === androidPreset) await rebuildAndroid();
-    else await buildNative({ preset, targets: ['audioplugin_haptoflow'] });
+  const isDebian = onDebian();
+  const hasNdk = findNdk().ndk !== null;
+  const isConfigured = (preset) => existsSync(inRepository(presetFolder(preset), 'build.ninja'));
+  const presets = presetsToBuild({ platform: process.platform, arch: process.arch, isDebian, hasNdk, isConfigured });
+  await setUp(['build', 'files', ...(presets.some((preset) => ['linux-arm64', 'windows-x64'].includes(preset)) ? ['cross'] : [])]);
+  const failed = new Set();
+  for (const preset of presets) {
+    if (preset !== androidPreset) await buildNative({ preset, targets: ['audioplugin_haptoflow'] });
+    else if (!(await triesAndroid(hasNdk))) failed.add(preset);
+  }
+  return failed;
+}
+
+/** Android's compiler was never tried here: where it fails, the tarball has the other libraries. */
+async function triesAndroid(hasNdk) {
+  try {
+    if (hasNdk) await buildAndroid();
+    else await rebuildAndroid();
+    return true;
+  } catch (error) {
+    if (!(error instanceof CommandError)) throw error;
+    console.error(`pack: Android arm64: ${error.message}`);
+    return false;
   }
 }
 
@@ -65,20 +98,24 @@ export function foldersFor(platform) {
   return platform.presets.map(folderOf).flatMap((folder) => [folder, path.join(folder, 'Release')]);
 }
 
+/** The command that adds a platform's library, and where it runs. */
+export const commandFor = ({ id, where }) => `\`npm run build -- --platform ${id}\` ${where}`;
+
 /**
  * Finds the built libraries, and the platforms without one.
  * @param {(platform: object) => string[]} folders where to look, in this order
+ * @param {Set<string>} failed presets whose last build failed: an older library of theirs is left out
  * @returns {{found: {platform: object, file: string}[], absent: {platform: object, why: string}[]}}
  */
-export function findNatives(folders = foldersFor) {
+export function findNatives(folders = foldersFor, failed = new Set()) {
   const found = [];
   const absent = [];
   for (const platform of platforms) {
     const files = folders(platform).map((folder) => path.join(folder, path.basename(platform.place)));
-    const file = files.find((candidate) => existsSync(candidate) && kindOfLibrary(beginningOf(candidate)) === platform.kind);
-    const [preset] = platform.presets;
-    if (file) found.push({ platform, file });
-    else absent.push({ platform, why: `not built; the preset ${preset} needs ${platform.needs}` });
+    const file = files.find((candidate) => existsSync(candidate) && kindOfLibrary(readFileSync(candidate)) === platform.kind);
+    const hasFailed = platform.presets.some((preset) => failed.has(preset));
+    if (file && !hasFailed) found.push({ platform, file });
+    else absent.push({ platform, why: `${hasFailed ? 'its build failed (the reason is above)' : 'not built'}; ${commandFor(platform)} adds it` });
   }
   return { found, absent };
 }

@@ -50,16 +50,19 @@ function headerOf(name, bytes) {
   return header;
 }
 
-async function* entries(folder) {
+async function* entries(folder, top) {
   for (const name of filesBelow(folder)) {
     const file = path.join(folder, name);
     const { size } = lstatSync(file);
-    yield headerOf(`package/${name}`, size);
+    yield headerOf(`${top}/${name}`, size);
     yield* createReadStream(file);
     yield Buffer.alloc((blockBytes - (size % blockBytes)) % blockBytes);
   }
   yield Buffer.alloc(2 * blockBytes);
 }
 
-/** Packs a folder as npm does, but as a stream: npm keeps the whole tarball in memory. */
-export const streamTarball = (folder, file) => pipeline(Readable.from(entries(folder)), createGzip(), createWriteStream(file));
+/**
+ * Packs a folder as npm does, but as a stream: npm keeps the whole tarball in memory.
+ * @param {string} top name of the folder that the archive unpacks to
+ */
+export const streamTarball = (folder, file, top = 'package') => pipeline(Readable.from(entries(folder, top)), createGzip(), createWriteStream(file));

@@ -5,14 +5,15 @@ import { parseArgs } from 'node:util';
 import { CommandError, runMain } from '../lib/process.mjs';
 import { callerFolder } from '../lib/repository.mjs';
 import { checkPackage } from '../pack/check_package.mjs';
-import { kindOfLibrary, platforms, pluginsFolder } from '../pack/natives.mjs';
+import { isNewerThan, neededGlibc } from '../pack/elf.mjs';
+import { kindOfLibrary, oldestGlibc, platforms, pluginsFolder } from '../pack/natives.mjs';
 import { PackageFiles } from '../pack/package_files.mjs';
 import { readTarball } from '../pack/tarball.mjs';
 
 const help = `usage: node scripts/release/check_tarball.mjs FILE [--require NAMES]
 
 Unpacks FILE in memory and checks it for what Unity would refuse, leave out or lose, and that each library in it is built
-for its platform. Ends with 1 and one line for each complaint.
+for its platform and, on Linux, needs no newer glibc than ${oldestGlibc.join('.')}. Ends with 1 and one line for each complaint.
 
   --require NAMES  platforms whose library must be there: ${platforms.map(({ id }) => id).join(',')}`;
 
@@ -22,7 +23,10 @@ function complaintsOf(files, required) {
     const name = `${pluginsFolder}/${place}`;
     if (!files.has(name)) return required.includes(id) ? [`${name}: is missing; it is the library of ${id}`] : [];
     const found = kindOfLibrary(files.bytes(name));
-    return found === kind ? [] : [`${name}: is ${found ?? 'no library'}; expected ${kind}`];
+    if (found !== kind) return [`${name}: is ${found ?? 'no library'}; expected ${kind}`];
+    const glibc = kind.startsWith('elf-') ? neededGlibc(files.bytes(name)) : null;
+    const isTooNew = glibc !== null && isNewerThan(glibc, oldestGlibc);
+    return isTooNew ? [`${name}: needs glibc ${glibc.join('.')}; expected ${oldestGlibc.join('.')} or older: build it on Debian 12`] : [];
   });
   return [...checkPackage(files), ...natives];
 }

@@ -1,11 +1,12 @@
 // Makes a Unity project that holds the packed package and runs its tests; --help
-import { copyFileSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+import { copyFileSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { parseArgs } from 'node:util';
 import { CommandError, runMain } from '../lib/process.mjs';
 import { inRepository, callerFolder } from '../lib/repository.mjs';
 import { dependencyName } from '../pack/dependency.mjs';
 import { packageName } from '../pack/layout.mjs';
+import { tarballOf } from './tarballs.mjs';
 
 const help = `usage: node scripts/release/unity_project.mjs FOLDER --unity VERSION [--tarballs out]
 
@@ -24,13 +25,6 @@ function optionsOf(words) {
   } catch (error) {
     throw error instanceof CommandError ? error : new CommandError(error.message, 2);
   }
-}
-
-/** The one tarball of a package in a folder. */
-function tarballOf(name, folder) {
-  const found = existsSync(folder) ? readdirSync(folder).filter((file) => file.startsWith(`${name}-`) && file.endsWith('.tgz')) : [];
-  if (found.length !== 1) throw new CommandError(`${folder}: holds ${found.length} tarballs of ${name}; expected one: \`npm run pack\` makes it`);
-  return found[0];
 }
 
 await runMain('unity_project', async (words) => {

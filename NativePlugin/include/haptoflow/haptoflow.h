@@ -146,7 +146,9 @@ enum {
     HAPTOFLOW_SILENCE_RATE = 6,
     HAPTOFLOW_SILENCE_CLOSING = 7,
     /* The engine's worker thread has ended: haptoflow_engine_last_failure says why. */
-    HAPTOFLOW_SILENCE_WORKER_DEAD = 8
+    HAPTOFLOW_SILENCE_WORKER_DEAD = 8,
+    /* The voice's strength or ceiling is 0. */
+    HAPTOFLOW_SILENCE_TURNED_DOWN = 9
 };
 
 /* Returns a reason's name, for example "HAPTOFLOW_SILENCE_STALE", or "HAPTOFLOW_UNKNOWN_SILENCE" for any other number.
@@ -399,7 +401,7 @@ typedef int32_t haptoflow_quality;
 enum {
     /* Measures the model's tiers on this machine while nothing touches and uses the most accurate one (by the figures
      * in the model's header) that fits the budget. Changes to a faster tier when the machine cannot keep up, and to a
-     * more accurate one when it can again. */
+     * more accurate one when it can again. Needs a worker: an engine without one refuses it with INVALID_ARGUMENT. */
     HAPTOFLOW_QUALITY_AUTO = 0,
     /* The tier "draft", or the model's first tier if it has no such tier. */
     HAPTOFLOW_QUALITY_DRAFT = 1,
@@ -426,7 +428,8 @@ typedef struct haptoflow_engine_options {
     uint64_t seed;
     /* Voices that one run of a graph computes, 1 to 64; 0 for 8. More voices take several runs. */
     uint32_t batch_voices;
-    /* 1 for an engine without a worker thread: the caller calls haptoflow_engine_step. 0 otherwise. */
+    /* 1 for an engine without a worker thread: the caller calls haptoflow_engine_step and sets a fixed quality. 0
+     * otherwise. */
     uint32_t without_worker;
     /* Lead: the time from a contact state to the first sample generated from it, above 0 to 50 ms; 0 for the shortest
      * that the engine can keep on this machine. With a fixed lead, an engine without worker is deterministic. */
@@ -572,10 +575,12 @@ enum {
     /* The filter of a material's tone and of a surface's tone_db_per_octave; directly after the texture. */
     HAPTOFLOW_EFFECT_TONE = 6,
     /* The sine of a latency study, which replaces texture, impact and edge: haptoflow_voice_set_signal. */
-    HAPTOFLOW_EFFECT_SIGNAL = 7
+    HAPTOFLOW_EFFECT_SIGNAL = 7,
+    /* Louder and brighter for ears: haptoflow_voice_set_listen. */
+    HAPTOFLOW_EFFECT_LISTEN = 8
 };
 
-#define HAPTOFLOW_EFFECT_COUNT 8
+#define HAPTOFLOW_EFFECT_COUNT 9
 /* Sets of effects: one bit for each, and one for the empty set. */
 #define HAPTOFLOW_ASKS_FOR_TEXTURE 0x1u
 #define HAPTOFLOW_ASKS_FOR_IMPACT 0x2u
@@ -586,7 +591,11 @@ typedef struct haptoflow_contact_state {
     uint32_t struct_size;
     /* 1 while the tip touches a surface, 0 otherwise. */
     uint32_t touching;
-    /* Incremented at each touch-down, so that a touch that began and ended between two states is still rendered. */
+    /* Incremented at each touch-down, so that a touch that began and ended between two states is still rendered. A
+     * touch begins with another number, or with `touching` after a state that did not touch: it has an onset and an
+     * impact of approach_speed_mps, and it ends a panic. If `touching` returns while the number stays the same and is
+     * not 0, the touch was only interrupted, say by a surface without a material, and has no second impact. A caller
+     * that does not count leaves it at 0: each return of `touching` then has its impact. */
     uint32_t touch_counter;
     /* Used entries of labels and weights, 0 to HAPTOFLOW_MAXIMUM_BLEND. */
     uint32_t label_count;
@@ -674,6 +683,8 @@ typedef struct haptoflow_voice_statistics {
     haptoflow_silence silence;
     /* 0 if the newest block's rate is outside 8 to 192 kHz, 1 otherwise. */
     uint32_t is_rate_supported;
+    /* Impacts and edges that were lost, because more than 64 were published between two blocks; the strongest sound. */
+    uint64_t lost_blows;
 } haptoflow_voice_statistics;
 
 /* Creates a voice. sample_rate_hz is that of the output, 8000 to 192000; 0 for 48000. It may change later: see
@@ -688,8 +699,9 @@ HAPTOFLOW_API haptoflow_status haptoflow_voice_create(haptoflow_engine* engine, 
 HAPTOFLOW_API haptoflow_status haptoflow_voice_destroy(haptoflow_voice* voice);
 
 /* Publishes what the tip does now: once a frame, also while nothing touches. A touch sounds from the next block on and
- * falls silent after 100 ms of output without a new state. Values that are not finite or out of range are corrected and
- * counted. Errors: INVALID_ARGUMENT, BUSY.
+ * falls silent after 100 ms of output without a new state. All impacts and edges published between two blocks sound:
+ * the first at once, the others at their distance from it, for which states are taken to come evenly. Values that are
+ * not finite or out of range are corrected and counted. Errors: INVALID_ARGUMENT, BUSY.
  * [publisher] */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_publish(haptoflow_voice voice, const haptoflow_contact_state* state);
 
@@ -703,8 +715,9 @@ HAPTOFLOW_API haptoflow_status haptoflow_voice_publish(haptoflow_voice voice, co
 HAPTOFLOW_API haptoflow_status haptoflow_voice_render(haptoflow_voice voice, float* interleaved, uint32_t frame_count,
                                                       uint32_t channel_count, int32_t channel, double sample_rate_hz);
 
-/* Sets the gain of the output before the limiter, 0 to 1. It changes within 10 ms while the voice sounds; set while the
- * voice is silent, it applies from the first sample of the next touch. Errors: INVALID_ARGUMENT. [publisher] */
+/* Sets the gain of the output before the limiter, 0 to 1. It changes within 10 ms while the voice sounds, delayed sound
+ * included; set while the voice is silent, it applies from the first sample of the next touch.
+ * Errors: INVALID_ARGUMENT. [publisher] */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_set_strength(haptoflow_voice voice, float strength);
 
 /* Sets the maximum magnitude of the output, 0 to 1; no sample ever exceeds it. The limiter's curve begins at 0.7 of the
@@ -735,8 +748,9 @@ HAPTOFLOW_API haptoflow_status haptoflow_voice_get_statistics(haptoflow_voice vo
 HAPTOFLOW_API haptoflow_status haptoflow_voice_effect_statistics(haptoflow_voice voice, haptoflow_effect effect,
                                                                  haptoflow_effect_statistics* statistics);
 
-/* Delays the whole signal, for studies and slow displays: 0 to 0.5 s, 0 for no delay. A change fades within 20 ms. The
- * texture closes at lift-off before the delay; mute, pause and panic act after it, at once.
+/* Delays the whole signal, for studies and slow displays: 0 to 0.5 s, 0 for no delay. A change fades within 20 ms.
+ * Lift-off closes the texture before the delay; strength, ceiling, mute, pause, panic and missing states act after it,
+ * at once.
  * Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. [publisher] */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_set_delay(haptoflow_voice voice, double seconds);
 
@@ -778,7 +792,8 @@ HAPTOFLOW_API haptoflow_status haptoflow_voice_set_actuator(haptoflow_voice voic
                                                             uint64_t length);
 
 /* is_on: 1 switches the exposure guard on, which slowly lowers a level that stays high for too long, but never to
- * silence; 0 switches it off. actuator_gain: acceleration at the hand per m/s^2 of the voice, above 0 to 1000; 0 for 1.
+ * silence; 0 switches it off. Switched off it measures on, and switched on again it knows the exposure of the whole day
+ * since it was first on. actuator_gain: acceleration at the hand per m/s^2 of the voice, above 0 to 1000; 0 for 1.
  * Documentation~/effects-and-outputs.md gives the law. The guard is not a medical device.
  * Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. [publisher] */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_set_exposure_guard(haptoflow_voice voice, uint32_t is_on,
@@ -794,7 +809,8 @@ enum {
     HAPTOFLOW_EXPOSURE_DOSE = 2
 };
 
-/* State of the exposure guard after the newest block. Without a guard all values are zero and the gain is 1. */
+/* State of the exposure guard after the newest block. Without a guard that is on, all values are zero and the gain is
+ * 1. */
 typedef struct haptoflow_exposure {
     uint32_t struct_size;
     haptoflow_exposure_reason reason;
@@ -964,6 +980,50 @@ HAPTOFLOW_API haptoflow_status haptoflow_learning_report(const haptoflow_learnin
 /* Closes *learning and sets it to null; a null handle is allowed. Errors: INVALID_ARGUMENT.
  * [any-thread] Blocks while another thread opens or closes a handle. */
 HAPTOFLOW_API haptoflow_status haptoflow_learning_close(haptoflow_learning** learning);
+
+/* --------------------------------------------------------------------------------------- loudness of outputs */
+
+/* How a device in the hand takes a vibration. Each kind has a level of its own. */
+typedef int32_t haptoflow_device_kind;
+enum {
+    /* One amplitude at a time, for a motor. */
+    HAPTOFLOW_DEVICE_MOTOR = 0,
+    /* Amplitude and frequency over time. */
+    HAPTOFLOW_DEVICE_PARAMETRIC = 1,
+    /* The waveform itself. */
+    HAPTOFLOW_DEVICE_WAVEFORM = 2
+};
+
+/* Sets *share to the part of the device's range, 0 to below 1, at which an acceleration amplitude (peak, m/s^2) is
+ * played: the loudness law of Documentation~/effects-and-outputs.md, which keeps the order of any two amplitudes. An
+ * amplitude that is not above 0 gives 0. Errors: INVALID_ARGUMENT.
+ * [any-thread] Never blocks; allocates only to report an error. */
+HAPTOFLOW_API haptoflow_status haptoflow_device_share(haptoflow_device_kind kind, float amplitude_mps2, float* share);
+
+/* Applies the loudness law of HAPTOFLOW_DEVICE_WAVEFORM to a wave, by a gain that follows its envelope; delays the wave
+ * by 1 ms. */
+typedef struct haptoflow_device_wave haptoflow_device_wave;
+
+/* Creates a device wave for a sample rate of 2000 to 192000 Hz. Close it with haptoflow_device_wave_close. Errors:
+ * INVALID_ARGUMENT, OUT_OF_MEMORY. [any-thread] Blocks while another thread opens or closes a handle; allocates. */
+HAPTOFLOW_API haptoflow_status haptoflow_device_wave_create(double sample_rate_hz, haptoflow_device_wave** wave);
+
+/* Closes *wave and sets it to null; a null handle is allowed. Errors: INVALID_ARGUMENT.
+ * [any-thread] Blocks while another thread opens or closes a handle. */
+HAPTOFLOW_API haptoflow_status haptoflow_device_wave_close(haptoflow_device_wave** wave);
+
+/* Continues with silence. Errors: INVALID_ARGUMENT. [any-thread] Blocks while another thread uses this wave. */
+HAPTOFLOW_API haptoflow_status haptoflow_device_wave_reset(haptoflow_device_wave* wave);
+
+/* Replaces the next sample_count samples, +-1 at full_scale_mps2, by those for the device, within +-1. Samples that are
+ * not finite count as 0. Errors: INVALID_ARGUMENT. [any-thread] Blocks while another thread uses this wave. */
+HAPTOFLOW_API haptoflow_status haptoflow_device_wave_process(haptoflow_device_wave* wave, float* samples,
+                                                             uint64_t sample_count, float full_scale_mps2);
+
+/* Makes a voice audible on loudspeakers (is_on 1): louder, and brighter from 150 Hz on, after every other effect and
+ * before the limiter; delays it by 1 ms. For ears only: 0 for an output that feeds an actuator. The worker prepares the
+ * effect; the change then fades over 10 ms. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. [publisher] */
+HAPTOFLOW_API haptoflow_status haptoflow_voice_set_listen(haptoflow_voice voice, uint32_t is_on);
 
 /* ---------------------------------------------------------------------------------------------------- agreement */
 

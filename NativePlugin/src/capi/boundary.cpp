@@ -15,8 +15,12 @@ namespace {
 thread_local std::array<char, 1024> message{};
 
 haptoflow_status report(haptoflow_status status, const char* text) noexcept {
-    const std::size_t length = std::min(std::strlen(text), message.size() - 1);
-    std::memcpy(message.data(), text, length);
+    std::size_t length = 0;
+    // Texts of files may be in it, and consoles obey control characters; escaping allocates, so copy byte by byte.
+    for (; *text != '\0' && length + 1 < message.size(); ++text) {
+        const auto code = static_cast<unsigned char>(*text);
+        message[length++] = code == '\n' ? ' ' : code < 0x20U || code == 0x7FU ? '?' : *text;
+    }
     message[length] = '\0';
     return status;
 }

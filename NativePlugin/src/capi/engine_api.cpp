@@ -73,6 +73,8 @@ engine::LiveEngineSettings engineSettings(const haptoflow_engine_options& given,
     settings.fullScaleMps2 = static_cast<float>(orDefault(given.full_scale_mps2, defaultFullScaleMps2));
     settings.seed = given.seed;
     settings.hasWorker = given.without_worker == 0;
+    // Before any tier is loaded.
+    engine::requireServedQuality(settings.quality, settings.hasWorker);
     if (given.fixed_lead_ms != 0.0) {
         settings.fixedLeadMs = given.fixed_lead_ms;
     }
@@ -128,6 +130,7 @@ haptoflow_status haptoflow_engine_set_quality(haptoflow_engine* engine, haptoflo
         engine::LiveEngine& live = *open->engine;
         const model::ModelHeader& header = live.model().header();
         const auto settings = qualitySettings(header, quality, live.statistics().budgetMs);
+        engine::requireServedQuality(settings, open->hasWorker);
         const std::lock_guard lock(open->loading);
         for (std::size_t tier = 0; tier < header.tiers.size(); ++tier) {
             if (isWanted(settings, tier) && !live.hasTier(tier)) {

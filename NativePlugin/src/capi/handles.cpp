@@ -36,6 +36,11 @@ WaveFeaturesTable& waveFeatures() {
     return table;
 }
 
+DeviceWaveTable& deviceWaves() {
+    static auto& table = *new DeviceWaveTable("device wave");
+    return table;
+}
+
 LearningTable& learnings() {
     static auto& table = *new LearningTable("learning");
     return table;

@@ -74,6 +74,8 @@ using GeneratorTable = HandleTable<haptoflow_generator, OpenGenerator>;
 using EngineTable = HandleTable<haptoflow_engine, OpenEngine>;
 struct OpenWaveFeatures;
 using WaveFeaturesTable = HandleTable<haptoflow_wave_features, OpenWaveFeatures>;
+struct OpenDeviceWave;
+using DeviceWaveTable = HandleTable<haptoflow_device_wave, OpenDeviceWave>;
 struct OpenLearning;
 using LearningTable = HandleTable<haptoflow_learning, const OpenLearning>;
 
@@ -84,6 +86,7 @@ using LearningTable = HandleTable<haptoflow_learning, const OpenLearning>;
 [[nodiscard]] GeneratorTable& generators();
 [[nodiscard]] EngineTable& engines();
 [[nodiscard]] WaveFeaturesTable& waveFeatures();
+[[nodiscard]] DeviceWaveTable& deviceWaves();
 [[nodiscard]] LearningTable& learnings();
 
 /// The tier of this name, or the model's default tier if `name` is null. Throws std::invalid_argument for an unknown

@@ -118,6 +118,8 @@ const char* haptoflow_silence_name(haptoflow_silence silence) {
             return "HAPTOFLOW_SILENCE_CLOSING";
         case HAPTOFLOW_SILENCE_WORKER_DEAD:
             return "HAPTOFLOW_SILENCE_WORKER_DEAD";
+        case HAPTOFLOW_SILENCE_TURNED_DOWN:
+            return "HAPTOFLOW_SILENCE_TURNED_DOWN";
         default:
             return "HAPTOFLOW_UNKNOWN_SILENCE";
     }

@@ -18,9 +18,11 @@ using effects::EffectKind;
 static_assert(engine::MaterialBlend::capacity == HAPTOFLOW_MAXIMUM_BLEND);
 static_assert(effects::effectKinds == HAPTOFLOW_EFFECT_COUNT);
 static_assert(static_cast<int>(effects::ExposureReason::dose) == HAPTOFLOW_EXPOSURE_DOSE);
+static_assert(static_cast<int>(engine::Silence::turnedDown) == HAPTOFLOW_SILENCE_TURNED_DOWN);
 static_assert(static_cast<int>(EffectKind::exposureGuard) == HAPTOFLOW_EFFECT_EXPOSURE_GUARD);
 static_assert(static_cast<int>(EffectKind::tone) == HAPTOFLOW_EFFECT_TONE);
 static_assert(static_cast<int>(EffectKind::signal) == HAPTOFLOW_EFFECT_SIGNAL);
+static_assert(static_cast<int>(EffectKind::listen) == HAPTOFLOW_EFFECT_LISTEN);
 static_assert(effects::maskOf(EffectKind::texture) == HAPTOFLOW_ASKS_FOR_TEXTURE);
 static_assert(effects::maskOf(EffectKind::impact) == HAPTOFLOW_ASKS_FOR_IMPACT);
 static_assert(effects::maskOf(EffectKind::edge) == HAPTOFLOW_ASKS_FOR_EDGE);
@@ -64,6 +66,7 @@ effects::EffectMask effectsRequestedBySettings(engine::VoiceChannels& channels) 
     return (settings.hasDelay ? effects::maskOf(EffectKind::delay) : 0U) |
            (settings.actuator != nullptr ? effects::maskOf(EffectKind::compensation) : 0U) |
            (settings.hasExposureGuard ? effects::maskOf(EffectKind::exposureGuard) : 0U) |
+           (settings.listenFullScaleMps2 > 0.0 ? effects::maskOf(EffectKind::listen) : 0U) |
            (channels.controls.signal.load().isSet() ? effects::maskOf(EffectKind::signal) : 0U);
 }
 
@@ -206,6 +209,7 @@ haptoflow_status haptoflow_voice_get_statistics(haptoflow_voice voice, haptoflow
         content.device_rate_hz = channels.deviceRateHz;
         content.silence = static_cast<haptoflow_silence>(channels.silence.load());
         content.is_rate_supported = channels.isRateSupported ? 1 : 0;
+        content.lost_blows = counters.lostBlows;
         writeDescriptor(statistics, content, "statistics");
     });
 }
@@ -286,6 +290,16 @@ haptoflow_status haptoflow_voice_set_exposure_guard(haptoflow_voice voice, uint3
     });
 }
 
+haptoflow_status haptoflow_voice_set_listen(haptoflow_voice voice, uint32_t is_on) {
+    return guarded([&] {
+        const VoiceTable::Use use = requireVoice(voice);
+        const double fullScale = is_on != 0 ? use->engine->fullScaleMps2() : 0.0;
+        use->engine->changeProcessors(*use->voice, [fullScale](engine::ProcessorSettings& settings) {
+            return std::exchange(settings.listenFullScaleMps2, fullScale) != fullScale;
+        });
+    });
+}
+
 haptoflow_status haptoflow_voice_exposure(haptoflow_voice voice, haptoflow_exposure* exposure) {
     return guarded([&] {
         const VoiceTable::Use use = requireVoice(voice);
@@ -304,7 +318,7 @@ haptoflow_status haptoflow_voice_effect_statistics(haptoflow_voice voice, haptof
                                                    haptoflow_effect_statistics* statistics) {
     return guarded([&] {
         if (effect < 0 || effect >= HAPTOFLOW_EFFECT_COUNT) {
-            throw std::invalid_argument("effect is " + std::to_string(effect) + "; expected 0 to 7");
+            throw std::invalid_argument("effect is " + std::to_string(effect) + "; expected 0 to 8");
         }
         const VoiceTable::Use use = requireVoice(voice);
         const engine::VoiceCounters& counters = use->voice->channels.counters;

@@ -14,7 +14,7 @@ constexpr double ticksPerSecond = 100.0;
 constexpr double recentSeconds = 60.0;
 // The weight after 10 s of play.
 constexpr double minimumRecentWeight = 0.1535;
-// Weighted mean square of 1 mm/s^2 RMS; a quieter signal counts as silence.
+// Mean square of 1 mm/s^2 RMS; a quieter signal counts as silence.
 constexpr double silentMeanSquare = 1e-6;
 // No actuator shakes a hand harder. The limit keeps a single corrupt sample from dominating the dose for hours.
 constexpr double maximumMps2 = 1e4;
@@ -83,12 +83,13 @@ float ExposureGuard::passThrough(float sample) noexcept {
 
 void ExposureGuard::finishTick() noexcept {
     const auto count = static_cast<double>(tickSamples_);
-    measure(squares_ / count, weightedSquares_ / count);
+    const double meanSquare = squares_ / count;
+    measure(meanSquare, weightedSquares_ / count);
     tickPosition_ = 0;
     squares_ = 0.0;
     weightedSquares_ = 0.0;
     advanceSlots(tickSeconds_);
-    moveGain(tickSeconds_);
+    moveGain(tickSeconds_, meanSquare <= silentMeanSquare);
     publish();
 }
 
@@ -97,11 +98,21 @@ void ExposureGuard::measure(double meanSquare, double weightedMeanSquare) noexce
     if (weightedMeanSquare > silentMeanSquare) {
         recentSquare_ += recentShare_ * (weightedMeanSquare - recentSquare_);
         recentWeight_ += recentShare_ * (1.0 - recentWeight_);
+    } else {
+        ageRecentLevel(tickSeconds_);
     }
     const double gain = 0.5 * (gainFrom_ + gainTo_);
     const double energy = gain * gain * weightedMeanSquare * tickSeconds_;
     slotEnergies_[slot_] += energy;
     energy_ += energy;
+}
+
+void ExposureGuard::ageRecentLevel(double seconds) noexcept {
+    const double lowest = allowedSquare(0.0);
+    const double recent = recentMeanSquare();
+    if (recent > lowest) {
+        recentSquare_ *= std::max(lowest / recent, std::exp(-seconds / recentSeconds));
+    }
 }
 
 void ExposureGuard::advanceSlots(double seconds) noexcept {
@@ -123,22 +134,30 @@ double ExposureGuard::shortTermTarget() const noexcept {
     return level > law_.shortTermMps2 ? law_.shortTermMps2 / level : 1.0;
 }
 
+double ExposureGuard::allowedSquare(double energy) const noexcept {
+    const double left = law_.dailyMps2 * law_.dailyMps2 * law_.dailySeconds - energy;
+    return std::max(0.0, left) / law_.reserveSeconds;
+}
+
+double ExposureGuard::recentMeanSquare() const noexcept {
+    return recentSquare_ / std::max(recentWeight_, minimumRecentWeight);
+}
+
 double ExposureGuard::doseTarget() const noexcept {
-    const double left = law_.dailyMps2 * law_.dailyMps2 * law_.dailySeconds - energy_;
-    const double allowed = std::max(0.0, left) / law_.reserveSeconds;
-    // The mean over the time that has played, at least 10 s, without the silence before it.
-    const double recent = recentSquare_ / std::max(recentWeight_, minimumRecentWeight);
+    const double allowed = allowedSquare(energy_);
+    const double recent = recentMeanSquare();
     return recent > allowed ? std::sqrt(allowed / recent) : 1.0;
 }
 
-void ExposureGuard::moveGain(double seconds) noexcept {
+void ExposureGuard::moveGain(double seconds, bool isSilent) noexcept {
     const double shortTerm = shortTermTarget();
     const double dose = doseTarget();
     const double targetDb = decibels(std::max(law_.minimumGain, std::min(shortTerm, dose)));
     const double stepDb = law_.slewDbPerSecond * seconds;
-    gainDb_ = std::min(0.0, std::clamp(targetDb, gainDb_ - stepDb, gainDb_ + stepDb));
+    const double lowestDb = isSilent ? gainDb_ : gainDb_ - stepDb;
+    gainDb_ = std::min(0.0, std::clamp(targetDb, lowestDb, gainDb_ + stepDb));
     gainFrom_ = gainTo_;
-    gainTo_ = std::pow(10.0, gainDb_ / 20.0);
+    gainTo_ = isOn_ ? std::pow(10.0, gainDb_ / 20.0) : 1.0;
     if (gainTo_ == 1.0) {
         reason_ = ExposureReason::none;
         loweredSeconds_ = 0.0;
@@ -162,15 +181,16 @@ void ExposureGuard::passSilence(std::uint64_t samples) noexcept {
     tickPosition_ = static_cast<std::size_t>((samples - untilTick) % tickSamples_);
 }
 
-// Long pauses take coarser steps, which is safe: in silence the gain only rises, at the limited rate.
+// Long pauses take coarser steps, because in silence the gain only rises, at the limited rate.
 void ExposureGuard::skipTicks(std::uint64_t ticks) noexcept {
     const std::uint64_t step = ticks / maximumPauseSteps + 1;
     while (ticks > 0) {
         const std::uint64_t now = std::min(step, ticks);
         const double seconds = static_cast<double>(now) * tickSeconds_;
         shortTermSquare_ *= std::exp(-seconds / law_.shortTermSeconds);
+        ageRecentLevel(seconds);
         advanceSlots(seconds);
-        moveGain(seconds);
+        moveGain(seconds, true);
         ticks -= now;
     }
     publish();

@@ -23,8 +23,11 @@ void Strikes::strike(double speedMps, const ImpactResponse& response) noexcept {
     }
     const double speed = std::min(speedMps, maximumStrikeMps);
     ring(speed, response);
-    reboundsLeft_ = rebounds;
-    planRebound(speed, response);
+    // A weaker landing than the expected rebound, such as a flicker of the contact, does not replace that rebound.
+    if (speed >= rebound_.speedMps) {
+        reboundsLeft_ = rebounds;
+        planRebound(speed, response);
+    }
 }
 
 void Strikes::ring(double speedMps, const ImpactResponse& response) noexcept {

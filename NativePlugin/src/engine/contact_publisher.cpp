@@ -31,6 +31,8 @@ ContactAction ContactPublisher::publish(ContactState state) noexcept {
     VoiceCounters& counters = channels_.counters;
     counters.sanitised.fetch_add(sanitise(state), std::memory_order_relaxed);
     counters.updates.fetch_add(1, std::memory_order_relaxed);
+    ++updates_;
+    blows_.removeUpTo(channels_.takenBlow.load(std::memory_order_acquire));
     noteMotion(state);
     const bool hasSignal = channels_.controls.signal.load(std::memory_order_relaxed).isSet();
     if (hasSignal) {
@@ -60,8 +62,9 @@ ContactAction ContactPublisher::publish(ContactState state) noexcept {
     }
     noteSpeed(state, isNewTouch);
     if (isNewTouch) {
-        // An unchanged counter means that a surface without a label interrupted the touch, which has landed before.
-        if (state.touchCounter != lastTouchCounter_) {
+        // An unchanged counter means that a surface without a label interrupted the touch, which has landed before. A
+        // counter of 0 is that of a caller who does not count, or of the first touch of one who counts from 0.
+        if (state.touchCounter != lastTouchCounter_ || state.touchCounter == 0) {
             noteImpact(contact);
         }
     } else if (wasTouching_) {
@@ -97,8 +100,8 @@ void ContactPublisher::postToAudio(const Contact& contact) noexcept {
     audio.readingRate = contact.ranged.readingRate;
     audio.seedMps2 = seedMps2_;
     audio.seedRibs = seedRibs_;
-    audio.impact = impact_;
-    audio.edge = edge_;
+    audio.updates = updates_;
+    audio.blows = blows_;
     audio.hasTone = tone.has_value();
     audio.tone = tone ? dsp::toneKernel(*tone) : dsp::ToneKernel{};
     audio.isMoving = isMoving_;
@@ -164,9 +167,20 @@ void ContactPublisher::noteImpact(const Contact& contact) noexcept {
     if (!state.hasEffect(EffectKind::impact) || !(state.approachSpeedMps > 0.0F)) {
         return;
     }
-    ++impact_.counter;
-    impact_.speedMps = state.approachSpeedMps;
-    impact_.response = impactResponse(contact.ingredients);
+    addBlow(EffectKind::impact, state.approachSpeedMps, contact.ingredients);
+}
+
+void ContactPublisher::addBlow(EffectKind kind, float speedMps, const Ingredients& ingredients) noexcept {
+    const Blow blow{.number = ++blowCount_,
+                    .update = updates_,
+                    .touch = follower_.touches(),
+                    .publishedSeconds = channels_.clock(),
+                    .kind = kind,
+                    .speedMps = speedMps,
+                    .response = impactResponse(ingredients)};
+    if (!blows_.add(blow)) {
+        channels_.counters.lostBlows.fetch_add(1, std::memory_order_relaxed);
+    }
 }
 
 void ContactPublisher::noteTransition(const Contact& contact) noexcept {
@@ -203,9 +217,7 @@ void ContactPublisher::strikeEdge(const ContactState& state, const Ingredients& 
     if (!state.hasEffect(EffectKind::edge) || !(blowMps > 0.0)) {
         return;
     }
-    ++edge_.counter;
-    edge_.speedMps = static_cast<float>(blowMps);
-    edge_.response = impactResponse(ingredients);
+    addBlow(EffectKind::edge, static_cast<float>(blowMps), ingredients);
 }
 
 void ContactPublisher::retrieve(const Contact& contact, const Material& material) noexcept {

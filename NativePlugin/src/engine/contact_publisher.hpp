@@ -42,6 +42,7 @@ private:
     /// Strikes an edge of the surface of `state` at the largest of the newest speeds. `share` is the share of a full
     /// edge.
     void strikeEdge(const ContactState& state, const Ingredients& ingredients, double share) noexcept;
+    void addBlow(effects::EffectKind kind, float speedMps, const Ingredients& ingredients) noexcept;
     void remember(const Contact& contact) noexcept;
     /// The newest edge as a share of a full edge, by its height or by the change of level from the last label; may
     /// exceed 1.
@@ -59,8 +60,9 @@ private:
     std::uint64_t slides_ = 0;
     std::array<float, WaveformTimeline::seedSamples> seedMps2_{};
     SeedRibs seedRibs_{};
-    BlowMessage impact_;
-    BlowMessage edge_;
+    BlowList blows_;
+    std::uint64_t blowCount_ = 0;
+    std::uint64_t updates_ = 0;
     bool isMoving_ = false;
     double movingSinceSeconds_ = 0.0;
     bool wasTouching_ = false;

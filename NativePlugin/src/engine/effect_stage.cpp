@@ -30,9 +30,10 @@ void forEach(const Processors* processors, const Visit& visit) {
     if (processors == nullptr) {
         return;
     }
-    const std::array<std::pair<effects::Effect*, EffectKind>, 2> stages{{
+    const std::array<std::pair<effects::Effect*, EffectKind>, 3> stages{{
         {processors->delay.get(), EffectKind::delay},
         {processors->compensation.get(), EffectKind::compensation},
+        {processors->listen.get(), EffectKind::listen},
     }};
     for (const auto& [effect, kind] : stages) {
         if (effect != nullptr) {
@@ -74,12 +75,10 @@ void EffectStage::strikeEdge(double speedMps, const effects::ImpactResponse& res
 
 void EffectStage::exchange(std::unique_ptr<Processors> fresh) noexcept {
     settleDelay();
-    if (fresh->exposureGuard == nullptr || guard_ == nullptr) {
-        if (guard_ != nullptr) {
-            releasedGain_ = static_cast<float>(guard_->report().gain);
-            releasedGainSamples_ = fadeSamples_;
-        }
+    if (guard_ == nullptr) {
         std::swap(guard_, fresh->exposureGuard);
+    } else {
+        guard_->switchOn(fresh->exposureGuard != nullptr && fresh->exposureGuard->isOn());
     }
     replaced_ = std::exchange(processors_, std::move(fresh));
     if (delay_ != nullptr && processors_->delay != nullptr) {
@@ -172,12 +171,12 @@ void EffectStage::reset() noexcept {
     resetAll(processors_.get());
     resetAll(replaced_.get());
     fadeRemaining_ = 0;
-    releasedGainSamples_ = 0;
     gate_.reset();
 }
 
-void EffectStage::process(std::span<float> samplesMps2, EffectFigures& figures) noexcept {
+void EffectStage::process(std::span<float> samplesMps2, dsp::LevelSmoother& strength, EffectFigures& figures) noexcept {
     if (!hasProcessors()) {
+        strength.process(samplesMps2);
         return;
     }
     settleDelay();
@@ -185,7 +184,10 @@ void EffectStage::process(std::span<float> samplesMps2, EffectFigures& figures) 
         run(*delay_, EffectKind::delay, samplesMps2, figures);
     }
     runProcessors(samplesMps2, figures);
-    runGuard(samplesMps2, figures);
+    strength.process(samplesMps2);
+    if (guard_ != nullptr) {
+        run(*guard_, EffectKind::exposureGuard, samplesMps2, figures);
+    }
     passGate(samplesMps2);
 }
 
@@ -220,7 +222,7 @@ void EffectStage::addSources(std::span<float> samplesMps2, EffectFigures& figure
 }
 
 bool EffectStage::hasProcessors() const noexcept {
-    bool has = fadeRemaining_ > 0 || guard_ != nullptr || delay_ != nullptr || releasedGainSamples_ > 0;
+    bool has = fadeRemaining_ > 0 || guard_ != nullptr || delay_ != nullptr;
     forEach(processors_.get(), [&has](const effects::Effect&, EffectKind) { has = true; });
     return has;
 }
@@ -248,20 +250,6 @@ void EffectStage::runProcessors(std::span<float> samplesMps2, EffectFigures& fig
         samplesMps2[i] += shareAt(i) * (old[i] - samplesMps2[i]);
     }
     fadeRemaining_ -= std::min(fadeRemaining_, samplesMps2.size());
-}
-
-void EffectStage::runGuard(std::span<float> samplesMps2, EffectFigures& figures) noexcept {
-    if (guard_ != nullptr) {
-        run(*guard_, EffectKind::exposureGuard, samplesMps2, figures);
-    }
-    for (float& sample : samplesMps2) {
-        if (releasedGainSamples_ == 0) {
-            return;
-        }
-        const float share = static_cast<float>(releasedGainSamples_) / static_cast<float>(fadeSamples_);
-        sample *= 1.0F + share * (releasedGain_ - 1.0F);
-        --releasedGainSamples_;
-    }
 }
 
 void EffectStage::passGate(std::span<float> samplesMps2) noexcept {

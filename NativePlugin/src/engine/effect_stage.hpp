@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dsp/gate.hpp"
+#include "dsp/level_smoother.hpp"
 #include "effects/delay.hpp"
 #include "effects/effect.hpp"
 #include "effects/exposure_guard.hpp"
@@ -46,6 +47,8 @@ struct Processors {
     double rateHz = 0.0;
     std::unique_ptr<effects::Delay> delay;
     std::unique_ptr<effects::Effect> compensation;
+    std::unique_ptr<effects::Effect> listen;
+    /// Switched off if the voice only had a guard before.
     std::unique_ptr<effects::ExposureGuard> exposureGuard;
     /// Not used: the voice keeps its present delay, which holds the signal.
     std::unique_ptr<effects::Delay> spareDelay;
@@ -76,7 +79,7 @@ public:
     /// Ends the crossfade at once; for a silent voice.
     void finishHandOver() noexcept { fadeRemaining_ = 0; }
     /// Continues the exposure measured by the guard of `before`, a stage at another rate for the same hand. Does
-    /// nothing unless both stages have a guard.
+    /// nothing unless both stages have a guard, be it switched off.
     void adoptExposure(const EffectStage& before) noexcept;
     void setDelaySeconds(double seconds) noexcept;
     /// Delay of the signal; 0 without a delay.
@@ -84,8 +87,10 @@ public:
     void setActuatorGain(double gain) noexcept;
     /// Accounts for time that passed in silence without `process`.
     void passSilence(std::size_t samples) noexcept;
-    /// Null if there is none. Any thread may read its report during the stage's lifetime.
-    [[nodiscard]] const effects::ExposureGuard* exposureGuard() const noexcept { return guard_.get(); }
+    /// Null if there is none that is switched on. Any thread may read its report during the stage's lifetime.
+    [[nodiscard]] const effects::ExposureGuard* exposureGuard() const noexcept {
+        return guard_ != nullptr && guard_->isOn() ? guard_.get() : nullptr;
+    }
     /// The processors replaced by the last crossfade; null during a crossfade or if there are none.
     [[nodiscard]] std::unique_ptr<Processors> takeReplaced() noexcept;
 
@@ -96,8 +101,9 @@ public:
     /// Adds sounding impacts and edges and the signal to the next samples, at most 64, in m/s^2. Call `process` with
     /// the same samples afterwards.
     void addSources(std::span<float> samplesMps2, EffectFigures& figures) noexcept;
-    /// Processes the next samples in place, at most 64, in m/s^2.
-    void process(std::span<float> samplesMps2, EffectFigures& figures) noexcept;
+    /// Processes the next samples in place, at most 64, in m/s^2. `strength` acts after delay and compensation and
+    /// before the guard, which therefore measures the level that is played.
+    void process(std::span<float> samplesMps2, dsp::LevelSmoother& strength, EffectFigures& figures) noexcept;
     /// Silences everything at once, without a ramp.
     void reset() noexcept;
 
@@ -112,7 +118,6 @@ private:
     [[nodiscard]] bool areSourcesIdle() const noexcept;
     void runSources(std::span<float> samplesMps2, EffectFigures& figures) noexcept;
     void runProcessors(std::span<float> samplesMps2, EffectFigures& figures) noexcept;
-    void runGuard(std::span<float> samplesMps2, EffectFigures& figures) noexcept;
     void passGate(std::span<float> samplesMps2) noexcept;
     void settleDelay() noexcept;
     [[nodiscard]] bool hasProcessors() const noexcept;
@@ -124,14 +129,12 @@ private:
     std::unique_ptr<Processors> processors_;
     std::unique_ptr<Processors> replaced_;
     // An exchange of processors keeps these two, because a new delay would lose the signal in the old one and a new
-    // guard the measured exposure. A delay that is switched on or off is crossfaded as a member of its Processors.
+    // guard the measured exposure. A delay that is switched on or off is crossfaded as a member of its Processors; a
+    // guard that is switched off measures on.
     std::unique_ptr<effects::Delay> delay_;
     std::unique_ptr<effects::ExposureGuard> guard_;
     std::size_t fadeSamples_;
     std::size_t fadeRemaining_ = 0;
-    // Gain of a guard that was switched off, and the number of samples in which it returns to 1.
-    float releasedGain_ = 1.0F;
-    std::size_t releasedGainSamples_ = 0;
 };
 
 }  // namespace haptoflow::engine

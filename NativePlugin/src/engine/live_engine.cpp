@@ -35,6 +35,7 @@ const LiveEngineSettings& checked(const LiveEngineSettings& settings) {
         throw std::invalid_argument("full_scale_mps2 is " + std::to_string(settings.fullScaleMps2) +
                                     "; expected 0.001 to 1000000 m/s^2");
     }
+    requireServedQuality(settings.quality, settings.hasWorker);
     return settings;
 }
 
@@ -55,6 +56,13 @@ inference::SegmentGenerator& firstLoaded(const EngineTiers& tiers) {
 }
 
 }  // namespace
+
+void requireServedQuality(const QualitySettings& quality, bool hasWorker) {
+    if (!hasWorker && !quality.fixedTier) {
+        throw std::invalid_argument(
+            "quality: auto measures the tiers on a worker thread; an engine without worker needs a fixed quality");
+    }
+}
 
 LiveEngine::LiveEngine(std::shared_ptr<const model::ModelFile> model, EngineTiers tiers, std::size_t startTier,
                        const LiveEngineSettings& settings, const inference::LoadLimits& limits)
@@ -94,6 +102,7 @@ std::shared_ptr<LiveVoice> LiveEngine::addVoice(double outputRateHz) {
     }
     settings.outputRateHz = outputRateHz;
     settings.fullScaleMps2 = settings_.fullScaleMps2;
+    settings.isRealTime = settings_.hasWorker;
     auto voice = std::make_shared<LiveVoice>(*library_, alive_, settings);
     const std::lock_guard lock(voicesMutex_);
     voices_.push_back(voice);
@@ -240,6 +249,7 @@ void LiveEngine::setQuality(const QualitySettings& quality) {
     if (!(quality.budgetMs > 0.0) || (quality.fixedTier && *quality.fixedTier >= tiers_.size())) {
         throw std::invalid_argument("quality: expected a tier of the model and a budget above 0 ms");
     }
+    requireServedQuality(quality, settings_.hasWorker);
     {
         const std::lock_guard lock(qualityMutex_);
         if (!isLoaded(quality)) {

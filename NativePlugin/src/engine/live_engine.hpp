@@ -37,6 +37,10 @@ struct LiveEngineSettings {
     bool hasWorker = true;
 };
 
+/// Throws std::invalid_argument for automatic quality without a worker, which alone measures the tiers: an engine
+/// without worker renders the same samples on every machine.
+void requireServedQuality(const QualitySettings& quality, bool hasWorker);
+
 /// The model's tiers in the model's order; null for a tier that is not loaded.
 using EngineTiers = std::vector<std::unique_ptr<inference::SegmentGenerator>>;
 
@@ -91,6 +95,8 @@ public:
     ContactAction publish(LiveVoice& voice, const ContactState& state) noexcept;
     /// `change` edits the voice's settings and returns whether they have changed; the worker then prepares the new
     /// processors. Any thread except the audio callback's.
+    /// Any thread. The acceleration that is +-1 at every voice's output.
+    [[nodiscard]] double fullScaleMps2() const noexcept { return static_cast<double>(settings_.fullScaleMps2); }
     void changeProcessors(LiveVoice& voice, const std::function<bool(ProcessorSettings&)>& change);
 
     /// Runs one round on the calling thread, for an engine without a worker.
@@ -100,7 +106,7 @@ public:
     [[nodiscard]] bool isStopping() const noexcept { return stopping_.load(std::memory_order_acquire); }
 
     /// Takes effect with the next round. Throws std::invalid_argument for a tier that the model does not have or that
-    /// is not loaded.
+    /// is not loaded, and for automatic quality without a worker.
     void setQuality(const QualitySettings& quality);
     /// Adds a loaded tier for a later setQuality. Does nothing if the tier is already loaded.
     void addTier(std::size_t tier, std::unique_ptr<inference::SegmentGenerator> generator);

@@ -12,6 +12,8 @@ struct LiveVoiceSettings {
     PlannerSettings planner{};
     double outputRateHz = 48000.0;
     float fullScaleMps2 = dsp::SoftLimiter::defaultFullScaleMps2;
+    /// VoiceChannels::isRealTime.
+    bool isRealTime = true;
 };
 
 /// The voice of one stylus tip: a publisher for the main thread, a renderer for the audio callback, a planner for the
@@ -21,7 +23,9 @@ struct LiveVoice {
     LiveVoice(const MaterialLibrary& library, const std::atomic<bool>& workerAlive, const LiveVoiceSettings& settings)
         : publisher(library, channels),
           renderer(channels, workerAlive, settings.outputRateHz, settings.fullScaleMps2),
-          planner(channels, settings.planner) {}
+          planner(channels, settings.planner) {
+        channels.isRealTime = settings.isRealTime;
+    }
 
     VoiceChannels channels;
     ContactPublisher publisher;

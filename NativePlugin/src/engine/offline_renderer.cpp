@@ -98,6 +98,7 @@ LiveVoiceSettings voiceSettings(const OfflineSettings& settings) {
     voice.planner.minimumHopSamples = 0;
     voice.outputRateHz = settings.outputRateHz;
     voice.fullScaleMps2 = settings.fullScaleMps2;
+    voice.isRealTime = false;
     return voice;
 }
 
@@ -169,13 +170,14 @@ private:
     }
 
     void addProcessors() {
-        if (settings_.actuator == nullptr && !(settings_.delaySeconds > 0.0)) {
+        if (settings_.actuator == nullptr && !(settings_.delaySeconds > 0.0) && !settings_.listens) {
             return;
         }
         voice_.channels.controls.delaySeconds = settings_.delaySeconds;
         voice_.channels.changeProcessors([this](ProcessorSettings& processors) {
             processors.actuator = settings_.actuator;
             processors.hasDelay = settings_.delaySeconds > 0.0;
+            processors.listenFullScaleMps2 = settings_.listens ? static_cast<double>(settings_.fullScaleMps2) : 0.0;
             return true;
         });
         // The renderer states its rate, the planner makes the processors, and the renderer takes them.

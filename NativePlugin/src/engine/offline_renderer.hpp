@@ -33,6 +33,8 @@ struct OfflineSettings {
     std::shared_ptr<const effects::ActuatorProfile> actuator = nullptr;
     /// 0 to 0.5.
     double delaySeconds = 0.0;
+    /// True to make the vibration audible on loudspeakers: see effects::Listen.
+    bool listens = false;
     /// Registered in this order after the model's labels.
     std::vector<model::MaterialFile> materials{};
 };

@@ -1,11 +1,12 @@
 #include "engine/processor_settings.hpp"
 
 #include "effects/compensation.hpp"
+#include "effects/listen.hpp"
 
 namespace haptoflow::engine {
 
 std::unique_ptr<Processors> makeProcessors(const ProcessorSettings& settings, double rateHz, double delaySeconds,
-                                           double actuatorGain) {
+                                           double actuatorGain, bool keepsExposure) {
     if (settings.version == 0) {
         return nullptr;
     }
@@ -19,8 +20,12 @@ std::unique_ptr<Processors> makeProcessors(const ProcessorSettings& settings, do
     if (settings.actuator != nullptr) {
         made->compensation = std::make_unique<effects::Compensation>(*settings.actuator, rateHz);
     }
-    if (settings.hasExposureGuard) {
+    if (settings.listenFullScaleMps2 > 0.0) {
+        made->listen = std::make_unique<effects::Listen>(rateHz, settings.listenFullScaleMps2);
+    }
+    if (settings.hasExposureGuard || keepsExposure) {
         made->exposureGuard = std::make_unique<effects::ExposureGuard>(rateHz);
+        made->exposureGuard->switchOn(settings.hasExposureGuard);
         made->exposureGuard->setActuatorGain(actuatorGain);
     }
     return made;

@@ -191,9 +191,11 @@ ProcessorSettings SegmentPlanner::requestedProcessors() const {
     return channels_.processorSettings;
 }
 
-std::unique_ptr<Processors> SegmentPlanner::processorsFor(double rateHz) const {
+std::unique_ptr<Processors> SegmentPlanner::processorsFor(double rateHz) {
     const VoiceControls& controls = channels_.controls;
-    return makeProcessors(requestedProcessors(), rateHz, controls.delaySeconds, controls.actuatorGain);
+    const ProcessorSettings settings = requestedProcessors();
+    keepsExposure_ = keepsExposure_ || settings.hasExposureGuard;
+    return makeProcessors(settings, rateHz, controls.delaySeconds, controls.actuatorGain, keepsExposure_);
 }
 
 void SegmentPlanner::serveProcessors() noexcept {

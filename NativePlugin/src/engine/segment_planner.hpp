@@ -54,7 +54,7 @@ public:
 
 private:
     [[nodiscard]] ProcessorSettings requestedProcessors() const;
-    [[nodiscard]] std::unique_ptr<Processors> processorsFor(double rateHz) const;
+    [[nodiscard]] std::unique_ptr<Processors> processorsFor(double rateHz);
     void serveProcessors() noexcept;
     [[nodiscard]] bool mayReplace() const noexcept;
     [[nodiscard]] bool awaitsCallback() const noexcept;
@@ -86,6 +86,8 @@ private:
     // Version and rate of the newest processors made.
     std::uint64_t madeVersion_ = 0;
     double madeRateHz_ = 0.0;
+    // Whether the voice had an exposure guard at any time.
+    bool keepsExposure_ = false;
 
     // Number of sliding states that got a segment or were counted as skipped.
     std::uint64_t settledSlides_ = 0;

@@ -22,6 +22,8 @@ enum class Silence : std::int32_t {
     closing = 7,
     /// The worker thread has ended.
     workerDead = 8,
+    /// Strength or ceiling is 0.
+    turnedDown = 9,
 };
 
 /// Conditions under which a voice may sound.
@@ -31,6 +33,8 @@ struct SoundConditions {
     bool isStale = false;
     bool isMuted = false;
     bool isPaused = false;
+    /// The gain of the output is 0. It is only reported: the voice goes on, because a gain may return at any time.
+    bool isTurnedDown = false;
     /// A panic occurred during this touch.
     bool isPanicked = false;
     bool isRateServed = true;
@@ -51,6 +55,9 @@ struct SoundConditions {
     }
     if (conditions.isMuted) {
         return Silence::muted;
+    }
+    if (conditions.isTurnedDown) {
+        return Silence::turnedDown;
     }
     if (!conditions.isRateServed) {
         return Silence::rate;

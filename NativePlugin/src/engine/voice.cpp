@@ -62,7 +62,10 @@ void Voice::exchangeProcessors(std::unique_ptr<Processors> fresh) noexcept {
     };
     note(fresh->delay.get(), effects::EffectKind::delay);
     note(fresh->compensation.get(), effects::EffectKind::compensation);
-    note(fresh->exposureGuard.get(), effects::EffectKind::exposureGuard);
+    if (fresh->exposureGuard != nullptr && fresh->exposureGuard->isOn()) {
+        note(fresh->exposureGuard.get(), effects::EffectKind::exposureGuard);
+    }
+    note(fresh->listen.get(), effects::EffectKind::listen);
     output_->effects.exchange(std::move(fresh));
 }
 
@@ -176,10 +179,7 @@ void Voice::render(std::span<float> out) noexcept {
             output_->gate.process(block);
         }
         output_->effects.addSources(block, figures_);
-        // Strength comes before the processors, so that the guard measures the level that is played and a delayed sound
-        // keeps its strength.
-        output_->strength.process(block);
-        output_->effects.process(block, figures_);
+        output_->effects.process(block, output_->strength, figures_);
         limiter_.process(block);
     }
 }

@@ -28,7 +28,7 @@ public:
 };
 
 /// The signal of one stylus tip. Its stages in order: timeline, tone, level, reading rate, output rate, gate, blows and
-/// signal, strength, processors, limiter.
+/// signal, delay, compensation, strength, exposure guard, the gate of all effects, limiter.
 ///
 /// While the texture's gate is closed, the waveform is not read and its clock stands still. If no effect sounds either,
 /// `render` writes zeros. Used by one thread. Construction excepted, all functions take bounded time, allocate nothing

@@ -3,6 +3,7 @@
 #include "dsp/tone_cepstrum.hpp"
 #include "effects/signal.hpp"
 #include "engine/blend_balance.hpp"
+#include "engine/blow_list.hpp"
 #include "engine/level_request.hpp"
 #include "engine/mailbox.hpp"
 #include "engine/output_stage.hpp"
@@ -23,14 +24,6 @@
 
 namespace haptoflow::engine {
 
-/// The newest impact or edge.
-struct BlowMessage {
-    /// Increases by 1 at each blow.
-    std::uint32_t counter = 0;
-    float speedMps = 0.0F;
-    effects::ImpactResponse response{};
-};
-
 /// A contact, for the callback.
 struct AudioMessage {
     /// Increases by 1 at each onset: touch-down, or sliding resumed.
@@ -44,9 +37,11 @@ struct AudioMessage {
     /// message is replaced, and a touch resumes with the seed of the state with which it resumes.
     std::array<float, WaveformTimeline::seedSamples> seedMps2{};
     SeedRibs seedRibs{};
-    /// In every message, so that a blow is not lost if its message is replaced.
-    BlowMessage impact;
-    BlowMessage edge;
+    /// Number of states published so far, this one included.
+    std::uint64_t updates = 0;
+    /// The blows that the callback had not taken when the message was written, so that no blow is lost if its message
+    /// is replaced.
+    BlowList blows;
     bool hasTone = false;
     dsp::ToneKernel tone{};
     /// Whether the tip touches and moves fast enough for a signal, and the time of the last change
@@ -144,6 +139,8 @@ struct VoiceCounters {
     /// Number of times that a touch sounded again after a silence within it: pause, mute, rate change, missing states.
     std::atomic<std::uint64_t> resumptions{0};
     std::atomic<std::uint64_t> taps{0};
+    /// Impacts and edges that found no room among those that the callback had not taken yet.
+    std::atomic<std::uint64_t> lostBlows{0};
     /// Segments generated.
     std::atomic<std::uint64_t> inferences{0};
     /// Time of their generation; the time of a run is divided among its voices.
@@ -186,6 +183,8 @@ struct VoiceChannels {
     VoiceCounters counters;
     /// Clock of publisher and callback.
     double (*clock)() noexcept = steadySeconds;
+    /// False where states and blocks follow each other faster or slower than in real time: offline, without a worker.
+    bool isRealTime = true;
 
     /// Whether the newest block did not end in silence. Set by the callback.
     std::atomic<bool> audible{false};
@@ -193,6 +192,9 @@ struct VoiceChannels {
     std::atomic<Silence> silence{Silence::rest};
     std::atomic<double> deviceRateHz{0.0};
     std::atomic<bool> isRateSupported{true};
+
+    /// Blow::number of the newest blow that the callback has taken. Set by the callback.
+    std::atomic<std::uint64_t> takenBlow{0};
 
     /// The newest published touch. The publisher sets it before it posts the message.
     std::atomic<std::uint64_t> publishedTouch{0};

@@ -38,19 +38,31 @@ void VoiceRenderer::render(std::span<float> out, double rateHz) noexcept {
         fallSilent(Silence::panic);
     } else if (!stopsWithBlock_) {
         decide(rateHz);
-        readBlows();
+        takeBlows(out.size());
         readSignal();
         sounded = isSounding();
         takeSegments();
         soundUntilStale(out);
     }
     contactAgeFrames_ += out.size();
+    lastPlace_ -= static_cast<std::int64_t>(out.size());
+    waitedSeconds_ += dsp::isOutputRate(rateHz) ? static_cast<double>(out.size()) / rateHz : 0.0;
     count(channels_.counters.renderedFrames, out.size());
     channels_.audible.store(!voice_.isSilent(), std::memory_order_release);
-    // While the texture rests, an impact or a signal may still sound.
-    const bool soundsAtRest = silence_ == Silence::rest && !voice_.isSilent();
-    channels_.silence.store(soundsAtRest ? Silence::none : silence_, std::memory_order_relaxed);
+    channels_.silence.store(reportedSilence(rateHz), std::memory_order_relaxed);
     report(uncoveredBefore, sounded);
+}
+
+Silence VoiceRenderer::reportedSilence(double rateHz) const noexcept {
+    const VoiceControls& controls = channels_.controls;
+    SoundConditions now = conditions(rateHz);
+    now.isTurnedDown = controls.strength.load(std::memory_order_relaxed) == 0.0F ||
+                       controls.ceiling.load(std::memory_order_relaxed) == 0.0F;
+    if (silenceFor(now) == Silence::turnedDown) {
+        return Silence::turnedDown;
+    }
+    // While the texture rests, an impact or a signal may still sound.
+    return silence_ == Silence::rest && !voice_.isSilent() ? Silence::none : silence_;
 }
 
 void VoiceRenderer::noteBlock(std::size_t frames) noexcept {
@@ -65,10 +77,12 @@ void VoiceRenderer::noteBlock(std::size_t frames) noexcept {
 }
 
 void VoiceRenderer::readContact() noexcept {
+    updatesBefore_ = updates_;
     if (channels_.toAudio.fetch()) {
         hasContact_ = true;
         contactAgeFrames_ = 0;
         const AudioMessage& contact = channels_.toAudio.current();
+        updates_ = contact.updates;
         voice_.setRangeLaw(contact.levelGain, contact.readingRate);
         voice_.setTone(contact.hasTone ? &contact.tone : nullptr);
     }
@@ -186,26 +200,98 @@ void VoiceRenderer::begin() noexcept {
     voice_.onset(contact.seedMps2);
 }
 
-void VoiceRenderer::readBlows() noexcept {
-    const AudioMessage& contact = channels_.toAudio.current();
-    const bool hasLanded = contact.impact.counter != seenImpacts_;
-    const bool hasCrossedEdge = contact.edge.counter != seenEdges_;
-    seenImpacts_ = contact.impact.counter;
-    seenEdges_ = contact.edge.counter;
-    // Blows that occurred during a silence are not played later.
-    if (silence_ != Silence::none && silence_ != Silence::rest) {
+void VoiceRenderer::takeBlows(std::size_t frames) noexcept {
+    dueCount_ = 0;
+    dueNext_ = 0;
+    framesRendered_ = 0;
+    const bool maySound = silence_ == Silence::none || silence_ == Silence::rest;
+    const bool waitsForRate = silence_ == Silence::rate && channels_.isRateSupported.load(std::memory_order_relaxed);
+    if (waitedSeconds_ > staleSeconds || (!maySound && !waitsForRate)) {
+        // Blows that occurred long ago or during another silence are not played later.
+        waiting_ = {};
+    }
+    if (maySound) {
+        voice_.allowEffects();
+        strikeWaiting();
+    }
+    const std::span<const Blow> blows = channels_.toAudio.current().blows.all();
+    if (blows.empty() || blows.back().number <= takenBlow_) {
         return;
     }
-    voice_.allowEffects();
-    if (contact.touch <= silencedTouch_ || signal_.isSet()) {
+    // After a device has stopped for a while, the blows of that time are not played all at once.
+    const auto blockSamples = static_cast<double>(std::max(longestBlock_[0], longestBlock_[1]));
+    const double oldestSeconds = staleSeconds + 2.0 * blockSamples / inference::waveformRateHz;
+    const double nowSeconds = channels_.isRealTime ? channels_.clock() : 0.0;
+    for (const Blow& blow : blows) {
+        const bool isTooOld = channels_.isRealTime && nowSeconds - blow.publishedSeconds > oldestSeconds;
+        if (blow.number <= takenBlow_ || isTooOld || signal_.isSet()) {
+            continue;
+        }
+        if (maySound) {
+            schedule(blow, frames);
+        } else if (waitsForRate) {
+            std::optional<Blow>& strongest = waiting_[blow.kind == effects::EffectKind::edge ? 1 : 0];
+            waitedSeconds_ = waiting_[0] || waiting_[1] ? waitedSeconds_ : 0.0;
+            if (!strongest || strongest->speedMps < blow.speedMps) {
+                strongest = blow;
+            }
+        }
+    }
+    takenBlow_ = blows.back().number;
+    channels_.takenBlow.store(takenBlow_, std::memory_order_release);
+}
+
+void VoiceRenderer::strikeWaiting() noexcept {
+    for (std::optional<Blow>& blow : waiting_) {
+        if (blow) {
+            strike(*blow);
+        }
+        blow.reset();
+    }
+}
+
+// States come evenly, so the place of a blow's state among those published since the last block is its time in that
+// block. Played by it, each blow would be late by exactly a block. A blow that follows no other therefore begins at
+// once, and those after it keep their distance from it; the time gained is given up as soon as a blow would have to
+// begin before its block.
+void VoiceRenderer::schedule(const Blow& blow, std::size_t frames) noexcept {
+    const std::uint64_t states = updates_ - updatesBefore_;
+    const std::uint64_t before = blow.update > updatesBefore_ ? blow.update - updatesBefore_ - 1 : 0;
+    const std::uint64_t audible = framesUntilStale(frames);
+    const auto place = states == 0 ? std::int64_t{0} : static_cast<std::int64_t>(before * audible / states);
+    const auto apartFrames = static_cast<double>(place - lastPlace_);
+    const bool followsNone = lastPlace_ < 0 && apartFrames > staleSeconds * voice_.outputRateHz();
+    advanceFrames_ = followsNone ? place : std::min(advanceFrames_, place);
+    lastPlace_ = place;
+    if (place == advanceFrames_) {
+        strike(blow);
+    } else {
+        due_[dueCount_++] = {static_cast<std::size_t>(place - advanceFrames_), &blow};
+    }
+}
+
+void VoiceRenderer::strike(const Blow& blow) noexcept {
+    if (blow.touch <= silencedTouch_) {
         return;
     }
-    if (hasLanded) {
-        voice_.strikeImpact(static_cast<double>(contact.impact.speedMps), contact.impact.response);
+    if (blow.kind == effects::EffectKind::edge) {
+        voice_.strikeEdge(static_cast<double>(blow.speedMps), blow.response);
+    } else {
+        voice_.strikeImpact(static_cast<double>(blow.speedMps), blow.response);
     }
-    if (hasCrossedEdge) {
-        voice_.strikeEdge(static_cast<double>(contact.edge.speedMps), contact.edge.response);
+}
+
+void VoiceRenderer::renderWithBlows(std::span<float> out) noexcept {
+    while (dueNext_ < dueCount_ && due_[dueNext_].frame < framesRendered_ + out.size()) {
+        const std::size_t until = due_[dueNext_].frame - framesRendered_;
+        voice_.render(out.first(until));
+        out = out.subspan(until);
+        framesRendered_ += until;
+        strike(*due_[dueNext_].blow);
+        ++dueNext_;
     }
+    voice_.render(out);
+    framesRendered_ += out.size();
 }
 
 void VoiceRenderer::readSignal() noexcept {
@@ -328,14 +414,14 @@ void VoiceRenderer::soundUntilStale(std::span<float> out) noexcept {
 void VoiceRenderer::sound(std::span<float> out) noexcept {
     if (tapFramesLeft_ > 0) {
         const std::size_t before = std::min<std::size_t>(out.size(), tapFramesLeft_);
-        voice_.render(out.first(before));
+        renderWithBlows(out.first(before));
         out = out.subspan(before);
         tapFramesLeft_ -= before;
         if (tapFramesLeft_ == 0 && !channels_.toAudio.current().sliding) {
             fallSilent(Silence::rest);
         }
     }
-    voice_.render(out);
+    renderWithBlows(out);
 }
 
 void VoiceRenderer::reportEffects() noexcept {

@@ -7,6 +7,8 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <span>
 
 namespace haptoflow::engine {
@@ -46,8 +48,13 @@ private:
     [[nodiscard]] std::size_t framesUntilStale(std::size_t frames) const noexcept;
     [[nodiscard]] SoundConditions conditions(double rateHz) const noexcept;
     void decide(double rateHz) noexcept;
+    [[nodiscard]] Silence reportedSilence(double rateHz) const noexcept;
     void begin() noexcept;
-    void readBlows() noexcept;
+    void takeBlows(std::size_t frames) noexcept;
+    void strikeWaiting() noexcept;
+    void schedule(const Blow& blow, std::size_t frames) noexcept;
+    void strike(const Blow& blow) noexcept;
+    void renderWithBlows(std::span<float> out) noexcept;
     void readSignal() noexcept;
     void noteSignalTransition(SignalTransitions& turns) noexcept;
     void takeProcessors() noexcept;
@@ -72,9 +79,28 @@ private:
     SeedRibs seedRibs_{};
     std::uint32_t playedOnset_ = 0;
     std::uint64_t tapFramesLeft_ = 0;
-    // Last values of BlowMessage::counter.
-    std::uint32_t seenImpacts_ = 0;
-    std::uint32_t seenEdges_ = 0;
+
+    // Last value of Blow::number, and the values of AudioMessage::updates before this block's message and in it.
+    std::uint64_t takenBlow_ = 0;
+    std::uint64_t updatesBefore_ = 0;
+    std::uint64_t updates_ = 0;
+    // The blows of this block that have not begun yet, and the frames of the block rendered so far.
+    struct DueBlow {
+        std::size_t frame = 0;
+        const Blow* blow = nullptr;
+    };
+    std::array<DueBlow, BlowList::capacity> due_{};
+    std::size_t dueCount_ = 0;
+    std::size_t dueNext_ = 0;
+    std::size_t framesRendered_ = 0;
+    // How much earlier than by its place a blow begins, and the place of the last blow; in frames of this block,
+    // negative for an earlier block.
+    std::int64_t advanceFrames_ = 0;
+    std::int64_t lastPlace_ = std::numeric_limits<std::int32_t>::min();
+    // The strongest impact and the strongest edge since the device changed to a rate that the worker prepares, and the
+    // seconds since the first of them.
+    std::array<std::optional<Blow>, 2> waiting_{};
+    double waitedSeconds_ = 0.0;
 
     effects::SignalSettings signal_;
     // AudioMessage::isMoving at the last block.

@@ -16,6 +16,9 @@
 #include "learning/thread_clock.hpp"
 #include "learning/tone_fit.hpp"
 #include "learning/wave_vectors.hpp"
+#include "model/material_file.hpp"
+#include "model/name_index.hpp"
+#include "model/plain_text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -91,6 +94,7 @@ public:
                                                     .frequencyExponent = frequencyExponent(fit, label),
                                                     .wavelengthMetres = wavelengthMetres(),
                                                     .seeds = seeds});
+        requireReadable(learnt.materialJson);
         say(1.0, "done");
         learnt.report = std::move(report_);
         return learnt;
@@ -139,6 +143,16 @@ private:
         if (lost > 0.0) {
             report_.warnings.push_back(plainNumber(100.0 * lost) +
                                        " % of the recording was left out around missing or frozen samples");
+        }
+    }
+
+    /// The reader of the library has the last word on what was learnt.
+    static void requireReadable(const std::string& material) {
+        try {
+            (void)model::parseMaterial(material);
+        } catch (const model::MaterialError& error) {
+            throw RecordingUnusable(std::string("gives a material that HaptoFlow would refuse (") + error.what() +
+                                    "); check the units and the extreme values of the recording");
         }
     }
 
@@ -415,9 +429,12 @@ private:
     LearningReport report_;
 };
 
+/// The rules of material files (header_node.hpp): a text that breaks them would be written and never read again.
 void requireText(const std::string& text, std::size_t longest, const char* what) {
-    if (text.size() > longest || !isUtf8(text)) {
-        throw std::invalid_argument(std::string(what) + ": expected text in UTF-8 of " + std::to_string(longest) +
+    if (text.size() > longest || !model::isUtf8(text) || model::hasControlCharacter(text)) {
+        throw std::invalid_argument(std::string(what) + " is \"" + model::printable(model::shortened(text, 60)) +
+                                    "\" (" + std::to_string(text.size()) + " bytes); expected one line of text in " +
+                                    "UTF-8, without control characters, of " + std::to_string(longest) +
                                     " bytes at most");
     }
 }
@@ -425,19 +442,17 @@ void requireText(const std::string& text, std::size_t longest, const char* what)
 }  // namespace
 
 void checkSettings(const LearningSettings& settings) {
-    constexpr std::size_t maximumName = 128;
-    constexpr std::size_t maximumText = 4096;
     constexpr double maximumCyclesPerMillimetre = 20.0;
     const bool hasCapitals = std::ranges::any_of(settings.name, [](char each) { return each >= 'A' && each <= 'Z'; });
-    if (settings.name.empty() || hasCapitals) {
-        throw std::invalid_argument("name is \"" + settings.name.substr(0, maximumName) +
-                                    "\"; expected text that is not empty and has no capital letters, as labels have");
+    requireText(settings.name, model::nameBytes, "name");
+    if (settings.name.find_first_not_of(' ') == std::string::npos || hasCapitals) {
+        throw std::invalid_argument("name is \"" + settings.name +
+                                    "\"; expected text that is not blank and has no capital letters, as labels have");
     }
-    requireText(settings.name, maximumName, "name");
-    requireText(settings.category, maximumName, "category");
-    requireText(settings.description, maximumText, "description");
-    requireText(settings.licence, maximumText, "licence");
-    requireText(settings.recordings, maximumText, "recordings");
+    requireText(settings.category, model::nameBytes, "category");
+    requireText(settings.description, model::maximumTextBytes, "description");
+    requireText(settings.licence, model::maximumTextBytes, "licence");
+    requireText(settings.recordings, model::maximumTextBytes, "recordings");
     if (settings.waveVectors) {
         for (const double number : *settings.waveVectors) {
             if (!(std::abs(number) <= maximumCyclesPerMillimetre)) {

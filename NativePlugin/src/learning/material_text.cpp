@@ -62,15 +62,6 @@ Json seedsJson(std::span<const LearntSeed> seeds) {
 
 }  // namespace
 
-bool isUtf8(const std::string& text) {
-    try {
-        (void)Json(text).dump();
-        return true;
-    } catch (const Json::exception&) {
-        return false;
-    }
-}
-
 std::string materialText(const model::ModelFile& model, const MaterialContent& content) {
     const LearningSettings& settings = content.settings;
     const LearningReport& report = content.report;

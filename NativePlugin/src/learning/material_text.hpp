@@ -27,8 +27,6 @@ struct MaterialContent {
     std::span<const LearntSeed> seeds;
 };
 
-[[nodiscard]] bool isUtf8(const std::string& text);
-
 /// The text of a `.haptomaterial` file, ending in a line feed.
 [[nodiscard]] std::string materialText(const model::ModelFile& model, const MaterialContent& content);
 

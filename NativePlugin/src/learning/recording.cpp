@@ -39,8 +39,13 @@ void checkSizes(const Recording& recording) {
             "the constant force is " + plainNumber(recording.constantForceNewtons) + " N; expected 0 or more");
 }
 
+/// A longer run of samples that are not finite, with others before and after it, is a pause and not damage.
+constexpr double minimumPauseSeconds = 0.25;
+
 struct AxisFigures {
     std::size_t finite = 0;
+    /// Samples outside pauses.
+    std::size_t recorded = 0;
     double mean = 0.0;
     double rms = 0.0;
     double clippedShare = 0.0;
@@ -54,9 +59,16 @@ AxisFigures figuresOf(const Recording& recording, std::size_t axis) {
     float highest = 0.0F;
     const auto at = [&](std::size_t i) { return recording.accelerationMps2[i * recording.axisCount + axis]; };
     const std::size_t count = recording.sampleCount();
+    const auto longestLoss = static_cast<std::size_t>(minimumPauseSeconds * recording.rateHz);
+    std::size_t lost = 0;
+    figures.recorded = count;
     for (std::size_t i = 0; i < count; ++i) {
         const float value = at(i);
-        if (std::isfinite(value)) {
+        if (!std::isfinite(value)) {
+            ++lost;
+        } else {
+            figures.recorded -= lost > longestLoss && figures.finite > 0 ? lost : 0;
+            lost = 0;
             lowest = figures.finite == 0 ? value : std::min(lowest, value);
             highest = figures.finite == 0 ? value : std::max(highest, value);
             sum += value;
@@ -79,7 +91,7 @@ AxisFigures figuresOf(const Recording& recording, std::size_t axis) {
         }
     }
     figures.rms = std::sqrt(squares / static_cast<double>(figures.finite));
-    figures.clippedShare = static_cast<double>(clipped) / static_cast<double>(count);
+    figures.clippedShare = static_cast<double>(clipped) / static_cast<double>(figures.recorded);
     return figures;
 }
 
@@ -108,7 +120,7 @@ void checkRecording(const Recording& recording) {
     for (std::size_t axis = 0; axis < recording.axisCount; ++axis) {
         const AxisFigures figures = figuresOf(recording, axis);
         const std::string name = recording.axisCount == 1 ? "the acceleration" : "axis " + std::to_string(axis + 1);
-        const auto count = static_cast<double>(recording.sampleCount());
+        const auto count = static_cast<double>(figures.recorded);
         if (static_cast<double>(figures.finite) < (1.0 - maximumLostShare) * count) {
             throw RecordingUnusable(name + " is not finite in " +
                                     plainNumber(100.0 - 100.0 * static_cast<double>(figures.finite) / count) +

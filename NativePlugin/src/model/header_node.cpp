@@ -1,6 +1,7 @@
 #include "model/header_node.hpp"
 
 #include "model/model_error.hpp"
+#include "model/plain_text.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -16,11 +17,6 @@ std::string inWords(double value) {
     stream.imbue(std::locale::classic());
     stream << value;
     return stream.str();
-}
-
-bool isControl(char character) {
-    const auto code = static_cast<unsigned char>(character);
-    return code < 0x20 || code == 0x7F;
 }
 
 }  // namespace
@@ -140,7 +136,7 @@ std::string HeaderNode::text(std::size_t maximumBytes) const {
     if (content.size() > maximumBytes) {
         refuseSize(std::to_string(content.size()) + " bytes of text", maximumBytes);
     }
-    if (std::any_of(content.begin(), content.end(), isControl)) {
+    if (hasControlCharacter(content)) {
         refuse("text without control characters");
     }
     return content;

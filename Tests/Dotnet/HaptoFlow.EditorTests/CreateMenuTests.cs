@@ -39,6 +39,57 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
+        public void AFirstSceneTwiceAddsNothing()
+        {
+            CreateMenu.CreateFirstScene(new MenuCommand(null));
+            int before = Count();
+            Undo.IncrementCurrentGroup();
+            CreateMenu.CreateFirstScene(new MenuCommand(null));
+            Assert.That(Count(), Is.EqualTo(before));
+            Assert.That(Selection.activeObject, Is.SameAs(All<HapticSurface>().Single().gameObject));
+        }
+
+        [Test]
+        public void AFirstSceneUsesTheOutputThatTheSceneHas()
+        {
+            HapticOutput output = Output();
+            CreateMenu.CreateFirstScene(new MenuCommand(null));
+            Assert.That(All<HapticOutput>(), Is.EqualTo(new[] { output }));
+        }
+
+        [Test]
+        public void AFirstSceneInARigHasAPenInEachHandAndAPlateInReachAndOneUndoRemovesThem()
+        {
+            GameObject rig = Make("XR Origin");
+            rig.AddComponent<XROrigin>();
+            rig.transform.SetPositionAndRotation(new Vector3(3f, 0f, 2f), Quaternion.AngleAxis(90f, Vector3.up));
+            GameObject space = Make("Camera Offset", rig);
+            camera.transform.SetParent(space.transform, false);
+            int before = Count();
+            CreateMenu.CreateFirstScene(new MenuCommand(null));
+            Assert.That(All<XrPen>().Select(pen => pen.Hand), Is.EquivalentTo(new[] { PenHand.Right, PenHand.Left }));
+            Assert.That(All<XrPen>().Select(pen => pen.transform.parent), Is.All.SameAs(space.transform));
+            Assert.That(All<MousePen>(), Is.Empty);
+            Vector3 plate = All<HapticSurface>().Single().transform.position;
+            Assert.That(Vector3.Distance(plate, new Vector3(3.4f, 0.74f, 2f)), Is.LessThan(1e-3f), "in front of the rig");
+            int all = Count();
+            CreateMenu.CreateFirstScene(new MenuCommand(null));
+            Assert.That(Count(), Is.EqualTo(all), "a second time adds nothing");
+            Undo.PerformUndo();
+            Undo.PerformUndo();
+            Assert.That(Count(), Is.EqualTo(before));
+        }
+
+        [Test]
+        public void ASecondPenForTheSameHandIsTheFirstOne()
+        {
+            CreateMenu.CreateRightPen(new MenuCommand(null));
+            Selection.activeObject = null;
+            CreateMenu.CreateRightPen(new MenuCommand(null));
+            Assert.That(Selection.activeObject, Is.SameAs(All<XrPen>().Single().gameObject));
+        }
+
+        [Test]
         public void TheCameraOfAFirstSceneSeesThePlate()
         {
             CreateMenu.CreateFirstScene(new MenuCommand(null));
@@ -145,6 +196,11 @@ namespace HaptoFlow.EditorTests
                 Undo.PerformUndo();
                 Assert.That(Count(), Is.EqualTo(before), command.Method.Name);
             }
+        }
+
+        /// <summary>Stands for the component of that name in Unity's XR Core Utilities.</summary>
+        private sealed class XROrigin : MonoBehaviour
+        {
         }
 
         private static int Count() => All<Transform>().Length;

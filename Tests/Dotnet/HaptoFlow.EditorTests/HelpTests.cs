@@ -27,7 +27,8 @@ namespace HaptoFlow.EditorTests
         private static string folder = "";
 
         [SetUp]
-        public void MakeFolder() => folder = Directory.CreateTempSubdirectory("haptoflow-help-").FullName;
+        public void MakeFolder() => folder = Directory.CreateDirectory(
+            Path.Combine(Path.GetTempPath(), $"haptoflow-help-{Guid.NewGuid():N}")).FullName;
 
         [TearDown]
         public void RemoveFolder()

@@ -47,6 +47,8 @@ namespace HaptoFlow.EditorTests
         [Test]
         public void WithoutSettingsThePackagesModelPlaysAndOneMessageIsLogged()
         {
+            // The quality is then automatic, which needs a worker.
+            HapticSession.OptionsOverride = null;
             Stylus();
             EditorSession.Play();
             Assert.That(HaptoFlowSettings.Active.Model, Is.SameAs(Model()));

@@ -57,7 +57,9 @@ namespace HaptoFlow.RepositoryTests
         {
             using HapticLearning learning = Start(Doormat());
             learning.Wait();
-            Assert.That((learning.Problem, learning.IsCancelled, learning.IsCompleted), Is.EqualTo(((string?)null, false, true)));
+            Assert.That(learning.Problem, Is.Null);
+            Assert.That(learning.IsCancelled, Is.False);
+            Assert.That(learning.IsCompleted, Is.True);
             MaterialFile material = MaterialFile.Read(learning.Material!);
             Assert.That((material.Name, material.Category, material.Description, material.Licence, material.Space),
                 Is.EqualTo(("doormat", "cloth", "A mat.", "MIT", ModelSpace.Of(Model).Id)));
@@ -97,8 +99,9 @@ namespace HaptoFlow.RepositoryTests
             learning.Cancel();
             learning.Cancel();
             learning.Wait();
-            Assert.That((learning.IsCancelled, learning.Problem, learning.Material, learning.NearestLabel),
-                Is.EqualTo((true, (string?)null, (string?)null, "")));
+            Assert.That(learning.IsCancelled, Is.True);
+            Assert.That((learning.Problem, learning.Material, learning.NearestLabel),
+                Is.EqualTo(((string?)null, (string?)null, "")));
             learning.Cancel();
         }
 

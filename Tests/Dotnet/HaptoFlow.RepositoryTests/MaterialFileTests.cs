@@ -53,7 +53,7 @@ namespace HaptoFlow.RepositoryTests
         {
             JsonValue invalid = JsonValue.Parse(File.ReadAllText(Golden("invalid.json")));
             string sound = File.ReadAllText(Golden(invalid["of"].AsText()));
-            Assert.That(invalid["cases"].AsArray(), Has.Count.GreaterThan(20));
+            Assert.That(invalid["cases"].AsArray().Count, Is.GreaterThan(20));
             foreach (JsonValue each in invalid["cases"].AsArray())
             {
                 string broken = Patched(sound, JsonText.Of(each["patch"]));

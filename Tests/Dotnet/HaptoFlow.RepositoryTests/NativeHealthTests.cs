@@ -19,7 +19,7 @@ namespace HaptoFlow.RepositoryTests
                 Assert.That(name.Replace("HAPTOFLOW_SILENCE_", "").Replace("_", ""),
                     Is.EqualTo(silence.ToString()).IgnoreCase);
             }
-            Assert.That(Marshal.PtrToStringUTF8(NativeMethods.SilenceName(9)), Is.EqualTo("HAPTOFLOW_UNKNOWN_SILENCE"));
+            Assert.That(Marshal.PtrToStringUTF8(NativeMethods.SilenceName(10)), Is.EqualTo("HAPTOFLOW_UNKNOWN_SILENCE"));
         }
 
         [Test]

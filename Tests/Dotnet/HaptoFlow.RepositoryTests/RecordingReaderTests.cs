@@ -288,6 +288,11 @@ namespace HaptoFlow.RepositoryTests
         [TestCase("{\"velocity_mps\": [1]}", "key 'velocity_mps' is [1]")]
         [TestCase("{\"speed_mps\": 1, \"velocity_mps\": [1, 0]}", "keys speed_mps and velocity_mps")]
         [TestCase("{\"motion\": \"none.csv\"}", "key 'motion' names none.csv, which is not there")]
+        [TestCase("{\"motion\": \"../a.csv\"}", "names ../a.csv, which is outside the folder of a.json")]
+        [TestCase("{\"motion\": \"x\\\\..\\\\a.csv\"}", "which is outside the folder of a.json")]
+        [TestCase("{\"motion\": \"/etc/hosts\"}", "which is outside the folder of a.json")]
+        [TestCase("{\"motion\": \"C:a.csv\"}", "which is outside the folder of a.json")]
+        [TestCase("{\"\\u001b[2J\": 1}", "unknown key '\\u001B[2J'")]
         public void AnInvalidSidecarIsRefusedWithItsKey(string sidecar, string message)
         {
             Put("a.csv", Plain());

@@ -46,7 +46,7 @@ namespace HaptoFlow.ShimTests
         [Test]
         public void AutoOutputPlaysTheWaveformOnATouchController()
         {
-            OVRInput.Connected = OVRInput.Controller.RTouch;
+            OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
             World.Frames(72);
             Assert.That(OVRInput.Waves.Count, Is.GreaterThan(60));
             Assert.That(OVRInput.Waves.All(wave => wave.Mask == OVRInput.Controller.RTouch && wave.RateHz == 2000f));
@@ -85,7 +85,7 @@ namespace HaptoFlow.ShimTests
         [Test]
         public void SubmissionsQueueWhenTheAuthorChoosesIt()
         {
-            OVRInput.Connected = OVRInput.Controller.RTouch;
+            OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
             Add<ControllerWaveformOutput>(output => output.QueueSubmissions = true);
             World.Frames(145);
             // Aligning with the clock sends the buffered samples again, about twice a second.
@@ -94,21 +94,23 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void AnAudioOutputTakesPrecedenceOverAutoOutput()
+        public void AnAudioOutputWithAChannelTakesPrecedenceOverAutoOutput()
         {
-            OVRInput.Connected = OVRInput.Controller.RTouch;
-            AudioTap tap = Output(out _);
+            OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
+            AudioTap tap = Output(out HapticOutput output);
+            output.Channel = 0;
             World.Frames(40);
             Assert.That(tap.Peak(), Is.GreaterThan(0.001f));
             Assert.That(OVRInput.Waves, Is.Empty);
         }
 
         [Test]
-        public void AnAudioOutputAddedLaterReplacesAutoOutput()
+        public void AnAudioOutputWithAChannelAddedLaterReplacesAutoOutput()
         {
-            OVRInput.Connected = OVRInput.Controller.RTouch;
+            OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
             World.Frames(40);
-            AudioTap tap = Output(out _);
+            AudioTap tap = Output(out HapticOutput output);
+            output.Channel = 0;
             World.Frames(2);
             int before = OVRInput.Waves.Count;
             World.Frames(40);
@@ -120,7 +122,7 @@ namespace HaptoFlow.ShimTests
         [Test]
         public void AStylusInNoHandPlaysOnTheAudioDevice()
         {
-            OVRInput.Connected = OVRInput.Controller.RTouch;
+            OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
             stylus.Hand = HapticHand.None;
             World.Frames(40);
             Assert.That(OVRInput.Waves, Is.Empty);
@@ -134,7 +136,7 @@ namespace HaptoFlow.ShimTests
             Assert.That(All<HapticOutput>(), Has.Length.EqualTo(1));
             World.Frames(100);
             Assert.That(stylus.TryGetStatistics(out _), Is.True);
-            OVRInput.Connected = OVRInput.Controller.RTouch;
+            OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
             World.Frames(80);
             Assert.That(OVRInput.Waves, Is.Not.Empty, "a device that connects later is used");
         }
@@ -142,7 +144,7 @@ namespace HaptoFlow.ShimTests
         [Test]
         public void OneStylusMayUseSeveralOutputs()
         {
-            OVRInput.Connected = OVRInput.Controller.RTouch;
+            OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
             XrHand.Right.Take("The same controller", true);
             AudioTap tap = Output(out _);
             Add<ControllerWaveformOutput>();
@@ -156,7 +158,7 @@ namespace HaptoFlow.ShimTests
         [Test]
         public void AutoOutputIsNotAddedWhenAnOutputNamesTheStylus()
         {
-            OVRInput.Connected = OVRInput.Controller.RTouch;
+            OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
             MotorOutput motor = Add<MotorOutput>();
             World.Frames(10);
             motor.enabled = false;
@@ -169,39 +171,12 @@ namespace HaptoFlow.ShimTests
         [Test]
         public void MxInkPlaysThroughItsAction()
         {
-            OVRInput.Connected = OVRInput.Controller.RTouch;
-            OVRPlugin.Profile = OVRPlugin.MxInkProfile;
+            OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
+            OVRPlugin.Take(OVRPlugin.Hand.HandRight, OVRPlugin.MxInkProfile);
             World.Frames(72);
             Assert.That(OVRPlugin.Pulses.Count, Is.GreaterThan(60));
             Assert.That(OVRPlugin.Pulses.All(each => each.Hand == OVRPlugin.Hand.HandRight));
             Assert.That(OVRInput.Waves, Is.Empty, "MX Ink does not report that it plays waves");
-        }
-
-        [Test]
-        public void AnUnboundActionIsTriedOnceAndLoggedOnce()
-        {
-            OVRPlugin.Profile = OVRPlugin.MxInkProfile;
-            OVRPlugin.BoundHaptic = null;
-            World.Frames(200);
-            Assert.That(OVRPlugin.FailedPulses, Is.EqualTo(1));
-            Assert.That(CountMessages(LogType.Warning, "\"haptic_pulse\""), Is.EqualTo(1));
-            OVRPlugin.BoundHaptic = "haptic_pulse";
-            OVRPlugin.hasInputFocus = false;
-            World.Frames(5);
-            OVRPlugin.hasInputFocus = true;
-            World.Frames(72);
-            Assert.That(OVRPlugin.Pulses, Is.Not.Empty, "the session has been restarted");
-        }
-
-        [Test]
-        public void AControllerWithoutASampleRateIsQueriedOnce()
-        {
-            OVRInput.Connected = OVRInput.Controller.RTouch;
-            OVRInput.SampleRateHz = 0f;
-            XrHand.Right.Take("The same controller", true);
-            World.Frames(200);
-            Assert.That(OVRInput.FailedCalls, Is.EqualTo(1));
-            Assert.That(XrHand.Right.Impulses, Is.Not.Empty);
         }
 
         [Test]
@@ -228,7 +203,7 @@ namespace HaptoFlow.ShimTests
         [Test]
         public void ParametricHapticsAreUsedOnlyWhenTheAuthorEnablesThem()
         {
-            OVRInput.Connected = OVRInput.Controller.RTouch;
+            OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
             Add<ControllerParametricOutput>();
             World.Frames(72);
             Assert.That(OVRInput.Parametric, Is.Empty);
@@ -266,7 +241,7 @@ namespace HaptoFlow.ShimTests
         public void AStopReachesTheDeviceWithinAFrame(
             [Values("panic", "panic of all", "mute", "switched off", "pause", "stylus off")] string how)
         {
-            OVRInput.Connected = OVRInput.Controller.RTouch;
+            OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
             ControllerWaveformOutput output = Add<ControllerWaveformOutput>();
             World.Frames(72);
             Assert.That(OVRInput.Waves[^1].Samples.Length, Is.GreaterThan(20), "it plays");
@@ -304,11 +279,11 @@ namespace HaptoFlow.ShimTests
         [Test]
         public void ASleepingControllerAndItsReplacementAreDetected()
         {
-            OVRInput.Connected = OVRInput.Controller.RTouch;
+            OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
             AutoOutput output = Add<AutoOutput>();
             World.Frames(72);
             Assert.That(output.Statistics.RateHz, Is.EqualTo(2000.0));
-            OVRInput.Connected = OVRInput.Controller.None;
+            OVRPlugin.Connected = OVRPlugin.Controller.None;
             World.Frames(5);
             int before = OVRInput.Waves.Count;
             World.Frames(72);
@@ -319,7 +294,7 @@ namespace HaptoFlow.ShimTests
             Assert.That(XrHand.Right.Impulses, Is.Not.Empty);
             Assert.That(output.DeviceName, Is.EqualTo("Another controller"));
             OVRInput.SampleRateHz = 500f;
-            OVRInput.Connected = OVRInput.Controller.RTouch;
+            OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
             World.Frames(72);
             Assert.That(OVRInput.Waves[^1].RateHz, Is.EqualTo(500f));
             Assert.That(OVRInput.FailedCalls, Is.Zero);
@@ -328,7 +303,7 @@ namespace HaptoFlow.ShimTests
         [Test]
         public void AFrameOf200MillisecondsIsAGap()
         {
-            OVRInput.Connected = OVRInput.Controller.RTouch;
+            OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
             ControllerWaveformOutput output = Add<ControllerWaveformOutput>();
             World.Frames(72);
             float[] last = OVRInput.Waves[^1].Samples;
@@ -343,7 +318,7 @@ namespace HaptoFlow.ShimTests
         [Test]
         public void ALiftedStylusSendsNothingAndRunsNoInference()
         {
-            OVRInput.Connected = OVRInput.Controller.RTouch;
+            OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
             Add<ControllerWaveformOutput>();
             stylus.GetComponent<PathMover>().Path = _ => new Vector3(0f, 0.3f, 0f);
             World.Frames(72);
@@ -359,7 +334,7 @@ namespace HaptoFlow.ShimTests
         [Test, Explicit, Category("DocumentationPicture")]
         public void WavesForTheDocumentationAreWritten()
         {
-            OVRInput.Connected = OVRInput.Controller.RTouch;
+            OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
             Output(out _);
             float fullScaleMps2 = HaptoFlowSettings.Active.FullScaleMps2;
             Add<ControllerWaveformOutput>().FullScaleMps2 = fullScaleMps2;
@@ -381,7 +356,7 @@ namespace HaptoFlow.ShimTests
         [Test]
         public void AControllerPlaysTheLevelAndSpectrumOfAnAudioOutput()
         {
-            OVRInput.Connected = OVRInput.Controller.RTouch;
+            OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
             Output(out _);
             Add<ControllerWaveformOutput>().FullScaleMps2 = HaptoFlowSettings.Active.FullScaleMps2;
             World.Frames(72);
@@ -475,7 +450,7 @@ namespace HaptoFlow.ShimTests
         public void DeviceOutputsAllocateNothing([Values] bool waveform)
         {
             OVRInput.Records = false;
-            OVRInput.Connected = waveform ? OVRInput.Controller.RTouch : OVRInput.Controller.None;
+            OVRPlugin.Connected = waveform ? OVRPlugin.Controller.RTouch : OVRPlugin.Controller.None;
             XrHand.Right.Take("A controller", true);
             XrHand.Right.Impulses.Capacity = 1000;
             World.Frames(150);

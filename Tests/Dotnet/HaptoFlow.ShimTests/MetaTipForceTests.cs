@@ -15,6 +15,7 @@ namespace HaptoFlow.ShimTests
         public void PressAPen()
         {
             OVRPlugin.Reset();
+            OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
             HapticSurface board = Board();
             board.Material.StiffnessNewtonsPerMetre = 700f;
             HapticStylus stylus = StylusAlong(_ => new Vector3(0f, 0.001f, 0f));

@@ -1,3 +1,4 @@
+using System.Linq;
 using HaptoFlow.Tests;
 using NUnit.Framework;
 using UnityEngine;
@@ -44,6 +45,34 @@ namespace HaptoFlow.ShimTests
             World.Frames(1);
             Assert.That(stylus.Contact.ForceNewtons, Is.EqualTo(spring).Within(1e-6f));
         }
+
+        [TestCase("<XRController>{RightHand}/tip", HapticHand.Right)]
+        [TestCase("<XRController>{LeftHand}/tip", HapticHand.Left)]
+        [TestCase("<Pen>/pressure", HapticHand.None)]
+        [TestCase(null, HapticHand.None)]
+        public void TheBindingOfAnInputActionSaysInWhichHandThePenIs(string? binding, HapticHand hand)
+        {
+            HapticStylus stylus = PressedStylus();
+            var source = stylus.gameObject.AddComponent<InputActionTipForce>();
+            source.Pressure = new InputActionProperty(new InputAction(binding: binding));
+            stylus.Force = source;
+            Assert.That(stylus.Hand, Is.EqualTo(hand));
+            stylus.Hand = HapticHand.Left;
+            Assert.That(stylus.Hand, Is.EqualTo(HapticHand.Left), "a hand that was set is kept");
+        }
+
+        [Test]
+        public void AForceInNoHandIsNamedOnce()
+        {
+            HapticStylus stylus = PressedStylus();
+            stylus.Force = stylus.gameObject.AddComponent<MetaActionTipForce>();
+            OVRPlugin.Tip = 0.4f;
+            World.Frames(90);
+            Assert.That(Log.Lines.Count(line => line.Text.Contains("no hand is known to hold it")), Is.EqualTo(1));
+        }
+
+        [TearDown]
+        public void RemoveThePen() => OVRPlugin.Reset();
 
         private HapticStylus PressedStylus()
         {

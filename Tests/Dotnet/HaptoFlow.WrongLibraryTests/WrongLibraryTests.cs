@@ -56,7 +56,8 @@ namespace HaptoFlow.WrongLibraryTests
         public void AStructThatTheLibraryDoesNotKnowIsRefused()
         {
             StubLibrary.Become(LibraryAgreement.Version, "haptoflow_learning_options");
-            Assert.That(Refusal(() => OnnxRuntime.Open()), Does.Contain("how large its struct haptoflow_learning_options is"));
+            Assert.That(
+                Refusal(() => OnnxRuntime.Open()), Does.Contain("how large its struct haptoflow_learning_options is"));
         }
 
         [Test]

@@ -3,27 +3,26 @@ using System.Collections.Generic;
 using System.Globalization;
 using System.IO;
 using System.Linq;
+using System.Reflection;
 using System.Xml;
 using NUnit.Framework.Api;
 using NUnit.Framework.Interfaces;
 using NUnit.Framework.Internal;
+using NUnit.Framework.Internal.Builders;
 
 namespace HaptoFlow.Tests.OwnProgram
 {
     /// <summary>Runs the tests of its own assembly, for runtimes on which `dotnet test` cannot: Mono, and programs
-    /// compiled ahead of time. Arguments: the JUnit file to write, then names (or parts of full names) of tests to leave
-    /// out; a word after "--only" is the part of the full name that all tests have.</summary>
+    /// compiled ahead of time. Arguments: the JUnit file to write, then parts of the full names of tests to leave
+    /// out.</summary>
     internal static class TestProgram
     {
         private static int Main(string[] words)
         {
-            int only = Array.IndexOf(words, "--only");
-            var filter = new NameFilter(
-                words.Skip(1).Take(only < 0 ? int.MaxValue : only - 1).ToArray(),
-                only < 0 ? "" : words[only + 1]);
-            var runner = new NUnitTestAssemblyRunner(new DefaultTestAssemblyBuilder());
+            var runner = new NUnitTestAssemblyRunner(new Builder());
             var settings = new Dictionary<string, object> { ["NumberOfTestWorkers"] = 0 };
             runner.Load(typeof(TestProgram).Assembly, settings);
+            var filter = new NameFilter(words.Skip(1).ToArray());
             ITestResult[] results = Leaves(runner.Run(new Listener(Console.Out), filter)).ToArray();
             WriteJunit(words[0], results);
             int failed = results.Count(result => Outcome(result) == "failure");
@@ -35,7 +34,7 @@ namespace HaptoFlow.Tests.OwnProgram
         /// <summary>The results of single tests, and of fixtures that failed outside of their tests.</summary>
         private static IEnumerable<ITestResult> Leaves(ITestResult result) =>
             result.HasChildren ? result.Children.SelectMany(Leaves)
-                : result.Test.IsSuite && result.ResultState.Status != TestStatus.Failed ? Enumerable.Empty<ITestResult>()
+                : result.Test.IsSuite && Outcome(result) != "failure" ? Enumerable.Empty<ITestResult>()
                 : new[] { result };
 
         private static string Outcome(ITestResult result) => result.ResultState.Status switch
@@ -78,6 +77,30 @@ namespace HaptoFlow.Tests.OwnProgram
         private static string Printable(string text) =>
             new string(text.Select(letter => XmlConvert.IsXmlChar(letter) ? letter : '?').ToArray());
 
+        /// <summary>Finds the fixtures. NUnit's own builder asks for the assembly's file, and a program compiled
+        /// ahead of time has none.</summary>
+        private sealed class Builder : ITestAssemblyBuilder
+        {
+            public ITest Build(Assembly assembly, IDictionary<string, object> options)
+            {
+                var all = new TestAssembly(assembly, assembly.GetName().Name!);
+                var fixtures = new DefaultSuiteBuilder();
+                foreach (Type type in assembly.GetTypes())
+                {
+                    var wrapped = new TypeWrapper(type);
+                    if (fixtures.CanBuildFrom(wrapped))
+                    {
+                        all.Add(fixtures.BuildFrom(wrapped));
+                    }
+                }
+                all.ApplyAttributesToTest(assembly);
+                return all;
+            }
+
+            public ITest Build(string assemblyName, IDictionary<string, object> options) =>
+                throw new NotSupportedException();
+        }
+
         /// <summary>Prints failures as they happen, so that a program that ends early says where.</summary>
         private sealed class Listener : ITestListener
         {
@@ -110,17 +133,11 @@ namespace HaptoFlow.Tests.OwnProgram
         private sealed class NameFilter : TestFilter
         {
             private readonly string[] except;
-            private readonly string only;
 
-            public NameFilter(string[] except, string only)
-            {
-                this.except = except;
-                this.only = only;
-            }
+            public NameFilter(string[] except) => this.except = except;
 
-            public override bool Match(ITest test) => test.IsSuite ||
-                (test.FullName.Contains(only, StringComparison.Ordinal) &&
-                !except.Any(name => test.FullName.Contains(name, StringComparison.Ordinal)));
+            public override bool Match(ITest test) =>
+                test.IsSuite || !except.Any(name => test.FullName.Contains(name, StringComparison.Ordinal));
 
             public override bool Pass(ITest test, bool negated) =>
                 test.IsSuite ? test.Tests.Any(child => Pass(child, negated)) : Match(test);

@@ -133,6 +133,8 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
     const haptoflow_wave_features_options featureOptions{sizeof(featureOptions), 0, 0.0, 0.0, 0.0};
     haptoflow_wave_features* features = nullptr;
     ASSERT_EQ(haptoflow_wave_features_create(&featureOptions, &features), HAPTOFLOW_OK) << message();
+    haptoflow_device_wave* deviceWave = nullptr;
+    ASSERT_EQ(haptoflow_device_wave_create(8000.0, &deviceWave), HAPTOFLOW_OK) << message();
     const learning::testing::MadeRecording made({}, {.seconds = 4.0});
     const haptoflow_learning_options learningOptions = optionsOf(made, open.runtime, open.model);
     haptoflow_learning* noLearning = nullptr;
@@ -255,6 +257,15 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
           [&] { return haptoflow_wave_features_process(features, nullptr, 1, &frame, 1, &length); },
           [&] { return haptoflow_wave_features_process(features, numbers.data(), 1, nullptr, 1, &length); },
           [&] { return haptoflow_wave_features_process(features, numbers.data(), 1, &frame, 1, nullptr); }}},
+        {"haptoflow_voice_set_listen", {[&] { return haptoflow_voice_set_listen(0, 1); }}},
+        {"haptoflow_device_share",
+         {[&] { return haptoflow_device_share(HAPTOFLOW_DEVICE_MOTOR, 1.0F, nullptr); }}},
+        {"haptoflow_device_wave_create", {[&] { return haptoflow_device_wave_create(8000.0, nullptr); }}},
+        {"haptoflow_device_wave_close", {[&] { return haptoflow_device_wave_close(nullptr); }}},
+        {"haptoflow_device_wave_reset", {[&] { return haptoflow_device_wave_reset(nullptr); }}},
+        {"haptoflow_device_wave_process",
+         {[&] { return haptoflow_device_wave_process(nullptr, numbers.data(), 1, 200.0F); },
+          [&] { return haptoflow_device_wave_process(deviceWave, nullptr, 1, 200.0F); }}},
         {"haptoflow_learn_material",
          {[&] { return haptoflow_learn_material(nullptr, &noLearning); },
           [&] { return haptoflow_learn_material(&learningOptions, nullptr); }}},

@@ -206,6 +206,7 @@ TEST(EngineApiTest, OptionsOutOfRangeAreRefusedByName) {
     options.runtime = open.runtime;
     options.model = open.model;
     options.without_worker = 1;
+    options.quality = HAPTOFLOW_QUALITY_DRAFT;
     haptoflow_engine* engine = nullptr;
     const auto refusal = [&](auto change) {
         haptoflow_engine_options changed = options;
@@ -214,6 +215,7 @@ TEST(EngineApiTest, OptionsOutOfRangeAreRefusedByName) {
         return message();
     };
     EXPECT_THAT(refusal([](auto& o) { o.quality = 7; }), ::testing::HasSubstr("quality"));
+    EXPECT_THAT(refusal([](auto& o) { o.quality = HAPTOFLOW_QUALITY_AUTO; }), ::testing::HasSubstr("without worker"));
     EXPECT_THAT(refusal([](auto& o) { o.update_rate_hz = -1.0; }), ::testing::HasSubstr("update rate"));
     EXPECT_THAT(refusal([](auto& o) { o.budget_share = 1.5; }), ::testing::HasSubstr("budget_share"));
     EXPECT_THAT(refusal([](auto& o) { o.batch_voices = 65; }), ::testing::HasSubstr("batch_voices"));
@@ -230,6 +232,15 @@ TEST(EngineApiTest, OptionsOutOfRangeAreRefusedByName) {
         EXPECT_EQ(haptoflow_voice_create(open.engine, rateHz, &voice), HAPTOFLOW_INVALID_ARGUMENT) << rateHz;
         EXPECT_THAT(message(), ::testing::HasSubstr("8000")) << "the message names the supported range";
     }
+}
+
+TEST(EngineApiTest, AnEngineWithoutAWorkerRefusesAutomaticQualityAndKeepsItsOwn) {
+    OpenEngine open(tinyModelPath);
+    EXPECT_EQ(haptoflow_engine_set_quality(open.engine, HAPTOFLOW_QUALITY_AUTO), HAPTOFLOW_INVALID_ARGUMENT);
+    EXPECT_THAT(message(), ::testing::HasSubstr("auto"));
+    EXPECT_GT(peak(open.update(slidingState())), 0.0F);
+    EXPECT_EQ(open.engineStatistics().tier, 0U);
+    EXPECT_EQ(open.engineStatistics().is_measuring, 0U);
 }
 
 TEST(EngineApiTest, AnEngineWithAWorkerRefusesSteps) {

@@ -44,11 +44,24 @@ TEST_F(HealthTest, TheReasonForSilenceIsReadableByName) {
     EXPECT_EQ(silence(), "NONE");
 }
 
+TEST_F(HealthTest, AVoiceThatIsTurnedDownSaysSo) {
+    (void)open_.update(slidingState());
+    ASSERT_EQ(haptoflow_voice_set_strength(open_.voice, 0.0F), HAPTOFLOW_OK);
+    (void)open_.update(slidingState());
+    EXPECT_EQ(silence(), "TURNED_DOWN");
+    ASSERT_EQ(haptoflow_voice_set_strength(open_.voice, 1.0F), HAPTOFLOW_OK);
+    (void)open_.update(slidingState());
+    EXPECT_EQ(silence(), "NONE");
+    ASSERT_EQ(haptoflow_voice_set_ceiling(open_.voice, 0.0F), HAPTOFLOW_OK);
+    EXPECT_EQ(peak(open_.update(slidingState())), 0.0F);
+    EXPECT_EQ(silence(), "TURNED_DOWN");
+}
+
 TEST_F(HealthTest, EveryReasonHasANameAndOtherNumbersHaveNone) {
-    for (haptoflow_silence reason = HAPTOFLOW_SILENCE_NONE; reason <= HAPTOFLOW_SILENCE_WORKER_DEAD; ++reason) {
+    for (haptoflow_silence reason = HAPTOFLOW_SILENCE_NONE; reason <= HAPTOFLOW_SILENCE_TURNED_DOWN; ++reason) {
         EXPECT_STRNE(haptoflow_silence_name(reason), "HAPTOFLOW_UNKNOWN_SILENCE") << reason;
     }
-    for (const haptoflow_silence none : {-1, HAPTOFLOW_SILENCE_WORKER_DEAD + 1, std::numeric_limits<int32_t>::max()}) {
+    for (const haptoflow_silence none : {-1, HAPTOFLOW_SILENCE_TURNED_DOWN + 1, std::numeric_limits<int32_t>::max()}) {
         EXPECT_STREQ(haptoflow_silence_name(none), "HAPTOFLOW_UNKNOWN_SILENCE") << none;
     }
 }

@@ -53,6 +53,7 @@ TEST_F(LearningApiTest, ALearntMaterialIsRegisteredBesideTheModelsLabels) {
     engineOptions.runtime = runtime_;
     engineOptions.model = model_;
     engineOptions.without_worker = 1;
+    engineOptions.quality = HAPTOFLOW_QUALITY_DRAFT;
     haptoflow_engine* engine = nullptr;
     ASSERT_EQ(haptoflow_engine_create(&engineOptions, &engine), HAPTOFLOW_OK) << message();
     uint32_t index = 0;

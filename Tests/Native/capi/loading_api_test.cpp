@@ -47,7 +47,7 @@ protected:
         options.quality = quality;
         options.runtime = runtime_;
         options.model = model_;
-        options.without_worker = 1;
+        options.without_worker = quality == HAPTOFLOW_QUALITY_AUTO ? 0 : 1;
         options.fixed_lead_ms = 8.0;
         return options;
     }
@@ -179,10 +179,14 @@ TEST_F(LoadingApiTest, AQualityThatCannotBeLoadedLeavesThePresentOneInPlace) {
     ASSERT_EQ(haptoflow_voice_create(engine, 48000.0, &voice), HAPTOFLOW_OK);
     EXPECT_EQ(haptoflow_engine_set_quality(engine, HAPTOFLOW_QUALITY_STANDARD), HAPTOFLOW_MODEL_INCONSISTENT);
     EXPECT_THAT(message(), ::testing::HasSubstr("tier \"standard\""));
-    EXPECT_EQ(haptoflow_engine_set_quality(engine, HAPTOFLOW_QUALITY_AUTO), HAPTOFLOW_MODEL_INCONSISTENT);
     slide(engine, voice, 1);
     EXPECT_EQ(tierOf(engine), draftTier);
     EXPECT_EQ(runsOf(engine, draftTier), 1U);
+    haptoflow_engine_options withWorker = engineOptions(HAPTOFLOW_QUALITY_DRAFT);
+    withWorker.without_worker = 0;
+    haptoflow_engine* other = open(withWorker);
+    EXPECT_EQ(haptoflow_engine_set_quality(other, HAPTOFLOW_QUALITY_AUTO), HAPTOFLOW_MODEL_INCONSISTENT);
+    EXPECT_EQ(tierOf(other), draftTier);
 }
 
 TEST_F(LoadingApiTest, AutomaticQualityAfterOneTierMeasuresThemAll) {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -141,6 +142,39 @@ TEST_F(WaveFeaturesApiTest, OptionsOutOfRangeAreRefusedByName) {
               HAPTOFLOW_INVALID_ARGUMENT);
     uint64_t count = 0;
     EXPECT_EQ(haptoflow_wave_features_process(features_, nullptr, 1, nullptr, 0, &count), HAPTOFLOW_INVALID_ARGUMENT);
+}
+
+TEST(DeviceLoudnessApiTest, AKindOrRateOrFullScaleOutOfRangeIsRefusedByName) {
+    float share = 0.0F;
+    for (const haptoflow_device_kind kind : {-1, 3, INT32_MAX}) {
+        EXPECT_EQ(haptoflow_device_share(kind, 1.0F, &share), HAPTOFLOW_INVALID_ARGUMENT);
+        EXPECT_THAT(message(), ::testing::HasSubstr("expected 0 to 2"));
+    }
+    haptoflow_device_wave* wave = nullptr;
+    EXPECT_EQ(haptoflow_device_wave_create(1000.0, &wave), HAPTOFLOW_INVALID_ARGUMENT);
+    ASSERT_EQ(haptoflow_device_wave_create(8000.0, &wave), HAPTOFLOW_OK) << message();
+    float sample = 0.5F;
+    for (const float scale : {0.0F, -1.0F, INFINITY, std::nanf("")}) {
+        EXPECT_EQ(haptoflow_device_wave_process(wave, &sample, 1, scale), HAPTOFLOW_INVALID_ARGUMENT);
+        EXPECT_EQ(sample, 0.5F);
+    }
+    EXPECT_EQ(haptoflow_device_wave_close(&wave), HAPTOFLOW_OK);
+    EXPECT_EQ(wave, nullptr);
+}
+
+TEST(DeviceLoudnessApiTest, TheFullScaleOfTheWaveDoesNotChangeWhatIsPlayed) {
+    std::vector<float> whole = swellingTone(8000.0, 0.5);
+    std::vector<float> scaled = whole;
+    std::ranges::for_each(scaled, [](float& sample) { sample /= 200.0F; });
+    haptoflow_device_wave* wave = nullptr;
+    ASSERT_EQ(haptoflow_device_wave_create(8000.0, &wave), HAPTOFLOW_OK) << message();
+    EXPECT_EQ(haptoflow_device_wave_process(wave, whole.data(), whole.size(), 1.0F), HAPTOFLOW_OK);
+    EXPECT_EQ(haptoflow_device_wave_reset(wave), HAPTOFLOW_OK);
+    EXPECT_EQ(haptoflow_device_wave_process(wave, scaled.data(), scaled.size(), 200.0F), HAPTOFLOW_OK);
+    EXPECT_EQ(haptoflow_device_wave_close(&wave), HAPTOFLOW_OK);
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+        ASSERT_NEAR(whole[i], scaled[i], 1e-5F) << i;
+    }
 }
 
 }  // namespace

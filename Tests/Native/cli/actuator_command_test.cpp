@@ -29,7 +29,7 @@ class ActuatorCommandTest : public testing::CommandLineTest {
 protected:
     /// Writes the sweep at half the level and 0.1 s later.
     void writeRecording(const std::string& name, int rateHz = 48000) const {
-        const Recording sweep = readRecording(at("sweep.wav").string());
+        const Recording sweep = readRecording("the wave", at("sweep.wav").string());
         std::vector<float> samples(static_cast<std::size_t>(sweep.rateHz / 10.0));
         for (const float sample : sweep.samples) {
             samples.push_back(0.5F * sample);
@@ -43,7 +43,7 @@ protected:
 TEST_F(ActuatorCommandTest, ASweepOverADirectWireGivesAFlatProfileAndAPlot) {
     const testing::Finished sweep = run("actuator sweep -o sweep.wav --seconds 3 --level 0.5");
     ASSERT_EQ(sweep.exitCode, 0) << sweep.errors;
-    const Recording written = readRecording(at("sweep.wav").string());
+    const Recording written = readRecording("the wave", at("sweep.wav").string());
     EXPECT_EQ(written.rateHz, 48000.0);
     EXPECT_EQ(written.samples.size(), 4U * 48000U);
     EXPECT_NEAR(std::ranges::max(written.samples), 0.5, 1e-3);

@@ -1,11 +1,14 @@
 // `haptoflow learn`: recordings of every format become material files that render uses.
 #include "command_line.hpp"
 
+#include "exit_codes.hpp"
 #include "learning/made_recording.hpp"
 #include "learning/resampling.hpp"
 #include "learning/texture_figures.hpp"
+#include "material_output.hpp"
 #include "material_recording.hpp"
 #include "model/material_file.hpp"
+#include "model/model_file.hpp"
 #include "wav_file.hpp"
 
 #include <gmock/gmock.h>
@@ -105,7 +108,7 @@ TEST_F(LearnCommandTest, TheSidecarOfAWavScalesAndNamesIt) {
     const Finished finished = learn("mat.wav");
     ASSERT_EQ(finished.exitCode, 0) << finished.errors;
     EXPECT_THAT(finished.errors, HasSubstr("the speed hardly changes"));
-    const model::MaterialFile material = model::readMaterial(at("doormat.haptomaterial"));
+    const model::MaterialFile material = model::readMaterial(at("mat.haptomaterial"));
     EXPECT_EQ(material.label.name, "doormat");
     EXPECT_EQ(material.provenance.licence, "CC0");
     EXPECT_EQ(material.provenance.recordings, "mat.wav, our hall");
@@ -241,6 +244,129 @@ TEST_F(LearnCommandTest, OptionsThatContradictTheFileAreUsageErrors) {
     EXPECT_EQ(read("denim.csv"), csv_);
 }
 
+TEST_F(LearnCommandTest, ALabelInASidecarNamesTheMaterialAndNeverAFile) {
+    std::filesystem::create_directories(at("work"));
+    std::filesystem::create_directories(at("victim"));
+    write("victim/wood.haptomaterial", "mine");
+    write("work/wood.haptomaterial", "mine, too");
+    write("work/denim.csv", csv_);
+    for (const std::string& label :
+         {at("victim/wood").string(), std::string("a/b"), std::string("wood"), std::string("../victim/wood")}) {
+        write("work/denim.json", nlohmann::json({{"label", label}}).dump());
+        const Finished finished = run("--version && cd work && '" HAPTOFLOW_TEST_CLI "' learn denim.csv --model '" +
+                                      testing::tinyModel + "'");
+        ASSERT_EQ(finished.exitCode, 0) << finished.errors;
+        EXPECT_EQ(read("victim/wood.haptomaterial"), "mine");
+        EXPECT_EQ(read("work/wood.haptomaterial"), "mine, too");
+    }
+    EXPECT_EQ(model::readMaterial(at("work/denim.haptomaterial")).label.name, "../victim/wood");
+}
+
+TEST_F(LearnCommandTest, ANameOfTheCommandLineBecomesAFileNameInThisFolder) {
+    EXPECT_EQ(fileNameOf("../victim/wood"), "victim-wood");
+    EXPECT_EQ(fileNameOf("C:\\temp\\wood"), "C--temp-wood");
+    EXPECT_EQ(fileNameOf("kitchen tile"), "kitchen tile");
+    EXPECT_EQ(fileNameOf(".."), "material");
+    EXPECT_EQ(fileNameOf(".hidden\n"), "hidden");
+    EXPECT_EQ(fileNameOf("caf\xC3\xA9"), "caf\xC3\xA9");
+    write("denim.csv", csv_);
+    const Finished finished = learn("denim.csv --name ../victim/wood");
+    ASSERT_EQ(finished.exitCode, 0) << finished.errors;
+    EXPECT_EQ(model::readMaterial(at("victim-wood.haptomaterial")).label.name, "../victim/wood");
+}
+
+TEST_F(LearnCommandTest, AMotionFileDoesNotLeaveTheFolderOfItsSidecar) {
+    std::filesystem::create_directories(at("in"));
+    write("secret.csv", "time_s,speed_mps,force_newtons\n0,0.1,1\n4,0.1,1\n8,0.1,1\n12,0.1,1\n");
+    write("in/near.csv", read("secret.csv"));
+    std::filesystem::create_symlink(at("secret.csv"), at("in/link.csv"));
+    write("in/felt.csv", csvOf(made_, "time_s,acceleration_mps2,a,b,c"));
+    for (const std::string& name : {std::string("../secret.csv"), at("secret.csv").string(), std::string("link.csv"),
+                                    std::string("x/../../secret.csv")}) {
+        write("in/felt.json", nlohmann::json({{"motion", name}}).dump());
+        expectRefused("in/felt.csv", "in/felt.json: key 'motion' names " + name + ", which is outside the folder");
+    }
+    write("in/felt.json", R"({"motion": "../in/./near.csv"})");
+    EXPECT_FALSE(readMaterialRecording(at("in/felt.csv").string(), {}).velocityMps.empty());
+}
+
+TEST_F(LearnCommandTest, TextsThatAMaterialFileMayNotHoldAreRefusedBeforeTheFit) {
+    write("denim.csv", csv_);
+    const std::string expected = "expected one line of text in UTF-8, without control characters";
+    expectRefused("denim.csv --category \"$(printf 'a\\tb')\"", "--category 'a\\x09b'", 2);
+    expectRefused("denim.csv --licence \"$(printf 'CC\\nBY')\"", "--licence 'CC\\x0ABY': " + expected, 2);
+    expectRefused("denim.csv --licence \"$(printf 'CC\\377')\"", "--licence 'CC\\xFF': " + expected, 2);
+    expectRefused("denim.csv --licence " + std::string(5000, 'a'), "4096 bytes at most", 2);
+    expectRefused("denim.csv --category " + std::string(200, 'a'), "128 bytes at most", 2);
+    expectRefused("denim.csv --name ' '", "not all blank", 2);
+    expectRefused("denim.csv --name \"$(printf 'a\\tb')\"", "--name 'a\\x09b'", 2);
+    for (const std::string key : {"licence", "source", "label"}) {
+        write("denim.json", nlohmann::json({{key, "CC\nBY\x1b[2J"}}).dump());
+        expectRefused("denim.csv", "denim.json: key '" + key + "' is ");
+        write("denim.json", nlohmann::json({{key, std::string(5000, 'a')}}).dump());
+        expectRefused("denim.csv", "denim.json: key '" + key + "' is ");
+    }
+    write("denim.json", nlohmann::json({{"source", std::string(4090, 'a')}}).dump());
+    expectRefused("denim.csv", "denim.csv: recordings is ");
+}
+
+TEST_F(LearnCommandTest, AFileNameOfAnyBytesGivesAMaterialThatTheLibraryReads) {
+    const std::string name = "caf\xE9\x1b[2J\n.csv";
+    write(name, csv_);
+    const Finished finished = learn("\"$(printf 'caf\\351\\033[2J\\n.csv')\" -o made.haptomaterial --report made.json");
+    ASSERT_EQ(finished.exitCode, 0) << finished.errors;
+    EXPECT_THAT(finished.output + finished.errors, Not(HasSubstr("\x1b")));
+    const model::MaterialFile material = model::readMaterial(at("made.haptomaterial"));
+    EXPECT_EQ(material.label.name, "caf  [2j");
+    EXPECT_EQ(material.provenance.recordings, "caf\\xE9\\x1B[2J\\x0A.csv");
+    // A long name is cut between characters.
+    std::string longName = "x";
+    for (int i = 0; i < 70; ++i) {
+        longName += "\xC3\xA9";
+    }
+    write(longName + ".csv", csv_);
+    ASSERT_EQ(learn(longName + ".csv -o made.haptomaterial").exitCode, 0);
+    EXPECT_EQ(model::readMaterial(at("made.haptomaterial")).label.name.size(), 127U);
+}
+
+TEST_F(LearnCommandTest, AMaterialThatCannotBeReadBackIsNotWrittenAndTheOldFileStays) {
+    write("old.haptomaterial", "old");
+    const model::ModelFile model = model::ModelFile::read(testing::tinyModel);
+    {
+        OutputFile output("-o", at("old.haptomaterial"));
+        EXPECT_THAT([&] { writeMaterial(output, "{\"format\": \"haptoflow-material\"}", model.header()); },
+                    ::testing::ThrowsMessage<InputError>(HasSubstr("old.haptomaterial: was not written")));
+    }
+    EXPECT_EQ(read("old.haptomaterial"), "old");
+    EXPECT_EQ(fileCount(), 3U) << "the scene, the stroke and the old file";
+}
+
+TEST_F(LearnCommandTest, APauseOfAMinuteSplitsARecording) {
+    std::ostringstream text;
+    text << "time_s,acceleration_mps2,velocity_x_mps,velocity_y_mps,force_newtons\n";
+    for (std::size_t i = 0; i < made_.acceleration.size(); ++i) {
+        const double seconds = static_cast<double>(i) / rateHz + (i >= made_.acceleration.size() / 2 ? 60.0 : 0.0);
+        text << seconds << ',' << made_.acceleration[i] << ',' << made_.velocity[2 * i] << ','
+             << made_.velocity[2 * i + 1] << ',' << made_.force[i] << '\n';
+    }
+    write("paused.csv", text.str());
+    const Finished finished = learn("paused.csv");
+    ASSERT_EQ(finished.exitCode, 0) << finished.errors;
+    EXPECT_THAT(finished.output, HasSubstr("Learnt paused from 9.9 s of sliding"));
+}
+
+TEST_F(LearnCommandTest, ControlCharactersOfAFileAreEscapedInMessages) {
+    write("a.csv", "time_s,acc\x1b[31meleration,\x07\n0,1,2\n");
+    const Finished columns = learn("a.csv");
+    EXPECT_THAT(columns.errors, HasSubstr("acc\\x1B[31meleration, \\x07"));
+    EXPECT_THAT(columns.errors, Not(HasSubstr("\x1b")));
+    write("b.csv", csv_);
+    write("b.json", "{\"\\u001b[2J\": 1}");
+    EXPECT_THAT(learn("b.csv").errors, HasSubstr("unknown key '\\x1B[2J'"));
+    write("scene.json", "{\"surf\\u009baces\": []}");
+    EXPECT_THAT(render("-o felt.wav").errors, HasSubstr("surf\\xC2\\x9Baces"));
+}
+
 TEST_F(LearnCommandTest, HelpGivesExamples) {
     const Finished help = run("learn --help");
     EXPECT_EQ(help.exitCode, 0);
@@ -292,7 +418,7 @@ TEST_F(LearnCommandTest, ALearntMaterialRendersLikeItsRecordingAtAGivenSpeed) {
 
     // The reference: the same surface at 90 mm/s; only its force varies by half.
     const MadeRecording truth(surface, {.seconds = 12.0, .minimumSpeedMps = 0.09, .maximumSpeedMps = 0.09}, rateHz, 99);
-    std::vector<float> heard = readRecording(at("tile.wav").string()).samples;
+    std::vector<float> heard = readRecording("the wave", at("tile.wav").string()).samples;
     std::ranges::transform(heard, heard.begin(), [](float value) { return 200.0F * value; });
     const std::vector<double> found = bandsOf(middleAt2kHz(heard, 8000.0));
     const std::vector<double> wanted = bandsOf(middleAt2kHz(truth.acceleration, rateHz));

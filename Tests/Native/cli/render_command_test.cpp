@@ -52,7 +52,8 @@ protected:
 TEST_F(RenderCommandTest, AnOutputThatIsAnInputIsRefusedUnderAnyNameAndTheInputStaysUnchanged) {
     fs::create_symlink(at("scene.json"), at("link.wav"));
     fs::create_hard_link(at("stroke.csv"), at("other name.wav"));
-    fs::copy_file(tinyModel, at("model.wav"));
+    fs::create_directory(at("nowhere"));
+    fs::copy_file(HAPTOFLOW_TEST_DEFAULT_MODEL, at("model.wav"));
     const std::string scene = read("scene.json");
     const std::string stroke = read("stroke.csv");
     expectUsage("-o scene.json", "-o scene.json: is the same file as the scene");
@@ -64,7 +65,7 @@ TEST_F(RenderCommandTest, AnOutputThatIsAnInputIsRefusedUnderAnyNameAndTheInputS
     expectUsage("-o model.wav --model model.wav", "is the same file as the model");
     EXPECT_EQ(read("scene.json"), scene);
     EXPECT_EQ(read("stroke.csv"), stroke);
-    EXPECT_EQ(fs::file_size(at("model.wav")), fs::file_size(tinyModel));
+    EXPECT_EQ(fs::file_size(at("model.wav")), fs::file_size(HAPTOFLOW_TEST_DEFAULT_MODEL));
 }
 
 TEST_F(RenderCommandTest, AModelWhoseGraphsCannotBeLoadedIsAnInputErrorWithTierAndGraph) {
@@ -79,10 +80,10 @@ TEST_F(RenderCommandTest, AModelWhoseGraphsCannotBeLoadedIsAnInputErrorWithTierA
 }
 
 TEST_F(RenderCommandTest, TwoOutputsWithOneNameAreRefused) {
-    expectUsage("-o felt.wav --waveform felt.wav", "is the same file as --waveform");
-    expectUsage("-o felt.wav --report ./felt.wav", "is the same file as --report");
+    expectUsage("-o felt.wav --waveform felt.wav", "--waveform felt.wav: is the same file as -o felt.wav");
+    expectUsage("-o felt.wav --report ./felt.wav", "--report ./felt.wav: is the same file as -o felt.wav");
     fs::create_symlink("felt.wav", at("link.wav"));
-    expectUsage("-o felt.wav --waveform link.wav", "is the same file as --waveform");
+    expectUsage("-o felt.wav --waveform link.wav", "--waveform link.wav: is the same file as -o felt.wav");
 }
 
 TEST_F(RenderCommandTest, ALinkIsFollowedAndKept) {

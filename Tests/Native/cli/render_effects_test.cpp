@@ -39,7 +39,7 @@ protected:
         return rendered.exitCode == 0 ? nlohmann::json::parse(read("felt.json")) : nlohmann::json::object();
     }
     [[nodiscard]] std::vector<float> wave(const std::string& name) const {
-        return readRecording(at(name).string()).samples;
+        return readRecording("the wave", at(name).string()).samples;
     }
 };
 

@@ -57,6 +57,22 @@ TEST(StrokeFileTest, WindowsLineEndsByteOrderMarkSpacesAndTrailingEmptyLinesAreA
     EXPECT_EQ(parseStroke("t,x,y,z\n0,1,2,3", "stroke.csv").samples.size(), 1U);
 }
 
+TEST(StrokeFileTest, SecondsSince1970CountFromTheFirstRowWithEveryDigit) {
+    const Stroke stroke = parseStroke(
+        "t,x,y,z\n1700000000.999999987,0,0,0\n1700000001.000000012,1,0,0\n1.7000000025e9,2,0,0\n", "stroke.csv");
+    ASSERT_EQ(stroke.samples.size(), 3U);
+    EXPECT_EQ(stroke.samples[0].timeSeconds, 0.0);
+    EXPECT_NEAR(stroke.samples[1].timeSeconds, 25e-9, 1e-15);
+    EXPECT_NEAR(stroke.samples[2].timeSeconds, 1.500000013, 1e-12);
+    const Stroke negative = parseStroke("t,x,y,z\n-2000000000.25,0,0,0\n-1999999999.5,0,0,0\n", "stroke.csv");
+    EXPECT_DOUBLE_EQ(negative.samples[1].timeSeconds, 0.75);
+    EXPECT_THAT(complaintAbout("t,x,y,z\n1700000000001,0,0,0\n"),
+                HasSubstr("column t: expected seconds within +-1e11"));
+    EXPECT_THAT(complaintAbout("t,x,y,z\n0,0,0,0\n2e9,0,0,0\n"), HasSubstr("stroke.csv:3: column t: expected a time "));
+    EXPECT_THAT(complaintAbout("t,x,y,z\n1700000001,0,0,0\n1700000000.9999,0,0,0\n"),
+                HasSubstr("stroke.csv:3: column t: expected a time not before the line above"));
+}
+
 TEST(StrokeFileTest, ErrorsNameFileLineAndColumn) {
     EXPECT_THAT(complaintAbout(""), HasSubstr("stroke.csv:1: expected the header t,x,y,z"));
     EXPECT_THAT(complaintAbout("t,x,y\n"), HasSubstr("stroke.csv:1: expected the header"));

@@ -316,6 +316,120 @@ TEST(ExposureGuardTest, PassedSilenceCountsLikeProcessedSilence) {
     }
 }
 
+/// Plays a tone and passes silence in turn, as a hand does, and returns the longest day's exposure.
+double playDay(ExposureGuard& guard, Session& session, double seconds, const std::vector<Tone>& tones,
+               double playSeconds, double pauseSeconds) {
+    for (double at = 0.0; at < seconds; at += playSeconds + pauseSeconds) {
+        session.play(playSeconds, tones);
+        guard.passSilence(static_cast<std::uint64_t>(pauseSeconds * voiceRateHz));
+    }
+    return session.highestDailyMps2;
+}
+
+class ExposureDayTest : public ::testing::TestWithParam<double> {};
+
+TEST_P(ExposureDayTest, InSilenceTheGainNeverFallsAndReturnsWithTheDose) {
+    for (const double playSeconds : {1.0, 5.0, 30.0}) {
+        ExposureGuard guard(voiceRateHz);
+        guard.setActuatorGain(GetParam());
+        Session session(guard);
+        session.play(playSeconds, wholeSet);
+        double gain = guard.report().gain;
+        const double played = gain;
+        const double usedShare = std::pow(guard.report().dailyMps2 / 2.5, 2.0);
+        for (int minute = 1; minute <= 9 * 60; ++minute) {
+            for (int block = 0; block < 60; ++block) {
+                guard.passSilence(static_cast<std::uint64_t>(voiceRateHz));
+                ASSERT_GE(guard.report().gain, gain) << "after " << minute << " minutes";
+                gain = guard.report().gain;
+            }
+            if (minute == 60 && played < 1.0) {
+                const double left = std::sqrt(std::max(0.0, 1.0 - usedShare));
+                EXPECT_GE(gain, std::min(1.0, 0.99 * std::max(left, 0.01))) << "an hour's silence leaves the dose only";
+            }
+        }
+        EXPECT_EQ(gain, 1.0) << "after nine hours; " << playSeconds << " s played";
+        EXPECT_EQ(guard.report().reason, ExposureReason::none);
+        EXPECT_EQ(guard.report().loweredSeconds, 0.0);
+    }
+}
+
+TEST_P(ExposureDayTest, ADayOfStrokesAndPausesStaysWithinTheDailyExposure) {
+    ExposureGuard guard(voiceRateHz);
+    guard.setActuatorGain(GetParam());
+    Session session(guard);
+    const double highest = playDay(guard, session, 10.0 * 3600.0, wholeSet, 20.0, 400.0);
+    EXPECT_LE(highest, 2.5 * 1.02);
+    EXPECT_GT(guard.report().gain, 0.0);
+}
+
+TEST_P(ExposureDayTest, PausesThatLetTheGainReturnDoNotPassTheDailyExposure) {
+    // Eight minutes of the reference time instead of eight hours: a pause lets the gain return, a stroke lowers it.
+    ExposureLaw law = shortDay();
+    law.actuatorGain = GetParam();
+    for (const double pauseSeconds : {2.0, 20.0, 70.0}) {
+        ExposureGuard guard(voiceRateHz, law);
+        Session session(guard);
+        const double highest = playDay(guard, session, 900.0, {{16.0, 1.6}}, 5.0, pauseSeconds);
+        EXPECT_LE(highest, 2.5 * 1.1) << pauseSeconds;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(AtActuatorGain, ExposureDayTest, ::testing::Values(1.0, 2.0, 5.0, 10.0, 20.0),
+                         [](const auto& test) { return std::to_string(static_cast<int>(test.param)); });
+
+TEST(ExposureGuardTest, TheLengthOfTheBlocksDoesNotChangeADayWithPauses) {
+    const auto gainsWith = [](std::size_t block) {
+        ExposureGuard guard(48000.0);
+        guard.setActuatorGain(20.0);
+        std::vector<double> gains;
+        std::vector<float> samples(block);
+        for (int period = 0; period < 3; ++period) {
+            for (std::size_t at = 0; at < 48000 * 4; at += block) {
+                const std::size_t count = std::min(block, 48000 * 4 - at);
+                for (std::size_t i = 0; i < count; ++i) {
+                    samples[i] = (at + i) % 300 < 150 ? 40.0F : -40.0F;
+                }
+                guard.process(std::span(samples).first(count));
+            }
+            gains.push_back(guard.report().gain);
+            for (std::size_t at = 0; at < 48000 * 300; at += block) {
+                guard.passSilence(std::min(block, 48000 * 300 - at));
+            }
+            gains.push_back(guard.report().gain);
+        }
+        return gains;
+    };
+    const std::vector<double> expected = gainsWith(64);
+    EXPECT_LT(expected.front(), 0.9);
+    EXPECT_GT(expected[1], expected[0]) << "it returns in silence";
+    for (const std::size_t block : {128U, 256U, 512U, 1024U, 2048U}) {
+        const std::vector<double> gains = gainsWith(block);
+        for (std::size_t i = 0; i < gains.size(); ++i) {
+            EXPECT_NEAR(20.0 * std::log10(gains[i] / expected[i]), 0.0, 0.02) << block << ", " << i;
+        }
+    }
+}
+
+TEST(ExposureGuardTest, SwitchedOffItPassesTheSignalAndMeasuresOn) {
+    ExposureGuard guard(voiceRateHz, shortDay());
+    Session session(guard);
+    session.play(60.0, {{16.0, 20.0}});
+    const double gain = guard.report().gain;
+    const double daily = guard.report().dailyMps2;
+    ASSERT_LT(gain, 0.5);
+    guard.switchOn(false);
+    session.play(0.05, {{16.0, 20.0}});
+    session.untouched = true;
+    session.play(10.0, {{16.0, 20.0}});
+    EXPECT_TRUE(session.untouched);
+    EXPECT_GT(guard.report().dailyMps2, 1.1 * daily);
+    guard.switchOn(true);
+    session.play(0.05, {{16.0, 20.0}});
+    EXPECT_LE(guard.report().gain, gain);
+    EXPECT_EQ(guard.report().reason, ExposureReason::dose);
+}
+
 TEST(ExposureGuardTest, AResetKeepsTheExposure) {
     ExposureGuard guard(voiceRateHz, shortDay());
     Session session(guard);

@@ -170,5 +170,27 @@ TEST(StrikesTest, NothingAllocates) {
     EXPECT_EQ(haptoflow::testing::allocationCount(), before);
 }
 
+TEST(StrikesTest, AWeakBlowDoesNotCancelTheReboundOfAStrongOne) {
+    ImpactResponse response;
+    response.modes[0] = {.frequencyHz = 200.0F, .decayPerSecond = 400.0F, .gainPerSecond = 100.0F};
+    response.restitution = 0.5F;
+    const auto play = [&response](bool hasWeakBlow) {
+        Strikes strikes(EffectKind::impact, 48000.0);
+        strikes.strike(0.5, response);
+        std::vector<float> samples(19200, 0.0F);
+        strikes.process(std::span(samples).first(480));
+        if (hasWeakBlow) {
+            strikes.strike(0.001, response);
+        }
+        strikes.process(std::span(samples).subspan(480));
+        return samples;
+    };
+    const std::vector<float> alone = play(false);
+    const std::vector<float> both = play(true);
+    for (std::size_t i = 0; i < alone.size(); ++i) {
+        ASSERT_NEAR(both[i], alone[i], 0.11F) << i;
+    }
+}
+
 }  // namespace
 }  // namespace haptoflow::effects

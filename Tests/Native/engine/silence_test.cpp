@@ -59,6 +59,40 @@ TEST_F(SilenceTest, EachReasonForSilenceIsReportedAndSoundHasNone) {
     EXPECT_EQ(reason(device), Silence::closing);
 }
 
+TEST_F(SilenceTest, AStrengthOrACeilingOfZeroIsAReason) {
+    for (const bool isCeiling : {false, true}) {
+        SimulatedDevice device(model_, tone_);
+        std::atomic<float>& gain = isCeiling ? device.controls().ceiling : device.controls().strength;
+        device.run(0.2, slide);
+        gain = 0.0F;
+        device.run(0.05, slide);
+        EXPECT_EQ(reason(device), Silence::turnedDown);
+        EXPECT_EQ(testing::peak(std::span<const float>(device.output).last(480)), 0.0F);
+        device.run(0.2, [](double) { return testing::lifted(1); });
+        EXPECT_EQ(reason(device), Silence::turnedDown) << "it outlasts the rest";
+        device.controls().muted = true;
+        device.run(0.05, slide);
+        EXPECT_EQ(reason(device), Silence::muted);
+        device.controls().muted = false;
+        gain = 0.01F;
+        device.run(0.1, slide);
+        EXPECT_EQ(reason(device), Silence::none);
+        EXPECT_GT(testing::peak(std::span<const float>(device.output).last(480)), 0.0F);
+    }
+}
+
+TEST_F(SilenceTest, AnImpactAtStrengthZeroIsSilentForThatReason) {
+    SimulatedDevice device(model_, tone_);
+    device.controls().strength = 0.0F;
+    ContactState landing = testing::sliding(0.0F);
+    landing.approachSpeedMps = 1.0F;
+    landing.effects = effects::maskOf(effects::EffectKind::impact);
+    device.publish(landing);
+    device.renderBlock();
+    EXPECT_EQ(reason(device), Silence::turnedDown);
+    EXPECT_EQ(testing::peak(device.output), 0.0F);
+}
+
 TEST_F(SilenceTest, OfSeveralReasonsTheMostPersistentIsReported) {
     SimulatedDevice device(model_, tone_);
     device.run(0.2, slide);
@@ -67,6 +101,7 @@ TEST_F(SilenceTest, OfSeveralReasonsTheMostPersistentIsReported) {
     device.workerAlive = false;
     device.controls().paused = true;
     device.controls().muted = true;
+    device.controls().strength = 0.0F;
     device.setRate(1.0e6);
     const auto next = [&](const std::function<void()>& remove) {
         device.run(0.05, slide);
@@ -78,6 +113,7 @@ TEST_F(SilenceTest, OfSeveralReasonsTheMostPersistentIsReported) {
     EXPECT_EQ(next([&] { device.workerAlive = true; }), Silence::workerDead);
     EXPECT_EQ(next([&] { device.controls().paused = false; }), Silence::paused);
     EXPECT_EQ(next([&] { device.controls().muted = false; }), Silence::muted);
+    EXPECT_EQ(next([&] { device.controls().strength = 1.0F; }), Silence::turnedDown);
     EXPECT_EQ(next([&] { device.setRate(48000.0); }), Silence::rate);
     EXPECT_EQ(next([] {}), Silence::panic);
 }

@@ -119,6 +119,7 @@ private:
         voice.planner.fixedLeadSamples = settings.fixedLeadSamples;
         voice.outputRateHz = settings.rateHz;
         voice.fullScaleMps2 = settings.fullScaleMps2;
+        voice.isRealTime = false;
         return voice;
     }
 

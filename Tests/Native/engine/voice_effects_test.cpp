@@ -9,6 +9,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -586,18 +587,66 @@ TEST_F(ProcessorsTest, TheDelaysSignalSurvivesAChangeOfOtherProcessors) {
     }
 }
 
-TEST_F(ProcessorsTest, ADelayedSoundKeepsItsStrength) {
-    SimulatedDevice device(model_, tone_);
-    device.controls().delaySeconds = 0.2;
-    ask(device, [](ProcessorSettings& settings) { settings.hasDelay = true; });
-    const auto slide = [](double) { return testing::sliding(); };
-    device.run(0.6, slide);
-    device.controls().strength = 0.1F;
-    const std::size_t weaker = device.output.size();
-    device.run(0.4, slide);
-    const float before = testing::peak(std::span<const float>(device.output.data() + weaker, 9000));
-    const float after = testing::peak(from(device, weaker + 10500));
-    EXPECT_NEAR(after / before, 0.1F, 0.01F);
+TEST_F(ProcessorsTest, AStrengthActsOnADelayedSoundWithinItsRampAndWithoutAClick) {
+    for (const bool isCompensated : {false, true}) {
+        for (const float strength : {0.0F, 0.1F}) {
+            SimulatedDevice device(model_, tone_);
+            device.controls().delaySeconds = 0.4;
+            ask(device, [&](ProcessorSettings& settings) {
+                settings.hasDelay = true;
+                if (isCompensated) {
+                    settings.actuator = std::make_shared<const effects::ActuatorProfile>(
+                        *effects::ActuatorProfile::builtIn("voice-coil"));
+                }
+            });
+            const auto slide = [](double) { return testing::sliding(); };
+            device.run(1.0, slide);
+            const float loud = testing::peak(from(device, device.output.size() - 4800));
+            const float tone = testing::largestStep(from(device, device.output.size() - 4800));
+            device.controls().strength = strength;
+            const std::size_t weaker = device.output.size();
+            device.run(0.7, slide);
+            // A block, in which it is noticed, and 10 ms.
+            EXPECT_NEAR(testing::peak(from(device, weaker + 480)), strength * loud, 0.02F * loud) << strength;
+            EXPECT_LE(testing::largestStep(from(device, weaker - 1)), 1.3F * tone) << strength;
+            device.controls().strength = 1.0F;
+            const std::size_t again = device.output.size();
+            device.run(0.1, slide);
+            EXPECT_NEAR(testing::peak(from(device, again + 480)), loud, 0.05F * loud) << "the delay holds the sound";
+            EXPECT_LE(testing::largestStep(from(device, again - 1)), 1.3F * tone) << strength;
+        }
+    }
+}
+
+TEST_F(ProcessorsTest, MutePausePanicMissingStatesAndCeilingActAfterTheDelay) {
+    struct Stop {
+        const char* name;
+        std::function<void(SimulatedDevice&)> begin;
+        bool isPublished = true;
+        double afterSeconds = 0.0;
+    };
+    const Stop stops[] = {
+        {"mute", [](SimulatedDevice& device) { device.controls().muted = true; }},
+        {"pause", [](SimulatedDevice& device) { device.controls().paused = true; }},
+        {"ceiling", [](SimulatedDevice& device) { device.controls().ceiling = 0.0F; }},
+        {"panic", [](SimulatedDevice& device) { device.voice().channels.panic(); }},
+        {"missing states", [](SimulatedDevice&) {}, false, VoiceRenderer::staleSeconds + 1.0 / 72.0},
+    };
+    for (const Stop& stop : stops) {
+        SimulatedDevice device(model_, tone_);
+        device.controls().delaySeconds = 0.4;
+        ask(device, [](ProcessorSettings& settings) { settings.hasDelay = true; });
+        device.run(1.0, [](double) { return testing::sliding(); });
+        ASSERT_GT(testing::peak(from(device, device.output.size() - 480)), 0.1F / 60.0F);
+        stop.begin(device);
+        const std::size_t begin = device.output.size();
+        device.run(1.0, [&](double) -> std::optional<ContactState> {
+            return stop.isPublished ? std::optional(testing::sliding()) : std::nullopt;
+        });
+        // The block in which it is noticed, and 5 ms.
+        const auto until = static_cast<std::size_t>(stop.afterSeconds * 48000.0) + 256 + 240;
+        EXPECT_EQ(testing::peak(from(device, begin + until)), 0.0F) << stop.name;
+    }
 }
 
 TEST_F(ProcessorsTest, TheGuardMeasuresTheLevelAfterTheStrength) {
@@ -629,6 +678,43 @@ TEST_F(ProcessorsTest, AGuardIsSwitchedOffWithoutAStepAndItsReportEnds) {
     EXPECT_EQ(channels.exposureDailyMps2, 0.0);
     const float tone = testing::largestStep(from(device, device.output.size() - 4800));
     EXPECT_LT(testing::largestStep(device.output), 1.2F * tone);
+}
+
+TEST_F(ProcessorsTest, AGuardSwitchedOffAndOnRemembersTheDay) {
+    for (const double awaySeconds : {0.2, 5.0, 60.0}) {
+        for (const bool changesRate : {false, true}) {
+            SimulatedDevice device(model_, tone_);
+            device.controls().actuatorGain = 1000.0;
+            ask(device, [](ProcessorSettings& settings) { settings.hasExposureGuard = true; });
+            const auto slide = [](double) { return testing::sliding(); };
+            device.run(40.0, slide);
+            const engine::VoiceChannels& channels = device.voice().channels;
+            const double before = channels.exposureGain;
+            const double daily = channels.exposureDailyMps2;
+            ASSERT_LT(before, 0.2);
+            ask(device, [](ProcessorSettings& settings) { settings.hasExposureGuard = false; });
+            device.run(0.5 * awaySeconds, slide);
+            EXPECT_EQ(channels.exposureGain, 1.0);
+            if (changesRate) {
+                device.setRate(44100.0);
+            }
+            device.run(0.5 * awaySeconds, slide);
+            ask(device, [](ProcessorSettings& settings) { settings.hasExposureGuard = true; });
+            device.output.clear();
+            device.run(0.05, slide);
+            EXPECT_LT(20.0 * std::log10(channels.exposureGain / before), 0.5) << awaySeconds << ", " << changesRate;
+            EXPECT_GE(channels.exposureDailyMps2, daily) << "what sounded meanwhile reached the hand";
+            EXPECT_LT(testing::largestStep(device.output), 0.02F) << "no click";
+        }
+    }
+}
+
+TEST_F(ProcessorsTest, AVoiceThatNeverHadAGuardMeasuresNothing) {
+    SimulatedDevice device(model_, tone_);
+    ask(device, [](ProcessorSettings& settings) { settings.hasDelay = true; });
+    device.run(0.5, [](double) { return testing::sliding(); });
+    EXPECT_EQ(of(device, EffectKind::exposureGuard).runs, 0U);
+    EXPECT_EQ(of(device, EffectKind::exposureGuard).prepared, 0U);
 }
 
 TEST_F(VoiceEffectsTest, ATouchInterruptedByAnUnlabelledSurfaceGivesOneImpact) {

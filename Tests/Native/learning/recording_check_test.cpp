@@ -60,6 +60,27 @@ TEST(RecordingCheckTest, ARecordingThatIsMostlyNotFiniteIsRefused) {
                 ThrowsMessage<RecordingUnusable>(HasSubstr("is not finite in 60 %")));
 }
 
+TEST(RecordingCheckTest, APauseOfAMinuteBetweenTwoPartsIsNoDamage) {
+    const MadeRecording made({}, {});
+    const auto pause = static_cast<std::ptrdiff_t>(60.0 * made.view().rateHz);
+    const auto middle = static_cast<std::ptrdiff_t>(made.acceleration.size() / 2);
+    MadeRecording paused = made;
+    constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
+    paused.acceleration.insert(paused.acceleration.begin() + middle, pause, unknown);
+    paused.velocity.insert(paused.velocity.begin() + 2 * middle, 2 * pause, unknown);
+    paused.force.insert(paused.force.begin() + middle, pause, unknown);
+    EXPECT_NO_THROW(prepareAndFind(paused.view()));
+    const Sliding whole = findSliding(prepareRecording(made.view()), header());
+    const Sliding parts = findSliding(prepareRecording(paused.view()), header());
+    EXPECT_NEAR(parts.seconds, whole.seconds, 0.3);
+    // Between the parts of damage there is no pause.
+    for (std::size_t i = 0; i < paused.acceleration.size(); ++i) {
+        paused.acceleration[i] = i % 5 < 3 ? unknown : paused.acceleration[i];
+    }
+    EXPECT_THAT([&] { prepareAndFind(paused.view()); },
+                ThrowsMessage<RecordingUnusable>(HasSubstr("is not finite in 60")));
+}
+
 TEST(RecordingCheckTest, ARecordingOfARestingTipIsRefused) {
     MadeRecording made({}, {});
     made.velocity.clear();

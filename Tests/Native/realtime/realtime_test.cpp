@@ -58,6 +58,7 @@ void disturb(haptoflow_voice voice, Pace& pace) {
         if (update % 67 == 40 || update % 67 == 66) {
             (void)haptoflow_voice_set_signal(voice, 20.0 + update % 480, update % 67 == 40 ? 6.0 : 0.0);
         }
+        (void)haptoflow_voice_set_listen(voice, update % 23 < 16 ? 1 : 0);
         if (update % 101 == 100) {
             (void)haptoflow_voice_panic(voice);
         }
@@ -151,6 +152,11 @@ void watchUnderLoad(const OpenEngine& open, const Callback& callback) {
     EXPECT_GT(statistics.inferences, 10U);
     EXPECT_GT(statistics.onsets, 3U);
     EXPECT_GT(statistics.rate_changes, 0U);
+    haptoflow_effect_statistics listen{};
+    listen.struct_size = sizeof(listen);
+    ASSERT_EQ(haptoflow_voice_effect_statistics(open.voice, HAPTOFLOW_EFFECT_LISTEN, &listen), HAPTOFLOW_OK);
+    EXPECT_GT(listen.prepared, 3U);
+    EXPECT_GT(listen.runs, 1000U);
 }
 
 /// Results that the audio thread records.

@@ -75,6 +75,12 @@ namespace UnityEditor
         public static string GUIDToAssetPath(string guid) =>
             Assets.Keys.FirstOrDefault(path => AssetPathToGUID(path) == guid) ?? "";
 
+        /// <summary>What each asset depends on; tests set it.</summary>
+        internal static readonly Dictionary<string, string[]> Dependencies = new Dictionary<string, string[]>();
+
+        public static string[] GetDependencies(string pathName, bool recursive) => Dependencies
+            .TryGetValue(pathName, out string[] found) ? found.Prepend(pathName).ToArray() : new[] { pathName };
+
         public static bool IsValidFolder(string path) => Directory.Exists(ProjectFiles.Physical(path));
 
         public static string CreateFolder(string parentFolder, string newFolderName)
@@ -132,6 +138,7 @@ namespace UnityEditor
 
         internal static void Reset()
         {
+            Dependencies.Clear();
             // Imported once for all projects: packages do not change, and importing a model takes long.
             foreach (string path in Assets.Keys.Where(each => !each.StartsWith("Packages/")).ToList())
             {

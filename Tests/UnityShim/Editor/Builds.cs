@@ -52,6 +52,35 @@ namespace UnityEditor
     }
 }
 
+namespace UnityEditor
+{
+    public partial class EditorBuildSettingsScene
+    {
+        public EditorBuildSettingsScene(string path, bool enabled)
+        {
+            this.path = path;
+            this.enabled = enabled;
+        }
+
+        public bool enabled { get; set; }
+
+        public string path { get; set; }
+    }
+
+    public partial class EditorBuildSettings
+    {
+        public static EditorBuildSettingsScene[] scenes { get; set; } = new EditorBuildSettingsScene[0];
+    }
+}
+
+namespace UnityEditor.Android
+{
+    public interface IPostGenerateGradleAndroidProject : Build.IOrderedCallback
+    {
+        void OnPostGenerateGradleAndroidProject(string path);
+    }
+}
+
 namespace UnityEditor.Build
 {
     public interface IOrderedCallback
@@ -116,6 +145,16 @@ namespace UnityShim
             foreach (IProcessSceneWithReport callback in Callbacks<IProcessSceneWithReport>())
             {
                 callback.OnProcessScene(default, report);
+            }
+        }
+
+        /// <summary>Calls the callbacks that change the Gradle project of an Android player.</summary>
+        public static void GenerateGradleProject(string folder)
+        {
+            foreach (UnityEditor.Android.IPostGenerateGradleAndroidProject callback in
+                Callbacks<UnityEditor.Android.IPostGenerateGradleAndroidProject>())
+            {
+                callback.OnPostGenerateGradleAndroidProject(folder);
             }
         }
 

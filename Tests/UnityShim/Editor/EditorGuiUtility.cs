@@ -15,6 +15,12 @@ namespace UnityEditor
         public static GUIContent IconContent(string name) => new GUIContent("", new Texture { name = name });
     }
 
+    public sealed partial class ObjectNames
+    {
+        public static string NicifyVariableName(string name) =>
+            System.Text.RegularExpressions.Regex.Replace(name, "(?<=[a-z])(?=[A-Z])", " ");
+    }
+
     public sealed partial class EditorStyles
     {
         public static GUIStyle label { get; } = "Label";

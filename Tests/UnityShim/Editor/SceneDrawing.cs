@@ -40,17 +40,7 @@ namespace UnityEditor
             new List<(Vector3 From, Vector3 To, Color Color)>();
         internal static readonly List<string> Labels = new List<string>();
 
-        internal static readonly List<(Vector3 Position, Quaternion Rotation, Vector3 Size, Color Color)> Solids =
-            new List<(Vector3 Position, Quaternion Rotation, Vector3 Size, Color Color)>();
-
         public static Color color { get; set; } = Color.white;
-
-        public static Matrix4x4 matrix { get; set; }
-
-        public static void DrawCube(Vector3 center, Vector3 size) =>
-            Solids.Add((matrix.Position, matrix.Rotation, matrix.Scale, color));
-
-        public static void DrawSphere(Vector3 center, float radius) => DrawCube(center, 2f * radius * Vector3.one);
 
         public static void DrawLine(Vector3 p1, Vector3 p2) => Lines.Add((p1, p2, color));
 

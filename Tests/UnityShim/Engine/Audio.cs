@@ -83,6 +83,8 @@ namespace UnityEngine
         public int priority { get; set; } = 128;
         public bool loop { get; set; }
         public bool playOnAwake { get; set; } = true;
+        public bool bypassEffects { get; set; }
+        public bool bypassListenerEffects { get; set; }
         public bool bypassReverbZones { get; set; }
         public bool ignoreListenerPause { get; set; }
         public bool ignoreListenerVolume { get; set; }

@@ -1,4 +1,6 @@
 using System.Collections.Generic;
+using UnityEngine.InputSystem.LowLevel;
+using UnityEngine.InputSystem.XR.Haptics;
 using UnityShim;
 
 namespace UnityEngine.InputSystem
@@ -25,8 +27,11 @@ namespace UnityEngine.InputSystem.XR
         internal List<(double Seconds, float Amplitude, float Duration)> Impulses { get; } =
             new List<(double, float, float)>();
 
-        public void SendImpulse(float amplitude, float duration) =>
-            Impulses.Add((Clock.UnscaledSeconds, amplitude, duration));
+        public void SendImpulse(float amplitude, float duration)
+        {
+            SendHapticImpulseCommand command = SendHapticImpulseCommand.Create(0, amplitude, duration);
+            ExecuteCommand(ref command);
+        }
 
         internal static XRControllerWithRumble Take(string name)
         {
@@ -35,6 +40,26 @@ namespace UnityEngine.InputSystem.XR
             return taken;
         }
 
-        internal static void Drop() => Right = null;
+        internal static XRControllerWithRumble TakeLeft(string name)
+        {
+            var taken = new XRControllerWithRumble { displayName = name };
+            Left = taken;
+            return taken;
+        }
+
+        internal static void Drop()
+        {
+            Left = null;
+            Right = null;
+        }
+
+        private protected override unsafe void Receive(InputDeviceCommand* command)
+        {
+            if (command->type == SendHapticImpulseCommand.Create(0, 0f, 0f).typeStatic)
+            {
+                float* data = (float*)command->payloadPtr;
+                Impulses.Add((Clock.UnscaledSeconds, data[1], data[2]));
+            }
+        }
     }
 }

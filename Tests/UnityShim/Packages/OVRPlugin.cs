@@ -1,26 +1,123 @@
+using System;
+using System.Collections.Generic;
 using UnityEngine;
+using UnityShim;
 
-/// <summary>Part of Meta's SDK: the functions that programs for MX Ink call.</summary>
+/// <summary>Part of Meta's SDK: the calls to the headset's runtime. They need no OVRManager. A failing call to an action
+/// logs an error, as in the SDK; other failing calls return false or 0.</summary>
 public static partial class OVRPlugin
 {
+    internal const string MxInkProfile = "/interaction_profiles/logitech/mx_ink_stylus_logitech";
+    internal const string TouchProfile = "/interaction_profiles/oculus/touch_controller";
+    internal const string TouchPlusProfile = "/interaction_profiles/meta/touch_controller_plus";
+
+    private static readonly string[] Profiles = new string[2];
+    private static readonly ControllerState4[] States = new ControllerState4[2];
+
     internal static float? Tip;
     internal static string BoundAction = "tip";
-    internal static Controller Connected = Controller.RTouch;
+    internal static string? BoundHaptic = "haptic_pulse";
+    internal static Controller Connected = Controller.None;
 
-    internal static int Calls { get; private set; }
-
+    [Flags]
     public enum Controller
     {
         None = 0,
         LTouch = 0x00000001,
         RTouch = 0x00000002,
+        Touch = LTouch | RTouch,
+        Active = unchecked((int)0x80000000),
+    }
+
+    public enum Hand
+    {
+        None = -1,
+        HandLeft = 0,
+        HandRight = 1,
+    }
+
+    public enum InteractionProfile
+    {
+        None = 0,
+        Touch = 1,
+        TouchPro = 2,
+        TouchPlus = 4,
+    }
+
+    public struct Vector2f
+    {
+        public float x;
+        public float y;
+    }
+
+    public struct Vector3f
+    {
+        public float x;
+        public float y;
+        public float z;
+    }
+
+    public struct Quatf
+    {
+        public float x;
+        public float y;
+        public float z;
+        public float w;
+    }
+
+    /// <summary>Right-handed: z points backwards.</summary>
+    public struct Posef
+    {
+        public Quatf Orientation;
+        public Vector3f Position;
+    }
+
+    public struct ControllerState4
+    {
+        public uint ConnectedControllers;
+        public uint Touches;
+        public Vector2f LThumbstick;
+        public Vector2f RThumbstick;
     }
 
     public static bool hasInputFocus { get; internal set; } = true;
 
+    /// <summary>The number of calls of <see cref="GetActionStateFloat"/>.</summary>
+    internal static int Calls { get; private set; }
+
+    /// <summary>The number of calls of <see cref="GetActionStatePose"/> that failed.</summary>
+    internal static int FailedPoses { get; private set; }
+
+    /// <summary>The number of calls of <see cref="GetCurrentInteractionProfileName"/>, each of which makes a string.
+    /// </summary>
+    internal static int ProfileQueries { get; private set; }
+
+    internal static int FailedPulses { get; private set; }
+
+    internal static List<(double Seconds, Hand Hand, float Duration, float Amplitude)> Pulses { get; } =
+        new List<(double, Hand, float, float)>();
+
+    /// <summary>The poses that actions report, by the actions' names.</summary>
+    internal static Dictionary<string, Posef> Poses { get; } = new Dictionary<string, Posef>();
+
     public static Controller GetConnectedControllers() => Connected;
 
-    /// <summary>Each failing call logs an error, as in the SDK.</summary>
+    public static InteractionProfile GetCurrentInteractionProfile(Hand hand) => Profiles[(int)hand] switch
+    {
+        TouchProfile => InteractionProfile.Touch,
+        TouchPlusProfile => InteractionProfile.TouchPlus,
+        _ => InteractionProfile.None,
+    };
+
+    public static string GetCurrentInteractionProfileName(Hand hand)
+    {
+        ++ProfileQueries;
+        return Profiles[(int)hand];
+    }
+
+    public static ControllerState4 GetControllerState4(uint controllerMask) =>
+        States[(controllerMask & (uint)Controller.RTouch) != 0u ? 1 : 0];
+
     public static bool GetActionStateFloat(string actionName, out float result)
     {
         ++Calls;
@@ -33,13 +130,60 @@ public static partial class OVRPlugin
         return runs;
     }
 
+    public static bool GetActionStatePose(string actionName, out Posef result)
+    {
+        result = default;
+        if (hasInputFocus && Poses.TryGetValue(actionName, out result))
+        {
+            return true;
+        }
+        ++FailedPoses;
+        Debug.LogError("Error calling GetActionStatePose: Failure_NotInitialized");
+        return false;
+    }
+
+    public static bool TriggerVibrationAction(string actionName, Hand hand, float duration, float amplitude)
+    {
+        bool runs = hasInputFocus && actionName == BoundHaptic && Profiles[(int)hand] == MxInkProfile;
+        if (runs)
+        {
+            Pulses.Add((Clock.UnscaledSeconds, hand, duration, amplitude));
+        }
+        else
+        {
+            ++FailedPulses;
+            Debug.LogError("Error calling TriggerVibrationAction: Failure_ActionNotFound");
+        }
+        return runs;
+    }
+
+    /// <summary>Puts a device into a hand.</summary>
+    internal static void Take(Hand hand, string profile) => Profiles[(int)hand] = profile;
+
+    /// <summary>Moves the right thumbstick, touched by a thumb or not.</summary>
+    internal static void MoveRightStick(float x, float y, bool touched) => States[1] = new ControllerState4
+    {
+        RThumbstick = new Vector2f { x = x, y = y },
+        Touches = touched ? (uint)OVRInput.RawTouch.RThumbstick : 0u,
+    };
+
     internal static void Reset()
     {
         Tip = null;
         BoundAction = "tip";
-        Connected = Controller.RTouch;
+        BoundHaptic = "haptic_pulse";
+        Connected = Controller.None;
         hasInputFocus = true;
         Calls = 0;
-        ResetHaptics();
+        FailedPoses = 0;
+        ProfileQueries = 0;
+        FailedPulses = 0;
+        Pulses.Clear();
+        Poses.Clear();
+        Take(Hand.HandLeft, TouchPlusProfile);
+        Take(Hand.HandRight, TouchPlusProfile);
+        Array.Clear(States, 0, States.Length);
     }
+
+    static OVRPlugin() => Reset();
 }

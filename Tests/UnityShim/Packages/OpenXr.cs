@@ -20,7 +20,7 @@ namespace UnityEngine.XR.OpenXR.Input
             InputSystem.InputDevice? inputDevice = null) =>
             Impulses.Add((Clock.UnscaledSeconds, amplitude, frequency, duration));
 
-        public static void StopHaptics(InputAction action, InputSystem.InputDevice? inputDevice = null) => ++Stops;
+        public static void StopHaptics(InputAction inputAction, InputSystem.InputDevice? inputDevice = null) => ++Stops;
 
         internal static void Reset()
         {

@@ -27,21 +27,31 @@ namespace UnityEngine.InputSystem
             get
             {
                 bool found = path == null || SimulatedInput.Control(path) != null;
-                return new Utilities.ReadOnlyArray<InputControl>(found ? new[] { new InputControl() } : null);
+                return new Utilities.ReadOnlyArray<InputControl>(found ? new InputControl[] { new BoundControl() } : null);
             }
         }
+
+        public Utilities.ReadOnlyArray<InputBinding> bindings => new Utilities.ReadOnlyArray<InputBinding>(
+            path != null ? new[] { new InputBinding { path = path } } : null);
 
         public void Dispose() => Disable();
 
         private object? ReadBinding() => path != null ? SimulatedInput.Control(path) : null;
     }
 
-    public class InputControl
+    public struct InputBinding
+    {
+        public string path { get; set; }
+
+        public string effectivePath => path;
+    }
+
+    public abstract class InputControl
     {
         public string displayName { get; protected set; } = "";
     }
 
-    public class InputDevice : InputControl
+    internal sealed class BoundControl : InputControl
     {
     }
 

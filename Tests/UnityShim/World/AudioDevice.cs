@@ -16,6 +16,7 @@ namespace UnityShim
         private static AudioConfiguration configuration;
         private static double owedFrames;
         private static float[] mix = Array.Empty<float>();
+        private static float[] pastListener = Array.Empty<float>();
         private static float[] source = Array.Empty<float>();
         private static float[] recorded = Array.Empty<float>();
 
@@ -92,6 +93,7 @@ namespace UnityShim
         {
             owedFrames = 0.0;
             mix = new float[configuration.dspBufferSize * Channels];
+            pastListener = new float[configuration.dspBufferSize * Channels];
             source = new float[configuration.dspBufferSize * Channels];
             recorded = new float[RecordedSeconds * configuration.sampleRate * Channels];
             RecordedFrames = 0;
@@ -134,6 +136,7 @@ namespace UnityShim
         private static void Render()
         {
             Array.Clear(mix, 0, mix.Length);
+            Array.Clear(pastListener, 0, pastListener.Length);
             GameObject? listener = null;
             for (int index = 0; index < World.AllObjects.Count; ++index)
             {
@@ -143,10 +146,14 @@ namespace UnityShim
                 {
                     float volume = playing.ignoreListenerVolume ? 1f : AudioListener.volume;
                     Array.Clear(source, 0, source.Length);
-                    RunFilters(gameObject, source);
-                    for (int sample = 0; sample < mix.Length; ++sample)
+                    if (!playing.bypassEffects)
                     {
-                        mix[sample] += volume * playing.volume * source[sample];
+                        RunFilters(gameObject, source);
+                    }
+                    float[] into = playing.bypassListenerEffects ? pastListener : mix;
+                    for (int sample = 0; sample < into.Length; ++sample)
+                    {
+                        into[sample] += volume * playing.volume * source[sample];
                     }
                 }
                 if (gameObject.TryGetComponent(out AudioListener ears) && ears.isActiveAndEnabled)
@@ -157,6 +164,10 @@ namespace UnityShim
             if (listener is not null)
             {
                 RunFilters(listener, mix);
+                for (int sample = 0; sample < mix.Length; ++sample)
+                {
+                    mix[sample] += pastListener[sample];
+                }
             }
             else
             {

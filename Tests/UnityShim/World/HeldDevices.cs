@@ -20,7 +20,7 @@ namespace UnityShim
         /// to 400 Hz.</summary>
         public static void TakeTouchController()
         {
-            OVRInput.Connected = OVRInput.Controller.RTouch;
+            OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
             OVRInput.Properties = new OVRInput.HapticsParametricProperties
             {
                 IdealFrameSubmissionRate = 20000000L,

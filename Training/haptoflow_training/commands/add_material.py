@@ -63,8 +63,10 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
     )
     parser.add_argument("--name", help="of the material (default: the recordings' label, or the first file's name)")
     parser.add_argument(
-        "-o", "--out", type=Path, help=f"NAME{SUFFIX} (default) writes a material file, NAME.haptoflow a model file"
-    )
+        "-o", "--out", type=Path,
+        help=f"NAME{SUFFIX} (default, from --name or the first file's name) writes a material file, NAME.haptoflow a "
+        "model file",
+    )  # fmt: skip
     parser.add_argument("--category", default="", help="for example cloth (default: the nearest label's)")
     parser.add_argument("--description", default="", help="one or two sentences")
     parser.add_argument(
@@ -81,7 +83,7 @@ def _run(options: argparse.Namespace) -> int:
         raise InputError(f"--steps {options.steps}: expected 1 or more")
     recordings = read_material_recordings(options.recording)
     name = _name(options, recordings)
-    out = Path(f"{_file_name(name)}{SUFFIX}") if options.out is None else options.out
+    out = _default_out(options) if options.out is None else options.out
     if out.suffix not in (SUFFIX, ".haptoflow"):
         raise InputError(f"{out}: expected a name that ends in {SUFFIX} or .haptoflow")
     model = FileModel(read_model_file(options.model))
@@ -124,6 +126,12 @@ def _name(options: argparse.Namespace, recordings: Sequence[MaterialRecording]) 
             "files alone, or --name if they are the same material"
         )
     return labels[0] if labels else options.recording[0].stem
+
+
+def _default_out(options: argparse.Namespace) -> Path:
+    """Named by words of the command line alone, because a name in a file must not choose a path."""
+    words = options.recording[0].resolve().stem if options.name is None else options.name
+    return Path(f"{_file_name(words)}{SUFFIX}")
 
 
 def _file_name(name: str) -> str:

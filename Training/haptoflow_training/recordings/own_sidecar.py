@@ -133,6 +133,13 @@ def _motion(values: dict[str, Any], origins: dict[str, Path]) -> Path | None:
         return None
     origin = origins["motion"]
     path = beside(origin, name)
+    # A name in a file leads no further than its own folder, also by a link.
+    if not path.resolve().is_relative_to(origin.parent.resolve()):
+        raise DatasetFileError(
+            origin,
+            f"key 'motion' names {name}, which is outside the folder of {origin.name}",
+            "a table beside the recording: copy it there",
+        )
     if not path.is_file():
         raise DatasetFileError(origin, f"key 'motion' names {name}, which is not there", "a table beside the recording")
     return path

@@ -4,7 +4,9 @@ import { kindOfLibrary, platforms, pluginsFolder } from '../natives.mjs';
 const settings = {
   'Linux x86-64': { player: 'Linux64', editor: 'Linux' },
   'Windows x86-64': { player: 'Win64', editor: 'Windows' },
-  macOS: { player: 'OSXUniversal', editor: 'OSX', cpu: 'AnyCPU' },
+  // Unity's desktop players for Linux are x64 only; Embedded Linux has arm64.
+  'Linux arm64': { player: 'EmbeddedLinux', cpu: 'ARM64' },
+  'macOS arm64': { player: 'OSXUniversal', editor: 'OSX', cpu: 'ARM64' },
   'Android arm64': { player: 'Android', cpu: 'ARM64' },
 };
 

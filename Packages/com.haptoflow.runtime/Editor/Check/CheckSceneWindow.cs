@@ -21,6 +21,7 @@ namespace HaptoFlow.Editor
         private SceneChanges? changes;
         private bool isStale = true;
         private string summary = "";
+        private string places = "";
         private string effects = "";
         private Vector2 scroll;
 
@@ -47,6 +48,10 @@ namespace HaptoFlow.Editor
             using (var view = new EditorGUILayout.ScrollViewScope(scroll))
             {
                 scroll = view.scrollPosition;
+                if (places.Length > 0)
+                {
+                    GUILayout.Label(places, EditorStyles.wordWrappedMiniLabel);
+                }
                 if (effects.Length > 0)
                 {
                     GUILayout.Label(effects, EditorStyles.wordWrappedMiniLabel);
@@ -113,6 +118,7 @@ namespace HaptoFlow.Editor
             isStale = false;
             var scene = new SceneContents();
             findings = SceneCheck.Run(scene);
+            places = StylusPlaces.Summary(scene);
             effects = EffectRules.Summary(scene);
             int errors = findings.Count(finding => finding.Severity == MessageType.Error);
             int warnings = findings.Count(finding => finding.Severity == MessageType.Warning);

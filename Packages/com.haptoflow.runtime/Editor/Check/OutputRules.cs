@@ -1,6 +1,7 @@
 #nullable enable
 using System.Collections.Generic;
 using System.Globalization;
+using System.Linq;
 using UnityEditor;
 using UnityEngine;
 
@@ -21,20 +22,34 @@ namespace HaptoFlow.Editor
 
         public static IEnumerable<Finding> Check(SceneContents scene)
         {
-            if (scene.Styluses.Count > 0 && !SilentOutputRules.HasOutput(scene))
+            HapticStylus[] made = StylusPlaces.Of(scene).Where(places => places.GetsMadeOutput && !places.UsesHand)
+                .Select(places => places.Stylus).ToArray();
+            if (made.Length > 0)
             {
                 yield return new Finding(MessageType.Info,
-                    "The scene has no Haptic Output: play mode adds one that plays on every channel of the device. " +
-                    "Add one to choose the channel that the actuator is wired to.", null,
+                    $"The scene has no Haptic Output for {string.Join(", ", made.Select(each => each.PenName))}: play " +
+                    "mode adds one that plays on every channel of the device. Add one to choose the channel that the " +
+                    "actuator is wired to.", made,
                     new Repair("Add an Output", () => CreateMenu.CreateOutput(new MenuCommand(null))));
             }
             AudioConfiguration device = AudioSettings.GetConfiguration();
             foreach (HapticOutput output in scene.Outputs)
             {
+                foreach (Finding beside in ListenerRules.Check(output))
+                {
+                    yield return beside;
+                }
                 Finding? finding = CheckRoute(output, device);
                 if (finding != null)
                 {
                     yield return finding;
+                }
+                if (output.Processing.ListensToActuator(output.Channel))
+                {
+                    yield return new Finding(MessageType.Warning,
+                        $"{output.name} has Listen switched on, but an actuator or a channel of its own is chosen: " +
+                        "Listen is for ears, and an actuator would play everything far too strongly. Switch Listen " +
+                        "off, or choose Uncompensated and channel -1 for loudspeakers.", new[] { output });
                 }
                 if (output.Processing.LacksProfile)
                 {

@@ -15,6 +15,8 @@ namespace HaptoFlow.Editor
             Styluses = All<HapticStylus>();
             Surfaces = All<HapticSurface>();
             Outputs = All<HapticOutput>();
+            SwitchedOffOutputs = AllOfThem<HapticOutput>().Where(output => !output.isActiveAndEnabled).ToArray();
+            AllDeviceOutputs = AllOfThem<DeviceOutput>().Where(output => !output.IsMade).ToArray();
             Colliders = SceneColliders.InScenes().Where(IsInReach).ToArray();
             Maps = new SceneMaps();
             Answers = Colliders.Select(Maps.Ask).ToArray();
@@ -25,6 +27,13 @@ namespace HaptoFlow.Editor
         public IReadOnlyList<HapticSurface> Surfaces { get; }
 
         public IReadOnlyList<HapticOutput> Outputs { get; }
+
+        public IReadOnlyList<HapticOutput> SwitchedOffOutputs { get; }
+
+        /// <summary>The outputs that play in a hand, switched on or off, without those made automatically.</summary>
+        public IReadOnlyList<DeviceOutput> AllDeviceOutputs { get; }
+
+        public IEnumerable<DeviceOutput> DeviceOutputs => AllDeviceOutputs.Where(output => output.isActiveAndEnabled);
 
         /// <summary>The colliders that can be felt, on the layers of any stylus; on all layers when there is no stylus.
         /// </summary>
@@ -43,8 +52,10 @@ namespace HaptoFlow.Editor
         }
 
         private static IReadOnlyList<T> All<T>()
-            where T : Behaviour => Object.FindObjectsByType<T>(FindObjectsInactive.Exclude, FindObjectsSortMode.None)
-            .Where(each => each.enabled)
+            where T : Behaviour => AllOfThem<T>().Where(each => each.isActiveAndEnabled).ToArray();
+
+        private static IReadOnlyList<T> AllOfThem<T>()
+            where T : Behaviour => Object.FindObjectsByType<T>(FindObjectsInactive.Include, FindObjectsSortMode.None)
             .OrderBy(each => each.name, StringComparer.Ordinal)
             .ToArray();
     }

@@ -22,12 +22,16 @@ namespace HaptoFlow.Editor
                         "0.", new[] { output });
                 }
             }
-            IReadOnlyList<HapticOutput> off = SwitchedOff();
-            if (scene.Styluses.Count > 0 && scene.Outputs.Count == 0 && off.Count > 0)
+            HapticOutput? off = SceneOutputs.Preferred(scene.SwitchedOffOutputs);
+            HapticStylus[] silent = StylusPlaces.Of(scene)
+                .Where(places => places.IsSilent && !places.IsNamed && places.SwitchedOff.Count == 0)
+                .Select(places => places.Stylus).ToArray();
+            if (off != null && silent.Length > 0)
             {
                 yield return new Finding(MessageType.Warning,
-                    $"The scene's Haptic Output {off[0].name} is switched off: styluses without an output of their " +
-                    "own are silent.", off.ToArray<Object>());
+                    $"The scene's Haptic Output {off.name} is switched off: " +
+                    $"{string.Join(", ", silent.Select(each => each.PenName))} would play on it, and is silent.",
+                    silent.Prepend<Object>(off).ToArray());
             }
             foreach (HapticStylus stylus in scene.Styluses)
             {
@@ -35,18 +39,10 @@ namespace HaptoFlow.Editor
                 if (output != null && !output.isActiveAndEnabled)
                 {
                     yield return new Finding(MessageType.Warning,
-                        $"{stylus.name} plays on {output.name}, which is switched off: it is silent.",
+                        $"{stylus.PenName} plays on {output.name}, which is switched off: it is silent.",
                         new Object[] { stylus, output });
                 }
             }
         }
-
-        /// <summary>Whether the scene has an output, enabled or not. If so, play mode adds none.</summary>
-        public static bool HasOutput(SceneContents scene) => scene.Outputs.Count > 0 || SwitchedOff().Count > 0;
-
-        private static IReadOnlyList<HapticOutput> SwitchedOff() => Object
-            .FindObjectsByType<HapticOutput>(FindObjectsInactive.Include, FindObjectsSortMode.None)
-            .Where(output => !output.isActiveAndEnabled)
-            .ToArray();
     }
 }

@@ -35,6 +35,9 @@ namespace HaptoFlow.Editor
             "The actuator profile is a measured one (JSON), as haptoflow actuator identify writes it.");
         private static readonly GUIContent Guard = new GUIContent("Exposure Guard",
             "The exposure guard slowly lowers a level that has been high for too long. It is no medical device.");
+        private static readonly GUIContent Listen = new GUIContent("Listen",
+            "Makes the vibration audible on loudspeakers: louder and brighter. It is for ears only: switch it off " +
+            "where an actuator is wired to the channel.");
         private static readonly GUIContent Delay = new GUIContent("Delay (ms)",
             "The output is delayed by this time, for studies and for displays that lag.");
         private static readonly GUIContent Panic = new GUIContent("Panic",
@@ -52,6 +55,7 @@ namespace HaptoFlow.Editor
         private SerializedProperty profile = null!;
         private SerializedProperty guard = null!;
         private SerializedProperty delay = null!;
+        private SerializedProperty listen = null!;
 
         private void OnEnable()
         {
@@ -66,6 +70,7 @@ namespace HaptoFlow.Editor
             profile = serializedObject.FindProperty("processing.profile");
             guard = serializedObject.FindProperty("processing.exposureGuard");
             delay = serializedObject.FindProperty("processing.delayMilliseconds");
+            listen = serializedObject.FindProperty("processing.listen");
         }
 
         public override bool RequiresConstantRepaint() => Application.isPlaying;
@@ -95,6 +100,7 @@ namespace HaptoFlow.Editor
             }
             EditorGUILayout.PropertyField(strength, Strength);
             EditorGUILayout.PropertyField(muted, Muted);
+            EditorGUILayout.PropertyField(listen, Listen);
             EditorGUILayout.PropertyField(actuator, Actuator);
             if (byProfile || actuator.hasMultipleDifferentValues)
             {

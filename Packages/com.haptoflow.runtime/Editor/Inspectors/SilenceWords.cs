@@ -30,6 +30,8 @@ namespace HaptoFlow.Editor
                     return "the voice is being closed";
                 case HapticSilence.WorkerDead:
                     return "the worker thread has ended";
+                case HapticSilence.TurnedDown:
+                    return "turned down: a strength or the ceiling is 0";
                 default:
                     return "unknown reason " + (int)voice.Silence;
             }

@@ -1,7 +1,7 @@
 #nullable enable
 using System;
 using System.IO;
-using System.Text;
+using HaptoFlow.Files;
 using HaptoFlow.Model;
 using UnityEditor;
 
@@ -55,7 +55,7 @@ namespace HaptoFlow.Editor
         {
             try
             {
-                File.WriteAllText(path, text, new UTF8Encoding(false));
+                WholeFile.Write(path, text);
                 return null;
             }
             catch (Exception error) when (error is IOException || error is UnauthorizedAccessException)

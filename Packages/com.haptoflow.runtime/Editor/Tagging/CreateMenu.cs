@@ -1,4 +1,5 @@
 #nullable enable
+using System.Linq;
 using UnityEditor;
 using UnityEngine;
 
@@ -8,25 +9,42 @@ namespace HaptoFlow.Editor
     internal static class CreateMenu
     {
         private const int Priority = 10;
+        private const string PlateName = "Wooden Plate";
 
         // The camera position in a new scene, which is too far from a plate of 30 cm.
         private static readonly Vector3 DefaultCameraPosition = new Vector3(0f, 1f, -10f);
         private static readonly Vector3 NearCameraPosition = new Vector3(0f, 0.4f, -0.45f);
+        // A low table, within the reach of somebody who sits or stands.
+        private static readonly Vector3 PlateInFrontOfRig = new Vector3(0f, 0.75f, 0.4f);
         private static readonly Vector3 PlateSize = new Vector3(0.3f, 0.02f, 0.3f);
 
-        /// <summary>Creates a plate, a pen under the mouse and an output: a scene that is ready to play.</summary>
+        /// <summary>Creates a plate, pens and an output: a scene that is ready to play. The pen is under the mouse; in
+        /// the rig of a headset there is one in each hand instead, and the plate is within their reach. What the scene
+        /// has already is not created again.</summary>
         [MenuItem("GameObject/HaptoFlow/First Scene", false, Priority - 3)]
         internal static void CreateFirstScene(MenuCommand command)
         {
             Undo.IncrementCurrentGroup();
             Undo.SetCurrentGroupName("Create First Haptic Scene");
             int group = Undo.GetCurrentGroup();
-            CreateOutput(command);
-            GameObject plate = Add(TaggedCube("Wooden Plate"), null);
-            plate.transform.localScale = PlateSize;
-            plate.transform.position = new Vector3(0f, -0.5f * PlateSize.y, 0f);
-            CreateMousePen(new MenuCommand(null));
-            BringCameraNear();
+            if (All<HapticOutput>().Length == 0)
+            {
+                AddOutput(command).Processing.Listen = true;
+            }
+            Transform? rig = HeadsetRig.Find();
+            HapticSurface? before = All<HapticSurface>().FirstOrDefault(surface => surface.name == PlateName);
+            GameObject plate = before != null ? before.gameObject : CreatePlate(rig);
+            if (rig != null)
+            {
+                CreateRightPen(new MenuCommand(null));
+                CreateLeftPen(new MenuCommand(null));
+            }
+            else if (All<MousePen>().Length == 0)
+            {
+                CreateMousePen(new MenuCommand(null));
+                BringCameraNear();
+            }
+            Selection.activeObject = plate;
             Undo.CollapseUndoOperations(group);
         }
 
@@ -59,11 +77,13 @@ namespace HaptoFlow.Editor
 
         /// <summary>Creates an output. It plays on every channel until one is chosen.</summary>
         [MenuItem("GameObject/HaptoFlow/Haptic Output", false, Priority)]
-        internal static void CreateOutput(MenuCommand command)
+        internal static void CreateOutput(MenuCommand command) => AddOutput(command);
+
+        private static HapticOutput AddOutput(MenuCommand command)
         {
-            var owner = new GameObject("Haptic Output");
-            owner.AddComponent<HapticOutput>();
-            Add(owner, command);
+            var output = new GameObject("Haptic Output").AddComponent<HapticOutput>();
+            Add(output.gameObject, command);
+            return output;
         }
 
         /// <summary>Creates the pen below the parent of the main camera, which is the tracking space in an XR rig.
@@ -73,9 +93,31 @@ namespace HaptoFlow.Editor
             Camera? camera = Camera.main;
             Transform? space = camera != null ? camera.transform.parent : null;
             bool isChosen = command.context is GameObject;
-            GameObject? parent = space != null ? space.gameObject : null;
-            Add(XrPen.Create(null, hand).gameObject, isChosen ? command : new MenuCommand(parent));
+            GameObject? parent = isChosen ? (GameObject)command.context! : space != null ? space.gameObject : null;
+            // Two pens in one hand would interrupt each other's vibration.
+            XrPen? before = All<XrPen>().FirstOrDefault(pen =>
+                pen.Hand == hand && pen.transform.parent == (parent != null ? parent.transform : null));
+            if (before != null)
+            {
+                Selection.activeObject = before.gameObject;
+                Debug.Log($"HaptoFlow: {before.name} was selected, because this hand has a pen already.", before);
+                return;
+            }
+            Add(XrPen.Create(null, hand).gameObject, new MenuCommand(parent));
         }
+
+        private static GameObject CreatePlate(Transform? rig)
+        {
+            GameObject plate = Add(TaggedCube(PlateName), null);
+            Vector3 top = rig != null ? rig.position + rig.rotation * PlateInFrontOfRig : Vector3.zero;
+            plate.transform.localScale = PlateSize;
+            plate.transform.rotation = rig != null ? rig.rotation : Quaternion.identity;
+            plate.transform.position = top - 0.5f * PlateSize.y * Vector3.up;
+            return plate;
+        }
+
+        private static T[] All<T>()
+            where T : Object => Object.FindObjectsByType<T>(FindObjectsInactive.Include, FindObjectsSortMode.None);
 
         private static GameObject TaggedCube(string name)
         {

@@ -48,8 +48,8 @@ namespace HaptoFlow
             "to create one.")]
         private HapticOutput? output;
 
-        [SerializeField, Tooltip("The hand that holds the stylus. Outputs that vibrate in a hand need it; an XR Pen " +
-            "sets it by itself.")]
+        [SerializeField, Tooltip("The hand that holds the stylus. Outputs that vibrate in a hand need it. With None it " +
+            "is the hand in which the source of the tip force is; an XR Pen sets it by itself.")]
         private HapticHand hand = HapticHand.None;
 
         [SerializeField, Range(0f, 1f), Tooltip("The gain of this stylus, multiplied with the surface's and the " +
@@ -63,6 +63,7 @@ namespace HaptoFlow
         private StylusVoices? voices;
         private bool isActive;
         private bool touching;
+        private bool hasSaidHand;
         private HapticContact contact;
 
         /// <summary>The tip touched a surface. Main thread.</summary>
@@ -141,10 +142,11 @@ namespace HaptoFlow
             set => output = value;
         }
 
-        /// <summary>The hand that holds the stylus, for outputs that vibrate in it.</summary>
+        /// <summary>The hand that holds the stylus, for outputs that vibrate in it: the one set here, else the one in
+        /// which <see cref="Force"/> is (<see cref="TipForceSource.HeldIn"/>).</summary>
         public HapticHand Hand
         {
-            get => hand;
+            get => hand != HapticHand.None || force == null ? hand : force.HeldIn;
             set => hand = value;
         }
 
@@ -199,6 +201,9 @@ namespace HaptoFlow
 
         /// <summary>Centre of the tip, in world space.</summary>
         internal Vector3 TipPosition => tip != null ? tip.position : transform.position;
+
+        /// <summary>The name that people know: the pen's, for a stylus on the child Tip of a pen.</summary>
+        internal string PenName => name == "Tip" && transform.parent != null ? transform.parent.name : name;
 
         /// <summary>The voices of this stylus, one for each of its outputs.</summary>
         internal StylusVoices Voices => voices ??= new StylusVoices(this);
@@ -281,9 +286,21 @@ namespace HaptoFlow
             {
                 return false;
             }
-            return touchBy == TouchDecision.MeasuredForce
+            bool has = touchBy == TouchDecision.MeasuredForce
                 ? force.TryMeasure(out newtons)
                 : force.TryRead(out newtons);
+            if (has && newtons > 0f && !hasSaidHand && Hand == HapticHand.None)
+            {
+                SayHand();
+            }
+            return has;
+        }
+
+        private void SayHand()
+        {
+            hasSaidHand = true;
+            Debug.Log($"HaptoFlow: {name} measures the force of its tip, but no hand is known to hold it, so no controller " +
+                "or pen in a hand plays it. Choose the hand in its field Hand; a pen on a tablet needs none.", this);
         }
 
         private void RaiseTouchEvents(in ContactReading reading, HapticSession session)

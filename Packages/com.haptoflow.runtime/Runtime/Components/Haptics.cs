@@ -64,6 +64,15 @@ namespace HaptoFlow
         /// <summary>Silences every stylus at once; each sounds again with its next touch-down.</summary>
         public static void Panic() => HapticVoice.PanicAll();
 
+        /// <summary>Leaves the device in a hand to another vibration: outputs of that hand send nothing for so long, then
+        /// return where the texture is by then. Call it in the frame in which the application sends an impulse of its
+        /// own, before or after it; a device plays one vibration at a time, and the next submission would end the
+        /// impulse. Impulses that are sent through the Input System are noticed without this call.</summary>
+        /// <param name="hand">The hand; <see cref="HapticHand.None"/> for both.</param>
+        /// <param name="seconds">Length of the other vibration, in s, up to 60. Calls that overlap last until the later
+        /// end; 0, less and NaN do nothing.</param>
+        public static void Yield(HapticHand hand, float seconds) => HandYields.Yield(hand, seconds);
+
         /// <summary>False before the model is loaded.</summary>
         public static bool TryGetStatistics(out EngineStatistics statistics)
         {

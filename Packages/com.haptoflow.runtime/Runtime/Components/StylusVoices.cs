@@ -26,6 +26,10 @@ namespace HaptoFlow
         /// <summary>The output chosen automatically for this stylus; null where it was not requested.</summary>
         public AutoOutput? Chosen { get; set; }
 
+        /// <summary>The audio output of which the console said that it plays the stylus instead of the device in its
+        /// hand; null before.</summary>
+        public HapticOutput? LeftOutFor { get; set; }
+
         /// <summary>Counts a device output that the author assigned to the stylus, or no longer assigns.</summary>
         public void Name(bool names) => named += names ? 1 : -1;
 

@@ -19,5 +19,10 @@ namespace HaptoFlow
         /// <param name="forceNewtons">0 or more.</param>
         /// <returns>False where the device measures nothing: geometry then decides.</returns>
         public virtual bool TryMeasure(out float forceNewtons) => TryRead(out forceNewtons);
+
+        /// <summary>The hand that holds the device that measures, for a stylus whose own hand is not set; <see
+        /// cref="HapticHand.None"/> where no hand does, or at present none is known to. Main thread; must make no
+        /// garbage.</summary>
+        public virtual HapticHand HeldIn => HapticHand.None;
     }
 }

@@ -54,12 +54,17 @@ namespace HaptoFlow
         [SerializeField]
         private OutputProcessing processing = new OutputProcessing();
 
+        // Serialised, so that it survives a recompilation while playing.
+        [SerializeField, HideInInspector]
+        private bool isMade;
+
         private readonly VoiceMixer mixer = new VoiceMixer();
         private readonly OutputMeter meter = new OutputMeter();
         private AudioSource? source;
         private double signalHz;
         private double signalMps2;
         private bool started;
+        private bool isBesideListener;
         private volatile int sampleRateHz = 48000;
         private volatile int renderedChannel;
         private volatile bool rendersHere;
@@ -178,7 +183,12 @@ namespace HaptoFlow
         public void Panic() => mixer.ForEach((voice, _) => voice.Panic(), 0);
 
         /// <summary>True for an output created automatically for a scene without one.</summary>
-        internal bool IsMade { get; private set; }
+        internal bool IsMade => isMade;
+
+        /// <summary>True where the author chose a channel, as for a wired actuator: the output then takes every stylus
+        /// that names no other. An output on all channels is for loudspeakers, and leaves a stylus in a hand to the
+        /// device there.</summary>
+        internal bool HasOwnChannel => route != OutputRoute.AudioSource || channel >= 0;
 
         /// <summary>Creates an output for <see cref="SceneOutputs"/>; <see cref="IsMade"/> is set before its
         /// Awake.</summary>
@@ -187,7 +197,7 @@ namespace HaptoFlow
             var owner = new GameObject("HaptoFlow Output");
             owner.SetActive(false);
             var made = owner.AddComponent<HapticOutput>();
-            made.IsMade = true;
+            made.isMade = true;
             owner.SetActive(true);
             return made;
         }
@@ -273,7 +283,7 @@ namespace HaptoFlow
         private void UpdateRendering()
         {
             renderedChannel = channel;
-            rendersHere = route != OutputRoute.MixerEffect && !LacksChannel;
+            rendersHere = route != OutputRoute.MixerEffect && !LacksChannel && !isBesideListener;
         }
 
         private void ReportMissingChannel()
@@ -308,17 +318,33 @@ namespace HaptoFlow
             {
                 return;
             }
-            if (source == null && !TryGetComponent(out source))
+            if (source == null)
             {
-                source = gameObject.AddComponent<AudioSource>();
+                source = FindSource();
             }
-            source!.playOnAwake = false;
+            source.playOnAwake = false;
             source.spatialBlend = 0f;
             source.priority = 0;
             source.dopplerLevel = 0f;
             source.bypassReverbZones = true;
+            source.bypassListenerEffects = true;
+            // This component is itself a filter of the source.
+            source.bypassEffects = false;
             ConfigureSource();
             source.Play();
+        }
+
+        /// <summary>The source on this object. Beside an Audio Listener this component would filter what the listener
+        /// hears, and overwrite it; there the source gets an object of its own.</summary>
+        private AudioSource FindSource()
+        {
+            if (TryGetComponent(out AudioListener _))
+            {
+                isBesideListener = true;
+                UpdateRendering();
+                return OutputSource.Of(this);
+            }
+            return TryGetComponent(out AudioSource found) ? found : gameObject.AddComponent<AudioSource>();
         }
 
         private void ConfigureSource()
@@ -333,8 +359,17 @@ namespace HaptoFlow
         // Audio thread: no garbage, no locks.
         private void OnAudioFilterRead(float[] data, int channels)
         {
+            if (rendersHere)
+            {
+                Render(data, channels);
+            }
+        }
+
+        /// <summary>Overwrites the output's channel of a block with the voices. Audio thread.</summary>
+        internal void Render(float[] data, int channels)
+        {
             int wanted = renderedChannel;
-            if (wanted >= channels || !rendersHere)
+            if (wanted >= channels)
             {
                 return;
             }

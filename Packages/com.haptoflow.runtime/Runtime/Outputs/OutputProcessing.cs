@@ -38,6 +38,10 @@ namespace HaptoFlow
          Tooltip("Delays the output by this many milliseconds, for studies and for displays that lag.")]
         private float delayMilliseconds;
 
+        [SerializeField, Tooltip("Makes the vibration audible on loudspeakers: louder and brighter. For ears only: " +
+            "switch it off where an actuator is wired to the channel.")]
+        private bool listen;
+
         /// <summary>The actuator that plays the channel.</summary>
         public OutputActuator Actuator
         {
@@ -66,6 +70,19 @@ namespace HaptoFlow
             set => delayMilliseconds = Mathf.Clamp(value, 0f, MaximumDelayMilliseconds);
         }
 
+        /// <summary>True to make the vibration audible on loudspeakers: louder and brighter. For ears only, not for an
+        /// actuator.</summary>
+        public bool Listen
+        {
+            get => listen;
+            set => listen = value;
+        }
+
+        /// <summary>True where Listen is on although the settings name an actuator or the channel that one is wired
+        /// to.</summary>
+        internal bool ListensToActuator(int channel) =>
+            listen && (actuator != OutputActuator.Uncompensated || channel >= 0);
+
         /// <summary>True where the actuator needs a profile and has none.</summary>
         internal bool LacksProfile => actuator == OutputActuator.Profile && profile == null;
 
@@ -74,6 +91,7 @@ namespace HaptoFlow
         {
             voice.SetDelay(0.001 * delayMilliseconds);
             voice.SetExposureGuard(exposureGuard);
+            voice.SetListen(listen);
             try
             {
                 voice.SetActuator(ProfileText());

@@ -4,10 +4,11 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>Chooses the audio output of a stylus without one of its own. An enabled output of the scene's author
-    /// takes precedence; a disabled one means silence. Where the scene has neither, a stylus plays on the device in its
-    /// hand, if that vibrates (<see cref="AutoOutput"/>); otherwise an audio output is created, and removed when the
-    /// author's appears. Main thread; no garbage while nothing changes.</summary>
+    /// <summary>Chooses the audio output of a stylus that names none. An output with a channel of its own takes every
+    /// stylus. One on all channels is for loudspeakers: it takes the styluses that are not played by the device in
+    /// their hand (<see cref="AutoOutput"/>). A disabled output means silence for those that it would take. Where the
+    /// scene has no output, one is created, and removed when the author's appears. Main thread; no garbage while
+    /// nothing changes.</summary>
     internal static class SceneOutputs
     {
         private static readonly List<HapticOutput> Authors = new List<HapticOutput>();
@@ -25,20 +26,45 @@ namespace HaptoFlow
         public static HapticOutput? For(HapticStylus asker)
         {
             FindDisabledOutputs();
-            if (Authors.Count > 0 || dormant != null || asker.Voices.HasNamedDevices)
+            HapticOutput? enabled = Preferred(Authors);
+            HapticOutput? authors = Authors.Count > 0 ? enabled : dormant;
+            bool isTaken = authors is not null && authors.HasOwnChannel;
+            if (asker.Voices.HasNamedDevices || isTaken)
             {
                 AutoOutput.Retire(asker);
-                return Authors.Count > 0 ? Authors[0] : null;
+                if (enabled is not null && !asker.Voices.HasNamedDevices)
+                {
+                    SayThatTheHandIsLeftOut(asker, enabled);
+                }
+                return enabled;
             }
-            if (AutoOutput.Serves(asker))
+            if (AutoOutput.Serves(asker, authors))
             {
                 return null;
+            }
+            if (authors is not null)
+            {
+                return enabled;
             }
             if (made != null)
             {
                 return made.isActiveAndEnabled ? made : null;
             }
             return Make(asker);
+        }
+
+        /// <summary>The output that plays styluses which name none: the first with a channel of its own, else the
+        /// first; null without any.</summary>
+        public static HapticOutput? Preferred(IReadOnlyList<HapticOutput> outputs)
+        {
+            for (int index = 0; index < outputs.Count; ++index)
+            {
+                if (outputs[index].HasOwnChannel)
+                {
+                    return outputs[index];
+                }
+            }
+            return outputs.Count > 0 ? outputs[0] : null;
         }
 
         /// <summary>Call it from Awake, which also runs for a disabled component on an active object.</summary>
@@ -81,11 +107,25 @@ namespace HaptoFlow
             }
         }
 
+        // Also finds the created output again after a recompilation, which empties static fields.
         private static HapticOutput? FindAuthors()
         {
             HapticOutput[] all = Object.FindObjectsByType<HapticOutput>(
                 FindObjectsInactive.Include, FindObjectsSortMode.None);
-            return System.Array.Find(all, output => !output.IsMade);
+            made = System.Array.Find(all, output => output.IsMade);
+            return Preferred(System.Array.FindAll(all, output => !output.IsMade));
+        }
+
+        private static void SayThatTheHandIsLeftOut(HapticStylus asker, HapticOutput output)
+        {
+            if (asker.Hand != HapticHand.None && !ReferenceEquals(asker.Voices.LeftOutFor, output))
+            {
+                asker.Voices.LeftOutFor = output;
+                string hand = asker.Hand == HapticHand.Left ? "left" : "right";
+                Debug.Log($"HaptoFlow: {asker.PenName} plays on {output.name} and not through the device in its {hand} " +
+                    "hand, because that output has a channel of its own. Add an Auto Output to the stylus to feel it " +
+                    "there too.", asker);
+            }
         }
 
         // The created output belongs to the scene that had none; the next scene starts over.

@@ -49,7 +49,8 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>True where every voice is muted, paused, silenced by a panic, or closing. Main thread.</summary>
+        /// <summary>True where every voice is muted, paused, turned down to 0, silenced by a panic, or closing. Main
+        /// thread.</summary>
         public bool AllAreStopped()
         {
             foreach (HapticVoice voice in voices)
@@ -87,7 +88,8 @@ namespace HaptoFlow
             {
                 HapticSilence silence = voice.Statistics().Silence;
                 return silence == HapticSilence.Muted || silence == HapticSilence.Paused ||
-                    silence == HapticSilence.Panic || silence == HapticSilence.Closing;
+                    silence == HapticSilence.Panic || silence == HapticSilence.Closing ||
+                    silence == HapticSilence.TurnedDown;
             }
             catch (HaptoFlowException closed) when (closed.Status == HaptoFlowStatus.InvalidArgument)
             {

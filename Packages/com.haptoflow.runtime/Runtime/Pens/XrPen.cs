@@ -1,7 +1,7 @@
 #nullable enable
+using System;
 using UnityEngine;
 #if HAPTOFLOW_INPUT_SYSTEM && ENABLE_INPUT_SYSTEM
-using System;
 using UnityEngine.InputSystem;
 #endif
 
@@ -19,7 +19,9 @@ namespace HaptoFlow
 
     /// <summary>A stylus on the device in one hand: MX Ink at its tip with the measured force, a controller at its
     /// pointer with the spring model. Place it below the rig's tracking space. Its stylus is inactive while nothing is
-    /// tracked. Requires the Input System, like OpenXR itself.</summary>
+    /// tracked.</summary>
+    /// <remarks>Reads the Input System, as OpenXR needs it, and pens that Meta's SDK knows by Logitech's action set.
+    /// </remarks>
     [AddComponentMenu("HaptoFlow/XR Pen")]
     [DisallowMultipleComponent]
     [HelpPage(HelpPages.Components + "xr-pen")]
@@ -31,12 +33,40 @@ namespace HaptoFlow
         [SerializeField, Tooltip("The stylus on a child of this object. It is inactive while nothing is tracked.")]
         private HapticStylus? stylus;
 
+        private IPenDevice[] devices = Array.Empty<IPenDevice>();
+        private bool isOpen;
+        private bool isDevice;
+        private float devicePressure = float.NaN;
+
         /// <summary>The stylus on a child of this object; null until one is set.</summary>
         public HapticStylus? Stylus
         {
             get => stylus;
-            set => stylus = value;
+            set
+            {
+                stylus = value;
+                SetHandOfStylus();
+            }
         }
+
+        /// <summary>The hand that holds the pen.</summary>
+        public PenHand Hand
+        {
+            get => hand;
+            set
+            {
+                hand = value;
+                SetHandOfStylus();
+                if (isOpen)
+                {
+                    Close();
+                    Open();
+                }
+            }
+        }
+
+        /// <inheritdoc/>
+        public override HapticHand HeldIn => hand == PenHand.Left ? HapticHand.Left : HapticHand.Right;
 
         /// <summary>Creates a pen with stylus and body. Main thread, also in edit mode.</summary>
         /// <param name="space">The tracking space; null for the world.</param>
@@ -60,45 +90,22 @@ namespace HaptoFlow
             return pen;
         }
 
-#if HAPTOFLOW_INPUT_SYSTEM && ENABLE_INPUT_SYSTEM
-        // The first pose that the device has is used: MX Ink's tip, a controller's pointer, a controller's grip.
-        private static readonly (string Position, string Rotation)[] Poses =
-        {
-            ("tipPose/position", "tipPose/rotation"),
-            ("pointerPosition", "pointerRotation"),
-            ("devicePosition", "deviceRotation"),
-        };
-
-        private InputAction? isTracked;
-        private InputAction? pressure;
-        private InputAction[] positions = Array.Empty<InputAction>();
-        private InputAction[] rotations = Array.Empty<InputAction>();
-        private bool isOpen;
-
-        /// <summary>The hand that holds the pen.</summary>
-        public PenHand Hand
-        {
-            get => hand;
-            set
-            {
-                hand = value;
-                if (isOpen)
-                {
-                    Close();
-                    Open();
-                }
-            }
-        }
-
         /// <inheritdoc/>
         protected override bool TryReadPressure(out float value)
         {
-            bool has = pressure != null && pressure.controls.Count > 0;
-            value = has ? pressure!.ReadValue<float>() : 0f;
-            return has;
+            if (isDevice)
+            {
+                value = devicePressure;
+                return !float.IsNaN(devicePressure);
+            }
+            return TryReadControlPressure(out value);
         }
 
-        private void OnEnable() => Open();
+        private void OnEnable()
+        {
+            SetHandOfStylus();
+            Open();
+        }
 
         private void OnDisable()
         {
@@ -113,14 +120,36 @@ namespace HaptoFlow
 
         private void Update()
         {
-            int pose = Array.FindIndex(positions, action => action.controls.Count > 0);
-            bool held = pose >= 0 && isTracked!.ReadValue<float>() > 0.5f;
+            isDevice = TryReadDevice(out Vector3 position, out Quaternion rotation);
+            bool held = isDevice || TryReadControls(out position, out rotation);
             if (held)
             {
-                transform.localPosition = positions[pose].ReadValue<Vector3>();
-                transform.localRotation = rotations[pose].ReadValue<Quaternion>();
+                transform.localPosition = position;
+                transform.localRotation = rotation;
             }
             SetStylusActive(held);
+        }
+
+        private bool TryReadDevice(out Vector3 position, out Quaternion rotation)
+        {
+            foreach (IPenDevice device in devices)
+            {
+                if (device.TryRead(out position, out rotation, out devicePressure))
+                {
+                    return true;
+                }
+            }
+            position = default;
+            rotation = Quaternion.identity;
+            return false;
+        }
+
+        private void SetHandOfStylus()
+        {
+            if (stylus != null)
+            {
+                stylus.Hand = HeldIn;
+            }
         }
 
         private void SetStylusActive(bool held)
@@ -134,25 +163,82 @@ namespace HaptoFlow
         private void Open()
         {
             isOpen = true;
-            if (stylus != null)
-            {
-                stylus.Hand = hand == PenHand.Left ? HapticHand.Left : HapticHand.Right;
-            }
-            isTracked = Enabled("isTracked");
-            pressure = Enabled("tip");
-            positions = Array.ConvertAll(Poses, pose => Enabled(pose.Position));
-            rotations = Array.ConvertAll(Poses, pose => Enabled(pose.Rotation));
+            devices = PenDevices.Open(hand);
+            OpenControls();
         }
 
         private void Close()
         {
             isOpen = false;
+            isDevice = false;
+            devices = Array.Empty<IPenDevice>();
+            CloseControls();
+        }
+
+#if HAPTOFLOW_INPUT_SYSTEM && ENABLE_INPUT_SYSTEM
+        // The first pose that the device has is used: MX Ink's tip, a controller's pointer, a controller's grip.
+        private static readonly (string Position, string Rotation)[] Poses =
+        {
+            ("tipPose/position", "tipPose/rotation"),
+            ("pointerPosition", "pointerRotation"),
+            ("devicePosition", "deviceRotation"),
+        };
+
+        private readonly DisguisedMxInk disguise = new DisguisedMxInk();
+        private InputAction? isTracked;
+        private InputAction? pressure;
+        private InputAction? stick;
+        private InputAction? stickTouched;
+        private InputAction[] positions = Array.Empty<InputAction>();
+        private InputAction[] rotations = Array.Empty<InputAction>();
+
+        private bool TryReadControls(out Vector3 position, out Quaternion rotation)
+        {
+            int pose = Array.FindIndex(positions, action => action.controls.Count > 0);
+            bool held = pose >= 0 && isTracked!.ReadValue<float>() > 0.5f;
+            position = held ? positions[pose].ReadValue<Vector3>() : default;
+            rotation = held ? rotations[pose].ReadValue<Quaternion>() : Quaternion.identity;
+            if (held && pressure!.controls.Count == 0 && stickTouched!.controls.Count > 0)
+            {
+                disguise.Note(stick!.ReadValue<Vector2>(), stickTouched.ReadValue<float>() > 0.5f,
+                    Time.realtimeSinceStartupAsDouble);
+            }
+            else
+            {
+                disguise.Forget();
+            }
+            return held;
+        }
+
+        private bool TryReadControlPressure(out float value)
+        {
+            bool has = pressure != null && pressure.controls.Count > 0;
+            value = has ? pressure!.ReadValue<float>() : 0f;
+            return has;
+        }
+
+        private void OpenControls()
+        {
+            isTracked = Enabled("isTracked");
+            pressure = Enabled("tip");
+            stick = Enabled("thumbstick");
+            stickTouched = Enabled("thumbstickTouched");
+            positions = Array.ConvertAll(Poses, pose => Enabled(pose.Position));
+            rotations = Array.ConvertAll(Poses, pose => Enabled(pose.Rotation));
+        }
+
+        private void CloseControls()
+        {
             isTracked?.Dispose();
             pressure?.Dispose();
+            stick?.Dispose();
+            stickTouched?.Dispose();
             Array.ForEach(positions, action => action.Dispose());
             Array.ForEach(rotations, action => action.Dispose());
             isTracked = null;
             pressure = null;
+            stick = null;
+            stickTouched = null;
             positions = Array.Empty<InputAction>();
             rotations = Array.Empty<InputAction>();
         }
@@ -164,28 +250,34 @@ namespace HaptoFlow
             return action;
         }
 #else
-        /// <summary>The hand that holds the pen.</summary>
-        public PenHand Hand
+        private bool TryReadControls(out Vector3 position, out Quaternion rotation)
         {
-            get => hand;
-            set => hand = value;
+            position = default;
+            rotation = Quaternion.identity;
+            return false;
         }
 
-        /// <inheritdoc/>
-        protected override bool TryReadPressure(out float value)
+        private bool TryReadControlPressure(out float value)
         {
             value = 0f;
             return false;
         }
 
+        private void OpenControls()
+        {
+        }
+
+        private void CloseControls()
+        {
+        }
+
         private void Start()
         {
-            if (stylus != null && stylus.gameObject != gameObject)
+            if (devices.Length == 0)
             {
-                stylus.gameObject.SetActive(false);
+                Debug.LogWarning("HaptoFlow: an XR Pen is inactive because this project does not use the Input System: " +
+                    "install that package and choose it in Project Settings > Player > Active Input Handling.", this);
             }
-            Debug.LogWarning("HaptoFlow: an XR Pen is inactive because this project does not use the Input System: " +
-                "install that package and choose it in Project Settings > Player > Active Input Handling.", this);
         }
 #endif
     }

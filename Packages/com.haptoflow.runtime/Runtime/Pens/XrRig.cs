@@ -136,8 +136,13 @@ namespace HaptoFlow
             transform.position = camera.transform.position - transform.rotation * position!.ReadValue<Vector3>();
             camera.transform.SetParent(transform, false);
             var driver = camera.gameObject.AddComponent<TrackedPoseDriver>();
+#if HAPTOFLOW_INPUT_SYSTEM_1_1
             driver.positionInput = new InputActionProperty(position);
             driver.rotationInput = new InputActionProperty(rotation);
+#else
+            driver.positionAction = position;
+            driver.rotationAction = rotation;
+#endif
         }
 
         private static InputAction Enabled(string binding)

@@ -8,7 +8,9 @@ namespace HaptoFlow
         /// <summary>True while the tip touches a surface.</summary>
         public bool Touching;
 
-        /// <summary>Number of touch-downs, so that a touch between two states is not lost.</summary>
+        /// <summary>Number of touch-downs, so that a touch between two states is not lost. Where <see cref="Touching"/>
+        /// returns with the same number above 0, the touch was only interrupted and has no second impact. 0 throughout
+        /// for a caller that does not count: then each return has its impact.</summary>
         public uint TouchCounter;
 
         /// <summary>Labels of the touched surface with their weights.</summary>

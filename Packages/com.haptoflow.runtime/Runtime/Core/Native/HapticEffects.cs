@@ -23,7 +23,7 @@ namespace HaptoFlow
         Nothing = 0x80000000,
     }
 
-    /// <summary>The stages of a voice in the order of processing, except for the last two.</summary>
+    /// <summary>The stages of a voice in the order of processing, except for the last three.</summary>
     public enum HapticEffect
     {
         /// <summary>The texture that the network generates while the tip slides.</summary>
@@ -49,5 +49,8 @@ namespace HaptoFlow
 
         /// <summary>The sine of a study, instead of texture, impact and edge.</summary>
         Signal = 7,
+
+        /// <summary>Louder and brighter for ears; it follows the compensation.</summary>
+        Listen = 8,
     }
 }

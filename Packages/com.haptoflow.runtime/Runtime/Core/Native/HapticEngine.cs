@@ -10,7 +10,7 @@ namespace HaptoFlow
     {
         /// <summary>Measures the model's tiers on this machine while nothing touches and takes the most accurate one
         /// within the budget (by the figures in the model's header); switches to a faster one when the machine falls
-        /// behind, and back when it recovers.</summary>
+        /// behind, and back when it recovers. Needs a worker.</summary>
         Auto = 0,
 
         /// <summary>The tier "draft"; where the model has none, its first.</summary>
@@ -50,8 +50,8 @@ namespace HaptoFlow
         /// <summary>Seed of all noise.</summary>
         public ulong Seed;
 
-        /// <summary>True for an engine without worker thread: the caller calls <see cref="HapticEngine.Step"/>. For
-        /// rendering outside real time.</summary>
+        /// <summary>True for an engine without worker thread: the caller calls <see cref="HapticEngine.Step"/> and sets
+        /// a fixed quality. For rendering outside real time.</summary>
         public bool WithoutWorker;
 
         /// <summary>Lead, above 0 to 50 ms; 0 for the shortest that this machine sustains. With a fixed lead an engine

@@ -32,5 +32,8 @@ namespace HaptoFlow
 
         /// <summary>The worker thread has ended: <see cref="HapticEngine.LastFailure"/> says why.</summary>
         WorkerDead = 8,
+
+        /// <summary>The strength or the ceiling is 0.</summary>
+        TurnedDown = 9,
     }
 }

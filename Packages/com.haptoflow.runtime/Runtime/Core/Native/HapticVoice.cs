@@ -88,7 +88,8 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>Sets the gain before the limiter, 0 to 1; the change takes 10 ms while the voice sounds.</summary>
+        /// <summary>Sets the gain before the limiter, 0 to 1; the change takes 10 ms while the voice sounds, delayed
+        /// sound included.</summary>
         public void SetStrength(float strength) => NativeCall.Check(NativeMethods.VoiceSetStrength(Id, strength));
 
         /// <summary>Limits the magnitude of all output samples, 0 to 1.</summary>
@@ -167,13 +168,18 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>Switches the exposure guard, which slowly lowers what is strong for too long, never to silence. Not
-        /// a medical device.</summary>
+        /// <summary>Switches the exposure guard, which slowly lowers what is strong for too long, never to silence.
+        /// Switched off it measures on, so that it knows the whole day when it is switched on again. Not a medical
+        /// device.</summary>
         /// <param name="actuatorGain">Acceleration at the hand for each m/s^2 of the voice, above 0 to 1000.</param>
         public void SetExposureGuard(bool isOn, float actuatorGain = 1f) =>
             NativeCall.Check(NativeMethods.VoiceSetExposureGuard(Id, isOn ? 1u : 0u, actuatorGain));
 
-        /// <summary>Measurements of the exposure guard; a gain of 1 without one.</summary>
+        /// <summary>Makes the voice audible on loudspeakers: louder and brighter. For ears only, not for an
+        /// actuator.</summary>
+        public void SetListen(bool isOn) => NativeCall.Check(NativeMethods.VoiceSetListen(Id, isOn ? 1u : 0u));
+
+        /// <summary>Measurements of the exposure guard; zeros and a gain of 1 without one that is on.</summary>
         public HapticExposure Exposure()
         {
             var exposure = new HapticExposure { StructSize = (uint)sizeof(HapticExposure) };

@@ -76,6 +76,16 @@ namespace HaptoFlow.Native
         protected override int Close(IntPtr* closing) => NativeMethods.WaveFeaturesClose(closing);
     }
 
+    internal sealed unsafe class DeviceWaveHandle : NativeHandle
+    {
+        public DeviceWaveHandle(IntPtr opened)
+            : base(opened)
+        {
+        }
+
+        protected override int Close(IntPtr* closing) => NativeMethods.DeviceWaveClose(closing);
+    }
+
     internal sealed unsafe class CancellationHandle : NativeHandle
     {
         public CancellationHandle(IntPtr opened)

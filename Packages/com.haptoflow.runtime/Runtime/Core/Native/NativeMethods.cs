@@ -199,6 +199,25 @@ namespace HaptoFlow.Native
             IntPtr features, float* waveMps2, ulong sampleCount, NativeWaveFrame* frames, ulong capacity,
             ulong* frameCount);
 
+        [DllImport(Library, EntryPoint = "haptoflow_voice_set_listen")]
+        public static extern int VoiceSetListen(ulong voice, uint isOn);
+
+        [DllImport(Library, EntryPoint = "haptoflow_device_share")]
+        public static extern int DeviceShare(int kind, float amplitudeMps2, float* share);
+
+        [DllImport(Library, EntryPoint = "haptoflow_device_wave_create")]
+        public static extern int DeviceWaveCreate(double sampleRateHz, IntPtr* wave);
+
+        [DllImport(Library, EntryPoint = "haptoflow_device_wave_close")]
+        public static extern int DeviceWaveClose(IntPtr* wave);
+
+        [DllImport(Library, EntryPoint = "haptoflow_device_wave_reset")]
+        public static extern int DeviceWaveReset(IntPtr wave);
+
+        [DllImport(Library, EntryPoint = "haptoflow_device_wave_process")]
+        public static extern int DeviceWaveProcess(
+            IntPtr wave, float* samples, ulong sampleCount, float fullScaleMps2);
+
         [DllImport(Library, EntryPoint = "haptoflow_learn_material")]
         public static extern int LearnMaterial(NativeLearningOptions* options, IntPtr* learning);
 

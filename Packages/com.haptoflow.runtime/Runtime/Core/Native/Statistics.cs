@@ -83,6 +83,10 @@ namespace HaptoFlow
 
         /// <summary>False where the last block's rate is outside 8 to 192 kHz.</summary>
         public bool IsRateSupported => isRateSupported != 0;
+
+        /// <summary>Impacts and edges that were lost, because more than 64 were published between two blocks; the
+        /// strongest sound.</summary>
+        public ulong LostBlows;
     }
 
     /// <summary>Why the exposure guard lowers a voice.</summary>

@@ -58,19 +58,18 @@ namespace HaptoFlow.Outputs
             SubmitAmplitude(nowSeconds, Math.Max(interval, Pace.MaximumSeconds));
         }
 
+        // What happened meanwhile, such as an impact, must not be felt afterwards.
+        protected override void PassOver() => AnalyseNewest();
+
         private void SubmitAmplitude(double nowSeconds, double expectedSeconds)
         {
-            int count = (int)Math.Min(Wave.End - analysed, window.Length);
-            analysed = Wave.End;
+            int count = AnalyseNewest();
             if (count == 0)
             {
                 return;
             }
-            Span<float> newest = window.AsSpan(0, count);
-            Wave.CopyNewest(newest);
-            Analyse(newest);
-            float sent = Limited(amplitude);
-            if (sent <= Inaudible)
+            float sent = Sent(HapticForm.Amplitude, amplitude);
+            if (Math.Min(sent, amplitude) <= Inaudible)
             {
                 End();
                 return;
@@ -87,6 +86,21 @@ namespace HaptoFlow.Outputs
             IsPlaying = true;
             statistics.LatencyMilliseconds =
                 1000.0 * (count / WaveHistory.RateHz + FrameSeconds + WaveFeatures.LatencySeconds);
+        }
+
+        /// <summary>Analyses the wave since the last call, up to the length of the window.</summary>
+        /// <returns>The number of samples.</returns>
+        private int AnalyseNewest()
+        {
+            int count = (int)Math.Min(Wave.End - analysed, window.Length);
+            analysed = Wave.End;
+            if (count > 0)
+            {
+                Span<float> newest = window.AsSpan(0, count);
+                Wave.CopyNewest(newest);
+                Analyse(newest);
+            }
+            return count;
         }
 
         /// <summary>Computes amplitude and frequency: the mean of the new frames, or the strongest transient among

@@ -27,6 +27,9 @@ namespace HaptoFlow.Outputs
         /// <summary>Number of times that the device disappeared or was replaced.</summary>
         public long DeviceChanges;
 
+        /// <summary>Number of times that playback made way for another vibration of the device.</summary>
+        public long Yields;
+
         /// <summary>The device's present rate, in Hz; 0 without one.</summary>
         public double RateHz;
     }
@@ -45,6 +48,7 @@ namespace HaptoFlow.Outputs
         private bool hasDevice;
         private double beganSeconds = double.NaN;
         private float ceiling = 1f;
+        private bool returns;
 
         // Fraction of a wave sample left over from the last frame.
         private double sampleFraction;
@@ -56,9 +60,14 @@ namespace HaptoFlow.Outputs
             Source = source;
         }
 
-        /// <summary>Gain from the wave's full scale to the device's: 1 or more for a weaker device. Changes take effect
-        /// with the next submissions.</summary>
+        /// <summary>Gain on what is sent. With <see cref="TrueLevel"/> it is the ratio of the wave's full scale to the
+        /// device's; otherwise it makes a device stronger or weaker than its loudness law. Changes take effect with the
+        /// next submissions.</summary>
         public float Gain { get; set; } = 1f;
+
+        /// <summary>True for an amplitude in proportion to the acceleration; false for the loudness law of the device's
+        /// kind. Changes take effect with the next submissions.</summary>
+        public virtual bool TrueLevel { get; set; } = true;
 
         /// <summary>Limit of the magnitude sent, 0 to 1.</summary>
         public float Ceiling
@@ -68,7 +77,11 @@ namespace HaptoFlow.Outputs
         }
 
         /// <summary>Full scale: the acceleration that a sample of 1 represents, in m/s^2.</summary>
-        public float FullScaleMps2 { get; set; } = (float)HapticEngineOptions.DefaultFullScaleMps2;
+        public virtual float FullScaleMps2 { get; set; } = (float)HapticEngineOptions.DefaultFullScaleMps2;
+
+        /// <summary>Time of the clock of <see cref="Update"/> until which the device belongs to another vibration: nothing
+        /// is sent to it, not even a stop, and what was sent ends by itself.</summary>
+        public double YieldUntilSeconds { get; set; } = double.NegativeInfinity;
 
         /// <summary>True while samples are queued or playing on the device.</summary>
         public bool IsPlaying { get; private protected set; }
@@ -92,6 +105,11 @@ namespace HaptoFlow.Outputs
             Pace.Note(elapsed);
             if (!FindDevice())
             {
+                return;
+            }
+            if (nowSeconds < YieldUntilSeconds)
+            {
+                Yield(elapsed);
                 return;
             }
             if (Source.IsStopped)
@@ -121,8 +139,23 @@ namespace HaptoFlow.Outputs
             }
         }
 
+        /// <summary>Takes whether playback begins in the midst of a vibration that made way, rather than with its onset.
+        /// </summary>
+        protected bool TakeReturn()
+        {
+            bool was = returns;
+            returns = false;
+            return was;
+        }
+
         /// <summary>Advances wave and device by a frame.</summary>
         protected abstract void Advance(double nowSeconds, double elapsedSeconds);
+
+        /// <summary>Called after each frame of the wave that is rendered while the device belongs to another vibration.
+        /// </summary>
+        protected virtual void PassOver()
+        {
+        }
 
         /// <summary>Ends the present playback now.</summary>
         protected abstract void DiscardSubmitted(double nowSeconds);
@@ -195,8 +228,24 @@ namespace HaptoFlow.Outputs
             return Math.Sign(sample) * magnitude;
         }
 
+        /// <summary>What a device of the form gets for an amplitude of the wave's features.</summary>
+        protected float Sent(HapticForm form, float amplitude) =>
+            Limited(TrueLevel ? amplitude : DeviceLoudness.Share(form, amplitude * FullScaleMps2));
+
         /// <summary>Smaller magnitudes cannot be felt; the device need not play them.</summary>
         protected const float Inaudible = 1e-5f;
+
+        private void Yield(double elapsedSeconds)
+        {
+            if (IsPlaying)
+            {
+                ++statistics.Yields;
+                Rest();
+            }
+            // The texture goes on, so that it returns where it is by then.
+            returns = RenderSilently(elapsedSeconds) >= 0L;
+            PassOver();
+        }
 
         private bool FindDevice()
         {

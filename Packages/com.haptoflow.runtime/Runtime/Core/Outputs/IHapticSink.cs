@@ -170,7 +170,8 @@ namespace HaptoFlow.Outputs
     /// <summary>The source of a queue's wave. The queue drives its clock.</summary>
     public interface IWaveSource
     {
-        /// <summary>True during a mute, a pause or a panic: samples already submitted must be discarded.</summary>
+        /// <summary>True during a mute, a pause, a strength of 0 or a panic: samples already submitted must be
+        /// discarded.</summary>
         bool IsStopped { get; }
 
         /// <summary>Renders the next samples, within +-1, of a wave at <see cref="WaveHistory.RateHz"/>.</summary>

@@ -132,7 +132,7 @@ namespace HaptoFlow.Outputs
                 {
                     transients[transientCount++] = new ParametricTransient(
                         (point - 1L - anchorPoint) * PointSeconds + frame.TransientOffsetSeconds,
-                        Limited(frame.Transient), Share(frame.TransientFrequencyHz));
+                        Sent(HapticForm.Parametric, frame.Transient), Share(frame.TransientFrequencyHz));
                 }
             }
             StreamPart part = starts ? StreamPart.First : ends ? StreamPart.Last : StreamPart.Intermediate;
@@ -191,7 +191,7 @@ namespace HaptoFlow.Outputs
             frequencies[place] = new ParametricPoint(seconds, Share(frames[point % frames.Length].FrequencyHz));
         }
 
-        private float Value(long point) => Limited(frames[point % frames.Length].Amplitude);
+        private float Value(long point) => Sent(HapticForm.Parametric, frames[point % frames.Length].Amplitude);
 
         private float Share(float frequencyHz)
         {

@@ -27,6 +27,7 @@ namespace HaptoFlow.Outputs
 
         private readonly IWaveformSink sink;
         private readonly bool replaces;
+        private readonly DeviceWave wave;
         private WaveDecimator decimator = new WaveDecimator(2000.0);
         private double preparedRateHz = 2000.0;
         private float[] buffer = Array.Empty<float>();
@@ -42,11 +43,34 @@ namespace HaptoFlow.Outputs
 
         /// <param name="mayReplace">False to queue submissions even where the device can replace them.</param>
         public WaveformQueue(IWaveformSink sink, IWaveSource source, bool mayReplace = true)
-            : base(sink, source)
+            : this(sink, new DeviceWave(source) { KeepsTrueLevel = true }, mayReplace)
+        {
+        }
+
+        private WaveformQueue(IWaveformSink sink, DeviceWave wave, bool mayReplace)
+            : base(sink, wave)
         {
             this.sink = sink;
+            this.wave = wave;
             replaces = mayReplace && sink.ReplacesWithoutGap;
         }
+
+        /// <inheritdoc/>
+        public override bool TrueLevel
+        {
+            get => wave.KeepsTrueLevel;
+            set => wave.KeepsTrueLevel = value;
+        }
+
+        /// <inheritdoc/>
+        public override float FullScaleMps2
+        {
+            get => wave.FullScaleMps2;
+            set => wave.FullScaleMps2 = value;
+        }
+
+        /// <inheritdoc/>
+        public override void Dispose() => wave.Dispose();
 
         private double RateHz => Capabilities.RateHz;
 
@@ -107,13 +131,14 @@ namespace HaptoFlow.Outputs
         private bool Begin(double nowSeconds, double elapsedSeconds)
         {
             long first = RenderSilently(elapsedSeconds);
+            bool returns = TakeReturn();
             if (first < 0)
             {
                 return false;
             }
             // The filter's input before the first sample is silence, so starting costs no delay.
             SetAnchor(nowSeconds, first);
-            entryGain = 1f;
+            entryGain = returns ? 0f : 1f;
             stretchSeconds = 0.0;
             IsPlaying = true;
             return true;
@@ -268,6 +293,7 @@ namespace HaptoFlow.Outputs
         }
 
         private void NoteLatency(double depthSeconds) =>
-            statistics.LatencyMilliseconds = 1000.0 * (depthSeconds + decimator.DelaySeconds);
+            statistics.LatencyMilliseconds = 1000.0 *
+            (depthSeconds + decimator.DelaySeconds + (TrueLevel ? 0.0 : DeviceWave.LatencySeconds));
     }
 }

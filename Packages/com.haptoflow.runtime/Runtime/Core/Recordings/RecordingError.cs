@@ -1,4 +1,5 @@
 #nullable enable
+using System.Linq;
 
 namespace HaptoFlow.Recordings
 {
@@ -6,6 +7,10 @@ namespace HaptoFlow.Recordings
     internal static class RecordingError
     {
         public static HaptoFlowException Of(string file, string found, string expected) => new HaptoFlowException(
-            HaptoFlowStatus.RecordingUnusable, $"{file}: {found}; expected {expected}");
+            HaptoFlowStatus.RecordingUnusable, Printable($"{file}: {found}; expected {expected}"));
+
+        /// <summary>Control characters, which the file may hold and a console obeys, as "\u001B".</summary>
+        private static string Printable(string text) => string.Concat(text.Select(
+            letter => char.IsControl(letter) ? $"\\u{(int)letter:X4}" : letter.ToString()));
     }
 }

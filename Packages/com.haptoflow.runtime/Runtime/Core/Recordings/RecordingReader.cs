@@ -61,10 +61,20 @@ namespace HaptoFlow.Recordings
             {
                 return null;
             }
+            if (!StaysInFolder(sidecar.Motion))
+            {
+                throw RecordingError.Of(sidecar.File,
+                    $"key 'motion' names {sidecar.Motion}, which is outside the folder of {sidecar.File}",
+                    "a table beside the recording: copy it there");
+            }
             byte[] bytes = sibling(sidecar.Motion) ?? throw RecordingError.Of(sidecar.File,
                 $"key 'motion' names {sidecar.Motion}, which is not there", "a table beside " + file);
             return RecordingTable.Read(sidecar.Motion, bytes, null, false);
         }
+
+        /// <summary>A name in a file leads no further than its own folder.</summary>
+        private static bool StaysInFolder(string name) =>
+            !Path.IsPathRooted(name) && name.IndexOf(':') < 0 && !name.Split('/', '\\').Contains("..");
 
         private static Series WaveOf(string file, byte[] bytes, RecordingSidecar sidecar, double? fullScaleMps2)
         {

@@ -1,4 +1,5 @@
 #nullable enable
+using System;
 using UnityEngine;
 using UnityEngine.InputSystem;
 
@@ -19,6 +20,25 @@ namespace HaptoFlow
         {
             get => pressure;
             set => pressure = value;
+        }
+
+        /// <summary>The hand that the action's bindings name, as in &lt;XRController&gt;{RightHand}/tip; None where they
+        /// name none or both.</summary>
+        public override HapticHand HeldIn
+        {
+            get
+            {
+                bool left = false;
+                bool right = false;
+                InputAction? action = pressure.action;
+                for (int index = 0; action != null && index < action.bindings.Count; ++index)
+                {
+                    string path = action.bindings[index].effectivePath ?? "";
+                    left |= path.IndexOf("{LeftHand}", StringComparison.OrdinalIgnoreCase) >= 0;
+                    right |= path.IndexOf("{RightHand}", StringComparison.OrdinalIgnoreCase) >= 0;
+                }
+                return left == right ? HapticHand.None : left ? HapticHand.Left : HapticHand.Right;
+            }
         }
 
         /// <inheritdoc/>

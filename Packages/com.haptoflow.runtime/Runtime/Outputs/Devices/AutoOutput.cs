@@ -13,15 +13,22 @@ namespace HaptoFlow
     [HelpPage(HelpPages.Outputs + "auto")]
     public sealed class AutoOutput : DeviceOutput
     {
+        private readonly HashSet<string> said = new HashSet<string>();
+        // Serialised, so that they survive a recompilation while playing.
+        [SerializeField, HideInInspector]
         private bool isMade;
+        [SerializeField, HideInInspector]
         private bool hadDevice;
+        private HapticOutput? left;
 
         /// <inheritdoc/>
         internal override bool IsMade => isMade;
 
         /// <summary>Creates an output for the device in the stylus's hand at the first call; true where it plays the
         /// stylus.</summary>
-        internal static bool Serves(HapticStylus asker)
+        /// <param name="left">The scene's audio output, which leaves the stylus to the device; null without one.
+        /// </param>
+        internal static bool Serves(HapticStylus asker, HapticOutput? left)
         {
             if (asker.Hand == HapticHand.None)
             {
@@ -30,7 +37,7 @@ namespace HaptoFlow
             StylusVoices voices = asker.Voices;
             if (voices.Chosen == null)
             {
-                voices.Chosen = Make(asker);
+                voices.Chosen = MadeFor(asker) ?? Make(asker, left);
             }
             return voices.Chosen.Keeps;
         }
@@ -54,13 +61,22 @@ namespace HaptoFlow
         // Without any device so far, as in the first frames of a scene, the stylus uses an audio output.
         private bool Keeps => hadDevice;
 
-        private static AutoOutput Make(HapticStylus asker)
+        /// <summary>The output that was made before a recompilation; null without one.</summary>
+        private static AutoOutput? MadeFor(HapticStylus asker)
+        {
+            var found = new List<AutoOutput>();
+            asker.GetComponentsInChildren(true, found);
+            return found.Find(output => output.isMade && output.transform.parent == asker.transform);
+        }
+
+        private static AutoOutput Make(HapticStylus asker, HapticOutput? left)
         {
             var owner = new GameObject("HaptoFlow Auto Output");
             owner.SetActive(false);
             owner.transform.SetParent(asker.transform, false);
             var made = owner.AddComponent<AutoOutput>();
             made.isMade = true;
+            made.left = left;
             owner.SetActive(true);
             made.FindDevice();
             return made;
@@ -75,12 +91,23 @@ namespace HaptoFlow
         private protected override void OnDevice(HapticForm form, IHapticSink sink, HapticHand held)
         {
             hadDevice = true;
-            string reason = isMade ? "the scene assigns no output, and " : "";
+            bool isLeft = left != null;
+            string reason = !isMade ? ""
+                : isLeft ? $"{left!.name} plays on every channel, as for loudspeakers, and "
+                : "the scene assigns no output, and ";
+            string remedy = isLeft
+                ? $" Choose a channel on {left!.name}, or name it in the stylus's field Output, to play there instead."
+                : "";
             string chosen = form == HapticForm.Waveform
                 ? "plays the waveform, which the device supports"
                 : "drives the motor with the envelope, since the device does not support waveforms";
-            Debug.Log($"HaptoFlow: {(Stylus != null ? Stylus.name : name)} is felt through {sink.Name} ({held} " +
-                $"hand): {reason}Auto Output {chosen}.", this);
+            string message = $"HaptoFlow: {(Played != null ? Played.PenName : name)} is felt through {sink.Name} ({held} " +
+                $"hand): {reason}Auto Output {chosen}.{remedy}";
+            // A route that fails and returns comes here again and again.
+            if (said.Add(message))
+            {
+                Debug.Log(message, this);
+            }
         }
     }
 }

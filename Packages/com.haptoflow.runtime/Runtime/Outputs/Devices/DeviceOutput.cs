@@ -15,7 +15,11 @@ namespace HaptoFlow
         /// <summary>Assumed acceleration of a controller at its full amplitude, in m/s^2.</summary>
         public const float DefaultFullScaleMps2 = 60f;
 
+        /// <summary>Upper limit of <see cref="DeviceLoudness"/>.</summary>
+        public const float MaximumDeviceLoudness = 2f;
+
         private const double SearchIntervalSeconds = 0.5;
+        private const double LostSeconds = 0.1;
 
         [SerializeField, Tooltip("The stylus to play. Leave it empty for the one on this object or above it.")]
         private HapticStylus? stylus;
@@ -30,8 +34,16 @@ namespace HaptoFlow
         [SerializeField, Tooltip("A muted output is silent and costs no inference.")]
         private bool muted;
 
+        [SerializeField, Range(0f, MaximumDeviceLoudness), Tooltip("How strong the device plays: 1 is fitted so that " +
+            "every shipped label is felt, 0 is silent. It has no effect with True Level.")]
+        private float deviceLoudness = 1f;
+
+        [SerializeField, Tooltip("Drives the device in proportion to the acceleration, by Full Scale, instead of by " +
+            "how strong it is felt. Most textures are then too weak for a small motor.")]
+        private bool trueLevel;
+
         [SerializeField, Min(0.1f), Tooltip("The acceleration that drives the device at its full amplitude, in " +
-            "m/s^2. Lower it where textures feel too weak.")]
+            "m/s^2. It has an effect with True Level only.")]
         private float fullScaleMps2 = DefaultFullScaleMps2;
 
         private readonly VoiceSource source = new VoiceSource();
@@ -62,6 +74,9 @@ namespace HaptoFlow
             }
         }
 
+        /// <summary>The stylus that the output plays, or would play if it were enabled; null without one.</summary>
+        internal HapticStylus? Played => Wanted();
+
         /// <summary>The hand whose device is used; <see cref="HapticHand.None"/> for the stylus's.</summary>
         public HapticHand Hand
         {
@@ -91,7 +106,24 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>Acceleration that drives the device at its full amplitude, in m/s^2, above 0.</summary>
+        /// <summary>How strong the device plays, 0 to <see cref="MaximumDeviceLoudness"/>: a gain after the loudness
+        /// law. Has no effect with <see cref="TrueLevel"/>.</summary>
+        public float DeviceLoudness
+        {
+            get => deviceLoudness;
+            set => deviceLoudness = Mathf.Clamp(value, 0f, MaximumDeviceLoudness);
+        }
+
+        /// <summary>True to drive the device in proportion to the acceleration, by <see cref="FullScaleMps2"/>, instead
+        /// of by the loudness law.</summary>
+        public bool TrueLevel
+        {
+            get => trueLevel;
+            set => trueLevel = value;
+        }
+
+        /// <summary>Acceleration that drives the device at its full amplitude, in m/s^2, above 0; used with <see
+        /// cref="TrueLevel"/>.</summary>
         public float FullScaleMps2
         {
             get => fullScaleMps2;
@@ -214,6 +246,12 @@ namespace HaptoFlow
         private void LateUpdate()
         {
             double now = Time.realtimeSinceStartupAsDouble;
+            if (wasThere && !HasDevice)
+            {
+                // Another route may reach a device that this one has lost, unless it is back at once.
+                wasThere = false;
+                nextSearchSeconds = now + LostSeconds;
+            }
             if (now >= nextSearchSeconds)
             {
                 nextSearchSeconds = now + SearchIntervalSeconds;
@@ -223,7 +261,8 @@ namespace HaptoFlow
             if (queue != null)
             {
                 HaptoFlowSettings settings = HaptoFlowSettings.Active;
-                queue.Gain = settings.FullScaleMps2 / fullScaleMps2;
+                queue.TrueLevel = trueLevel;
+                queue.Gain = trueLevel ? settings.FullScaleMps2 / fullScaleMps2 : deviceLoudness;
                 queue.Ceiling = settings.Ceiling;
                 queue.FullScaleMps2 = settings.FullScaleMps2;
                 bool isThere = HasDevice;
@@ -232,6 +271,7 @@ namespace HaptoFlow
                     source.Forget();
                 }
                 wasThere = isThere;
+                queue.YieldUntilSeconds = HandYields.UntilSeconds(openedFor);
                 queue.Update(now);
             }
         }

@@ -23,11 +23,15 @@ namespace HaptoFlow
         public bool Submit(float amplitude, float frequencyHz, float durationSeconds)
         {
             XRControllerWithRumble? controller = Controller();
-            controller?.SendImpulse(amplitude, durationSeconds);
-            return controller != null;
+            if (controller == null)
+            {
+                return false;
+            }
+            DeviceCommands.Send(controller, amplitude, durationSeconds);
+            return true;
         }
 
-        public void Stop() => Controller()?.SendImpulse(0f, 0f);
+        public void Stop() => Submit(0f, 0f, 0f);
 
         private XRControllerWithRumble? Controller() =>
             (isLeft ? XRController.leftHand : XRController.rightHand) as XRControllerWithRumble;

@@ -1,11 +1,13 @@
 #nullable enable
+#if HAPTOFLOW_META_VIBRATION
 using HaptoFlow.Outputs;
 using UnityEngine;
 
 namespace HaptoFlow
 {
     /// <summary>The motor of an MX Ink through Meta's SDK: OVRPlugin.TriggerVibrationAction, with the action that
-    /// Logitech's action set binds to the pen's haptic output.</summary>
+    /// Logitech's action set binds to the pen's haptic output. The call exists from version 68.0.2 of the SDK; with an
+    /// older one the routes of OpenXR and Unity's XR devices are used.</summary>
     internal sealed class MetaActionSink : IAmplitudeSink
     {
         private const string Action = "haptic_pulse";
@@ -13,7 +15,8 @@ namespace HaptoFlow
 
         private readonly MetaController controller;
 
-        public MetaActionSink(HapticHand hand) => controller = new MetaController(hand);
+        // The SDK logs an error for every failing call.
+        public MetaActionSink(HapticHand hand) => controller = new MetaController(hand, 2.0);
 
         public string Name => "MX Ink";
 
@@ -26,12 +29,16 @@ namespace HaptoFlow
         public bool Submit(float amplitude, float frequencyHz, float durationSeconds)
         {
             bool done = OVRPlugin.TriggerVibrationAction(Action, controller.Hand, durationSeconds, amplitude);
-            if (!done)
+            if (done)
             {
-                controller.Fail();
-                Debug.LogWarning($"HaptoFlow: MX Ink does not vibrate: Meta's SDK has no haptic action \"{Action}\" " +
-                    "that is bound to the pen (Project Settings > Meta XR > Input Actions). HaptoFlow tries again " +
-                    "when the session or the controllers change.");
+                controller.Succeed();
+            }
+            else if (controller.Fail())
+            {
+                Debug.LogWarning($"HaptoFlow: MX Ink does not vibrate by Meta's SDK, which has no haptic action " +
+                    $"\"{Action}\" that is bound to the pen. Use the action set of Logitech's integration package " +
+                    "(logitech.github.io/mxink) under Project Settings > Meta XR > Input Actions. HaptoFlow tries again, " +
+                    "less and less often, and meanwhile uses the next route to the pen.");
             }
             return done;
         }
@@ -49,3 +56,4 @@ namespace HaptoFlow
             "Meta MX Ink", HapticForm.Amplitude, 30, hand => new MetaActionSink(hand));
     }
 }
+#endif

@@ -1,77 +1,68 @@
 #nullable enable
-using System;
+using HaptoFlow.Outputs;
 using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>The state of one hand in Meta's SDK. Failing calls log an error each, so no call is made while the
-    /// session has no input focus or the hand is empty, and none after a failure until the state changes.</summary>
+    /// <summary>The device in one hand as a route of Meta's SDK sees it. No call is made while the session has no input
+    /// focus or the hand is empty. After a failure the next call waits, longer each time, unless the session or the
+    /// controllers change; each failure is logged once until then.</summary>
     internal sealed class MetaController
     {
-        // The SDK returns the profile's name as a new string at each call.
-        private const double ProfileIntervalSeconds = 2.0;
-        private const string MxInk = "mx_ink";
+        private readonly MetaHand hand;
+        private readonly RetryDelay retry;
+        private int version = -1;
+        private bool hasLogged;
 
-        private readonly OVRPlugin.Hand hand;
-        private OVRInput.Controller connected;
-        private bool hadFocus;
-        private bool holdsMxInk;
-        private bool hasFailed;
-        private double nextProfileSeconds;
-
-        public MetaController(HapticHand hand)
+        /// <param name="hand">The hand.</param>
+        /// <param name="firstRetrySeconds">Delay after a failure, doubled with each further one. Calls of which the SDK
+        /// logs each failure need a long one.</param>
+        public MetaController(HapticHand hand, double firstRetrySeconds)
         {
-            bool left = hand == HapticHand.Left;
-            this.hand = left ? OVRPlugin.Hand.HandLeft : OVRPlugin.Hand.HandRight;
-            Mask = left ? OVRInput.Controller.LTouch : OVRInput.Controller.RTouch;
+            this.hand = new MetaHand(hand);
+            retry = new RetryDelay(firstRetrySeconds, 32.0 * firstRetrySeconds);
+            Name = hand == HapticHand.Left ? "left" : "right";
         }
 
-        public OVRInput.Controller Mask { get; }
+        public OVRInput.Controller Mask => (OVRInput.Controller)hand.Mask;
 
-        public OVRPlugin.Hand Hand => hand;
+        public OVRPlugin.Hand Hand => hand.Hand;
+
+        /// <summary>Left or right, for messages.</summary>
+        public string Name { get; }
 
         /// <summary>Increases whenever cached capabilities may be out of date.</summary>
-        public int Version { get; private set; }
+        public int Version => hand.Version;
 
-        /// <summary>True while a Touch controller is in the hand and no call to it has failed.</summary>
-        public bool HoldsTouch => Refresh() && !holdsMxInk && (connected & Mask) != 0;
+        /// <summary>True while a Touch controller is in the hand and a call may be made.</summary>
+        public bool HoldsTouch => IsUsable() && hand.IsConnected && !hand.HoldsMxInk && !hand.HoldsDisguisedMxInk;
 
-        /// <summary>True while an MX Ink is in the hand and no call to it has failed.</summary>
-        public bool HoldsMxInk => Refresh() && holdsMxInk;
+        /// <summary>True while an MX Ink with its action set is in the hand and a call may be made.</summary>
+        public bool HoldsMxInk => IsUsable() && hand.HoldsMxInk;
 
-        /// <summary>Stops calls after a failure until the state changes.</summary>
-        public void Fail() => hasFailed = true;
-
-        private bool Refresh()
+        /// <summary>Call it after a failed call.</summary>
+        /// <returns>True where it should be logged.</returns>
+        public bool Fail()
         {
-            bool hasFocus = OVRPlugin.hasInputFocus;
-            OVRInput.Controller now = OVRInput.GetConnectedControllers();
-            double seconds = Time.realtimeSinceStartupAsDouble;
-            if (hasFocus != hadFocus || now != connected)
-            {
-                hadFocus = hasFocus;
-                connected = now;
-                Change();
-                nextProfileSeconds = 0.0;
-            }
-            if (hasFocus && seconds >= nextProfileSeconds)
-            {
-                nextProfileSeconds = seconds + ProfileIntervalSeconds;
-                string profile = OVRPlugin.GetCurrentInteractionProfile(hand) ?? "";
-                bool isPen = profile.IndexOf(MxInk, StringComparison.OrdinalIgnoreCase) >= 0;
-                if (isPen != holdsMxInk)
-                {
-                    holdsMxInk = isPen;
-                    Change();
-                }
-            }
-            return hasFocus && !hasFailed;
+            retry.Fail(Time.realtimeSinceStartupAsDouble);
+            bool isFirst = !hasLogged;
+            hasLogged = true;
+            return isFirst;
         }
 
-        private void Change()
+        /// <summary>Call it after a successful call.</summary>
+        public void Succeed() => retry.Forget();
+
+        private bool IsUsable()
         {
-            hasFailed = false;
-            ++Version;
+            hand.Refresh();
+            if (hand.Version != version)
+            {
+                version = hand.Version;
+                hasLogged = false;
+                retry.Forget();
+            }
+            return hand.HasFocus && retry.IsDue(Time.realtimeSinceStartupAsDouble);
         }
     }
 }

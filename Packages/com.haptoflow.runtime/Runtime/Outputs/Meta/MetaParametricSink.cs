@@ -26,7 +26,7 @@ namespace HaptoFlow
         private int queriedVersion = -1;
         private HapticSinkCapabilities capabilitiesOfController;
 
-        public MetaParametricSink(HapticHand hand) => controller = new MetaController(hand);
+        public MetaParametricSink(HapticHand hand) => controller = new MetaController(hand, 0.05);
 
         public string Name => "a Touch controller";
 
@@ -45,7 +45,9 @@ namespace HaptoFlow
         public bool Submit(ReadOnlySpan<ParametricPoint> amplitudePoints, ReadOnlySpan<ParametricPoint> frequencyPoints,
             ReadOnlySpan<ParametricTransient> transientPoints, StreamPart part)
         {
-            Send(Copy(amplitudePoints, amplitudes), Copy(frequencyPoints, frequencies), Copy(transientPoints), part);
+            // The SDK numbers the parts of a stream as OpenXR does.
+            Send(Copy(amplitudePoints, amplitudes), Copy(frequencyPoints, frequencies), Copy(transientPoints),
+                (OVRInput.HapticsParametricStreamFrameType)(uint)part);
             return true;
         }
 
@@ -58,7 +60,7 @@ namespace HaptoFlow
             OVRInput.HapticsParametricPoint[] silence = amplitudes.Of(2);
             silence[0] = new OVRInput.HapticsParametricPoint { Time = 0L, Value = 0f };
             silence[1] = new OVRInput.HapticsParametricPoint { Time = 1000000L, Value = 0f };
-            Send(silence, frequencies.Of(0), transients.Of(0), 0);
+            Send(silence, frequencies.Of(0), transients.Of(0), OVRInput.HapticsParametricStreamFrameType.None);
         }
 
         private void QueryCapabilities()
@@ -75,10 +77,9 @@ namespace HaptoFlow
                 reported.MinimumFirstFrameDuration / NanosecondsPerSecond);
         }
 
-        // The SDK uses OpenXR's values, in which 0 is not part of a stream.
         private void Send(OVRInput.HapticsParametricPoint[] amplitudePoints,
             OVRInput.HapticsParametricPoint[] frequencyPoints, OVRInput.HapticsParametricTransient[] transientPoints,
-            StreamPart part) => OVRInput.SetControllerHapticsParametric(
+            OVRInput.HapticsParametricStreamFrameType part) => OVRInput.SetControllerHapticsParametric(
             new OVRInput.HapticsParametricVibration
             {
                 AmplitudePoints = amplitudePoints,
@@ -86,7 +87,7 @@ namespace HaptoFlow
                 Transients = transientPoints,
                 MinFrequencyHz = (float)capabilitiesOfController.MinFrequencyHz,
                 MaxFrequencyHz = (float)capabilitiesOfController.MaxFrequencyHz,
-                StreamFrameType = (OVRInput.HapticsParametricStreamFrameType)(int)part,
+                StreamFrameType = part,
             },
             controller.Mask);
 

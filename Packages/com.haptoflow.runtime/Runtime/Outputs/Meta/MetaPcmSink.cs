@@ -15,7 +15,7 @@ namespace HaptoFlow
         private int queriedVersion = -1;
         private float rateHz;
 
-        public MetaPcmSink(HapticHand hand) => controller = new MetaController(hand);
+        public MetaPcmSink(HapticHand hand) => controller = new MetaController(hand, 0.05);
 
         public string Name => "a Touch controller";
 
@@ -25,14 +25,10 @@ namespace HaptoFlow
         public bool TryGetCapabilities(out HapticSinkCapabilities capabilities)
         {
             bool holds = controller.HoldsTouch;
-            if (holds && queriedVersion != controller.Version)
+            if (holds && (queriedVersion != controller.Version || !(rateHz > 0f)))
             {
                 queriedVersion = controller.Version;
-                rateHz = OVRInput.GetControllerSampleRateHz(controller.Mask);
-                if (!(rateHz > 0f))
-                {
-                    controller.Fail();
-                }
+                QueryRate();
             }
             capabilities = new HapticSinkCapabilities(rateHz, MaximumSamples);
             return holds && rateHz > 0f;
@@ -51,11 +47,20 @@ namespace HaptoFlow
                     Append = !replace,
                 },
                 controller.Mask);
-            if (taken > 0 || !replace)
+            if (taken > 0)
             {
+                controller.Succeed();
                 return taken;
             }
-            controller.Fail();
+            if (!replace)
+            {
+                return 0;
+            }
+            if (controller.Fail())
+            {
+                Debug.LogWarning($"HaptoFlow: the Touch controller in the {controller.Name} hand refused a waveform. " +
+                    "HaptoFlow tries again, less and less often, and meanwhile uses the next route to it.");
+            }
             return -1;
         }
 
@@ -65,6 +70,17 @@ namespace HaptoFlow
             {
                 samples[0] = 0f;
                 Submit(samples.AsSpan(0, 1), true);
+            }
+        }
+
+        // The runtime may answer 0 Hz until it knows the controller.
+        private void QueryRate()
+        {
+            rateHz = OVRInput.GetControllerSampleRateHz(controller.Mask);
+            if (!(rateHz > 0f) && controller.Fail())
+            {
+                Debug.Log($"HaptoFlow: the Touch controller in the {controller.Name} hand reports 0 Hz as its rate for " +
+                    "waveforms. HaptoFlow asks again, less and less often, and meanwhile uses the next route to it.");
             }
         }
 

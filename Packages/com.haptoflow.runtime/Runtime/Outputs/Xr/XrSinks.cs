@@ -37,13 +37,11 @@ namespace HaptoFlow
     /// bytes are magnitudes, 0 to 255, as Oculus defined them.</summary>
     internal sealed class XrBufferSink : IWaveformSink
     {
-        // After this many failures in a row, a device that reports buffers is treated as one without.
-        private const int MaximumRefusals = 3;
-
         private readonly XrDevice device;
         private readonly ArraysByLength<byte> buffers = new ArraysByLength<byte>();
-        private InputDevice refusing;
-        private int refusals;
+        private readonly RetryDelay retry = new RetryDelay(0.05, 30.0);
+        private InputDevice known;
+        private bool hasLogged;
 
         public XrBufferSink(HapticHand hand) => device = new XrDevice(hand);
 
@@ -58,12 +56,13 @@ namespace HaptoFlow
                 reported.bufferFrequencyHz > 0u && reported.bufferMaxSize > 0u && reported.numChannels > 0u;
             capabilities = new HapticSinkCapabilities(reported.bufferFrequencyHz,
                 (int)Math.Min(reported.bufferMaxSize, 4000u));
-            if (device.Device != refusing)
+            if (device.Device != known)
             {
-                refusing = device.Device;
-                refusals = 0;
+                known = device.Device;
+                hasLogged = false;
+                retry.Forget();
             }
-            return supportsBuffers && refusals < MaximumRefusals;
+            return supportsBuffers && retry.IsDue(Time.realtimeSinceStartupAsDouble);
         }
 
         public int Submit(ReadOnlySpan<float> samples, bool replace)
@@ -77,9 +76,24 @@ namespace HaptoFlow
             {
                 bytes[index] = (byte)(255f * Math.Min(1f, Math.Abs(samples[index])) + 0.5f);
             }
-            bool isTaken = device.Device.SendHapticBuffer(0u, bytes);
-            refusals = isTaken ? 0 : refusals + 1;
-            return isTaken ? bytes.Length : -1;
+            if (device.Device.SendHapticBuffer(0u, bytes))
+            {
+                retry.Forget();
+                return bytes.Length;
+            }
+            Refuse();
+            return -1;
+        }
+
+        private void Refuse()
+        {
+            retry.Fail(Time.realtimeSinceStartupAsDouble);
+            if (!hasLogged)
+            {
+                hasLogged = true;
+                Debug.LogWarning($"HaptoFlow: {Name} reports that it plays waveforms, but refused one. HaptoFlow tries " +
+                    "again, less and less often, and meanwhile uses the next route to it.");
+            }
         }
 
         public void Stop() => device.Device.StopHaptics();

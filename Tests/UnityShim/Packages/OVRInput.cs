@@ -1,68 +1,30 @@
 using System;
 using System.Collections.Generic;
-using UnityEngine;
 using UnityShim;
 
-public static partial class OVRPlugin
-{
-    internal const string MxInkProfile = "/interaction_profiles/logitech/mx_ink_stylus_logitech";
-    internal const string TouchPlusProfile = "/interaction_profiles/meta/touch_controller_plus";
-
-    internal static string Profile = TouchPlusProfile;
-    internal static string? BoundHaptic = "haptic_pulse";
-
-    public enum Hand
-    {
-        None = -1,
-        HandLeft = 0,
-        HandRight = 1,
-    }
-
-    internal static List<(double Seconds, Hand Hand, float Duration, float Amplitude)> Pulses { get; } =
-        new List<(double, Hand, float, float)>();
-
-    internal static int FailedPulses { get; private set; }
-
-    public static string GetCurrentInteractionProfile(Hand hand) => Profile;
-
-    /// <summary>Each failing call logs an error, as in the SDK.</summary>
-    public static bool TriggerVibrationAction(string actionName, Hand hand, float duration, float amplitude)
-    {
-        bool runs = hasInputFocus && actionName == BoundHaptic && Profile == MxInkProfile;
-        if (runs)
-        {
-            Pulses.Add((Clock.UnscaledSeconds, hand, duration, amplitude));
-        }
-        else
-        {
-            ++FailedPulses;
-            Debug.LogError("Error calling TriggerVibrationAction: Failure_ActionNotFound");
-        }
-        return runs;
-    }
-
-    private static void ResetHaptics()
-    {
-        Profile = TouchPlusProfile;
-        BoundHaptic = "haptic_pulse";
-        Pulses.Clear();
-        FailedPulses = 0;
-    }
-}
-
-/// <summary>Part of Meta's SDK: the haptics of a controller.</summary>
+/// <summary>Part of Meta's SDK: the haptics of a controller. The list of connected controllers is filled by <see
+/// cref="Update"/> only, which OVRManager calls in a scene that has one; haptics do not ask it.</summary>
 public static class OVRInput
 {
-    internal static Controller Connected = Controller.None;
     internal static float SampleRateHz = 2000f;
+
+    private static Controller connectedControllers;
 
     [Flags]
     public enum Controller
     {
+        None = OVRPlugin.Controller.None,
+        LTouch = OVRPlugin.Controller.LTouch,
+        RTouch = OVRPlugin.Controller.RTouch,
+        Active = OVRPlugin.Controller.Active,
+    }
+
+    [Flags]
+    public enum RawTouch
+    {
         None = 0,
-        LTouch = 0x00000001,
-        RTouch = 0x00000002,
-        Active = unchecked((int)0x80000000),
+        RThumbstick = 0x00000004,
+        LThumbstick = 0x00000400,
     }
 
     public struct HapticsPcmVibration
@@ -86,9 +48,12 @@ public static class OVRInput
         public float Frequency;
     }
 
-    public enum HapticsParametricStreamFrameType
+    public enum HapticsParametricStreamFrameType : uint
     {
-        None = 0,
+        None = 0u,
+        FirstFrame = 1u,
+        IntermediateFrame = 2u,
+        LastFrame = 3u,
     }
 
     public struct HapticsParametricVibration
@@ -121,14 +86,27 @@ public static class OVRInput
 
     internal static HapticsParametricProperties Properties { get; set; }
 
-    /// <summary>The number of calls for which the SDK logs an error.</summary>
+    /// <summary>The number of calls that the runtime refused.</summary>
     internal static int FailedCalls { get; private set; }
 
-    public static Controller GetConnectedControllers() => Connected;
+    /// <summary>The runtime refuses the next buffers, so many of them.</summary>
+    internal static int BuffersToRefuse { get; set; }
+
+    /// <summary>The number of calls of <see cref="Update"/>. A second one in a frame loses the frame's button presses
+    /// for the application.</summary>
+    internal static int Updates { get; private set; }
+
+    public static void Update()
+    {
+        ++Updates;
+        connectedControllers = (Controller)OVRPlugin.GetConnectedControllers();
+    }
+
+    public static Controller GetConnectedControllers() => connectedControllers;
 
     public static float GetControllerSampleRateHz(Controller controllerMask = Controller.Active)
     {
-        bool runs = (Connected & controllerMask) != 0 && OVRPlugin.hasInputFocus && SampleRateHz > 0f;
+        bool runs = Answers(controllerMask) && SampleRateHz > 0f;
         FailedCalls += runs ? 0 : 1;
         return runs ? SampleRateHz : 0f;
     }
@@ -136,8 +114,9 @@ public static class OVRInput
     public static int SetControllerHapticsPcm(
         HapticsPcmVibration hapticsVibration, Controller controllerMask = Controller.Active)
     {
-        if ((Connected & controllerMask) == 0 || !OVRPlugin.hasInputFocus)
+        if (!Answers(controllerMask) || BuffersToRefuse > 0)
         {
+            BuffersToRefuse = Math.Max(0, BuffersToRefuse - 1);
             ++FailedCalls;
             return 0;
         }
@@ -165,13 +144,19 @@ public static class OVRInput
 
     internal static void Reset()
     {
-        Connected = Controller.None;
+        connectedControllers = Controller.None;
         SampleRateHz = 2000f;
         Waves.Clear();
         Parametric.Clear();
         Records = true;
         Submissions = 0;
         FailedCalls = 0;
+        BuffersToRefuse = 0;
+        Updates = 0;
         Properties = default;
     }
+
+    // The runtime knows the controllers whether or not OVRInput does.
+    private static bool Answers(Controller controllerMask) => OVRPlugin.hasInputFocus &&
+        ((Controller)OVRPlugin.GetConnectedControllers() & controllerMask) != 0;
 }

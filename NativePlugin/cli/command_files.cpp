@@ -1,0 +1,101 @@
+#include "command_files.hpp"
+
+#include "exit_codes.hpp"
+
+#include <system_error>
+#include <vector>
+
+namespace haptoflow::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct NamedFile {
+    std::string role;
+    fs::path path;
+};
+
+std::vector<NamedFile>& inputs() {
+    static std::vector<NamedFile> all;
+    return all;
+}
+
+std::vector<OutputClaim>& outputs() {
+    static std::vector<OutputClaim> all;
+    return all;
+}
+
+bool isDevice(const fs::path& path) {
+    std::error_code ignored;
+    const fs::file_status status = fs::status(path, ignored);
+    return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+}
+
+/// True if `path` names the file that the output will write, whether that file exists or not.
+bool isSameFile(const OutputClaim& output, const fs::path& path) {
+    std::error_code ignored;
+    if (isDevice(output.target) || isDevice(path)) {
+        return false;
+    }
+    if (fs::equivalent(output.target, path, ignored)) {
+        return true;
+    }
+    if (output.partial.empty()) {
+        return false;
+    }
+    // For names of files that do not exist yet, the file system itself says whether two spellings are one: the partial
+    // file beside the target is found by the other spelling, too.
+    fs::path probe = followLinks(path);
+    probe += output.partial.native().substr(output.target.native().size());
+    return fs::equivalent(output.partial, probe, ignored);
+}
+
+[[noreturn]] void refuse(const OutputClaim& output, const std::string& role, const fs::path& path) {
+    throw UsageError(output.role + " " + output.path.string() + ": is the same file as " + role + " " + path.string() +
+                     "; name another file for " + output.role);
+}
+
+}  // namespace
+
+void claimInput(const std::string& role, const fs::path& path) {
+    for (const OutputClaim& output : outputs()) {
+        if (isSameFile(output, path)) {
+            refuse(output, role, path);
+        }
+    }
+    inputs().push_back({role, path});
+}
+
+void claimOutput(const OutputClaim& output) {
+    for (const NamedFile& input : inputs()) {
+        if (isSameFile(output, input.path)) {
+            refuse(output, input.role, input.path);
+        }
+    }
+    for (const OutputClaim& other : outputs()) {
+        if (isSameFile(other, output.path)) {
+            refuse(output, other.role, other.path);
+        }
+    }
+    outputs().push_back(output);
+}
+
+void releaseOutput(const fs::path& path) noexcept {
+    std::erase_if(outputs(), [&path](const OutputClaim& output) { return output.path == path; });
+}
+
+fs::path followLinks(const fs::path& path) {
+    fs::path target = path;
+    std::error_code ignored;
+    for (int link = 0; fs::is_symlink(fs::symlink_status(target, ignored)); ++link) {
+        constexpr int maximumLinks = 40;
+        if (link == maximumLinks) {
+            throw InputError(path.string() + ": is a cycle of links");
+        }
+        const fs::path next = fs::read_symlink(target, ignored);
+        target = next.is_absolute() ? next : target.parent_path() / next;
+    }
+    return target;
+}
+
+}  // namespace haptoflow::cli

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace haptoflow::cli {
+
+/// The one rule for the files of a command: an output is neither a file that the command reads, or looks for, nor
+/// another output. Other spellings, links and hard links are the same file; devices and pipes are exempt. The order of
+/// the calls does not matter. Main thread.
+
+/// Called for every file before it is read; `role` is its name in messages: "the scene". Throws UsageError if it is an
+/// output of this command.
+void claimInput(const std::string& role, const std::filesystem::path& path);
+
+/// An output as the user named it, and the files behind it.
+struct OutputClaim {
+    /// "--report".
+    std::string role;
+    std::filesystem::path path;
+    /// The file that is written in the end.
+    std::filesystem::path target;
+    /// An existing file whose name is that of the target with a suffix; empty if the target is written directly.
+    std::filesystem::path partial;
+};
+
+/// Called for every output before anything is written to it. Throws UsageError if it is an input or another output.
+void claimOutput(const OutputClaim& output);
+/// The output is complete or given up.
+void releaseOutput(const std::filesystem::path& path) noexcept;
+
+/// The final target of a chain of links, whether it exists or not. Throws InputError for a cycle.
+[[nodiscard]] std::filesystem::path followLinks(const std::filesystem::path& path);
+
+}  // namespace haptoflow::cli

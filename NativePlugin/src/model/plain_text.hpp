@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace haptoflow::model {
+
+/// True if the text has a control character of ASCII: a line feed, a tab, an escape.
+[[nodiscard]] bool hasControlCharacter(std::string_view text) noexcept;
+
+[[nodiscard]] bool isUtf8(std::string_view text) noexcept;
+
+/// The text for a message: control characters, of ASCII and of Unicode, and bytes that are not UTF-8 as "\x1B". A
+/// terminal obeys the original.
+[[nodiscard]] std::string printable(std::string_view text);
+
+/// At most `bytes` bytes from the text's beginning, without a part of a character at the end.
+[[nodiscard]] std::string_view shortened(std::string_view text, std::size_t bytes) noexcept;
+
+}  // namespace haptoflow::model

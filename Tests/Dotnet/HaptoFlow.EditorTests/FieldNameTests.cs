@@ -1,0 +1,84 @@
+using System;
+using System.Collections.Generic;
+using System.IO;
+using System.Linq;
+using System.Reflection;
+using System.Text.RegularExpressions;
+using HaptoFlow.Editor;
+using HaptoFlow.Studies;
+using HaptoFlow.Tests.Support;
+using NUnit.Framework;
+using UnityEditor;
+using UnityEngine;
+using UnityShim;
+
+namespace HaptoFlow.EditorTests
+{
+    /// <summary>The page of components calls fields what the Inspector calls them, so that a reader finds them.</summary>
+    public sealed class FieldNameTests : EditorTest
+    {
+        private static readonly Assembly[] Assemblies =
+        {
+            typeof(HapticSurface).Assembly, typeof(MousePen).Assembly, typeof(InputActionTipForce).Assembly,
+            typeof(MaskingNoise).Assembly,
+        };
+
+        // Words in italics that are no fields of the section's own Inspector.
+        private static readonly string[] Elsewhere = { "Preview" };
+
+        private static IEnumerable<TestCaseData> Sections()
+        {
+            string[] parts = Regex.Split(
+                File.ReadAllText(RepositoryFiles.In("Documentation~", "components.md")), "^## ", RegexOptions.Multiline);
+            foreach (Type type in Assemblies.SelectMany(each => each.GetTypes()).Where(each => !each.IsAbstract))
+            {
+                string? page = type.GetCustomAttribute<HelpPageAttribute>(false)?.Page;
+                string? text = parts.FirstOrDefault(part => page == HelpPages.Components + AnchorOf(part.Split('\n')[0]));
+                if (text != null)
+                {
+                    yield return new TestCaseData(type, text).SetName("{m}(" + type.Name + ")");
+                }
+            }
+        }
+
+        [TestCaseSource(nameof(Sections))]
+        public void EveryFieldNamedOnThePageIsShownUnderThatName(Type type, string text)
+        {
+            HashSet<string> shown = ShownBy(type);
+            IEnumerable<string> named = Regex.Matches(text, @"(?<![*\w])\*([A-Z][^*\n]*(?:\n[^*\n]+)?)\*(?!\*)")
+                .Select(match => Regex.Replace(match.Groups[1].Value, @"\s+", " ")).Distinct();
+            Assert.That(named.Where(name => !shown.Contains(name)), Is.Empty,
+                "shown: " + string.Join(", ", shown.OrderBy(each => each)));
+        }
+
+        private HashSet<string> ShownBy(Type type)
+        {
+            UnityEngine.Object target = typeof(Component).IsAssignableFrom(type)
+                ? World.AddComponent(Make("Owner"), type)
+                : (UnityEngine.Object)typeof(ScriptableObject).GetMethod(nameof(ScriptableObject.CreateInstance))!
+                    .MakeGenericMethod(type).Invoke(null, null)!;
+            var editor = UnityEditor.Editor.CreateEditor(target);
+            var shown = new HashSet<string>(EditorScreen.Draw(editor.OnInspectorGUI).Select(item => item.Label));
+            // A custom Inspector shows some fields only in some states.
+            foreach (Type drawer in typeof(DocumentationMenu).Assembly.GetTypes())
+            {
+                const BindingFlags constants = BindingFlags.Static | BindingFlags.NonPublic | BindingFlags.Public;
+                shown.UnionWith(drawer.GetFields(constants).SelectMany(field => field.GetValue(null) switch
+                {
+                    GUIContent single => new[] { single.text },
+                    (string Path, GUIContent Label)[] several => several.Select(each => each.Label.text),
+                    _ => Array.Empty<string>(),
+                }));
+            }
+            shown.UnionWith(Assemblies.Append(typeof(HapticEngine).Assembly).SelectMany(each => each.GetTypes())
+                .Where(each => each.IsEnum).SelectMany(Enum.GetNames).Select(InWords));
+            shown.UnionWith(Elsewhere);
+            return shown;
+        }
+
+        private static string InWords(string name) => Regex.Replace(name, "(?<=[a-z])(?=[A-Z])", " ");
+
+        private static string AnchorOf(string heading) =>
+            Regex.Replace(heading.Trim().ToLowerInvariant(), "[^a-z0-9 -]", "").Replace(' ', '-');
+    }
+}

@@ -1,0 +1,400 @@
+#include "engine/impact_responses.hpp"
+#include "engine/offline_renderer.hpp"
+#include "simulated_device.hpp"
+#include "test_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <numeric>
+#include <string>
+#include <vector>
+
+namespace haptoflow::engine {
+namespace {
+
+using effects::EffectKind;
+using effects::EffectMask;
+using effects::maskOf;
+using testing::DeviceSettings;
+using testing::FakeGenerator;
+using testing::SimulatedDevice;
+
+constexpr EffectMask impact = maskOf(EffectKind::impact);
+constexpr EffectMask edge = maskOf(EffectKind::edge);
+constexpr std::array<std::size_t, 6> blockLengths{64, 128, 256, 512, 1024, 2048};
+
+ContactState landing(float approachSpeedMps, std::uint32_t touch = 1) {
+    ContactState state = testing::sliding(0.0F);
+    state.touchCounter = touch;
+    state.approachSpeedMps = approachSpeedMps;
+    state.effects = impact;
+    return state;
+}
+
+/// A tip on ribs: `edges` of them crossed, each a full edge.
+ContactState onRibs(std::uint32_t edges, float speedMps = 0.2F) {
+    ContactState state = testing::sliding(speedMps);
+    state.effects = edge;
+    state.edgeCounter = edges;
+    state.edgeHeightMetres = 0.002F;
+    return state;
+}
+
+/// Landings every 20 ms from 0.1 s to 1.6 s, every second one weak; the tip lifts off between them.
+ContactState taps(double seconds) {
+    // Whole milliseconds, because the sum of many periods is not exact.
+    const auto milliseconds = static_cast<std::uint32_t>(std::lround(1000.0 * seconds));
+    if (milliseconds < 100 || milliseconds >= 1600) {
+        return testing::lifted(milliseconds < 100 ? 0 : 75);
+    }
+    const std::uint32_t tap = (milliseconds - 100) / 20;
+    ContactState state = landing(tap % 2 == 0 ? 0.3F : 0.02F, tap + 1);
+    state.touching = milliseconds % 20 <= 10;
+    return state;
+}
+
+/// Ribs every 5 ms from 0.1 s to 1.6 s.
+ContactState ribs(double seconds) {
+    const double since = std::clamp(seconds - 0.1, 0.0, 1.5);
+    return onRibs(static_cast<std::uint32_t>(since / 0.005 + 1e-6));
+}
+
+struct Scene {
+    std::string name;
+    EffectKind kind;
+    std::function<ContactState(double)> hand;
+};
+
+std::ostream& operator<<(std::ostream& stream, const Scene& scene) {
+    return stream << scene.name;
+}
+
+const std::vector<Scene>& scenes() {
+    static const std::vector<Scene> all{{"Landings", EffectKind::impact, taps}, {"Ribs", EffectKind::edge, ribs}};
+    return all;
+}
+
+double energy(std::span<const float> samples) {
+    return std::transform_reduce(samples.begin(), samples.end(), 0.0, std::plus<>(), [](float sample) {
+        return static_cast<double>(sample) * static_cast<double>(sample);
+    });
+}
+
+class BlowsTest : public ::testing::Test {
+protected:
+    static std::uint64_t events(const SimulatedDevice& device, EffectKind kind) {
+        return device.counters().effects[static_cast<std::size_t>(kind)].events;
+    }
+    [[nodiscard]] std::vector<float> play(std::size_t blockFrames, const std::vector<ContactState>& states,
+                                          int blocks = 8) {
+        SimulatedDevice device(model_, tone_, {.blockFrames = blockFrames});
+        for (const ContactState& state : states) {
+            device.publish(state);
+        }
+        for (int block = 0; block < blocks; ++block) {
+            device.renderBlock();
+        }
+        return device.output;
+    }
+
+    model::ModelFile model_ = testing::smallModel();
+    FakeGenerator tone_{testing::continueTone};
+};
+
+TEST_F(BlowsTest, AStrongBlowSoundsEvenIfAWeakOneFollowsInTheSameBlock) {
+    for (const std::size_t block : blockLengths) {
+        const std::vector<float> alone = play(block, {landing(2.0F, 1)});
+        const std::vector<float> both = play(block, {landing(2.0F, 1), testing::lifted(1), landing(0.01F, 2)});
+        EXPECT_GT(testing::peak(both), 0.98F * testing::peak(alone)) << block;
+        EXPECT_NE(both, alone) << "the weak blow sounds, too; block of " << block;
+    }
+}
+
+TEST_F(BlowsTest, BlowsOfOneBlockKeepTheirDistance) {
+    constexpr std::size_t block = 2048;
+    std::vector<ContactState> first;
+    for (int state = 0; state < 20; ++state) {
+        first.push_back(onRibs(state >= 3 ? 1 : 0));
+    }
+    std::vector<ContactState> both = first;
+    for (std::size_t state = 13; state < both.size(); ++state) {
+        both[state].edgeCounter = 2;
+    }
+    const std::vector<float> one = play(block, first);
+    const std::vector<float> two = play(block, both);
+    const auto differs = std::ranges::mismatch(one, two).in1 - one.begin();
+    // Ten of twenty states later. The sinusoid of the second blow begins at 0, so its second sample differs.
+    EXPECT_NEAR(static_cast<double>(differs), block / 2, 2);
+    EXPECT_NE(one[1], 0.0F) << "the first blow begins with its block";
+    for (std::size_t i = 0; i + block / 2 + 1 < two.size(); ++i) {
+        const double second = static_cast<double>(two[i + block / 2]) - static_cast<double>(one[i + block / 2]);
+        ASSERT_NEAR(second, static_cast<double>(one[i]), 1e-5) << "both blows are equal; sample " << i;
+    }
+}
+
+TEST_F(BlowsTest, ALandingAndALiftOffInOneBlockSound) {
+    for (const std::size_t block : blockLengths) {
+        const std::vector<float> held = play(block, {testing::lifted(0), landing(0.5F, 1)});
+        const std::vector<float> tapped = play(block, {testing::lifted(0), landing(0.5F, 1), testing::lifted(1)});
+        EXPECT_EQ(held, tapped) << block;
+        EXPECT_GT(testing::peak(tapped), 0.01F) << block;
+    }
+}
+
+TEST_F(BlowsTest, AnEdgeAndALandingInOneBlockBothSound) {
+    for (const std::size_t block : blockLengths) {
+        SimulatedDevice device(model_, tone_, {.blockFrames = block});
+        device.publish(onRibs(0));
+        device.renderBlock();
+        ContactState rim = onRibs(1);
+        rim.effects = edge | impact;
+        device.publish(rim);
+        ContactState other = rim;
+        other.landingCounter = 1;
+        other.approachSpeedMps = 0.3F;
+        device.publish(other);
+        device.renderBlock();
+        EXPECT_EQ(events(device, EffectKind::edge), 1U) << block;
+        EXPECT_EQ(events(device, EffectKind::impact), 1U) << block;
+    }
+}
+
+TEST_F(BlowsTest, OfTwoLandingsInOneBlockAPanicBetweenSilencesTheFirst) {
+    for (const std::size_t block : blockLengths) {
+        const auto peakOf = [&](float before, float after) {
+            SimulatedDevice device(model_, tone_, {.blockFrames = block});
+            device.publish(landing(before, 1));
+            device.publish(testing::lifted(1));
+            device.voice().channels.panic();
+            device.publish(landing(after, 2));
+            for (int i = 0; i < 8; ++i) {
+                device.renderBlock();
+            }
+            EXPECT_EQ(events(device, EffectKind::impact), 1U) << block;
+            return testing::peak(device.output);
+        };
+        EXPECT_FLOAT_EQ(peakOf(2.0F, 0.1F), peakOf(0.01F, 0.1F)) << block;
+    }
+}
+
+TEST_F(BlowsTest, ALandingInTheBlockThatAPanicFadesSoundsWithTheNextBlock) {
+    for (const std::size_t block : blockLengths) {
+        SimulatedDevice device(model_, tone_, {.blockFrames = block});
+        device.publish(landing(2.0F, 1));
+        device.renderBlock();
+        device.voice().channels.panic();
+        device.publish(landing(0.3F, 2));
+        device.renderBlock();
+        EXPECT_EQ(device.output.back(), 0.0F) << block;
+        const std::size_t next = device.output.size();
+        device.renderBlock();
+        device.renderBlock();
+        EXPECT_GT(testing::peak(std::span<const float>(device.output).subspan(next)), 0.005F) << block;
+        EXPECT_EQ(events(device, EffectKind::impact), 2U) << block;
+    }
+}
+
+TEST_F(BlowsTest, ALandingInTheFrameInWhichTheRateChangesSounds) {
+    for (const double rateHz : {16000.0, 44100.0, 96000.0}) {
+        for (const bool isRib : {false, true}) {
+            SimulatedDevice device(model_, tone_);
+            const EffectKind kind = isRib ? EffectKind::edge : EffectKind::impact;
+            device.run(0.2, [&](double) { return isRib ? onRibs(0) : testing::lifted(0); });
+            device.setRate(rateHz);
+            const std::size_t begin = device.output.size();
+            const ContactState blow = isRib ? onRibs(1) : landing(0.5F, 1);
+            device.publish(blow);
+            device.renderBlock();
+            device.run(0.2, [&](double) { return blow; });
+            EXPECT_EQ(events(device, kind), 1U) << rateHz;
+            EXPECT_GT(testing::peak(std::span<const float>(device.output).subspan(begin)), 0.005F) << rateHz;
+        }
+    }
+}
+
+TEST_F(BlowsTest, ABlowThatWaitedTooLongForARateIsNotPlayedLater) {
+    SimulatedDevice device(model_, tone_);
+    device.run(0.2, [](double) { return testing::lifted(0); });
+    // Without calls of the worker, no output stage is made.
+    device.setRate(44100.0);
+    device.voice().publisher.publish(landing(0.5F, 1));
+    for (int block = 0; block < 20; ++block) {
+        device.renderBlock();
+        device.voice().publisher.publish(landing(0.5F, 1));
+    }
+    device.run(0.2, [](double) { return landing(0.5F, 1); });
+    EXPECT_EQ(device.counters().rateChanges, 1U);
+    EXPECT_EQ(events(device, EffectKind::impact), 0U);
+    EXPECT_EQ(testing::peak(device.output), 0.0F);
+}
+
+TEST_F(BlowsTest, ManyBlowsThatWaitForARateAreNotPlayedAllAtOnce) {
+    SimulatedDevice device(model_, tone_, {.updateHz = 1000.0});
+    device.run(0.2, [](double) { return onRibs(0); });
+    device.setRate(44100.0);
+    const float full = testing::peak(play(256, {onRibs(0), onRibs(1)}));
+    const std::size_t begin = device.output.size();
+    for (std::uint32_t edges = 1; edges <= 12; ++edges) {
+        // Without the planner, which would make the output stage.
+        device.voice().publisher.publish(onRibs(edges, edges == 5 ? 0.2F : 0.1F));
+        device.renderBlock();
+    }
+    device.run(0.1, [](double) { return onRibs(12); });
+    const float peak = testing::peak(std::span<const float>(device.output).subspan(begin));
+    EXPECT_EQ(events(device, EffectKind::edge), 1U);
+    EXPECT_NEAR(peak, full, 0.05F * full) << "the strongest";
+}
+
+TEST_F(BlowsTest, OfMoreBlowsThanAreKeptTheStrongestSoundAndTheOthersAreCounted) {
+    SimulatedDevice device(model_, tone_, {.blockFrames = 2048});
+    constexpr std::uint32_t published = 3 * BlowList::capacity;
+    for (std::uint32_t touch = 1; touch <= published; ++touch) {
+        device.publish(landing(touch % 3 == 0 ? 0.2F : 0.01F, touch));
+    }
+    device.renderBlock();
+    EXPECT_EQ(events(device, EffectKind::impact), BlowList::capacity);
+    EXPECT_EQ(device.counters().lostBlows, published - BlowList::capacity);
+    SimulatedDevice strongest(model_, tone_, {.blockFrames = 2048});
+    for (std::uint32_t touch = 1; touch <= published; ++touch) {
+        strongest.publish(touch % 3 == 0 ? landing(0.2F, touch) : landing(0.0F, touch));
+    }
+    strongest.renderBlock();
+    EXPECT_EQ(device.output, strongest.output);
+}
+
+TEST_F(BlowsTest, AfterTheCallbackHasTakenBlowsTheirRoomIsFreeAgain) {
+    SimulatedDevice device(model_, tone_, {.blockFrames = 2048});
+    std::uint32_t touch = 0;
+    for (int block = 0; block < 20; ++block) {
+        for (std::size_t blow = 0; blow < BlowList::capacity; ++blow) {
+            device.publish(landing(0.01F, ++touch));
+        }
+        device.renderBlock();
+    }
+    EXPECT_EQ(device.counters().lostBlows, 0U);
+    EXPECT_EQ(events(device, EffectKind::impact), touch);
+}
+
+TEST_F(BlowsTest, RibsKeepTheirRhythmAcrossBlocks) {
+    // Ribs every 10 ms in blocks of 21.3 ms. Once each is late by a block, their distance is constant.
+    SimulatedDevice device(model_, tone_, {.blockFrames = 1024, .updateHz = 1000.0});
+    device.run(1.0, [](double seconds) { return onRibs(static_cast<std::uint32_t>(seconds / 0.01 + 1e-6)); });
+    std::vector<std::size_t> beginnings;
+    for (std::size_t i = 4800; i + 1 < device.output.size(); ++i) {
+        // A blow bends the wave where it begins.
+        const double bend =
+            std::abs(static_cast<double>(device.output[i + 1]) - 2.0 * static_cast<double>(device.output[i]) +
+                     static_cast<double>(device.output[i - 1]));
+        if (bend > 5e-4 && (beginnings.empty() || i > beginnings.back() + 24)) {
+            beginnings.push_back(i);
+        }
+    }
+    ASSERT_GE(beginnings.size(), 80U);
+    // The first ones give up the time that the first of all gained.
+    for (std::size_t i = 10; i < beginnings.size(); ++i) {
+        EXPECT_NEAR(static_cast<double>(beginnings[i] - beginnings[i - 1]), 480.0, 50.0) << i;
+    }
+}
+
+std::atomic<double> testSeconds{0.0};
+
+TEST_F(BlowsTest, BlowsFromATimeInWhichTheDeviceStoodStillAreNotPlayedAllAtOnce) {
+    SimulatedDevice device(model_, tone_);
+    device.voice().channels.isRealTime = true;
+    device.voice().channels.clock = []() noexcept { return testSeconds.load(); };
+    testSeconds = 10.0;
+    device.publish(onRibs(0));
+    device.renderBlock();
+    for (std::uint32_t edges = 1; edges <= 50; ++edges) {
+        testSeconds = testSeconds + 1.0 / 72.0;
+        device.publish(onRibs(edges));
+    }
+    device.renderBlock();
+    EXPECT_LE(events(device, EffectKind::edge), 9U) << "those of the last 100 ms and two blocks";
+    EXPECT_GE(events(device, EffectKind::edge), 7U);
+}
+
+TEST_F(BlowsTest, ACallerThatCountsTouchesFromZeroFeelsItsFirstLanding) {
+    SimulatedDevice device(model_, tone_);
+    device.publish(landing(0.5F, 0));
+    device.renderBlock();
+    EXPECT_EQ(events(device, EffectKind::impact), 1U);
+    EXPECT_GT(testing::peak(device.output), 0.01F);
+    // The touch goes on.
+    device.run(0.1, [](double) { return landing(0.5F, 0); });
+    EXPECT_EQ(events(device, EffectKind::impact), 1U);
+    device.run(0.1, [](double) { return testing::lifted(0); });
+    device.run(0.1, [](double) { return landing(0.5F, 1); });
+    EXPECT_EQ(events(device, EffectKind::impact), 2U);
+}
+
+TEST_F(BlowsTest, ACallerThatDoesNotCountTouchesFeelsEachLanding) {
+    for (const bool startsLifted : {false, true}) {
+        SimulatedDevice device(model_, tone_);
+        if (startsLifted) {
+            device.run(0.1, [](double) { return testing::lifted(0); });
+        }
+        for (std::uint64_t touch = 1; touch <= 4; ++touch) {
+            device.run(0.1, [](double) { return landing(0.5F, 0); });
+            EXPECT_EQ(events(device, EffectKind::impact), touch);
+            device.run(0.1, [](double) { return testing::lifted(0); });
+        }
+    }
+}
+
+TEST_F(BlowsTest, APanicSilencesALandingOfACallerThatDoesNotCountTouches) {
+    SimulatedDevice device(model_, tone_);
+    device.publish(landing(0.5F, 0));
+    device.renderBlock();
+    device.voice().channels.panic();
+    device.renderBlock();
+    const std::size_t after = device.output.size();
+    device.run(0.1, [](double) { return landing(0.5F, 0); });
+    EXPECT_EQ(testing::peak(std::span<const float>(device.output).subspan(after)), 0.0F);
+    device.publish(testing::lifted(0));
+    device.publish(landing(0.5F, 0));
+    device.renderBlock();
+    device.renderBlock();
+    EXPECT_GT(testing::peak(std::span<const float>(device.output).subspan(after)), 0.01F);
+}
+
+class BlowLoudnessTest : public BlowsTest, public ::testing::WithParamInterface<std::tuple<Scene, double>> {};
+
+TEST_P(BlowLoudnessTest, DoesNotDependOnTheBlockLengthNorOnRenderingLiveOrOffline) {
+    const auto& [scene, rateHz] = GetParam();
+    std::vector<ContactState> states;
+    for (int state = 0; state < 2500; ++state) {
+        states.push_back(scene.hand(0.001 * state));
+        states.back().timeSeconds = 0.001 * state;
+    }
+    OfflineSettings settings;
+    settings.outputRateHz = rateHz;
+    settings.fullScaleMps2 = 60.0F;
+    const OfflineRender offline = renderOffline(model_, tone_, states, settings);
+    const std::uint64_t blows = offline.effectEvents[static_cast<std::size_t>(scene.kind)];
+    ASSERT_GE(blows, 75U);
+    const double expected = energy(offline.samples);
+    for (const std::size_t block : blockLengths) {
+        SimulatedDevice device(model_, tone_, {.rateHz = rateHz, .blockFrames = block, .updateHz = 1000.0});
+        device.run(2.5, [&hand = scene.hand](double seconds) { return hand(seconds); });
+        EXPECT_EQ(events(device, scene.kind), blows) << block;
+        EXPECT_NEAR(10.0 * std::log10(energy(device.output) / expected), 0.0, 0.3) << block;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, BlowLoudnessTest,
+                         ::testing::Combine(::testing::ValuesIn(scenes()),
+                                            ::testing::Values(24000.0, 44100.0, 48000.0, 96000.0)),
+                         [](const auto& test) {
+                             return std::get<0>(test.param).name + "At" +
+                                    std::to_string(static_cast<int>(std::get<1>(test.param))) + "Hz";
+                         });
+
+}  // namespace
+}  // namespace haptoflow::engine

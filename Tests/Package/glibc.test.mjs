@@ -1,0 +1,37 @@
+// What a Linux library needs of the system that loads it.
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import test from 'node:test';
+import { onDebian } from '../../scripts/lib/setup.mjs';
+import { isNewerThan, needsOf, neededGlibc } from '../../scripts/pack/elf.mjs';
+import { findNatives, oldestGlibc } from '../../scripts/pack/natives.mjs';
+import { elfOf } from './support/elf.mjs';
+
+const linux = findNatives().found.filter(({ platform }) => platform.kind.startsWith('elf-'));
+const onDebian12 = onDebian() && readFileSync('/etc/debian_version', 'utf8').startsWith('12.');
+
+for (const { platform, file } of linux) {
+  test(`the library of ${platform.name} that is built here needs no newer glibc than ${oldestGlibc.join('.')}, and no C++ library`, { skip: !onDebian12 && 'only Debian 12 builds libraries of a release' }, () => {
+    const bytes = readFileSync(file);
+    const glibc = neededGlibc(bytes);
+    assert.ok(!isNewerThan(glibc, oldestGlibc), `needs ${glibc.join('.')}`);
+    const { libraries, versions } = needsOf(bytes);
+    assert.ok(versions.length > 3, versions.join());
+    // Before glibc 2.34 the functions of these two were not in libc.
+    for (const name of ['libc.so.6', 'libpthread.so.0', 'libdl.so.2']) assert.ok(libraries.includes(name), `${libraries.join()} without ${name}`);
+    assert.ok(!libraries.includes('libstdc++.so.6'));
+  });
+}
+
+test('the newest version of glibc that a library wants is compared by its numbers, not by its letters', () => {
+  assert.deepEqual(neededGlibc(elfOf({ machine: 62, versions: ['GLIBC_2.4', 'GLIBC_2.30', 'GLIBC_2.2.5', 'GLIBCXX_3.4.29', 'GLIBC_PRIVATE'] })), [2, 30]);
+  assert.equal(neededGlibc(elfOf({ machine: 183, libraries: ['libc.so'], versions: ['LIBC'] })), null);
+  assert.ok(isNewerThan([2, 34], oldestGlibc) && isNewerThan([3, 0], oldestGlibc));
+  assert.ok(!isNewerThan([2, 31], oldestGlibc) && !isNewerThan([2, 9], oldestGlibc) && !isNewerThan([1, 99], oldestGlibc));
+});
+
+test('a file that breaks off, or has no dynamic section, needs nothing', () => {
+  const whole = elfOf({ machine: 62, versions: ['GLIBC_2.34'] });
+  for (const bytes of [Buffer.alloc(20), whole.subarray(0, 64), whole.subarray(0, 120)]) assert.deepEqual(needsOf(bytes), { libraries: [], versions: [] });
+  for (let length = 0; length < whole.length; length += 1) needsOf(whole.subarray(0, length));
+});

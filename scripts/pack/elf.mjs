@@ -1,0 +1,66 @@
+/** Reads what a 64-bit little-endian ELF library needs, in its own bytes: no binutils, on every system. */
+
+const segmentTypes = { load: 1, dynamic: 2 };
+const tags = { needed: 1n, strings: 5n, versions: 0x6ffffffen, versionCount: 0x6fffffffn };
+
+/** The program headers of an ELF. */
+function segmentsOf(elf) {
+  if (elf.length < 64) return [];
+  const [offset, size, count] = [Number(elf.readBigUInt64LE(32)), elf.readUInt16LE(54), elf.readUInt16LE(56)];
+  return Array.from({ length: count }, (_, index) => offset + index * size)
+    .filter((place) => place + 56 <= elf.length)
+    .map((place) => ({
+      type: elf.readUInt32LE(place),
+      offset: Number(elf.readBigUInt64LE(place + 8)),
+      address: Number(elf.readBigUInt64LE(place + 16)),
+      bytes: Number(elf.readBigUInt64LE(place + 32)),
+      alignment: Number(elf.readBigUInt64LE(place + 48)),
+    }));
+}
+
+/** The largest alignment of the segments that an ELF loads; 0 where there is none. */
+export const loadAlignment = (elf) => Math.max(0, ...segmentsOf(elf).filter(({ type }) => type === segmentTypes.load).map(({ alignment }) => alignment));
+
+/**
+ * The libraries that an ELF names, and the versions of their functions that it wants.
+ * @param {Buffer} elf @returns {{libraries: string[], versions: string[]}} versions: such as "GLIBC_2.17"
+ */
+export function needsOf(elf) {
+  const segments = segmentsOf(elf);
+  const dynamic = segments.find(({ type }) => type === segmentTypes.dynamic);
+  if (!dynamic) return { libraries: [], versions: [] };
+  const entries = [];
+  for (let place = dynamic.offset; place + 16 <= Math.min(dynamic.offset + dynamic.bytes, elf.length); place += 16) {
+    entries.push([elf.readBigUInt64LE(place), Number(elf.readBigUInt64LE(place + 8))]);
+  }
+  const valueOf = (wanted) => entries.find(([tag]) => tag === wanted)?.[1];
+  const placeOf = (address) => {
+    const segment = segments.find(({ type, address: begin, bytes }) => type === segmentTypes.load && begin <= address && address < begin + bytes);
+    return segment ? segment.offset + address - segment.address : elf.length;
+  };
+  const strings = placeOf(valueOf(tags.strings) ?? -1);
+  const stringAt = (offset) => elf.toString('latin1', strings + offset, elf.indexOf(0, strings + offset));
+  const versions = [];
+  let file = placeOf(valueOf(tags.versions) ?? -1);
+  for (let left = valueOf(tags.versionCount) ?? 0; left > 0 && file + 16 <= elf.length; left -= 1) {
+    let place = file + elf.readUInt32LE(file + 8);
+    for (let count = elf.readUInt16LE(file + 2); count > 0 && place + 16 <= elf.length; count -= 1) {
+      versions.push(stringAt(elf.readUInt32LE(place + 8)));
+      place += elf.readUInt32LE(place + 12);
+    }
+    file += elf.readUInt32LE(file + 12);
+  }
+  return { libraries: entries.filter(([tag]) => tag === tags.needed).map(([, offset]) => stringAt(offset)), versions };
+}
+
+/** The oldest glibc with every function that an ELF wants, such as [2, 30]; null for a library of another C library. */
+export function neededGlibc(elf) {
+  const versions = needsOf(elf).versions.flatMap((name) => {
+    const [, major, minor] = name.match(/^GLIBC_(\d+)\.(\d+)/) ?? [];
+    return major === undefined ? [] : [[Number(major), Number(minor)]];
+  });
+  return versions.sort(([a, b], [c, d]) => a - c || b - d).at(-1) ?? null;
+}
+
+/** Whether a version such as [2, 34] is newer than another. */
+export const isNewerThan = ([major, minor], [otherMajor, otherMinor]) => major > otherMajor || (major === otherMajor && minor > otherMinor);

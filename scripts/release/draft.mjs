@@ -1,0 +1,75 @@
+// Puts together what a release offers: both tarballs, the demo's page, notes and checksums; --help
+import { copyFileSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+import { createHash } from 'node:crypto';
+import path from 'node:path';
+import { parseArgs } from 'node:util';
+import { CommandError, runMain } from '../lib/process.mjs';
+import { callerFolder, inRepository } from '../lib/repository.mjs';
+import { dependencyName } from '../pack/dependency.mjs';
+import { packageName } from '../pack/layout.mjs';
+import { platforms, pluginsFolder } from '../pack/natives.mjs';
+import { streamTarball } from '../pack/stream_tarball.mjs';
+import { readTarball } from '../pack/tarball.mjs';
+import { tarballOf } from './tarballs.mjs';
+
+const help = `usage: node scripts/release/draft.mjs FOLDER [--tarballs out] [--demo FOLDER]
+
+Empties FOLDER and puts there what a release offers: the two tarballs of \`npm run pack\`, haptoflow-demo.tgz, SHA256SUMS of
+all three, and notes.md: how to install, which platforms have a library, and the version's section of CHANGELOG.md.
+
+  --tarballs FOLDER  where the tarballs lie (out)
+  --demo FOLDER      the demo's page, as \`npm run demo\` makes it (out/demo)`;
+
+function optionsOf(words) {
+  const options = { tarballs: { type: 'string', default: inRepository('out') }, demo: { type: 'string', default: inRepository('out', 'demo') } };
+  try {
+    const { values, positionals } = parseArgs({ args: words, options, allowPositionals: true });
+    if (positionals.length !== 1) throw new CommandError(`expected a folder\n\n${help}`, 2);
+    const [folder, tarballs, demo] = [positionals[0], values.tarballs, values.demo].map((word) => path.resolve(callerFolder(), word));
+    return { folder, tarballs, demo };
+  } catch (error) {
+    throw error instanceof CommandError ? error : new CommandError(error.message, 2);
+  }
+}
+
+/** The text below a version's heading in CHANGELOG.md. */
+export function changesOf(changelog, version) {
+  const sections = changelog.split(/^(?=## )/m);
+  const section = sections.find((text) => new RegExp(`^## \\[?${version.replaceAll('.', '\\.')}\\b`).test(text));
+  if (!section) throw new CommandError(`CHANGELOG.md: has no section "## ${version}"; write what changed`);
+  return section.slice(section.indexOf('\n')).trim();
+}
+
+function notesOf({ runtime, tarball, files, version }) {
+  const rows = platforms.map(({ name, place }) => `| ${name} | ${files.has(`package/${pluginsFolder}/${place}`) ? 'yes' : 'no'} |`);
+  return `Download both tarballs. In Unity: Window > Package Manager > + > Install package from tarball... (2022.3: Add package
+from tarball...), first \`${runtime}\`, then \`${tarball}\`. \`sha256sum --check SHA256SUMS\` compares what was downloaded.
+\`haptoflow-demo.tgz\` is a page to look at and listen to.
+
+| platform | library in the package |
+|---|---|
+${rows.join('\n')}
+
+## Changes
+
+${changesOf(readFileSync(inRepository('CHANGELOG.md'), 'utf8'), version)}
+`;
+}
+
+if (process.argv[1]?.endsWith('draft.mjs')) {
+  await runMain('draft', async (words) => {
+    const { folder, tarballs, demo } = optionsOf(words);
+    const [runtime, tarball] = [dependencyName, packageName].map((name) => tarballOf(name, tarballs));
+    const files = readTarball(readFileSync(path.join(tarballs, tarball)));
+    const { version } = JSON.parse(files.get('package/package.json').toString('utf8'));
+    const notes = notesOf({ runtime, tarball, files, version });
+    rmSync(folder, { recursive: true, force: true });
+    mkdirSync(folder, { recursive: true });
+    for (const name of [runtime, tarball]) copyFileSync(path.join(tarballs, name), path.join(folder, name));
+    await streamTarball(demo, path.join(folder, 'haptoflow-demo.tgz'), 'haptoflow-demo');
+    const sums = readdirSync(folder).sort().map((name) => `${createHash('sha256').update(readFileSync(path.join(folder, name))).digest('hex')}  ${name}\n`);
+    writeFileSync(path.join(folder, 'SHA256SUMS'), sums.join(''));
+    writeFileSync(path.join(folder, 'notes.md'), notes);
+    console.log(`draft: ${folder}: ${sums.length} archives, SHA256SUMS, notes.md`);
+  }, { help });
+}
