@@ -102,7 +102,6 @@ namespace HaptoFlow.SampleTests
         {
             HaptoFlowSettings.Active.Model = null;
             Haptics.Restart();
-            LogAssert.ignoreFailingMessages = true;
             Play(true, false, _ => 0f);
             Assert.That(Line("loading").State, Is.EqualTo(CheckState.Failed));
             Assert.That(Line("settings and model").State, Is.EqualTo(CheckState.Failed));

@@ -496,7 +496,7 @@ namespace HaptoFlow
             catch (Exception error) when (error is IOException || error is UnauthorizedAccessException)
             {
                 Instruction = $"Finished: {Report.Summary}.\nThe files could not be written: {error.Message}";
-                Debug.LogError("HaptoFlow: " + Instruction, this);
+                Debug.LogError($"HaptoFlow: the device check's files could not be written: {error.Message}", this);
             }
         }
 
