@@ -2,6 +2,7 @@ using System.Linq;
 using HaptoFlow.Editor;
 using NUnit.Framework;
 using UnityEditor;
+using UnityEngine;
 
 namespace HaptoFlow.EditorTests
 {
@@ -13,10 +14,13 @@ namespace HaptoFlow.EditorTests
             Undo.IncrementCurrentGroup();
             DeviceCheckMenu.Add();
             DeviceCheckMenu.Add();
-            Assert.That(All<DeviceCheckRun>(), Has.Length.EqualTo(1));
-            Assert.That(Selection.activeGameObject, Is.SameAs(All<DeviceCheckRun>().Single().gameObject));
+            Assert.That(All(), Has.Length.EqualTo(1));
+            Assert.That(Selection.activeGameObject, Is.SameAs(All().Single().gameObject));
             Undo.PerformUndo();
-            Assert.That(All<DeviceCheckRun>(), Is.Empty);
+            Assert.That(All(), Is.Empty);
         }
+
+        private static DeviceCheckRun[] All() => Object.FindObjectsByType<DeviceCheckRun>(
+            FindObjectsInactive.Include, FindObjectsSortMode.None);
     }
 }
