@@ -216,7 +216,8 @@ namespace HaptoFlow.SampleTests
         [Test]
         public void BothFilesHoldEveryLineAndThePageNeedsNothingElse()
         {
-            string folder = Directory.CreateTempSubdirectory("haptoflow-check-").FullName;
+            string folder = Directory.CreateDirectory(
+                Path.Combine(Path.GetTempPath(), $"haptoflow-check-{Guid.NewGuid():N}")).FullName;
             try
             {
                 var report = new DeviceCheckReport(new[] { ("device", "a <b> & \"c\"") });

@@ -32,7 +32,8 @@ namespace HaptoFlow.SampleTests
         public void BuildScene()
         {
             HeldDevices.Reset();
-            folder = Directory.CreateTempSubdirectory("haptoflow-check-").FullName;
+            folder = Directory.CreateDirectory(
+                Path.Combine(Path.GetTempPath(), $"haptoflow-check-{Guid.NewGuid():N}")).FullName;
             Camera camera = CameraOf(new SceneFile(SampleFile("DeviceCheck", "DeviceCheck.unity")));
             scene = Wake<DeviceCheckScene>(each => each.View = camera);
             scene.Run.Folder = folder;
