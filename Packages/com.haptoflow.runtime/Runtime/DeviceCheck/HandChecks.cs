@@ -44,7 +44,7 @@ namespace HaptoFlow.DeviceCheck
         }
 
         /// <summary>For a hand without any device that vibrates.</summary>
-        public static CheckLine None(string hand) => CheckLine.Skipped("Devices", hand + " hand",
+        public static CheckLine None(string hand) => CheckLine.Skipped("Devices", hand + " hand, any route",
             "no device that vibrates was found; switch it on and run the check again");
     }
 
