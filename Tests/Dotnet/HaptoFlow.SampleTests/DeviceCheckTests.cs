@@ -51,7 +51,8 @@ namespace HaptoFlow.SampleTests
             XrHand.Right.Take("A controller", true);
             Play(true, true, seconds => 0.4f * (float)Math.Abs(Math.Sin(seconds)));
             Assert.That(scene.Run.Report.Lines.Where(line =>
-                line.State == CheckState.Failed && !RealTimes.Contains(line.Name)).Select(line => $"{line.Name}: {line.Measured}"), Is.Empty);
+                line.State == CheckState.Failed && !RealTimes.Contains(line.Name))
+                .Select(line => $"{line.Name}: {line.Measured}"), Is.Empty);
             foreach ((string name, CheckState state) in new[]
             {
                 ("native library", CheckState.Passed), ("struct sizes", CheckState.Passed),
