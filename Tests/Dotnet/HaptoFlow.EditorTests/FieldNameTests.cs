@@ -60,7 +60,8 @@ namespace HaptoFlow.EditorTests
             var editor = UnityEditor.Editor.CreateEditor(target);
             var shown = new HashSet<string>(EditorScreen.Draw(editor.OnInspectorGUI).Select(item => item.Label));
             // A custom Inspector shows some fields only in some states.
-            foreach (Type drawer in typeof(DocumentationMenu).Assembly.GetTypes())
+            foreach (Type drawer in typeof(DocumentationMenu).Assembly.GetTypes()
+                .Where(each => !each.ContainsGenericParameters))
             {
                 const BindingFlags constants = BindingFlags.Static | BindingFlags.NonPublic | BindingFlags.Public;
                 shown.UnionWith(drawer.GetFields(constants).SelectMany(field => field.GetValue(null) switch

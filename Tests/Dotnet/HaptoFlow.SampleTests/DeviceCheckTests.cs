@@ -150,6 +150,11 @@ namespace HaptoFlow.SampleTests
             World.Frame();
         }
 
-        private CheckLine Line(string name) => scene.Run.Report.Lines.Single(line => line.Name == name);
+        private CheckLine Line(string name)
+        {
+            CheckLine[] found = scene.Run.Report.Lines.Where(line => line.Name == name).ToArray();
+            Assert.That(found, Has.Length.EqualTo(1), $"{name}: {string.Join(", ", found.Select(line => line.Group))}");
+            return found[0];
+        }
     }
 }
