@@ -84,8 +84,16 @@ namespace HaptoFlow.EditorTests
         private static IEnumerable<string> FieldsOf(Type type) => type
             .GetFields(BindingFlags.Instance | BindingFlags.NonPublic)
             .Where(field => field.GetCustomAttribute<SerializeField>() != null)
-            .SelectMany(field => FieldsOf(field.FieldType)
-                .Append(char.ToUpperInvariant(field.Name[0]) + InWords(field.Name.Substring(1))));
+            .SelectMany(field => IsDrawnInside(field.FieldType) ? FieldsOf(field.FieldType).Append(NameOf(field))
+                : new[] { NameOf(field) });
+
+        /// <summary>True for a serialisable type of the package. A field that names another object shows the name only,
+        /// and objects name each other in circles.</summary>
+        private static bool IsDrawnInside(Type type) =>
+            Assemblies.Contains(type.Assembly) && !type.IsEnum && !typeof(UnityEngine.Object).IsAssignableFrom(type);
+
+        private static string NameOf(FieldInfo field) =>
+            char.ToUpperInvariant(field.Name[0]) + InWords(field.Name.Substring(1));
 
         private static string InWords(string name) => Regex.Replace(name, "(?<=[a-z])(?=[A-Z])", " ");
 
