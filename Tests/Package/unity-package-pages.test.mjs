@@ -10,7 +10,7 @@ const read = (...parts) => readFileSync(inRepository(...parts), 'utf8');
 const pageNames = readdirSync(inRepository('Documentation~')).filter((name) => name.endsWith('.md'));
 const pages = pageNames.map((name) => ({ name, text: read('Documentation~', name) }));
 const ofUnity = ['index', 'installation', 'first-scene', 'first-vibration', 'components', 'mx-ink-quest3', 'actuator-wiring', 'authoring', 'api-tour', 'performance', 'troubleshooting', 'latency-study', 'similarity-study'];
-const unityPages = [...pages, ...['StylusTracing', 'TextureGallery', 'Workshop', 'LatencyStudy', 'SimilarityStudy'].map((sample) => ({ name: sample, text: read('Samples~', sample, 'README.md') }))]
+const unityPages = [...pages, ...['StylusTracing', 'TextureGallery', 'Workshop', 'LatencyStudy', 'SimilarityStudy', 'DeviceCheck'].map((sample) => ({ name: sample, text: read('Samples~', sample, 'README.md') }))]
   .filter(({ name }) => ofUnity.includes(path.basename(name, '.md')) || !name.endsWith('.md'));
 const files = await repositoryFiles();
 const sources = files

@@ -60,7 +60,7 @@ test('the tarball has every built library with its import settings, and no setti
 test('the tarball has model, samples, documentation, tests, licence and notices', () => {
   const parts = [
     'Runtime/Models/default.haptoflow', 'Runtime/Mixer/HaptoFlow.mixer', 'Runtime/Core/HaptoFlow.Core.asmdef', 'Editor/HaptoFlow.Editor.asmdef',
-    'Samples~/StylusTracing/StylusTracing.unity', 'Samples~/TextureGallery/TextureGallery.unity', 'Samples~/Workshop/Workshop.unity', 'Samples~/SimilarityStudy/SimilarityStudy.unity', 'Samples~/HeadlessScenes/crossing.scene.json',
+    'Samples~/StylusTracing/StylusTracing.unity', 'Samples~/TextureGallery/TextureGallery.unity', 'Samples~/Workshop/Workshop.unity', 'Samples~/SimilarityStudy/SimilarityStudy.unity', 'Samples~/DeviceCheck/DeviceCheck.unity', 'Samples~/HeadlessScenes/crossing.scene.json',
     'Documentation~/installation.md', 'Documentation~/not-proven.md', 'Tests/Runtime/HaptoFlow.Tests.asmdef', 'Tests/Runtime/Support/SceneTest.cs',
     'README.md', 'CHANGELOG.md', 'LICENSE.md', 'Third Party Notices.md',
   ];

@@ -54,7 +54,7 @@ async function judgeUnderMono(command, project) {
     return { ...noCounts, failed: 1 };
   }
   const folder = path.join(build, 'bin', `HaptoFlow.${project}`, 'release');
-  for (const name of readdirSync(folder).filter((each) => /^HaptoFlow.*\.dll$/.test(each))) {
+  for (const name of readdirSync(folder).filter((each) => each.endsWith('.dll'))) {
     const bytes = readFileSync(path.join(folder, name));
     if (withoutReadOnlyMarks(bytes) > 0) writeFileSync(path.join(folder, name), bytes);
   }

@@ -55,7 +55,7 @@ public:
         }
         const auto weakest = std::ranges::min_element(blows_, {}, &Blow::speedMps);
         if (weakest->speedMps < blow.speedMps) {
-            std::ranges::rotate(weakest, weakest + 1, blows_.end());
+            std::rotate(weakest, weakest + 1, blows_.end());
             blows_.back() = blow;
         }
         return false;

@@ -101,7 +101,7 @@ namespace HaptoFlow.EditorTests
         public void TheHeadsetsClicksMakeMxInkVibrate()
         {
             AddRig();
-            OVRPlugin.Profile = OVRPlugin.MxInkProfile;
+            OVRPlugin.Take(OVRPlugin.Hand.HandRight, OVRPlugin.MxInkProfile);
             Walk(Headset);
             Assert.That(OVRPlugin.Pulses.Count, Is.GreaterThan(20));
             Assert.That(Peak(0), Is.Zero);

@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
+using HaptoFlow.Samples.DeviceCheck;
 using HaptoFlow.Samples.LatencyStudy;
 using HaptoFlow.Samples.SimilarityStudy;
 using HaptoFlow.Samples.StylusTracing;
@@ -26,6 +27,9 @@ namespace HaptoFlow.SampleTests
 
         [Test]
         public void WorkshopSketchesItsBench() => Check<WorkshopScene>("Workshop", 6);
+
+        [Test]
+        public void DeviceCheckSketchesItsPlates() => Check<DeviceCheckScene>("DeviceCheck", 3);
 
         [Test]
         public void LatencyStudySketchesItsPlate() => Check<LatencyStudyScene>("LatencyStudy", 1);

@@ -28,6 +28,7 @@ namespace UnityEngine
         C = 99,
         E = 101,
         N = 110,
+        S = 115,
         Y = 121,
         UpArrow = 273,
         DownArrow = 274,

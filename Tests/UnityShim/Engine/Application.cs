@@ -82,3 +82,15 @@ namespace Unity.Profiling
         }
     }
 }
+
+namespace UnityEngine
+{
+    public sealed class SystemInfo
+    {
+        public static string deviceModel => "a stand-in";
+
+        public static string operatingSystem => "the stand-in's system";
+
+        public static string processorType => "a processor";
+    }
+}

@@ -20,6 +20,10 @@ namespace HaptoFlow
         /// <summary>The first page.</summary>
         public const string Index = "index.html";
 
+        /// <summary>Address of the issue tracker, for reports of the device check. While it is empty, none is published.
+        /// A release that publishes it changes this constant only.</summary>
+        public const string Issues = "";
+
         /// <summary>Finds the folder that holds the package's pages; set by the editor. A player has no pages.</summary>
         internal static Func<string?>? FindFolder { get; set; }
 

@@ -218,6 +218,12 @@ namespace HaptoFlow
 
         void IVoiceTarget.Remove(HapticVoice voice) => mixer.Remove(voice);
 
+        /// <summary>Records every block; null for none.</summary>
+        internal DeviceCheck.BlockRecorder? Recorder
+        {
+            set => meter.Recorder = value;
+        }
+
         /// <summary>Calls an action with every voice of this output. Main thread.</summary>
         internal void ForEachVoice<T>(Action<HapticVoice, T> act, T argument) => mixer.ForEach(act, argument);
 

@@ -14,6 +14,7 @@ namespace HaptoFlow
         private volatile float milliseconds;
         private volatile float worstMilliseconds;
         private long beganTicks;
+        private volatile DeviceCheck.BlockRecorder? recorder;
 
         /// <summary>Peak magnitude, which decays within some blocks.</summary>
         public float Peak => peak;
@@ -23,12 +24,23 @@ namespace HaptoFlow
 
         public float WorstMilliseconds => worstMilliseconds;
 
-        public void Begin() => beganTicks = Stopwatch.GetTimestamp();
+        /// <summary>Records every block; null for none. Main thread.</summary>
+        public DeviceCheck.BlockRecorder? Recorder
+        {
+            set => recorder = value;
+        }
+
+        public void Begin()
+        {
+            recorder?.Begin();
+            beganTicks = Stopwatch.GetTimestamp();
+        }
 
         public void End(ReadOnlySpan<float> samples, int channels, int channel)
         {
             milliseconds = (float)((Stopwatch.GetTimestamp() - beganTicks) * 1000.0 / Stopwatch.Frequency);
             worstMilliseconds = Math.Max(worstMilliseconds, milliseconds);
+            recorder?.End(milliseconds);
             float largest = 0f;
             for (int index = Math.Max(0, channel); index < samples.Length; index += channel < 0 ? 1 : channels)
             {

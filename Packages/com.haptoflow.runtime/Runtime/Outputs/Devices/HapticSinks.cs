@@ -38,6 +38,13 @@ namespace HaptoFlow
             }
         }
 
+        /// <summary>Names of all routes.</summary>
+        internal static IReadOnlyList<string> Names() => Routes.ConvertAll(route => route.Name);
+
+        /// <summary>Calls an action with the name, the form and the maker of each route.</summary>
+        internal static void ForEach(Action<string, HapticForm, HapticSinkMaker> act) =>
+            Routes.ForEach(route => act(route.Name, route.Form, route.Maker));
+
         /// <summary>A sink and its form.</summary>
         internal readonly struct OpenSink
         {

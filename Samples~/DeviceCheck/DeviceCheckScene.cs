@@ -1,0 +1,73 @@
+#nullable enable
+using System;
+using UnityEngine;
+
+namespace HaptoFlow.Samples.DeviceCheck
+{
+    /// <summary>Builds the sample when it wakes: three plates, a pen under the mouse, a pen for each hand in a headset,
+    /// the check itself, and a board with its instructions.</summary>
+    public sealed class DeviceCheckScene : BuiltScene
+    {
+        private static readonly Vector3 PlateMetres = new Vector3(0.18f, 0.02f, 0.24f);
+
+        private static readonly (string Label, float X, Color Colour)[] Plates =
+        {
+            ("glass", -0.2f, new Color(0.55f, 0.75f, 0.85f)),
+            ("wood", 0f, new Color(0.6f, 0.42f, 0.25f)),
+            ("corduroy", 0.2f, new Color(0.4f, 0.3f, 0.45f)),
+        };
+
+        private CheckButtons buttons = null!;
+        private TextMesh board = null!;
+
+        /// <summary>The check, which begins with the scene.</summary>
+        public DeviceCheckRun Run { get; private set; } = null!;
+
+        /// <summary>The words on the board.</summary>
+        public string Words => board.text;
+
+        /// <inheritdoc/>
+        public override void Sketch() => Array.ForEach(Plates, each => SceneSketch.DrawBox(
+            PlaceOf(each.X), PlateMetres, each.Colour));
+
+        private void Awake()
+        {
+            UseModelIfNoneIsSet();
+            foreach ((string label, float x, Color colour) in Plates)
+            {
+                GameObject plate = SceneObjects.AddSolid(
+                    label, PrimitiveType.Cube, PlaceOf(x), PlateMetres, colour);
+                SceneObjects.AddSurface(plate, label).Grain = Vector3.right;
+            }
+            MousePen mouse = MousePen.Create(View!);
+            XrRig rig = XrRig.Create(View);
+            rig.MousePen = mouse;
+            rig.AddPen(PenHand.Right);
+            rig.AddPen(PenHand.Left);
+            board = SceneObjects.AddText("", new Vector3(0f, 0.16f, 0.25f), View!.transform.rotation);
+            buttons = new CheckButtons();
+            Run = gameObject.AddComponent<DeviceCheckRun>();
+        }
+
+        private void Update()
+        {
+            bool? answer = buttons.Take();
+            if (answer != null)
+            {
+                Run.Answer(answer.Value);
+            }
+            if (buttons.Skips())
+            {
+                Run.Skip();
+            }
+            if (!ReferenceEquals(board.text, Run.Instruction))
+            {
+                board.text = Run.Instruction;
+            }
+        }
+
+        private void OnDestroy() => buttons.Dispose();
+
+        private static Vector3 PlaceOf(float x) => new Vector3(x, -0.5f * PlateMetres.y, 0f);
+    }
+}
