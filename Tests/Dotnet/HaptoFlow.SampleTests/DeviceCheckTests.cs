@@ -149,6 +149,13 @@ namespace HaptoFlow.SampleTests
             World.Frame();
         }
 
-        private CheckLine Line(string name) => scene.Run.Report.Lines.Single(line => line.Name == name);
+        private CheckLine Line(string name)
+        {
+            CheckLine[] found = scene.Run.Report.Lines.Where(line => line.Name == name).ToArray();
+            // A hand has a line in each group; here they agree.
+            Assert.That(found.Select(line => line.State).Distinct().Count(), Is.EqualTo(1),
+                $"{name}: {string.Join(", ", found.Select(line => $"{line.Group} {line.State}"))}");
+            return found[0];
+        }
     }
 }
