@@ -82,7 +82,8 @@ std::string ParametricFrames::toJson() {
     nlohmann::ordered_json transients = nlohmann::ordered_json::array();
     for (const effects::WaveFrame& frame : frames_) {
         const double seconds = secondsAt(frame.firstSample);
-        frames.push_back({seconds, frame.amplitudeMps2, frame.frequencyHz, frame.intensity, shareOf(frame.amplitudeMps2)});
+        frames.push_back(
+            {seconds, frame.amplitudeMps2, frame.frequencyHz, frame.intensity, shareOf(frame.amplitudeMps2)});
         if (frame.transient.amplitudeMps2 > 0.0F) {
             transients.push_back({seconds + static_cast<double>(frame.transient.offsetSeconds),
                                   frame.transient.amplitudeMps2, frame.transient.frequencyHz,

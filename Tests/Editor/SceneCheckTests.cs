@@ -121,12 +121,12 @@ namespace HaptoFlow.EditorTests
             output.Channel = HapticVoice.AllChannels;
             Assert.That(Texts(), Has.None.Contains("Listen"), "loudspeakers");
             output.Processing.Actuator = OutputActuator.VoiceCoil;
-            Assert.That(Only("Listen is for ears").Severity, Is.EqualTo(MessageType.Warning));
+            Assert.That(Only("Listen has no effect").Severity, Is.EqualTo(MessageType.Warning));
             output.Processing.Actuator = OutputActuator.Uncompensated;
             output.Channel = 0;
-            Only("Listen is for ears");
+            Only("Listen has no effect");
             output.Processing.Listen = false;
-            Assert.That(Texts(), Has.None.Contains("Listen is for ears"));
+            Assert.That(Texts(), Has.None.Contains("Listen has no effect"));
         }
 
         [Test]

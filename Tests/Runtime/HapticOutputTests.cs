@@ -99,6 +99,50 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
+        public IEnumerator ListenPlaysLouderOnLoudspeakersAndHasNoEffectOnAChannelOfItsOwnOrAnActuator()
+        {
+            FinishLoading();
+            Board();
+            AudioTap tap = Output(out HapticOutput output);
+            HapticStylus stylus = Circling();
+            for (int frame = 0; frame < 45; ++frame)
+            {
+                yield return null;
+            }
+            float quiet = tap.Peak();
+            Assert.That(RunsOf(stylus, HapticEffect.Listen), Is.Zero);
+            output.Processing.Listen = true;
+            output.ApplyProcessing();
+            for (int frame = 0; frame < 45; ++frame)
+            {
+                yield return null;
+            }
+            Assert.That(tap.Peak(), Is.GreaterThan(3f * quiet));
+            Assert.That(tap.Peak(), Is.LessThan(1f));
+            output.Processing.Actuator = OutputActuator.VoiceCoil;
+            output.ApplyProcessing();
+            yield return NoRuns(stylus);
+            output.Processing.Actuator = OutputActuator.Uncompensated;
+            output.Channel = 0;
+            yield return NoRuns(stylus);
+        }
+
+        /// <summary>Waits for the end of a fade; afterwards Listen may not run.</summary>
+        private static IEnumerator NoRuns(HapticStylus stylus)
+        {
+            for (int frame = 0; frame < 20; ++frame)
+            {
+                yield return null;
+            }
+            ulong runs = RunsOf(stylus, HapticEffect.Listen);
+            for (int frame = 0; frame < 20; ++frame)
+            {
+                yield return null;
+            }
+            Assert.That(RunsOf(stylus, HapticEffect.Listen), Is.EqualTo(runs));
+        }
+
+        [UnityTest]
         public IEnumerator AnInvalidProfileIsSkippedWithAnError()
         {
             FinishLoading();

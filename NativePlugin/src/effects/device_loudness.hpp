@@ -32,9 +32,9 @@ inline constexpr std::size_t deviceKinds = 3;
 /// to 0. It rises everywhere, so that the order of any two amplitudes stays. A_m and p are fitted for each kind to the
 /// shipped model (scripts/pack/device_levels.py prints them and the levels that result).
 ///
-/// A is the amplitude of equal intensity of WaveFeatures for motor and parametric, which is weighted by ThresholdFilter.
-/// For the waveform it is the envelope, unweighted: its peak must fit into the range, and the skin itself weights what
-/// the device plays.
+/// A is the amplitude of equal intensity of WaveFeatures for motor and parametric, which is weighted by
+/// ThresholdFilter. For the waveform it is the envelope, unweighted: its peak must fit into the range, and the skin
+/// itself weights what the device plays.
 inline constexpr double middleShare = 0.35;
 
 /// Any thread; allocates nothing. An amplitude that is not above 0 gives 0, infinity the largest float below 1.

@@ -9,10 +9,20 @@ namespace haptoflow::effects {
 /// An amplitude of m/s^2 that counts as silence: a hundredth of a fingertip's lowest detection threshold.
 inline constexpr double imperceptibleMps2 = 1e-4;
 
-/// The effects of a voice in the order of processing, except for the last three. `texture` is the generated waveform, and
-/// `tone` filters it before any other effect; the engine implements both. `signal` is a sinusoid for studies, which
+/// The effects of a voice in the order of processing, except for the last three. `texture` is the generated waveform,
+/// and `tone` filters it before any other effect; the engine implements both. `signal` is a sinusoid for studies, which
 /// replaces texture, impact and edge. `listen` is for ears and acts after the compensation.
-enum class EffectKind : std::uint8_t { texture, impact, edge, delay, compensation, exposureGuard, tone, signal, listen };
+enum class EffectKind : std::uint8_t {
+    texture,
+    impact,
+    edge,
+    delay,
+    compensation,
+    exposureGuard,
+    tone,
+    signal,
+    listen
+};
 inline constexpr std::size_t effectKinds = 9;
 
 /// A set of effects, one bit per kind.

@@ -29,14 +29,18 @@ EnvelopeGain::EnvelopeGain(double sampleRateHz, Law law) : law_(law), stepSample
 }
 
 void EnvelopeGain::reset() noexcept {
+    begin(0.0F);
+}
+
+void EnvelopeGain::begin(float envelope) noexcept {
     delayed_.fill(0.0F);
     peaks_.fill(0.0F);
     place_ = 0;
     peakPlace_ = 0;
     inStep_ = 0;
     peak_ = 0.0F;
-    envelope_ = 0.0F;
-    newestGain_ = law_(0.0F);
+    envelope_ = envelope;
+    newestGain_ = law_(envelope);
     gainFrom_ = newestGain_;
     gainTo_ = newestGain_;
     silentSteps_ = delaySteps + 1;

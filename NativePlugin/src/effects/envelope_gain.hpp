@@ -29,6 +29,8 @@ public:
     void process(std::span<float> samples) noexcept;
     /// Silence from here on, with the gain of silence.
     void reset() noexcept;
+    /// Silence from here on after an envelope of this size, from which the gain rises within the time of the release.
+    void begin(float envelope) noexcept;
     /// True while silent input gives silent output.
     [[nodiscard]] bool isIdle() const noexcept { return silentSteps_ > delaySteps; }
 

@@ -22,6 +22,8 @@ constexpr float ceiling = 0.9F;
 // Quieter envelopes are not raised any further.
 constexpr float leastEnvelopeMps2 = 0.2F;
 constexpr float largestMps2 = 1e6F;
+// Near the gain of 1, from which Listen opens when it is switched on while something sounds.
+constexpr float loudEnvelopeMps2 = 200.0F;
 
 float shareOf(float envelopeMps2) noexcept {
     const float share = middleShare * std::pow(envelopeMps2 / middleEnvelopeMps2, exponent);
@@ -51,6 +53,7 @@ Listen::Listen(double sampleRateHz, double fullScaleMps2)
     in0_ = ratio * (1.0 + start) / (1.0 + end);
     in1_ = -ratio * (1.0 - start) / (1.0 + end);
     back_ = (1.0 - end) / (1.0 + end);
+    gain_.begin(loudEnvelopeMps2);
 }
 
 EffectDeclaration Listen::declaration() const noexcept {

@@ -89,6 +89,13 @@ void EffectStage::exchange(std::unique_ptr<Processors> fresh) noexcept {
     fadeRemaining_ = fadeSamples_;
 }
 
+void EffectStage::finishHandOver() noexcept {
+    if (fadeRemaining_ > 0 && processors_->listen != nullptr) {
+        processors_->listen->reset();
+    }
+    fadeRemaining_ = 0;
+}
+
 void EffectStage::settleDelay() noexcept {
     if (fadeRemaining_ == 0 && delay_ == nullptr && processors_ != nullptr) {
         delay_ = std::move(processors_->delay);
@@ -240,7 +247,8 @@ void EffectStage::runProcessors(std::span<float> samplesMps2, EffectFigures& fig
         return static_cast<float>(fadeRemaining_ - std::min(fadeRemaining_, sample)) / static_cast<float>(fadeSamples_);
     };
     if (processors_->delay != nullptr || processors_->listen != nullptr) {
-        // Fade the input in: a new delay would play an abrupt start after its delay time, Listen would brighten it.
+        // Fade the input in: a new delay would otherwise play an abrupt start after its delay time, and a new Listen
+        // would brighten it to a click.
         for (std::size_t i = 0; i < samplesMps2.size(); ++i) {
             samplesMps2[i] *= 1.0F - shareAt(i);
         }

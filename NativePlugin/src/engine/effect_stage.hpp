@@ -77,7 +77,7 @@ public:
     void exchange(std::unique_ptr<Processors> fresh) noexcept;
     [[nodiscard]] bool isHandingOver() const noexcept { return fadeRemaining_ > 0; }
     /// Ends the crossfade at once; for a silent voice.
-    void finishHandOver() noexcept { fadeRemaining_ = 0; }
+    void finishHandOver() noexcept;
     /// Continues the exposure measured by the guard of `before`, a stage at another rate for the same hand. Does
     /// nothing unless both stages have a guard, be it switched off.
     void adoptExposure(const EffectStage& before) noexcept;

@@ -24,8 +24,8 @@ constexpr double deviceRateHz[] = {2000.0, 8000.0, 11025.0, 44100.0, 48000.0, 19
 std::vector<float> deviceSine(double frequencyHz, double mps2, double rateHz, double seconds) {
     std::vector<float> wave(static_cast<std::size_t>(seconds * rateHz));
     for (std::size_t i = 0; i < wave.size(); ++i) {
-        wave[i] = static_cast<float>(
-            mps2 * std::sin(2.0 * std::numbers::pi * frequencyHz * static_cast<double>(i) / rateHz));
+        wave[i] =
+            static_cast<float>(mps2 * std::sin(2.0 * std::numbers::pi * frequencyHz * static_cast<double>(i) / rateHz));
     }
     return wave;
 }
@@ -78,7 +78,8 @@ TEST(DeviceWaveTest, ASteadySineIsPlayedAtTheShareOfItsPeakAndStaysASine) {
                 device.process(wave);
                 const auto settled = std::span(wave).last(wave.size() / 2);
                 const float share = deviceShare(DeviceKind::waveform, static_cast<float>(mps2));
-                EXPECT_NEAR(devicePeak(settled), share, 0.06F * share) << rateHz << " Hz, " << frequencyHz << " Hz " << mps2;
+                EXPECT_NEAR(devicePeak(settled), share, 0.06F * share)
+                    << rateHz << " Hz, " << frequencyHz << " Hz " << mps2;
                 // Fits the delayed input by one factor: what is left is distortion.
                 const std::size_t step = static_cast<std::size_t>(std::ceil(rateHz / 2000.0));
                 double product = 0.0;

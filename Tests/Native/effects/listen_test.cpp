@@ -21,10 +21,11 @@ constexpr double listenFullScaleMps2 = 200.0;
 std::vector<float> heard(double rateHz, double frequencyHz, double mps2) {
     std::vector<float> wave(static_cast<std::size_t>(0.4 * rateHz));
     for (std::size_t i = 0; i < wave.size(); ++i) {
-        wave[i] = static_cast<float>(
-            mps2 * std::sin(2.0 * std::numbers::pi * frequencyHz * static_cast<double>(i) / rateHz));
+        wave[i] =
+            static_cast<float>(mps2 * std::sin(2.0 * std::numbers::pi * frequencyHz * static_cast<double>(i) / rateHz));
     }
     Listen listen(rateHz, listenFullScaleMps2);
+    listen.reset();
     listen.process(wave);
     return wave;
 }
@@ -58,13 +59,14 @@ TEST(ListenTest, AHighToneGainsMoreThanALowOneInTheSameSound) {
         std::vector<float> wave(static_cast<std::size_t>(0.5 * rateHz));
         const auto add = [&](std::vector<float>& to, double hz, double mps2) {
             for (std::size_t i = 0; i < to.size(); ++i) {
-                to[i] += static_cast<float>(mps2 *
-                                            std::sin(2.0 * std::numbers::pi * hz * static_cast<double>(i) / rateHz));
+                to[i] +=
+                    static_cast<float>(mps2 * std::sin(2.0 * std::numbers::pi * hz * static_cast<double>(i) / rateHz));
             }
         };
         add(wave, 100.0, 1.0);
         add(wave, 600.0, 1.0);
         Listen listen(rateHz, listenFullScaleMps2);
+        listen.reset();
         listen.process(wave);
         const auto amplitudeAt = [&](double hz) {
             double real = 0.0;
@@ -84,6 +86,7 @@ TEST(ListenTest, AHighToneGainsMoreThanALowOneInTheSameSound) {
 TEST(ListenTest, AnyInputGivesFiniteSamplesWithinTheFullScaleOfTheLimiterAfterIt) {
     for (const double rateHz : listenRateHz) {
         Listen listen(rateHz, listenFullScaleMps2);
+        listen.reset();
         std::vector<float> wave(static_cast<std::size_t>(rateHz), 3.0F);
         wave[3] = std::nanf("");
         wave[500] = INFINITY;

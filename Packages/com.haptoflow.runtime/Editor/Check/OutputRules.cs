@@ -44,12 +44,12 @@ namespace HaptoFlow.Editor
                 {
                     yield return finding;
                 }
-                if (output.Processing.ListensToActuator(output.Channel))
+                if (output.Processing.ListensInVain(output))
                 {
                     yield return new Finding(MessageType.Warning,
-                        $"{output.name} has Listen switched on, but an actuator or a channel of its own is chosen: " +
-                        "Listen is for ears, and an actuator would play everything far too strongly. Switch Listen " +
-                        "off, or choose Uncompensated and channel -1 for loudspeakers.", new[] { output });
+                        $"{output.name} has Listen switched on, but an actuator or a channel of its own is chosen, so " +
+                        "Listen has no effect: it is for ears, and far too strong for an actuator. Switch it off; for " +
+                        "loudspeakers choose Audio Source, channel -1 and Uncompensated instead.", new[] { output });
                 }
                 if (output.Processing.LacksProfile)
                 {

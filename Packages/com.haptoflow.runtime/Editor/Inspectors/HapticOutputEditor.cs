@@ -36,8 +36,8 @@ namespace HaptoFlow.Editor
         private static readonly GUIContent Guard = new GUIContent("Exposure Guard",
             "The exposure guard slowly lowers a level that has been high for too long. It is no medical device.");
         private static readonly GUIContent Listen = new GUIContent("Listen",
-            "Makes the vibration audible on loudspeakers: louder and brighter. It is for ears only: switch it off " +
-            "where an actuator is wired to the channel.");
+            "Makes the vibration audible on loudspeakers: louder and brighter. It is for ears only: it has no effect " +
+            "with an actuator chosen, or with a channel of the output's own.");
         private static readonly GUIContent Delay = new GUIContent("Delay (ms)",
             "The output is delayed by this time, for studies and for displays that lag.");
         private static readonly GUIContent Panic = new GUIContent("Panic",

@@ -96,6 +96,8 @@ namespace HaptoFlow
             {
                 channel = value;
                 UpdateRendering();
+                // Listen depends on the channel.
+                ApplyProcessing();
                 if (started)
                 {
                     ReportMissingChannel();

@@ -38,8 +38,8 @@ namespace HaptoFlow
          Tooltip("Delays the output by this many milliseconds, for studies and for displays that lag.")]
         private float delayMilliseconds;
 
-        [SerializeField, Tooltip("Makes the vibration audible on loudspeakers: louder and brighter. For ears only: " +
-            "switch it off where an actuator is wired to the channel.")]
+        [SerializeField, Tooltip("Makes the vibration audible on loudspeakers: louder and brighter. It is for ears " +
+            "only: it has no effect with an actuator chosen, or with a channel of the output's own.")]
         private bool listen;
 
         /// <summary>The actuator that plays the channel.</summary>
@@ -70,18 +70,18 @@ namespace HaptoFlow
             set => delayMilliseconds = Mathf.Clamp(value, 0f, MaximumDelayMilliseconds);
         }
 
-        /// <summary>True to make the vibration audible on loudspeakers: louder and brighter. For ears only, not for an
-        /// actuator.</summary>
+        /// <summary>True to make the vibration audible on loudspeakers: louder and brighter. For ears only: it has no
+        /// effect with an actuator, or on an output with a channel of its own.</summary>
         public bool Listen
         {
             get => listen;
             set => listen = value;
         }
 
-        /// <summary>True where Listen is on although the settings name an actuator or the channel that one is wired
-        /// to.</summary>
-        internal bool ListensToActuator(int channel) =>
-            listen && (actuator != OutputActuator.Uncompensated || channel >= 0);
+        /// <summary>True where Listen is on and has no effect, because an actuator or the channel that one is wired to
+        /// is chosen: it would be far too strong there.</summary>
+        internal bool ListensInVain(HapticOutput owner) =>
+            listen && (actuator != OutputActuator.Uncompensated || owner.HasOwnChannel);
 
         /// <summary>True where the actuator needs a profile and has none.</summary>
         internal bool LacksProfile => actuator == OutputActuator.Profile && profile == null;
@@ -91,7 +91,7 @@ namespace HaptoFlow
         {
             voice.SetDelay(0.001 * delayMilliseconds);
             voice.SetExposureGuard(exposureGuard);
-            voice.SetListen(listen);
+            voice.SetListen(listen && !ListensInVain(owner));
             try
             {
                 voice.SetActuator(ProfileText());
