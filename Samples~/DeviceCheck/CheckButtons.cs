@@ -6,8 +6,8 @@ using UnityEngine;
 
 namespace HaptoFlow.Samples.DeviceCheck
 {
-    /// <summary>The buttons for yes, no and skip, on the keyboard and on both controllers. Without the Input System, only
-    /// the keyboard answers.</summary>
+    /// <summary>The buttons for yes, no and skip, on the keyboard and on both controllers. Without the Input System,
+    /// only the keyboard answers.</summary>
     public sealed class CheckButtons : IDisposable
     {
 #if HAPTOFLOW_INPUT_SYSTEM && ENABLE_INPUT_SYSTEM

@@ -239,8 +239,8 @@ void EffectStage::runProcessors(std::span<float> samplesMps2, EffectFigures& fig
     const auto shareAt = [this](std::size_t sample) {
         return static_cast<float>(fadeRemaining_ - std::min(fadeRemaining_, sample)) / static_cast<float>(fadeSamples_);
     };
-    if (processors_->delay != nullptr) {
-        // Fade the input in, because a new delay would otherwise play an abrupt start after its delay time.
+    if (processors_->delay != nullptr || processors_->listen != nullptr) {
+        // Fade the input in: a new delay would play an abrupt start after its delay time, Listen would brighten it.
         for (std::size_t i = 0; i < samplesMps2.size(); ++i) {
             samplesMps2[i] *= 1.0F - shareAt(i);
         }

@@ -58,9 +58,13 @@ namespace HaptoFlow.EditorTests
                 : (UnityEngine.Object)typeof(ScriptableObject).GetMethod(nameof(ScriptableObject.CreateInstance))!
                     .MakeGenericMethod(type).Invoke(null, null)!;
             var editor = UnityEditor.Editor.CreateEditor(target);
-            var shown = new HashSet<string>(EditorScreen.Draw(editor.OnInspectorGUI).Select(item => item.Label));
+            // The shim cannot draw every kind of field; the default Inspector shows each by its name in words.
+            var shown = editor.GetType() == typeof(UnityEditor.Editor)
+                ? new HashSet<string>(FieldsOf(type))
+                : new HashSet<string>(EditorScreen.Draw(editor.OnInspectorGUI).Select(item => item.Label));
             // A custom Inspector shows some fields only in some states.
-            foreach (Type drawer in typeof(DocumentationMenu).Assembly.GetTypes())
+            foreach (Type drawer in typeof(DocumentationMenu).Assembly.GetTypes()
+                .Where(each => !each.ContainsGenericParameters))
             {
                 const BindingFlags constants = BindingFlags.Static | BindingFlags.NonPublic | BindingFlags.Public;
                 shown.UnionWith(drawer.GetFields(constants).SelectMany(field => field.GetValue(null) switch
@@ -75,6 +79,13 @@ namespace HaptoFlow.EditorTests
             shown.UnionWith(Elsewhere);
             return shown;
         }
+
+        /// <summary>The serialised fields of a type and of the serialisable ones in it, in words.</summary>
+        private static IEnumerable<string> FieldsOf(Type type) => type
+            .GetFields(BindingFlags.Instance | BindingFlags.NonPublic)
+            .Where(field => field.GetCustomAttribute<SerializeField>() != null)
+            .SelectMany(field => FieldsOf(field.FieldType)
+                .Append(char.ToUpperInvariant(field.Name[0]) + InWords(field.Name.Substring(1))));
 
         private static string InWords(string name) => Regex.Replace(name, "(?<=[a-z])(?=[A-Z])", " ");
 

@@ -245,7 +245,8 @@ namespace HaptoFlow.EditorTests
             HapticOutput output = Output();
             Assert.That(Fields(output), Is.EqualTo(new[]
             {
-                "Route", "Channel", "Obey Listener", "Strength", "Muted", "Actuator", "Exposure Guard", "Delay (ms)",
+                "Route", "Channel", "Obey Listener", "Strength", "Muted", "Listen", "Actuator", "Exposure Guard",
+                "Delay (ms)",
             }));
             EditorScreen.Enter("Route", OutputRoute.MixerEffect);
             Draw(output);
@@ -253,7 +254,8 @@ namespace HaptoFlow.EditorTests
             Assert.That(Fields(output),
                 Is.EqualTo(new[]
                 {
-                    "Route", "Audio Mixer", "Voice Parameter", "Strength", "Muted", "Actuator", "Exposure Guard",
+                    "Route", "Audio Mixer", "Voice Parameter", "Strength", "Muted", "Listen", "Actuator",
+                    "Exposure Guard",
                     "Delay (ms)",
                 }));
         }
@@ -263,7 +265,7 @@ namespace HaptoFlow.EditorTests
         public void TheInspectorsAreTheSameInBothSkins(bool dark)
         {
             EditorSession.DarkSkin = dark;
-            Assert.That(Fields(Output()), Has.Length.EqualTo(8));
+            Assert.That(Fields(Output()), Has.Length.EqualTo(9));
             Assert.That(Draw(Tagged("Table", "wood")), Is.Not.Empty);
         }
 

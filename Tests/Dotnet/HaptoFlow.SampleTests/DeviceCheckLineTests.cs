@@ -46,6 +46,9 @@ namespace HaptoFlow.SampleTests
             Fails(good, (ref AttributeFacts facts) => facts.Routes = Array.Empty<string>(), "routes to devices");
             Fails(good, (ref AttributeFacts facts) => facts.HasModel = false, "settings and model");
             Fails(good, (ref AttributeFacts facts) => facts.Callback = "", "callback from the library");
+            // Where IL2CPP does not recognise the callback, it throws before learning begins.
+            Fails(good, (ref AttributeFacts facts) => (facts.Callback, facts.CallbackProblem) = ("", "not supported"),
+                "callback from the library");
             good.Routes = Array.Empty<string>();
             good.ExpectsRoutes = false;
             good.CallbackSkipped = "no model";
@@ -152,12 +155,13 @@ namespace HaptoFlow.SampleTests
         {
             var good = new RouteFacts
             {
-                Hand = "Right", Route = "a route", Form = form, Device = "a device", RateHz = 500.0, MaximumSamples = 256,
-                Submissions = 30,
+                Hand = "Right", Route = "a route", Form = form, Device = "a device", RateHz = 500.0,
+                MaximumSamples = 256, Submissions = 30,
             };
             Passes(good.AddTo, 1);
-            Assert.That(Lines(good.AddTo)[0].Measured, Does.StartWith("a device: " + form.ToString().ToLowerInvariant() +
-                ", 500 Hz").And.EndsWith("; 30 of 30 submissions accepted, 0 gaps"));
+            Assert.That(Lines(good.AddTo)[0].Measured, Does.StartWith(
+                $"a device: {form.ToString().ToLowerInvariant()}, 500 Hz")
+                .And.EndsWith("; 30 of 30 submissions accepted, 0 gaps"));
             const string Name = "Right hand, a route";
             Fails(good, (ref RouteFacts facts) => facts.Submissions = 0, Name);
             Fails(good, (ref RouteFacts facts) => facts.Refused = 1, Name);
@@ -216,7 +220,8 @@ namespace HaptoFlow.SampleTests
         [Test]
         public void BothFilesHoldEveryLineAndThePageNeedsNothingElse()
         {
-            string folder = Directory.CreateTempSubdirectory("haptoflow-check-").FullName;
+            string folder = Directory.CreateDirectory(
+                Path.Combine(Path.GetTempPath(), $"haptoflow-check-{Guid.NewGuid():N}")).FullName;
             try
             {
                 var report = new DeviceCheckReport(new[] { ("device", "a <b> & \"c\"") });
@@ -251,7 +256,8 @@ namespace HaptoFlow.SampleTests
         [Test]
         public void ThePageNamesThePublishedTrackerOnceThereIsOne()
         {
-            Assert.That(DeviceCheckReport.WhereToSendTo("https://tracker.example"), Does.Contain("https://tracker.example"));
+            const string Address = "https://tracker.example";
+            Assert.That(DeviceCheckReport.WhereToSendTo(Address), Does.Contain(Address));
             Assert.That(DeviceCheckReport.WhereToSendTo(""), Does.Contain("repository that you have the package from"));
         }
 
@@ -316,7 +322,8 @@ namespace HaptoFlow.SampleTests
             var probe = new StylusProbe("pen", 0.05);
             for (int frame = 0; frame < 90; ++frame)
             {
-                probe.Add(false, 1.0 / 90.0, new Double3(frame % 2 == 0 ? jitterMetres : -jitterMetres, 0.0, 0.0), rest);
+                double x = frame % 2 == 0 ? jitterMetres : -jitterMetres;
+                probe.Add(false, 1.0 / 90.0, new Double3(x, 0.0, 0.0), rest);
             }
             for (int frame = 0; frame < 90; ++frame)
             {

@@ -41,7 +41,8 @@ namespace HaptoFlow
             }
             byte[] file = model.File;
             HapticEngineOptions options = OptionsOf(settings);
-            options.Quality = quality;
+            // Auto is chosen by what the worker measures, and refused without one.
+            options.Quality = options.WithoutWorker && quality == HapticQuality.Auto ? HapticQuality.Draft : quality;
             UpdateRateHz = options.UpdateRateHz;
             HasWorker = !options.WithoutWorker;
             cancellation = NewCancellation();

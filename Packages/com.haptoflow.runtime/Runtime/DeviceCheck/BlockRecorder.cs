@@ -20,7 +20,7 @@ namespace HaptoFlow.DeviceCheck
         /// <summary>Number of blocks so far.</summary>
         public int Blocks => Volatile.Read(ref blocks);
 
-        /// <summary>Bytes that rendering allocated; null where this runtime does not count them for each thread.</summary>
+        /// <summary>Bytes that rendering allocated; null where this runtime does not count them per thread.</summary>
         public long? AllocatedBytes => countsBytes ? Interlocked.Read(ref bytes) : (long?)null;
 
         /// <summary>Render times so far, ascending, in ms.</summary>

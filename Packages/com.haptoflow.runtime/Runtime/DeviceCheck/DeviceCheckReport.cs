@@ -10,8 +10,8 @@ using HaptoFlow.Model;
 
 namespace HaptoFlow.DeviceCheck
 {
-    /// <summary>The lines of a device check, and the two files that are shared: JSON and a page. They hold nothing about
-    /// a person. Any thread that may access files.</summary>
+    /// <summary>The lines of a device check, and the two files that are shared: JSON and a page. They hold nothing
+    /// about a person. Any thread that may access files.</summary>
     internal sealed class DeviceCheckReport
     {
         public const string JsonName = "device-check.json";
@@ -33,8 +33,8 @@ namespace HaptoFlow.DeviceCheck
                 "itself has no published address yet.";
 
         /// <summary>For example "21 passed, 1 failed, 4 skipped, 0 not answered".</summary>
-        public string Summary => FormattableString.Invariant(
-            $"{Count(CheckState.Passed)} passed, {Count(CheckState.Failed)} failed, {Count(CheckState.Skipped)} skipped, {Count(CheckState.Asked)} not answered");
+        public string Summary => $"{Count(CheckState.Passed)} passed, {Count(CheckState.Failed)} failed, " +
+            $"{Count(CheckState.Skipped)} skipped, {Count(CheckState.Asked)} not answered";
 
         /// <summary>Writes both files, each as a whole or not at all.</summary>
         /// <returns>The path of the page.</returns>
@@ -86,9 +86,9 @@ namespace HaptoFlow.DeviceCheck
                 foreach (CheckLine line in group)
                 {
                     string state = line.State == CheckState.Asked ? "not answered" : Escaped(line.State.ToString());
-                    page.Append($"<tr class=\"{line.State.ToString().ToLowerInvariant()}\"><td>{Escaped(line.Name)}</td>" +
-                        $"<td>{state.ToLowerInvariant()}</td><td>{Escaped(line.Measured)}</td>" +
-                        $"<td>{Escaped(line.Remedy)}</td></tr>\n");
+                    page.Append($"<tr class=\"{line.State.ToString().ToLowerInvariant()}\">" +
+                        $"<td>{Escaped(line.Name)}</td><td>{state.ToLowerInvariant()}</td>" +
+                        $"<td>{Escaped(line.Measured)}</td><td>{Escaped(line.Remedy)}</td></tr>\n");
                 }
                 page.Append("</table>\n");
             }

@@ -3,6 +3,7 @@ using System;
 using System.Collections;
 using System.Collections.Generic;
 using System.Diagnostics;
+using System.Globalization;
 using System.IO;
 using System.Linq;
 using HaptoFlow.DeviceCheck;
@@ -56,7 +57,7 @@ namespace HaptoFlow
         /// <summary>Path of the page; empty before it was written.</summary>
         public string PagePath { get; private set; } = "";
 
-        /// <summary>The folder of both files; null for the folder HaptoFlow in Application.persistentDataPath.</summary>
+        /// <summary>The folder of both files; null for HaptoFlow in Application.persistentDataPath.</summary>
         internal string? Folder { get; set; }
 
         internal DeviceCheckReport Report => report!;
@@ -231,7 +232,7 @@ namespace HaptoFlow
                     yield return null;
                 }
                 facts.Callback = learning.Doing;
-                facts.CallbackSkipped = facts.Callback.Length == 0 && learning.Problem != null ? learning.Problem : null;
+                facts.CallbackProblem = learning.Problem;
                 learning.Cancel();
                 // Its inferences must not disturb what is measured next.
                 while (!learning.IsCompleted)
@@ -422,8 +423,9 @@ namespace HaptoFlow
             stroke = new SimulatedStroke(engine);
             wasPaused = false;
             hasSkipped = false;
-            Instruction = "Pause the application for a moment and come back:\nopen the headset's menu or take it off; " +
-                "on a phone change to\nanother application. In the editor, press Skip.";
+            Instruction = "Pause the application for a moment and come back:\n" +
+                "open the headset's menu or take it off; on a phone\n" +
+                "change to another application. In the editor, press Skip.";
             for (double end = Now + PauseSeconds; Now < end && !wasPaused && !hasSkipped;)
             {
                 yield return null;
@@ -519,7 +521,7 @@ namespace HaptoFlow
             ("platform", Application.platform.ToString()), ("scripting backend", Backend),
             ("device", SystemInfo.deviceModel), ("system", SystemInfo.operatingSystem),
             ("processor", SystemInfo.processorType),
-            ("date", DateTime.UtcNow.ToString("yyyy-MM-dd HH:mm 'UTC'", System.Globalization.CultureInfo.InvariantCulture)),
+            ("date", DateTime.UtcNow.ToString("yyyy-MM-dd HH:mm 'UTC'", CultureInfo.InvariantCulture)),
         };
 
 #if ENABLE_IL2CPP

@@ -38,13 +38,13 @@ namespace HaptoFlow.DeviceCheck
                 $"{Device}: {Form.ToString().ToLowerInvariant()}, {rate}{largest}; " +
                 $"{Submissions - Refused} of {Submissions} submissions accepted, {Gaps} gaps",
                 Form == HapticForm.Waveform
-                    ? "Switch on Queue Submissions of a Controller Waveform Output, or use a Motor Output, and send this " +
-                        "page."
+                    ? "Switch on Queue Submissions of a Controller Waveform Output, or use a Motor Output, and send " +
+                        "this page."
                     : "Update the device's firmware and its runtime, use another output, and send this page."));
         }
 
         /// <summary>For a hand without any device that vibrates.</summary>
-        public static CheckLine None(string hand) => CheckLine.Skipped("Devices", hand + " hand",
+        public static CheckLine None(string hand) => CheckLine.Skipped("Devices", hand + " hand, any route",
             "no device that vibrates was found; switch it on and run the check again");
     }
 
@@ -120,15 +120,17 @@ namespace HaptoFlow.DeviceCheck
             }
             (double mean, double deviation, double largest) = Of(restForces);
             lines.Add(CheckLine.Of(Group, Name + " at rest", restForces.Count > 0 && largest < PressNewtons,
-                FormattableString.Invariant($"mean {mean:0.000} N, noise {deviation:0.0000} N, largest {largest:0.000} N; a touch begins at {PressNewtons:0.000} N"),
+                FormattableString.Invariant($"mean {mean:0.000} N, noise {deviation:0.0000} N, ") +
+                FormattableString.Invariant($"largest {largest:0.000} N; a touch begins at {PressNewtons:0.000} N"),
                 "Raise Press Force and Release Force of the Haptic Stylus, or Minimum Pressure of the pen, above the " +
                 "largest value."));
             (double pressedMean, double _, double strongest) = Of(pressedForces);
             int levels = new HashSet<float>(pressedForces).Count;
             lines.Add(CheckLine.Of(Group, Name + " pressed", strongest >= 2.0 * PressNewtons && levels > 2,
-                FormattableString.Invariant($"mean {pressedMean:0.000} N, largest {strongest:0.000} N, {levels} different values"),
-                "Press harder and run again; otherwise set Newtons At Full Pressure of the pen, or choose another source " +
-                "of the tip force."));
+                FormattableString.Invariant($"mean {pressedMean:0.000} N, largest {strongest:0.000} N, ") +
+                $"{levels} different values",
+                "Press harder and run again; otherwise set Newtons At Full Pressure of the pen, or choose another " +
+                "source of the tip force."));
         }
 
         private void AddTracking(List<CheckLine> lines, double displayHz)
@@ -144,7 +146,8 @@ namespace HaptoFlow.DeviceCheck
             double wanted = 0.8 * (displayHz > 0.0 ? displayHz : frames / Math.Max(seconds, 1e-9));
             lines.Add(CheckLine.Of(Group, Name + " rate", trackedFrames >= 0.95 * frames && rate >= wanted,
                 FormattableString.Invariant($"{rate:0.0} new poses/s, tracked in {trackedFrames} of {frames} frames"),
-                "Keep the pen moving in sight of the headset's cameras during the strokes, and run again in good light."));
+                "Keep the pen moving in sight of the headset's cameras during the strokes, and run again in good " +
+                "light."));
             double jitter = JitterMillimetres();
             lines.Add(restTips.Count == 0
                 ? CheckLine.Skipped(Group, Name + " jitter", "it was not tracked at rest")
@@ -201,9 +204,9 @@ namespace HaptoFlow.DeviceCheck
             ("evenness", "Was it free of clicks, gaps and a hum\nthat has nothing to do with the plate?",
                 "Switch on Queue Submissions of a Controller Waveform Output, or choose a larger DSP buffer."),
             ("difference", "Did the three plates feel different?",
-                "Motors of one frequency show little of a texture: try another output or an actuator on the audio device."),
+                "Motors of one frequency show little of a texture: try another output, or an actuator."),
             ("delay", "Did it begin at once, without a delay\nthat you notice?",
-                "Wireless audio adds 100 ms and more: use a cable, the controller, and Best latency (delay-budget.md)."),
+                "Wireless audio adds 100 ms and more: use a cable or the controller (delay-budget.md)."),
         };
 
         /// <param name="answer">Null where the question was skipped.</param>

@@ -4,8 +4,8 @@ using UnityEngine;
 
 namespace HaptoFlow.DeviceCheck
 {
-    /// <summary>A voice that plays a simulated stroke on an audio output of its own, so that audio thread and engine are
-    /// measured alike on every device. Main thread.</summary>
+    /// <summary>A voice that plays a simulated stroke on an audio output of its own, so that audio thread and engine
+    /// are measured alike on every device. Main thread.</summary>
     internal sealed class SimulatedStroke : IDisposable
     {
         private const double StrokesPerSecond = 1.5;

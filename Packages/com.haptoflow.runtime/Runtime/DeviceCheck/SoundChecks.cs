@@ -38,7 +38,9 @@ namespace HaptoFlow.DeviceCheck
             double late = Percentiles.Of(Milliseconds, 0.99);
             float worst = Milliseconds[Milliseconds.Length - 1];
             lines.Add(CheckLine.Of(Group, "time for a block", late <= LargestShare * blockMs && worst < blockMs,
-                FormattableString.Invariant($"median {Percentiles.Of(Milliseconds, 0.5):0.000} ms, 99th percentile {late:0.000} ms, worst {worst:0.000} ms, of {blockMs:0.0} ms"),
+                FormattableString.Invariant($"median {Percentiles.Of(Milliseconds, 0.5):0.000} ms, ") +
+                FormattableString.Invariant($"99th percentile {late:0.000} ms, worst {worst:0.000} ms, ") +
+                FormattableString.Invariant($"of {blockMs:0.0} ms"),
                 Remedy));
             lines.Add(Bytes == null
                 ? CheckLine.Skipped(Group, "allocations", "this runtime does not count bytes for each thread")
@@ -80,17 +82,18 @@ namespace HaptoFlow.DeviceCheck
             const string Group = "Engine";
             const double LargestLateShare = 0.01;
             const string Slow = "Choose a cheaper quality in Project Settings > HaptoFlow, or Auto (performance.md).";
-            lines.Add(CheckLine.Of(Group, "worker", WorkerIsAlive && FailedRounds == 0,
-                WorkerIsAlive && FailedRounds == 0 ? "alive, no failed round" : $"{FailedRounds} failed rounds: {Failure}",
+            bool works = WorkerIsAlive && FailedRounds == 0;
+            lines.Add(CheckLine.Of(Group, "worker", works,
+                works ? "alive, no failed round" : $"{FailedRounds} failed rounds: {Failure}",
                 "Troubleshooting.md explains the message; restart the engine with Haptics.Restart."));
             lines.Add(CheckLine.Of(Group, "worker's priority", !PriorityWasRefused,
                 PriorityWasRefused ? "refused by the system" : "as requested, or not needed",
-                "Segments are late more often without it; on Linux allow the user real-time priorities (live-engine.md)."));
+                "Segments are late more often without it; on Linux allow the user real-time priorities."));
             lines.Add(Runs == 0
                 ? CheckLine.Of(Group, "time for a segment", false, "no segment was generated", Slow)
-                : CheckLine.Of(Group, "time for a segment", Percentile99Ms <= BudgetMs, FormattableString.Invariant(
-                    $"median {MedianMs:0.00} ms, 99th percentile {Percentile99Ms:0.00} ms, of {BudgetMs:0.0} ms, {Runs} runs"),
-                    Slow));
+                : CheckLine.Of(Group, "time for a segment", Percentile99Ms <= BudgetMs,
+                    FormattableString.Invariant($"median {MedianMs:0.00} ms, 99th percentile ") +
+                    FormattableString.Invariant($"{Percentile99Ms:0.00} ms, of {BudgetMs:0.0} ms, {Runs} runs"), Slow));
             lines.Add(CheckLine.Of(Group, "late segments", Segments > 0 && Late <= LargestLateShare * Segments,
                 $"{Late} late or missing of {Segments}", Slow));
             lines.Add(DisplayHz <= 0.0
@@ -128,7 +131,7 @@ namespace HaptoFlow.DeviceCheck
             lines.Add(CheckLine.Of(Group, "configuration",
                 SampleRateHz >= 8000 && SampleRateHz <= 192000 && blockMs <= LongestMs,
                 FormattableString.Invariant($"{SampleRateHz} Hz, blocks of {BlockFrames} frames ({blockMs:0.0} ms)"),
-                "Set Project Settings > Audio > DSP Buffer Size to Best latency, and the sample rate to 8 to 192 kHz."));
+                "In Project Settings > Audio choose the DSP Buffer Size Best latency, and 8 to 192 kHz."));
             lines.Add(!WasAccepted
                 ? CheckLine.Skipped(Group, "change of configuration", "the platform refused another block length")
                 : CheckLine.Of(Group, "change of configuration", BlocksAfter > 0 && SegmentsAfter > 0,
@@ -152,7 +155,8 @@ namespace HaptoFlow.DeviceCheck
         public void AddTo(List<CheckLine> lines) => lines.Add(!Happened
             ? CheckLine.Skipped("Pause", "pause and resume", "the application was not paused")
             : CheckLine.Of("Pause", "pause and resume", EngineIsReady && BlocksAfter > 0 && SegmentsAfter > 0,
-                FormattableString.Invariant($"{Seconds:0.0} s of pause; {BlocksAfter} blocks and {SegmentsAfter} segments afterwards"),
+                FormattableString.Invariant($"{Seconds:0.0} s of pause; {BlocksAfter} blocks and ") +
+                $"{SegmentsAfter} segments afterwards",
                 "Call Haptics.Restart after a pause, and tell us."));
     }
 

@@ -66,6 +66,9 @@ namespace HaptoFlow.DeviceCheck
         /// </summary>
         public string Callback;
 
+        /// <summary>Why learning ended before a callback came; null where it did not.</summary>
+        public string? CallbackProblem;
+
         /// <summary>Why no callback could be tried; null where it was.</summary>
         public string? CallbackSkipped;
 
@@ -79,11 +82,12 @@ namespace HaptoFlow.DeviceCheck
                     "Lower Managed Stripping Level in the player's settings and tell us: methods with " +
                     "RuntimeInitializeOnLoadMethod did not run."));
             lines.Add(CheckLine.Of(Group, "settings and model", HasModel, HasModel ? "found" : "no model",
-                "Create settings in Project Settings > HaptoFlow and build again: they belong to the preloaded assets."));
+                "Create settings in Project Settings > HaptoFlow and build again."));
             const string Call = "callback from the library";
             lines.Add(CallbackSkipped != null
                 ? CheckLine.Skipped(Group, Call, CallbackSkipped)
-                : CheckLine.Of(Group, Call, Callback.Length > 0, Callback.Length > 0 ? $"\"{Callback}\"" : "none came",
+                : CheckLine.Of(Group, Call, Callback.Length > 0,
+                    Callback.Length > 0 ? $"\"{Callback}\"" : CallbackProblem ?? "none came",
                     "Materials cannot be learnt in this player; learn them in the editor and tell us: " +
                     "MonoPInvokeCallback was not recognised."));
         }

@@ -91,7 +91,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
                 .Skip(1).Select(line => line.Split(',').Select(each => double.Parse(each, CultureInfo.InvariantCulture)).ToArray())
                 .ToArray();
             using var engine = new HapticEngine(runtime, model,
-                new HapticEngineOptions { WithoutWorker = true, FixedLeadMs = 8.0, Seed = 5, UpdateRateHz = frameHz });
+                new HapticEngineOptions { Quality = HapticQuality.Standard, WithoutWorker = true, FixedLeadMs = 8.0, Seed = 5, UpdateRateHz = frameHz });
             using HapticVoice voice = engine.OpenVoice(WaveHistory.RateHz);
             var wave = new float[(int)(stroke[^1][0] * WaveHistory.RateHz)];
             uint touches = 0;
