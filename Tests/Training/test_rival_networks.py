@@ -122,7 +122,8 @@ def test_a_rival_s_loss_is_one_number_for_every_row(form: str) -> None:
 def test_rows_of_a_rival_s_batch_are_independent(form: str) -> None:
     baseline, inputs = _built(form), _inputs(4)
     alone = baseline(**{name: value[2:3] for name, value in inputs.items()})
-    torch.testing.assert_close(baseline(**inputs)[2:3], alone, rtol=1e-4, atol=1e-5)
+    # Sums of another batch size round by up to 3e-5 where samples reach 4.6; a leak between rows is of the samples' size.
+    torch.testing.assert_close(baseline(**inputs)[2:3], alone, rtol=1e-4, atol=1e-4)
 
 
 @pytest.mark.parametrize("form", FORMS)

@@ -80,12 +80,14 @@ namespace HaptoFlow.EditorTests
             return shown;
         }
 
-        /// <summary>The serialised fields of a type and of the serialisable ones in it, in words.</summary>
-        private static IEnumerable<string> FieldsOf(Type type) => type
-            .GetFields(BindingFlags.Instance | BindingFlags.NonPublic)
+        /// <summary>The serialised fields of a type, of its bases and of the serialisable types in it, in words.</summary>
+        private static IEnumerable<string> FieldsOf(Type? type) => type == null
+            ? Array.Empty<string>()
+            : FieldsOf(type.BaseType).Concat(type
+            .GetFields(BindingFlags.Instance | BindingFlags.NonPublic | BindingFlags.DeclaredOnly)
             .Where(field => field.GetCustomAttribute<SerializeField>() != null)
             .SelectMany(field => IsDrawnInside(field.FieldType) ? FieldsOf(field.FieldType).Append(NameOf(field))
-                : new[] { NameOf(field) });
+                : new[] { NameOf(field) }));
 
         /// <summary>True for a serialisable type of the package. A field that names another object shows the name only,
         /// and objects name each other in circles.</summary>
