@@ -25,12 +25,6 @@ std::vector<OutputClaim>& outputs() {
     return all;
 }
 
-bool isDevice(const fs::path& path) {
-    std::error_code ignored;
-    const fs::file_status status = fs::status(path, ignored);
-    return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
-}
-
 /// True if `path` names the file that the output will write, whether that file exists or not.
 bool isSameFile(const OutputClaim& output, const fs::path& path) {
     std::error_code ignored;
@@ -56,6 +50,12 @@ bool isSameFile(const OutputClaim& output, const fs::path& path) {
 }
 
 }  // namespace
+
+bool isDevice(const fs::path& path) noexcept {
+    std::error_code ignored;
+    const fs::file_status status = fs::status(path, ignored);
+    return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+}
 
 void claimInput(const std::string& role, const fs::path& path) {
     for (const OutputClaim& output : outputs()) {

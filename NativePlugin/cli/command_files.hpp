@@ -13,7 +13,7 @@ namespace haptoflow::cli {
 /// output of this command.
 void claimInput(const std::string& role, const std::filesystem::path& path);
 
-/// An output as the user named it, and the files behind it.
+/// An output of a command: the path that the user gave, and the files to which it leads.
 struct OutputClaim {
     /// "--report".
     std::string role;
@@ -28,6 +28,9 @@ struct OutputClaim {
 void claimOutput(const OutputClaim& output);
 /// The output is complete or given up.
 void releaseOutput(const std::filesystem::path& path) noexcept;
+
+/// True for something that exists and is neither a file nor a folder: a device or a pipe.
+[[nodiscard]] bool isDevice(const std::filesystem::path& path) noexcept;
 
 /// The final target of a chain of links, whether it exists or not. Throws InputError for a cycle.
 [[nodiscard]] std::filesystem::path followLinks(const std::filesystem::path& path);

@@ -21,11 +21,8 @@ constexpr const char* remedy = ": cannot be written: name a file in an existing 
 
 /// True for something that a rename would replace although it is no file of its own.
 bool isSpecial(const fs::path& path) {
-    std::error_code ignored;
-    const fs::file_status status = fs::status(path, ignored);
     const std::string name = path.generic_string();
-    return (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status)) ||
-           name.starts_with("/dev/std") || name.starts_with("/dev/fd/") || name.starts_with("/proc/");
+    return isDevice(path) || name.starts_with("/dev/std") || name.starts_with("/dev/fd/") || name.starts_with("/proc/");
 }
 
 /// Creates a new file with a unique name beside `target` (or with its name in `folder`).

@@ -24,6 +24,13 @@ export function findDotnet({ folder = dotnetFolder(), env = process.env } = {}) 
   }) ?? null;
 }
 
+/** `findDotnet`'s command; throws a CommandError with exit code 2 where there is none. */
+export function dotnetOrFail() {
+  const command = findDotnet();
+  if (command === null) throw new CommandError('the C# tests need the .NET SDK 10, on PATH or in build/dotnet', 2);
+  return command;
+}
+
 /** The environment for `dotnet`: programs started by it find an SDK outside the system's folders by DOTNET_ROOT only. */
 export function dotnetEnvironment(dotnet) {
   const own = path.isAbsolute(dotnet) ? { DOTNET_ROOT: path.dirname(dotnet) } : {};

@@ -1,7 +1,7 @@
 import { existsSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
-import { dotnetEnvironment, findDotnet } from './dotnet.mjs';
+import { dotnetEnvironment, dotnetOrFail } from './dotnet.mjs';
 import { judgeJunit, results } from './judge_junit.mjs';
 import { withoutReadOnlyMarks } from './mono_signatures.mjs';
 import { buildNative, presetFolder } from './native_build.mjs';
@@ -38,12 +38,6 @@ const exceptions = (runner) => leftOut[runner].flatMap(({ tests }) => tests);
 
 const onnxRuntime = () => inRepository('node_modules', 'com.github.asus4.onnxruntime', 'Plugins', 'Linux', 'x64');
 
-function sdkOrFail() {
-  const command = findDotnet();
-  if (command === null) throw new CommandError('the C# tests need the .NET SDK 10, on PATH or in build/dotnet', 2);
-  return command;
-}
-
 /** Builds one project as a program for Mono and runs it. A project that does not build counts as one failure. */
 async function judgeUnderMono(command, project) {
   const build = inRepository('build', 'mono');
@@ -67,7 +61,7 @@ async function judgeUnderMono(command, project) {
 /** The tests of the package's C# under Debian's Mono, each project as a program of its own. */
 export async function mono() {
   if (!succeeds('mono', ['--version'])) return { ...noCounts, skipped: monoProjects.length };
-  const command = sdkOrFail();
+  const command = dotnetOrFail();
   await buildNative({ targets: ['audioplugin_haptoflow'] });
   let counts = noCounts;
   for (const project of monoProjects) counts = addCounts(counts, await judgeUnderMono(command, project));
@@ -83,7 +77,7 @@ export const complaintsAboutCore = (output) => [...new Set(output.split('\n').fi
  */
 export async function aot() {
   if (process.platform !== 'linux' || process.arch !== 'x64') return { ...noCounts, skipped: 1 };
-  const command = sdkOrFail();
+  const command = dotnetOrFail();
   await buildNative({ targets: ['audioplugin_haptoflow'] });
   const build = inRepository('build', 'aot');
   const words = ['publish', inRepository('Tests', 'Dotnet', 'HaptoFlow.AotTests'), '-c', 'Release', '--nologo', '-v', 'quiet'];

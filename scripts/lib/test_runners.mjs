@@ -1,7 +1,7 @@
 import { existsSync, readdirSync, readFileSync, rmSync } from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
-import { dotnetEnvironment, findDotnet } from './dotnet.mjs';
+import { dotnetEnvironment, dotnetOrFail } from './dotnet.mjs';
 import { judgePrograms, nativeJob } from './gtest_programs.mjs';
 import { judgeJunit, results } from './judge_junit.mjs';
 import { longTestsOf } from './long_tests.mjs';
@@ -119,8 +119,7 @@ const managed = [
 ];
 
 async function dotnet({ all }) {
-  const command = findDotnet();
-  if (command === null) throw new CommandError('the C# tests need the .NET SDK 10, on PATH or in build/dotnet', 2);
+  const command = dotnetOrFail();
   await buildNative({ targets: ['audioplugin_haptoflow'] });
   const shortForm = longTestsOf('dotnet').map((name) => `FullyQualifiedName!~${name}`).join('&');
   let counts = noCounts;

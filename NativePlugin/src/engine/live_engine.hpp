@@ -93,10 +93,10 @@ public:
 
     /// Publishes a contact state on a voice of this engine and wakes the worker if needed. Wait-free.
     ContactAction publish(LiveVoice& voice, const ContactState& state) noexcept;
-    /// `change` edits the voice's settings and returns whether they have changed; the worker then prepares the new
-    /// processors. Any thread except the audio callback's.
     /// Any thread. The acceleration that is +-1 at every voice's output.
     [[nodiscard]] double fullScaleMps2() const noexcept { return static_cast<double>(settings_.fullScaleMps2); }
+    /// `change` edits the voice's settings and returns whether they have changed; the worker then prepares the new
+    /// processors. Any thread except the audio callback's.
     void changeProcessors(LiveVoice& voice, const std::function<bool(ProcessorSettings&)>& change);
 
     /// Runs one round on the calling thread, for an engine without a worker.

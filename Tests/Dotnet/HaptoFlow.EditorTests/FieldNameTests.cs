@@ -5,7 +5,6 @@ using System.Linq;
 using System.Reflection;
 using System.Text.RegularExpressions;
 using HaptoFlow.Editor;
-using HaptoFlow.Studies;
 using HaptoFlow.Tests.Support;
 using NUnit.Framework;
 using UnityEditor;
@@ -17,12 +16,6 @@ namespace HaptoFlow.EditorTests
     /// <summary>The page of components calls fields what the Inspector calls them, so that a reader finds them.</summary>
     public sealed class FieldNameTests : EditorTest
     {
-        private static readonly Assembly[] Assemblies =
-        {
-            typeof(HapticSurface).Assembly, typeof(MousePen).Assembly, typeof(InputActionTipForce).Assembly,
-            typeof(MaskingNoise).Assembly,
-        };
-
         // Words in italics that are no fields of the section's own Inspector.
         private static readonly string[] Elsewhere = { "Preview" };
 
@@ -30,10 +23,10 @@ namespace HaptoFlow.EditorTests
         {
             string[] parts = Regex.Split(
                 File.ReadAllText(RepositoryFiles.In("Documentation~", "components.md")), "^## ", RegexOptions.Multiline);
-            foreach (Type type in Assemblies.SelectMany(each => each.GetTypes()).Where(each => !each.IsAbstract))
+            foreach (Type type in HelpTests.Assemblies.SelectMany(each => each.GetTypes()).Where(each => !each.IsAbstract))
             {
                 string? page = type.GetCustomAttribute<HelpPageAttribute>(false)?.Page;
-                string? text = parts.FirstOrDefault(part => page == HelpPages.Components + AnchorOf(part.Split('\n')[0]));
+                string? text = parts.FirstOrDefault(part => page == HelpPages.Components + HelpTests.AnchorOf(part.Split('\n')[0]));
                 if (text != null)
                 {
                     yield return new TestCaseData(type, text).SetName("{m}(" + type.Name + ")");
@@ -74,7 +67,7 @@ namespace HaptoFlow.EditorTests
                     _ => Array.Empty<string>(),
                 }));
             }
-            shown.UnionWith(Assemblies.Append(typeof(HapticEngine).Assembly).SelectMany(each => each.GetTypes())
+            shown.UnionWith(HelpTests.Assemblies.Append(typeof(HapticEngine).Assembly).SelectMany(each => each.GetTypes())
                 .Where(each => each.IsEnum).SelectMany(Enum.GetNames).Select(InWords));
             shown.UnionWith(Elsewhere);
             return shown;
@@ -92,14 +85,11 @@ namespace HaptoFlow.EditorTests
         /// <summary>True for a serialisable type of the package. A field that names another object shows the name only,
         /// and objects name each other in circles.</summary>
         private static bool IsDrawnInside(Type type) =>
-            Assemblies.Contains(type.Assembly) && !type.IsEnum && !typeof(UnityEngine.Object).IsAssignableFrom(type);
+            HelpTests.Assemblies.Contains(type.Assembly) && !type.IsEnum && !typeof(UnityEngine.Object).IsAssignableFrom(type);
 
         private static string NameOf(FieldInfo field) =>
             char.ToUpperInvariant(field.Name[0]) + InWords(field.Name.Substring(1));
 
         private static string InWords(string name) => Regex.Replace(name, "(?<=[a-z])(?=[A-Z])", " ");
-
-        private static string AnchorOf(string heading) =>
-            Regex.Replace(heading.Trim().ToLowerInvariant(), "[^a-z0-9 -]", "").Replace(' ', '-');
     }
 }

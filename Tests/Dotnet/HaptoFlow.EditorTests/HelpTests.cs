@@ -18,7 +18,7 @@ namespace HaptoFlow.EditorTests
     /// <summary>Help buttons, menu and Package Manager lead to pages that exist inside the package.</summary>
     public sealed class HelpTests
     {
-        private static readonly Assembly[] Assemblies =
+        internal static readonly Assembly[] Assemblies =
         {
             typeof(HapticSurface).Assembly, typeof(MousePen).Assembly, typeof(InputActionTipForce).Assembly,
             typeof(MaskingNoise).Assembly,
@@ -139,7 +139,7 @@ namespace HaptoFlow.EditorTests
             File.ReadAllText(RepositoryFiles.In("Documentation~", name.Replace(".html", ".md")));
 
         /// <summary>The anchor that Markdown renderers give to a heading.</summary>
-        private static string AnchorOf(string heading) =>
+        internal static string AnchorOf(string heading) =>
             Regex.Replace(heading.Trim().ToLowerInvariant(), "[^a-z0-9 -]", "").Replace(' ', '-');
     }
 }

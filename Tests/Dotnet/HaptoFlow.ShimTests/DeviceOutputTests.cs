@@ -16,33 +16,8 @@ using Object = UnityEngine.Object;
 namespace HaptoFlow.ShimTests
 {
     /// <summary>The haptics that devices in a hand receive while a stylus slides over a board.</summary>
-    public sealed class DeviceOutputTests : SceneTest
+    public sealed class DeviceOutputTests : HeldDeviceTest
     {
-        private HapticStylus stylus = null!;
-
-        /// <summary>Loads the optional assemblies, which .NET loads on first use only, unlike Unity.</summary>
-        [OneTimeSetUp]
-        public void LoadOptionalAssemblies() =>
-            RuntimeHelpers.RunModuleConstructor(typeof(MetaActionTipForce).Module.ModuleHandle);
-
-        [SetUp]
-        public void CreateAStylusInTheRightHand()
-        {
-            ForgetDevices();
-            SetFrameRate(72.0);
-            FinishLoading();
-            Board();
-            stylus = Circling();
-            stylus.Hand = HapticHand.Right;
-        }
-
-        [TearDown]
-        public void ForgetDevices()
-        {
-            HeldDevices.Reset();
-            SimulatedInput.Reset();
-        }
-
         [Test]
         public void AutoOutputPlaysTheWaveformOnATouchController()
         {
@@ -123,7 +98,7 @@ namespace HaptoFlow.ShimTests
         public void AStylusInNoHandPlaysOnTheAudioDevice()
         {
             OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
-            stylus.Hand = HapticHand.None;
+            Pen.Hand = HapticHand.None;
             World.Frames(40);
             Assert.That(OVRInput.Waves, Is.Empty);
             Assert.That(All<HapticOutput>(), Has.Length.EqualTo(1));
@@ -135,7 +110,7 @@ namespace HaptoFlow.ShimTests
             World.Frames(3);
             Assert.That(All<HapticOutput>(), Has.Length.EqualTo(1));
             World.Frames(100);
-            Assert.That(stylus.TryGetStatistics(out _), Is.True);
+            Assert.That(Pen.TryGetStatistics(out _), Is.True);
             OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
             World.Frames(80);
             Assert.That(OVRInput.Waves, Is.Not.Empty, "a device that connects later is used");
@@ -165,7 +140,7 @@ namespace HaptoFlow.ShimTests
             World.Frames(300);
             Assert.That(All<HapticOutput>(), Is.Empty);
             Assert.That(All<AutoOutput>(), Is.Empty);
-            Assert.That(stylus.TryGetStatistics(out _), Is.False, "a stylus that cannot be felt has no voice");
+            Assert.That(Pen.TryGetStatistics(out _), Is.False, "a stylus that cannot be felt has no voice");
         }
 
         [Test]
@@ -260,10 +235,10 @@ namespace HaptoFlow.ShimTests
                     output.enabled = false;
                     break;
                 case "pause":
-                    Pause(output);
+                    Pause(output, true);
                     break;
                 default:
-                    stylus.enabled = false;
+                    Pen.enabled = false;
                     break;
             }
             World.Frames(1);
@@ -320,10 +295,10 @@ namespace HaptoFlow.ShimTests
         {
             OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
             Add<ControllerWaveformOutput>();
-            stylus.GetComponent<PathMover>().Path = _ => new Vector3(0f, 0.3f, 0f);
+            Pen.GetComponent<PathMover>().Path = _ => new Vector3(0f, 0.3f, 0f);
             World.Frames(72);
             Assert.That(OVRInput.Waves, Is.Empty);
-            Assert.That(stylus.TryGetStatistics(out VoiceStatistics statistics), Is.True);
+            Assert.That(Pen.TryGetStatistics(out VoiceStatistics statistics), Is.True);
             Assert.That(statistics.Inferences, Is.Zero);
             Assert.That(statistics.RenderedFrames, Is.GreaterThan(6000UL), "8000 a second");
         }
@@ -378,15 +353,15 @@ namespace HaptoFlow.ShimTests
         {
             var output = Add<MotorOutput>();
             XrHand.Right.Take("A controller", true);
-            stylus.GetComponent<PathMover>().Path = _ => new Vector3(0f, 0.3f, 0f);
+            Pen.GetComponent<PathMover>().Path = _ => new Vector3(0f, 0.3f, 0f);
             World.Frames(72);
             XrHand.Right.IsThere = false;
             World.Frames(72);
             Func<double, Vector3> circle = seconds => new Vector3(
                 0.05f * (float)Math.Cos(4.0 * seconds), 0.001f, 0.05f * (float)Math.Sin(4.0 * seconds));
-            stylus.GetComponent<PathMover>().Path = circle;
+            Pen.GetComponent<PathMover>().Path = circle;
             World.Frames(36);
-            stylus.GetComponent<PathMover>().Path = _ => new Vector3(0f, 0.3f, 0f);
+            Pen.GetComponent<PathMover>().Path = _ => new Vector3(0f, 0.3f, 0f);
             World.Frames(72);
             XrHand.Right.Impulses.Clear();
             XrHand.Right.Take("A controller", true);
@@ -403,7 +378,7 @@ namespace HaptoFlow.ShimTests
             All<HapticSurface>().Single().Material.Effects = HapticEffects.Impact;
             // The tip comes down fast and then rests on the board.
             double start = Clock.Seconds;
-            stylus.GetComponent<PathMover>().Path = _ =>
+            Pen.GetComponent<PathMover>().Path = _ =>
                 new Vector3(0f, Math.Max(0.001f, 0.3f - (float)Math.Max(0.0, Clock.Seconds - start - 0.5)), 0f);
             World.Frames(144);
             Assert.That(XrHand.Right.Impulses, Is.Not.Empty, "the landing itself");
@@ -412,7 +387,7 @@ namespace HaptoFlow.ShimTests
             XrHand.Right.Impulses.Clear();
             All<MotorOutput>().Single().enabled = true;
             World.Frames(72);
-            Assert.That(stylus.IsTouching, Is.True);
+            Assert.That(Pen.IsTouching, Is.True);
             Assert.That(XrHand.Right.Impulses, Is.Empty, "the touch-down was two seconds ago");
         }
 
@@ -532,29 +507,5 @@ namespace HaptoFlow.ShimTests
             int windows = samples.Length / window;
             return Array.ConvertAll(energies, energy => 10.0 * Math.Log10(energy / windows + 1e-12));
         }
-
-        private TOutput Add<TOutput>(Action<TOutput>? prepare = null)
-            where TOutput : DeviceOutput
-        {
-            GameObject owner = Make(typeof(TOutput).Name);
-            owner.SetActive(false);
-            var output = owner.AddComponent<TOutput>();
-            output.Stylus = stylus;
-            prepare?.Invoke(output);
-            owner.SetActive(true);
-            return output;
-        }
-
-        private static void Pause(MonoBehaviour script) => typeof(DeviceOutput)
-            .GetMethod("OnApplicationPause", System.Reflection.BindingFlags.Instance |
-                System.Reflection.BindingFlags.NonPublic)!
-            .Invoke(script, new object[] { true });
-
-        private static TComponent[] All<TComponent>()
-            where TComponent : Object => Object.FindObjectsByType<TComponent>(
-            FindObjectsInactive.Include, FindObjectsSortMode.None);
-
-        private static int CountMessages(LogType type, string text) =>
-            Log.Lines.Count(line => line.Type == type && line.Text.Contains(text));
     }
 }

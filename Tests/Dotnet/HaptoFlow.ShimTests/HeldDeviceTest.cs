@@ -12,7 +12,7 @@ namespace HaptoFlow.ShimTests
     /// <summary>A stylus in the right hand that circles on a wooden board, at 72 frames a second.</summary>
     public abstract class HeldDeviceTest : SceneTest
     {
-        protected HapticStylus Pen { get; private set; } = null!;
+        protected HapticStylus Pen { get; set; } = null!;
 
         /// <summary>Loads the optional assemblies, which .NET loads on first use only, unlike Unity.</summary>
         [OneTimeSetUp]

@@ -1,7 +1,6 @@
 using System;
 using System.Linq;
 using System.Reflection;
-using System.Runtime.CompilerServices;
 using HaptoFlow.Tests;
 using NUnit.Framework;
 using UnityEngine;
@@ -11,34 +10,12 @@ using Object = UnityEngine.Object;
 namespace HaptoFlow.ShimTests
 {
     /// <summary>Which of the scene's audio outputs and of the devices in hands plays a stylus.</summary>
-    public sealed class WhereStylusesPlayTests : SceneTest
+    public sealed class WhereStylusesPlayTests : HeldDeviceTest
     {
         private const float Audible = 0.001f;
-        private HapticStylus stylus = null!;
-
-        /// <summary>Loads the optional assemblies, which .NET loads on first use only, unlike Unity.</summary>
-        [OneTimeSetUp]
-        public void LoadOptionalAssemblies() =>
-            RuntimeHelpers.RunModuleConstructor(typeof(MetaActionTipForce).Module.ModuleHandle);
 
         [SetUp]
-        public void CreateAStylusInTheRightHand()
-        {
-            ForgetDevices();
-            SetFrameRate(72.0);
-            FinishLoading();
-            Board();
-            stylus = Circling();
-            stylus.Hand = HapticHand.Right;
-            OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
-        }
-
-        [TearDown]
-        public void ForgetDevices()
-        {
-            HeldDevices.Reset();
-            SimulatedInput.Reset();
-        }
+        public void TakeAController() => OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
 
         [Test]
         public void AnOutputOnAllChannelsLeavesAStylusToTheDeviceInItsHandAndSaysSo()
@@ -67,11 +44,11 @@ namespace HaptoFlow.ShimTests
         public void ANamedOutputTakesAStylusInAHand()
         {
             AudioTap tap = Output(out HapticOutput output);
-            stylus.Output = output;
+            Pen.Output = output;
             World.Frames(72);
             Assert.That(tap.Peak(), Is.GreaterThan(Audible));
             Assert.That(OVRInput.Waves, Is.Empty);
-            stylus.Output = null;
+            Pen.Output = null;
             World.Frames(72);
             Assert.That(OVRInput.Waves.Count, Is.GreaterThan(60));
         }
@@ -81,8 +58,8 @@ namespace HaptoFlow.ShimTests
         public void AnAutoOutputOnTheStylusPlaysInTheHandBesideAnAudioOutput(bool isNamed)
         {
             AudioTap tap = Output(out HapticOutput output);
-            stylus.Output = isNamed ? output : null;
-            stylus.gameObject.AddComponent<AutoOutput>();
+            Pen.Output = isNamed ? output : null;
+            Pen.gameObject.AddComponent<AutoOutput>();
             World.Frames(72);
             Assert.That(tap.Peak(), Is.GreaterThan(Audible));
             Assert.That(OVRInput.Waves.Count, Is.GreaterThan(60));
@@ -136,14 +113,14 @@ namespace HaptoFlow.ShimTests
             output.enabled = false;
             World.Frames(72);
             Assert.That(OVRInput.Waves, Is.Empty);
-            Assert.That(stylus.TryGetStatistics(out _), Is.False);
+            Assert.That(Pen.TryGetStatistics(out _), Is.False);
         }
 
         [TestCase(0)]
         [TestCase(1)]
         public void OfTwoOutputsTheOneWithAChannelPlaysInAnyOrder(int withChannel)
         {
-            stylus.Hand = HapticHand.None;
+            Pen.Hand = HapticHand.None;
             AudioTap[] taps = { Output(out HapticOutput first), Output(out HapticOutput second) };
             (withChannel == 0 ? first : second).Channel = 0;
             World.Frames(72);
@@ -156,7 +133,7 @@ namespace HaptoFlow.ShimTests
         {
             Output(out HapticOutput output);
             HapticStylus other = Circling();
-            stylus.Output = output;
+            Pen.Output = output;
             other.Output = output;
             World.Frames(36);
             int voices = 0;
@@ -169,13 +146,13 @@ namespace HaptoFlow.ShimTests
         {
             Output(out _);
             World.Frames(72);
-            Object.DestroyImmediate(stylus.gameObject);
+            Object.DestroyImmediate(Pen.gameObject);
             World.Frames(10);
             OVRInput.Waves.Clear();
             World.Frames(36);
             Assert.That(OVRInput.Waves, Is.Empty, "nobody touches");
-            stylus = Circling();
-            stylus.Hand = HapticHand.Right;
+            Pen = Circling();
+            Pen.Hand = HapticHand.Right;
             World.Frames(72);
             Assert.That(OVRInput.Waves.Count, Is.GreaterThan(60));
             Assert.That(All<AutoOutput>(), Has.Length.EqualTo(1));
@@ -191,7 +168,7 @@ namespace HaptoFlow.ShimTests
             Recompile();
             World.Frames(72);
             Assert.That(All<AutoOutput>().Concat<MonoBehaviour>(All<HapticOutput>()), Is.EqualTo(made));
-            Assert.That(stylus.TryGetStatistics(out _), Is.True);
+            Assert.That(Pen.TryGetStatistics(out _), Is.True);
         }
 
         /// <summary>What a recompilation does to the scene: static fields and fields that cannot be serialised are
@@ -226,8 +203,5 @@ namespace HaptoFlow.ShimTests
 
         private static string[] Messages(string part) => Log.Lines
             .Where(line => line.Type == LogType.Log && line.Text.Contains(part)).Select(line => line.Text).ToArray();
-
-        private static T[] All<T>()
-            where T : Object => Object.FindObjectsByType<T>(FindObjectsInactive.Include, FindObjectsSortMode.None);
     }
 }

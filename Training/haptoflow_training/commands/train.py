@@ -6,7 +6,6 @@ import argparse
 import dataclasses
 import math
 import sys
-import sys
 import time
 from pathlib import Path
 

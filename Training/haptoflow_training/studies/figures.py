@@ -13,6 +13,7 @@ from scipy import stats
 
 from haptoflow_training.studies.latency_analysis import LatencyResult
 from haptoflow_training.studies.plans import TURN_OFF, TURN_ON
+from haptoflow_training.studies.problems import participants_words
 from haptoflow_training.studies.psychometric import Answers
 from haptoflow_training.studies.rating_tests import SIGNIFICANCE, TREND, Pair
 from haptoflow_training.studies.similarity_analysis import SimilarityResult
@@ -45,7 +46,7 @@ def latency_figure(result: LatencyResult, *, is_simulated: bool) -> str:
     intervals."""
     figure, (axis,) = _figure(1, 1, 7.6, 5.0, is_simulated)
     every = np.concatenate([result.single[condition].delay_ms for condition in _CONDITIONS])
-    # Conditions have the same levels: they stand side by side, so that neither hides the other.
+    # Both conditions have points at the same levels. Each is drawn a little aside, or one would hide the other.
     aside_ms = 0.008 * float(np.ptp(every)) if len(every) else 0.0
     for place, (condition, (words, colour, marker)) in enumerate(_CONDITIONS.items()):
         points, fit = result.points[condition], result.fits[condition]
@@ -73,7 +74,7 @@ def latency_figure(result: LatencyResult, *, is_simulated: bool) -> str:
     axis.axhline(50.0, color="grey", linewidth=0.8)
     axis.set_ylim(-14.0, 114.0)
     axis.set_yticks(range(0, 101, 20))
-    axis.set_title(f"{_participants(result.participants)}; ticks above and below are single answers", fontsize=9)
+    axis.set_title(f"{participants_words(result.participants)}; ticks above and below are single answers", fontsize=9)
     axis.set_xlabel("delay (ms)")
     axis.set_ylabel("delay perceived (%)")
     axis.grid(alpha=0.3)
@@ -92,10 +93,6 @@ def _draw_answers(axis: Axes, answers: Answers, place: int, shift_ms: float, col
         delays = answers.delay_ms[chosen] + shift_ms + spread[chosen]
         heights = np.full(len(delays), height)
         axis.plot(delays, heights, "|", color=colour, alpha=0.75, markersize=5, markeredgewidth=0.8)
-
-
-def _participants(count: int) -> str:
-    return f"{count} participant{'' if count == 1 else 's'}"
 
 
 def similarity_figure(result: SimilarityResult, *, is_simulated: bool) -> str:

@@ -57,3 +57,7 @@ def text_of(path: Path, problems: list[Problem]) -> str | None:
     except UnicodeDecodeError:
         problems.append(Problem(path, "not UTF-8 text"))
     return None
+
+
+def participants_words(count: int) -> str:
+    return f"{count} participant{'' if count == 1 else 's'}"

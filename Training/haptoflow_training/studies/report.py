@@ -11,6 +11,7 @@ from haptoflow_training.studies.figures import SIMULATED_WORDS, latency_figure, 
 from haptoflow_training.studies.html import heading, listing, page, paragraph, picture, table
 from haptoflow_training.studies.intervals import Interval
 from haptoflow_training.studies.latency_analysis import LatencyResult
+from haptoflow_training.studies.problems import participants_words
 from haptoflow_training.studies.plans import CONDITIONS
 from haptoflow_training.studies.psychometric import Fit
 from haptoflow_training.studies.rating_tests import Pair
@@ -70,7 +71,7 @@ def _latency(result: LatencyResult, is_simulated: bool) -> list[str]:
     rows = [_fit_row(condition, result.fits[condition], result.answers[condition]) for condition in CONDITIONS]
     parts = [
         heading("Delay tolerance"),
-        paragraph(f"{_participants(result.participants)}. {words.LATENCY}"),
+        paragraph(f"{participants_words(result.participants)}. {words.LATENCY}"),
         picture(latency_figure(result, is_simulated=is_simulated), _marked(words.LATENCY_CAPTION, is_simulated)),
         table(words.FIT_HEADINGS, rows),
         *(
@@ -119,7 +120,7 @@ def _difference_words(difference: float, interval: Interval | None) -> str:
 def _similarity(result: SimilarityResult, is_simulated: bool) -> list[str]:
     parts = [
         heading("Similarity"),
-        paragraph(f"{_participants(result.participants)}. {words.similarity(result.bound)}"),
+        paragraph(f"{participants_words(result.participants)}. {words.similarity(result.bound)}"),
         picture(similarity_figure(result, is_simulated=is_simulated), _marked(words.SIMILARITY_CAPTION, is_simulated)),
         table(words.MATERIAL_HEADINGS, [_material_row(result, name) for name in result.materials]),
         listing(words.EFFECT_SIZES),
@@ -159,10 +160,6 @@ def _normality_words(p_values: Sequence[float | None]) -> str:
     said = f"rejected for {sum(p < 0.05 for p in tested)} of {len(tested)}"
     untested = len(p_values) - len(tested)
     return f"{said}; {untested} not tested, all ratings equal" if untested else said
-
-
-def _participants(count: int) -> str:
-    return f"{count} participant{'' if count == 1 else 's'}"
 
 
 def _pair_row(result: SimilarityResult, pair: Pair) -> list[str]:

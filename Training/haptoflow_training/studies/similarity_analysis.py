@@ -10,6 +10,7 @@ import numpy as np
 
 from haptoflow_training.errors import InputError
 from haptoflow_training.studies.plans import MAIN
+from haptoflow_training.studies.problems import participants_words
 from haptoflow_training.studies.rating_tests import EQUIVALENCE_POINTS, RatingResult, analysed
 from haptoflow_training.studies.session_file import Session
 
@@ -56,8 +57,7 @@ def analyse_similarity(sessions: Sequence[Session]) -> SimilarityResult:
 
 
 def too_few_words(participants: int) -> str:
-    count = f"{participants} participant{'' if participants == 1 else 's'}"
-    return f"{count} of the similarity study; its tests need {MINIMUM_PARTICIPANTS}"
+    return f"{participants_words(participants)} of the similarity study; its tests need {MINIMUM_PARTICIPANTS}"
 
 
 def bound_of(sessions: Sequence[Session]) -> float:

@@ -62,7 +62,7 @@ namespace HaptoFlow.Editor
             .GroupBy(each => each.hand, each => each.places)
             .Where(group => group.Count() > 1)
             .Select(group => new Finding(MessageType.Warning,
-                $"{Names(group)} are felt through the same device in the {StylusPlaces.Word(group.Key)} hand: each " +
+                $"{Names(group)} are felt through the same device in the {group.Key.InWords()} hand: each " +
                 "interrupts the other when both touch. Keep one of them, or give one the other hand.",
                 group.Select(places => (Object)places.Stylus).ToArray()));
 

@@ -70,7 +70,7 @@ namespace HaptoFlow.Editor
         public static string Summary(SceneContents scene) =>
             string.Join("\n", Of(scene).Select(places => places.Sentence()));
 
-        /// <summary>A name of an audio output with its channel, for people.</summary>
+        /// <summary>The name of an audio output, and where it plays, as messages show them.</summary>
         public static string NameOf(HapticOutput output)
         {
             string where = output.Route == OutputRoute.MixerEffect ? "in an Audio Mixer"
@@ -79,7 +79,7 @@ namespace HaptoFlow.Editor
             return $"{output.name} ({where}{(output.Muted ? ", muted" : "")})";
         }
 
-        /// <summary>A name of an output in a hand, for people.</summary>
+        /// <summary>The kind of an output in a hand, and the object that it is on, as messages show them.</summary>
         public static string NameOf(DeviceOutput output) =>
             $"{UnityEditor.ObjectNames.NicifyVariableName(output.GetType().Name)} on {PlaceOf(output)}";
 
@@ -98,9 +98,6 @@ namespace HaptoFlow.Editor
                 : pen.Hand == PenHand.Left ? HapticHand.Left : HapticHand.Right;
         }
 
-        /// <summary>A hand in a sentence.</summary>
-        public static string Word(HapticHand hand) => hand == HapticHand.Left ? "left" : "right";
-
         private string Sentence()
         {
             string name = Stylus.PenName;
@@ -108,7 +105,7 @@ namespace HaptoFlow.Editor
             {
                 string until = Audio != null ? $"plays on {NameOf(Audio)}"
                     : GetsMadeOutput ? "plays on all channels of the audio device" : "is silent";
-                return $"{name} is felt through the device in the {Word(Hand)} hand; until one is connected it {until}.";
+                return $"{name} is felt through the device in the {Hand.InWords()} hand; until one is connected it {until}.";
             }
             IEnumerable<string> places = devices.Select(InHand);
             if (Audio != null)
@@ -125,7 +122,7 @@ namespace HaptoFlow.Editor
         private static string InHand(DeviceOutput output)
         {
             HapticHand hand = HandOf(output);
-            string where = hand == HapticHand.None ? "in no hand" : $"{Word(hand)} hand";
+            string where = hand == HapticHand.None ? "in no hand" : $"{hand.InWords()} hand";
             return $"{NameOf(output)} ({where}{(output.Muted ? ", muted" : "")})";
         }
 

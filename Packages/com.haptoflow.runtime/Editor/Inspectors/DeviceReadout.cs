@@ -14,11 +14,11 @@ namespace HaptoFlow.Editor
             {
                 Add("Device", output.SearchedHand == HapticHand.None
                     ? "none: the stylus is in no hand, so choose one in Hand"
-                    : "none in the {0} hand that takes this output", output.SearchedHand.ToString().ToLowerInvariant());
+                    : "none in the {0} hand that takes this output", output.SearchedHand.InWords());
                 return;
             }
             HapticQueueStatistics statistics = output.Statistics;
-            Add("Device", "{0}, {1} hand", output.DeviceName, output.SearchedHand.ToString().ToLowerInvariant());
+            Add("Device", "{0}, {1} hand", output.DeviceName, output.SearchedHand.InWords());
             Add("Form", NameOf(form.Value));
             Add("Latency", statistics.LatencyMilliseconds > 0.0
                 ? "{0:0.0} ms, without device and radio" : "nothing plays", statistics.LatencyMilliseconds);

@@ -54,7 +54,8 @@ namespace HaptoFlow.DeviceCheck
             Volatile.Write(ref blocks, blocks + 1);
         }
 
-        /// <summary>Some runtimes answer 0 whatever is allocated, or do not have the call.</summary>
+        /// <summary>True where this runtime counts the bytes that a thread allocates. Some always answer 0, and some lack
+        /// the call, so it is tried.</summary>
         private static bool CountsAllocations()
         {
             const int Probe = 1 << 17;

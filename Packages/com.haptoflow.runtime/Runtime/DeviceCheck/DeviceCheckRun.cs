@@ -338,7 +338,7 @@ namespace HaptoFlow
         {
             foreach (HapticHand hand in new[] { HapticHand.Left, HapticHand.Right })
             {
-                Instruction = $"Vibrating what the {hand.ToString().ToLowerInvariant()} hand holds.\nPlease wait.";
+                Instruction = $"Vibrating what the {hand.InWords()} hand holds.\nPlease wait.";
                 var trials = new List<RouteTrial>();
                 HapticSinks.ForEach((route, form, maker) =>
                     trials.Add(new RouteTrial(hand.ToString(), route, form, maker(hand))));

@@ -28,12 +28,7 @@ namespace HaptoFlow.DeviceCheck
         /// <summary>Plays on; call it once a frame.</summary>
         public void Update(double nowSeconds)
         {
-            queue ??= form switch
-            {
-                HapticForm.Waveform => new WaveformQueue(sink, new TestWave()),
-                HapticForm.Parametric => new ParametricQueue(sink, new TestWave()),
-                _ => new AmplitudeQueue(sink, new TestWave()),
-            };
+            queue ??= HapticQueue.For(form, sink, new TestWave());
             queue.Update(nowSeconds);
         }
 

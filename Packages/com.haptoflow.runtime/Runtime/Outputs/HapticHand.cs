@@ -13,4 +13,11 @@ namespace HaptoFlow
         /// <summary>The left hand.</summary>
         Left = 2,
     }
+
+    /// <summary>Words for hands.</summary>
+    internal static class HapticHands
+    {
+        /// <summary>"left" or "right", for sentences; the hand is not None.</summary>
+        public static string InWords(this HapticHand hand) => hand == HapticHand.Left ? "left" : "right";
+    }
 }

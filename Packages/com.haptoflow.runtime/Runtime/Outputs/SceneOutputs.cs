@@ -121,9 +121,8 @@ namespace HaptoFlow
             if (asker.Hand != HapticHand.None && !ReferenceEquals(asker.Voices.LeftOutFor, output))
             {
                 asker.Voices.LeftOutFor = output;
-                string hand = asker.Hand == HapticHand.Left ? "left" : "right";
-                Debug.Log($"HaptoFlow: {asker.PenName} plays on {output.name} and not through the device in its {hand} " +
-                    "hand, because that output has a channel of its own. Add an Auto Output to the stylus to feel it " +
+                Debug.Log($"HaptoFlow: {asker.PenName} plays on {output.name} and not through the device in its " +
+                    $"{asker.Hand.InWords()} hand, because that output has a channel of its own. Add an Auto Output to the stylus to feel it " +
                     "there too.", asker);
             }
         }

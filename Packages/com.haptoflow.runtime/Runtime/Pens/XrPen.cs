@@ -176,7 +176,7 @@ namespace HaptoFlow
         }
 
 #if HAPTOFLOW_INPUT_SYSTEM && ENABLE_INPUT_SYSTEM
-        // The first pose that the device has is used: MX Ink's tip, a controller's pointer, a controller's grip.
+        // In this order of preference; the pen follows the first pose that its device has.
         private static readonly (string Position, string Rotation)[] Poses =
         {
             ("tipPose/position", "tipPose/rotation"),

@@ -60,6 +60,17 @@ namespace HaptoFlow.Outputs
             Source = source;
         }
 
+        /// <summary>The queue for a device of a form.</summary>
+        /// <param name="sink">Implements the interface of the form.</param>
+        /// <param name="mayReplace">As for <see cref="WaveformQueue"/>.</param>
+        public static HapticQueue For(HapticForm form, IHapticSink sink, IWaveSource source, bool mayReplace = true) =>
+            form switch
+            {
+                HapticForm.Waveform => new WaveformQueue((IWaveformSink)sink, source, mayReplace),
+                HapticForm.Parametric => new ParametricQueue((IParametricSink)sink, source),
+                _ => new AmplitudeQueue((IAmplitudeSink)sink, source),
+            };
+
         /// <summary>Gain on what is sent. With <see cref="TrueLevel"/> it is the ratio of the wave's full scale to the
         /// device's; otherwise it makes a device stronger or weaker than its loudness law. Changes take effect with the
         /// next submissions.</summary>

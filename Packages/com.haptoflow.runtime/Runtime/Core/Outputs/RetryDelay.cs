@@ -11,6 +11,7 @@ namespace HaptoFlow.Outputs
         private readonly double maximumSeconds;
         private double delaySeconds;
         private double dueSeconds = double.NegativeInfinity;
+        private bool hasFailed;
 
         /// <param name="firstSeconds">Delay after the first failure, in s, above 0.</param>
         /// <param name="maximumSeconds">Limit of the delay, in s.</param>
@@ -27,10 +28,14 @@ namespace HaptoFlow.Outputs
 
         /// <summary>Call it after a failure.</summary>
         /// <param name="nowSeconds">Time of the clock of <see cref="IsDue"/>, in s.</param>
-        public void Fail(double nowSeconds)
+        /// <returns>True for the first failure since the last <see cref="Restart"/>, which should be logged.</returns>
+        public bool Fail(double nowSeconds)
         {
             delaySeconds = delaySeconds > 0.0 ? Math.Min(2.0 * delaySeconds, maximumSeconds) : firstSeconds;
             dueSeconds = nowSeconds + delaySeconds;
+            bool isFirst = !hasFailed;
+            hasFailed = true;
+            return isFirst;
         }
 
         /// <summary>Call it after a success, or when something changed that may have caused the failure.</summary>
@@ -38,6 +43,14 @@ namespace HaptoFlow.Outputs
         {
             delaySeconds = 0.0;
             dueSeconds = double.NegativeInfinity;
+        }
+
+        /// <summary>Forgets the failures altogether: the next one counts as the first. Call it for another device.
+        /// </summary>
+        public void Restart()
+        {
+            Forget();
+            hasFailed = false;
         }
     }
 }

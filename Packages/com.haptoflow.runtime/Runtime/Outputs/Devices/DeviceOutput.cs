@@ -34,7 +34,7 @@ namespace HaptoFlow
         [SerializeField, Tooltip("A muted output is silent and costs no inference.")]
         private bool muted;
 
-        [SerializeField, Range(0f, MaximumDeviceLoudness), Tooltip("How strong the device plays: 1 is fitted so that " +
+        [SerializeField, Range(0f, MaximumDeviceLoudness), Tooltip("How strongly the device plays: 1 is fitted so that " +
             "every shipped label is felt, 0 is silent. It has no effect with True Level.")]
         private float deviceLoudness = 1f;
 
@@ -56,6 +56,7 @@ namespace HaptoFlow
         [NonSerialized]
         private HapticHand openedFor;
         private IHapticSink? device;
+        private HapticForm form;
         private HapticQueue? queue;
         private double nextSearchSeconds;
         private bool wasThere;
@@ -106,7 +107,7 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>How strong the device plays, 0 to <see cref="MaximumDeviceLoudness"/>: a gain after the loudness
+        /// <summary>How strongly the device plays, 0 to <see cref="MaximumDeviceLoudness"/>: a gain after the loudness
         /// law. Has no effect with <see cref="TrueLevel"/>.</summary>
         public float DeviceLoudness
         {
@@ -137,12 +138,7 @@ namespace HaptoFlow
         public string DeviceName => HasDevice ? device!.Name : "";
 
         /// <summary>The form in which the device is driven; null without one.</summary>
-        public HapticForm? Form => !HasDevice ? (HapticForm?)null : device switch
-        {
-            IWaveformSink _ => HapticForm.Waveform,
-            IParametricSink _ => HapticForm.Parametric,
-            _ => HapticForm.Amplitude,
-        };
+        public HapticForm? Form => HasDevice ? form : (HapticForm?)null;
 
         /// <summary>The hand whose device is searched for: the field's, else the stylus's.</summary>
         internal HapticHand SearchedHand =>
@@ -346,13 +342,8 @@ namespace HaptoFlow
             queue?.Dispose();
             device = chosen.Sink;
             wasThere = false;
-            queue = chosen.Sink switch
-            {
-                IWaveformSink waveform => new WaveformQueue(waveform, source, MayReplace),
-                IParametricSink parametric => new ParametricQueue(parametric, source),
-                IAmplitudeSink amplitude => new AmplitudeQueue(amplitude, source),
-                _ => null,
-            };
+            form = chosen.Form;
+            queue = HapticQueue.For(form, chosen.Sink, source, MayReplace);
             OnDevice(chosen.Form, chosen.Sink, held);
         }
 

@@ -12,7 +12,6 @@ namespace HaptoFlow
         private readonly MetaHand hand;
         private readonly RetryDelay retry;
         private int version = -1;
-        private bool hasLogged;
 
         /// <param name="hand">The hand.</param>
         /// <param name="firstRetrySeconds">Delay after a failure, doubled with each further one. Calls of which the SDK
@@ -21,7 +20,7 @@ namespace HaptoFlow
         {
             this.hand = new MetaHand(hand);
             retry = new RetryDelay(firstRetrySeconds, 32.0 * firstRetrySeconds);
-            Name = hand == HapticHand.Left ? "left" : "right";
+            Name = hand.InWords();
         }
 
         public OVRInput.Controller Mask => (OVRInput.Controller)hand.Mask;
@@ -42,13 +41,7 @@ namespace HaptoFlow
 
         /// <summary>Call it after a failed call.</summary>
         /// <returns>True where it should be logged.</returns>
-        public bool Fail()
-        {
-            retry.Fail(Time.realtimeSinceStartupAsDouble);
-            bool isFirst = !hasLogged;
-            hasLogged = true;
-            return isFirst;
-        }
+        public bool Fail() => retry.Fail(Time.realtimeSinceStartupAsDouble);
 
         /// <summary>Call it after a successful call.</summary>
         public void Succeed() => retry.Forget();
@@ -59,8 +52,7 @@ namespace HaptoFlow
             if (hand.Version != version)
             {
                 version = hand.Version;
-                hasLogged = false;
-                retry.Forget();
+                retry.Restart();
             }
             return hand.HasFocus && retry.IsDue(Time.realtimeSinceStartupAsDouble);
         }

@@ -41,7 +41,6 @@ namespace HaptoFlow
         private readonly ArraysByLength<byte> buffers = new ArraysByLength<byte>();
         private readonly RetryDelay retry = new RetryDelay(0.05, 30.0);
         private InputDevice known;
-        private bool hasLogged;
 
         public XrBufferSink(HapticHand hand) => device = new XrDevice(hand);
 
@@ -59,8 +58,7 @@ namespace HaptoFlow
             if (device.Device != known)
             {
                 known = device.Device;
-                hasLogged = false;
-                retry.Forget();
+                retry.Restart();
             }
             return supportsBuffers && retry.IsDue(Time.realtimeSinceStartupAsDouble);
         }
@@ -87,10 +85,8 @@ namespace HaptoFlow
 
         private void Refuse()
         {
-            retry.Fail(Time.realtimeSinceStartupAsDouble);
-            if (!hasLogged)
+            if (retry.Fail(Time.realtimeSinceStartupAsDouble))
             {
-                hasLogged = true;
                 Debug.LogWarning($"HaptoFlow: {Name} reports that it plays waveforms, but refused one. HaptoFlow tries " +
                     "again, less and less often, and meanwhile uses the next route to it.");
             }
