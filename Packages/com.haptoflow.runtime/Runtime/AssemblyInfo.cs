@@ -7,6 +7,7 @@ using System.Runtime.CompilerServices;
 [assembly: InternalsVisibleTo("HaptoFlow.Pens.LegacyInput")]
 [assembly: InternalsVisibleTo("HaptoFlow.Inputs")]
 [assembly: InternalsVisibleTo("HaptoFlow.EditorTests")]
+[assembly: InternalsVisibleTo("HaptoFlow.PreviewTests")]
 [assembly: InternalsVisibleTo("HaptoFlow.Studies")]
 [assembly: InternalsVisibleTo("HaptoFlow.Tests")]
 [assembly: InternalsVisibleTo("HaptoFlow.ShimTests")]

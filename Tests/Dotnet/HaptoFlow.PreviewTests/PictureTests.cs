@@ -167,7 +167,7 @@ namespace HaptoFlow.PreviewTests
             Assert.That(PatchPicture.ToMetres(patch, patch.Left, patch.Bottom), Is.EqualTo((0.0, 0.0)));
         }
 
-        [TestCase(1080.0, 912.0)]
+        [TestCase(1080.0, 932.0)]
         [TestCase(1200.0, 930.0)]
         [TestCase(2500.0, 1400.0)]
         public void ThePartsOfTheWindowDoNotOverlap(double width, double height)

@@ -1,3 +1,4 @@
+using UnityEngine.InputSystem;
 using UnityEngine.InputSystem.XR;
 using UnityEngine.XR.OpenXR.Input;
 
@@ -14,6 +15,7 @@ namespace UnityShim
             OpenXRInput.Reset();
             XrHand.Reset();
             XRControllerWithRumble.Drop();
+            Gamepad.current = null;
         }
 
         /// <summary>Puts a Touch controller into the right hand that supports waveforms, and parametric haptics from 60

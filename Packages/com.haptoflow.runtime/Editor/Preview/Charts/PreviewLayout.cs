@@ -24,7 +24,7 @@ namespace HaptoFlow.Preview
         public const double MinimumWidth = 1080.0;
 
         /// <summary>The charts are not legible in less, so that a smaller window scrolls.</summary>
-        public const double MinimumHeight = 912.0;
+        public const double MinimumHeight = 932.0;
 
         private const double MinimumHeightWithoutStroke = 640.0;
         private const double Margin = 8.0;

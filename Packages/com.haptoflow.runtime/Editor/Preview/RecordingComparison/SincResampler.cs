@@ -24,13 +24,30 @@ namespace HaptoFlow.Preview
                 double sum = 0.0;
                 for (int input = first; input <= last; ++input)
                 {
-                    double distance = input - place;
-                    double window = 0.5 + 0.5 * Math.Cos(Math.PI * distance / half);
-                    sum += samples[input] * window * cutoff * Sinc(cutoff * distance);
+                    sum += samples[input] * Weight(input - place, cutoff);
                 }
                 result[index] = (float)sum;
             }
             return result;
+        }
+
+        /// <summary>The weights with which every sample of a rate that is a whole number of times lower is computed from
+        /// the samples around it.</summary>
+        public static float[] Kernel(int timesLower)
+        {
+            int half = Lobes * timesLower;
+            var weights = new float[2 * half + 1];
+            for (int index = 0; index < weights.Length; ++index)
+            {
+                weights[index] = (float)Weight(index - half, 1.0 / timesLower);
+            }
+            return weights;
+        }
+
+        private static double Weight(double distance, double cutoff)
+        {
+            double window = 0.5 + 0.5 * Math.Cos(Math.PI * distance * cutoff / Lobes);
+            return window * cutoff * Sinc(cutoff * distance);
         }
 
         private static double Sinc(double place) =>

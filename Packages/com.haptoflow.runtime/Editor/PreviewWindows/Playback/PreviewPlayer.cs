@@ -19,6 +19,10 @@ namespace HaptoFlow.Editor
         private static readonly GUIContent Raise = new GUIContent("Normalise",
             "Plays both sounds with the gain at which the louder one nearly reaches full scale. Exported files are " +
             "not affected.");
+        private static readonly GUIContent FeelOn = new GUIContent("Feel on",
+            "The connected device that plays the waveform too, as strongly as a scene does by default. Controllers of a " +
+            "headset are found in Play mode.");
+        private static readonly string[] FeltNames = { "None", "Left hand", "Right hand", "Gamepad" };
         private static readonly GUIContent[] Sides =
         {
             new GUIContent("A", "Plays material A. Key A."), new GUIContent("B", "Plays material B. Key B."),
@@ -32,6 +36,7 @@ namespace HaptoFlow.Editor
         private readonly TexturePreviewState state;
         private readonly PreviewSession session;
         private readonly PreviewSpeaker speaker = new PreviewSpeaker();
+        private readonly FeltPlayback felt = new FeltPlayback();
         private AnalysedSound? playing;
         private bool raised;
         private bool looped;
@@ -51,10 +56,10 @@ namespace HaptoFlow.Editor
                 : null;
 
         /// <summary>Position of playback; null while nothing plays.</summary>
-        public double? PlayedSeconds =>
-            speaker.IsPlaying ? speaker.PositionSamples / (double)PreviewSound.RateHz : (double?)null;
+        public double? PlayedSeconds => IsPlaying ? PositionSamples / (double)PreviewSound.RateHz : (double?)null;
 
-        public bool IsPlaying => speaker.IsPlaying;
+        // Where the editor cannot play clips, a device still can.
+        public bool IsPlaying => speaker.IsPlaying || (!speaker.IsAvailable && felt.IsPlaying);
 
         /// <summary>Gain of playback.</summary>
         public float Gain
@@ -76,7 +81,7 @@ namespace HaptoFlow.Editor
         /// <summary>Plays from the beginning, or stops.</summary>
         public void Toggle()
         {
-            if (speaker.IsPlaying)
+            if (IsPlaying)
             {
                 Stop();
             }
@@ -94,27 +99,37 @@ namespace HaptoFlow.Editor
             waits = false;
             playing = null;
             speaker.Stop();
+            felt.Stop();
+        }
+
+        /// <summary>Stops, and forgets the device.</summary>
+        public void Close()
+        {
+            Stop();
+            felt.Close();
         }
 
         /// <summary>Call this at each editor update.</summary>
         /// <returns>True if the window must be drawn again.</returns>
         public bool Step()
         {
+            felt.Device = state.FeltOn;
             if (waits && session.IsFinal && PlayedSound != null)
             {
                 waits = false;
                 Start(0);
             }
-            else if (speaker.IsPlaying && session.IsFinal && PlayedSound != null && IsOther())
+            else if (IsPlaying && session.IsFinal && PlayedSound != null && IsOther())
             {
-                Start(speaker.PositionSamples);
+                Start(PositionSamples);
             }
-            else if (playing != null && !speaker.IsPlaying)
+            else if (playing != null && !IsPlaying)
             {
                 Stop();
             }
-            bool moved = wasPlaying || speaker.IsPlaying;
-            wasPlaying = speaker.IsPlaying;
+            felt.Step(speaker.IsPlaying ? speaker.PositionSamples : (int?)null);
+            bool moved = wasPlaying || IsPlaying;
+            wasPlaying = IsPlaying;
             return moved;
         }
 
@@ -123,7 +138,7 @@ namespace HaptoFlow.Editor
             EditorGUILayout.Space(4f);
             using (new EditorGUILayout.HorizontalScope())
             {
-                if (GUILayout.Button(speaker.IsPlaying ? Stopping : Play, GUILayout.Width(56f)))
+                if (GUILayout.Button(IsPlaying ? Stopping : Play, GUILayout.Width(56f)))
                 {
                     Toggle();
                 }
@@ -150,7 +165,24 @@ namespace HaptoFlow.Editor
                 DrawSwitch(Raise, state.Raises, (changed, value) => changed.Raises = value);
                 GUILayout.Label(Remark(), EditorStyles.miniLabel);
             }
+            DrawDevice();
             GUILayout.Label(PreviewKeys.Help, EditorStyles.wordWrappedMiniLabel);
+        }
+
+        private void DrawDevice()
+        {
+            using (new EditorGUILayout.HorizontalScope())
+            {
+                float before = EditorGUIUtility.labelWidth;
+                EditorGUIUtility.labelWidth = 56f;
+                int entered = EditorGUILayout.Popup(FeelOn, (int)state.FeltOn, FeltNames, GUILayout.Width(148f));
+                EditorGUIUtility.labelWidth = before;
+                if (entered != (int)state.FeltOn)
+                {
+                    state.Change("Device", changed => changed.FeltOn = (FeltDevice)entered);
+                }
+                GUILayout.Label(felt.Remark, EditorStyles.miniLabel);
+            }
         }
 
         private void DrawSwitch(GUIContent title, bool value, Action<TexturePreviewState, bool> change)
@@ -168,6 +200,8 @@ namespace HaptoFlow.Editor
                 ? "rendering\u2026"
                 : Gain > 1f ? AxisNumbers.Text(20.0 * Math.Log10(Gain), 0, true) + " dB" : "";
 
+        private int PositionSamples => speaker.IsPlaying ? speaker.PositionSamples : felt.PositionSamples;
+
         private bool IsOther() =>
             !ReferenceEquals(PlayedSound, playing) || raised != state.Raises || looped != state.Loops;
 
@@ -177,6 +211,8 @@ namespace HaptoFlow.Editor
             raised = state.Raises;
             looped = state.Loops;
             speaker.Play(playing!.Sound, Gain, sample, looped);
+            // A simulated device's sound on a real device would be that of two devices.
+            felt.Play(state.ShowsDevice ? session.Shown!.Sounds[0].Sound : playing.Sound, sample, looped);
         }
     }
 }

@@ -67,6 +67,10 @@ namespace HaptoFlow.Editor
         [field: SerializeField]
         public PreviewDevice Device { get; set; }
 
+        /// <summary>The connected device that plays along with the speakers.</summary>
+        [field: SerializeField]
+        public FeltDevice FeltOn { get; set; }
+
         /// <summary>Points of the drawn stroke. Set a new array instead of changing elements.</summary>
         [field: SerializeField]
         public DrawnPoint[] Drawn { get; set; } = Array.Empty<DrawnPoint>();

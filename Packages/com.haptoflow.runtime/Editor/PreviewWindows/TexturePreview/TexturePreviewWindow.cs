@@ -12,7 +12,7 @@ namespace HaptoFlow.Editor
     internal sealed class TexturePreviewWindow : EditorWindow
     {
         private const float Width = 1200f;
-        private const float Height = 888f;
+        private const float Height = 940f;
 
         // A smaller window scrolls.
         private const float MinimumWidth = 480f;
@@ -287,7 +287,7 @@ namespace HaptoFlow.Editor
         /// <summary>Frees everything that would outlive a domain reload.</summary>
         private void Release()
         {
-            player?.Stop();
+            player?.Close();
             Session?.Dispose();
             Session = null;
             strokePicture?.Release();

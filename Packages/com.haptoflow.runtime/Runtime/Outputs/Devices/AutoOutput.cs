@@ -82,11 +82,8 @@ namespace HaptoFlow
             return made;
         }
 
-        private protected override void OpenSinks(HapticHand wanted, List<HapticSinks.OpenSink> into)
-        {
-            HapticSinks.Open(HapticForm.Waveform, wanted, into);
-            HapticSinks.Open(HapticForm.Amplitude, wanted, into);
-        }
+        private protected override void OpenSinks(HapticHand wanted, List<HapticSinks.OpenSink> into) =>
+            HapticSinks.OpenBest(wanted, into);
 
         private protected override void OnDevice(HapticForm form, IHapticSink sink, HapticHand held)
         {

@@ -193,13 +193,9 @@ namespace HaptoFlow
                     OpenSinks(held, sinks);
                 }
             }
-            foreach (HapticSinks.OpenSink each in sinks)
+            if (HapticSinks.TryFind(sinks, out HapticSinks.OpenSink found))
             {
-                if (each.Sink.TryGetCapabilities(out _))
-                {
-                    Use(each, held);
-                    return;
-                }
+                Use(found, held);
             }
         }
 

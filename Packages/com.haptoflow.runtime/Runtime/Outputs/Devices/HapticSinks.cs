@@ -38,6 +38,28 @@ namespace HaptoFlow
             }
         }
 
+        /// <summary>Opens a sink for each route that plays the waveform, or else its envelope, best first.</summary>
+        internal static void OpenBest(HapticHand hand, List<OpenSink> into)
+        {
+            Open(HapticForm.Waveform, hand, into);
+            Open(HapticForm.Amplitude, hand, into);
+        }
+
+        /// <summary>Finds the first sink whose device is there.</summary>
+        internal static bool TryFind(List<OpenSink> sinks, out OpenSink found)
+        {
+            foreach (OpenSink each in sinks)
+            {
+                if (each.Sink.TryGetCapabilities(out _))
+                {
+                    found = each;
+                    return true;
+                }
+            }
+            found = default;
+            return false;
+        }
+
         /// <summary>Names of all routes.</summary>
         internal static IReadOnlyList<string> Names() => Routes.ConvertAll(route => route.Name);
 

@@ -1,0 +1,164 @@
+#nullable enable
+using System;
+using System.Collections.Generic;
+using HaptoFlow.Outputs;
+using HaptoFlow.Preview;
+using UnityEngine;
+
+namespace HaptoFlow.Editor
+{
+    /// <summary>Where a preview is felt.</summary>
+    internal enum FeltDevice
+    {
+        None = 0,
+        LeftHand = 1,
+        RightHand = 2,
+        Gamepad = 3,
+    }
+
+    /// <summary>Plays a sound on a connected device, at the level that a scene's outputs have by default. Main thread.
+    /// </summary>
+    internal sealed class FeltPlayback
+    {
+        private const double SearchIntervalSeconds = 0.5;
+
+        // Outputs of a scene that plays leave the device to the preview: longer than the longest frame.
+        private const float YieldSeconds = 0.25f;
+
+        private readonly SoundWave wave = new SoundWave();
+        private readonly List<HapticSinks.OpenSink> sinks = new List<HapticSinks.OpenSink>();
+        private HapticSinks.OpenSink? used;
+        private HapticQueue? queue;
+        private FeltDevice device;
+        private int routes;
+        private double nextSearchSeconds;
+
+        /// <summary>The device to play on.</summary>
+        public FeltDevice Device
+        {
+            get => device;
+            set
+            {
+                if (value != device)
+                {
+                    Close();
+                    device = value;
+                    nextSearchSeconds = 0.0;
+                }
+            }
+        }
+
+        /// <summary>True while a sound plays, with or without a device.</summary>
+        public bool IsPlaying => !wave.IsStopped;
+
+        /// <summary>Position in the sound, as for <see cref="PreviewSpeaker.PositionSamples"/>.</summary>
+        public int PositionSamples => wave.PositionSamples;
+
+        /// <summary>What plays, for people; empty where nothing was chosen.</summary>
+        public string Remark
+        {
+            get
+            {
+                if (device == FeltDevice.None)
+                {
+                    return "";
+                }
+                if (queue == null || !used!.Value.Sink.TryGetCapabilities(out _))
+                {
+                    return device == FeltDevice.Gamepad
+                        ? GamepadSinks.IsSupported ? "no gamepad is connected" : "needs the package Input System"
+                        : Application.isPlaying ? "no haptic device in this hand" : "found in Play mode only";
+                }
+                string form = used!.Value.Form == HapticForm.Waveform ? "waveform" : "envelope";
+                long gaps = queue.Statistics.Gaps;
+                return $"{used.Value.Sink.Name}, {form}" + (gaps > 0 ? $", {gaps} gaps" : "");
+            }
+        }
+
+        /// <summary>Plays a sound in place of the present one.</summary>
+        /// <param name="startSample">Start position; a position past the end counts as 0.</param>
+        public void Play(PreviewSound sound, int startSample, bool loops) => wave.Play(sound, startSample, loops);
+
+        /// <summary>Stops the device now.</summary>
+        public void Stop()
+        {
+            wave.Stop();
+            queue?.Flush(Time.realtimeSinceStartupAsDouble);
+        }
+
+        /// <summary>Call this at each editor update.</summary>
+        /// <param name="heardSample">Position of the same sound in the speakers; null where they do not play.</param>
+        public void Step(int? heardSample)
+        {
+            if (device == FeltDevice.None)
+            {
+                return;
+            }
+            double now = Time.realtimeSinceStartupAsDouble;
+            if (now >= nextSearchSeconds)
+            {
+                nextSearchSeconds = now + SearchIntervalSeconds;
+                Search();
+            }
+            if (heardSample is { } heard)
+            {
+                wave.Follow(heard);
+            }
+            if (IsPlaying && device != FeltDevice.Gamepad)
+            {
+                Haptics.Yield(Hand, YieldSeconds);
+            }
+            if (queue != null)
+            {
+                HaptoFlowSettings? settings = ProjectSettingsAsset.Find();
+                queue.Ceiling = settings != null ? settings.Ceiling : 1f;
+                queue.Update(now);
+            }
+        }
+
+        /// <summary>Stops and forgets the device.</summary>
+        public void Close()
+        {
+            queue?.Flush(Time.realtimeSinceStartupAsDouble);
+            queue?.Dispose();
+            queue = null;
+            used = null;
+            foreach (HapticSinks.OpenSink each in sinks)
+            {
+                (each.Sink as IDisposable)?.Dispose();
+            }
+            sinks.Clear();
+            routes = 0;
+        }
+
+        private HapticHand Hand => device == FeltDevice.LeftHand ? HapticHand.Left : HapticHand.Right;
+
+        private void Search()
+        {
+            // Play mode registers routes.
+            if (sinks.Count == 0 || routes != HapticSinks.Names().Count)
+            {
+                Close();
+                routes = HapticSinks.Names().Count;
+                if (device == FeltDevice.Gamepad)
+                {
+                    GamepadSinks.Open(sinks);
+                }
+                else
+                {
+                    HapticSinks.OpenBest(Hand, sinks);
+                }
+            }
+            if (HapticSinks.TryFind(sinks, out HapticSinks.OpenSink found) &&
+                !ReferenceEquals(found.Sink, used?.Sink))
+            {
+                queue?.Flush(Time.realtimeSinceStartupAsDouble);
+                queue?.Dispose();
+                used = found;
+                queue = HapticQueue.For(found.Form, found.Sink, wave);
+                queue.TrueLevel = false;
+                queue.FullScaleMps2 = PreviewSound.FullScaleMps2;
+            }
+        }
+    }
+}
