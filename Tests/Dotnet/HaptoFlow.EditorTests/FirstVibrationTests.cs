@@ -4,7 +4,6 @@ using System.Globalization;
 using System.IO;
 using System.Linq;
 using System.Reflection;
-using System.Runtime.CompilerServices;
 using System.Text.RegularExpressions;
 using HaptoFlow.Editor;
 using HaptoFlow.Tests.Support;
@@ -35,8 +34,7 @@ namespace HaptoFlow.EditorTests
 
         /// <summary>Loads the optional assemblies, which .NET loads on first use only, unlike Unity.</summary>
         [OneTimeSetUp]
-        public void LoadOptionalAssemblies() =>
-            RuntimeHelpers.RunModuleConstructor(typeof(MetaActionTipForce).Module.ModuleHandle);
+        public void LoadOptionalAssemblies() => OptionalAssemblies.Load();
 
         [SetUp]
         public void OpenANewScene()

@@ -21,7 +21,7 @@ namespace HaptoFlow.EditorTests
         internal static readonly Assembly[] Assemblies =
         {
             typeof(HapticSurface).Assembly, typeof(MousePen).Assembly, typeof(InputActionTipForce).Assembly,
-            typeof(MaskingNoise).Assembly,
+            typeof(MetaActionTipForce).Assembly, typeof(MaskingNoise).Assembly,
         };
 
         private static string folder = "";

@@ -1,6 +1,6 @@
 using System.Linq;
-using System.Runtime.CompilerServices;
 using HaptoFlow.Editor;
+using HaptoFlow.Tests.Support;
 using NUnit.Framework;
 using UnityEngine;
 using UnityShim;
@@ -11,8 +11,7 @@ namespace HaptoFlow.EditorTests
     public sealed class StylusPlacesPlayTests : EditorTest
     {
         [OneTimeSetUp]
-        public void LoadOptionalAssemblies() =>
-            RuntimeHelpers.RunModuleConstructor(typeof(MetaActionTipForce).Module.ModuleHandle);
+        public void LoadOptionalAssemblies() => OptionalAssemblies.Load();
 
         [SetUp]
         public void StepTheEngine()

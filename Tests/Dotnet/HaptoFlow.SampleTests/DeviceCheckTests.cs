@@ -1,9 +1,9 @@
 using System;
 using System.IO;
 using System.Linq;
-using System.Runtime.CompilerServices;
 using HaptoFlow.DeviceCheck;
 using HaptoFlow.Samples.DeviceCheck;
+using HaptoFlow.Tests.Support;
 using NUnit.Framework;
 using UnityEngine;
 using UnityShim;
@@ -25,8 +25,7 @@ namespace HaptoFlow.SampleTests
         private DeviceCheckScene scene = null!;
 
         [OneTimeSetUp]
-        public void LoadOptionalAssemblies() =>
-            RuntimeHelpers.RunModuleConstructor(typeof(MetaActionTipForce).Module.ModuleHandle);
+        public void LoadOptionalAssemblies() => OptionalAssemblies.Load();
 
         [SetUp]
         public void BuildScene()

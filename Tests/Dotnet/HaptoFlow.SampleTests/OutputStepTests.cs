@@ -1,7 +1,7 @@
 using System;
 using System.Linq;
-using System.Runtime.CompilerServices;
 using HaptoFlow.Samples.StylusTracing;
+using HaptoFlow.Tests.Support;
 using NUnit.Framework;
 using UnityEngine;
 using UnityShim;
@@ -14,8 +14,7 @@ namespace HaptoFlow.SampleTests
         private const string Right = "<XRController>{RightHand}/";
 
         [OneTimeSetUp]
-        public void LoadOptionalAssemblies() =>
-            RuntimeHelpers.RunModuleConstructor(typeof(MetaActionTipForce).Module.ModuleHandle);
+        public void LoadOptionalAssemblies() => OptionalAssemblies.Load();
 
         [SetUp]
         public void BuildScene()

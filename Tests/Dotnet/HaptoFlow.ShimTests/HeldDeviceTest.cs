@@ -1,7 +1,7 @@
 using System;
 using System.Linq;
-using System.Runtime.CompilerServices;
 using HaptoFlow.Tests;
+using HaptoFlow.Tests.Support;
 using NUnit.Framework;
 using UnityEngine;
 using UnityShim;
@@ -16,8 +16,7 @@ namespace HaptoFlow.ShimTests
 
         /// <summary>Loads the optional assemblies, which .NET loads on first use only, unlike Unity.</summary>
         [OneTimeSetUp]
-        public void LoadOptionalAssemblies() =>
-            RuntimeHelpers.RunModuleConstructor(typeof(MetaActionTipForce).Module.ModuleHandle);
+        public void LoadOptionalAssemblies() => OptionalAssemblies.Load();
 
         [SetUp]
         public void CreateAStylusInTheRightHand()

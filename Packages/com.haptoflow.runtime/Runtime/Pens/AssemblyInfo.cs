@@ -2,6 +2,5 @@ using System.Runtime.CompilerServices;
 
 [assembly: InternalsVisibleTo("HaptoFlow.Editor")]
 [assembly: InternalsVisibleTo("HaptoFlow.EditorTests")]
-[assembly: InternalsVisibleTo("HaptoFlow.Inputs")]
 [assembly: InternalsVisibleTo("HaptoFlow.Meta")]
 [assembly: InternalsVisibleTo("HaptoFlow.SampleTests")]
