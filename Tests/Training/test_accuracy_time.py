@@ -10,16 +10,16 @@ from typing import Any
 import numpy as np
 import pytest
 
-from haptoflow_benchmark.reference.reference_conditions import Condition, conditions
-from haptoflow_benchmark.reference.reference_rows import REFERENCE_ROWS, reference_waves
-from haptoflow_benchmark.reference.reference_set import ReferencePair
-from haptoflow_benchmark.report.accuracy_time import table, timed_rows, with_times
-from haptoflow_benchmark.report.accuracy_time_chart import draw_chart
-from haptoflow_benchmark.report.accuracy_time_report import write_document
-from haptoflow_benchmark.report.label_spectra import draw_spectra
-from haptoflow_benchmark.rows import accuracy
-from haptoflow_benchmark.rows.row_plan import PlannedRow
-from haptoflow_benchmark.rows.row_summary import summary
+from haptoflow_paper.reference.reference_conditions import Condition, conditions
+from haptoflow_paper.reference.reference_rows import REFERENCE_ROWS, reference_waves
+from haptoflow_paper.reference.reference_set import ReferencePair
+from haptoflow_paper.report.accuracy_time import table, timed_rows, with_times
+from haptoflow_paper.report.accuracy_time_chart import draw_chart
+from haptoflow_paper.report.accuracy_time_report import write_document
+from haptoflow_paper.report.label_spectra import draw_spectra
+from haptoflow_paper.rows import accuracy
+from haptoflow_paper.rows.row_plan import PlannedRow
+from haptoflow_paper.rows.row_summary import summary
 from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.model_stamp import SHIPPED_MODEL
 from haptoflow_training.recordings.synthetic import load_materials

@@ -11,10 +11,10 @@ import matplotlib
 import numpy as np
 import pytest
 
-from haptoflow_benchmark.metrics.judged_figures import BY_KEY
-from haptoflow_benchmark.report.accuracy_time_chart import PANELS, chart_lines, chart_points, draw_chart, draw_panel
-from haptoflow_benchmark.rows.row_store import read_row
-from haptoflow_benchmark.rows.row_summary import median_interval, with_interval
+from haptoflow_paper.metrics.judged_figures import BY_KEY
+from haptoflow_paper.report.accuracy_time_chart import PANELS, chart_lines, chart_points, draw_chart, draw_panel
+from haptoflow_paper.rows.row_store import read_row
+from haptoflow_paper.rows.row_summary import median_interval, with_interval
 
 matplotlib.use("Agg")
 from matplotlib import pyplot

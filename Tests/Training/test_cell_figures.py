@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from haptoflow_benchmark.metrics.cell_figures import measure_cell
-from haptoflow_benchmark.metrics.judged_figures import BY_KEY
-from haptoflow_benchmark.reference.reference_conditions import Condition, is_on_other_label
-from haptoflow_benchmark.reference.reference_set import ReferencePair
-from haptoflow_benchmark.rows import accuracy
+from haptoflow_paper.metrics.cell_figures import measure_cell
+from haptoflow_paper.metrics.judged_figures import BY_KEY
+from haptoflow_paper.reference.reference_conditions import Condition, is_on_other_label
+from haptoflow_paper.reference.reference_set import ReferencePair
+from haptoflow_paper.rows import accuracy
 from haptoflow_training.closed_loop.render import run_closed_loop
 
 _SAMPLES = 24000

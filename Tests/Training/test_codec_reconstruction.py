@@ -9,8 +9,8 @@ import pytest
 import torch
 from torch import Tensor
 
-from haptoflow_benchmark.codec.codec_reconstruction import codec_reconstruction
-from haptoflow_benchmark.codec.small_codec import SmallCodec, SmallCodecShape
+from haptoflow_paper.codec.codec_reconstruction import codec_reconstruction
+from haptoflow_paper.codec.small_codec import SmallCodec, SmallCodecShape
 from haptoflow_training.errors import InputError
 
 

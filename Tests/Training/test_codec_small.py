@@ -9,14 +9,14 @@ import pytest
 import torch
 from numpy.typing import NDArray
 
-from haptoflow_benchmark.codec.reconstruction_loss import (
+from haptoflow_paper.codec.reconstruction_loss import (
     signal_to_noise_ratio_db,
     spectral_loss,
     time_loss,
 )
-from haptoflow_benchmark.codec.small_codec import SmallCodec, SmallCodecShape
-from haptoflow_benchmark.codec.small_codec_config import SmallCodecConfig, read_small_codec_config
-from haptoflow_benchmark.codec.trainer import SegmentSampler, train_small_codec, validate
+from haptoflow_paper.codec.small_codec import SmallCodec, SmallCodecShape
+from haptoflow_paper.codec.small_codec_config import SmallCodecConfig, read_small_codec_config
+from haptoflow_paper.codec.trainer import SegmentSampler, train_small_codec, validate
 from haptoflow_training.errors import InputError
 from haptoflow_training.training.held_out import HeldOut
 

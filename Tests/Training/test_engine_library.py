@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from haptoflow_benchmark.engine.engine_library import EngineGenerator, EngineLibrary, default_engine
-from haptoflow_benchmark.engine.timing import TimedSource, time_sources
+from haptoflow_paper.rows.timing import TimedSource, time_sources
 from haptoflow_training.errors import InputError
 
 ROOT = Path(__file__).parents[2]

@@ -12,8 +12,8 @@ import pytest
 from test_trainer import ALONE, _config
 from training_fixtures import FakeStore, make_store
 
-from haptoflow_benchmark.codec.small_codec import SmallCodec, SmallCodecShape
-from haptoflow_benchmark.report.annotation import annotate_model
+from haptoflow_paper.codec.small_codec import SmallCodec, SmallCodecShape
+from haptoflow_paper.report.annotation import annotate_model
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.exponents import fit_exponents
 from haptoflow_training.export.exporter import Provenance, export_run

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from haptoflow_benchmark.report.goals import Goal, judge
+from haptoflow_paper.report.goals import Goal, judge
 
 _FAST = {"level_error_db": -0.5, "gfc_recording": 0.986, "lsd_db": 2.0}
 

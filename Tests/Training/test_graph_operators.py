@@ -10,9 +10,9 @@ import onnx
 import pytest
 import torch
 
-from haptoflow_benchmark.codec.representation import CodecRepresentation
-from haptoflow_benchmark.codec.small_codec import SmallCodec, SmallCodecShape
-from haptoflow_benchmark.rivals import ARCHITECTURES
+from haptoflow_paper.codec.representation import CodecRepresentation
+from haptoflow_paper.codec.small_codec import SmallCodec, SmallCodecShape
+from haptoflow_paper.rivals import ARCHITECTURES
 from haptoflow_training.export.onnx_graphs import export_level_model, export_network
 from haptoflow_training.models.representation import build_representation
 from haptoflow_training.training.config import TrainingConfig, load_config

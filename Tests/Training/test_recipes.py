@@ -12,8 +12,8 @@ import torch
 from test_trainer import ALONE, _config
 from training_fixtures import make_store
 
-from haptoflow_benchmark.objectives.mean_flow import mean_flow_loss
-from haptoflow_benchmark.objectives.reflow import ReflowPairs, reflow_loss
+from haptoflow_paper.objectives.mean_flow import mean_flow_loss
+from haptoflow_paper.objectives.reflow import ReflowPairs, reflow_loss
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.trained_tier import TrainedTier, load_tiers
 from haptoflow_training.models.rib_comb import PARTIALS

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from haptoflow_benchmark.reference import reference_set as subject
-from haptoflow_benchmark.reference.reference_conditions import (
+from haptoflow_paper.reference import reference_set as subject
+from haptoflow_paper.reference.reference_conditions import (
     CONSTANT_SPEEDS_MPS,
     Condition,
     conditions,
@@ -19,7 +19,7 @@ from haptoflow_benchmark.reference.reference_conditions import (
     motion_of,
     rib_rates_hz,
 )
-from haptoflow_benchmark.reference.reference_set import record_pair, rib_phases
+from haptoflow_paper.reference.reference_set import record_pair, rib_phases
 from haptoflow_training.recordings.synthetic import HELD_OUT_SPECIMEN, Material, load_materials
 
 MATERIALS = load_materials()

@@ -8,12 +8,12 @@ import pytest
 import torch
 from torch import nn
 
-from haptoflow_benchmark.codec.encodec import EnCodec
-from haptoflow_benchmark.codec.latent_normaliser import LatentNormaliser
-from haptoflow_benchmark.codec.polyphase_resampler import PolyphaseResampler
-from haptoflow_benchmark.codec.representation import CodecRepresentation
-from haptoflow_benchmark.codec.resampled_encodec import ResampledEnCodec
-from haptoflow_benchmark.codec.small_codec import SmallCodec, SmallCodecShape
+from haptoflow_paper.codec.encodec import EnCodec
+from haptoflow_paper.codec.latent_normaliser import LatentNormaliser
+from haptoflow_paper.codec.polyphase_resampler import PolyphaseResampler
+from haptoflow_paper.codec.representation import CodecRepresentation
+from haptoflow_paper.codec.resampled_encodec import ResampledEnCodec
+from haptoflow_paper.codec.small_codec import SmallCodec, SmallCodecShape
 from haptoflow_training.errors import InputError
 from haptoflow_training.models.representation import Representation, build_representation
 

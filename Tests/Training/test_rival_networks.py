@@ -14,14 +14,14 @@ import scipy.signal
 import torch
 from torch import Tensor
 
-from haptoflow_benchmark.rivals import ARCHITECTURES, Rival, build_rival
-from haptoflow_benchmark.rivals.autoregressive import (
+from haptoflow_paper.rivals import ARCHITECTURES, Rival, build_rival
+from haptoflow_paper.rivals.autoregressive import (
     ORDER,
     AllPoleFilter,
     AutoregressiveRival,
     step_up,
 )
-from haptoflow_benchmark.rivals.spsi import SinglePassInversion, SpsiRival, magnitude_spectrum
+from haptoflow_paper.rivals.spsi import SinglePassInversion, SpsiRival, magnitude_spectrum
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE
 from haptoflow_training.models.level_model import PREVIOUS_LIMIT
 from haptoflow_training.models.segment_network import INPUTS, SegmentNetworkGraph

@@ -18,11 +18,11 @@ from test_trainer import ALONE
 from torch import Tensor
 from training_fixtures import make_store
 
-from haptoflow_benchmark.rivals import build_rival
-from haptoflow_benchmark.rivals.autoregressive import AutoregressiveRival
-from haptoflow_benchmark.rivals.rival import Rival
-from haptoflow_benchmark.rivals.spsi import SpsiRival
-from haptoflow_benchmark.rows.row_plan import PlannedRow, load_plan
+from haptoflow_paper.rivals import build_rival
+from haptoflow_paper.rivals.autoregressive import AutoregressiveRival
+from haptoflow_paper.rivals.rival import Rival
+from haptoflow_paper.rivals.spsi import SpsiRival
+from haptoflow_paper.rows.row_plan import PlannedRow, load_plan
 from haptoflow_training.closed_loop.measured_levels import MeasuredLevels
 from haptoflow_training.commands import train
 from haptoflow_training.errors import InputError

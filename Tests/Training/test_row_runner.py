@@ -8,13 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from haptoflow_benchmark.reference.reference_conditions import Condition
-from haptoflow_benchmark.reference.reference_set import ReferencePair
-from haptoflow_benchmark.rows.accuracy import Yardstick, make_yardstick
-from haptoflow_benchmark.rows.row_plan import PlannedRow
-from haptoflow_benchmark.rows.row_runner import made_from, measure_rows
-from haptoflow_benchmark.rows.row_store import stored_row
-from haptoflow_benchmark.rows.workplace import Workplace
+from haptoflow_paper.reference.reference_conditions import Condition
+from haptoflow_paper.reference.reference_set import ReferencePair
+from haptoflow_paper.rows.accuracy import Yardstick, make_yardstick
+from haptoflow_paper.rows.row_plan import PlannedRow
+from haptoflow_paper.rows.row_runner import made_from, measure_rows
+from haptoflow_paper.rows.row_store import stored_row
+from haptoflow_paper.rows.workplace import Workplace
 from haptoflow_training.errors import InputError
 
 _ROWS = [PlannedRow(name, "reference") for name in ("silence", "white-noise", "mean-spectrum")]

@@ -7,9 +7,9 @@ from typing import Any
 
 import pytest
 
-from haptoflow_benchmark.rows.row_plan import PlannedRow
-from haptoflow_benchmark.rows.row_store import read_row, stored_row, write_row
-from haptoflow_benchmark.rows.workplace import Workplace
+from haptoflow_paper.rows.row_plan import PlannedRow
+from haptoflow_paper.rows.row_store import read_row, stored_row, write_row
+from haptoflow_paper.rows.workplace import Workplace
 
 _ORIGIN = {"configuration_crc32": "1", "graphs_crc32": "2", "recordings_crc32": "3", "reduced": False}
 _CONDITION: dict[str, Any] = {

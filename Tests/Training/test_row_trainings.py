@@ -8,14 +8,14 @@ from pathlib import Path
 
 import pytest
 
-from haptoflow_benchmark.codec.small_codec import SmallCodec, SmallCodecShape
+from haptoflow_paper.codec.small_codec import SmallCodec, SmallCodecShape
 from haptoflow_benchmark.commands.evaluate import _can_be_measured
-from haptoflow_benchmark.rows import row_training
-from haptoflow_benchmark.rows.accuracy import make_yardstick
-from haptoflow_benchmark.rows.row_plan import PlannedRow
-from haptoflow_benchmark.rows.row_runner import made_from
-from haptoflow_benchmark.rows.row_training import train_models
-from haptoflow_benchmark.rows.workplace import Workplace
+from haptoflow_paper.rows import row_training
+from haptoflow_paper.rows.accuracy import make_yardstick
+from haptoflow_paper.rows.row_plan import PlannedRow
+from haptoflow_paper.rows.row_runner import made_from
+from haptoflow_paper.rows.row_training import train_models
+from haptoflow_paper.rows.workplace import Workplace
 from haptoflow_training.training.config import DataConfig, load_config
 from haptoflow_training.training.job_lanes import Job
 

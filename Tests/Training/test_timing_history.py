@@ -6,8 +6,8 @@ import json
 from pathlib import Path
 from typing import Any
 
-from haptoflow_benchmark.engine.timing import Milliseconds
-from haptoflow_benchmark.engine.timing_history import append_run, published_run, read_history, timing_run
+from haptoflow_paper.rows.timing import Milliseconds
+from haptoflow_paper.rows.timing_history import append_run, published_run, read_history, timing_run
 
 _WANTED = {"standard", "draft"}
 

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from haptoflow_benchmark.metrics.told_apart import features, logistic_regression, told_apart_percent
-from haptoflow_benchmark.reference.reference_conditions import Condition
-from haptoflow_benchmark.reference.reference_set import ReferencePair
+from haptoflow_paper.metrics.told_apart import features, logistic_regression, told_apart_percent
+from haptoflow_paper.reference.reference_conditions import Condition
+from haptoflow_paper.reference.reference_set import ReferencePair
 
 _SAMPLES = 24400
 

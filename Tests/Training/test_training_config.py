@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from haptoflow_benchmark.rows.row_plan import load_plan
+from haptoflow_paper.rows.row_plan import load_plan
 from haptoflow_training.errors import InputError
 from haptoflow_training.training.config import TrainingConfig, config_from_dict, load_config
 from haptoflow_training.training.trainer import planned_steps

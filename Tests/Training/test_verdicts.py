@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from haptoflow_benchmark.metrics.judged_figures import BY_KEY, spread
-from haptoflow_benchmark.report.verdicts import rivals, verdict
-from haptoflow_benchmark.rows.row_summary import special_figures, summary, with_interval, worst_cells
+from haptoflow_paper.metrics.judged_figures import BY_KEY, spread
+from haptoflow_paper.report.verdicts import rivals, verdict
+from haptoflow_paper.rows.row_summary import special_figures, summary, with_interval, worst_cells
 
 _LABELS = "abcdef"
 

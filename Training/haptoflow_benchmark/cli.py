@@ -1,4 +1,4 @@
-"""`haptoflow-benchmark`: the measurements behind the published tables. Exit codes as `haptoflow-training`."""
+"""`haptoflow-benchmark`: measurements of a model, the shipped one or your own. Exit codes as `haptoflow-training`."""
 
 from __future__ import annotations
 
@@ -13,13 +13,10 @@ def _command(summary: str, name: str) -> Command:
 
 
 _COMMANDS = {
-    "evaluate": _command(
-        "measure accuracy and time of every row of the plan, or accuracy of your own model", "evaluate"
-    ),
+    "evaluate": _command("compare a model with recordings of your own: level and spectrum of each label", "evaluate"),
     "discriminate": _command(
         "check that a classifier trained on recordings recognises the label of what the engine renders", "discriminate"
     ),
-    "few-shot": _command("measure materials fitted to ten seconds of recording, beside rivals", "few_shot"),
     "learn-figures": _command(
         "measure materials fitted by `haptoflow learn` to ten seconds of recording", "learn_figures"
     ),
@@ -29,19 +26,10 @@ _COMMANDS = {
     "measure-full-scale": _command(
         "measure which acceleration should be full scale, from recorded strokes on every label", "measure_full_scale"
     ),
-    "train": Command(
-        "`haptoflow-training train` for rivals, codecs and their objectives too", "haptoflow_training.commands.train"
-    ),
-    "train-codec": _command("train the small codec whose latents some rows work on", "train_codec"),
-    "export": Command(
-        "`haptoflow-training export` for rivals, codecs and their objectives too", "haptoflow_training.commands.export"
-    ),
 }
-_DESCRIPTION = """Measures what the published tables state: the product's models beside rivals (transformer, DSTN, SPSI,
-autoregressive), latent codecs, reflow and mean flow, one row for each method and configuration.
-`haptoflow-benchmark evaluate` trains what the rows need, measures them and writes Documentation~/accuracy-and-time.md;
-it needs the native library (`./run build`) and hours of computing. The other commands measure one property each.
-To train and export a model of your own, `haptoflow-training` is enough.
+_DESCRIPTION = """Measures a model, the shipped one or your own: accuracy beside recordings, labels told apart, materials
+learnt from seconds of recording, ribs found, the full scale. Each command measures one property.
+To train and export a model, `haptoflow-training` is enough; the comparison with rivals is `haptoflow-paper`.
 """
 
 

@@ -48,7 +48,7 @@ _COMMANDS = {
 }
 _DESCRIPTION = """Turns recordings into a .haptoflow model file: reads or synthesises recordings, prepares them, trains the
 networks and exports them; adds materials from seconds of recording; analyses the user studies.
-The measurements behind the published tables are commands of `haptoflow-benchmark`.
+`haptoflow-benchmark` measures a model; `haptoflow-paper` compares it with rivals.
 """
 
 

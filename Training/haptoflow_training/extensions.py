@@ -36,7 +36,7 @@ def extension(kind: Kind, name: str) -> Any:
     """The registered part; InputError if there is none of this name."""
     if (kind, name) not in _registered:
         raise InputError(
-            f"{kind} '{name}' is not part of haptoflow-training: use the same command of `haptoflow-benchmark`, which "
+            f"{kind} '{name}' is not part of haptoflow-training: use the same command of `haptoflow-paper`, which "
             "adds the rivals, the codecs and their training objectives"
         )
     module, attribute = _registered[kind, name].split(":")

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 import torch
 
-from haptoflow_benchmark.codec.representation import CodecRepresentation
+from haptoflow_paper.codec.representation import CodecRepresentation
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.model_file import ModelFile, write_model_file
 from haptoflow_training.export.onnx_graphs import export_level_model, export_network

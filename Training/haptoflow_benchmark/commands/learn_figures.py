@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import json
 import tempfile
 from dataclasses import asdict
 from pathlib import Path
@@ -10,11 +11,11 @@ from pathlib import Path
 from tqdm import tqdm
 
 from haptoflow_benchmark.few_shot.few_shot_cases import make_case
-from haptoflow_benchmark.few_shot.few_shot_report import write_results
 from haptoflow_benchmark.few_shot.learn_figures import SECONDS, chosen_materials, measured, table
 from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.model_stamp import model_line, sha256_of
 from haptoflow_training.models.file_model import FileModel
+from haptoflow_training.whole_file import write_whole
 
 _EXAMPLES = """examples:
   haptoflow-benchmark learn-figures --model default.haptoflow --engine build/native/haptoflow
@@ -52,7 +53,7 @@ def _run(options: argparse.Namespace) -> int:
     sha256 = sha256_of(options.model)
     if options.results is not None:
         content = {"model_sha256": sha256, "seed": options.seed, "materials": [asdict(each) for each in figures]}
-        write_results(options.results, content)
+        write_whole(options.results, (json.dumps(content, indent=1) + "\n").encode())
     print(model_line(sha256))
     for ruled in (False, True):
         if any(bool(each.families) == ruled for each in figures):

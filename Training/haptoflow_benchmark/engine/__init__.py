@@ -1,1 +1,1 @@
-"""The native engine from Python: its C interface, whole renders, and timing."""
+"""The native engine from Python: its C interface and whole renders."""

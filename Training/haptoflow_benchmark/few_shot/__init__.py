@@ -1,1 +1,1 @@
-"""Materials fitted to seconds of recording: cases, rivals, figures, report."""
+"""Materials fitted to seconds of recording: cases, figures, an autoregressive model beside them."""

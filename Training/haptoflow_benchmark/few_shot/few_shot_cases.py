@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from haptoflow_benchmark.few_shot.unseen import unseen_materials
-from haptoflow_benchmark.reference.reference_conditions import rib_rates_hz
+from haptoflow_benchmark.metrics.temporal_metrics import rib_rates_hz
 from haptoflow_training.preprocessing.pipeline import PreparedRecording, preprocess_recording
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.recordings.material_recording import MaterialRecording

@@ -6,9 +6,12 @@ kHz, m/s^2. Documentation~/accuracy-and-time.md repeats the definitions.
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
+from haptoflow_training.recordings.synthetic.materials import Material
 from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 
@@ -81,6 +84,16 @@ def modulation_error_db(generated: _Wave, recorded: _Wave) -> float:
     each band."""
     difference = np.abs(modulation_spectrum_db(generated) - modulation_spectrum_db(recorded))
     return float(np.minimum(difference, _WORST_BAND_DB).mean())
+
+
+def rib_rates_hz(material: Material, speed_mps: float, direction_degrees: float) -> tuple[float, ...]:
+    """|k . v| of each family of ribs, the dominant first; those outside 4-800 Hz are left out."""
+    families = sorted(material.rulings, key=lambda ruling: -ruling.relative_height)
+    rates = []
+    for ruling in families:
+        crossing = math.cos(math.radians(direction_degrees - ruling.direction_degrees))
+        rates.append(abs(1000.0 * speed_mps * crossing) / ruling.wavelength_mm)
+    return tuple(rate for rate in rates if RIB_RATES_HZ[0] <= rate <= RIB_RATES_HZ[1])
 
 
 def rib_modulation_depth(wave: _Wave, rib_rate_hz: float) -> float:

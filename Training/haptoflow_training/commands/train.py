@@ -41,7 +41,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
             "  haptoflow-training train --recordings recordings --labels labels.toml --minutes 10 --out out/own "
             "--export own.haptoflow\n"
             "  haptoflow-training train --config cluster.toml --recordings ~/cluster-haptic --out out/train/real\n"
-            "  haptoflow-training train --config Training/configs/evaluation/plain.toml --out out/train/plain\n"
+            "  haptoflow-training train --config Training/configs/default/base.toml --out out/train/base\n"
             "  torchrun --redirects 1 --tee 1 --nproc_per_node 2 -m haptoflow_training train --config … --out …\n"
             "`haptoflow-training train-tiers` trains the whole default model."
         ),

@@ -1,0 +1,5 @@
+import sys
+
+from haptoflow_paper.cli import main
+
+sys.exit(main())

@@ -1,0 +1,1 @@
+"""The subcommands of `haptoflow-paper`: each module has `register(subparsers, summary)`."""

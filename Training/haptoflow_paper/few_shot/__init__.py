@@ -1,0 +1,1 @@
+"""The study of materials fitted to seconds of recording, beside rivals."""

@@ -1,0 +1,171 @@
+"""The few-shot study as results file, tables and chart."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from haptoflow_paper.few_shot.few_shot_summary import summarised
+from haptoflow_training.model_stamp import model_line, picture_metadata
+from haptoflow_training.whole_file import write_whole
+
+ROWS = {
+    "fit": "this fit: embedding, level and tone",
+    "embedding": "embedding and level, no tone",
+    "nearest": "nearest label with fitted level",
+    "autoregressive-3": "autoregressive (AR), order 20, three speed bins",
+    "autoregressive-1": "autoregressive (AR), order 20, one model",
+    "network": "network moved, too",
+}
+OTHER_DRAW = "other draw"
+_MAIN_SECONDS = 10.0
+ENGINE = "fit, in the engine"
+
+
+def assembled(cells: Sequence[Mapping[str, Any]], header: Mapping[str, Any]) -> dict[str, Any]:
+    """All rows over all materials, and over those with and without ribs."""
+    groups = {
+        "all": list(cells),
+        "without ribs": [cell for cell in cells if not cell["ruled"]],
+        "with ribs": [cell for cell in cells if cell["ruled"]],
+    }
+    names = list(cells[0]["rows"])
+    results = {
+        group: {name: summarised([cell["rows"][name] for cell in members]) for name in names}
+        for group, members in groups.items()
+        if members
+    }
+    spent = {
+        name: round(sum(cell["core_seconds"][name] for cell in cells) / len(cells), 2)
+        for name in cells[0]["core_seconds"]
+    }
+    return {
+        **header,
+        "materials": [
+            {"name": cell["material"], "ruled": cell["ruled"], "impacts": cell["impacts"], **cell["notes"]}
+            for cell in cells
+        ],
+        "core_seconds_per_material": spent,
+        "results": results,
+    }
+
+
+def write_results(path: Path, results: Mapping[str, Any]) -> None:
+    write_whole(path, (json.dumps(results, indent=1) + "\n").encode())
+
+
+def table(results: Mapping[str, Any], seconds: float, group: str = "all") -> str:
+    """Markdown: the rows of one length of recording."""
+    lines = [
+        f"| from {seconds:g} s | level dB, p90 | GFC, min | LSD dB, p90 | ln kurtosis | ln crest | rib f0 % | "
+        "rib modulation dB | seam |",
+        "|---|---|---|---|---|---|---|---|---|",
+    ]
+    rows = results["results"][group]
+    named = [(f"{key} {seconds:g}", words) for key, words in ROWS.items()]
+    named += [(name, f"this fit on tier `{name.split()[0]}`") for name in rows if _is_tier(name, seconds)]
+    named += [(ENGINE, "this fit, rendered by the engine"), (OTHER_DRAW, "another draw of the true process")]
+    for name, words in named:
+        if name in rows:
+            lines.append(f"| {words} | " + " | ".join(_cells(rows[name])) + " |")
+    return "\n".join(lines)
+
+
+def curve_table(results: Mapping[str, Any], figure: str, group: str = "all") -> str:
+    """Markdown: one figure for each length of recording, with the intervals."""
+    rows = results["results"][group]
+    lengths = results["seconds"]
+    lines = ["| | " + " | ".join(f"{seconds:g} s" for seconds in lengths) + " |", "|---|" + "---|" * len(lengths)]
+    for key, words in ROWS.items():
+        found = [rows.get(f"{key} {seconds:g}", {}).get(figure) for seconds in lengths]
+        if any(found):
+            lines.append(f"| {words} | " + " | ".join(_with_interval(each) for each in found) + " |")
+    return "\n".join(lines)
+
+
+def page_words(results: Mapping[str, Any], chart: str) -> str:
+    """Markdown: the measured part of the page, with `chart` as the picture's address."""
+    main = [table(results, _MAIN_SECONDS)]
+    if "without ribs" in results["results"]:
+        main += ["Without the ruled materials:", table(results, _MAIN_SECONDS, "without ribs")]
+    if "with ribs" in results["results"]:
+        main += ["The ruled materials alone:", table(results, _MAIN_SECONDS, "with ribs")]
+    return "\n\n".join(
+        [
+            model_line(results["model_sha256"]),
+            *main,
+            f"![Level, GFC and LSD from 3, 10, 30 and 120 s of recording]({chart})",
+            "LSD, median, with the interval of 95 % from resampling the materials:",
+            curve_table(results, "lsd_median_db"),
+        ]
+    )
+
+
+def write_chart(path: Path, results: Mapping[str, Any]) -> None:
+    """Level, GFC and LSD over seconds of recording, PNG; intervals as bands."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    rows, lengths = results["results"]["all"], results["seconds"]
+    panels = (
+        ("level_error_p90_db", "level error, 90th percentile (dB)"),
+        ("gfc_mean", "GFC, mean"),
+        ("lsd_median_db", "LSD 20-450 Hz, median (dB)"),
+    )
+    figure, axes = pyplot.subplots(1, len(panels), figsize=(13.0, 4.7))
+    for axis, (key, words) in zip(axes, panels, strict=True):
+        for row, label in ROWS.items():
+            known = [(seconds, rows[f"{row} {seconds:g}"][key]) for seconds in lengths if f"{row} {seconds:g}" in rows]
+            places = [seconds for seconds, _ in known]
+            (line,) = axis.plot(places, [entry["value"] for _, entry in known], marker="o", label=label)
+            if row in ("fit", "autoregressive-3"):
+                low, high = zip(*(entry["interval"] for _, entry in known), strict=True)
+                axis.fill_between(places, low, high, color=line.get_color(), alpha=0.15, linewidth=0)
+        axis.axhline(rows[OTHER_DRAW][key]["value"], color="grey", linestyle=":", label="another draw")
+        axis.set_xscale("log")
+        axis.set_xticks(lengths, [f"{seconds:g}" for seconds in lengths])
+        axis.minorticks_off()
+        axis.set_xlabel("seconds of recording")
+        axis.set_title(words, fontsize=10)
+        axis.grid(alpha=0.3)
+    handles, labels = axes[0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="lower center", ncols=4, fontsize=8)
+    figure.subplots_adjust(left=0.04, right=0.99, top=0.93, bottom=0.25, wspace=0.16)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    figure.savefig(path, dpi=110, metadata=picture_metadata(results["model_sha256"]))
+    pyplot.close(figure)
+
+
+def _is_tier(name: str, seconds: float) -> bool:
+    word = name.split()[0]
+    return name == f"{word} {seconds:g}" and word not in ROWS and word != "other"
+
+
+def _cells(row: Mapping[str, Any]) -> list[str]:
+    def value(name: str, form: str) -> str:
+        return form.format(row[name]["value"]) if name in row else "-"
+
+    def both(first: str, second: str, form: str) -> str:
+        return f"{value(first, form)}, {value(second, form)}"
+
+    return [
+        both("level_error_median_db", "level_error_p90_db", "{:.2f}"),
+        both("gfc_mean", "gfc_min", "{:.3f}"),
+        both("lsd_median_db", "lsd_p90_db", "{:.2f}"),
+        value("kurtosis_log_ratio", "{:.2f}"),
+        value("crest_log_ratio", "{:.3f}"),
+        value("rib_fundamental_error_percent", "{:.2f}"),
+        value("rib_modulation_error_db", "{:.1f}"),
+        value("seam_jump", "{:.2f}"),
+    ]
+
+
+def _with_interval(entry: Mapping[str, Any] | None) -> str:
+    if entry is None:
+        return "-"
+    low, high = entry["interval"]
+    return f"{entry['value']:.3g} ({low:.3g}-{high:.3g})"

@@ -1,0 +1,1 @@
+"""Figures of a row beside a recording, and how they are judged."""

@@ -1,0 +1,135 @@
+"""The reference recordings of the evaluation: outside all training, each with an independent second one.
+
+Both of a pair follow the same motion on different places of the held-out specimen. The second one, an independent draw
+of the true process, is the best that any generator can score.
+"""
+
+from __future__ import annotations
+
+import json
+import zlib
+from collections.abc import Callable
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from haptoflow_paper.reference.reference_conditions import Condition, conditions, is_on_other_label, motion_of
+from haptoflow_training import preprocessing
+from haptoflow_training.preprocessing.pipeline import PreparedRecording, preprocess_recording
+from haptoflow_training.preprocessing.settings import PreprocessingSettings
+from haptoflow_training.recordings import synthetic
+from haptoflow_training.recordings.synthetic import HELD_OUT_SPECIMEN, Material, load_materials, record_condition
+from haptoflow_training.waveform import SAMPLE_RATE_HZ
+
+_Floats = NDArray[np.float32]
+
+_INDEPENDENT_SEED = 100_000
+
+
+@dataclass(frozen=True)
+class ReferencePair:
+    """recorded and independent [n] in m/s^2; motion [n, 3] of both. start_mm: the place on the surface where
+    `recorded` begins."""
+
+    condition: Condition
+    recorded: _Floats
+    independent: _Floats
+    motion: _Floats
+    start_mm: tuple[float, float] = (0.0, 0.0)
+
+
+def _record(material: Material, motion: NDArray[np.float64], seed: int) -> PreparedRecording:
+    """One recording of the motion [n, 3] at 2 kHz on the held-out specimen, trimmed like every recording."""
+    recording = record_condition(
+        material,
+        velocity_mps=(motion[:, 0], motion[:, 1]),
+        force_newtons=motion[:, 2],
+        duration_seconds=len(motion) / SAMPLE_RATE_HZ,
+        seed=seed,
+        specimen=HELD_OUT_SPECIMEN,
+    )
+    return preprocess_recording(recording, PreprocessingSettings())
+
+
+def record_pair(task: tuple[Condition, Material, Material]) -> ReferencePair:
+    """The pair of a condition: its material and, for a change, the other one alternately."""
+    condition, material, other = task
+    trim = PreprocessingSettings().trim_seconds
+    motion = motion_of(condition, material, trim)
+    prepared = [_record(material, motion, condition.seed + repeat) for repeat in (0, _INDEPENDENT_SEED)]
+    waves = [entry.waveform_mps2 for entry in prepared]
+    lead = round(trim * SAMPLE_RATE_HZ)
+    length = min(len(motion) - 2 * lead, *(len(wave) for wave in waves))
+    if condition.kind == "change":
+        elsewhere = is_on_other_label(length)
+        for number, repeat in enumerate((0, _INDEPENDENT_SEED)):
+            there = _record(other, motion, condition.seed + repeat).waveform_mps2[:length]
+            waves[number] = np.where(elsewhere, there, waves[number][:length])
+    # The motion is prescribed and known exactly; the sensors' noise on it is not measured.
+    known_motion = motion[lead : lead + length].astype(np.float32)
+    travelled = _travelled_mm(known_motion)
+    # Averaged over the recording, because a single reading is off by up to 0.1 mm.
+    start = (prepared[0].position_mm[:length] - travelled).mean(axis=0)
+    return ReferencePair(
+        condition, waves[0][:length], waves[1][:length], known_motion, (float(start[0]), float(start[1]))
+    )
+
+
+def _travelled_mm(motion: _Floats) -> NDArray[np.float64]:
+    """The position of the tip before each sample, relative to the first, [n, 2]."""
+    step = motion[:, :2].astype(np.float64) * (1000.0 / SAMPLE_RATE_HZ)
+    return np.cumsum(step, axis=0) - step
+
+
+def rib_phases(pair: ReferencePair, embedding: _Floats, samples: NDArray[np.int64]) -> _Floats:
+    """Rib phases of the recording at these samples, in turns along the embedding's two wave vectors, [n, 2]."""
+    wave_vectors = embedding[-4:].astype(np.float64).reshape(2, 2)
+    places = np.asarray(pair.start_mm) + _travelled_mm(pair.motion)[samples]
+    return np.mod(places @ wave_vectors.T, 1.0).astype(np.float32)
+
+
+def _recorder_crc32() -> str:
+    """CRC-32 of the code that records and prepares; cached recordings are made again if it has changed."""
+    folders = [Path(module.__file__ or "").parent for module in (synthetic, preprocessing)]
+    sources = b"".join(path.read_bytes() for folder in folders for path in sorted(folder.glob("*.py")))
+    return f"{zlib.crc32(sources):08x}"
+
+
+def reference_set(
+    cache: Path, workers: int, advance: Callable[[int], None] = lambda count: None
+) -> list[ReferencePair]:
+    """Record all pairs, or read them from `cache` if they were made from the same materials, conditions and code."""
+    materials = load_materials()
+    wanted = conditions(materials)
+    made_from = json.dumps([[asdict(entry) for entry in wanted], [asdict(entry) for entry in materials], _recorder_crc32()])
+    if cache.exists():
+        with np.load(cache) as stored:
+            if str(stored["made_from"]) == made_from:
+                advance(len(wanted))
+                return [
+                    ReferencePair(
+                        entry, stored[f"recorded{i}"], stored[f"independent{i}"], stored[f"motion{i}"],
+                        (float(stored["starts_mm"][i, 0]), float(stored["starts_mm"][i, 1])),
+                    )
+                    for i, entry in enumerate(wanted)
+                ]  # fmt: skip
+    pairs: list[ReferencePair] = []
+    with ProcessPoolExecutor(max_workers=workers) as pool:
+        tasks = [(entry, materials[entry.label_index], materials[entry.other_index]) for entry in wanted]
+        for pair in pool.map(record_pair, tasks):
+            pairs.append(pair)
+            advance(1)
+    cache.parent.mkdir(parents=True, exist_ok=True)
+    arrays: dict[str, Any] = {
+        "made_from": np.array(made_from), "starts_mm": np.array([pair.start_mm for pair in pairs]),
+    }  # fmt: skip
+    for i, pair in enumerate(pairs):
+        arrays |= {f"recorded{i}": pair.recorded, f"independent{i}": pair.independent, f"motion{i}": pair.motion}
+    temporary = cache.with_suffix(".part.npz")
+    np.savez(temporary, **arrays)
+    temporary.replace(cache)
+    return pairs

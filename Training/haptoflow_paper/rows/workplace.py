@@ -1,0 +1,78 @@
+"""The files and folders of the evaluation: configurations, models, trainings and figures."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import zlib
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from haptoflow_paper.rows.row_plan import PlannedRow
+from haptoflow_training.training.config import load_config
+
+
+_CODEC_CONFIGURATION = "paper-codec"
+
+
+@dataclass(frozen=True)
+class Workplace:
+    """root: the repository. work: for trainings and models (not committed). results: for measured rows. quick: every
+    fourth recording and no long measurements, with results kept apart from the complete ones."""
+
+    root: Path
+    plan: Path
+    work: Path
+    store: Path
+    results: Path
+    quick: bool = False
+
+    @property
+    def codec_checkpoint(self) -> Path:
+        """The small codec's checkpoint, trained for the rows in its latents."""
+        representation = load_config(self.config_file(_CODEC_CONFIGURATION)).model.representation
+        return self.root / str(representation["checkpoint"])
+
+    def model_file(self, row: PlannedRow, seed: int) -> Path:
+        """The row's model: a file of the repository, or the file that its training exports."""
+        if is_of_repository(row, seed):
+            return self.root / row.model
+        return self.work / "models" / f"{row.model_of(seed)}-{seed}.haptoflow"
+
+    def seeds_of(self, row: PlannedRow) -> list[int]:
+        """The row's seeds, without those of a training whose configuration is missing."""
+        return [
+            seed for seed in row.seeds
+            if row.is_reference or is_of_repository(row, seed) or self.config_file(row.model_of(seed)).exists()
+        ]  # fmt: skip
+
+    def config_file(self, model: str) -> Path:
+        """The configuration that a trained model is made from."""
+        return self.plan.parent / f"{model}.toml"
+
+    def configuration(self, model: str, seed: int) -> dict[str, Any]:
+        """The present configuration of a model and seed, as JSON."""
+        config = dataclasses.replace(load_config(self.config_file(model)), seed=seed)
+        described: dict[str, Any] = json.loads(json.dumps(config.to_dict()))
+        return described
+
+    def run_folder(self, model: str, seed: int) -> Path:
+        """Checkpoints, metrics and log of a training."""
+        return self.work / "runs" / f"{model}-{seed}"
+
+    def row_file(self, row: PlannedRow, seed: int) -> Path:
+        """The file with the figures of a row and seed."""
+        return (self.work / "rows-quick" if self.quick else self.results / "rows") / f"{row.name}-{seed}.json"
+
+    def configuration_crc32(self, row: PlannedRow, seed: int) -> str:
+        """CRC-32 of the training configuration; empty if nothing is trained for the row."""
+        if row.is_reference or is_of_repository(row, seed):
+            return ""
+        described = json.dumps(self.configuration(row.model_of(seed), seed), sort_keys=True)
+        return f"{zlib.crc32(described.encode()):08x}"
+
+
+def is_of_repository(row: PlannedRow, seed: int) -> bool:
+    """Whether the model of a row's seed is a file of the repository rather than one that the evaluation trains."""
+    return row.model_of(seed).endswith(".haptoflow")
