@@ -193,5 +193,5 @@ def test_every_fourth_recording_is_a_quarter_of_each_label_and_another_quarter_o
 @pytest.mark.parametrize("tier", ["draft", "standard"])
 def test_the_stored_row_of_each_shipped_tier_was_measured_with_the_shipped_graphs(tier: str) -> None:
     graphs = read_model_file(ROOT / SHIPPED_MODEL).graphs
-    row = json.loads((ROOT / "Training" / "results" / "rows" / f"{tier}-1.json").read_text(encoding="utf-8"))
+    row = json.loads((ROOT / "Training" / "haptoflow_paper" / "results" / "rows" / f"{tier}-1.json").read_text(encoding="utf-8"))
     assert row["made_from"]["graphs_crc32"] == f"{zlib.crc32(b''.join(graphs.values())):08x}"

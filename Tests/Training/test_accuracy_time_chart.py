@@ -20,7 +20,7 @@ matplotlib.use("Agg")
 from matplotlib import pyplot
 
 ROOT = Path(__file__).parents[2]
-SHIPPED = json.loads((ROOT / "Training" / "results" / "accuracy-time.json").read_text(encoding="utf-8"))
+SHIPPED = json.loads((ROOT / "Training" / "haptoflow_paper" / "results" / "accuracy-time.json").read_text(encoding="utf-8"))
 
 
 def _row(
@@ -124,7 +124,7 @@ def test_the_legend_explains_every_colour_and_the_bars(monkeypatch: pytest.Monke
 
 @pytest.mark.parametrize("name", ["standard", "draft"])
 def test_the_bars_are_bootstrap_intervals_over_the_stored_recordings_of_the_row(name: str) -> None:
-    kept = read_row(ROOT / "Training" / "results" / "rows" / f"{name}-1.json")["conditions"]
+    kept = read_row(ROOT / "Training" / "haptoflow_paper" / "results" / "rows" / f"{name}-1.json")["conditions"]
     assert len(kept) == next(row for row in SHIPPED["rows"] if row["name"] == name)["recordings"]
     for panel in PANELS:
         point = next(entry for entry in chart_points(SHIPPED["rows"], panel.key) if entry.row == name)

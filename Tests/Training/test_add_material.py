@@ -13,6 +13,7 @@ from own_samples import csv_one_axis, stroke
 
 from haptoflow_benchmark import cli as benchmark
 from haptoflow_benchmark.engine.engine_render import read_wav, render_motion
+from haptoflow_paper import cli as paper
 from haptoflow_training.cli import main
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.material_file import model_space, read_material
@@ -255,7 +256,7 @@ def test_the_help_has_examples(capsys: pytest.CaptureFixture[str]) -> None:
     for program, run, command in (
         ("haptoflow-training", main, "add-material"),
         ("haptoflow-training", main, "sliders"),
-        ("haptoflow-benchmark", benchmark.main, "few-shot"),
+        ("haptoflow-paper", paper.main, "few-shot"),
         ("haptoflow-benchmark", benchmark.main, "learn-figures"),
     ):
         with pytest.raises(SystemExit):

@@ -20,7 +20,7 @@ from haptoflow_paper.codec.trainer import SegmentSampler, train_small_codec, val
 from haptoflow_training.errors import InputError
 from haptoflow_training.training.held_out import HeldOut
 
-CONFIGS = Path(__file__).resolve().parents[2] / "Training" / "configs"
+CONFIGS = Path(__file__).resolve().parents[2] / "Training" / "haptoflow_paper" / "configs"
 
 
 @dataclass(frozen=True)

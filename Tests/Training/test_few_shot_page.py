@@ -11,6 +11,7 @@ from own_samples import csv_one_axis, stroke
 from test_few_shot_study import cell, stored
 
 from haptoflow_benchmark import cli as benchmark
+from haptoflow_paper import cli as paper
 from haptoflow_training import cli as training
 
 ROOT = Path(__file__).parents[2]
@@ -18,7 +19,9 @@ DEFAULT = ROOT / "Packages" / "com.haptoflow.runtime" / "Runtime" / "Models" / "
 PAGE = ROOT / "Documentation~" / "own-materials.md"
 HEADING = "## A new material from ten seconds, in Python"
 
-PROGRAMS = {"haptoflow-benchmark": benchmark.main, "haptoflow-training": training.main}
+PROGRAMS = {
+    "haptoflow-benchmark": benchmark.main, "haptoflow-paper": paper.main, "haptoflow-training": training.main,
+}  # fmt: skip
 
 
 def commands() -> list[list[str]]:

@@ -105,7 +105,7 @@ def test_no_sample_of_a_codec_s_segment_lies_in_a_held_out_band() -> None:
 
 
 def test_the_codec_holds_out_the_same_bands_as_networks() -> None:
-    config = read_small_codec_config(ROOT / "Training" / "configs" / "codec-small.toml")
+    config = read_small_codec_config(ROOT / "Training" / "haptoflow_paper" / "configs" / "codec-small.toml")
     network = load_config(ROOT / "Training" / "configs" / "default" / "standard.toml")
     assert config.held_out_as is not None
     bands = HeldOut.of(load_config(config.held_out_as).batch)

@@ -49,7 +49,7 @@ def test_no_module_of_the_training_package_imports_the_benchmark_package(path: P
 def test_the_training_program_refuses_a_row_of_the_benchmark_and_names_the_other_program(
     tmp_path: Path, configuration: str, part: str
 ) -> None:
-    config = TRAINING / "configs" / "evaluation" / f"{configuration}.toml"
+    config = TRAINING / "haptoflow_paper" / "configs" / f"{configuration}.toml"
     words = ["train", "--config", str(config), "--out", str(tmp_path / "run")]
     # A process of its own: other tests of this one import haptoflow_benchmark, which registers the parts.
     ended = subprocess.run(

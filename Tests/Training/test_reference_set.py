@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from haptoflow_benchmark.metrics.temporal_metrics import rib_rates_hz
 from haptoflow_paper.reference import reference_set as subject
 from haptoflow_paper.reference.reference_conditions import (
     CONSTANT_SPEEDS_MPS,
@@ -17,7 +18,6 @@ from haptoflow_paper.reference.reference_conditions import (
     conditions,
     is_on_other_label,
     motion_of,
-    rib_rates_hz,
 )
 from haptoflow_paper.reference.reference_set import record_pair, rib_phases
 from haptoflow_training.recordings.synthetic import HELD_OUT_SPECIMEN, Material, load_materials

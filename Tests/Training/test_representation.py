@@ -15,7 +15,7 @@ from haptoflow_paper.codec.representation import CodecRepresentation
 from haptoflow_paper.codec.resampled_encodec import ResampledEnCodec
 from haptoflow_paper.codec.small_codec import SmallCodec, SmallCodecShape
 from haptoflow_training.errors import InputError
-from haptoflow_training.models.representation import Representation, build_representation
+from haptoflow_paper.codec.representation_base import Representation, build_representation
 
 
 @pytest.fixture(scope="module")

@@ -35,7 +35,7 @@ from haptoflow_training.training.losses import Losses
 from haptoflow_training.training.recordings_source import Source
 from haptoflow_training.training.trainer import Trainer, build_model, planned_steps
 
-CONFIGS = Path(__file__).parents[2] / "Training" / "configs" / "evaluation"
+CONFIGS = Path(__file__).parents[2] / "Training" / "haptoflow_paper" / "configs"
 GIVEN_THE_SAME = (
     "ar-ribs", "mean-flow-ribs", "reflow-ribs", "spsi-ribs", "transformer-noise", "dstn-noise",
 )  # fmt: skip
@@ -62,7 +62,7 @@ def _shortened(name: str) -> TrainingConfig:
 
 @pytest.mark.parametrize("name", GIVEN_THE_SAME)
 def test_a_rival_given_the_same_has_our_network_s_inputs(name: str) -> None:
-    ours, rival = load_config(CONFIGS.parent / "default" / "standard.toml"), load_config(CONFIGS / f"{name}.toml")
+    ours, rival = load_config(CONFIGS.parents[1] / "configs" / "default" / "standard.toml"), load_config(CONFIGS / f"{name}.toml")
     again = load_config(CONFIGS / "standard.toml")
     assert rival.model.ribs and rival.model.level == "law" and rival.recipe.calibrate_level
     assert rival.data == ours.data
@@ -77,7 +77,7 @@ def test_a_rival_given_the_same_has_our_network_s_inputs(name: str) -> None:
     ],
 )  # fmt: skip
 def test_an_ablation_differs_from_the_default_recipe_only_in_what_it_removes(name: str) -> None:
-    ours, ablation = load_config(CONFIGS.parent / "default" / "standard.toml"), load_config(CONFIGS / f"{name}.toml")
+    ours, ablation = load_config(CONFIGS.parents[1] / "configs" / "default" / "standard.toml"), load_config(CONFIGS / f"{name}.toml")
     assert (ablation.data, ablation.batch) == (ours.data, ours.batch)
     assert (ablation.optimiser.steps, ablation.recipe.energy_steps) == (ours.optimiser.steps, ours.recipe.energy_steps)
     assert ablation.model == dataclasses.replace(
@@ -290,7 +290,7 @@ def test_the_level_error_of_a_trained_row_is_corrected_at_its_export(
 
 
 def _train(words: list[str]) -> int:
-    from haptoflow_benchmark.cli import main
+    from haptoflow_paper.cli import main
 
     return main(["train", *words])
 

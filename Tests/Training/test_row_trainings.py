@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from haptoflow_paper.codec.small_codec import SmallCodec, SmallCodecShape
-from haptoflow_benchmark.commands.evaluate import _can_be_measured
+from haptoflow_paper.commands.evaluate import _can_be_measured
 from haptoflow_paper.rows import row_training
 from haptoflow_paper.rows.accuracy import make_yardstick
 from haptoflow_paper.rows.row_plan import PlannedRow

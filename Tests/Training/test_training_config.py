@@ -11,7 +11,9 @@ from haptoflow_training.errors import InputError
 from haptoflow_training.training.config import TrainingConfig, config_from_dict, load_config
 from haptoflow_training.training.trainer import planned_steps
 
-CONFIGURATIONS = Path(__file__).parents[2] / "Training" / "configs"
+TRAINING = Path(__file__).parents[2] / "Training"
+CONFIGURATIONS = TRAINING / "configs"
+PAPER = TRAINING / "haptoflow_paper" / "configs"
 
 
 def _load(tmp_path: Path, text: str) -> TrainingConfig:
@@ -21,16 +23,16 @@ def _load(tmp_path: Path, text: str) -> TrainingConfig:
 
 
 TRAININGS = sorted(
-    path.relative_to(CONFIGURATIONS).as_posix()
-    for pattern in ("cluster.toml", "default/*.toml", "evaluation/*.toml")
-    for path in CONFIGURATIONS.glob(pattern)
-    if path.name != "rows.toml"
+    path.relative_to(TRAINING).as_posix()
+    for pattern in ("configs/cluster.toml", "configs/own.toml", "configs/*/*.toml", "haptoflow_paper/configs/*.toml")
+    for path in TRAINING.glob(pattern)
+    if path.name not in ("rows.toml", "codec-small.toml")
 )
 
 
 @pytest.mark.parametrize("name", TRAININGS)
 def test_the_shipped_configurations_load_and_plan_steps(name: str) -> None:
-    assert sum(planned_steps(load_config(CONFIGURATIONS / name))) > 0
+    assert sum(planned_steps(load_config(TRAINING / name))) > 0
 
 
 def test_a_configuration_takes_what_it_does_not_set_from_the_one_it_extends(tmp_path: Path) -> None:
@@ -46,9 +48,9 @@ def test_a_configuration_that_extends_itself_is_refused(tmp_path: Path) -> None:
 
 
 def test_every_row_of_the_evaluation_names_a_model_or_a_training_that_is_there() -> None:
-    for row in load_plan(CONFIGURATIONS / "evaluation" / "rows.toml"):
+    for row in load_plan(PAPER / "rows.toml"):
         if row.model and not row.model.endswith(".haptoflow"):
-            assert (CONFIGURATIONS / "evaluation" / f"{row.model}.toml").is_file(), row.name
+            assert (PAPER / f"{row.model}.toml").is_file(), row.name
 
 
 @pytest.mark.parametrize(

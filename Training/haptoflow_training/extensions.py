@@ -1,43 +1,29 @@
-"""Networks, representations and training objectives that another package adds under the names of a run's TOML file.
+"""The seam by which another package extends a run: it derives a configuration of its own and puts it in place.
 
-haptoflow_training itself has the velocity field ("unet"), raw samples ("raw") and the objectives of the shipped model.
-Importing a package that calls `register` adds its parts; each is imported when a run first needs it.
+A configuration class names the classes that train it and write it (`trained_by`, `exported_as`), so
+a derived one may bring further keys, rules, networks, objectives and kinds of tiers. haptoflow_training itself has
+neither keys nor branches for them. Importing a package that calls `use_configuration` changes what `load_config` reads.
 """
 
 from __future__ import annotations
 
 import importlib
-from typing import Any, Literal
+from typing import Any
 
-from haptoflow_training.errors import InputError
-
-Kind = Literal["architecture", "representation", "objective"]
-
-_registered: dict[tuple[Kind, str], str] = {}
+_configuration = ["haptoflow_training.training.config:TrainingConfig"]
 
 
-def register(kind: Kind, name: str, location: str) -> None:
-    """Add a part. location: "package.module:attribute".
-
-    An architecture is a function (ribs, sampled) -> SegmentNetwork; a representation a function (table of the TOML
-    file) -> Representation; the objective "average-velocity" a function (bound
-    field, target, generator, weight) -> loss; the objective "reflow" a class with `draw`, `loss` and `joined`, as
-    training/losses.py and training/trainer.py call them.
-    """
-    _registered[kind, name] = location
+def use_configuration(location: str) -> None:
+    """Read runs as this class from now on, "package.module:name", which derives from TrainingConfig."""
+    _configuration[:] = [location]
 
 
-def registered(kind: Kind) -> tuple[str, ...]:
-    """The names of the registered parts of one kind, in the order of their registration."""
-    return tuple(name for part, name in _registered if part == kind)
+def configuration_class() -> Any:
+    """The class as which runs are read."""
+    return located(_configuration[0])
 
 
-def extension(kind: Kind, name: str) -> Any:
-    """The registered part; InputError if there is none of this name."""
-    if (kind, name) not in _registered:
-        raise InputError(
-            f"{kind} '{name}' is not part of haptoflow-training: use the same command of `haptoflow-paper`, which "
-            "adds the rivals, the codecs and their training objectives"
-        )
-    module, attribute = _registered[kind, name].split(":")
-    return getattr(importlib.import_module(module), attribute)
+def located(location: str) -> Any:
+    """What "package.module:name" names, imported when it is first needed."""
+    module, name = location.split(":")
+    return getattr(importlib.import_module(module), name)

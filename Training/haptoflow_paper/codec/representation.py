@@ -17,7 +17,7 @@ from haptoflow_paper.codec.resampled_encodec import DEFAULT_WAVEFORM_SCALE, Resa
 from haptoflow_paper.codec.small_codec import SmallCodec
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.onnx_graphs import OPSET
-from haptoflow_training.models.representation import Representation
+from haptoflow_paper.codec.representation_base import Representation
 from haptoflow_training.waveform import SEGMENT_SAMPLES
 
 _Port = tuple[str, tuple[int, int]]

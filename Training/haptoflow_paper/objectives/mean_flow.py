@@ -9,8 +9,9 @@ from functorch import jvp
 from torch import Tensor
 
 from haptoflow_training.training.flow_matching import interpolate
-from haptoflow_training.training.losses import AverageField
 
+# (noisy, time, interval) -> average velocity.
+AverageField = Callable[[Tensor, Tensor, Tensor], Tensor]
 _INTERVAL_SHARE = 4
 _DERIVATIVE_LIMIT = 20.0
 

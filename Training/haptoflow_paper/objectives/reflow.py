@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import torch
 from torch import Tensor
 
 from haptoflow_training.models.haptoflow_model import HaptoFlowModel
 from haptoflow_training.models.label_embedding import rib_phase
+from haptoflow_training.models.level_model import scaled_previous
 from haptoflow_training.training.batches import SegmentBatch
-from haptoflow_training.training.flow_matching import Field, interpolate
+from haptoflow_training.training.flow_matching import Field, interpolate, solve
 
 
 @dataclass(frozen=True)
@@ -48,16 +49,25 @@ class ReflowPairs:
         return reflow_loss(field, self, generator)
 
     @staticmethod
-    def joined(parts: list[tuple[Tensor, Tensor, Tensor, SegmentBatch]]) -> ReflowPairs:
-        """Parts of (noise, target, previous in unit scale, batch) as one set."""
-        return ReflowPairs(
-            torch.cat([part[0] for part in parts]),
-            torch.cat([part[1] for part in parts]),
-            torch.cat([part[2] for part in parts]),
-            torch.cat([part[3].label for part in parts]),
-            torch.cat([part[3].motion for part in parts]),
-            torch.cat([part[3].position_mm for part in parts]),
-        )
+    def joined(parts: list[ReflowPairs]) -> ReflowPairs:
+        """All pairs of the parts as one set."""
+        names = [field.name for field in fields(ReflowPairs)]
+        return ReflowPairs(**{name: torch.cat([getattr(part, name) for part in parts]) for name in names})
+
+
+@torch.no_grad()
+def own_pairs(model: HaptoFlowModel, batch: SegmentBatch, generator: torch.Generator) -> ReflowPairs:
+    """Noise, and the segments that the model's flow makes of it under the conditions of a batch."""
+    embedding = model.embedding(batch.label)
+    previous = model.encode(scaled_previous(batch.previous, model.level(embedding, batch.motion)))
+    noise = torch.randn(batch.label.shape[0], *model.shape, generator=generator)
+    phase = rib_phase(embedding, batch.position_mm)
+
+    def field(noisy: Tensor, time: Tensor) -> Tensor:
+        return model.field(noisy, time, previous, embedding, batch.motion, phase)
+
+    target = solve(field, noise, "midpoint", 4)
+    return ReflowPairs(noise, target, previous, batch.label, batch.motion, batch.position_mm)
 
 
 def reflow_loss(field: Field, pairs: ReflowPairs, generator: torch.Generator) -> Tensor:

@@ -9,7 +9,7 @@ from haptoflow_paper.rivals.dstn import DstnRival
 from haptoflow_paper.rivals.rival import Rival
 from haptoflow_paper.rivals.spsi import SpsiRival
 from haptoflow_paper.rivals.transformer import TransformerRival
-from haptoflow_training.training.config import ARCHITECTURES, REGRESSING
+from haptoflow_paper.runs.configuration import ARCHITECTURES, REGRESSING
 
 _BUILDERS: dict[str, Callable[..., Rival]] = {
     "transformer": TransformerRival,

@@ -178,11 +178,10 @@ class TierSource:
             if table is not None:
                 speed = float(np.hypot(motions[row, 0], motions[row, 1]))
                 log_level[row, 0] = float(table.log_level(speed, motions[row, 2]))
-        previous = model.representation.encode(scaled_previous(torch.from_numpy(previous_mps2).unsqueeze(1), log_level))
-        # A latent has another shape than a waveform, so its noise is drawn here.
-        drawn = torch.randn(previous.shape) if model.representation.is_latent else torch.from_numpy(noise).unsqueeze(1)
+        previous = model.encode(scaled_previous(torch.from_numpy(previous_mps2).unsqueeze(1), log_level))
+        drawn = model.start(torch.from_numpy(noise).unsqueeze(1))
         made = tier.generate(
             drawn, previous, embedding, motion, torch.from_numpy(rib_phase), tier.solver, tier.steps
         )
-        segments: _Floats = (model.representation.decode(made) * log_level.exp().unsqueeze(-1)).squeeze(1).numpy()
+        segments: _Floats = (model.decode(made) * log_level.exp().unsqueeze(-1)).squeeze(1).numpy()
         return segments

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 
 from haptoflow_training.closed_loop.level_calibration import Extent
 from haptoflow_training.closed_loop.measured_levels import calibrates, seconds_of_a_measurement
-from haptoflow_training.export.onnx_graphs import export_level_model, export_network
-from haptoflow_training.export.trained_tier import TrainedTier
+from haptoflow_training.export.onnx_graphs import export_level_model
+from haptoflow_training.export.trained_tier import tier_of
 from haptoflow_training.models.haptoflow_model import HaptoFlowModel
 from haptoflow_training.training.config import TrainingConfig
 from haptoflow_training.training.recordings_source import Source
@@ -47,9 +47,9 @@ def share_out(
     after = 0.0
     if exports:
         model = copy.deepcopy(untrained).eval().requires_grad_(False)
-        tier = TrainedTier(config, list(source.store.labels), model)
+        tier = tier_of(config, list(source.store.labels), model)
         started = time.monotonic()
-        export_network(model, tier.kind)
+        tier.graphs()
         export_level_model(model.level)
         after = 1.5 * (time.monotonic() - started) + 1.0
         if calibrates(config):

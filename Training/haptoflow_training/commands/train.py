@@ -15,12 +15,12 @@ from haptoflow_training.commands.export import announce
 from haptoflow_training.commands.minutes import MINIMUM_MINUTES, Minutes, share_out
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.exporter import export_run
-from haptoflow_training.training.config import TrainingConfig, check_available, load_config
+from haptoflow_training.training.config import TrainingConfig, load_config
 from haptoflow_training.training.processes import join_processes
 from haptoflow_training.training.recordings_source import Source, open_source
 from haptoflow_training.training.run_log import write_json
 from haptoflow_training.stopping import Stopped, end_if_stopped
-from haptoflow_training.training.trainer import Trainer, TrainingStopped, check_start
+from haptoflow_training.training.trainer import TrainingStopped, trainer_of
 
 OWN_CONFIGURATION = Path(__file__).resolve().parents[2] / "configs" / "own.toml"
 
@@ -97,7 +97,7 @@ def _minutes(text: str) -> float:
 
 
 def configuration(options: argparse.Namespace) -> TrainingConfig:
-    """The configuration file, with the command line's --recordings, --labels, --minutes and --seed applied."""
+    """The configuration file, with the command line's --recordings, --labels and --seed applied."""
     config = load_config(options.config)
     if options.recordings:
         data = dataclasses.replace(
@@ -107,9 +107,6 @@ def configuration(options: argparse.Namespace) -> TrainingConfig:
     if options.labels:
         data = dataclasses.replace(config.data, labels_file=str(options.labels.resolve()))
         config = dataclasses.replace(config, data=data)
-    if options.minutes is not None:
-        optimiser = dataclasses.replace(config.optimiser, budget_seconds=0.0)
-        config = dataclasses.replace(config, optimiser=optimiser)
     if options.seed is not None:
         config = dataclasses.replace(config, seed=options.seed)
     return config
@@ -140,17 +137,17 @@ def run(options: argparse.Namespace) -> int:
 def _run(options: argparse.Namespace) -> int:
     begun = time.monotonic()
     config = configuration(options)
-    check_available(config)
+    trainer_class = trainer_of(config)
     store_folder = options.store or options.out.parent / "store"
     with join_processes() as processes:
-        check_start(config, processes, options.base)
+        trainer_class.check_start(config, processes, options.base)
         if options.minutes is not None and processes.count > 1:
             raise InputError("--minutes works with one process only; leave it out under torchrun")
         if processes.is_first:
             report_left_out(open_source(config.data, store_folder, options.workers))
         processes.wait()
         source = open_source(config.data, store_folder, options.workers)
-        trainer = Trainer(
+        trainer = trainer_class(
             config, source.store, options.out, processes, options.base, source.wave_vectors, options.start
         )
         extent = Extent()

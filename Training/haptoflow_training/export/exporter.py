@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import tempfile
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -18,13 +17,12 @@ from haptoflow_training.export.exponents import fit_exponents
 from haptoflow_training.export.label_info import LabelInfo
 from haptoflow_training.export.level_table import LevelTable
 from haptoflow_training.export.model_file import ModelFile, write_model_file
-from haptoflow_training.export.onnx_graphs import export_level_model, export_network
+from haptoflow_training.export.onnx_graphs import export_level_model
 from haptoflow_training.export.parity import write_parity
 from haptoflow_training.export.seed_bank import SEED_SAMPLES, build_seed_bank
 from haptoflow_training.export.trained_tier import TrainedTier, load_tiers
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE
-from haptoflow_training.models.level_model import LevelModel, shift_level
-from haptoflow_training.models.velocity_field import parameter_count
+from haptoflow_training.models.level_model import shift_level
 from haptoflow_training.recordings.landing import Landing
 from haptoflow_training.training.batches import SegmentBatches, Store
 from haptoflow_training.training.config import TrainingConfig
@@ -87,26 +85,6 @@ def _impact_entry(landing: Landing) -> dict[str, Any]:
     return {"modes": modes, "restitution": round(landing.restitution, 3)}
 
 
-def _tier_entry(tier: TrainedTier) -> dict[str, Any]:
-    representation = tier.model.representation
-    entry = {
-        "name": tier.name,
-        "kind": tier.kind,
-        "field": f"{tier.name}.field",
-        "level": "level",
-        "solver": tier.solver,
-        "steps": tier.steps,
-        "parameters": parameter_count(tier.model.field),
-        "representation": "latent" if representation.is_latent else "raw",
-        "accuracy": {},
-        "cost": {},
-    }
-    if representation.is_latent:
-        entry["latent_shape"] = list(representation.shape)
-        entry |= {name: f"{tier.name}.{name}" for name in ("encoder", "decoder")}
-    return entry
-
-
 def _header(
     config: TrainingConfig,
     tiers: Sequence[TrainedTier],
@@ -139,7 +117,7 @@ def _header(
             _label_entry(store, row, info, config.seed, HeldOut.of(config.batch), level_tables.get(row))
             for row, info in enumerate(infos)
         ],
-        "tiers": [_tier_entry(tier) for tier in tiers],
+        "tiers": [tier.header_entry() for tier in tiers],
         "default_tier": config.tier,
         "seed_bank": {"samples": SEED_SAMPLES, "tensor": "seeds", "entries": seed_entries},
         "measurements": measurements,
@@ -156,21 +134,7 @@ def _described(config: TrainingConfig) -> dict[str, Any]:
     return described
 
 
-def _graphs(tier: TrainedTier) -> dict[str, bytes]:
-    representation = tier.model.representation
-    graphs = {f"{tier.name}.field": export_network(tier.model, tier.kind)}
-    if representation.is_latent:
-        with tempfile.TemporaryDirectory() as folder:
-            for name in ("encoder", "decoder"):
-                path = Path(folder) / f"{name}.onnx"
-                getattr(representation, f"export_{name}")(path)
-                graphs[f"{tier.name}.{name}"] = path.read_bytes()
-    return graphs
-
-
 def _subtract_level_error(tier: TrainedTier, offsets_db: Sequence[float]) -> None:
-    if not isinstance(tier.model.level, LevelModel):
-        raise InputError(f"tier {tier.name}: its level is constant, so there is no label's level to shift")
     shift = torch.tensor(offsets_db) * (-math.log(10.0) / 20.0)
     shift_level(tier.model.level, tier.model.embedding.weight, shift)
 
@@ -209,7 +173,7 @@ def export_run(
     if level_offsets_db is not None:
         measurements["level_offsets_db"] = [round(offset, 3) for offset in level_offsets_db]
     header = _header(config, tiers, store, infos, provenance, bank.entries, measurements, level_tables or {})
-    graphs = {name: graph for tier in tiers for name, graph in _graphs(tier).items()}
+    graphs = {name: graph for tier in tiers for name, graph in tier.graphs().items()}
     file = ModelFile(
         header=header,
         tensors={"embedding": model.embedding.weight.detach().numpy().copy(), "seeds": bank.waves},
@@ -218,6 +182,6 @@ def export_run(
     checksum = write_model_file(out, file)
     if parity is not None:
         batch = SegmentBatches(store, "validation", config.batch, config.seed).draw(10)
-        raw = [tier for tier in tiers if not tier.model.representation.is_latent]
+        raw = [tier for tier in tiers if tier.works_on_samples]
         write_parity(parity, raw, batch, model_crc32=checksum, seed=config.seed)
     return checksum

@@ -11,12 +11,12 @@ from torch import Tensor, nn
 
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE
 from haptoflow_training.models.haptoflow_model import HaptoFlowModel
-from haptoflow_training.models.segment_network import SegmentNetwork, SegmentNetworkGraph
 
 OPSET = 16
 
 
-def _export(module: nn.Module, inputs: dict[str, Tensor], output: str) -> bytes:
+def export_graph(module: nn.Module, inputs: dict[str, Tensor], output: str) -> bytes:
+    """The checked graph of a module; inputs: examples by name, in order."""
     buffer = io.BytesIO()
     with warnings.catch_warnings():
         # Tracing warns about Python integers that are constants of the architecture, and the exporter about shapes that
@@ -55,73 +55,37 @@ class _OneStep(nn.Module):
         return self.model.one_step(noisy, previous, embedding, motion, phase)
 
 
-class _AverageVelocity(nn.Module):
-    """The average velocity field, with its inputs in the order of the model format."""
-
-    def __init__(self, field: nn.Module) -> None:
-        super().__init__()
-        self.field = field
-
-    def forward(
-        self,
-        noisy: Tensor,
-        time: Tensor,
-        interval: Tensor,
-        previous: Tensor,
-        embedding: Tensor,
-        motion: Tensor,
-        rib_phase: Tensor | None = None,
-    ) -> Tensor:
-        return self.field(noisy, time, previous, embedding, motion, rib_phase, interval)
-
-
-def _export_segment_network(network: SegmentNetwork) -> bytes:
-    """The graph of a direct tier, with the inputs that the network reads."""
-    wave = torch.zeros(2, 1, 200)
-    examples = {
-        "noisy": wave,
-        "previous": wave.clone(),
-        "embedding": torch.zeros(2, EMBEDDING_SIZE),
-        "motion": torch.full((2, 3), 0.1),
-        "rib_phase": torch.full((2, 2), 0.25),
-    }
-    return _export(SegmentNetworkGraph(network), {name: examples[name] for name in network.inputs}, "segment")
-
-
-def export_network(model: HaptoFlowModel, kind: str) -> bytes:
-    """The graph of a tier of `kind` "flow", "average-velocity" or "direct" (model-format.md, Graphs).
-
-    A direct tier's graph has no flow time: a field trained by the energy distance is valid only for one step from time
-    0.
-    """
-    batch, field = 2, model.field
-    if isinstance(field, SegmentNetwork):
-        return _export_segment_network(field)
-    wave = torch.zeros(batch, field.channels, field.positions)
-    moment = torch.zeros(batch, 1)
+def example_inputs(model: HaptoFlowModel) -> tuple[Tensor, dict[str, Tensor]]:
+    """A batch of two for the model's network: what it works on, and by name all other inputs but the flow time."""
+    batch = 2
+    wave = torch.zeros(batch, *model.shape)
     conditions = {
         "previous": wave.clone(),
         "embedding": torch.zeros(batch, EMBEDDING_SIZE),
         "motion": torch.full((batch, 3), 0.1),
     }
-    if field.comb is not None:
+    if model.field.comb is not None:
         conditions["rib_phase"] = torch.full((batch, 2), 0.25)
+    return wave, conditions
+
+
+def export_network(model: HaptoFlowModel, kind: str) -> bytes:
+    """The graph of a tier of `kind` "flow" or "direct" (model-format.md, Graphs).
+
+    A direct tier's graph has no flow time: a field trained by the energy distance is valid only for one step from time
+    0.
+    """
+    wave, conditions = example_inputs(model)
     if kind == "flow":
-        return _export(field, {"noisy": wave, "time": moment, **conditions}, "velocity")
-    if kind == "average-velocity":
-        return _export(
-            _AverageVelocity(field),
-            {"noisy": wave, "time": moment, "interval": moment.clone(), **conditions},
-            "velocity",
-        )
+        return export_graph(model.field, {"noisy": wave, "time": torch.zeros(len(wave), 1), **conditions}, "velocity")
     if kind == "direct":
-        return _export(_OneStep(model), {"noisy": wave, **conditions}, "segment")
+        return export_graph(_OneStep(model), {"noisy": wave, **conditions}, "segment")
     raise ValueError(f"unknown tier kind '{kind}'")
 
 
 def export_level_model(level: nn.Module) -> bytes:
     """The graph of the level model: inputs embedding, motion; output log_level."""
     batch = 2
-    return _export(
+    return export_graph(
         level, {"embedding": torch.zeros(batch, EMBEDDING_SIZE), "motion": torch.full((batch, 3), 0.1)}, "log_level"
     )

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import torch
 from torch import Tensor
 
 from haptoflow_training.errors import InputError
+from haptoflow_training.export.onnx_graphs import export_network
+from haptoflow_training.extensions import located
 from haptoflow_training.models.haptoflow_model import HaptoFlowModel
-from haptoflow_training.models.segment_network import SegmentNetwork
+from haptoflow_training.models.velocity_field import parameter_count
 from haptoflow_training.training.config import TrainingConfig
 from haptoflow_training.training.flow_matching import solve
 from haptoflow_training.training.trainer import load_trained
@@ -34,9 +37,7 @@ class TrainedTier:
 
     @property
     def kind(self) -> str:
-        if self.config.recipe.energy_steps or isinstance(self.model.field, SegmentNetwork):
-            return "direct"
-        return "average-velocity" if self.config.recipe.objective == "average-velocity" else "flow"
+        return "direct" if self.config.recipe.energy_steps else "flow"
 
     @property
     def solver(self) -> str:
@@ -56,10 +57,11 @@ class TrainedTier:
         motion: Tensor,
         rib_phase: Tensor,
     ) -> Tensor:
-        """The output of the exported graph: the velocity, or the segment of a direct tier."""
+        """The output of the exported graph: the velocity, or the segment of a direct tier. interval [B, 1]: the flow
+        time of a step, which only a derived tier may read."""
         if self.kind == "direct":
             return self.model.one_step(noisy, previous, embedding, motion, rib_phase)
-        return self.model.field(noisy, time, previous, embedding, motion, rib_phase, interval)
+        return self.model.field(noisy, time, previous, embedding, motion, rib_phase)
 
     def generate(
         self,
@@ -81,10 +83,40 @@ class TrainedTier:
             return field(noise, torch.zeros(noise.shape[0], 1))
         return solve(field, noise, solver if self.kind == "flow" else "euler", steps)
 
+    @property
+    def works_on_samples(self) -> bool:
+        """Whether the noise that a segment begins with has the segment's shape, as golden vectors need it."""
+        return self.model.shape == HaptoFlowModel.shape
+
+    def graphs(self) -> dict[str, bytes]:
+        """The graphs of this tier alone, by their names in the file."""
+        return {f"{self.name}.field": export_network(self.model, self.kind)}
+
+    def header_entry(self) -> dict[str, Any]:
+        """The tier's entry in the file's header."""
+        return {
+            "name": self.name,
+            "kind": self.kind,
+            "field": f"{self.name}.field",
+            "level": "level",
+            "solver": self.solver,
+            "steps": self.steps,
+            "parameters": parameter_count(self.model.field),
+            "representation": "raw",
+            "accuracy": {},
+            "cost": {},
+        }
+
+
+def tier_of(config: TrainingConfig, labels: list[str], model: HaptoFlowModel, folder: Path | None = None) -> TrainedTier:
+    """The tier of a run, of the class that its configuration names."""
+    tier: TrainedTier = located(config.exported_as)(config, labels, model, folder)
+    return tier
+
 
 def load_tiers(folders: list[Path]) -> list[TrainedTier]:
     """The finished runs in `folders`, in the order of the file; they must share labels, embedding and level."""
-    tiers = [TrainedTier(*load_trained(folder), folder) for folder in folders]
+    tiers = [tier_of(*load_trained(folder), folder) for folder in folders]
     first = tiers[0]
     for tier, folder in zip(tiers, folders, strict=True):
         shared = (tier.model.embedding, first.model.embedding), (tier.model.level, first.model.level)

@@ -10,36 +10,49 @@ from torch import Tensor, nn
 from haptoflow_training.models.band_limit import BandLimit
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE
 from haptoflow_training.models.label_embedding import LabelEmbedding
-from haptoflow_training.models.representation import Representation
-from haptoflow_training.models.segment_network import SegmentNetwork
 from haptoflow_training.models.velocity_field import VelocityField
+from haptoflow_training.waveform import SEGMENT_SAMPLES
 
 
 class HaptoFlowModel(nn.Module):
-    """The trainable model behind one tier of a `.haptoflow` file: embedding, level and the network itself."""
+    """The trainable model behind one tier of a `.haptoflow` file: embedding, level and the network itself.
+
+    shape: (channels, positions) of what the network works on. Here that is the samples of a segment; a derived model
+    may encode them.
+    """
+
+    shape: tuple[int, int] = (1, SEGMENT_SAMPLES)
 
     def __init__(
         self,
         *,
         wave_vectors: Sequence[Sequence[tuple[float, float]]],
-        representation: Representation,
         level: nn.Module,
-        field: VelocityField | SegmentNetwork,
+        field: VelocityField,
     ) -> None:
         super().__init__()
-        self.representation = representation
         self.embedding = LabelEmbedding(EMBEDDING_SIZE, wave_vectors)
         self.level = level
         self.field = field
         self.band_limit = BandLimit()
+
+    def encode(self, waveform: Tensor) -> Tensor:
+        """[B, 1, 200] in unit scale to [B, *shape]."""
+        return waveform
+
+    def decode(self, encoded: Tensor) -> Tensor:
+        """[B, *shape] to [B, 1, 200] in unit scale."""
+        return encoded
+
+    def start(self, noise: Tensor) -> Tensor:
+        """The noise [B, *shape] from which a segment is generated where noise [B, 1, 200] is given."""
+        return noise
 
     def one_step(
         self, noise: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, rib_phase: Tensor
     ) -> Tensor:
         """The segment [B, 1, 200] of a network trained to produce it in one step; all waveforms in unit scale.
         rib_phase [B, 2] in turns, at the segment's first sample."""
-        if isinstance(self.field, SegmentNetwork):
-            return self.field(noise, previous, embedding, motion, rib_phase)
         change = self.field(noise, torch.zeros(1, 1), previous, embedding, motion, rib_phase)
         return self.band_limit(previous, noise + change)
 

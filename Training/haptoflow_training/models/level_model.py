@@ -68,17 +68,6 @@ def shift_level(level: LevelModel, embedding: Tensor, shift: Tensor) -> None:
     level.power_law.weight[0] += solution.squeeze(1).float()
 
 
-class ConstantLevel(nn.Module):
-    """One level for every label and motion (an ablation: no level model)."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.log_rms = nn.Parameter(torch.zeros(1))
-
-    def forward(self, embedding: Tensor, motion: Tensor) -> Tensor:
-        return self.log_rms + 0.0 * embedding[:, 0:1]
-
-
 def level_loss(log_level: Tensor, mean_square_mps2: Tensor) -> Tensor:
     """Negative log-likelihood of a zero-mean Gaussian wave over a floor of 0.01 m/s^2 RMS:
     s + 0.5 meansquare exp(-2 s), both [B, 1]."""

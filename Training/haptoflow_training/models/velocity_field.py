@@ -76,11 +76,10 @@ class VelocityField(nn.Module):
 
     noisy and previous: [B, C, N] with C channels of the representation (1 for raw samples) and N positions (200); time:
     [B, 1], or [1, 1] for all; embedding: [B, 64]; motion: [B, 3]. Returns [B, C, N]. N must be a multiple of `patch`.
-    With `hears_previous` false, the previous waveform has no effect. With `average`, the field is the average velocity
-    over [t, t + interval] (MeanFlow) and takes interval [B, 1]. With `ribs` (raw samples only), the rib comb predicts
-    the partials of a ruled surface from the past and from rib_phase [B, 2] in turns. With `impulses` (raw samples
-    only), rare events come from the tails of the noise. levels: 2 for a U-Net whose second level has half the
-    positions; 1 for its first block alone, in less than half the time.
+    With `ribs` (raw samples only), the rib comb predicts the partials of a ruled surface from the past and from
+    rib_phase [B, 2] in turns. With `impulses` (raw samples only), rare events come from the tails of the noise.
+    levels: 2 for a U-Net whose second level has half the positions; 1 for its first block alone, in less than half the
+    time.
     """
 
     film_factors: Tensor
@@ -95,14 +94,11 @@ class VelocityField(nn.Module):
         patch: int = 8,
         width: int = 64,
         previous_width: int = 32,
-        average: bool = False,
-        hears_previous: bool = True,
         ribs: bool = False,
         impulses: bool = False,
         levels: int = 2,
     ) -> None:
         super().__init__()
-        self.hears_previous = hears_previous
         if levels not in (1, 2):
             raise ValueError(f"levels: 1 or 2, not {levels}")
         self.levels = levels
@@ -115,8 +111,7 @@ class VelocityField(nn.Module):
         newest_first = torch.arange(positions - 1, -1, -1)
         self.register_buffer("newest_first", newest_first, persistent=False)
 
-        self.time = TimeEncoder()
-        self.interval = TimeEncoder() if average else None
+        self._encode_time()
         self.motion = MotionEncoder()
         self.comb = RibComb(positions) if ribs else None
         self.impulses = RungImpulses(positions) if impulses else None
@@ -164,20 +159,28 @@ class VelocityField(nn.Module):
         embedding: Tensor,
         motion: Tensor,
         rib_phase: Tensor | None = None,
-        interval: Tensor | None = None,
     ) -> Tensor:
-        moment = self.time(time)
-        if self.interval is not None and interval is not None:
-            moment = moment + self.interval(interval)
+        return self.velocity(noisy, self.time(time), previous, embedding, motion, rib_phase)
+
+    def _encode_time(self) -> None:
+        self.time = TimeEncoder()
+
+    def velocity(
+        self,
+        noisy: Tensor,
+        moment: Tensor,
+        previous: Tensor,
+        embedding: Tensor,
+        motion: Tensor,
+        rib_phase: Tensor | None,
+    ) -> Tensor:
+        """`forward`, with the encoded flow time in place of the time: moment [B, 64], or [1, 64] for all."""
         given = torch.cat([embedding, self.motion(motion)], dim=1)
         condition = nn.functional.silu(self._condition(given, moment))
         film, line_gains, impulse_gains = self._modulation(condition)
         film_parts = film.reshape(-1, sum(self._film_sizes), 1, 1).split(self._film_sizes, dim=1)
 
-        if not self.hears_previous:
-            previous = torch.zeros_like(previous)
-        # Mirrored, so that the newest previous sample lies beside the first sample of the new segment.
-        mirrored = previous[:, :, self.newest_first]
+        mirrored = self._heard(previous)
         past = self.previous_fine(mirrored.unsqueeze(2))
 
         entering, added = [noisy], []
@@ -201,6 +204,10 @@ class VelocityField(nn.Module):
         for waves in added:
             made = made + waves
         return made
+
+    def _heard(self, previous: Tensor) -> Tensor:
+        """The previous waveform, mirrored, so that its newest sample lies beside the first sample of the segment."""
+        return previous[:, :, self.newest_first]
 
     def _modulation(self, condition: Tensor) -> tuple[Tensor, Tensor, Tensor]:
         """FiLM parameters, gains of lines and gains of impulses (empty if there are none), by one layer with all

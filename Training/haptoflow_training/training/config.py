@@ -6,16 +6,27 @@ import dataclasses
 import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, ClassVar, TypeVar
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.extensions import extension
+from haptoflow_training.extensions import configuration_class
 
-
-# Rivals of the velocity field, which other packages provide (extensions.py).
-ARCHITECTURES = ("transformer", "dstn", "spsi", "autoregressive")
-# Those that predict the mean as published; with `sampled` they draw a segment.
-REGRESSING = ("transformer", "dstn", "spsi")
+Rule = tuple[bool, str, str]
+# Keys of the evaluation's own configurations, with the value for which a run does what every run here does: files and
+# checkpoints that say so are read.
+_EVALUATION_KEYS: dict[str, Any] = {
+    "optimiser.budget_seconds": 0.0,
+    "model.architecture": "unet",
+    "model.sampled": False,
+    "model.hears_previous": True,
+    "model.level": "law",
+    "model.patch": 8,
+    "model.representation": {"kind": "raw"},
+    "recipe.objective": "flow",
+    "recipe.reflow_steps": 0,
+    "recipe.reflow_pairs": 36000,
+    "recipe.reflow_learning_rate": 4e-4,
+}
 
 
 @dataclass(frozen=True)
@@ -45,39 +56,22 @@ class DataConfig:
 
 @dataclass(frozen=True)
 class ModelConfig:
-    """The model. architecture: `unet` (the velocity field, with `width` to `levels`) or the name of a rival.
+    """The velocity field: its `width`, `previous_width` and `levels`.
 
-    ribs: the field has a rib comb, and a rival adds rib lines (raw samples only).
-    impulses: rare events come from the tails of the noise (raw samples only).
-    sampled: a rival that predicts the mean as published (transformer, dstn, spsi) draws its segment.
-    representation: table for `build_representation`.
-    hears_previous: false removes the previous waveform's effect;
-    level: `law` or `constant` (one level for everything); both are ablations.
+    ribs: it has a rib comb. impulses: rare events come from the tails of the noise.
     """
 
-    architecture: str = "unet"
     ribs: bool = False
     impulses: bool = False
-    sampled: bool = False
-    hears_previous: bool = True
-    level: str = "law"
     width: int = 64
     previous_width: int = 32
-    patch: int = 8
     levels: int = 2
-    representation: dict[str, Any] = field(default_factory=lambda: {"kind": "raw"})
 
 
 @dataclass(frozen=True)
 class OptimiserConfig:
-    """AdamW with warm-up, cosine decay over each phase's second half, gradient clipping and a moving average.
+    """AdamW with warm-up, cosine decay over each phase's second half, gradient clipping and a moving average."""
 
-    budget_seconds: time of the whole run on one core, counted in the process's own computing time, so that other
-    programs do not shorten the training. The level phases keep about their steps, the network phases are lengthened or
-    shortened by one factor, and the run ends when the time is used up; 0 trains exactly the stated steps.
-    """
-
-    budget_seconds: float = 0.0
     learning_rate: float = 6e-4
     weight_decay: float = 1e-4
     batch_size: int = 96
@@ -122,11 +116,9 @@ class BatchConfig:
 
 @dataclass(frozen=True)
 class RecipeConfig:
-    """The training recipe, phase after phase; a phase of 0 steps is left out.
+    """The training recipe after conditional flow matching (`optimiser.steps`), phase after phase; a phase of 0 steps is
+    left out.
 
-    objective: of the first phase (`optimiser.steps`): `flow` (conditional flow matching) or `average-velocity`
-    (MeanFlow).
-    reflow_steps: straightens a flow on `reflow_pairs` pairs of noise and segment that the network itself made.
     energy_steps: one-step fine-tuning by a spectral energy distance; afterwards the network is a `direct` tier.
     self_forcing_steps: the objective of the phase before, on the network's own output as previous waveform.
     shares_base: keep the embedding and level model of another run (`--base`), as further tiers of a file do.
@@ -134,10 +126,6 @@ class RecipeConfig:
     default model.
     """
 
-    objective: str = "flow"
-    reflow_steps: int = 0
-    reflow_pairs: int = 36000
-    reflow_learning_rate: float = 4e-4
     energy_steps: int = 0
     energy_batch_size: int = 48
     energy_learning_rate: float = 5e-4
@@ -158,7 +146,13 @@ class SolverConfig:
 @dataclass(frozen=True)
 class TrainingConfig:
     """A whole run. `name` and `description` are written to the model file's header; `tier` names the trained tier
-    there."""
+    there.
+
+    trained_by, exported_as: the classes that train and export it (extensions.py), derived from Trainer and TrainedTier.
+    """
+
+    trained_by: ClassVar[str] = "haptoflow_training.training.trainer:Trainer"
+    exported_as: ClassVar[str] = "haptoflow_training.export.trained_tier:TrainedTier"
 
     name: str = "default"
     tier: str = "standard"
@@ -175,6 +169,42 @@ class TrainingConfig:
 
     def to_dict(self) -> dict[str, Any]:
         return dataclasses.asdict(self)
+
+    def rules(self) -> tuple[Rule, ...]:
+        """(whether it holds, key, what is expected) of each rule for values."""
+        config, optimiser = self, self.optimiser
+        return (
+            (config.data.source in ("synthetic", "folders"), "data.source", "'synthetic' or 'folders'"),
+            (config.solver.kind in ("euler", "midpoint", "heun"), "solver.kind", "'euler', 'midpoint' or 'heun'"),
+            (1 <= config.solver.steps <= 16, "solver.steps", "1 to 16"),
+            (optimiser.learning_rate > 0.0, "optimiser.learning_rate", "above 0"),
+            (optimiser.batch_size >= 1, "optimiser.batch_size", "at least 1"),
+            (optimiser.steps >= 0, "optimiser.steps", "at least 0"),
+            (0.0 <= optimiser.average_decay < 1.0, "optimiser.average_decay", "0 to below 1"),
+            (
+                len(config.batch.hop_samples) == 2
+                and 1 <= config.batch.hop_samples[0] <= config.batch.hop_samples[1] <= 200,
+                "batch.hop_samples",
+                "two numbers, 1 <= min <= max <= 200",
+            ),
+            *(
+                (len(band) in (0, 2) and tuple(sorted(band)) == band, f"batch.{name}", "empty, or [from, to]")
+                for name, band in (
+                    ("held_out_speed_mps", config.batch.held_out_speed_mps),
+                    ("held_out_force_newtons", config.batch.held_out_force_newtons),
+                    ("held_out_direction_degrees", config.batch.held_out_direction_degrees),
+                )
+            ),
+            (
+                len(config.batch.chain_hops) == 2
+                and 1 <= config.batch.chain_hops[0] <= config.batch.chain_hops[1] <= 50,
+                "batch.chain_hops",
+                "two numbers, 1 <= min <= max <= 50",
+            ),
+            (config.batch.emphasis > 0.0, "batch.emphasis", "above 0"),
+            (config.model.width >= 8, "model.width", "at least 8"),
+            (config.tier in ("draft", "standard", "fine"), "tier", "'draft', 'standard' or 'fine'"),
+        )
 
 
 _Section = TypeVar("_Section")
@@ -202,6 +232,10 @@ def _read_section(section: type[_Section], table: dict[str, Any], prefix: str, p
     values: dict[str, Any] = {}
     for key, value in table.items():
         name = f"{prefix}{key}"
+        if key not in known and name in _EVALUATION_KEYS:
+            if value == _EVALUATION_KEYS[name]:
+                continue
+            raise InputError(f"{path}: key '{name}' is one of the evaluation: use the same command of `haptoflow-paper`")
         if key not in known:
             raise InputError(f"{path}: unknown key '{name}'; known here: {', '.join(sorted(known))}")
         default = known[key]
@@ -263,125 +297,13 @@ def _merged(below: dict[str, Any], above: dict[str, Any]) -> dict[str, Any]:
     return merged
 
 
-def config_from_dict(table: dict[str, Any], path: Path) -> TrainingConfig:
-    """The configuration in `table`, checked; `path` names its origin in messages."""
-    config = _read_section(TrainingConfig, table, "", path)
-    _check(config, path)
-    return config
-
-
-
-def check_available(config: TrainingConfig) -> None:
-    """InputError where the run needs a network, representation or objective that no imported package has registered."""
-    if config.model.architecture != "unet":
-        extension("architecture", config.model.architecture)
-    if config.model.representation.get("kind") != "raw":
-        extension("representation", str(config.model.representation.get("kind")))
-    if config.recipe.objective == "average-velocity":
-        extension("objective", "average-velocity")
-    if config.recipe.reflow_steps:
-        extension("objective", "reflow")
-
-
-def _check(config: TrainingConfig, path: Path) -> None:
-    optimiser = config.optimiser
-    rules = (
-        (config.data.source in ("synthetic", "folders"), "data.source", "'synthetic' or 'folders'"),
-        (config.solver.kind in ("euler", "midpoint", "heun"), "solver.kind", "'euler', 'midpoint' or 'heun'"),
-        (1 <= config.solver.steps <= 16, "solver.steps", "1 to 16"),
-        (optimiser.learning_rate > 0.0, "optimiser.learning_rate", "above 0"),
-        (optimiser.batch_size >= 1, "optimiser.batch_size", "at least 1"),
-        (optimiser.steps >= 0, "optimiser.steps", "at least 0"),
-        (optimiser.budget_seconds >= 0.0, "optimiser.budget_seconds", "at least 0"),
-        (0.0 <= optimiser.average_decay < 1.0, "optimiser.average_decay", "0 to below 1"),
-        (
-            len(config.batch.hop_samples) == 2
-            and 1 <= config.batch.hop_samples[0] <= config.batch.hop_samples[1] <= 200,
-            "batch.hop_samples",
-            "two numbers, 1 <= min <= max <= 200",
-        ),
-        *(
-            (len(band) in (0, 2) and tuple(sorted(band)) == band, f"batch.{name}", "empty, or [from, to]")
-            for name, band in (
-                ("held_out_speed_mps", config.batch.held_out_speed_mps),
-                ("held_out_force_newtons", config.batch.held_out_force_newtons),
-                ("held_out_direction_degrees", config.batch.held_out_direction_degrees),
-            )
-        ),
-        (
-            len(config.batch.chain_hops) == 2 and 1 <= config.batch.chain_hops[0] <= config.batch.chain_hops[1] <= 50,
-            "batch.chain_hops",
-            "two numbers, 1 <= min <= max <= 50",
-        ),
-        (config.batch.emphasis > 0.0, "batch.emphasis", "above 0"),
-        (config.model.width >= 8, "model.width", "at least 8"),
-        (
-            config.model.architecture in ("unet", *ARCHITECTURES),
-            "model.architecture",
-            f"'unet' or a rival: {', '.join(ARCHITECTURES)}",
-        ),
-        (
-            not config.model.sampled or config.model.architecture in REGRESSING,
-            "model.sampled",
-            f"false but for {', '.join(REGRESSING)}: all else draws by itself",
-        ),
-        (
-            config.model.architecture == "unet"
-            or (config.recipe.objective == "flow" and config.recipe.reflow_steps == 0),
-            "recipe",
-            "no average velocity and no reflow for a rival, which has no flow",
-        ),
-        (
-            config.recipe.energy_steps == 0 or config.model.sampled or config.model.architecture not in REGRESSING,
-            "recipe.energy_steps",
-            "0 for a rival that does not draw: set model.sampled",
-        ),
-        (
-            config.recipe.energy_steps == 0 or config.model.ribs or config.model.architecture != "autoregressive",
-            "recipe.energy_steps",
-            "0 for an autoregressive filter without ribs, which its likelihood alone fits",
-        ),
-        (
-            config.recipe.self_forcing_steps == 0
-            or config.recipe.energy_steps > 0
-            or config.model.architecture == "unet",
-            "recipe.self_forcing_steps",
-            "0 for a rival without energy_steps",
-        ),
-        (
-            not config.model.ribs or config.model.representation.get("kind", "raw") == "raw",
-            "model.ribs",
-            "false with a latent representation",
-        ),
-        (
-            not config.model.impulses or config.model.representation.get("kind", "raw") == "raw",
-            "model.impulses",
-            "false with a latent representation",
-        ),
-        (config.model.level in ("law", "constant"), "model.level", "'law' or 'constant'"),
-        (
-            not config.recipe.calibrate_level or config.model.level == "law",
-            "recipe.calibrate_level",
-            "false with a constant level, which has no label's level to shift",
-        ),
-        (config.tier in ("draft", "standard", "fine"), "tier", "'draft', 'standard' or 'fine'"),
-        (config.recipe.objective in ("flow", "average-velocity"), "recipe.objective", "'flow' or 'average-velocity'"),
-        (
-            config.recipe.objective == "flow" or config.recipe.reflow_steps == config.recipe.energy_steps == 0,
-            "recipe.objective",
-            "'flow' where reflow_steps or energy_steps follow",
-        ),
-        (
-            config.recipe.energy_steps == 0 or config.model.representation.get("kind", "raw") == "raw",
-            "recipe.energy_steps",
-            "0 with a latent representation: the energy distance compares waveforms",
-        ),
-        (
-            config.recipe.self_forcing_steps == 0 or config.recipe.energy_steps > 0 or config.recipe.reflow_steps == 0,
-            "recipe.self_forcing_steps",
-            "0 after reflow alone: its pairs have a fixed past",
-        ),
-    )
-    for holds, key, expected in rules:
+def config_from_dict(
+    table: dict[str, Any], path: Path, kind: type[TrainingConfig] | None = None
+) -> TrainingConfig:
+    """The configuration in `table`, checked; `path` names its origin in messages. kind: the class to read it as
+    (default: that of extensions.py)."""
+    config = _read_section(kind or configuration_class(), table, "", path)
+    for holds, key, expected in config.rules():
         if not holds:
             raise InputError(f"{path}: key '{key}' is out of range, expected {expected}")
+    return config

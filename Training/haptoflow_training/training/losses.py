@@ -1,14 +1,12 @@
-"""The losses of a training step on one batch, by objective."""
+"""The losses of a training step on one batch, by objective: `level`, `flow` or `energy`."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Literal, Protocol
+from dataclasses import dataclass
 
 import torch
 from torch import Tensor, nn
 
-from haptoflow_training.extensions import extension
 from haptoflow_training.models.haptoflow_model import HaptoFlowModel
 from haptoflow_training.models.label_embedding import rib_frequencies_hz, rib_phase
 from haptoflow_training.models.level_model import level_loss, scaled_previous
@@ -19,25 +17,28 @@ from haptoflow_training.training.energy_distance import energy_distance_loss, en
 from haptoflow_training.training.flow_matching import flow_matching_loss, solve
 from haptoflow_training.training.label_balance import LabelBalance, label_features
 
-# `own`: a rival's published training loss.
-Objective = Literal["level", "flow", "average-velocity", "reflow", "energy", "own"]
-
 _BALANCE_WEIGHT = 2.0
 # Power of a past in unit scale, and change of the log level within a segment, beyond which the segment weighs less.
 _LOUD_PAST, _UNSTEADY_LOG_LEVEL = 4.0, 0.4
 
 
-AverageField = Callable[[Tensor, Tensor, Tensor], Tensor]
+@dataclass(frozen=True)
+class ScaledBatch:
+    """A batch in unit scale, as the model encodes it.
 
+    segment and previous [B, *shape]; recorded_previous: [B, 1, 200], which `previous` is but for a chain of the
+    network's own output; power [B]: mean square of the segment, at least 1; unsteadiness [B]: the largest deviation of
+    the log level within the segment.
+    """
 
-class TrainingPairs(Protocol):
-    """Pairs of noise and segment that a network made itself, for the reflow objective."""
-
-    def draw(self, count: int, generator: torch.Generator) -> TrainingPairs:
-        """`count` pairs at random."""
-
-    def loss(self, model: HaptoFlowModel, generator: torch.Generator) -> Tensor:
-        """The mean error of the model's velocity over the pairs, a scalar."""
+    batch: SegmentBatch
+    embedding: Tensor
+    segment: Tensor
+    previous: Tensor
+    recorded_previous: Tensor
+    rib_phase: Tensor
+    power: Tensor
+    unsteadiness: Tensor
 
 
 class Losses(nn.Module):
@@ -64,31 +65,26 @@ class Losses(nn.Module):
     def forward(
         self,
         batch: SegmentBatch,
-        objective: Objective,
+        objective: str,
         generator: torch.Generator,
-        pairs: TrainingPairs | None = None,
     ) -> tuple[Tensor, Tensor]:
-        level = self._level_loss(batch)
+        level = self.level_loss(batch)
         if objective == "level":
             return level, torch.zeros(())
-        if objective == "reflow":
-            if pairs is None:
-                raise ValueError("the reflow objective needs pairs")
-            return level, pairs.loss(self.model, generator)
-        return level, self._field_loss(batch, objective, generator)
+        return level, self.field_loss(self._scaled(batch, objective, generator), objective, generator)
 
-    def _level_loss(self, batch: SegmentBatch) -> Tensor:
+    def level_loss(self, batch: SegmentBatch) -> Tensor:
         if not self._train_level:
             return torch.zeros(())
         return level_loss(self.model.log_level(batch.label, batch.level_motion), batch.level_mean_square_mps2)
 
-    def _field_loss(self, batch: SegmentBatch, objective: Objective, generator: torch.Generator) -> Tensor:
+    def _scaled(self, batch: SegmentBatch, objective: str, generator: torch.Generator) -> ScaledBatch:
         model = self.model
         embedding = model.embedding(batch.label)
         # The field works in unit scale; its loss must not move the level to make the task easier.
         log_level = model.log_level(batch.label, batch.motion).detach()
         steady_segment, unsteadiness = self._steady_segment(batch, embedding)
-        segment = model.representation.encode(steady_segment)
+        segment = model.encode(steady_segment)
         recorded_previous = scaled_previous(batch.previous, log_level)
         previous = recorded_previous
         if batch.chain is not None:
@@ -97,59 +93,40 @@ class Losses(nn.Module):
         # Bursts that the level cannot predict (an impact, the first motion after a rest) are learnt, but must not
         # outweigh a hundred ordinary segments.
         power = segment.square().mean(dim=(1, 2)).clamp(min=1.0)
-        encoded_previous = model.representation.encode(previous)
         phase = rib_phase(embedding, batch.position_mm)
+        return ScaledBatch(
+            batch, embedding, segment, model.encode(previous), recorded_previous, phase, power, unsteadiness
+        )
 
-        def bound(rows: slice) -> AverageField:
-            def field(noisy: Tensor, time: Tensor, interval: Tensor) -> Tensor:
-                return model.field(
-                    noisy, time, encoded_previous[rows], embedding[rows], batch.motion[rows], phase[rows], interval
-                )
-
-            return field
-
-        def field(noisy: Tensor, time: Tensor) -> Tensor:
-            return model.field(noisy, time, encoded_previous, embedding, batch.motion, phase)
-
-        if objective == "own":
-            own = model.field.loss(segment, encoded_previous, embedding, batch.motion, phase, generator)
-            # A likelihood weighs all segments alike: weighting down unpredictable ones would bias it towards too little
-            # variance.
-            weight = torch.ones_like(power) if model.field.is_sampled else power.reciprocal()
-            return (weight * own).sum() / weight.sum()
+    def field_loss(self, given: ScaledBatch, objective: str, generator: torch.Generator) -> Tensor:
+        """The network's loss by one objective, a scalar."""
+        motion, segment = given.batch.motion, given.segment
         if objective == "flow":
-            return flow_matching_loss(field, segment, generator, 1.0 / power)
-        if objective == "average-velocity":
-            mean_flow_loss = extension("objective", "average-velocity")
-            average_loss: Tensor = mean_flow_loss(bound, segment, generator, 1.0 / power)
-            return average_loss
+
+            def field(noisy: Tensor, time: Tensor) -> Tensor:
+                return self.model.field(noisy, time, given.previous, given.embedding, motion, given.rib_phase)
+
+            return flow_matching_loss(field, segment, generator, 1.0 / given.power)
         # Both draws in one pass: few large matrix products are faster than many small ones.
         noise = torch.randn(2 * len(segment), *segment.shape[1:], generator=generator)
-        condition = [torch.cat([part, part]) for part in (previous, embedding, batch.motion, phase)]
-        first, second = model.one_step(noise, *condition).chunk(2)
-        recorded = (recorded_previous, segment)
-        weight = _steadiness(unsteadiness, recorded_previous)
-        return self._one_step_loss(batch, embedding, recorded, previous, (first, second), phase, weight)
+        condition = [
+            torch.cat([part, part]) for part in (given.previous, given.embedding, motion, given.rib_phase)
+        ]
+        first, second = self.model.one_step(noise, *condition).chunk(2)
+        return self._one_step_loss(given, (first, second))
 
-    def _one_step_loss(
-        self,
-        batch: SegmentBatch,
-        embedding: Tensor,
-        recorded: tuple[Tensor, Tensor],
-        past: Tensor,
-        drawn: tuple[Tensor, Tensor],
-        phase: Tensor,
-        weight: Tensor,
-    ) -> Tensor:
-        """The energy loss of a recording (past and segment) and two draws that follow `past`, [B, 1, 200] each, in
-        unit scale; phase [B, 2]: the rib phase; weight [B] of each segment."""
-        segments = [wave.squeeze(1) for wave in (recorded[1], *drawn)]
-        true = recorded[0].squeeze(1), segments[0]
+    def _one_step_loss(self, given: ScaledBatch, drawn: tuple[Tensor, Tensor]) -> Tensor:
+        """The energy loss of a recording and two draws, [B, 1, 200] each, in unit scale."""
+        batch, embedding, phase = given.batch, given.embedding, given.rib_phase
+        weight = _steadiness(given.unsteadiness, given.recorded_previous)
+        recorded = given.segment
+        segments = [wave.squeeze(1) for wave in (recorded, *drawn)]
+        true = given.recorded_previous.squeeze(1), segments[0]
         # Both draws in one pass here, too.
-        own = torch.cat([past, past]).squeeze(1), torch.cat(segments[1:])
+        own = torch.cat([given.previous, given.previous]).squeeze(1), torch.cat(segments[1:])
         all_spectra = [spectra(*true), *halves_of(spectra(*own))]
         shapes = [envelopes(*true), *zip(*(shape.chunk(2) for shape in envelopes(*own)), strict=True)]
-        partials, audible = self._partials(batch, embedding, (recorded[1], *drawn), phase)
+        partials, audible = self._partials(batch, embedding, (recorded, *drawn), phase)
         loss = energy_distance_loss(
             all_spectra[0],
             (all_spectra[1], all_spectra[2]),
@@ -184,7 +161,7 @@ class Losses(nn.Module):
 
     @torch.no_grad()
     def render_chain(
-        self, chain: Chain, label: Tensor, objective: Objective, generator: torch.Generator
+        self, chain: Chain, label: Tensor, objective: str, generator: torch.Generator
     ) -> Tensor:
         """The previous waveform [B, 1, 200] in m/s^2 after the chain's hops, rendered by the network itself."""
         model, previous = self.model, chain.start
@@ -202,7 +179,7 @@ class Losses(nn.Module):
         label: Tensor,
         motion: Tensor,
         position_mm: Tensor,
-        objective: Objective,
+        objective: str,
         generator: torch.Generator,
     ) -> Tensor:
         """One segment [B, 1, 200] in m/s^2, generated in the way the objective's tier is run."""
@@ -210,38 +187,21 @@ class Losses(nn.Module):
         embedding = model.embedding(label)
         phase = rib_phase(embedding, position_mm)
         log_level = model.level(embedding, motion)
-        previous = model.representation.encode(scaled_previous(previous_mps2, log_level))
-        noise = torch.randn(label.shape[0], *model.representation.shape, generator=generator)
+        previous = model.encode(scaled_previous(previous_mps2, log_level))
+        noise = torch.randn(label.shape[0], *model.shape, generator=generator)
+        made = self.drawn(objective, noise, (previous, embedding, motion, phase))
+        return model.decode(made) * torch.exp(log_level).unsqueeze(-1)
+
+    def drawn(self, objective: str, noise: Tensor, condition: tuple[Tensor, Tensor, Tensor, Tensor]) -> Tensor:
+        """The segment [B, *shape] that the network of an objective makes of noise. condition: previous, embedding,
+        motion, rib phase."""
+        if objective == "energy":
+            return self.model.one_step(noise, *condition)
 
         def field(noisy: Tensor, time: Tensor) -> Tensor:
-            return model.field(noisy, time, previous, embedding, motion, phase)
+            return self.model.field(noisy, time, *condition)
 
-        start = torch.zeros(label.shape[0], 1)
-        if objective == "average-velocity":
-            made = noise + model.field(noise, start, previous, embedding, motion, phase, torch.ones_like(start))
-        elif objective in ("energy", "own"):
-            made = model.one_step(noise, previous, embedding, motion, phase)
-        else:
-            made = solve(field, noise, self._solver.kind, self._solver.steps)
-        return model.representation.decode(made) * torch.exp(log_level).unsqueeze(-1)
-
-    @torch.no_grad()
-    def make_pairs(
-        self, batch: SegmentBatch, generator: torch.Generator
-    ) -> tuple[Tensor, Tensor, Tensor, SegmentBatch]:
-        """(noise, the segment that the flow makes of it, previous in unit scale, batch): the pairs that reflow is
-        trained on."""
-        model = self.model
-        embedding = model.embedding(batch.label)
-        previous = scaled_previous(batch.previous, model.level(embedding, batch.motion))
-        previous = model.representation.encode(previous)
-        noise = torch.randn(batch.label.shape[0], *model.representation.shape, generator=generator)
-        phase = rib_phase(embedding, batch.position_mm)
-
-        def field(noisy: Tensor, time: Tensor) -> Tensor:
-            return model.field(noisy, time, previous, embedding, batch.motion, phase)
-
-        return noise, solve(field, noise, "midpoint", 4), previous, batch
+        return solve(field, noise, self._solver.kind, self._solver.steps)
 
     def _steady_segment(self, batch: SegmentBatch, embedding: Tensor) -> tuple[Tensor, Tensor]:
         """The segment in unit scale, as if the motion continued as it began: each sample is divided by the level at

@@ -16,7 +16,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from types import FrameType
-from typing import Any
+from typing import Any, Self
 
 import torch
 from torch import Tensor, nn
@@ -24,18 +24,16 @@ from torch.nn.parallel import DistributedDataParallel
 from tqdm import tqdm
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.extensions import extension
+from haptoflow_training.extensions import located
 from haptoflow_training.models.haptoflow_model import HaptoFlowModel
-from haptoflow_training.models.level_model import ConstantLevel, LevelModel
-from haptoflow_training.models.representation import build_representation
-from haptoflow_training.models.segment_network import SegmentNetwork
+from haptoflow_training.models.level_model import LevelModel
 from haptoflow_training.models.velocity_field import VelocityField
 from haptoflow_training.stopping import Stopped, end_if_stopped
 from haptoflow_training.training.batches import SegmentBatches, Store
 from haptoflow_training.training.budget import Budget
 from haptoflow_training.training.config import TrainingConfig, config_from_dict
 from haptoflow_training.training.label_balance import LabelBalance
-from haptoflow_training.training.losses import Losses, Objective, TrainingPairs
+from haptoflow_training.training.losses import Losses
 from haptoflow_training.training.moving_average import MovingAverage
 from haptoflow_training.training.processes import Processes
 from haptoflow_training.training.run_log import MetricsLog, plot_metrics, source_commit, write_json
@@ -54,7 +52,6 @@ _MINIMUM_TRAINING_SECONDS = 1.0
 # The time left is shown as the bar's unit: the bar's own estimate assumes that all steps take equally long.
 _LIMITED_BAR = "{desc}: {percentage:3.0f}%|{bar}| {unit} [{elapsed}{postfix}]"
 _SECONDS_BETWEEN_BARS = 0.5
-_REHEARSED_PAIRS = 500
 
 
 class TrainingStopped(Stopped):
@@ -73,96 +70,44 @@ class TimeLimit:
 WaveVectors = Sequence[Sequence[tuple[float, float]]]
 
 
-def build_model(config: TrainingConfig, wave_vectors: WaveVectors) -> HaptoFlowModel:
-    """The untrained model of `config`. wave_vectors: of each label's ribs, empty for none."""
-    shape = config.model
-    representation = build_representation(shape.representation)
-    channels, positions = representation.shape
-    field: VelocityField | SegmentNetwork
-    if shape.architecture == "unet":
-        field = VelocityField(
-            channels=channels,
-            positions=positions,
-            patch=shape.patch,
-            width=shape.width,
-            previous_width=shape.previous_width,
-            average=config.recipe.objective == "average-velocity",
-            hears_previous=shape.hears_previous,
-            ribs=shape.ribs,
-            impulses=shape.impulses,
-            levels=shape.levels,
-        )
-    else:
-        build = extension("architecture", shape.architecture)
-        field = build(shape.architecture, ribs=shape.ribs, sampled=shape.sampled)
-    level = LevelModel() if shape.level == "law" else ConstantLevel()
-    return HaptoFlowModel(wave_vectors=wave_vectors, representation=representation, level=level, field=field)
-
-
 @dataclass(frozen=True)
-class _Phase:
-    """Steps of one objective. own_previous_every: every so many steps use chains of the network's own output
-    (self-forcing); 0 for never."""
+class Phase:
+    """Steps of one objective (losses.py). own_previous_every: every so many steps use chains of the network's own
+    output (self-forcing); 0 for never."""
 
     name: str
-    objective: Objective
-    first_step: int
+    objective: str
     steps: int
     learning_rate: float
     batch_size: int
     own_previous_every: int = 0
+    first_step: int = 0
 
     @property
     def end(self) -> int:
         return self.first_step + self.steps
 
 
-def _phases(config: TrainingConfig) -> tuple[_Phase, ...]:
-    optimiser, recipe = config.optimiser, config.recipe
-    flow: Objective = "average-velocity" if recipe.objective == "average-velocity" else "flow"
-    if config.model.architecture != "unet":
-        flow = "own"
-    last: Objective = "energy" if recipe.energy_steps else "reflow" if recipe.reflow_steps else flow
-    # A tier that shares another run's level has no level to fit.
-    level_steps, polish_steps = (0, 0) if recipe.shares_base else (optimiser.level_steps, optimiser.level_polish_steps)
-    batch, energy_batch = optimiser.batch_size, recipe.energy_batch_size
-    forced_batch = energy_batch if last == "energy" else batch
-    # If all pasts were the network's own, it would forget how to continue a recorded one.
-    forced_every = 2 if last == "energy" else 1
-    planned: list[tuple[str, Objective, int, float, int, int]] = [
-        ("level", "level", level_steps, optimiser.learning_rate, 8 * batch, 0),
-        ("field", flow, optimiser.steps, optimiser.learning_rate, batch, 0),
-        ("reflow", "reflow", recipe.reflow_steps, recipe.reflow_learning_rate, batch, 0),
-        ("energy", "energy", recipe.energy_steps, recipe.energy_learning_rate, energy_batch, 0),
-        ("self-forcing", last, recipe.self_forcing_steps, recipe.self_forcing_learning_rate, forced_batch, forced_every),
-        ("polish", "level", polish_steps, optimiser.learning_rate, 8 * batch, 0),
-    ]
-    phases: list[_Phase] = []
-    for name, objective, steps, learning_rate, batch_size, own_previous_every in planned:
-        if steps:
-            first = phases[-1].end if phases else 0
-            phases.append(_Phase(name, objective, first, steps, learning_rate, batch_size, own_previous_every))
-    return tuple(phases)
+def trainer_of(config: TrainingConfig) -> type[Trainer]:
+    """The class that trains a run of this configuration."""
+    trainer: type[Trainer] = located(config.trained_by)
+    return trainer
+
+
+def build_model(config: TrainingConfig, wave_vectors: WaveVectors) -> HaptoFlowModel:
+    """The untrained model of `config`. wave_vectors: of each label's ribs, empty for none."""
+    return trainer_of(config).build_model(config, wave_vectors)
 
 
 def planned_steps(config: TrainingConfig) -> list[int]:
     """The steps of each phase of a run of `config`."""
-    return [phase.steps for phase in _phases(config)]
-
-
-def check_start(config: TrainingConfig, processes: Processes, base: Path | None) -> None:
-    """InputError for a run that cannot begin, whatever its recordings; asked before they are prepared."""
-    if config.optimiser.budget_seconds and processes.count > 1:
-        raise InputError("optimiser.budget_seconds works with one process only; leave it out under torchrun")
-    if config.recipe.shares_base != (base is not None):
-        raise InputError(
-            "--base FOLDER and recipe.shares_base = true go together: the one names the run whose level is kept, "
-            "the other says that it is"
-        )
+    return [phase.steps for phase in trainer_of(config).phases(config)]
 
 
 class Trainer:
     """Trains one configuration on one store into one folder."""
+
+    losses: type[Losses] = Losses
 
     def __init__(
         self,
@@ -176,25 +121,24 @@ class Trainer:
     ) -> None:
         self._config, self._store, self._folder, self._processes = config, store, folder, processes
         self._limit: TimeLimit | None = None
-        self._clock: Callable[[], float] = time.process_time
+        self._clock: Callable[[], float] = time.monotonic
         self._bar_shown = 0.0
         self._start, self._base, self._wave_vectors = start, base, wave_vectors
         optimiser = config.optimiser
-        self._phases = list(_phases(config))
+        self._phases = list(self.phases(config))
         self._budget: Budget | None = None
         torch.set_num_threads(config.threads)
         torch.manual_seed(config.seed)
-        self.model = build_model(config, wave_vectors or [()] * len(store.labels))
-        check_start(config, processes, base)
+        self.model = self.build_model(config, wave_vectors or [()] * len(store.labels))
+        self.check_start(config, processes, base)
         if base is not None:
             adopt_base(self.model, base, list(store.labels))
         if start is not None:
             adopt_start(self.model, start, list(store.labels))
         self._balance = LabelBalance(len(store.labels))
-        self._losses = Losses(
+        self._losses = self.losses(
             self.model, config.solver, train_level=not config.recipe.shares_base, balance=self._balance
         )
-        self._pairs: TrainingPairs | None = None
         self._average = MovingAverage(self.model, optimiser.average_decay)
         self._optimiser = torch.optim.AdamW(
             self.model.parameters(), lr=optimiser.learning_rate, weight_decay=optimiser.weight_decay, foreach=True
@@ -210,10 +154,62 @@ class Trainer:
         self._own_saved: dict[str, Any] | None = None
         self._saved_at = 0.0
 
+    @staticmethod
+    def build_model(config: TrainingConfig, wave_vectors: WaveVectors) -> HaptoFlowModel:
+        """As the function `build_model`, for configurations of this trainer."""
+        shape = config.model
+        field = VelocityField(
+            width=shape.width,
+            previous_width=shape.previous_width,
+            ribs=shape.ribs,
+            impulses=shape.impulses,
+            levels=shape.levels,
+        )
+        return HaptoFlowModel(wave_vectors=wave_vectors, level=LevelModel(), field=field)
+
+    @staticmethod
+    def possible_phases(config: TrainingConfig) -> list[Phase]:
+        """Every phase in order, those of 0 steps too."""
+        optimiser, recipe = config.optimiser, config.recipe
+        # A tier that shares another run's level has no level to fit.
+        level_steps, polish_steps = (
+            (0, 0) if recipe.shares_base else (optimiser.level_steps, optimiser.level_polish_steps)
+        )
+        rate, batch, energy_batch = optimiser.learning_rate, optimiser.batch_size, recipe.energy_batch_size
+        forced_rate = recipe.self_forcing_learning_rate
+        forced = Phase("self-forcing", "flow", recipe.self_forcing_steps, forced_rate, batch, 1)
+        if recipe.energy_steps:
+            # If all pasts were the network's own, it would forget how to continue a recorded one.
+            forced = Phase("self-forcing", "energy", recipe.self_forcing_steps, forced_rate, energy_batch, 2)
+        return [
+            Phase("level", "level", level_steps, rate, 8 * batch),
+            Phase("field", "flow", optimiser.steps, rate, batch),
+            Phase("energy", "energy", recipe.energy_steps, recipe.energy_learning_rate, energy_batch),
+            forced,
+            Phase("polish", "level", polish_steps, rate, 8 * batch),
+        ]
+
+    @classmethod
+    def phases(cls, config: TrainingConfig) -> tuple[Phase, ...]:
+        """The phases of a run of `config`, one after the other."""
+        phases: list[Phase] = []
+        for phase in cls.possible_phases(config):
+            if phase.steps:
+                phases.append(dataclasses.replace(phase, first_step=phases[-1].end if phases else 0))
+        return tuple(phases)
+
+    @staticmethod
+    def check_start(config: TrainingConfig, processes: Processes, base: Path | None) -> None:
+        """InputError for a run that cannot begin, whatever its recordings; asked before they are prepared."""
+        if config.recipe.shares_base != (base is not None):
+            raise InputError(
+                "--base FOLDER and recipe.shares_base = true go together: the one names the run whose level is kept, "
+                "the other says that it is"
+            )
+
     def limit_time(self, limit: TimeLimit) -> None:
-        """Call before `run`: a wall-clock limit in place of the configuration's budget and steps. One process only."""
+        """Call before `run`: a wall-clock limit in place of the configuration's steps. One process only."""
         self._limit = limit
-        self._clock = time.monotonic
 
     @property
     def averaged_model(self) -> HaptoFlowModel:
@@ -240,8 +236,8 @@ class Trainer:
         commit = source_commit(Path(__file__).parent)
         log = MetricsLog(self._folder / "metrics.csv", _COLUMNS, self._step) if self._processes.is_first else None
         # Until the first step there is nothing to save: a signal ends the program at once.
-        if (self._config.optimiser.budget_seconds or self._limit is not None) and self._budget is None:
-            self._budget = self._shared_out_budget()
+        if self._budget is None:
+            self._budget = self.shared_out_budget()
         end_if_stopped()
         previous_handlers = {
             number: signal.signal(number, self._ask_to_stop) for number in (signal.SIGINT, signal.SIGTERM)
@@ -265,7 +261,7 @@ class Trainer:
         words = f"stopped at step {self._step} of {self._total}, no model is written yet"
         return TrainingStopped(self._signal, f"{words}; run the same command again to go on from there")
 
-    def _learning_rate(self, phase: _Phase) -> float:
+    def _learning_rate(self, phase: Phase) -> float:
         peak, done = phase.learning_rate, self._step - phase.first_step
         warm = min(1.0, (done + 1) / max(1, self._config.optimiser.warm_up_steps))
         late = max(0.0, done / phase.steps - 0.5) * 2.0
@@ -284,7 +280,7 @@ class Trainer:
         for index, phase in enumerate(self._phases):
             if self._step >= phase.end:
                 continue
-            self._enter(phase)
+            self.enter(phase)
             while self._step < phase.end:
                 level, field = self._train_step(losses, phase)
                 phase = self._paced(index)
@@ -317,7 +313,7 @@ class Trainer:
             self._bar_shown = time.monotonic()
             bar.refresh()
 
-    def _paced(self, index: int) -> _Phase:
+    def _paced(self, index: int) -> Phase:
         """The running phase, with its length adjusted to its share of the budget."""
         if self._budget is not None:
             self._budget.spend(index)
@@ -335,25 +331,29 @@ class Trainer:
             self._phases[index] = dataclasses.replace(phase, first_step=first, steps=count)
             first += count
 
-    def _shared_out_budget(self) -> Budget:
-        """The budget of a run that is about to begin: the cost of steps is measured on a network that is then
-        discarded."""
-        config = self._config
-        seconds = config.optimiser.budget_seconds
-        begun = self._clock()
-        tried = Trainer(
-            dataclasses.replace(
-                config,
-                optimiser=dataclasses.replace(config.optimiser, budget_seconds=0.0),
-                recipe=dataclasses.replace(config.recipe, reflow_pairs=_REHEARSED_PAIRS),
-            ),
-            self._store, self._folder, self._processes, self._base, self._wave_vectors, self._start,
-        )  # fmt: skip
+    def shared_out_budget(self) -> Budget | None:
+        """The time of a run with a limit, divided among the phases; None without."""
+        if self._limit is None:
+            return None
+        begun, seconds = self._clock(), self._limit.training_seconds
+        costs = self.rehearsed(_REHEARSED_SHARE * seconds)
+        return self.divided(max(seconds - (self._clock() - begun), _MINIMUM_TRAINING_SECONDS), costs)
+
+    def rehearsed(self, longest_seconds: float) -> list[float]:
+        """Seconds of a step of each phase, measured on a network that is then discarded."""
+        tried = self.rehearsal()
+        return [tried._seconds_per_step(phase, longest_seconds / len(tried._phases)) for phase in tried._phases]
+
+    def rehearsal(self) -> Self:
+        """A trainer of the same run that has not begun."""
+        tried = type(self)(
+            self._config, self._store, self._folder, self._processes, self._base, self._wave_vectors, self._start
+        )
         tried._clock = self._clock
-        longest = math.inf if self._limit is None else _REHEARSED_SHARE * self._limit.training_seconds
-        seconds_per_step = [tried._seconds_per_step(phase, longest / len(tried._phases)) for phase in tried._phases]
-        if self._limit is not None:
-            seconds = max(self._limit.training_seconds - (self._clock() - begun), _MINIMUM_TRAINING_SECONDS)
+        return tried
+
+    def divided(self, seconds: float, seconds_per_step: Sequence[float]) -> Budget:
+        """`seconds` as the budget of a run that begins now."""
         budget = Budget.shared_out(
             seconds,
             self._planned_steps,
@@ -364,9 +364,9 @@ class Trainer:
         budget.start()
         return budget
 
-    def _seconds_per_step(self, phase: _Phase, longest_seconds: float) -> float:
+    def _seconds_per_step(self, phase: Phase, longest_seconds: float) -> float:
         self._step = phase.first_step
-        self._enter(phase)
+        self.enter(phase)
         entered = self._clock()
         for _ in range(_WARM_UP_STEPS):
             self._train_step(self._losses, phase)
@@ -379,37 +379,26 @@ class Trainer:
                 break
         return (self._clock() - begun) / step
 
-    def _enter(self, phase: _Phase) -> None:
-        if self._step == phase.first_step and phase.name in ("reflow", "energy", "polish"):
-            # These phases refine the exported average, so they start from it rather than from the last noisy step.
-            self.model.load_state_dict(self.averaged_model.state_dict())
-        if phase.objective == "reflow":
-            self._pairs = self._make_pairs()
+    def enter(self, phase: Phase) -> None:
+        """Prepare for the steps of a phase; also where a run is resumed within it."""
+        if self._step == phase.first_step and phase.name in ("energy", "polish"):
+            self.start_from_average()
         if phase.name == "polish":
             # The level is fitted again to the averaged embedding, which is the one that is exported.
             for parameter in (*self.model.field.parameters(), *self.model.embedding.parameters()):
                 parameter.requires_grad_(False)
 
-    def _make_pairs(self) -> TrainingPairs:
-        """Noise and the segments that the flow makes of it. A resumed run draws new pairs with its present weights,
-        because the earlier weights are gone."""
-        generator = torch.Generator().manual_seed(self._config.seed + 17)
-        size, count = 500, self._config.recipe.reflow_pairs // self._processes.count
-        teacher = Losses(self.averaged_model, self._config.solver)
-        parts = []
-        for _ in tqdm(range(0, count, size), desc="pairs", unit="batch", disable=not self._processes.is_first):
-            parts.append(teacher.make_pairs(self._batches.draw(size), generator))
-        pairs: TrainingPairs = extension("objective", "reflow").joined(parts)
-        return pairs
+    def start_from_average(self) -> None:
+        """Start a phase that refines the exported average from it rather than from the last noisy step."""
+        self.model.load_state_dict(self.averaged_model.state_dict())
 
-    def _train_step(self, losses: nn.Module, phase: _Phase) -> tuple[Tensor, Tensor]:
+    def _train_step(self, losses: nn.Module, phase: Phase) -> tuple[Tensor, Tensor]:
         for group in self._optimiser.param_groups:
             group["lr"] = self._learning_rate(phase)
         size = max(1, phase.batch_size // self._processes.count)
         forced = phase.own_previous_every and self._step % phase.own_previous_every == 0
         batch = self._batches.draw_chains(size) if forced else self._batches.draw(size)
-        pairs = self._pairs.draw(size, self._noise) if self._pairs and phase.objective == "reflow" else None
-        level, field = losses(batch, phase.objective, self._noise, pairs)
+        level, field = losses(batch, phase.objective, self._noise)
         total = level + field
         if not torch.isfinite(total):
             raise InputError(
@@ -425,17 +414,17 @@ class Trainer:
         return level.detach(), field.detach()
 
     @torch.no_grad()
-    def validate(self, phase: _Phase | None = None) -> tuple[float, float]:
+    def validate(self, phase: Phase | None = None) -> tuple[float, float]:
         """(level loss, loss of the phase's objective) of the averaged model on fixed pairs of the validation split."""
         generator = torch.Generator().manual_seed(99)
-        losses = Losses(self.averaged_model, self._config.solver)
+        losses = self.losses(self.averaged_model, self._config.solver)
         objective = (phase or self._phases[-1]).objective
-        if objective in ("level", "reflow"):
+        if objective == "level":
             objective = next((entry.objective for entry in self._phases if entry.name == "field"), "level")
         level, field = losses(self._validation, objective, generator)
         return level.item(), field.item()
 
-    def _report(self, log: MetricsLog | None, phase: _Phase, level: Tensor, field: Tensor, bar: tqdm) -> None:
+    def _report(self, log: MetricsLog | None, phase: Phase, level: Tensor, field: Tensor, bar: tqdm) -> None:
         level, field = self._processes.mean(level), self._processes.mean(field)
         if log is None:
             return
@@ -485,7 +474,7 @@ class Trainer:
     def _load(self) -> None:
         content = torch.load(self.checkpoint_path, map_location="cpu")
         own = torch.load(self._folder / f"generators-{self._processes.rank}.pt", map_location="cpu")
-        same_config = config_from_dict(content["config"], self.checkpoint_path) == self._config
+        same_config = config_from_dict(content["config"], self.checkpoint_path, type(self._config)) == self._config
         if not same_config or content["labels"] != list(self._store.labels):
             raise InputError(
                 f"{self.checkpoint_path} belongs to another configuration: choose another --out, or delete the folder"

@@ -9,7 +9,7 @@ from typing import Any
 from torch import Tensor, nn
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.extensions import extension, registered
+from haptoflow_training.extensions import located
 from haptoflow_training.waveform import SEGMENT_SAMPLES
 
 
@@ -51,15 +51,13 @@ class RawRepresentation(Representation):
 
 
 def build_representation(config: Mapping[str, Any]) -> Representation:
-    """From a configuration table: `kind` is "raw" or the name of a registered representation, which reads the other
-    keys. Raises InputError naming the key."""
+    """From a configuration table: `kind` is "raw", "small-codec" or "encodec"; the codec reads the other keys. Raises InputError naming the key."""
     kind = config.get("kind")
     if kind == "raw":
         for key in sorted(config.keys() - {"kind"}):
             raise InputError(f"representation 'raw': {key} is unknown, expected no further key")
         return RawRepresentation()
-    if not isinstance(kind, str) or (registered("representation") and kind not in registered("representation")):
-        known = ", ".join(sorted(("raw", *registered("representation"))))
-        raise InputError(f"representation kind = {kind!r}, expected one of {known}")
-    built: Representation = extension("representation", kind)(config)
+    if kind not in ("small-codec", "encodec"):
+        raise InputError(f"representation kind = {kind!r}, expected one of encodec, raw, small-codec")
+    built: Representation = located("haptoflow_paper.codec.representation:build_codec_representation")(config)
     return built

@@ -1,0 +1,53 @@
+"""Further objectives: `own` (a rival's published training loss), `average-velocity` (MeanFlow) and `reflow`."""
+
+from __future__ import annotations
+
+import torch
+from torch import Tensor
+
+from haptoflow_paper.objectives.mean_flow import AverageField, mean_flow_loss
+from haptoflow_paper.objectives.reflow import ReflowPairs
+from haptoflow_training.training.batches import SegmentBatch
+from haptoflow_training.training.losses import Losses, ScaledBatch
+
+
+class EvaluatedLosses(Losses):
+    """pairs: what the reflow objective draws from; set before its phase."""
+
+    pairs: ReflowPairs | None = None
+
+    def forward(self, batch: SegmentBatch, objective: str, generator: torch.Generator) -> tuple[Tensor, Tensor]:
+        if objective != "reflow":
+            return super().forward(batch, objective, generator)
+        if self.pairs is None:
+            raise ValueError("the reflow objective needs pairs")
+        level = self.level_loss(batch)
+        return level, self.pairs.draw(len(batch.label), generator).loss(self.model, generator)
+
+    def field_loss(self, given: ScaledBatch, objective: str, generator: torch.Generator) -> Tensor:
+        field, motion = self.model.field, given.batch.motion
+        if objective == "own":
+            own = field.loss(given.segment, given.previous, given.embedding, motion, given.rib_phase, generator)
+            # A likelihood weighs all segments alike: weighting down unpredictable ones would bias it towards too little
+            # variance.
+            weight = torch.ones_like(given.power) if field.is_sampled else given.power.reciprocal()
+            return (weight * own).sum() / weight.sum()
+        if objective == "average-velocity":
+
+            def bound(rows: slice) -> AverageField:
+                def average(noisy: Tensor, time: Tensor, interval: Tensor) -> Tensor:
+                    return field(
+                        noisy, time, given.previous[rows], given.embedding[rows], motion[rows], given.rib_phase[rows],
+                        interval,
+                    )  # fmt: skip
+
+                return average
+
+            return mean_flow_loss(bound, given.segment, generator, 1.0 / given.power)
+        return super().field_loss(given, objective, generator)
+
+    def drawn(self, objective: str, noise: Tensor, condition: tuple[Tensor, Tensor, Tensor, Tensor]) -> Tensor:
+        if objective == "average-velocity":
+            start = torch.zeros(len(noise), 1)
+            return noise + self.model.field(noise, start, *condition, torch.ones_like(start))
+        return super().drawn("energy" if objective == "own" else objective, noise, condition)

@@ -1,0 +1,90 @@
+"""Networks of evaluated runs: rivals and latents in a model, the average velocity, and two ablations."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import torch
+from torch import Tensor, nn
+
+from haptoflow_paper.codec.representation_base import Representation
+from haptoflow_paper.rivals.segment_network import SegmentNetwork
+from haptoflow_training.models.conditioning import TimeEncoder
+from haptoflow_training.models.haptoflow_model import HaptoFlowModel
+from haptoflow_training.models.velocity_field import VelocityField
+
+
+class EvaluatedModel(HaptoFlowModel):
+    """A model whose network may be a rival, or work on the latents of a codec."""
+
+    field: VelocityField | SegmentNetwork  # type: ignore[assignment]
+
+    def __init__(
+        self,
+        *,
+        wave_vectors: Sequence[Sequence[tuple[float, float]]],
+        representation: Representation,
+        level: nn.Module,
+        field: VelocityField | SegmentNetwork,
+    ) -> None:
+        super().__init__(wave_vectors=wave_vectors, level=level, field=field)  # type: ignore[arg-type]
+        self.representation = representation
+        self.shape = representation.shape
+
+    def encode(self, waveform: Tensor) -> Tensor:
+        return self.representation.encode(waveform)
+
+    def decode(self, encoded: Tensor) -> Tensor:
+        return self.representation.decode(encoded)
+
+    def start(self, noise: Tensor) -> Tensor:
+        # A latent has another shape than a waveform, so its noise is drawn here.
+        return torch.randn(len(noise), *self.shape) if self.representation.is_latent else noise
+
+    def one_step(
+        self, noise: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, rib_phase: Tensor
+    ) -> Tensor:
+        if isinstance(self.field, SegmentNetwork):
+            return self.field(noise, previous, embedding, motion, rib_phase)
+        return super().one_step(noise, previous, embedding, motion, rib_phase)
+
+
+class DeafVelocityField(VelocityField):
+    """A velocity field on which the previous waveform has no effect (an ablation)."""
+
+    def _heard(self, previous: Tensor) -> Tensor:
+        return super()._heard(torch.zeros_like(previous))
+
+
+class AverageVelocityField(VelocityField):
+    """The average velocity over [t, t + interval] (MeanFlow), interval [B, 1]; without interval, the velocity."""
+
+    def _encode_time(self) -> None:
+        super()._encode_time()
+        self.interval = TimeEncoder()
+
+    def forward(
+        self,
+        noisy: Tensor,
+        time: Tensor,
+        previous: Tensor,
+        embedding: Tensor,
+        motion: Tensor,
+        rib_phase: Tensor | None = None,
+        interval: Tensor | None = None,
+    ) -> Tensor:
+        moment = self.time(time)
+        if interval is not None:
+            moment = moment + self.interval(interval)
+        return self.velocity(noisy, moment, previous, embedding, motion, rib_phase)
+
+
+class ConstantLevel(nn.Module):
+    """One level for every label and motion (an ablation: no level model)."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.log_rms = nn.Parameter(torch.zeros(1))
+
+    def forward(self, embedding: Tensor, motion: Tensor) -> Tensor:
+        return self.log_rms + 0.0 * embedding[:, 0:1]

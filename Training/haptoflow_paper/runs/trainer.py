@@ -1,0 +1,115 @@
+"""The training loop with rivals, latents, ablations, the reflow phase and a budget of computing time."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import time
+from pathlib import Path
+from typing import Any
+
+import torch
+from torch import Tensor
+from tqdm import tqdm
+
+from haptoflow_paper.codec.representation_base import build_representation
+from haptoflow_paper.objectives.reflow import ReflowPairs, own_pairs
+from haptoflow_paper.rivals import build_rival
+from haptoflow_paper.runs.configuration import EvaluatedConfig
+from haptoflow_paper.runs.losses import EvaluatedLosses
+from haptoflow_paper.runs.networks import AverageVelocityField, ConstantLevel, DeafVelocityField, EvaluatedModel
+from haptoflow_training.errors import InputError
+from haptoflow_training.models.level_model import LevelModel
+from haptoflow_training.models.velocity_field import VelocityField
+from haptoflow_training.training.budget import Budget
+from haptoflow_training.training.processes import Processes
+from haptoflow_training.training.trainer import Phase, TimeLimit, Trainer, WaveVectors
+
+_PAIRS_AT_A_TIME = 500
+
+
+class EvaluatedTrainer(Trainer):
+    """Trains one evaluated configuration. With `optimiser.budget_seconds` the clock is the process's computing time."""
+
+    losses = EvaluatedLosses
+    _config: EvaluatedConfig
+    _losses: EvaluatedLosses
+
+    def __init__(self, *arguments: Any, **named: Any) -> None:
+        super().__init__(*arguments, **named)
+        self._clock = time.process_time
+        self._pair_count = self._config.recipe.reflow_pairs
+
+    @staticmethod
+    def build_model(config: EvaluatedConfig, wave_vectors: WaveVectors) -> EvaluatedModel:  # type: ignore[override]
+        shape = config.model
+        representation = build_representation(shape.representation)
+        if shape.architecture == "unet":
+            channels, positions = representation.shape
+            averages, hears = config.recipe.objective == "average-velocity", shape.hears_previous
+            field_class = AverageVelocityField if averages else VelocityField if hears else DeafVelocityField
+            field: Any = field_class(
+                channels=channels, positions=positions, patch=shape.patch, width=shape.width,
+                previous_width=shape.previous_width, ribs=shape.ribs, impulses=shape.impulses, levels=shape.levels,
+            )  # fmt: skip
+        else:
+            field = build_rival(shape.architecture, ribs=shape.ribs, sampled=shape.sampled)
+        level = LevelModel() if shape.level == "law" else ConstantLevel()
+        return EvaluatedModel(wave_vectors=wave_vectors, representation=representation, level=level, field=field)
+
+    @staticmethod
+    def possible_phases(config: EvaluatedConfig) -> list[Phase]:  # type: ignore[override]
+        level, field, energy, forced, polish = Trainer.possible_phases(config)
+        recipe = config.recipe
+        objective = "own" if config.model.architecture != "unet" else recipe.objective
+        reflow = Phase("reflow", "reflow", recipe.reflow_steps, recipe.reflow_learning_rate, field.batch_size)
+        if not energy.steps:
+            forced = dataclasses.replace(forced, objective=reflow.objective if reflow.steps else objective)
+        return [level, dataclasses.replace(field, objective=objective), reflow, energy, forced, polish]
+
+    @staticmethod
+    def check_start(config: EvaluatedConfig, processes: Processes, base: Path | None) -> None:  # type: ignore[override]
+        if config.optimiser.budget_seconds and processes.count > 1:
+            raise InputError("optimiser.budget_seconds works with one process only; leave it out under torchrun")
+        Trainer.check_start(config, processes, base)
+
+    def limit_time(self, limit: TimeLimit) -> None:
+        """As of every trainer: the limit by the wall clock replaces a budget."""
+        super().limit_time(limit)
+        self._clock = time.monotonic
+
+    def shared_out_budget(self) -> Budget | None:
+        seconds = self._config.optimiser.budget_seconds
+        if self._limit is not None or not seconds:
+            return super().shared_out_budget()
+        return self.divided(seconds, self.rehearsed(math.inf))
+
+    def rehearsal(self) -> EvaluatedTrainer:
+        tried = super().rehearsal()
+        tried._pair_count = _PAIRS_AT_A_TIME
+        return tried
+
+    def enter(self, phase: Phase) -> None:
+        super().enter(phase)
+        if phase.objective == "reflow":
+            if self._step == phase.first_step:
+                self.start_from_average()
+            self._losses.pairs = self._make_pairs()
+
+    def _make_pairs(self) -> ReflowPairs:
+        """Noise and the segments that the flow makes of it. A resumed run draws new pairs with its present weights,
+        because the earlier weights are gone."""
+        generator = torch.Generator().manual_seed(self._config.seed + 17)
+        count = self._pair_count // self._processes.count
+        batches = tqdm(
+            range(0, count, _PAIRS_AT_A_TIME), desc="pairs", unit="batch", disable=not self._processes.is_first
+        )
+        model = self.averaged_model
+        return ReflowPairs.joined([own_pairs(model, self._batches.draw(_PAIRS_AT_A_TIME), generator) for _ in batches])
+
+    def validate(self, phase: Phase | None = None) -> tuple[float, float]:
+        phase = phase or self._phases[-1]
+        if phase.objective == "reflow":
+            # Its pairs are the network's own: what it is for is the flow.
+            phase = next(entry for entry in self._phases if entry.name != "reflow" and entry.objective != "level")
+        return super().validate(phase)
