@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-import dataclasses
 import json
 import time
 from pathlib import Path
 
 import pytest
+from paper_samples import evaluated
 from test_trainer import ALONE, _config, ask_to_stop_after
 from training_fixtures import make_store
 
+from haptoflow_paper.runs.configuration import EvaluatedConfig
+from haptoflow_paper.runs.trainer import EvaluatedTrainer
 from haptoflow_training.errors import InputError
 from haptoflow_training.training.budget import Budget
-from haptoflow_training.training.config import TrainingConfig
 from haptoflow_training.training.processes import Processes
 from haptoflow_training.training.trainer import Trainer, TrainingStopped, load_trained
 
@@ -40,10 +41,9 @@ def clock(monkeypatch: pytest.MonkeyPatch) -> _Clock:
     return _Clock(monkeypatch)
 
 
-def _budgeted(seconds: float) -> TrainingConfig:
+def _budgeted(seconds: float) -> EvaluatedConfig:
     """20 + 30 + 10 steps of 1, 4 and 1 seconds: 150 seconds without a budget, 30 of them for the level."""
-    config = _config()
-    return dataclasses.replace(config, optimiser=dataclasses.replace(config.optimiser, budget_seconds=seconds))
+    return evaluated(_config(), optimiser={"budget_seconds": seconds})
 
 
 def _phases(folder: Path) -> dict[str, dict[str, float]]:
@@ -72,7 +72,7 @@ def test_the_share_of_steps_done_equals_the_share_of_time_passed(
 
 @pytest.mark.parametrize("seconds", [75.0, 300.0])
 def test_a_run_makes_as_many_steps_as_fit_its_budget(seconds: float, tmp_path: Path, clock: _Clock) -> None:
-    Trainer(_budgeted(seconds), make_store(), tmp_path, ALONE).run()
+    EvaluatedTrainer(_budgeted(seconds), make_store(), tmp_path, ALONE).run()
     phases = _phases(tmp_path)
     for name, steps in (("level", 20), ("field", (seconds - 30.0) / 4.0), ("polish", 10)):
         assert phases[name]["steps"] == pytest.approx(steps, abs=1.0), name
@@ -82,14 +82,14 @@ def test_a_run_makes_as_many_steps_as_fit_its_budget(seconds: float, tmp_path: P
 def test_steps_that_slow_down_become_fewer_and_the_phase_ends_in_time(
     tmp_path: Path, clock: _Clock, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    trainer = Trainer(_budgeted(150.0), make_store(), tmp_path, ALONE)
-    enter = trainer._enter
+    trainer = EvaluatedTrainer(_budgeted(150.0), make_store(), tmp_path, ALONE)
+    enter = trainer.enter
 
     def slower(phase: object) -> None:
         monkeypatch.setitem(SECONDS_PER_STEP, "field", 8.0)
         enter(phase)  # type: ignore[arg-type]
 
-    monkeypatch.setattr(trainer, "_enter", slower)
+    monkeypatch.setattr(trainer, "enter", slower)
     trainer.run()
     phases = _phases(tmp_path)
     assert phases["field"]["steps"] == 15
@@ -97,7 +97,7 @@ def test_steps_that_slow_down_become_fewer_and_the_phase_ends_in_time(
 
 
 def test_the_learning_rate_has_decayed_when_a_budgeted_phase_ends(tmp_path: Path, clock: _Clock) -> None:
-    trainer = Trainer(_budgeted(300.0), make_store(), tmp_path, ALONE)
+    trainer = EvaluatedTrainer(_budgeted(300.0), make_store(), tmp_path, ALONE)
     rates: list[float] = []
     learning_rate = trainer._learning_rate
 
@@ -113,20 +113,20 @@ def test_the_learning_rate_has_decayed_when_a_budgeted_phase_ends(tmp_path: Path
 
 
 def test_a_resumed_run_uses_the_rest_of_its_budget(tmp_path: Path, clock: _Clock) -> None:
-    stopped = Trainer(_budgeted(300.0), make_store(), tmp_path, ALONE)
+    stopped = EvaluatedTrainer(_budgeted(300.0), make_store(), tmp_path, ALONE)
     ask_to_stop_after(stopped, 60)
     with pytest.raises(TrainingStopped):
         stopped.run()
     clock.now += 1000.0
-    Trainer(_budgeted(300.0), make_store(), tmp_path, ALONE).run()
+    EvaluatedTrainer(_budgeted(300.0), make_store(), tmp_path, ALONE).run()
     phases = _phases(tmp_path)
     steps = [phases[name]["steps"] for name in ("level", "field", "polish")]
     assert steps == pytest.approx([20, 270 / 4.0, 10], abs=1.0)
-    finished = Trainer(_budgeted(300.0), make_store(), tmp_path, ALONE)
+    finished = EvaluatedTrainer(_budgeted(300.0), make_store(), tmp_path, ALONE)
     finished.run()
     assert load_trained(tmp_path)[0].optimiser.budget_seconds == 300.0
 
 
 def test_several_processes_and_a_budget_are_refused(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="budget_seconds"):
-        Trainer(_budgeted(10.0), make_store(), tmp_path, Processes(rank=0, count=2))
+        EvaluatedTrainer(_budgeted(10.0), make_store(), tmp_path, Processes(rank=0, count=2))

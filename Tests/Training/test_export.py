@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-import dataclasses
 import json
 from pathlib import Path
 
 import numpy as np
 import onnx
 import pytest
+from paper_samples import evaluated
 from test_trainer import ALONE, _config
 from training_fixtures import FakeStore, make_store
 
 from haptoflow_paper.codec.small_codec import SmallCodec, SmallCodecShape
 from haptoflow_paper.report.annotation import annotate_model
+from haptoflow_paper.runs.trainer import EvaluatedTrainer
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.exponents import fit_exponents
 from haptoflow_training.export.exporter import Provenance, export_run
@@ -21,7 +22,6 @@ from haptoflow_training.export.label_info import LabelInfo
 from haptoflow_training.export.model_file import ModelFile, read_model_file
 from haptoflow_training.export.seed_bank import build_seed_bank
 from haptoflow_training.recordings.landing import Landing, LandingMode
-from haptoflow_training.training.config import ModelConfig
 from haptoflow_training.training.held_out import HeldOut
 from haptoflow_training.training.trainer import Trainer
 
@@ -156,11 +156,9 @@ def test_measured_figures_go_into_the_header_and_the_golden_vectors_follow(
 def test_a_run_in_latents_is_exported_with_its_encoder_and_decoder(tmp_path: Path) -> None:
     SmallCodec(SmallCodecShape()).save(tmp_path / "codec.pt")
     store = make_store(seconds=6.0, recordings_per_split=4)
-    model = ModelConfig(
-        width=16, previous_width=8, patch=5,
-        representation={"kind": "small-codec", "checkpoint": str(tmp_path / "codec.pt")},
-    )  # fmt: skip
-    Trainer(dataclasses.replace(_config(steps=4), model=model), store, tmp_path / "run", ALONE).run()
+    codec = {"kind": "small-codec", "checkpoint": str(tmp_path / "codec.pt")}
+    config = evaluated(_config(steps=4), model={"patch": 5, "representation": codec})
+    EvaluatedTrainer(config, store, tmp_path / "run", ALONE).run()
     export_run(tmp_path / "run", store, INFOS, PROVENANCE, tmp_path / "m.haptoflow")
     file = read_model_file(tmp_path / "m.haptoflow")
     tier = file.header["tiers"][0]
@@ -175,8 +173,8 @@ def test_a_run_in_latents_is_exported_with_its_encoder_and_decoder(tmp_path: Pat
 
 def test_a_rival_becomes_a_direct_tier_with_the_inputs_that_it_reads(tmp_path: Path) -> None:
     store = make_store(seconds=6.0, recordings_per_split=4)
-    config = dataclasses.replace(_config(steps=4), model=ModelConfig(architecture="spsi"))
-    Trainer(config, store, tmp_path / "run", ALONE).run()
+    config = evaluated(_config(steps=4), model={"architecture": "spsi"})
+    EvaluatedTrainer(config, store, tmp_path / "run", ALONE).run()
     export_run(tmp_path / "run", store, INFOS, PROVENANCE, tmp_path / "m.haptoflow", tmp_path / "parity.json")
     file = read_model_file(tmp_path / "m.haptoflow")
     assert file.header["tiers"][0]["kind"] == "direct"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import json
 from pathlib import Path
 
@@ -10,10 +9,11 @@ import onnx
 import pytest
 import torch
 from onnx import TensorProto, helper
+from paper_samples import evaluated
 
+from haptoflow_paper.runs.tier import network_graph
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.model_file import ModelFile, read_model_file
-from haptoflow_training.export.onnx_graphs import export_network
 from haptoflow_training.models.file_model import FileModel
 from haptoflow_training.models.graph_module import GraphModule
 from haptoflow_training.training.config import load_config
@@ -83,12 +83,12 @@ def test_the_gradient_with_respect_to_the_embedding_equals_finite_differences(de
 def test_every_exported_kind_of_tier_computes_what_its_network_computes(kind: str) -> None:
     config = load_config(ROOT / "Training" / "configs" / "default" / "standard.toml")
     if kind == "average-velocity":
-        config = dataclasses.replace(config, recipe=dataclasses.replace(config.recipe, objective=kind))
+        config = evaluated(config, recipe={"objective": kind, "energy_steps": 0})
     torch.manual_seed(3)
     model = build_model(config, NO_RIBS).eval()
     for parameter in model.parameters():
         torch.nn.init.normal_(parameter, std=0.05)
-    graph = GraphModule(export_network(model, kind))
+    graph = GraphModule(network_graph(model, kind))
     noise, previous = torch.randn(3, 1, 200), torch.randn(3, 1, 200)
     embedding, motion, phase = torch.randn(3, 64), torch.rand(3, 3), torch.rand(3, 2)
     time = torch.full((3, 1), 0.25)
@@ -97,8 +97,8 @@ def test_every_exported_kind_of_tier_computes_what_its_network_computes(kind: st
     if kind == "direct":
         expected = model.one_step(noise, previous, embedding, motion, phase)
     else:
-        interval = time if model.field.interval is not None else None
-        expected = model.field(noise, time, previous, embedding, motion, phase, interval)
+        interval = [time] if kind == "average-velocity" else []
+        expected = model.field(noise, time, previous, embedding, motion, phase, *interval)
     assert torch.allclose(made, expected, atol=1e-4)
 
 

@@ -13,6 +13,7 @@ import torch
 from haptoflow_paper.codec.representation import CodecRepresentation
 from haptoflow_paper.codec.small_codec import SmallCodec, SmallCodecShape
 from haptoflow_paper.rivals import ARCHITECTURES
+from haptoflow_paper.runs.tier import network_graph
 from haptoflow_training.export.onnx_graphs import export_level_model, export_network
 from haptoflow_paper.codec.representation_base import build_representation
 from haptoflow_training.training.config import TrainingConfig, load_config
@@ -51,7 +52,7 @@ def test_every_kind_of_tier_in_shipped_sizes_uses_only_listed_operators(kind: st
 def test_every_rival_uses_only_listed_operators(architecture: str) -> None:
     base = load_config(ROOT / "Training" / "haptoflow_paper" / "configs" / "plain.toml")
     config: TrainingConfig = dataclasses.replace(base, model=dataclasses.replace(base.model, architecture=architecture))
-    _check(export_network(build_model(config, NO_RIBS), "direct"))
+    _check(network_graph(build_model(config, NO_RIBS), "direct"))
 
 
 def test_every_codec_uses_only_listed_operators(tmp_path: Path) -> None:

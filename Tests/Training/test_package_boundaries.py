@@ -1,4 +1,4 @@
-"""haptoflow_benchmark builds on haptoflow_training, never the other way round."""
+"""haptoflow_paper builds on haptoflow_benchmark, which builds on haptoflow_training, never the other way round."""
 
 from __future__ import annotations
 
@@ -12,7 +12,12 @@ from pathlib import Path
 import pytest
 
 TRAINING = Path(__file__).parents[2] / "Training"
-MODULES = sorted((TRAINING / "haptoflow_training").rglob("*.py"))
+# Of each package, those that it may not know.
+ABOVE = {
+    "haptoflow_training": ("haptoflow_benchmark", "haptoflow_paper"),
+    "haptoflow_benchmark": ("haptoflow_paper",),
+}
+MODULES = [(package, path) for package in ABOVE for path in sorted((TRAINING / package).rglob("*.py"))]
 
 
 def _imported(tree: ast.AST) -> Iterator[tuple[int, str]]:
@@ -25,38 +30,91 @@ def _imported(tree: ast.AST) -> Iterator[tuple[int, str]]:
             yield node.lineno, str(node.module)
 
 
-def test_the_training_package_has_modules_to_check() -> None:
-    assert len(MODULES) > 100
+def test_each_package_has_modules_to_check() -> None:
+    counts = {package: sum(found == package for found, _ in MODULES) for package in ABOVE}
+    assert counts["haptoflow_training"] > 100 and counts["haptoflow_benchmark"] > 20
 
 
-@pytest.mark.parametrize("path", MODULES, ids=lambda path: str(path.relative_to(TRAINING)))
-def test_no_module_of_the_training_package_imports_the_benchmark_package(path: Path) -> None:
+@pytest.mark.parametrize(("package", "path"), MODULES, ids=lambda value: str(value).removeprefix(f"{TRAINING}/"))
+def test_no_module_names_a_package_above_its_own(package: str, path: Path) -> None:
     text = path.read_text(encoding="utf-8")
     found = [
         f"{path.relative_to(TRAINING)}:{line}: imports {name}"
         for line, name in _imported(ast.parse(text))
-        if name.split(".")[0] == "haptoflow_benchmark"
+        if name.split(".")[0] in ABOVE[package]
     ]
     assert not found, "\n".join(found)
-    assert "haptoflow_benchmark" not in text, "the training package names no module of the benchmark package"
+    # The package's description says where the comparison is.
+    if path.name != "__init__.py":
+        assert not [above for above in ABOVE[package] if above in text]
 
 
-@pytest.mark.parametrize(
-    ("configuration", "part"),
-    [("spsi", "architecture 'spsi'"), ("mean-flow", "objective 'average-velocity'"), ("reflow", "objective 'reflow'"),
-     ("paper-codec", "representation")],
-)  # fmt: skip
-def test_the_training_program_refuses_a_row_of_the_benchmark_and_names_the_other_program(
-    tmp_path: Path, configuration: str, part: str
-) -> None:
-    config = TRAINING / "haptoflow_paper" / "configs" / f"{configuration}.toml"
-    words = ["train", "--config", str(config), "--out", str(tmp_path / "run")]
-    # A process of its own: other tests of this one import haptoflow_benchmark, which registers the parts.
-    ended = subprocess.run(
-        [sys.executable, "-m", "haptoflow_training", *words],
+def _alone(tmp_path: Path, *words: str) -> subprocess.CompletedProcess[str]:
+    """Python in a process of its own: other tests of this one import haptoflow_paper, which changes what is read."""
+    return subprocess.run(
+        [sys.executable, *words],
         cwd=tmp_path, env={**os.environ, "PYTHONPATH": str(TRAINING)}, capture_output=True, text=True, check=False,
         timeout=60,
     )  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("configuration", "key"),
+    [
+        ("spsi", "model.architecture"), ("mean-flow", "optimiser.budget_seconds"), ("paper-codec", "model.patch"),
+        ("one-step-deaf", "model.hears_previous"),
+    ],
+)  # fmt: skip
+def test_the_training_program_refuses_a_row_of_the_evaluation_and_names_the_other_program(
+    tmp_path: Path, configuration: str, key: str
+) -> None:
+    config = TRAINING / "haptoflow_paper" / "configs" / f"{configuration}.toml"
+    ended = _alone(tmp_path, "-m", "haptoflow_training", "train", "--config", str(config), "--out", "run")
     assert ended.returncode == 3, ended.stderr
-    assert part in ended.stderr and "haptoflow-benchmark" in ended.stderr
+    assert f"key '{key}'" in ended.stderr and "haptoflow-paper" in ended.stderr
     assert not any(tmp_path.iterdir())
+
+
+_CHECK = """
+import sys
+from pathlib import Path
+from haptoflow_training.errors import InputError
+from haptoflow_training.training.config import TrainingConfig, config_from_dict, load_config
+
+for path in sys.argv[1:]:
+    assert type(load_config(Path(path))) is TrainingConfig
+
+old = {
+    "model": {"architecture": "unet", "sampled": False, "hears_previous": True, "level": "law", "patch": 8,
+              "representation": {"kind": "raw"}, "width": 48},
+    "optimiser": {"budget_seconds": 0.0},
+    "recipe": {"objective": "flow", "reflow_steps": 0, "reflow_pairs": 36000, "reflow_learning_rate": 4e-4},
+}
+read = config_from_dict(old, Path("checkpoint.pt"))
+assert read == config_from_dict({"model": {"width": 48}}, Path("checkpoint.pt"))
+own = {name for table in (read.to_dict()[section] for section in old) for name in table}
+changed = {"architecture": "spsi", "sampled": True, "hears_previous": False, "level": "constant", "patch": 5,
+           "representation": {"kind": "encodec"}, "budget_seconds": 5.0, "objective": "average-velocity",
+           "reflow_steps": 3, "reflow_pairs": 1, "reflow_learning_rate": 1.0}
+for section, keys in old.items():
+    for key in keys:
+        if key == "width":
+            continue
+        assert key not in own, key
+        try:
+            config_from_dict({section: {key: changed[key]}}, Path("own.toml"))
+        except InputError as error:
+            assert f"key '{section}.{key}'" in str(error) and "haptoflow-paper" in str(error)
+        else:
+            raise AssertionError(key)
+"""
+
+
+def test_the_product_alone_reads_its_configurations_and_old_checkpoints_and_has_no_key_of_the_evaluation(
+    tmp_path: Path,
+) -> None:
+    shipped = [str(path) for path in (TRAINING / "configs").rglob("*.toml") if path.name not in
+               ("labels-cluster.toml", "materials.toml")]  # fmt: skip
+    assert len(shipped) >= 8
+    ended = _alone(tmp_path, "-c", _CHECK, *shipped)
+    assert ended.returncode == 0, ended.stderr

@@ -9,13 +9,15 @@ from pathlib import Path
 
 import pytest
 import torch
+from paper_samples import evaluated
 from test_trainer import ALONE, _config
 from training_fixtures import make_store
 
 from haptoflow_paper.objectives.mean_flow import mean_flow_loss
 from haptoflow_paper.objectives.reflow import ReflowPairs, reflow_loss
+from haptoflow_paper.runs.trainer import EvaluatedTrainer
 from haptoflow_training.errors import InputError
-from haptoflow_training.export.trained_tier import TrainedTier, load_tiers
+from haptoflow_training.export.trained_tier import load_tiers, tier_of
 from haptoflow_training.models.rib_comb import PARTIALS
 from haptoflow_training.training.batches import SegmentBatch, SegmentBatches
 from haptoflow_training.training.config import BatchConfig, ModelConfig, RecipeConfig, SolverConfig
@@ -194,21 +196,21 @@ def test_rendering_a_chain_appends_each_generated_hop() -> None:
 
 
 RECIPES = {
-    "flow and self-forcing": (RecipeConfig(self_forcing_steps=4), "flow"),
-    "average velocity": (RecipeConfig(objective="average-velocity", self_forcing_steps=4), "average-velocity"),
-    "reflow": (RecipeConfig(reflow_steps=6, reflow_pairs=600), "flow"),
-    "energy and self-forcing": (RecipeConfig(energy_steps=6, energy_batch_size=6, self_forcing_steps=4), "direct"),
+    "flow and self-forcing": ({"self_forcing_steps": 4}, "flow"),
+    "average velocity": ({"objective": "average-velocity", "self_forcing_steps": 4}, "average-velocity"),
+    "reflow": ({"reflow_steps": 6, "reflow_pairs": 600}, "flow"),
+    "energy and self-forcing": ({"energy_steps": 6, "energy_batch_size": 6, "self_forcing_steps": 4}, "direct"),
 }
 
 
 @pytest.mark.parametrize("name", RECIPES)
 def test_a_recipe_runs_through_its_phases_and_states_its_tier_kind(name: str, tmp_path: Path) -> None:
     recipe, kind = RECIPES[name]
-    config = dataclasses.replace(_config(steps=10), recipe=recipe)
-    Trainer(config, make_store(), tmp_path, ALONE).run()
+    config = evaluated(_config(steps=10), recipe=recipe)
+    EvaluatedTrainer(config, make_store(), tmp_path, ALONE).run()
     rows = (tmp_path / "metrics.csv").read_text(encoding="utf-8").splitlines()
     assert len({row.split(",")[1] for row in rows[1:]}) == len(planned_steps(config))
-    tier = TrainedTier(*load_trained(tmp_path))
+    tier = tier_of(*load_trained(tmp_path))
     assert tier.kind == kind
     made = tier.generate(torch.randn(3, 1, 200), torch.zeros(3, 1, 200), torch.randn(3, 64), torch.rand(3, 3),
                          torch.rand(3, 2), tier.solver, tier.steps)  # fmt: skip

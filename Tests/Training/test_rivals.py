@@ -12,6 +12,7 @@ import onnx
 import pytest
 import scipy.signal
 import torch
+from paper_samples import evaluated
 from test_export import PROVENANCE
 from test_graph_operators import _check
 from test_trainer import ALONE
@@ -23,6 +24,8 @@ from haptoflow_paper.rivals.autoregressive import AutoregressiveRival
 from haptoflow_paper.rivals.rival import Rival
 from haptoflow_paper.rivals.spsi import SpsiRival
 from haptoflow_paper.rows.row_plan import PlannedRow, load_plan
+from haptoflow_paper.runs.losses import EvaluatedLosses
+from haptoflow_paper.runs.trainer import EvaluatedTrainer
 from haptoflow_training.closed_loop.measured_levels import MeasuredLevels
 from haptoflow_training.commands import train
 from haptoflow_training.errors import InputError
@@ -30,10 +33,9 @@ from haptoflow_training.export.exporter import export_run
 from haptoflow_training.export.label_info import LabelInfo
 from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.training.batches import SegmentBatches
-from haptoflow_training.training.config import BatchConfig, ModelConfig, TrainingConfig, load_config
-from haptoflow_training.training.losses import Losses
+from haptoflow_training.training.config import BatchConfig, TrainingConfig, load_config
 from haptoflow_training.training.recordings_source import Source
-from haptoflow_training.training.trainer import Trainer, build_model, planned_steps
+from haptoflow_training.training.trainer import build_model, planned_steps
 
 CONFIGS = Path(__file__).parents[2] / "Training" / "haptoflow_paper" / "configs"
 GIVEN_THE_SAME = (
@@ -99,7 +101,7 @@ def test_a_rival_given_the_same_trains_through_its_phases_and_becomes_a_model_fi
     name: str, tmp_path: Path
 ) -> None:
     config, store = _shortened(name), make_store(seconds=6.0, recordings_per_split=4)
-    Trainer(config, store, tmp_path / "run", ALONE, wave_vectors=WAVE_VECTORS).run()
+    EvaluatedTrainer(config, store, tmp_path / "run", ALONE, wave_vectors=WAVE_VECTORS).run()
     phases = json.loads((tmp_path / "run" / "run.json").read_text(encoding="utf-8"))["phases"]
     assert [phase["steps"] for phase in phases] == planned_steps(config)
     export_run(tmp_path / "run", store, INFOS, PROVENANCE, tmp_path / "m.haptoflow", tmp_path / "parity.json")
@@ -299,13 +301,13 @@ def _train(words: list[str]) -> int:
 def test_a_likelihood_counts_a_burst_like_any_other_segment_and_a_squared_error_does_not(
     architecture: str, alike: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    config = TrainingConfig(model=ModelConfig(architecture=architecture))
+    config = evaluated(TrainingConfig(), model={"architecture": architecture})
     model = build_model(config, WAVE_VECTORS)
     batch = SegmentBatches(make_store(), "train", BatchConfig(), 3).draw(6)
     batch.segment[0] *= 1000.0
     rows = torch.tensor([6.0, 0.0, 0.0, 0.0, 0.0, 0.0])
     monkeypatch.setattr(model.field, "loss", lambda *_: rows)
-    _, field = Losses(model, config.solver)(batch, "own", torch.Generator().manual_seed(1))
+    _, field = EvaluatedLosses(model, config.solver)(batch, "own", torch.Generator().manual_seed(1))
     assert (field.item() == pytest.approx(1.0)) == alike
     assert alike or field.item() < 0.01
 

@@ -74,6 +74,10 @@ class EvaluatedConfig(TrainingConfig):
     optimiser: EvaluatedOptimiserConfig = field(default_factory=EvaluatedOptimiserConfig)
     recipe: EvaluatedRecipeConfig = field(default_factory=EvaluatedRecipeConfig)
 
+    @property
+    def calibrates_level(self) -> bool:
+        return self.model.level == "law" and super().calibrates_level
+
     def rules(self) -> tuple[Rule, ...]:
         model, recipe = self.model, self.recipe
         return (

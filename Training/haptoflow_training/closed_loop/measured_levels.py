@@ -26,7 +26,6 @@ from haptoflow_training.export.exponents import fit_exponents
 from haptoflow_training.export.level_table import LevelTable
 from haptoflow_training.export.trained_tier import TrainedTier, load_tiers
 from haptoflow_training.models.level_model import LevelModel
-from haptoflow_training.training.config import TrainingConfig
 from haptoflow_training.training.held_out import HeldOut
 from haptoflow_training.training.recordings_source import Source
 
@@ -39,18 +38,12 @@ class MeasuredLevels:
     tables: Mapping[int, LevelTable] = field(default_factory=dict)
 
 
-def calibrates(config: TrainingConfig) -> bool:
-    """Whether an export of this run corrects its levels: if the configuration says so, and always for recordings
-    from folders."""
-    return config.model.level == "law" and (config.recipe.calibrate_level or config.data.source == "folders")
-
-
 def measured_levels(folder: Path, source: Source, extent: Extent = Extent()) -> MeasuredLevels:
     """Measure the finished run in `folder`. Tables are made only for recordings from folders: the levels of
     synthetic recordings follow the law by construction."""
     torch.set_num_threads(1)
     tier = load_tiers([folder])[0]
-    if not calibrates(tier.config):
+    if not tier.config.calibrates_level:
         return MeasuredLevels()
     held_out = HeldOut.of(tier.config.batch)
     exponents = {

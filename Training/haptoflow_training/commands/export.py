@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from haptoflow_training.closed_loop.measured_levels import MeasuredLevels, calibrates, measured_levels
+from haptoflow_training.closed_loop.measured_levels import MeasuredLevels, measured_levels
 from haptoflow_training.export.exporter import export_run
 from haptoflow_training.training.recordings_source import open_source
 from haptoflow_training.training.trainer import load_trained
@@ -42,7 +42,7 @@ def announce(out: Path, checksum: int) -> None:
 def run(options: argparse.Namespace) -> int:
     config, _, _ = load_trained(options.folder)
     source = open_source(config.data, options.store or options.folder.parent / "store", options.workers)
-    measured = measured_levels(options.folder, source) if calibrates(config) else MeasuredLevels()
+    measured = measured_levels(options.folder, source) if config.calibrates_level else MeasuredLevels()
     checksum = export_run(
         options.folder,
         source.store,

@@ -8,7 +8,7 @@ import time
 from dataclasses import dataclass
 
 from haptoflow_training.closed_loop.level_calibration import Extent
-from haptoflow_training.closed_loop.measured_levels import calibrates, seconds_of_a_measurement
+from haptoflow_training.closed_loop.measured_levels import seconds_of_a_measurement
 from haptoflow_training.export.onnx_graphs import export_level_model
 from haptoflow_training.export.trained_tier import tier_of
 from haptoflow_training.models.haptoflow_model import HaptoFlowModel
@@ -52,7 +52,7 @@ def share_out(
         tier.graphs()
         export_level_model(model.level)
         after = 1.5 * (time.monotonic() - started) + 1.0
-        if calibrates(config):
+        if config.calibrates_level:
             one = Extent(_MINIMUM_RECORDINGS, extent.longest_samples)
             seconds = _ROUNDS * seconds_of_a_measurement(tier, source, one) / one.recordings_per_label
             affordable = int(max(0.0, _MAXIMUM_SHARE_AFTER * whole - after) / max(seconds, 1e-6))

@@ -10,7 +10,7 @@ import time
 from pathlib import Path
 
 from haptoflow_training.closed_loop.level_calibration import Extent
-from haptoflow_training.closed_loop.measured_levels import MeasuredLevels, by_label, calibrates, measured_levels
+from haptoflow_training.closed_loop.measured_levels import MeasuredLevels, by_label, measured_levels
 from haptoflow_training.commands.export import announce
 from haptoflow_training.commands.minutes import MINIMUM_MINUTES, Minutes, share_out
 from haptoflow_training.errors import InputError
@@ -159,7 +159,7 @@ def _run(options: argparse.Namespace) -> int:
             extent = shares.extent
         trainer.run()
         if processes.is_first and options.export is not None:
-            measured = measured_levels(options.out, source, extent) if calibrates(config) else MeasuredLevels()
+            measured = measured_levels(options.out, source, extent) if config.calibrates_level else MeasuredLevels()
             end_if_stopped()
             checksum = export_run(
                 options.out, source.store, source.labels, source.provenance, options.export, options.parity,

@@ -170,6 +170,12 @@ class TrainingConfig:
     def to_dict(self) -> dict[str, Any]:
         return dataclasses.asdict(self)
 
+    @property
+    def calibrates_level(self) -> bool:
+        """Whether an export of this run corrects its levels: if the configuration says so, and always for recordings
+        from folders."""
+        return self.recipe.calibrate_level or self.data.source == "folders"
+
     def rules(self) -> tuple[Rule, ...]:
         """(whether it holds, key, what is expected) of each rule for values."""
         config, optimiser = self, self.optimiser
