@@ -1,4 +1,4 @@
-// evaluate: accuracy over time, every row measured through the engine (arguments: those of haptoflow-benchmark evaluate)
+// evaluate: accuracy over time, every row measured through the engine (arguments: those of haptoflow-paper evaluate)
 import { buildNative } from './lib/native_build.mjs';
 import { run, runMain } from './lib/process.mjs';
 import { inRepository, callerFolder } from './lib/repository.mjs';
@@ -6,13 +6,17 @@ import { pythonOrFail, setUp } from './lib/setup.mjs';
 
 const help = `usage: ./run evaluate [ARGUMENTS]
 
-Measures accuracy over time, every row through the engine. Arguments are those of \`haptoflow-benchmark evaluate\`.
-Paths are relative to the current folder. With the Python packages in place, PYTHONPATH=Training /usr/bin/python3 -m haptoflow_benchmark evaluate --help lists them.`;
+Measures accuracy over time, every row through the engine. Arguments are those of \`haptoflow-paper evaluate\`; with
+--recordings, --model or --labels, which compare one model with recordings of your own, those of \`haptoflow-benchmark evaluate\`.
+Paths are relative to the current folder. With the Python packages in place, PYTHONPATH=Training /usr/bin/python3 -m haptoflow_paper evaluate --help lists them.`;
+
+const ofOneModel = /^--(recordings|model|labels)(=|$)/;
 
 await runMain('evaluate', async (words) => {
   await setUp(['build', 'python']);
   await buildNative({ targets: ['audioplugin_haptoflow', 'haptoflow_cli'] });
-  const args = ['-m', 'haptoflow_benchmark', 'evaluate', ...words];
+  const program = words.some((word) => ofOneModel.test(word)) ? 'haptoflow_benchmark' : 'haptoflow_paper';
+  const args = ['-m', program, 'evaluate', ...words];
   const { exitCode } = await run(pythonOrFail(), args, { cwd: callerFolder(), env: { PYTHONPATH: inRepository('Training'), OPENBLAS_NUM_THREADS: '1' } });
   return exitCode;
 }, { help });

@@ -17,14 +17,14 @@ const pages = {
   'Documentation~/benchmarks.md': 'npm run bench -- --publish',
   'Documentation~/device-loudness.md': '/usr/bin/python3 scripts/pack/device_levels.py',
   'Documentation~/delay-budget.md': 'haptoflow-training study budget --page',
-  'Documentation~/own-materials.md': 'haptoflow-benchmark few-shot --page',
+  'Documentation~/own-materials.md': 'haptoflow-paper few-shot --page',
   'Documentation~/stability.md': 'npm run test:soak -- --publish',
   'Training/results/default/README.md': 'npm run evaluate, haptoflow-benchmark discriminate, and the words by hand',
 };
 
 const results = {
-  'Training/results/accuracy-time.json': 'npm run evaluate',
-  'Training/results/few-shot.json': 'haptoflow-benchmark few-shot',
+  'Training/haptoflow_paper/results/accuracy-time.json': 'npm run evaluate',
+  'Training/haptoflow_paper/results/few-shot.json': 'haptoflow-paper few-shot',
   'Training/results/default/full-scale.json': 'haptoflow-benchmark measure-full-scale',
   'Training/results/default/label-discrimination.json': 'haptoflow-benchmark discriminate',
 };

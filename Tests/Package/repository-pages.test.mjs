@@ -85,7 +85,7 @@ test('the figures of the README are those of the published benchmark and of the 
   const [, paced, pacedP99] = bench.match(/^ {2}standard +direct +1 +[\d.]+ +[\d.]+ +[\d.]+ +[\d.]+ +([\d.]+) +([\d.]+)/m);
   const [, ratio] = bench.match(/speed-up over the paper's architecture, standard: [\d.]+ hot, ([\d.]+) paced/);
   const [, onset, onsetP99] = bench.split('onset, ms')[1].match(/^ {2}256 +\d+ +([\d.]+) +([\d.]+)/m);
-  const row = JSON.parse(read('Training/results/accuracy-time.json')).rows.find(({ name }) => name === 'standard');
+  const row = JSON.parse(read('Training/haptoflow_paper/results/accuracy-time.json')).rows.find(({ name }) => name === 'standard');
   const [low, high] = row.told_apart_percent_interval;
   const sentences = [
     `${Number(paced).toFixed(2)} ms at the pace of use (median; 99th percentile ${Number(pacedP99).toFixed(2)} ms), ${ratio} times faster`,

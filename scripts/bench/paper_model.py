@@ -1,6 +1,6 @@
 """Writes a model file with the paper's architecture in its published size and random weights, to measure its time.
 
-The sizes are those of Training/configs/evaluation/paper-codec-size.toml: EnCodec at 24 kHz and a U-Net of 128 and 256
+The sizes are those of Training/haptoflow_paper/configs/paper-codec-size.toml: EnCodec at 24 kHz and a U-Net of 128 and 256
 channels. The values of weights do not affect the time, so nothing is trained and no recording is read.
 
 PYTHONPATH=Training python3 scripts/bench/paper_model.py CONFIG.toml OUT.haptoflow

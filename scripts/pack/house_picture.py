@@ -51,6 +51,7 @@ PANELS = {
     "native": Panel("NativePlugin (C++)", "#f3e3d0", 6.0, 3.9, 3),
     "haptoflow_training": Panel("Training/haptoflow_training (Python)", "#dcecd9", 10.3, 3.6, 3),
     "haptoflow_benchmark": Panel("Training/haptoflow_benchmark (Python)", "#e9e0f0", 14.2, 3.2, 3),
+    "haptoflow_paper": Panel("Training/haptoflow_paper (Python)", "#f0e0e4", 17.7, 3.2, 3),
 }
 
 
@@ -174,7 +175,7 @@ def drawn_uses(uses: Uses) -> list[tuple[str, str]]:
 def short(part: str) -> str:
     """What stands in a box: the name without what all parts of a panel share."""
     for start, instead in (("HaptoFlow.Samples.", "sample "), ("HaptoFlow.", ""), ("haptoflow_training.", ""),
-                           ("haptoflow_benchmark.", ""), ("haptoflow_", "")):
+                           ("haptoflow_benchmark.", ""), ("haptoflow_paper.", ""), ("haptoflow_", "")):
         if part.startswith(start):
             return instead + part.removeprefix(start)
     return part
@@ -226,24 +227,22 @@ def draw_panel(axes: Axes, panel: Panel, data: Uses) -> dict[str, tuple[float, f
 def draw_package_use(axes: Axes, data: dict[str, object], places: dict[str, tuple[float, float]]) -> None:
     """One thick arrow from a Python package to another that it imports; the single imports stay in the data."""
     packages = [name for name in PANELS if name.startswith("haptoflow_") and name in data]
-    for package in packages:
-        for other in packages:
-            used = [part for parts in data[package].values() for part in parts if part.startswith(other + ".")]
-            if package == other or not used:
-                continue
-            here, there = PANELS[package], PANELS[other]
-            # Beside the highest boxes, of which there are few.
-            height = max(y for part, (_, y) in places.items() if part.startswith(other))
-            right = here.left > there.left
-            start = here.left + (0.1 if right else here.width - 0.1)
-            end = there.left + (there.width - 0.8 if right else 0.8)
-            axes.add_patch(FancyArrowPatch((start, height), (end, height), arrowstyle="-|>", mutation_scale=14,
-                                           linewidth=2.0, color="#4a525a"))
+    imports = {package: {part.split(".")[0] for parts in data[package].values() for part in parts} - {package}
+               for package in packages}
+    for package, other in drawn_uses(ordered(imports)):
+        here, there = PANELS[package], PANELS[other]
+        # Beside the highest boxes, of which there are few.
+        height = max(y for part, (_, y) in places.items() if part.startswith(other))
+        right = here.left > there.left
+        start = here.left + (0.1 if right else here.width - 0.1)
+        end = there.left + (there.width - 0.8 if right else 0.8)
+        axes.add_patch(FancyArrowPatch((start, height), (end, height), arrowstyle="-|>", mutation_scale=14,
+                                       linewidth=2.0, color="#4a525a"))
 
 
 def draw(data: dict[str, object], file: Path) -> None:
     matplotlib.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "house"})
-    figure, axes = plt.subplots(figsize=(17.0, 6.4), layout="constrained")
+    figure, axes = plt.subplots(figsize=(20.4, 6.4), layout="constrained")
     places: dict[str, tuple[float, float]] = {}
     for name, panel in PANELS.items():
         if name in data:
@@ -254,10 +253,10 @@ def draw(data: dict[str, object], file: Path) -> None:
         x0, y0 = places[caller]
         axes.add_patch(FancyArrowPatch((x0, y0), (x1, y1), arrowstyle="-|>", mutation_scale=10, linewidth=1.1, linestyle="--",
                                        color="#b0442c", zorder=1, shrinkA=20, shrinkB=48))
-    axes.set_xlim(-0.1, 17.5)
+    axes.set_xlim(-0.1, 21.0)
     axes.set_ylim(-0.5, max(y for _, y in places.values()) + 1.0)
     axes.axis("off")
-    axes.text(8.7, -0.35, "A line leads from a part to what it uses. Thick: one package imports the other. "
+    axes.text(10.4, -0.35, "A line leads from a part to what it uses. Thick: one package imports the other. "
               "Dashed: loads the native library at run time.",
               ha="center", va="top", fontsize=8)
     file.parent.mkdir(parents=True, exist_ok=True)

@@ -9,7 +9,6 @@ from haptoflow_paper.rivals.dstn import DstnRival
 from haptoflow_paper.rivals.rival import Rival
 from haptoflow_paper.rivals.spsi import SpsiRival
 from haptoflow_paper.rivals.transformer import TransformerRival
-from haptoflow_paper.runs.configuration import ARCHITECTURES, REGRESSING
 
 _BUILDERS: dict[str, Callable[..., Rival]] = {
     "transformer": TransformerRival,
@@ -17,6 +16,9 @@ _BUILDERS: dict[str, Callable[..., Rival]] = {
     "spsi": SpsiRival,
     "autoregressive": AutoregressiveRival,
 }
+ARCHITECTURES = tuple(_BUILDERS)
+# Those that predict the mean as published; with `sampled` they draw a segment.
+REGRESSING = ("transformer", "dstn", "spsi")
 __all__ = ["ARCHITECTURES", "REGRESSING", "Rival", "build_rival"]
 
 

@@ -5,12 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
+from haptoflow_paper.rivals import ARCHITECTURES, REGRESSING
 from haptoflow_training.training.config import ModelConfig, OptimiserConfig, RecipeConfig, Rule, TrainingConfig
-
-# Rivals of the velocity field (rivals/).
-ARCHITECTURES = ("transformer", "dstn", "spsi", "autoregressive")
-# Those that predict the mean as published; with `sampled` they draw a segment.
-REGRESSING = ("transformer", "dstn", "spsi")
 
 
 @dataclass(frozen=True)
