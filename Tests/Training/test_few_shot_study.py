@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from haptoflow_paper.cli import main
 from haptoflow_benchmark.few_shot.few_shot_cases import SECONDS, FewShotCase, make_case, study_materials
 from haptoflow_benchmark.few_shot.few_shot_figures import condition_figures
+from haptoflow_paper.cli import main
 from haptoflow_paper.few_shot.few_shot_report import (
     OTHER_DRAW,
     ROWS,
@@ -22,8 +22,8 @@ from haptoflow_paper.few_shot.few_shot_report import (
     write_chart,
     write_results,
 )
-from haptoflow_paper.few_shot.few_shot_summary import summarised
 from haptoflow_paper.few_shot.few_shot_study import StudyPlan, cells_of
+from haptoflow_paper.few_shot.few_shot_summary import summarised
 from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.model_stamp import with_measured_words
 from haptoflow_training.models.file_model import FileModel

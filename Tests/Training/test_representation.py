@@ -12,10 +12,10 @@ from haptoflow_paper.codec.encodec import EnCodec
 from haptoflow_paper.codec.latent_normaliser import LatentNormaliser
 from haptoflow_paper.codec.polyphase_resampler import PolyphaseResampler
 from haptoflow_paper.codec.representation import CodecRepresentation
+from haptoflow_paper.codec.representation_base import Representation, build_representation
 from haptoflow_paper.codec.resampled_encodec import ResampledEnCodec
 from haptoflow_paper.codec.small_codec import SmallCodec, SmallCodecShape
 from haptoflow_training.errors import InputError
-from haptoflow_paper.codec.representation_base import Representation, build_representation
 
 
 @pytest.fixture(scope="module")

@@ -21,10 +21,10 @@ from haptoflow_paper.rivals.autoregressive import (
     AutoregressiveRival,
     step_up,
 )
+from haptoflow_paper.rivals.segment_network import INPUTS, SegmentNetworkGraph
 from haptoflow_paper.rivals.spsi import SinglePassInversion, SpsiRival, magnitude_spectrum
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE
 from haptoflow_training.models.level_model import PREVIOUS_LIMIT
-from haptoflow_paper.rivals.segment_network import INPUTS, SegmentNetworkGraph
 from haptoflow_training.models.velocity_field import parameter_count
 
 DETERMINISTIC = ("transformer", "dstn")

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from haptoflow_benchmark.metrics import temporal_metrics as metrics
+from haptoflow_paper.metrics import row_metrics
 
 RATE_HZ = 2000
 
@@ -40,7 +41,7 @@ def test_one_impulse_in_a_hundred_samples_has_kurtosis_one_hundred_and_crest_ten
 def test_silence_has_neither_kurtosis_nor_crest_factor() -> None:
     wave = np.zeros(8000)
     assert metrics.kurtosis(wave) == 0.0 and metrics.crest_factor(wave) == 0.0
-    assert metrics.rib_modulation_depth(wave, 20.0) == 0.0 and metrics.rib_coherence(wave, 20.0) == 0.0
+    assert metrics.rib_modulation_depth(wave, 20.0) == 0.0 and row_metrics.rib_coherence(wave, 20.0) == 0.0
     assert np.all(np.isfinite(metrics.modulation_spectrum_db(wave)))
     assert metrics.log_ratio(0.0, 3.0) == pytest.approx(np.log(0.01 / 3.0))
 
@@ -101,8 +102,8 @@ def test_ribs_that_keep_their_rate_are_coherent_and_noise_is_not(rate_hz: float)
         steady = noise * np.sqrt(1.0 + 0.9 * np.cos(phase))
     else:
         steady = np.cos(phase) + 0.3 * noise
-    assert metrics.rib_coherence(steady, rate_hz) > 0.95
-    assert metrics.rib_coherence(noise, rate_hz) < 0.6
+    assert row_metrics.rib_coherence(steady, rate_hz) > 0.95
+    assert row_metrics.rib_coherence(noise, rate_hz) < 0.6
 
 
 def test_a_line_with_random_phase_drift_loses_its_coherence() -> None:
@@ -110,16 +111,16 @@ def test_a_line_with_random_phase_drift_loses_its_coherence() -> None:
     drift = np.cumsum(generator.standard_normal(64000)) * np.sqrt(2.0 * np.log(2.0) / 1000.0)
     # Phase variance 2 ln 2 over half a second: exp(-variance / 2) = 0.5 for instants; the window adds its own.
     drifting = np.cos(2.0 * np.pi * 125.0 * _time(32.0) + drift)
-    assert 0.2 < metrics.rib_coherence(drifting, 125.0) < 0.7
+    assert 0.2 < row_metrics.rib_coherence(drifting, 125.0) < 0.7
 
 
 def test_a_line_slightly_off_frequency_keeps_its_coherence() -> None:
-    assert metrics.rib_coherence(np.cos(2.0 * np.pi * 125.3 * _time(16.0)), 125.0) > 0.98
+    assert row_metrics.rib_coherence(np.cos(2.0 * np.pi * 125.3 * _time(16.0)), 125.0) > 0.98
 
 
 def test_a_waveform_that_is_too_short_is_refused() -> None:
     with pytest.raises(ValueError, match="second and a half"):
-        metrics.rib_coherence(_noise(0.9, 1), 50.0)
+        row_metrics.rib_coherence(_noise(0.9, 1), 50.0)
 
 
 def test_too_high_a_ratio_counts_like_too_low_a_ratio() -> None:

@@ -23,9 +23,6 @@ MODULATION_EDGES_HZ = (2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0, 24.0, 32.0, 48.0, 64
 _WORST_BAND_DB = 20.0
 # Ribs at other rates are neither a line nor followed for half a second.
 RIB_RATES_HZ = (4.0, 800.0)
-# The system's waveforms begin at 20 Hz; slower ribs are felt only as modulation of the power.
-_MINIMUM_LINE_HZ = 25.0
-_COHERENCE_LAG_SECONDS = 0.5
 _DEPTH_WINDOW_SECONDS = 0.5
 _FLOOR = 1e-12
 
@@ -122,28 +119,6 @@ def rib_modulation_error_db(generated: _Wave, recorded: _Wave, rib_rate_hz: floa
     depths = [max(0.01, rib_modulation_depth(wave, rib_rate_hz)) for wave in (generated, recorded)]
     return 20.0 * float(np.log10(depths[0] / depths[1]))
 
-
-def rib_coherence(wave: _Wave, rib_rate_hz: float) -> float:
-    """How well the ribs keep their phase over half a second: |E[z(t + 0.5 s) z*(t)]| / E|z|^2, 0 to 1.
-
-    z is the waveform times e^(-2 pi i f t), averaged by a Hann window of half a second, so that values half a second
-    apart share no samples and a line exactly at f does not rotate. For constant straight strokes. Below 25 Hz, where
-    the system's waveforms have no fundamental, z is computed from the power x^2, which is modulated at the same rate.
-    """
-    values = np.asarray(wave, dtype=np.float64)
-    if rib_rate_hz < _MINIMUM_LINE_HZ:
-        values = np.square(values)
-    values = values - values.mean()
-    length = int(SAMPLE_RATE_HZ * _COHERENCE_LAG_SECONDS)
-    hop = length // 10
-    turned = values * np.exp(-2j * np.pi * rib_rate_hz * np.arange(len(values)) / SAMPLE_RATE_HZ)
-    frames = np.lib.stride_tricks.sliding_window_view(turned, length)[::hop]
-    z = frames @ np.hanning(length + 1)[:-1]
-    later, earlier = z[10:], z[:-10]
-    if len(later) == 0:
-        raise ValueError("a wave of a second and a half at least is needed to follow ribs over half a second")
-    power = 0.5 * (np.square(np.abs(later)).mean() + np.square(np.abs(earlier)).mean())
-    return float(np.abs((later * earlier.conj()).mean()) / (power + _FLOOR))
 
 
 def folded(ratio: float) -> float:

@@ -10,8 +10,6 @@ from numpy.typing import NDArray
 
 from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
-# Bark band edges (Zwicker 1961) inside the band that the system renders.
-CRITICAL_BAND_EDGES_HZ = (20.0, 100.0, 200.0, 300.0, 400.0, 510.0, 630.0, 770.0, 920.0, 1000.0)
 _FLOOR = 1e-9
 _FREQUENCY_POINTS = 1 << 16
 
@@ -44,20 +42,6 @@ def gfc_recording(generated: _Wave, recorded: _Wave) -> float:
     return _cosine(mean_spectrum(generated, 1024, 1024), mean_spectrum(recorded, 1024, 1024))
 
 
-def gfc_segment(generated: _Wave, recorded: _Wave, segment: int = 200) -> float:
-    """The GFC segment by segment, averaged, as the paper reports it. Correct randomness lowers it by about 0.2."""
-    count = min(len(generated), len(recorded)) // segment
-    window = np.hanning(segment + 1)[:-1]
-    cut = [np.asarray(wave[: count * segment], dtype=np.float64) for wave in (generated, recorded)]
-    pair = [np.abs(np.fft.rfft(wave.reshape(count, segment) * window, 1024)) for wave in cut]
-    product = (pair[0] * pair[1]).sum(axis=1)
-    return float((product / (np.sqrt((pair[0] ** 2).sum(axis=1) * (pair[1] ** 2).sum(axis=1)) + _FLOOR)).mean())
-
-
-def relative_rmse(generated: _Wave, recorded: _Wave) -> float:
-    """RMS of the sample differences over the recording's RMS: 1 for silence, 1.41 for an independent draw."""
-    difference = np.asarray(generated, dtype=np.float64) - recorded
-    return rms(difference) / (rms(recorded) + _FLOOR)
 
 
 def rms(wave: _Wave) -> float:
@@ -82,16 +66,6 @@ def log_spectral_distance_db(
     return float(np.sqrt(np.square(difference).mean()))
 
 
-def critical_band_errors_db(generated: _Wave, recorded: _Wave) -> _Doubles:
-    """Signed level error in each of the nine critical bands, [9]."""
-    window = 512
-    frequency = np.fft.rfftfreq(window, 1.0 / SAMPLE_RATE_HZ)
-    spectra = [power_spectrum(wave, window) for wave in (generated, recorded)]
-    edges = zip(CRITICAL_BAND_EDGES_HZ[:-1], CRITICAL_BAND_EDGES_HZ[1:], strict=True)
-    bands = [(frequency >= low) & (frequency < high) for low, high in edges]
-    sums = [[spectrum[band].sum() + _FLOOR for band in bands] for spectrum in spectra]
-    return 10.0 * np.log10(np.array(sums[0]) / np.array(sums[1]))
-
 
 def fundamental_hz(wave: _Wave, expected_hz: float) -> float:
     """The strongest line within 12 % of `expected_hz`, interpolated between bins by zero-padding."""
@@ -102,15 +76,6 @@ def fundamental_hz(wave: _Wave, expected_hz: float) -> float:
     return float(frequency[near[np.argmax(spectrum[near])]])
 
 
-def harmonic_share(wave: _Wave, fundamental: float) -> float:
-    """Share of the power within 3 % of the fundamental's multiples."""
-    wave = np.asarray(wave, dtype=np.float64)
-    power = np.square(np.abs(np.fft.rfft(wave * np.hanning(len(wave)))))
-    frequency = np.fft.rfftfreq(len(wave), 1.0 / SAMPLE_RATE_HZ)
-    order = np.maximum(1.0, np.round(frequency / fundamental))
-    near = np.abs(frequency - order * fundamental) <= 0.03 * fundamental
-    return float(power[near].sum() / (power[frequency >= 5.0].sum() + _FLOOR))
-
 
 def hop_jump_ratio(wave: _Wave, hop_starts: NDArray[np.int64]) -> float:
     """RMS of the sample differences at hop boundaries over that of all others: 1 means that seams cannot be
@@ -120,16 +85,3 @@ def hop_jump_ratio(wave: _Wave, hop_starts: NDArray[np.int64]) -> float:
     inside = hop_starts[(hop_starts > 0) & (hop_starts <= len(differences))]
     at[inside - 1] = True
     return rms(differences[at]) / (rms(differences[~at]) + _FLOOR)
-
-
-def drift_db_per_minute(wave: _Wave) -> float:
-    """Slope of the level over pieces of one second."""
-    seconds = len(wave) // SAMPLE_RATE_HZ
-    pieces = np.asarray(wave[: seconds * SAMPLE_RATE_HZ], dtype=np.float64).reshape(seconds, SAMPLE_RATE_HZ)
-    level = 10.0 * np.log10(np.square(pieces).mean(axis=1) + _FLOOR)
-    return 60.0 * float(np.polyfit(np.arange(seconds), level, 1)[0])
-
-
-def kink_db(levels_db: _Doubles) -> float:
-    """The largest second difference of a level curve sampled evenly in log speed."""
-    return float(np.abs(np.diff(levels_db, 2)).max())

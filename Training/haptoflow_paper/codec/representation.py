@@ -13,11 +13,11 @@ from torch import Tensor, nn
 
 from haptoflow_paper.codec.causal_layers import fold_weight_norm
 from haptoflow_paper.codec.encodec import EnCodec
+from haptoflow_paper.codec.representation_base import Representation
 from haptoflow_paper.codec.resampled_encodec import DEFAULT_WAVEFORM_SCALE, ResampledEnCodec
 from haptoflow_paper.codec.small_codec import SmallCodec
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.onnx_graphs import OPSET
-from haptoflow_paper.codec.representation_base import Representation
 from haptoflow_training.waveform import SEGMENT_SAMPLES
 
 _Port = tuple[str, tuple[int, int]]

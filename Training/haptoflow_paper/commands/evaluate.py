@@ -11,8 +11,6 @@ from typing import Any
 
 from tqdm import tqdm
 
-from haptoflow_paper.rows.timing import TimedSource, time_sources
-from haptoflow_paper.rows.timing_history import append_run, published_run, timing_run
 from haptoflow_paper.reference.reference_conditions import conditions
 from haptoflow_paper.reference.reference_rows import CODEC_ROW
 from haptoflow_paper.reference.reference_set import ReferencePair, reference_set
@@ -27,6 +25,8 @@ from haptoflow_paper.rows.row_plan import PlannedRow, load_plan
 from haptoflow_paper.rows.row_runner import UPDATE_RATE_HZ, generator_of, made_from, measure_rows
 from haptoflow_paper.rows.row_store import stored_row
 from haptoflow_paper.rows.row_training import train_models
+from haptoflow_paper.rows.timing import TimedSource, time_sources
+from haptoflow_paper.rows.timing_history import append_run, published_run, timing_run
 from haptoflow_paper.rows.workplace import Workplace
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.model_file import read_model_file

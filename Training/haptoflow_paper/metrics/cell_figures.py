@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from haptoflow_benchmark.metrics import temporal_metrics as temporal
 from haptoflow_benchmark.metrics import waveform_metrics as metrics
+from haptoflow_paper.metrics import row_metrics
 from haptoflow_paper.reference.reference_conditions import Condition, is_on_other_label
 from haptoflow_paper.reference.reference_set import ReferencePair
 
@@ -36,12 +37,12 @@ def measure_cell(
     generated, recorded = closed[SETTLING_SAMPLES:], pair.recorded[SETTLING_SAMPLES:]
     segments = opened if len(opened) else closed[200:]
     truth = pair.recorded[200 : 200 + len(segments)]
-    bands = np.abs(metrics.critical_band_errors_db(generated, recorded))
+    bands = np.abs(row_metrics.critical_band_errors_db(generated, recorded))
     cell |= {
         "level_error_db": metrics.level_error_db(generated, recorded),
         "gfc_recording": metrics.gfc_recording(generated, recorded),
-        "gfc_segment": metrics.gfc_segment(segments, truth),
-        "rmse": metrics.relative_rmse(segments, truth),
+        "gfc_segment": row_metrics.gfc_segment(segments, truth),
+        "rmse": row_metrics.relative_rmse(segments, truth),
         "lsd_db": metrics.log_spectral_distance_db(generated, recorded),
         "band_error_db": float(np.median(bands)),
     }
@@ -73,8 +74,8 @@ def _rib_figures(condition: Condition, generated: _Floats, recorded: _Floats) ->
     for rate in condition.rib_rates_hz:
         if temporal.rib_modulation_depth(recorded, rate) >= _MINIMUM_DEPTH:
             swings.append(temporal.rib_modulation_error_db(generated, recorded, rate))
-        if (reference := temporal.rib_coherence(recorded, rate)) >= _MINIMUM_COHERENCE:
-            steps.append(min(1.0, temporal.rib_coherence(generated, rate) / reference))
+        if (reference := row_metrics.rib_coherence(recorded, rate)) >= _MINIMUM_COHERENCE:
+            steps.append(min(1.0, row_metrics.rib_coherence(generated, rate) / reference))
         if _FUNDAMENTALS_HZ[0] < rate < _FUNDAMENTALS_HZ[1]:
             made, truth = (metrics.fundamental_hz(wave, rate) for wave in (generated, recorded))
             errors.append(100.0 * abs(made / truth - 1.0))
@@ -86,7 +87,7 @@ def _rib_figures(condition: Condition, generated: _Floats, recorded: _Floats) ->
         found["f0_error_percent"] = max(errors)
     if _FUNDAMENTALS_HZ[0] < condition.rib_rates_hz[0] < _FUNDAMENTALS_HZ[1]:
         truth = metrics.fundamental_hz(recorded, condition.rib_rates_hz[0])
-        shares = [metrics.harmonic_share(wave, truth) for wave in (generated, recorded)]
+        shares = [row_metrics.harmonic_share(wave, truth) for wave in (generated, recorded)]
         found["harmonic_share"] = temporal.folded(shares[0] / (shares[1] + 1e-9))
     return found
 

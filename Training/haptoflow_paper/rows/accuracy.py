@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from haptoflow_benchmark.metrics import waveform_metrics as metrics
-from haptoflow_paper.metrics.cell_figures import SETTLING_SAMPLES, measure_cell
 from haptoflow_benchmark.metrics.label_classifier import LabelClassifier, concatenate, window_features
+from haptoflow_paper.metrics import row_metrics
+from haptoflow_paper.metrics.cell_figures import SETTLING_SAMPLES, measure_cell
 from haptoflow_paper.metrics.told_apart import told_apart_percent
 from haptoflow_paper.reference.reference_conditions import is_on_other_label
 from haptoflow_paper.reference.reference_set import ReferencePair, rib_phases
@@ -163,5 +163,5 @@ def drift_db_per_minute(
     motion = np.array([0.15, 0.0, 1.0], dtype=np.float32)
     motions = np.broadcast_to(motion, (len(embeddings), samples, 3))
     run = run_closed_loop(source, embeddings, motions, update_rate_hz=update_rate_hz, seed=seed)
-    drifts = [abs(metrics.drift_db_per_minute(wave[SETTLING_SAMPLES:])) for wave in run.waves]
+    drifts = [abs(row_metrics.drift_db_per_minute(wave[SETTLING_SAMPLES:])) for wave in run.waves]
     return float(np.median(drifts)), float(np.max(drifts))

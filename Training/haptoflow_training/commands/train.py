@@ -15,11 +15,11 @@ from haptoflow_training.commands.export import announce
 from haptoflow_training.commands.minutes import MINIMUM_MINUTES, Minutes, share_out
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.exporter import export_run
+from haptoflow_training.stopping import Stopped, end_if_stopped
 from haptoflow_training.training.config import TrainingConfig, load_config
 from haptoflow_training.training.processes import join_processes
 from haptoflow_training.training.recordings_source import Source, open_source
 from haptoflow_training.training.run_log import write_json
-from haptoflow_training.stopping import Stopped, end_if_stopped
 from haptoflow_training.training.trainer import TrainingStopped, trainer_of
 
 OWN_CONFIGURATION = Path(__file__).resolve().parents[2] / "configs" / "own.toml"
