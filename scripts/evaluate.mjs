@@ -1,4 +1,5 @@
 // evaluate: accuracy over time, every row measured through the engine (arguments: those of haptoflow-paper evaluate)
+import { evaluatingPackage } from './lib/evaluating_package.mjs';
 import { buildNative } from './lib/native_build.mjs';
 import { run, runMain } from './lib/process.mjs';
 import { inRepository, callerFolder } from './lib/repository.mjs';
@@ -10,13 +11,10 @@ Measures accuracy over time, every row through the engine. Arguments are those o
 --recordings, --model or --labels, which compare one model with recordings of your own, those of \`haptoflow-benchmark evaluate\`.
 Paths are relative to the current folder. With the Python packages in place, PYTHONPATH=Training /usr/bin/python3 -m haptoflow_paper evaluate --help lists them.`;
 
-const ofOneModel = /^--(recordings|model|labels)(=|$)/;
-
 await runMain('evaluate', async (words) => {
   await setUp(['build', 'python']);
   await buildNative({ targets: ['audioplugin_haptoflow', 'haptoflow_cli'] });
-  const program = words.some((word) => ofOneModel.test(word)) ? 'haptoflow_benchmark' : 'haptoflow_paper';
-  const args = ['-m', program, 'evaluate', ...words];
+  const args = ['-m', evaluatingPackage(words), 'evaluate', ...words];
   const { exitCode } = await run(pythonOrFail(), args, { cwd: callerFolder(), env: { PYTHONPATH: inRepository('Training'), OPENBLAS_NUM_THREADS: '1' } });
   return exitCode;
 }, { help });

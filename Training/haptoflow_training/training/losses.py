@@ -27,8 +27,8 @@ class ScaledBatch:
     """A batch in unit scale, as the model encodes it.
 
     segment and previous [B, *shape]; recorded_previous: [B, 1, 200], which `previous` is but for a chain of the
-    network's own output; power [B]: mean square of the segment, at least 1; unsteadiness [B]: the largest deviation of
-    the log level within the segment.
+    network's own output; rib_phase [B, 2] in turns; power [B]: mean square of the segment, at least 1; unsteadiness
+    [B]: the largest deviation of the log level within the segment from that of the condition.
     """
 
     batch: SegmentBatch
@@ -93,9 +93,15 @@ class Losses(nn.Module):
         # Bursts that the level cannot predict (an impact, the first motion after a rest) are learnt, but must not
         # outweigh a hundred ordinary segments.
         power = segment.square().mean(dim=(1, 2)).clamp(min=1.0)
-        phase = rib_phase(embedding, batch.position_mm)
         return ScaledBatch(
-            batch, embedding, segment, model.encode(previous), recorded_previous, phase, power, unsteadiness
+            batch=batch,
+            embedding=embedding,
+            segment=segment,
+            previous=model.encode(previous),
+            recorded_previous=recorded_previous,
+            rib_phase=rib_phase(embedding, batch.position_mm),
+            power=power,
+            unsteadiness=unsteadiness,
         )
 
     def field_loss(self, given: ScaledBatch, objective: str, generator: torch.Generator) -> Tensor:
