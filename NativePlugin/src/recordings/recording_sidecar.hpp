@@ -1,11 +1,13 @@
 #pragma once
 
+#include "recordings/recording_files.hpp"
+
 #include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
 
-namespace haptoflow::cli {
+namespace haptoflow::recordings {
 
 /// Properties of a recording from the files beside it; empty if the recording's own columns give them.
 struct RecordingSidecar {
@@ -24,7 +26,7 @@ struct RecordingSidecar {
 };
 
 /// Reads NAME.json beside NAME.csv or NAME.wav, and recordings.json in the same folder for keys that NAME.json does not
-/// have. Throws InputError that names file and key, the value found and the expected one.
-[[nodiscard]] RecordingSidecar readRecordingSidecar(const std::filesystem::path& recording);
+/// have. Throws RecordingUnusable that names file and key, the value found and the expected one.
+[[nodiscard]] RecordingSidecar readRecordingSidecar(RecordingFiles& files, const std::filesystem::path& recording);
 
-}  // namespace haptoflow::cli
+}  // namespace haptoflow::recordings

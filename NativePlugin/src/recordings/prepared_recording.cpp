@@ -1,13 +1,13 @@
-#include "learning/prepared_recording.hpp"
+#include "recordings/prepared_recording.hpp"
 
-#include "inference/segment_generator.hpp"
-#include "learning/dft321.hpp"
-#include "learning/resampling.hpp"
+#include "dsp/sample_rates.hpp"
+#include "recordings/dft321.hpp"
+#include "recordings/resampling.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace haptoflow::learning {
+namespace haptoflow::recordings {
 namespace {
 
 constexpr double flatShare = 0.95;
@@ -62,8 +62,8 @@ private:
         const double startSeconds = static_cast<double>(first) / recording_.rateHz - neighbourhoodSeconds;
         const double endSeconds = static_cast<double>(last) / recording_.rateHz + neighbourhoodSeconds;
         const auto begin =
-            static_cast<std::size_t>(std::max(0.0, std::floor(startSeconds * inference::waveformRateHz)));
-        const auto end = static_cast<std::size_t>(std::ceil(endSeconds * inference::waveformRateHz));
+            static_cast<std::size_t>(std::max(0.0, std::floor(startSeconds * dsp::waveformRateHz)));
+        const auto end = static_cast<std::size_t>(std::ceil(endSeconds * dsp::waveformRateHz));
         for (std::size_t i = begin; i < std::min(end, isUsable_.size()); ++i) {
             isUsable_[i] = 0;
         }
@@ -123,7 +123,7 @@ std::vector<float> windowMeans(const float* values, std::size_t stride, std::siz
     std::vector<float> means(prepared);
     float last = 0.0F;
     for (std::size_t n = 0; n < prepared; ++n) {
-        const double centre = static_cast<double>(n) / inference::waveformRateHz * rateHz;
+        const double centre = static_cast<double>(n) / dsp::waveformRateHz * rateHz;
         const double half = 0.5 * motionWindowSeconds * rateHz;
         const auto first = static_cast<std::size_t>(std::max(0.0, std::ceil(centre - half)));
         const std::size_t end = std::min(samples, static_cast<std::size_t>(std::floor(centre + half)) + 1);
@@ -155,7 +155,7 @@ PreparedRecording prepareRecording(const Recording& recording) {
     prepared.wave = oneAxis(recording, samples);
     const std::size_t count = prepared.wave.size();
     prepared.isUsable = Neighbourhoods(recording, samples, count).usable();
-    prepared.bandwidthHz = 0.5 * flatShare * std::min(recording.rateHz, inference::waveformRateHz);
+    prepared.bandwidthHz = 0.5 * flatShare * std::min(recording.rateHz, dsp::waveformRateHz);
     prepared.motion.resize(count);
     const auto fill = [&](std::size_t component, std::span<const float> values, std::size_t stride, std::size_t offset,
                           double constant) {
@@ -172,4 +172,4 @@ PreparedRecording prepareRecording(const Recording& recording) {
     return prepared;
 }
 
-}  // namespace haptoflow::learning
+}  // namespace haptoflow::recordings

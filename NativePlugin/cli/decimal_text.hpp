@@ -6,11 +6,7 @@
 
 namespace haptoflow::cli {
 
-/// The number that the whole text represents, with a decimal point in every locale and an optional plus sign. Empty for
-/// any other text, and for numbers too large or too small to represent.
-[[nodiscard]] std::optional<double> decimalNumber(std::string_view text);
-
-/// `decimalNumber(text) - decimalNumber(origin)` of two decimals, such as seconds since 1970, with the digits that
+/// The difference of two decimals, such as seconds since 1970, with the digits that
 /// their own rounding to a double would lose. Empty if one of them is no number.
 [[nodiscard]] std::optional<double> decimalDifference(std::string_view text, std::string_view origin);
 

@@ -1,10 +1,7 @@
-#include "recording_sidecar.hpp"
+#include "recordings/recording_sidecar.hpp"
 
-#include "command_files.hpp"
-#include "csv_lines.hpp"
-#include "exit_codes.hpp"
-#include "input_file.hpp"
-#include "learning/recording.hpp"
+#include "recordings/csv_lines.hpp"
+#include "recordings/recording.hpp"
 #include "model/bounded_json.hpp"
 #include "model/model_error.hpp"
 #include "model/model_header.hpp"
@@ -16,7 +13,7 @@
 #include <cmath>
 #include <map>
 
-namespace haptoflow::cli {
+namespace haptoflow::recordings {
 namespace {
 
 namespace fs = std::filesystem;
@@ -35,18 +32,16 @@ std::string allKeys() {
 }
 
 [[noreturn]] void fail(const fs::path& file, const std::string& found, const std::string& expected) {
-    throw InputError(file.string() + ": " + found + "; expected " + expected);
+    throw RecordingUnusable(utf8Of(file) + ": " + found + "; expected " + expected);
 }
 
-json documentIn(const fs::path& file) {
-    const std::string role = file.filename() == defaultsFile ? "the folder's defaults" : "the recording's sidecar";
+json documentIn(RecordingFiles& files, const std::string& role, const fs::path& file) {
     // Also where it does not exist: a report of that name would be read as the sidecar from then on.
-    claimInput(role, file);
-    std::error_code ignored;
-    if (!fs::is_regular_file(file, ignored)) {
+    std::optional<std::string> bytes = files.read(role, file);
+    if (!bytes) {
         return json::object();
     }
-    std::string text = readInputFile(role, file.string(), "a JSON object");
+    std::string& text = *bytes;
     if (text.starts_with("\xEF\xBB\xBF")) {
         text.erase(0, 3);
     }
@@ -73,12 +68,11 @@ json documentIn(const fs::path& file) {
 /// The values of both files and the file that each comes from.
 class Values {
 public:
-    explicit Values(const fs::path& recording) {
-        fs::path own = recording;
-        own.replace_extension(".json");
-        add(recording.parent_path() / defaultsFile);
-        if (own.filename() != defaultsFile) {
-            add(own);
+    Values(RecordingFiles& files, const fs::path& recording, const fs::path& own) : files_(files) {
+        const fs::path defaults = files.beside(recording, defaultsFile);
+        add("the folder's defaults", defaults);
+        if (own.filename() != defaults.filename()) {
+            add("the recording's sidecar", own);
         }
     }
 
@@ -111,7 +105,7 @@ public:
     }
 
     [[nodiscard]] std::optional<std::array<double, 2>> velocity() const {
-        if (const auto speed = number("speed_mps", 0.0, learning::maximumHandSpeedMps,
+        if (const auto speed = number("speed_mps", 0.0, maximumHandSpeedMps,
                                       "metres a second, 0 to 10 (a thousandth of mm/s)")) {
             return std::array{*speed, 0.0};
         }
@@ -122,7 +116,7 @@ public:
         const bool isPair =
             value->is_array() && value->size() == 2 && (*value)[0].is_number() && (*value)[1].is_number();
         if (!isPair ||
-            !(std::hypot((*value)[0].get<double>(), (*value)[1].get<double>()) <= learning::maximumHandSpeedMps)) {
+            !(std::hypot((*value)[0].get<double>(), (*value)[1].get<double>()) <= maximumHandSpeedMps)) {
             refuse("velocity_mps", "[vx, vy] in metres a second, 10 at most (a thousandth of mm/s)");
         }
         return std::array{(*value)[0].get<double>(), (*value)[1].get<double>()};
@@ -134,25 +128,22 @@ public:
             return std::nullopt;
         }
         const fs::path& origin = origins_.at("motion");
-        const fs::path path = origin.parent_path() / name;
-        std::error_code ignored;
-        // A name in a file leads no further than its own folder, also by a link.
-        const fs::path folder = fs::weakly_canonical(fs::absolute(origin).parent_path(), ignored);
-        const fs::path inside = fs::weakly_canonical(fs::absolute(path), ignored).lexically_relative(folder);
-        if (inside.empty() || *inside.begin() == "..") {
+        const fs::path path = files_.beside(origin, name);
+        // A name in a file leads no further than its own folder.
+        if (!files_.isBeside(origin, path)) {
             fail(origin,
-                 "key 'motion' names " + name + ", which is outside the folder of " + origin.filename().string(),
+                 "key 'motion' names " + name + ", which is outside the folder of " + utf8Of(origin.filename()),
                  "a table beside the recording: copy it there");
         }
-        if (!fs::is_regular_file(path, ignored)) {
+        if (!files_.contains(path)) {
             fail(origin, "key 'motion' names " + name + ", which is not there", "a table beside the recording");
         }
         return path;
     }
 
 private:
-    void add(const fs::path& file) {
-        const json document = documentIn(file);
+    void add(const std::string& role, const fs::path& file) {
+        const json document = documentIn(files_, role, file);
         for (const auto& [key, value] : document.items()) {
             // A file gives either the speed or the velocity; that of the later file replaces both.
             if (key == "speed_mps") {
@@ -175,27 +166,27 @@ private:
              expected);
     }
 
+    RecordingFiles& files_;
     std::map<std::string, json> values_;
     std::map<std::string, fs::path> origins_;
 };
 
 }  // namespace
 
-RecordingSidecar readRecordingSidecar(const fs::path& recording) {
-    const Values values(recording);
+RecordingSidecar readRecordingSidecar(RecordingFiles& files, const fs::path& recording) {
     RecordingSidecar sidecar;
-    sidecar.path = recording;
-    sidecar.path.replace_extension(".json");
+    sidecar.path = files.beside(recording, utf8Of(recording.stem()) + ".json");
+    const Values values(files, recording, sidecar.path);
     sidecar.label = values.text("label");
     sidecar.fullScaleMps2 = values.number("full_scale_mps2", 0.01, 1e5, "m/s^2 at +-1, 0.01 to 100000");
     sidecar.velocityMps = values.velocity();
     sidecar.forceNewtons = values.number("force_newtons", 0.0, 100.0, "newtons, 0 to 100 (a thousandth of mN)");
     sidecar.motion = values.motion();
     sidecar.rateHz =
-        values.number("rate_hz", learning::lowestRateHz, learning::highestRateHz, "samples a second, 1000 to 192000");
+        values.number("rate_hz", lowestRateHz, highestRateHz, "samples a second, 1000 to 192000");
     sidecar.licence = values.text("licence");
     sidecar.source = values.text("source");
     return sidecar;
 }
 
-}  // namespace haptoflow::cli
+}  // namespace haptoflow::recordings

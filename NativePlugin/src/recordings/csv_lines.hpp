@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-namespace haptoflow::cli {
+namespace haptoflow::recordings {
 
 /// The lines of a CSV text, without a byte order mark. Home-made: strokes and recordings need the number of a line for
 /// errors and no quoted commas, and the build has no CSV library.
@@ -32,4 +32,4 @@ void splitCells(std::string_view line, std::vector<std::string_view>& cells);
 /// The text without `blank` characters at its ends.
 [[nodiscard]] std::string_view trimmed(std::string_view text, std::string_view blank = " \t\r");
 
-}  // namespace haptoflow::cli
+}  // namespace haptoflow::recordings

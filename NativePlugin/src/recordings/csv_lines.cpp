@@ -1,8 +1,8 @@
-#include "csv_lines.hpp"
+#include "recordings/csv_lines.hpp"
 
 #include <algorithm>
 
-namespace haptoflow::cli {
+namespace haptoflow::recordings {
 
 CsvLines::CsvLines(std::string_view text) : rest_(text) {
     if (rest_.starts_with("\xEF\xBB\xBF")) {
@@ -36,4 +36,4 @@ std::string_view trimmed(std::string_view text, std::string_view blank) {
                                            : text.substr(first, text.find_last_not_of(blank) - first + 1);
 }
 
-}  // namespace haptoflow::cli
+}  // namespace haptoflow::recordings

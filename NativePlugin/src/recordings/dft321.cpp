@@ -1,7 +1,7 @@
-#include "learning/dft321.hpp"
+#include "recordings/dft321.hpp"
 
 #include "dsp/fourier_transform.hpp"
-#include "inference/segment_generator.hpp"
+#include "dsp/sample_rates.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <numbers>
 
-namespace haptoflow::learning {
+namespace haptoflow::recordings {
 namespace {
 
 using Complex = std::complex<double>;
@@ -93,10 +93,10 @@ struct Band {
 };
 
 std::vector<Band> thirdOctaves(std::size_t size) {
-    const double hertzPerBin = inference::waveformRateHz / static_cast<double>(size);
+    const double hertzPerBin = dsp::waveformRateHz / static_cast<double>(size);
     const double halfBand = std::pow(2.0, 1.0 / 6.0);
     std::vector<Band> bands;
-    for (double centre = lowestCentreHz; centre * halfBand < inference::waveformRateHz / 2.0;
+    for (double centre = lowestCentreHz; centre * halfBand < dsp::waveformRateHz / 2.0;
          centre *= halfBand * halfBand) {
         const Band band{.logCentre = std::log(centre),
                         .first = static_cast<std::size_t>(std::ceil(centre / halfBand / hertzPerBin)),
@@ -150,7 +150,7 @@ std::vector<double> withBandEnergies(std::vector<double> wave, const std::array<
         }
         for (std::size_t bin = 0; bin < gain.size(); ++bin) {
             const double hertz =
-                std::max(static_cast<double>(bin) * inference::waveformRateHz / static_cast<double>(size), 1.0);
+                std::max(static_cast<double>(bin) * dsp::waveformRateHz / static_cast<double>(size), 1.0);
             gain[bin] = std::exp(interpolated(bands, logGains, std::log(hertz)));
         }
     }
@@ -189,4 +189,4 @@ std::vector<double> combineAxes(const std::array<std::vector<double>, 3>& axes) 
     return withBandEnergies({sum.begin() + hop, sum.begin() + hop + static_cast<std::ptrdiff_t>(count)}, axes);
 }
 
-}  // namespace haptoflow::learning
+}  // namespace haptoflow::recordings

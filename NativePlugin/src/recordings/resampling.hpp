@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace haptoflow::learning {
+namespace haptoflow::recordings {
 
 /// One channel of interleaved samples without its mean; samples that are not finite count as the mean.
 struct Channel {
@@ -30,4 +30,4 @@ struct Channel {
 /// forward and backward, without phase shift. The ends are reflected.
 [[nodiscard]] std::vector<double> bandPassed(std::span<const double> values);
 
-}  // namespace haptoflow::learning
+}  // namespace haptoflow::recordings

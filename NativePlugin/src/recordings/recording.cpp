@@ -1,19 +1,19 @@
-#include "learning/recording.hpp"
+#include "recordings/recording.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <locale>
 #include <sstream>
 #include <string>
 
-namespace haptoflow::learning {
+namespace haptoflow::recordings {
 namespace {
 
 constexpr double maximumLostShare = 0.5;
 /// A clipped wave stays at its extreme value while it would exceed it; noise reaches its maximum only once.
-constexpr std::size_t minimumClippedRun = 3;
-constexpr double maximumClippedShare = 0.001;
+constexpr std::size_t minimumClippedRun = 4;
 
 void require(bool holds, const std::string& message) {
     if (!holds) {
@@ -48,15 +48,12 @@ struct AxisFigures {
     std::size_t recorded = 0;
     double mean = 0.0;
     double rms = 0.0;
-    double clippedShare = 0.0;
 };
 
 AxisFigures figuresOf(const Recording& recording, std::size_t axis) {
     AxisFigures figures;
     double sum = 0.0;
     double squares = 0.0;
-    float lowest = 0.0F;
-    float highest = 0.0F;
     const auto at = [&](std::size_t i) { return recording.accelerationMps2[i * recording.axisCount + axis]; };
     const std::size_t count = recording.sampleCount();
     const auto longestLoss = static_cast<std::size_t>(minimumPauseSeconds * recording.rateHz);
@@ -69,8 +66,6 @@ AxisFigures figuresOf(const Recording& recording, std::size_t axis) {
         } else {
             figures.recorded -= lost > longestLoss && figures.finite > 0 ? lost : 0;
             lost = 0;
-            lowest = figures.finite == 0 ? value : std::min(lowest, value);
-            highest = figures.finite == 0 ? value : std::max(highest, value);
             sum += value;
             ++figures.finite;
         }
@@ -79,23 +74,41 @@ AxisFigures figuresOf(const Recording& recording, std::size_t axis) {
         return figures;
     }
     figures.mean = sum / static_cast<double>(figures.finite);
-    std::size_t run = 0;
-    std::size_t clipped = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const float value = at(i);
-        const bool isEnd = (value == lowest || value == highest) && highest > lowest;
-        run = isEnd && run > 0 && value == at(i - 1) ? run + 1 : (isEnd ? 1 : 0);
-        clipped += run == minimumClippedRun ? minimumClippedRun : (run > minimumClippedRun ? 1 : 0);
         if (std::isfinite(value)) {
             squares += (value - figures.mean) * (value - figures.mean);
         }
     }
     figures.rms = std::sqrt(squares / static_cast<double>(figures.finite));
-    figures.clippedShare = static_cast<double>(clipped) / static_cast<double>(figures.recorded);
     return figures;
 }
 
 }  // namespace
+
+double clippedShare(std::span<const float> values, std::size_t stride) {
+    float lowest = std::numeric_limits<float>::infinity();
+    float highest = -lowest;
+    std::size_t finite = 0;
+    for (std::size_t i = 0; i < values.size(); i += stride) {
+        if (std::isfinite(values[i])) {
+            lowest = std::min(lowest, values[i]);
+            highest = std::max(highest, values[i]);
+            ++finite;
+        }
+    }
+    if (!(highest > lowest)) {
+        return 0.0;
+    }
+    std::size_t run = 0;
+    std::size_t clipped = 0;
+    for (std::size_t i = 0; i < values.size(); i += stride) {
+        const bool isEnd = values[i] == lowest || values[i] == highest;
+        run = isEnd && run > 0 && values[i] == values[i - stride] ? run + 1 : (isEnd ? 1 : 0);
+        clipped += run == minimumClippedRun ? minimumClippedRun : (run > minimumClippedRun ? 1 : 0);
+    }
+    return static_cast<double>(clipped) / static_cast<double>(finite);
+}
 
 std::string plainNumber(double value) {
     constexpr double beyondDigits = 1000.0;
@@ -126,8 +139,9 @@ void checkRecording(const Recording& recording) {
                                     plainNumber(100.0 - 100.0 * static_cast<double>(figures.finite) / count) +
                                     " % of its samples; record again, or cut the damaged part off");
         }
-        if (figures.clippedShare > maximumClippedShare) {
-            throw RecordingUnusable(name + " is clipped: " + plainNumber(100.0 * figures.clippedShare) +
+        const double clipped = clippedShare(recording.accelerationMps2.subspan(axis), recording.axisCount);
+        if (clipped > maximumClippedShare) {
+            throw RecordingUnusable(name + " is clipped: " + plainNumber(100.0 * clipped) +
                                     " % of its samples stand at its largest or smallest value; record again with a "
                                     "larger range");
         }
@@ -138,4 +152,4 @@ void checkRecording(const Recording& recording) {
     }
 }
 
-}  // namespace haptoflow::learning
+}  // namespace haptoflow::recordings

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace haptoflow::learning {
+namespace haptoflow::recordings {
 
 /// No material can be learnt from a recording. The message names the reason and the remedy.
 class RecordingUnusable : public std::runtime_error {
@@ -42,6 +42,13 @@ inline constexpr double maximumSeconds = 300.0;
 /// Recordings with less sliding are refused.
 inline constexpr double minimumSlidingSeconds = 3.0;
 
+/// A larger share of clipped samples has another spectrum.
+inline constexpr double maximumClippedShare = 0.02;
+
+/// The share of finite samples of one axis that stand at its largest or smallest value for several samples. `values`
+/// begins with the axis; every `stride`th is its.
+[[nodiscard]] double clippedShare(std::span<const float> values, std::size_t stride);
+
 /// Throws std::invalid_argument if the sizes of the spans do not match or a number is out of range, and
 /// RecordingUnusable if the samples are too short, silent, clipped or not finite.
 void checkRecording(const Recording& recording);
@@ -49,4 +56,4 @@ void checkRecording(const Recording& recording);
 /// A number for messages: three significant digits with a decimal point, in every locale: "0.0823", "12.5", "1200".
 [[nodiscard]] std::string plainNumber(double value);
 
-}  // namespace haptoflow::learning
+}  // namespace haptoflow::recordings

@@ -1,13 +1,13 @@
 #pragma once
 
-#include "learning/recording.hpp"
+#include "recordings/recording.hpp"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
-namespace haptoflow::learning {
+namespace haptoflow::recordings {
 
 /// A recording in the network's format: one axis at 2 kHz, 10 to 1000 Hz, with the motion at each sample.
 struct PreparedRecording {
@@ -27,4 +27,4 @@ struct PreparedRecording {
 /// first `maximumSeconds`. Call `checkRecording` first.
 [[nodiscard]] PreparedRecording prepareRecording(const Recording& recording);
 
-}  // namespace haptoflow::learning
+}  // namespace haptoflow::recordings

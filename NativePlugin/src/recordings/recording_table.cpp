@@ -1,9 +1,8 @@
-#include "recording_table.hpp"
+#include "recordings/recording_table.hpp"
 
-#include "csv_lines.hpp"
-#include "decimal_number.hpp"
-#include "exit_codes.hpp"
-#include "input_file.hpp"
+#include "recordings/csv_lines.hpp"
+#include "recordings/decimal_number.hpp"
+#include "recordings/recording.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +10,7 @@
 #include <span>
 #include <string_view>
 
-namespace haptoflow::cli {
+namespace haptoflow::recordings {
 namespace {
 
 constexpr std::string_view timeColumn = "time_s";
@@ -70,21 +69,18 @@ std::string_view bareCell(std::string_view text) {
 
 class TableReader {
 public:
-    TableReader(const std::string& path, bool needsAcceleration)
-        : path_(path),
-          needsAcceleration_(needsAcceleration),
-          text_(readInputFile(needsAcceleration ? "the recording" : "the motion file", path,
-                              "a table (CSV) with the columns time_s and acceleration_mps2")),
-          lines_(text_) {}
-
-    RecordingTable read() {
+    TableReader(const std::string& path, const std::string& text) : path_(path), lines_(text) {
+        refuseOtherEncodings(text);
         readHeader();
+    }
+
+    RecordingTable read(bool needsAcceleration) {
         RecordingTable table;
         table.path = path_;
         const std::optional<ColumnForm> acceleration = formIn(accelerationForms(), "acceleration");
         const std::optional<ColumnForm> motion = formIn(allMotionForms(), "motion");
         const std::optional<ColumnForm> force = formIn(allForceForms(), "force");
-        if (needsAcceleration_ && !acceleration) {
+        if (needsAcceleration && !acceleration) {
             fail("columns " + joined(names_), "acceleration: " + namesOf(accelerationForms()));
         }
         table.unknown = unknownNames();
@@ -98,7 +94,7 @@ public:
                 wanted.emplace_back(placesOf(*form), &series->values);
             }
         };
-        if (needsAcceleration_) {
+        if (needsAcceleration) {
             want(acceleration, table.acceleration);
         }
         want(motion, table.motion);
@@ -106,7 +102,7 @@ public:
         if (time) {
             wanted.emplace_back(std::vector<std::size_t>{*time}, &table.timeSeconds);
         }
-        readRows(wanted);
+        readRows(wanted, time, table);
         scale(acceleration, table.acceleration);
         scale(motion, table.motion);
         scale(force, table.force);
@@ -114,9 +110,35 @@ public:
         return table;
     }
 
+    [[nodiscard]] std::vector<std::string> unknownNames() const {
+        std::vector<std::string> unknown;
+        for (const std::string& name : names_) {
+            const auto knows = [&](const std::vector<ColumnForm>& forms) {
+                return std::ranges::any_of(forms, [&](const ColumnForm& form) {
+                    return std::ranges::find(form.columns, name) != form.columns.end();
+                });
+            };
+            if (name != timeColumn && !knows(accelerationForms()) && !knows(allMotionForms()) &&
+                !knows(allForceForms())) {
+                unknown.push_back(name);
+            }
+        }
+        return unknown;
+    }
+
 private:
+    void refuseOtherEncodings(const std::string& text) const {
+        constexpr std::string_view zeroByte("\0", 1);
+        if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
+            fail("is text in UTF-16", "UTF-8: save the table as CSV UTF-8");
+        }
+        if (text.find(zeroByte) != std::string::npos) {
+            fail("is not text: it has bytes of zero", "a table (CSV) in UTF-8");
+        }
+    }
+
     [[noreturn]] void fail(const std::string& found, const std::string& expected) const {
-        throw InputError(path_ + ": " + found + "; expected " + expected);
+        throw RecordingUnusable(path_ + ": " + found + "; expected " + expected);
     }
 
     void readHeader() {
@@ -177,22 +199,6 @@ private:
         return found;
     }
 
-    [[nodiscard]] std::vector<std::string> unknownNames() const {
-        std::vector<std::string> unknown;
-        for (const std::string& name : names_) {
-            const auto knows = [&](const std::vector<ColumnForm>& forms) {
-                return std::ranges::any_of(forms, [&](const ColumnForm& form) {
-                    return std::ranges::find(form.columns, name) != form.columns.end();
-                });
-            };
-            if (name != timeColumn && !knows(accelerationForms()) && !knows(allMotionForms()) &&
-                !knows(allForceForms())) {
-                unknown.push_back(name);
-            }
-        }
-        return unknown;
-    }
-
     [[nodiscard]] double number(std::string_view cell, std::size_t column) const {
         const std::string_view text = bareCell(cell);
         if (text.empty() || text == "nan" || text == "NaN" || text == "NA" || text == "inf" || text == "-inf") {
@@ -200,23 +206,25 @@ private:
         }
         const std::optional<double> value = decimalNumber(text);
         if (!value) {
-            throw InputError(path_ + ":" + std::to_string(lines_.number()) + ": column " + names_[column] +
+            throw RecordingUnusable(path_ + ":" + std::to_string(lines_.number()) + ": column " + names_[column] +
                              ": expected a number with a decimal point, found \"" + std::string(text.substr(0, 40)) +
                              "\"");
         }
         return *value;
     }
 
-    void readRows(const std::vector<std::pair<std::vector<std::size_t>, std::vector<double>*>>& wanted) {
+    void readRows(const std::vector<std::pair<std::vector<std::size_t>, std::vector<double>*>>& wanted,
+                  std::optional<std::size_t> time, RecordingTable& table) {
         std::vector<std::string_view> cells;
         std::size_t rows = 0;
+        int timeDecimals = 0;
         while (lines_.next()) {
             if (bareCell(lines_.line()).empty()) {
                 continue;
             }
             splitCells(lines_.line(), cells);
             if (cells.size() != names_.size()) {
-                throw InputError(path_ + ":" + std::to_string(lines_.number()) + ": expected " +
+                throw RecordingUnusable(path_ + ":" + std::to_string(lines_.number()) + ": expected " +
                                  std::to_string(names_.size()) + " values as in the first line, found " +
                                  std::to_string(cells.size()) + " (decimals need a point, not a comma)");
             }
@@ -225,6 +233,10 @@ private:
                     values->push_back(number(cells[column], column));
                 }
             }
+            table.lines.push_back(static_cast<std::uint32_t>(lines_.number()));
+            if (time) {
+                timeDecimals = std::max(timeDecimals, decimalsOf(bareCell(cells[*time])));
+            }
             if (++rows > maximumRows) {
                 fail("more than " + std::to_string(maximumRows) + " rows", "five minutes of recording at most");
             }
@@ -232,6 +244,16 @@ private:
         if (rows < 4) {
             fail(std::to_string(rows) + " rows", "4 rows at least");
         }
+        table.timeRoundingSeconds = time ? 0.5 * std::pow(10.0, -timeDecimals) : 0.0;
+    }
+
+    /// Digits after the point; a number with an exponent has all that a double has.
+    static int decimalsOf(std::string_view text) {
+        constexpr int allDecimals = 17;
+        const std::size_t point = text.find('.');
+        return text.find_first_of("eE") != std::string_view::npos ? allDecimals
+               : point == std::string_view::npos                  ? 0
+                                                                  : static_cast<int>(text.size() - point - 1);
     }
 
     static void scale(const std::optional<ColumnForm>& form, std::optional<TableSeries>& series) {
@@ -242,8 +264,6 @@ private:
     }
 
     const std::string& path_;
-    bool needsAcceleration_;
-    std::string text_;
     CsvLines lines_;
     std::vector<std::string> names_;
 };
@@ -258,8 +278,12 @@ std::string forceForms() {
     return namesOf(allForceForms());
 }
 
-RecordingTable readRecordingTable(const std::string& path, bool needsAcceleration) {
-    return TableReader(path, needsAcceleration).read();
+RecordingTable readRecordingTable(const std::string& path, const std::string& text, bool needsAcceleration) {
+    return TableReader(path, text).read(needsAcceleration);
 }
 
-}  // namespace haptoflow::cli
+std::vector<std::string> unknownColumns(const std::string& path, const std::string& text) {
+    return TableReader(path, text).unknownNames();
+}
+
+}  // namespace haptoflow::recordings

@@ -1,15 +1,15 @@
-#include "learning/resampling.hpp"
+#include "recordings/resampling.hpp"
 
 #include "dsp/fourier_transform.hpp"
 #include "dsp/kaiser_window.hpp"
-#include "inference/segment_generator.hpp"
+#include "dsp/sample_rates.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <complex>
 
-namespace haptoflow::learning {
+namespace haptoflow::recordings {
 namespace {
 
 constexpr double attenuationDecibels = 66.0;
@@ -38,7 +38,7 @@ double eighthPower(double value) {
 
 std::vector<double> resampledTo2kHz(const Channel& channel, double rateHz) {
     const std::vector<double> table = sincTable();
-    const double step = rateHz / inference::waveformRateHz;
+    const double step = rateHz / dsp::waveformRateHz;
     const double zerosPerInput = std::min(1.0, 1.0 / step);
     const double reach = halfLengthInZeros / zerosPerInput;
     const auto inputs = static_cast<std::ptrdiff_t>(channel.count);
@@ -80,7 +80,7 @@ std::vector<double> bandPassed(std::span<const double> values) {
     const std::size_t size = spectrum.size();
     spectrum[0] = 0.0;
     for (std::size_t bin = 1; bin <= size / 2; ++bin) {
-        const double hertz = static_cast<double>(bin) * inference::waveformRateHz / static_cast<double>(size);
+        const double hertz = static_cast<double>(bin) * dsp::waveformRateHz / static_cast<double>(size);
         const double gain = 1.0 / ((1.0 + eighthPower(highPassHz / hertz)) * (1.0 + eighthPower(hertz / lowPassHz)));
         spectrum[bin] *= gain;
         if (bin != size - bin) {
@@ -95,4 +95,4 @@ std::vector<double> bandPassed(std::span<const double> values) {
     return result;
 }
 
-}  // namespace haptoflow::learning
+}  // namespace haptoflow::recordings
