@@ -322,29 +322,37 @@ void checkForce(const std::string& path, const TableSeries& series, const Track&
 void noteLag(const std::string& path, const Recording& recording, std::vector<std::string>& notes) {
     constexpr std::ptrdiff_t searchedFrames = 50;
     constexpr std::ptrdiff_t notedFrames = 5;
+    constexpr std::ptrdiff_t aroundFrames = 10;
     constexpr double clearCorrelation = 0.5;
-    constexpr double clearGain = 0.1;
+    // By chance a shift explains a few per cent of the rest.
+    constexpr double clearRatio = 1.15;
     constexpr double tie = 0.02;
+    constexpr std::size_t minimumFrames = 300;
     if (recording.velocityMps.empty()) {
         return;
     }
     const Frames frames = framesOf(recording);
+    if (frames.level.size() < minimumFrames) {
+        return;
+    }
     const double without = correlation(frames, 0);
     double best = without;
     for (std::ptrdiff_t lag = -searchedFrames; lag <= searchedFrames; ++lag) {
         best = std::max(best, correlation(frames, lag));
     }
-    if (best < clearCorrelation || best < without + clearGain) {
+    const auto unexplained = [](double correlated) { return 1.0 - std::max(correlated, 0.0) * correlated; };
+    if (best < clearCorrelation || unexplained(without) < clearRatio * unexplained(best)) {
         return;
     }
     // Strokes that repeat explain the level at several lags; the shortest one is meant.
-    std::ptrdiff_t lag = 0;
-    while (correlation(frames, lag) < best - tie && correlation(frames, -lag) < best - tie) {
-        ++lag;
+    std::ptrdiff_t nearest = 0;
+    while (correlation(frames, nearest) < best - tie && correlation(frames, -nearest) < best - tie) {
+        ++nearest;
     }
-    lag = correlation(frames, lag) < correlation(frames, -lag) ? -lag : lag;
-    while (correlation(frames, lag + (lag > 0 ? 1 : -1)) > correlation(frames, lag)) {
-        lag += lag > 0 ? 1 : -1;
+    const std::ptrdiff_t direction = correlation(frames, nearest) < correlation(frames, -nearest) ? -1 : 1;
+    std::ptrdiff_t lag = direction * nearest;
+    for (std::ptrdiff_t further = nearest; further <= nearest + aroundFrames; ++further) {
+        lag = correlation(frames, direction * further) > correlation(frames, lag) ? direction * further : lag;
     }
     if (std::abs(lag) >= notedFrames) {
         const double milliseconds = 1000.0 * frameSeconds * static_cast<double>(std::abs(lag));

@@ -122,7 +122,8 @@ private:
         }
         Track acceleration = trackOf(table, *table.acceleration);
         noteMissing(table, acceleration);
-        const double rate = table.timeRoundingSeconds > 0.0 || !sidecar_.rateHz ? rateOf(acceleration) : *sidecar_.rateHz;
+        const double rate = table.timeRoundingSeconds > 0.0 || !sidecar_.rateHz ? rateOf(acceleration, table.timeRoundingSeconds)
+                                                                               : *sidecar_.rateHz;
         if (!(rate >= 0.99 * lowestRateHz && rate <= 1.01 * highestRateHz)) {
             fail(path_, plainNumber(rate) + " samples a second by time_s", "1000 to 192000; time_s is in seconds");
         }
@@ -160,8 +161,11 @@ private:
         for (std::size_t i = 0; i < count; ++i) {
             const double seconds = startSeconds_ + static_cast<double>(i) / rateHz;
             const std::size_t index = cursor.before(seconds);
-            const bool isGap = acceleration.timeSeconds[index + 1] - acceleration.timeSeconds[index] > longestStep ||
-                               seconds < acceleration.timeSeconds.front();
+            const double sinceReading = seconds - acceleration.timeSeconds[index];
+            const bool isReading = std::abs(sinceReading) < 1e-3 / rateHz;
+            const bool isGap = !isReading && (sinceReading < 0.0 || acceleration.timeSeconds[index + 1] -
+                                                                            acceleration.timeSeconds[index] >
+                                                                        longestStep);
             for (std::size_t axis = 0; axis < acceleration.width; ++axis) {
                 recording_.accelerationMps2.push_back(
                     static_cast<float>(isGap ? unknownNumber : cursor.cubic(index, axis, seconds)));

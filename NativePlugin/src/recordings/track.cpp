@@ -64,9 +64,9 @@ double medianStepSeconds(const Track& track) {
     return *middle;
 }
 
-double rateOf(const Track& track) {
+double rateOf(const Track& track, double roundingSeconds) {
     constexpr double longestShare = 1.9;
-    constexpr double wholeNumberTolerance = 1e-5;
+    constexpr double leastUncertainty = 1e-9;
     const double longest = longestShare * medianStepSeconds(track);
     double seconds = 0.0;
     std::size_t steps = 0;
@@ -78,7 +78,14 @@ double rateOf(const Track& track) {
         }
     }
     const double rate = static_cast<double>(steps) / seconds;
-    return std::abs(rate - std::round(rate)) < wholeNumberTolerance * rate ? std::round(rate) : rate;
+    const double uncertainty = std::max(leastUncertainty, 2.0 * roundingSeconds / seconds) * rate;
+    for (const double unit : {1000.0, 100.0, 10.0, 1.0}) {
+        const double round = unit * std::round(rate / unit);
+        if (round > 0.0 && std::abs(round - rate) <= uncertainty) {
+            return round;
+        }
+    }
+    return rate;
 }
 
 Track withoutRounding(Track track, double rateHz, double roundingSeconds) {

@@ -31,8 +31,9 @@ struct Track {
 /// The median of the steps between times.
 [[nodiscard]] double medianStepSeconds(const Track& track);
 
-/// Samples a second: the mean over all steps but gaps, because times are often written with few digits.
-[[nodiscard]] double rateOf(const Track& track);
+/// Samples a second: the mean over all steps but gaps, because times are often written with few digits; the roundest
+/// number that these allow, whose error is at most `roundingSeconds`.
+[[nodiscard]] double rateOf(const Track& track, double roundingSeconds);
 
 /// Even times where the track's own differ from them by no more than `roundingSeconds`; otherwise its own. A sensor
 /// whose clock is even would seem to tremble by the digits of its time stamps.
