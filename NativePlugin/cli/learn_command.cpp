@@ -142,7 +142,7 @@ recordings::MaterialRecording readRecording(const LearnOptions& options) {
         if (words.forceNewtons && !recording.forceNewtons.empty()) {
             throw UsageError("--force-newtons: " + path + " has a force of its own; leave the option out");
         }
-        recordings::requireMotionAndForce(recording, path);
+        recordings::requireMotionAndForce(recording, path, "--speed-mps", "--force-newtons");
         std::ranges::for_each(recording.description.notes, note);
         return recording;
     } catch (const recordings::RecordingUnusable& error) {

@@ -935,6 +935,8 @@ typedef struct haptoflow_recording_options {
     double force_newtons;
     /* 1 to read the sidecar and the names of the columns only: there are texts, and no samples. */
     uint32_t without_samples;
+    /* 1 to refuse a recording whose motion or force is unknown. */
+    uint32_t needs_motion_and_force;
 } haptoflow_recording_options;
 
 /* Readings of one sensor at increasing times of its own. */

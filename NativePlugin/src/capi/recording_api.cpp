@@ -111,6 +111,9 @@ haptoflow_status haptoflow_recording_read(const haptoflow_recording_options* opt
             open->recording.description = recordings::describeRecording(*files, path);
         } else {
             open->recording = recordings::readMaterialRecording(*files, path, words);
+            if (given.needs_motion_and_force != 0) {
+                recordings::requireMotionAndForce(open->recording, path);
+            }
         }
         const recordings::RecordingDescription& description = open->recording.description;
         open->motionPath = description.motion ? recordings::utf8Of(*description.motion) : "";

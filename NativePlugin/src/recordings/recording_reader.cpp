@@ -95,7 +95,7 @@ private:
         const std::optional<double> fullScale = words_.fullScaleMps2 ? words_.fullScaleMps2 : sidecar_.fullScaleMps2;
         if (!fullScale) {
             fail(utf8Of(sidecar_.path), "no key 'full_scale_mps2' for " + utf8Of(file_.filename()),
-                 "\"full_scale_mps2\": the acceleration in m/s^2 that +-1 stands for; or --full-scale-mps2");
+                 "\"full_scale_mps2\": the acceleration in m/s^2 that +-1 stands for");
         }
         Track acceleration{.timeSeconds = {}, .values = {}, .width = wave.channels, .lines = {}};
         for (std::size_t i = 0; i < wave.samples.size() / wave.channels; ++i) {
@@ -264,16 +264,18 @@ MaterialRecording readMaterialRecording(RecordingFiles& files, const fs::path& p
     return Reader(files, path, words).read();
 }
 
-void requireMotionAndForce(const MaterialRecording& recording, const fs::path& path) {
+void requireMotionAndForce(const MaterialRecording& recording, const fs::path& path, const std::string& speedOption,
+                           const std::string& forceOption) {
+    const auto alternative = [](const std::string& option) { return option.empty() ? option : "; or " + option; };
     const std::string sidecar = utf8Of(recording.description.sidecar.filename());
     if (!recording.hasMotion()) {
         fail(utf8Of(path), "no motion in it or beside it",
              "columns " + motionForms() + "; or the key speed_mps, velocity_mps or motion in " + sidecar +
-                 "; or --speed-mps");
+                 alternative(speedOption));
     }
     if (!recording.hasForce()) {
         fail(utf8Of(path), "no force in it or beside it",
-             "a column " + forceForms() + "; or the key force_newtons in " + sidecar + "; or --force-newtons");
+             "a column " + forceForms() + "; or the key force_newtons in " + sidecar + alternative(forceOption));
     }
 }
 

@@ -72,8 +72,10 @@ struct MaterialRecording {
 [[nodiscard]] MaterialRecording readMaterialRecording(RecordingFiles& files, const std::filesystem::path& path,
                                                       const RecordingWords& words);
 
-/// Throws RecordingUnusable that names the columns, keys and options which can give them if motion or force is unknown.
-void requireMotionAndForce(const MaterialRecording& recording, const std::filesystem::path& path);
+/// Throws RecordingUnusable that names the columns and keys which can give them if motion or force is unknown.
+/// `speedOption` and `forceOption` are named, too, if they are not empty.
+void requireMotionAndForce(const MaterialRecording& recording, const std::filesystem::path& path,
+                           const std::string& speedOption = "", const std::string& forceOption = "");
 
 /// Reads what `readMaterialRecording` reads but for the rows.
 [[nodiscard]] RecordingDescription describeRecording(RecordingFiles& files, const std::filesystem::path& path);

@@ -207,8 +207,8 @@ private:
         const std::optional<double> value = decimalNumber(text);
         if (!value) {
             throw RecordingUnusable(path_ + ":" + std::to_string(lines_.number()) + ": column " + names_[column] +
-                             ": expected a number with a decimal point, found \"" + std::string(text.substr(0, 40)) +
-                             "\"");
+                             ": is \"" + std::string(text.substr(0, 40)) +
+                             "\"; expected a number with a decimal point");
         }
         return *value;
     }
@@ -224,9 +224,10 @@ private:
             }
             splitCells(lines_.line(), cells);
             if (cells.size() != names_.size()) {
-                throw RecordingUnusable(path_ + ":" + std::to_string(lines_.number()) + ": expected " +
-                                 std::to_string(names_.size()) + " values as in the first line, found " +
-                                 std::to_string(cells.size()) + " (decimals need a point, not a comma)");
+                throw RecordingUnusable(path_ + ":" + std::to_string(lines_.number()) + ": " +
+                                 std::to_string(cells.size()) + " values; expected " +
+                                 std::to_string(names_.size()) +
+                                 " as in the first line (decimals need a point, not a comma)");
             }
             for (const auto& [places, values] : wanted) {
                 for (const std::size_t column : places) {

@@ -315,12 +315,12 @@ def make_broken_files() -> None:
            "between columns and points in numbers")  # fmt: skip
     rows = text.splitlines()
     write("decimal_commas.csv", "\n".join([rows[0], *(row.replace(".", ",") for row in rows[1:])]) + "\n")
-    refuse("decimal_commas.csv", "decimal commas", "FILE:2: expected 4 values as in the first line, found 8 (decimals "
-           "need a point, not a comma)")  # fmt: skip
+    refuse("decimal_commas.csv", "decimal commas", "FILE:2: 8 values; expected 4 as in the first line (decimals need "
+           "a point, not a comma)")  # fmt: skip
     cells = rows[10].split(",")
     write("text_cell.csv", "\n".join([*rows[:10], ",".join([*cells[:2], "fast", cells[3]]), *rows[11:]]) + "\n")
-    refuse("text_cell.csv", "a word among the numbers", 'FILE:11: column speed_mps: expected a number with a decimal '
-           'point, found "fast"')  # fmt: skip
+    refuse("text_cell.csv", "a word among the numbers", 'FILE:11: column speed_mps: is "fast"; expected a number with '
+           'a decimal point')  # fmt: skip
     write("utf16.csv", b"\xff\xfe" + text.encode("utf-16-le"))
     refuse("utf16.csv", "UTF-16", "FILE: is text in UTF-16; expected UTF-8: save the table as CSV UTF-8")
     write("binary.csv", bytes(range(256)) * 8)

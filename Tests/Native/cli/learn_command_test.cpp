@@ -207,9 +207,9 @@ TEST_F(LearnCommandTest, ErrorsNameTheFileTheColumnOrKeyAndARemedy) {
     write("f.csv", "time_s;acceleration_mps2;speed_mps\n0;1;2\n");
     expectRefused("f.csv", "columns separated by semicolons");
     write("g.csv", "time_s,acceleration_mps2,speed_mps,force_newtons\n0,1,2,3\n0.001,x,2,3\n");
-    expectRefused("g.csv", "g.csv:3: column acceleration_mps2: expected a number with a decimal point, found \"x\"");
+    expectRefused("g.csv", "g.csv:3: column acceleration_mps2: is \"x\"; expected a number with a decimal point");
     write("h.csv", "time_s,acceleration_mps2,speed_mps,force_newtons\n0,1,2,3\n0.001,1,2\n");
-    expectRefused("h.csv", "h.csv:3: expected 4 values as in the first line, found 3");
+    expectRefused("h.csv", "h.csv:3: 3 values; expected 4 as in the first line");
     write("i.csv", "time_s,acceleration_mps2,speed_mps,force_newtons\n0,1,2,3\n1,1,2,3\n1,1,2,3\n2,1,2,3\n3,1,1,1\n");
     expectRefused("i.csv", "i.csv:4: column time_s: repeats the time before it");
     write("j.csv", "time_s,acceleration_mps2,speed_mps,force_newtons\n0,1,2,3\n1,1,2,3\n2,1,2,3\n3,1,2,3\n");

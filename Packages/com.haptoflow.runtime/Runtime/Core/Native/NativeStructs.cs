@@ -166,6 +166,7 @@ namespace HaptoFlow.Native
         public double SpeedMps;
         public double ForceNewtons;
         public uint WithoutSamples;
+        public uint NeedsMotionAndForce;
     }
 
     [Preserve, StructLayout(LayoutKind.Sequential)]
