@@ -1,6 +1,6 @@
 #include "actuator_identification.hpp"
 #include "commands.hpp"
-#include "decimal_number.hpp"
+#include "decimal_text.hpp"
 #include "effects/actuator_profile.hpp"
 #include "effects/compensation.hpp"
 #include "exit_codes.hpp"

@@ -1,6 +1,6 @@
 #include "actuator_identification.hpp"
 
-#include "decimal_number.hpp"
+#include "decimal_text.hpp"
 #include "dsp/fourier_transform.hpp"
 #include "effects/parallel_filter.hpp"
 #include "exit_codes.hpp"

@@ -1,6 +1,6 @@
 #include "exponential_sweep.hpp"
 
-#include "decimal_number.hpp"
+#include "recordings/decimal_number.hpp"
 
 #include <algorithm>
 #include <array>
@@ -28,7 +28,7 @@ std::optional<double> valueOf(std::string_view text, std::string_view key) {
         return std::nullopt;
     }
     const std::string_view rest = text.substr(at + assignment.size());
-    return decimalNumber(rest.substr(0, rest.find(' ')));
+    return recordings::decimalNumber(rest.substr(0, rest.find(' ')));
 }
 
 }  // namespace

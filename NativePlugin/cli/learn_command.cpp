@@ -1,12 +1,12 @@
+#include "command_files.hpp"
 #include "commands.hpp"
-#include "csv_lines.hpp"
-#include "decimal_number.hpp"
+#include "recordings/csv_lines.hpp"
+#include "decimal_text.hpp"
 #include "exit_codes.hpp"
 #include "inference/onnx_segment_generator.hpp"
 #include "inference/tier_graphs.hpp"
 #include "learning/learner.hpp"
 #include "material_output.hpp"
-#include "material_recording.hpp"
 #include "messages.hpp"
 #include "model/model_file.hpp"
 #include "model/name_index.hpp"
@@ -15,6 +15,7 @@
 #include "option_values.hpp"
 #include "output_file.hpp"
 #include "progress_bar.hpp"
+#include "recordings/recording_reader.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -42,7 +43,7 @@ struct LearnOptions {
     std::optional<std::string> name;
     std::string category;
     std::string licence;
-    RecordingWords words;
+    recordings::RecordingWords words;
     double secondsLimit = learning::defaultSecondsLimit;
     std::uint64_t seed = 1;
     bool quiet = false;
@@ -58,7 +59,7 @@ std::string plainName(const std::string& text) {
                              (code >= 0x80U && !isUtf8);
         name += isSpace ? ' ' : static_cast<char>(code < 0x80U ? std::tolower(code) : code);
     }
-    name = trimmed(model::shortened(trimmed(name), model::nameBytes));
+    name = recordings::trimmed(model::shortened(recordings::trimmed(name), model::nameBytes));
     return name.empty() ? "material" : name;
 }
 
@@ -79,7 +80,7 @@ void requireTexts(const LearnOptions& options) {
     if (options.name) {
         const std::string& name = *options.name;
         const bool hasCapitals = std::ranges::any_of(name, [](char each) { return each >= 'A' && each <= 'Z'; });
-        if (trimmed(name).empty() || hasCapitals || !isLine(name, model::nameBytes)) {
+        if (recordings::trimmed(name).empty() || hasCapitals || !isLine(name, model::nameBytes)) {
             throw UsageError("--name '" + std::string(model::shortened(name, 60)) + "': expected 1 to " +
                              std::to_string(model::nameBytes) +
                              " characters without capital letters, as labels have, in one line and not all blank");
@@ -126,22 +127,44 @@ void tell(const learning::LearningReport& report, const std::string& name, const
     std::ranges::for_each(report.warnings, note);
 }
 
+recordings::MaterialRecording readRecording(const LearnOptions& options) {
+    const std::string& path = options.recordingPath;
+    const recordings::RecordingWords& words = options.words;
+    if (words.fullScaleMps2 && recordings::endingOf(path) == ".csv") {
+        throw UsageError("--full-scale-mps2 is for WAV; the columns of " + path + " have units of their own");
+    }
+    recordings::DiskFiles files(claimInput);
+    try {
+        recordings::MaterialRecording recording = recordings::readMaterialRecording(files, path, words);
+        if (words.speedMps && !recording.velocityMps.empty()) {
+            throw UsageError("--speed-mps: " + path + " has a motion of its own; leave the option out");
+        }
+        if (words.forceNewtons && !recording.forceNewtons.empty()) {
+            throw UsageError("--force-newtons: " + path + " has a force of its own; leave the option out");
+        }
+        recordings::requireMotionAndForce(recording, path, "--speed-mps", "--force-newtons");
+        std::ranges::for_each(recording.description.notes, note);
+        return recording;
+    } catch (const recordings::RecordingUnusable& error) {
+        throw InputError(error.what());
+    }
+}
+
 void runLearn(const LearnOptions& options) {
     requireTexts(options);
-    const MaterialRecording recording = readMaterialRecording(options.recordingPath, options.words);
-    std::ranges::for_each(recording.notes, note);
+    const recordings::MaterialRecording recording = readRecording(options);
     const fs::path modelPath = findModel(options.modelPath);
     const model::ModelFile model = readModel(modelPath);
     const model::Tier& tier = model.header().tiers[model.header().defaultTier];
 
     learning::LearningSettings settings;
     settings.name = options.name ? *options.name
-                                 : plainName(recording.label.empty() ? fs::path(options.recordingPath).stem().string()
-                                                                     : recording.label);
+                                 : plainName(recording.description.label.empty() ? fs::path(options.recordingPath).stem().string()
+                                                                     : recording.description.label);
     settings.category = options.category;
-    settings.licence = options.licence.empty() ? recording.licence : options.licence;
+    settings.licence = options.licence.empty() ? recording.description.licence : options.licence;
     settings.recordings = model::printable(fs::path(options.recordingPath).filename().string()) +
-                          (recording.source.empty() ? "" : ", " + recording.source);
+                          (recording.description.source.empty() ? "" : ", " + recording.description.source);
     settings.seed = options.seed;
     settings.secondsLimit = options.secondsLimit;
     const ProgressBar bar = progressBar("learn", options.quiet);
@@ -171,7 +194,7 @@ void runLearn(const LearnOptions& options) {
             report->commit();
         }
         tell(learnt.report, settings.name, outputPath);
-    } catch (const learning::RecordingUnusable& error) {
+    } catch (const recordings::RecordingUnusable& error) {
         throw InputError(options.recordingPath + ": " + error.what());
     }
 }

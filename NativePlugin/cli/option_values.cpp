@@ -1,6 +1,6 @@
 #include "option_values.hpp"
 
-#include "decimal_number.hpp"
+#include "recordings/decimal_number.hpp"
 #include "dsp/sample_rates.hpp"
 #include "exit_codes.hpp"
 #include "input_file.hpp"
@@ -31,7 +31,7 @@ std::string expectation(const std::string& kind, const std::string& lowest, cons
 CLI::Validator decimalBetween(double lowest, double highest, const std::string& unit) {
     const std::string expected = expectation("a number", shortText(lowest), shortText(highest), unit);
     const auto check = [lowest, highest, expected](std::string& text) {
-        const std::optional<double> value = decimalNumber(text);
+        const std::optional<double> value = recordings::decimalNumber(text);
         return value && *value >= lowest && *value <= highest ? std::string()
                                                               : "expected " + expected + ", found '" + text + "'";
     };

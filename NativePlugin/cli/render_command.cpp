@@ -5,7 +5,7 @@
 #include "exit_codes.hpp"
 #include "inference/onnx_segment_generator.hpp"
 #include "inference/tier_graphs.hpp"
-#include "learning/recording.hpp"
+#include "recordings/recording.hpp"
 #include "messages.hpp"
 #include "model/model_file.hpp"
 #include "model_location.hpp"
@@ -304,7 +304,7 @@ void explainSilence(const RenderOptions& options, const engine::OfflineFigures& 
     if (missedTouches > 0) {
         note(stroke + ": " + std::to_string(missedTouches) + " of " + std::to_string(figures.touches + missedTouches) +
              " touches begin and end between two frames and are not rendered: raise the scene's update_rate (" +
-             learning::plainNumber(updateRateHz) + " Hz).");
+             recordings::plainNumber(updateRateHz) + " Hz).");
     }
     if (figures.silentTouches > 0) {
         note(stroke + ": " + std::to_string(figures.silentTouches) + " of " + std::to_string(figures.touches) +

@@ -1,7 +1,8 @@
 #include "stroke_file.hpp"
 
-#include "csv_lines.hpp"
-#include "decimal_number.hpp"
+#include "recordings/csv_lines.hpp"
+#include "decimal_text.hpp"
+#include "recordings/decimal_number.hpp"
 #include "exit_codes.hpp"
 #include "input_file.hpp"
 
@@ -23,8 +24,8 @@ constexpr std::string_view headerForm = "t,x,y,z[,force][,qx,qy,qz,qw]";
 
 std::vector<std::string_view> trimmedCells(std::string_view line) {
     std::vector<std::string_view> cells;
-    splitCells(line, cells);
-    std::ranges::transform(cells, cells.begin(), [](std::string_view cell) { return trimmed(cell); });
+    recordings::splitCells(line, cells);
+    std::ranges::transform(cells, cells.begin(), [](std::string_view cell) { return recordings::trimmed(cell); });
     return cells;
 }
 
@@ -49,7 +50,7 @@ public:
         readHeader();
         Stroke stroke;
         while (lines_.next()) {
-            if (trimmed(lines_.line()).empty()) {
+            if (recordings::trimmed(lines_.line()).empty()) {
                 requireNothingMore();
                 break;
             }
@@ -93,19 +94,19 @@ private:
             }
         }
         fail("expected the header " + std::string(headerForm) + " with commas between the names, found \"" +
-             std::string(trimmed(lines_.line()).substr(0, 80)) + "\"");
+             std::string(recordings::trimmed(lines_.line()).substr(0, 80)) + "\"");
     }
 
     void requireNothingMore() {
         while (lines_.next()) {
-            if (!trimmed(lines_.line()).empty()) {
+            if (!recordings::trimmed(lines_.line()).empty()) {
                 failAt(lines_.number() - 1, "an empty line between samples; remove it");
             }
         }
     }
 
     double number(const std::vector<std::string_view>& cells, std::size_t column) const {
-        const std::optional<double> value = decimalNumber(cells[column]);
+        const std::optional<double> value = recordings::decimalNumber(cells[column]);
         if (!value || !(std::abs(*value) <= maximumValue)) {
             fail(column, "expected a number within +-1e9 with a decimal point");
         }
@@ -114,7 +115,7 @@ private:
 
     /// Times of a clock that started long ago, such as seconds since 1970, count from the first row.
     double time(const std::vector<std::string_view>& cells) {
-        const std::optional<double> value = decimalNumber(cells[0]);
+        const std::optional<double> value = recordings::decimalNumber(cells[0]);
         if (!value || !(std::abs(*value) <= maximumClockSeconds)) {
             fail(0, "expected seconds within +-1e11 with a decimal point");
         }
@@ -160,7 +161,7 @@ private:
         return sample;
     }
 
-    CsvLines lines_;
+    recordings::CsvLines lines_;
     const std::string& file_;
     Layout layout_;
     bool isFirst_ = true;

@@ -75,7 +75,9 @@ namespace HaptoFlow.Samples.Workshop
                 return;
             }
             Show("Reading " + NameOf(recording));
-            starting = Begin(model.File, recording.name, recording.bytes, ReadCompanions());
+            // Unity leaves out the last ending of an asset's file, such as .csv or the .bytes of .wav.bytes.
+            string name = Path.HasExtension(recording.name) ? recording.name : recording.name + ".csv";
+            starting = Begin(model.File, name, ReadFiles(name));
         }
 
         private static string NameOf(TextAsset asset) => Path.GetFileNameWithoutExtension(asset.name);
@@ -83,11 +85,9 @@ namespace HaptoFlow.Samples.Workshop
         /// <summary>Reads the recording and starts the learning in another thread, so that the scene continues.
         /// </summary>
         private static Task<HapticLearning> Begin(
-            byte[] modelFile, string name, byte[] file, Dictionary<string, byte[]> companions) => Task.Run(() =>
+            byte[] modelFile, string name, Dictionary<string, byte[]> files) => Task.Run(() =>
         {
-            byte[]? Sibling(string fileName) =>
-                companions.TryGetValue(Path.GetFileNameWithoutExtension(fileName), out byte[] bytes) ? bytes : null;
-            Recording read = RecordingReader.Read(name, file, Sibling);
+            Recording read = RecordingReader.Read(name, files);
             if (!read.KnowsMotion)
             {
                 throw new HaptoFlowException(HaptoFlowStatus.RecordingUnusable,
@@ -100,16 +100,19 @@ namespace HaptoFlow.Samples.Workshop
             });
         });
 
-        private Dictionary<string, byte[]> ReadCompanions()
+        private Dictionary<string, byte[]> ReadFiles(string name)
         {
             var files = new Dictionary<string, byte[]>();
             foreach (TextAsset each in beside)
             {
                 if (each != null)
                 {
-                    files[each.name] = each.bytes;
+                    // A sidecar or a motion file: the recording reads the one that it needs.
+                    files[each.name + ".json"] = each.bytes;
+                    files[each.name + ".csv"] = each.bytes;
                 }
             }
+            files[name] = recording!.bytes;
             return files;
         }
 

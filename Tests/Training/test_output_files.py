@@ -10,7 +10,7 @@ import pytest
 
 from haptoflow_training.cli import main
 from haptoflow_training.errors import InputError, printable
-from haptoflow_training.recordings.own_sidecar import read_sidecar
+from haptoflow_training.recordings.native_recording import read_native
 from haptoflow_training.whole_file import require_apart
 
 SCRIPT = "waypoints_metres = [[0.0, 0.0, 0.0], [0.1, 0.0, 0.0]]\nsegment_seconds = 1.0\n"
@@ -49,7 +49,7 @@ def test_a_motion_file_does_not_leave_the_folder_of_its_sidecar(tmp_path: Path, 
     motion = name.replace("{folder}", str(tmp_path))
     (folder / "felt.json").write_text(json.dumps({"motion": motion}), encoding="utf-8")
     with pytest.raises(InputError, match="key 'motion' names .*, which is outside the folder of felt.json"):
-        read_sidecar(folder / "felt.csv")
+        read_native(folder / "felt.csv", samples=False)
 
 
 def test_control_characters_of_a_file_are_escaped_in_messages(

@@ -15,11 +15,15 @@ from own_samples import csv_one_axis, csv_three_axes, stroke, wav_with_motion
 from haptoflow_benchmark import cli as benchmark
 from haptoflow_training import cli as training
 from haptoflow_training.commands import train
+from haptoflow_training.errors import InputError
 from haptoflow_training.export.model_file import read_model_file
+from haptoflow_training.recordings.native_recording import read_native
 
 ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "Documentation~" / "own-materials.md"
 TEMPLATE = ROOT / "Training" / "templates" / "own-recordings"
+# Keys of a sidecar without an underscore, which a sentence may also hold as words.
+SHORT_KEYS = {"label", "motion", "licence", "source"}
 HEADINGS = ("Recordings: forms, units, labels, licence", "Training a model on your recordings")
 LABELS = (
     '[[label]]\nname = "{name}"\ncategory = "own"\nstiffness_newtons_per_metre = 400.0\nfriction_coefficient = 0.4\n'
@@ -125,17 +129,22 @@ def test_the_template_can_be_inspected_and_prepared_as_it_is(
 
 
 def test_the_page_lists_exactly_the_columns_and_keys_that_are_read() -> None:
-    from haptoflow_training.recordings import own_sidecar, own_table
-
     section = PAGE.read_text(encoding="utf-8").split(f"\n## {HEADINGS[0]}\n")[1].split("\n## ")[0]
-    forms = (
-        *own_table.ACCELERATION_FORMS, *own_table.VELOCITY_FORMS, *own_table.POSITION_FORMS, *own_table.FORCE_FORMS,
-    )  # fmt: skip
     named = {word for code in re.findall(r"`([^`\n]+)`", section) for word in re.findall(r"[a-z0-9_]+", code)}
-    for column in (own_table.TIME_COLUMN, *(column for form in forms for column in form.columns)):
-        assert column in named, column
-    for key in own_sidecar.KEYS:
-        assert key in named, key
+    plain = "time_s,acceleration_mps2\n" + "".join(f"0.00{row},{row % 3}\n" for row in range(1, 9))
+    known = {"time_s"}
+    for files in (
+        {"a.csv": "time_s,mood\n0,1\n"},
+        {"a.csv": plain},
+        {"a.csv": plain, "a.json": '{"speed_mps": 0.1}'},
+        {"a.csv": plain, "a.json": '{"mood": 1}'},
+    ):
+        with pytest.raises(InputError, match="; expected ") as raised:
+            read_native(Path("a.csv"), {name: text.encode() for name, text in files.items()}, complete=True)
+        expected = str(raised.value).split("; expected ")[1]
+        known |= {word for word in re.findall(r"[a-z0-9_]+", expected) if "_" in word or word in SHORT_KEYS}
+    assert len(known) >= 25, known
+    assert known <= named, known - named
 
 
 @pytest.mark.parametrize(

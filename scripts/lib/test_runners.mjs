@@ -106,6 +106,8 @@ async function sanitizers({ all }) {
 }
 
 async function training({ all }) {
+  // Own recordings are read by the library.
+  await buildNative({ targets: ['audioplugin_haptoflow'] });
   const args = ['-m', 'pytest', inRepository('Tests', 'Training'), '-q', '-n', String(os.cpus().length), '--junitxml', results('training.xml')];
   if (!all) args.push('-k', `not (${longTestsOf('training').join(' or ')})`);
   const env = { OPENBLAS_NUM_THREADS: '1', PYTHONPATH: inRepository('Training'), PYTHONDONTWRITEBYTECODE: '1' };
@@ -158,7 +160,7 @@ export async function runNodeTests(files) {
  */
 export const runners = {
   native: { purposes: ['build', 'test'], execute: native },
-  training: { purposes: ['python', 'files'], execute: training },
+  training: { purposes: ['build', 'python', 'files'], execute: training },
   dotnet: { purposes: ['build', 'dotnet', 'pictures'], execute: dotnet },
   package: { purposes: ['files'], execute: packageTests },
   sanitizers: { purposes: ['build', 'test'], longPurposes: ['realtime'], long: true, execute: sanitizers },

@@ -906,6 +906,92 @@ HAPTOFLOW_API haptoflow_status haptoflow_wave_features_process(haptoflow_wave_fe
 HAPTOFLOW_API haptoflow_status haptoflow_noise_fill(uint64_t seed, uint32_t voice, uint64_t segment, float* noise,
                                                     uint64_t count);
 
+/* --------------------------------------------------------------------------------------------------- recordings */
+
+/* A recording of one material, read from a table (CSV) or a WAV file and the files beside it: NAME.json, recordings.json
+ * and the motion's table. Documentation~/own-materials.md describes them. */
+typedef struct haptoflow_recording haptoflow_recording;
+
+/* A file that is part of an application. */
+typedef struct haptoflow_recording_file {
+    /* Name with ending, without a folder. */
+    const char* name;
+    const void* bytes;
+    uint64_t byte_count;
+} haptoflow_recording_file;
+
+typedef struct haptoflow_recording_options {
+    uint32_t struct_size;
+    /* 0 for files on disk. */
+    uint32_t file_count;
+    /* Path of the .csv or .wav file in UTF-8, or its name among `files`. */
+    const char* path;
+    /* The recording and what lies beside it; read during the call only. */
+    const haptoflow_recording_file* files;
+    /* Acceleration of +-1 in a WAV file, above 0, in place of the sidecar's; 0 for the sidecar's. */
+    double full_scale_mps2;
+    /* Constants for a recording whose files have none; 0 for unknown. */
+    double speed_mps;
+    double force_newtons;
+    /* 1 to read the sidecar and the names of the columns only: there are texts, and no samples. */
+    uint32_t without_samples;
+    /* 1 to refuse a recording whose motion or force is unknown. */
+    uint32_t needs_motion_and_force;
+} haptoflow_recording_options;
+
+/* Readings of one sensor at increasing times of its own. */
+typedef struct haptoflow_track {
+    const double* seconds;
+    /* `width` numbers for each time. */
+    const double* values;
+    uint64_t count;
+    uint64_t width;
+} haptoflow_track;
+
+/* Pointers are valid until the recording is closed; null where there is nothing. */
+typedef struct haptoflow_recording_info {
+    uint32_t struct_size;
+    /* 1 or 3. */
+    uint32_t axis_count;
+    double sample_rate_hz;
+    /* Of the first 300 s, in the form of haptoflow_learning_options. A gap is not finite. */
+    uint64_t sample_count;
+    const float* acceleration_mps2;
+    const float* velocity_mps;
+    const float* force_newtons;
+    /* Not finite where unknown or not constant. */
+    double constant_velocity_mps[2];
+    double constant_force_newtons;
+    /* The whole recording as measured: m/s^2; m/s, or m where motion_is_position; N. */
+    haptoflow_track acceleration;
+    haptoflow_track motion;
+    haptoflow_track force;
+    uint32_t motion_is_position;
+    uint32_t reserved;
+    /* Of the sidecar; empty where unknown. */
+    const char* label;
+    const char* licence;
+    const char* source;
+    /* Path of the motion's table; empty for none. */
+    const char* motion_path;
+    /* What was ignored, corrected or looks odd, one sentence on each line; empty for nothing. */
+    const char* notes;
+} haptoflow_recording_info;
+
+/* Reads a recording. Close *recording with haptoflow_recording_close. Errors: INVALID_ARGUMENT, RECORDING_UNUSABLE (the
+ * message names the file, the line and column or the key, what was found and what is expected), OUT_OF_MEMORY.
+ * [loader-thread] Blocks for the disk; allocates. */
+HAPTOFLOW_API haptoflow_status haptoflow_recording_read(const haptoflow_recording_options* options,
+                                                        haptoflow_recording** recording);
+
+/* Fills *info. Errors: INVALID_ARGUMENT. [any-thread] Blocks while another thread opens or closes a handle. */
+HAPTOFLOW_API haptoflow_status haptoflow_recording_get_info(const haptoflow_recording* recording,
+                                                            haptoflow_recording_info* info);
+
+/* Closes *recording and sets it to null; a null handle is allowed. Errors: INVALID_ARGUMENT.
+ * [any-thread] Blocks while another thread opens or closes a handle. */
+HAPTOFLOW_API haptoflow_status haptoflow_recording_close(haptoflow_recording** recording);
+
 /* ----------------------------------------------------------------------------------------------------- learning */
 
 /* Learns a material from a recording of one surface: at least 10 s of sliding at slow and fast speeds, in all

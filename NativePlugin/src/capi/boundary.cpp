@@ -1,7 +1,7 @@
 #include "capi/boundary.hpp"
 
 #include "inference/inference_error.hpp"
-#include "learning/recording.hpp"
+#include "recordings/recording.hpp"
 #include "model/material_file.hpp"
 #include "model/model_error.hpp"
 
@@ -56,7 +56,7 @@ haptoflow_status reportCurrentException() noexcept {
         return report(HAPTOFLOW_MATERIAL_INVALID, error.what());
     } catch (const model::MaterialMismatch& error) {
         return report(HAPTOFLOW_MATERIAL_MISMATCH, error.what());
-    } catch (const learning::RecordingUnusable& error) {
+    } catch (const recordings::RecordingUnusable& error) {
         return report(HAPTOFLOW_RECORDING_UNUSABLE, error.what());
     } catch (const inference::RuntimeUnavailable& error) {
         return report(HAPTOFLOW_RUNTIME_UNAVAILABLE, error.what());

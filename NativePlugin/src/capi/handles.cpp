@@ -41,6 +41,11 @@ DeviceWaveTable& deviceWaves() {
     return table;
 }
 
+RecordingTable& openRecordings() {
+    static auto& table = *new RecordingTable("recording");
+    return table;
+}
+
 LearningTable& learnings() {
     static auto& table = *new LearningTable("learning");
     return table;

@@ -76,6 +76,8 @@ struct OpenWaveFeatures;
 using WaveFeaturesTable = HandleTable<haptoflow_wave_features, OpenWaveFeatures>;
 struct OpenDeviceWave;
 using DeviceWaveTable = HandleTable<haptoflow_device_wave, OpenDeviceWave>;
+struct OpenRecording;
+using RecordingTable = HandleTable<haptoflow_recording, const OpenRecording>;
 struct OpenLearning;
 using LearningTable = HandleTable<haptoflow_learning, const OpenLearning>;
 
@@ -87,6 +89,7 @@ using LearningTable = HandleTable<haptoflow_learning, const OpenLearning>;
 [[nodiscard]] EngineTable& engines();
 [[nodiscard]] WaveFeaturesTable& waveFeatures();
 [[nodiscard]] DeviceWaveTable& deviceWaves();
+[[nodiscard]] RecordingTable& openRecordings();
 [[nodiscard]] LearningTable& learnings();
 
 /// The tier of this name, or the model's default tier if `name` is null. Throws std::invalid_argument for an unknown

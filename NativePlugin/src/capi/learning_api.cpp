@@ -31,7 +31,7 @@ std::string textOrNone(const char* text) {
     return text != nullptr ? text : "";
 }
 
-learning::Recording recordingOf(const haptoflow_learning_options& given) {
+recordings::Recording recordingOf(const haptoflow_learning_options& given) {
     (void)require(given.acceleration_mps2, "options: acceleration_mps2");
     if (given.axis_count != 1 && given.axis_count != 3) {
         throw std::invalid_argument("options: axis_count is " + std::to_string(given.axis_count) + "; expected 1 or 3");
@@ -90,10 +90,10 @@ haptoflow_status haptoflow_learn_material(const haptoflow_learning_options* opti
         const auto open = models().get(given.model);
         const model::Tier& tier = tierNamed(open->model, given.tier);
         const inference::LoadLimits limits = loadLimits(given.cancellation, 0.0);
-        const learning::Recording recording = recordingOf(given);
+        const recordings::Recording recording = recordingOf(given);
         const learning::LearningSettings settings = settingsOf(given, limits.cancellation.get());
         learning::checkSettings(settings);
-        learning::checkRecording(recording);
+        recordings::checkRecording(recording);
         inference::OnnxSegmentGenerator generator(runtime, open->model, tier.name, inference::defaultSolver(tier),
                                                   batchOfFit, limits);
         learning::LearntMaterial learnt = learning::learnMaterial(recording, open->model, generator, settings);

@@ -44,6 +44,10 @@ constexpr std::array structSizes{
     sizeOf<haptoflow_exposure>("haptoflow_exposure"),
     sizeOf<haptoflow_wave_features_options>("haptoflow_wave_features_options"),
     sizeOf<haptoflow_wave_frame>("haptoflow_wave_frame"),
+    sizeOf<haptoflow_recording_file>("haptoflow_recording_file"),
+    sizeOf<haptoflow_recording_options>("haptoflow_recording_options"),
+    sizeOf<haptoflow_track>("haptoflow_track"),
+    sizeOf<haptoflow_recording_info>("haptoflow_recording_info"),
     sizeOf<haptoflow_learning_options>("haptoflow_learning_options"),
 };
 

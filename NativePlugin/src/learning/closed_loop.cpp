@@ -52,7 +52,7 @@ std::array<double, inference::ribCount> turnsPerSample(const Embedding& embeddin
 }  // namespace
 
 ClosedLoop::ClosedLoop(inference::SegmentGenerator& generator, const model::ModelHeader& model,
-                       const PreparedRecording& recording, std::span<const float> unitWave)
+                       const recordings::PreparedRecording& recording, std::span<const float> unitWave)
     : generator_(generator), model_(model), recording_(recording), unitWave_(unitWave) {}
 
 std::array<float, 3> ClosedLoop::motionFrom(std::size_t first, std::size_t count) const {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "inference/segment_generator.hpp"
-#include "learning/prepared_recording.hpp"
+#include "recordings/prepared_recording.hpp"
 #include "model/model_header.hpp"
 
 #include <array>
@@ -37,7 +37,7 @@ class ClosedLoop {
 public:
     /// `unitWave`: the recording divided by its level. All arguments must outlive the loop.
     ClosedLoop(inference::SegmentGenerator& generator, const model::ModelHeader& model,
-               const PreparedRecording& recording, std::span<const float> unitWave);
+               const recordings::PreparedRecording& recording, std::span<const float> unitWave);
 
     /// Returns `settings.samples` samples of unit level for each chain, one chain after the other. The motion of each
     /// segment is the mean over its own hop, without the delay of a tracker, so that generated ribs coincide with the
@@ -57,7 +57,7 @@ public:
 private:
     inference::SegmentGenerator& generator_;
     const model::ModelHeader& model_;
-    const PreparedRecording& recording_;
+    const recordings::PreparedRecording& recording_;
     std::span<const float> unitWave_;
     std::uint64_t segments_ = 0;
 };

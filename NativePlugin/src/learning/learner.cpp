@@ -7,8 +7,8 @@
 #include "learning/level_law.hpp"
 #include "learning/material_frame.hpp"
 #include "learning/material_text.hpp"
-#include "learning/prepared_recording.hpp"
-#include "learning/recording.hpp"
+#include "recordings/prepared_recording.hpp"
+#include "recordings/recording.hpp"
 #include "learning/seed_choice.hpp"
 #include "learning/seed_ribs.hpp"
 #include "learning/sliding.hpp"
@@ -46,16 +46,16 @@ constexpr double fitShare = 0.9;
 
 class Learner {
 public:
-    Learner(const Recording& recording, const model::ModelFile& model, inference::SegmentGenerator& generator,
+    Learner(const recordings::Recording& recording, const model::ModelFile& model, inference::SegmentGenerator& generator,
             const LearningSettings& settings)
         : model_(model), generator_(generator), settings_(settings), began_(threadSeconds()) {
         say(0.0, "reading");
         checkSettings(settings);
-        checkRecording(recording);
-        recording_ = prepareRecording(recording);
+        recordings::checkRecording(recording);
+        recording_ = recordings::prepareRecording(recording);
         sliding_ = findSliding(recording_, model.header());
-        if (recording.seconds() > maximumSeconds) {
-            report_.warnings.push_back("only the first " + plainNumber(maximumSeconds) + " s were read");
+        if (recording.seconds() > recordings::maximumSeconds) {
+            report_.warnings.push_back("only the first " + recordings::plainNumber(recordings::maximumSeconds) + " s were read");
         }
     }
 
@@ -111,7 +111,7 @@ private:
         }
         if (!report_.stoppedEarly) {
             report_.stoppedEarly = true;
-            report_.warnings.push_back("the fit was stopped by the limit of " + plainNumber(settings_.secondsLimit) +
+            report_.warnings.push_back("the fit was stopped by the limit of " + recordings::plainNumber(settings_.secondsLimit) +
                                        " s: another run may learn another material");
         }
         return true;
@@ -131,7 +131,7 @@ private:
         report_.speedMps = {sliding_.speedMps[0], sliding_.speedMps[2]};
         report_.forceNewtons = {sliding_.forceNewtons[0], sliding_.forceNewtons[2]};
         if (sliding_.seconds < fewSeconds) {
-            report_.warnings.push_back("the tip slides for " + plainNumber(sliding_.seconds) +
+            report_.warnings.push_back("the tip slides for " + recordings::plainNumber(sliding_.seconds) +
                                        " s; 10 s or more give a more accurate material");
         }
         if (sliding_.speedMps[2] < 1.3 * sliding_.speedMps[0]) {
@@ -141,7 +141,7 @@ private:
         const double lost = 1.0 - std::accumulate(recording_.isUsable.begin(), recording_.isUsable.end(), 0.0) /
                                       static_cast<double>(recording_.isUsable.size());
         if (lost > 0.0) {
-            report_.warnings.push_back(plainNumber(100.0 * lost) +
+            report_.warnings.push_back(recordings::plainNumber(100.0 * lost) +
                                        " % of the recording was left out around missing or frozen samples");
         }
     }
@@ -151,7 +151,7 @@ private:
         try {
             (void)model::parseMaterial(material);
         } catch (const model::MaterialError& error) {
-            throw RecordingUnusable(std::string("gives a material that HaptoFlow would refuse (") + error.what() +
+            throw recordings::RecordingUnusable(std::string("gives a material that HaptoFlow would refuse (") + error.what() +
                                     "); check the units and the extreme values of the recording");
         }
     }
@@ -200,13 +200,13 @@ private:
         const double aboveDb = decibelsPerNat * std::log(own / loudest);
         if (belowDb > suspiciousLevelDb || aboveDb > suspiciousLevelDb) {
             report_.warnings.push_back(
-                "the level, " + plainNumber(own) + " m/s^2 RMS at " + plainNumber(1000.0 * speed) + " mm/s, is " +
-                plainNumber(std::max(belowDb, aboveDb)) + " dB " + (belowDb > 0.0 ? "below" : "above") +
-                " every label of the model (" + plainNumber(quietest) + " to " + plainNumber(loudest) +
+                "the level, " + recordings::plainNumber(own) + " m/s^2 RMS at " + recordings::plainNumber(1000.0 * speed) + " mm/s, is " +
+                recordings::plainNumber(std::max(belowDb, aboveDb)) + " dB " + (belowDb > 0.0 ? "below" : "above") +
+                " every label of the model (" + recordings::plainNumber(quietest) + " to " + recordings::plainNumber(loudest) +
                 " m/s^2); check the unit or full scale of the acceleration");
         }
         if (belowDb > 2.0 * suspiciousLevelDb || aboveDb > 2.0 * suspiciousLevelDb) {
-            throw RecordingUnusable(report_.warnings.back());
+            throw recordings::RecordingUnusable(report_.warnings.back());
         }
     }
 
@@ -421,7 +421,7 @@ private:
     const LearningSettings& settings_;
     double began_;
     std::array<float, inference::segmentSamples> silence_{};
-    PreparedRecording recording_;
+    recordings::PreparedRecording recording_;
     Sliding sliding_;
     LevelLaw level_;
     std::vector<float> unitWave_;
@@ -456,14 +456,14 @@ void checkSettings(const LearningSettings& settings) {
     if (settings.waveVectors) {
         for (const double number : *settings.waveVectors) {
             if (!(std::abs(number) <= maximumCyclesPerMillimetre)) {
-                throw std::invalid_argument("wave_vectors: " + plainNumber(number) +
+                throw std::invalid_argument("wave_vectors: " + recordings::plainNumber(number) +
                                             " cycles per millimetre; expected -20 to 20");
             }
         }
     }
 }
 
-LearntMaterial learnMaterial(const Recording& recording, const model::ModelFile& model,
+LearntMaterial learnMaterial(const recordings::Recording& recording, const model::ModelFile& model,
                              inference::SegmentGenerator& generator, const LearningSettings& settings) {
     return Learner(recording, model, generator, settings).learn();
 }

@@ -2,7 +2,7 @@
 
 #include "inference/cancellation.hpp"
 #include "inference/segment_generator.hpp"
-#include "learning/recording.hpp"
+#include "recordings/recording.hpp"
 #include "model/model_file.hpp"
 
 #include <array>
@@ -90,9 +90,9 @@ struct LearntMaterial {
 void checkSettings(const LearningSettings& settings);
 
 /// Learns a material from a recording: level law, wave vectors, embedding, tone and seeds. `generator` is one of the
-/// model's tiers. Equal arguments give equal bytes. Throws RecordingUnusable, std::invalid_argument,
+/// model's tiers. Equal arguments give equal bytes. Throws recordings::RecordingUnusable, std::invalid_argument,
 /// inference::LoadCancelled and inference::InferenceError. For worker threads.
-[[nodiscard]] LearntMaterial learnMaterial(const Recording& recording, const model::ModelFile& model,
+[[nodiscard]] LearntMaterial learnMaterial(const recordings::Recording& recording, const model::ModelFile& model,
                                            inference::SegmentGenerator& generator, const LearningSettings& settings);
 
 /// The report as JSON, ending in a line feed.

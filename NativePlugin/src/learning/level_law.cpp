@@ -28,7 +28,7 @@ struct Frame {
 };
 
 /// True if the speed changes slowly. While it changes fast, the tracker's smoothed speed does not match the wave.
-bool isSteady(const PreparedRecording& recording, std::size_t start) {
+bool isSteady(const recordings::PreparedRecording& recording, std::size_t start) {
     double lowest = recording.speedMps(start);
     double highest = lowest;
     const std::size_t first = start > steadyMargin ? start - steadyMargin : 0;
@@ -41,7 +41,7 @@ bool isSteady(const PreparedRecording& recording, std::size_t start) {
     return highest <= maximumChange * lowest;
 }
 
-std::vector<Frame> framesOf(const PreparedRecording& recording, const Sliding& sliding) {
+std::vector<Frame> framesOf(const recordings::PreparedRecording& recording, const Sliding& sliding) {
     std::vector<Frame> frames;
     std::vector<Frame> steady;
     for (std::size_t start = 0; start + frameSamples <= recording.wave.size(); start += frameHop) {
@@ -226,10 +226,10 @@ double overallSlope(const std::vector<double>& knots, const std::vector<double>&
 
 }  // namespace
 
-LevelLaw fitLevelLaw(const PreparedRecording& recording, const Sliding& sliding, const ExponentPrior& prior) {
+LevelLaw fitLevelLaw(const recordings::PreparedRecording& recording, const Sliding& sliding, const ExponentPrior& prior) {
     const std::vector<Frame> frames = framesOf(recording, sliding);
     if (frames.size() < 10) {
-        throw RecordingUnusable(
+        throw recordings::RecordingUnusable(
             "the strokes are too short: hardly any slides for 50 ms at a stretch; record longer "
             "strokes");
     }

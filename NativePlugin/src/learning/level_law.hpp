@@ -1,6 +1,6 @@
 #pragma once
 
-#include "learning/prepared_recording.hpp"
+#include "recordings/prepared_recording.hpp"
 #include "learning/sliding.hpp"
 #include "model/material_tables.hpp"
 
@@ -29,7 +29,7 @@ struct ExponentPrior {
 /// Fits the law to the power of frames of 50 ms by maximum likelihood, with chi-squared distributed power. The slope
 /// between knots may differ from the common one where the frames require it. With few speeds the exponents come from
 /// the prior.
-[[nodiscard]] LevelLaw fitLevelLaw(const PreparedRecording& recording, const Sliding& sliding,
+[[nodiscard]] LevelLaw fitLevelLaw(const recordings::PreparedRecording& recording, const Sliding& sliding,
                                    const ExponentPrior& prior);
 
 }  // namespace haptoflow::learning

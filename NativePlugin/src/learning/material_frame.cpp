@@ -37,7 +37,7 @@ MaterialFrame MaterialFrame::across(std::span<const WaveVector> vectors) {
     return frame;
 }
 
-void MaterialFrame::turn(PreparedRecording& recording) const {
+void MaterialFrame::turn(recordings::PreparedRecording& recording) const {
     if (turnRadians == 0.0) {
         return;
     }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "inference/segment_generator.hpp"
-#include "learning/prepared_recording.hpp"
+#include "recordings/prepared_recording.hpp"
 #include "learning/wave_vectors.hpp"
 
 #include <array>
@@ -22,7 +22,7 @@ struct MaterialFrame {
     [[nodiscard]] static MaterialFrame across(std::span<const WaveVector> vectors);
 
     /// Rotates the recording's motion into the material's frame.
-    void turn(PreparedRecording& recording) const;
+    void turn(recordings::PreparedRecording& recording) const;
 };
 
 }  // namespace haptoflow::learning

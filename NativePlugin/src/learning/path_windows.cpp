@@ -47,7 +47,7 @@ std::vector<double> evened(std::span<const float> wave) {
     return result;
 }
 
-std::vector<Part> usableParts(const PreparedRecording& recording) {
+std::vector<Part> usableParts(const recordings::PreparedRecording& recording) {
     std::vector<Part> parts;
     const std::size_t count = recording.wave.size();
     for (std::size_t first = 0; first < count;) {
@@ -98,7 +98,7 @@ std::vector<double> whitened(std::span<const double> wave, std::span<const doubl
     return result;
 }
 
-std::optional<PathWindow> windowAt(const PreparedRecording& recording, std::span<const double> white,
+std::optional<PathWindow> windowAt(const recordings::PreparedRecording& recording, std::span<const double> white,
                                    std::size_t first) {
     const std::size_t count = white.size();
     PathWindow window;
@@ -144,7 +144,7 @@ std::size_t windowLength(double speedMps) {
 
 }  // namespace
 
-std::vector<PathWindow> pathWindows(const PreparedRecording& recording, const Sliding& sliding) {
+std::vector<PathWindow> pathWindows(const recordings::PreparedRecording& recording, const Sliding& sliding) {
     const std::vector<Part> parts = usableParts(recording);
     const std::vector<double> taps = predictorTaps(parts, sliding);
     std::vector<PathWindow> windows;

@@ -30,7 +30,7 @@ double rmsOf(std::span<const float> wave) {
     return std::sqrt(sum / static_cast<double>(wave.size()));
 }
 
-std::vector<Candidate> candidatesOf(const PreparedRecording& recording, const Sliding& sliding,
+std::vector<Candidate> candidatesOf(const recordings::PreparedRecording& recording, const Sliding& sliding,
                                     std::span<const float> unitWave) {
     std::vector<Candidate> candidates;
     for (std::size_t start = step * (1 + filterSamples / step); start < unitWave.size(); start += step) {
@@ -101,7 +101,7 @@ dsp::ToneKernel inverseKernel(const model::ToneTable& tone, double speedMps) {
 
 }  // namespace
 
-std::vector<LearntSeed> chooseSeeds(const PreparedRecording& recording, const Sliding& sliding,
+std::vector<LearntSeed> chooseSeeds(const recordings::PreparedRecording& recording, const Sliding& sliding,
                                     std::span<const float> unitWave, const model::ToneTable& tone) {
     const std::vector<Candidate> candidates = candidatesOf(recording, sliding, unitWave);
     std::vector<LearntSeed> seeds;

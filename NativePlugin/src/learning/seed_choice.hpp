@@ -1,7 +1,7 @@
 #pragma once
 
 #include "inference/segment_generator.hpp"
-#include "learning/prepared_recording.hpp"
+#include "recordings/prepared_recording.hpp"
 #include "learning/sliding.hpp"
 #include "learning/tone_fit.hpp"
 #include "model/model_header.hpp"
@@ -27,7 +27,7 @@ struct LearntSeed {
 inline constexpr std::size_t maximumLearntSeeds = 8;
 
 /// Chooses stretches of the recording with speeds, forces and directions as different as possible.
-[[nodiscard]] std::vector<LearntSeed> chooseSeeds(const PreparedRecording& recording, const Sliding& sliding,
+[[nodiscard]] std::vector<LearntSeed> chooseSeeds(const recordings::PreparedRecording& recording, const Sliding& sliding,
                                                   std::span<const float> unitWave, const model::ToneTable& tone);
 
 }  // namespace haptoflow::learning

@@ -1,7 +1,7 @@
 #include "learning/sliding.hpp"
 
 #include "inference/segment_generator.hpp"
-#include "learning/recording.hpp"
+#include "recordings/recording.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -29,16 +29,16 @@ std::array<double, 3> percentiles(std::vector<double> values) {
 
 void checkUnits(double medianSpeed, double medianForce, const model::ModelHeader& model) {
     if (medianSpeed > maximumHandMps) {
-        throw RecordingUnusable("the speed is " + plainNumber(medianSpeed) +
+        throw recordings::RecordingUnusable("the speed is " + recordings::plainNumber(medianSpeed) +
                                 " m/s in the median, which no hand reaches; is it in mm/s?");
     }
     if (medianSpeed > model.speedMps.maximum) {
-        throw RecordingUnusable("the speed is " + plainNumber(medianSpeed) +
+        throw recordings::RecordingUnusable("the speed is " + recordings::plainNumber(medianSpeed) +
                                 " m/s in the median; the model was trained up to " +
-                                plainNumber(model.speedMps.maximum) + " m/s");
+                                recordings::plainNumber(model.speedMps.maximum) + " m/s");
     }
     if (medianForce > maximumHandNewtons) {
-        throw RecordingUnusable("the force is " + plainNumber(medianForce) +
+        throw recordings::RecordingUnusable("the force is " + recordings::plainNumber(medianForce) +
                                 " N in the median, which no hand presses; is it in millinewtons?");
     }
 }
@@ -49,7 +49,7 @@ bool Sliding::holds(std::size_t first, std::size_t count) const {
     return first + count < before.size() && before[first + count] - before[first] == count;
 }
 
-Sliding findSliding(const PreparedRecording& recording, const model::ModelHeader& model) {
+Sliding findSliding(const recordings::PreparedRecording& recording, const model::ModelHeader& model) {
     constexpr double beyondRange = 1.05;
     std::vector<double> speeds;
     std::vector<double> forces;
@@ -62,16 +62,16 @@ Sliding findSliding(const PreparedRecording& recording, const model::ModelHeader
             forces.push_back(recording.motion[i][2]);
         }
     }
-    const auto seconds = [](std::size_t samples) { return plainNumber(static_cast<double>(samples) * sampleSeconds); };
+    const auto seconds = [](std::size_t samples) { return recordings::plainNumber(static_cast<double>(samples) * sampleSeconds); };
     if (speeds.empty()) {
-        throw RecordingUnusable("the tip never moves: the speed stays below " +
-                                plainNumber(1000.0 * minimumSlidingMps) +
+        throw recordings::RecordingUnusable("the tip never moves: the speed stays below " +
+                                recordings::plainNumber(1000.0 * minimumSlidingMps) +
                                 " mm/s; give the speed, or record sliding strokes");
     }
     const double medianForce = percentiles(forces)[1];
     checkUnits(percentiles(speeds)[1], medianForce, model);
     if (medianForce < lightestTouchNewtons) {
-        throw RecordingUnusable("the force is " + plainNumber(medianForce) +
+        throw recordings::RecordingUnusable("the force is " + recordings::plainNumber(medianForce) +
                                 " N in the median while the tip moves; give the force in newtons");
     }
 
@@ -93,8 +93,8 @@ Sliding findSliding(const PreparedRecording& recording, const model::ModelHeader
         }
     }
     sliding.seconds = static_cast<double>(keptSpeeds.size()) * sampleSeconds;
-    if (sliding.seconds < minimumSlidingSeconds) {
-        throw RecordingUnusable("the tip slides for " + seconds(keptSpeeds.size()) + " s of " + seconds(count) +
+    if (sliding.seconds < recordings::minimumSlidingSeconds) {
+        throw recordings::RecordingUnusable("the tip slides for " + seconds(keptSpeeds.size()) + " s of " + seconds(count) +
                                 " s (" + seconds(count - usable) +
                                 " s were left out around missing or frozen samples); record 10 s or more of "
                                 "sliding");

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "learning/prepared_recording.hpp"
+#include "recordings/prepared_recording.hpp"
 #include "model/model_header.hpp"
 
 #include <cstdint>
@@ -26,7 +26,7 @@ struct Sliding {
     std::vector<std::uint32_t> before;
 };
 
-/// Throws RecordingUnusable if there is no motion, too much speed, no force or too little sliding.
-[[nodiscard]] Sliding findSliding(const PreparedRecording& recording, const model::ModelHeader& model);
+/// Throws recordings::RecordingUnusable if there is no motion, too much speed, no force or too little sliding.
+[[nodiscard]] Sliding findSliding(const recordings::PreparedRecording& recording, const model::ModelHeader& model);
 
 }  // namespace haptoflow::learning

@@ -78,7 +78,7 @@ double oneDistance(const TextureFigures& recorded, const TextureFigures& generat
            lineWeight * lineDistance(recorded, generated);
 }
 
-std::vector<RibTravel> ribTravelsAlong(const PreparedRecording& recording,
+std::vector<RibTravel> ribTravelsAlong(const recordings::PreparedRecording& recording,
                                        std::span<const float, 2 * inference::ribCount> waveVectors) {
     constexpr double millimetresPerSample = 1000.0 / inference::waveformRateHz;
     if (std::ranges::all_of(waveVectors, [](float value) { return value == 0.0F; })) {
@@ -96,7 +96,7 @@ std::vector<RibTravel> ribTravelsAlong(const PreparedRecording& recording,
     return ribTravels;
 }
 
-std::vector<double> slidingSpeeds(const PreparedRecording& recording, const Sliding& sliding) {
+std::vector<double> slidingSpeeds(const recordings::PreparedRecording& recording, const Sliding& sliding) {
     std::vector<double> speeds;
     for (std::size_t i = 0; i < sliding.isSliding.size(); ++i) {
         if (sliding.isSliding[i] != 0) {
@@ -122,7 +122,7 @@ double textureDistance(std::span<const TextureFigures> recorded, std::span<const
     return weights > 0.0 ? total / weights : 0.0;
 }
 
-TextureFit::TextureFit(ClosedLoop& loop, const PreparedRecording& recording, const Sliding& sliding,
+TextureFit::TextureFit(ClosedLoop& loop, const recordings::PreparedRecording& recording, const Sliding& sliding,
                        std::span<const float> unitWave, std::span<const float, 2 * inference::ribCount> waveVectors,
                        std::uint64_t seed)
     : loop_(loop),
@@ -139,7 +139,7 @@ TextureFit::TextureFit(ClosedLoop& loop, const PreparedRecording& recording, con
     const bool hasStart =
         std::ranges::any_of(starts_, [](const std::vector<std::size_t>& starts) { return !starts.empty(); });
     if (!hasStart) {
-        throw RecordingUnusable(
+        throw recordings::RecordingUnusable(
             "the recording has no stretch of half a second without a gap that slides; record longer "
             "strokes");
     }

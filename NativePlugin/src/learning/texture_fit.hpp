@@ -20,7 +20,7 @@ namespace haptoflow::learning {
 class TextureFit {
 public:
     /// `unitWave`: the recording divided by its level. All arguments must outlive the fit.
-    TextureFit(ClosedLoop& loop, const PreparedRecording& recording, const Sliding& sliding,
+    TextureFit(ClosedLoop& loop, const recordings::PreparedRecording& recording, const Sliding& sliding,
                std::span<const float> unitWave, std::span<const float, 2 * inference::ribCount> waveVectors,
                std::uint64_t seed);
 
@@ -42,7 +42,7 @@ private:
     void measure(TextureMeter& meter, std::span<const float> wave, std::size_t start, std::size_t hop) const;
 
     ClosedLoop& loop_;
-    const PreparedRecording& recording_;
+    const recordings::PreparedRecording& recording_;
     const Sliding& sliding_;
     std::span<const float> unitWave_;
     /// For each sample of the recording; empty without ribs.

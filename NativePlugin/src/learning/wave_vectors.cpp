@@ -306,7 +306,7 @@ WaveVector upward(const CyclesPerMm& vector) {
 
 }  // namespace
 
-std::vector<WaveVector> findWaveVectors(const PreparedRecording& recording, const Sliding& sliding) {
+std::vector<WaveVector> findWaveVectors(const recordings::PreparedRecording& recording, const Sliding& sliding) {
     std::vector<PathWindow> windows = pathWindows(recording, sliding);
     if (windows.size() < minimumWindows || !speedChanges(windows)) {
         return {};

@@ -50,8 +50,7 @@ namespace HaptoFlow.PreviewTests
         public void TheWindowThatLearnsMaterialsIsDrawnForTheDocumentation()
         {
             byte[] model = File.ReadAllBytes(RepositoryFiles.DefaultModel);
-            Recording recording = RecordingReader.Read(
-                RepositoryFiles.In("Samples~", "Workshop", "Recordings", "doormat.wav.bytes"));
+            Recording recording = MadeRecordings.Doormat();
             using HapticLearning learning = HapticLearning.Start(model, recording,
                 new LearningOptions { Name = recording.Label, Licence = recording.Licence });
             learning.Wait();

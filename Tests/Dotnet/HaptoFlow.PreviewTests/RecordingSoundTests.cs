@@ -25,7 +25,7 @@ namespace HaptoFlow.PreviewTests
                 double time = index / rateHz;
                 text.Append(FormattableString.Invariant($"{time:R},{string.Join(",", axes(time).Select(axis => FormattableString.Invariant($"{axis:R}")))},0.1,1\n"));
             }
-            return RecordingReader.Read("made.csv", Encoding.ASCII.GetBytes(text.ToString()), _ => null);
+            return MadeRecordings.Table(text.ToString());
         }
 
         private static PreviewSound Sound(Recording recording) =>
@@ -100,8 +100,7 @@ namespace HaptoFlow.PreviewTests
         public void TheResultHasTheRecordingsMotionAndItsLevelIfMatched()
         {
             using var worker = new ComparisonWorker();
-            Recording recording = RecordingReader.Read(
-                Path.Combine(Workshop(), "doormat.wav.bytes"));
+            Recording recording = MadeRecordings.Doormat();
             ComparisonRequest Request(string material, bool matches) => new ComparisonRequest(ModelFiles.Default, recording)
             {
                 Material = material,
@@ -125,13 +124,11 @@ namespace HaptoFlow.PreviewTests
         [Test]
         public void TheRecordingOfTheWorkshopSampleHasMotionAndLicence()
         {
-            Recording recording = RecordingReader.Read(Path.Combine(Workshop(), "doormat.wav.bytes"));
+            Recording recording = MadeRecordings.Doormat();
             Assert.That((recording.AxisCount, recording.SampleCount), Is.EqualTo((3, 21000)));
             Assert.That(recording.SampleRateHz, Is.EqualTo(2000.0).Within(1e-6));
             Assert.That((recording.Label, recording.Licence, recording.KnowsMotion), Is.EqualTo(("doormat", "MIT", true)));
             Assert.That(recording.Remarks, Is.Empty);
         }
-
-        private static string Workshop() => RepositoryFiles.In("Samples~", "Workshop", "Recordings");
     }
 }

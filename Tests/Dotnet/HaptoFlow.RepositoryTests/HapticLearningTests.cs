@@ -19,9 +19,6 @@ namespace HaptoFlow.RepositoryTests
 
         private static readonly byte[] Model = File.ReadAllBytes(RepositoryFiles.DefaultModel);
 
-        private static Recording Doormat() =>
-            RecordingReader.Read(RepositoryFiles.In("Samples~", "Workshop", "Recordings", "doormat.wav.bytes"));
-
         private static HapticLearning Start(Recording recording, string name = "doormat") =>
             HapticLearning.Start(Model, recording, new LearningOptions
             {
@@ -40,7 +37,7 @@ namespace HaptoFlow.RepositoryTests
             {
                 text.Append(FormattableString.Invariant($"{index / rateHz:R},")).Append(row(index / rateHz)).Append('\n');
             }
-            return RecordingReader.Read("made.csv", Encoding.ASCII.GetBytes(text.ToString()), _ => null);
+            return MadeRecordings.Table(text.ToString());
         }
 
         private static string Noise(Random random, double time)
@@ -55,7 +52,7 @@ namespace HaptoFlow.RepositoryTests
         [Test]
         public void ALearntMaterialHasNameLicenceAndSpaceAndAnEngineAcceptsIt()
         {
-            using HapticLearning learning = Start(Doormat());
+            using HapticLearning learning = Start(MadeRecordings.Doormat());
             learning.Wait();
             Assert.That(learning.Problem, Is.Null);
             Assert.That(learning.IsCancelled, Is.False);
@@ -76,7 +73,7 @@ namespace HaptoFlow.RepositoryTests
         [Test]
         public void ProgressIsReportedWhileTheCallerContinues()
         {
-            using HapticLearning learning = Start(Doormat());
+            using HapticLearning learning = Start(MadeRecordings.Doormat());
             float before = 0f;
             bool hasReportedStep = false;
             while (!learning.IsCompleted)
@@ -94,7 +91,7 @@ namespace HaptoFlow.RepositoryTests
         [Test]
         public void ACancelledLearningEndsWithoutMaterialOrProblem([Values(0, 30, 300)] int milliseconds)
         {
-            using HapticLearning learning = HapticLearning.Start(Model, Doormat(), new LearningOptions { Name = "doormat" });
+            using HapticLearning learning = HapticLearning.Start(Model, MadeRecordings.Doormat(), new LearningOptions { Name = "doormat" });
             Thread.Sleep(milliseconds);
             learning.Cancel();
             learning.Cancel();
@@ -110,8 +107,8 @@ namespace HaptoFlow.RepositoryTests
         {
             // No time limit here: a fit that ends at its limit is not reproducible.
             var options = new LearningOptions { Name = "one", SecondsLimit = 120.0 };
-            using HapticLearning one = HapticLearning.Start(Model, Doormat(), options);
-            using HapticLearning other = HapticLearning.Start(Model, Doormat(), options);
+            using HapticLearning one = HapticLearning.Start(Model, MadeRecordings.Doormat(), options);
+            using HapticLearning other = HapticLearning.Start(Model, MadeRecordings.Doormat(), options);
             one.Wait();
             other.Wait();
             Assert.That((one.Problem, other.Problem), Is.EqualTo(((string?)null, (string?)null)));
@@ -121,8 +118,8 @@ namespace HaptoFlow.RepositoryTests
         [Test]
         public void CancellingOneLearningDoesNotCancelTheOther()
         {
-            using HapticLearning one = Start(Doormat(), "one");
-            using HapticLearning other = Start(Doormat(), "other");
+            using HapticLearning one = Start(MadeRecordings.Doormat(), "one");
+            using HapticLearning other = Start(MadeRecordings.Doormat(), "other");
             one.Cancel();
             one.Wait();
             other.Wait();
@@ -133,10 +130,10 @@ namespace HaptoFlow.RepositoryTests
         [Test]
         public void EndAllWaitsForAllLearningsAndLaterOnesCanStart()
         {
-            HapticLearning[] all = Enumerable.Range(0, 3).Select(number => Start(Doormat(), "m" + number)).ToArray();
+            HapticLearning[] all = Enumerable.Range(0, 3).Select(number => Start(MadeRecordings.Doormat(), "m" + number)).ToArray();
             HapticLearning.EndAll();
             Assert.That(all.All(each => each.IsCompleted), Is.True);
-            using HapticLearning later = Start(Doormat());
+            using HapticLearning later = Start(MadeRecordings.Doormat());
             later.Wait();
             Assert.That(later.Problem, Is.Null);
         }
@@ -174,7 +171,7 @@ namespace HaptoFlow.RepositoryTests
             tooShort.Wait();
             Assert.That(tooShort.Problem, Is.Not.Null.And.Not.Empty);
             using HapticLearning atRest = Start(Table(2000.0, 11.0, time => FormattableString.Invariant(
-                $"{random.NextDouble():R},0,0"), columns));
+                $"{random.NextDouble():R},0,1"), columns));
             atRest.Wait();
             Assert.That(atRest.Problem, Is.Not.Null.And.Not.Empty.And.Not.EqualTo(tooShort.Problem));
         }
@@ -182,12 +179,12 @@ namespace HaptoFlow.RepositoryTests
         [Test]
         public void InvalidArgumentsAreRefusedAtOnceAndADamagedModelAtTheEnd()
         {
-            Assert.Throws<ArgumentException>(() => Start(Doormat(), " "));
-            Assert.Throws<ArgumentException>(() => HapticLearning.Start(Model, Doormat(),
+            Assert.Throws<ArgumentException>(() => Start(MadeRecordings.Doormat(), " "));
+            Assert.Throws<ArgumentException>(() => HapticLearning.Start(Model, MadeRecordings.Doormat(),
                 new LearningOptions { Name = "a", WaveVectorsPerMillimetre = new float[3] }));
             byte[] damaged = (byte[])Model.Clone();
             damaged[100] ^= 1;
-            using HapticLearning learning = HapticLearning.Start(damaged, Doormat(), new LearningOptions { Name = "a" });
+            using HapticLearning learning = HapticLearning.Start(damaged, MadeRecordings.Doormat(), new LearningOptions { Name = "a" });
             learning.Wait();
             Assert.That(learning.Problem, Does.Contain("checksum"));
         }
@@ -195,7 +192,7 @@ namespace HaptoFlow.RepositoryTests
         [Test]
         public void StartingALearningDoesNotBlockTheCaller()
         {
-            Recording recording = Doormat();
+            Recording recording = MadeRecordings.Doormat();
             using HapticLearning first = Start(recording);
             Assert.That(first.IsCompleted, Is.False, "the learning continues after Start has returned");
             first.Cancel();

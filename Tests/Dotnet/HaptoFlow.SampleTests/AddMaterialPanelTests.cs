@@ -83,7 +83,7 @@ namespace HaptoFlow.SampleTests
             Assert.That((scene.SpecimenMaterial.IsLearnt, scene.SpecimenMaterial.Description.Label), Is.EqualTo((false, "cardboard")));
         }
 
-        [TestCase("", "empty file")]
+        [TestCase("", "is empty")]
         [TestCase("time_s,acceleration_mps2\n0,1\n0.001,2\n0.002,1\n0.003,3\n", "speed or force is missing")]
         [TestCase("time_s,acceleration\n0,1\n", "expected acceleration")]
         public void AnInvalidRecordingIsReportedAndTheSceneContinues(string text, string message)

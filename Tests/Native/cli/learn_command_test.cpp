@@ -3,10 +3,10 @@
 
 #include "exit_codes.hpp"
 #include "learning/made_recording.hpp"
-#include "learning/resampling.hpp"
+#include "recordings/resampling.hpp"
 #include "learning/texture_figures.hpp"
 #include "material_output.hpp"
-#include "material_recording.hpp"
+#include "recordings/recording_reader.hpp"
 #include "model/material_file.hpp"
 #include "model/model_file.hpp"
 #include "wav_file.hpp"
@@ -61,6 +61,12 @@ protected:
     /// Learns with the tiny model, whose networks are fast.
     [[nodiscard]] Finished learn(const std::string& words) const {
         return run("learn " + words + " --model '" + testing::tinyModel + "'");
+    }
+
+    [[nodiscard]] recordings::MaterialRecording readHere(const std::string& name,
+                                                       const recordings::RecordingWords& words = {}) const {
+        recordings::DiskFiles files;
+        return recordings::readMaterialRecording(files, at(name), words);
     }
 
     void expectRefused(const std::string& words, const std::string& said, int exitCode = 3) const {
@@ -119,11 +125,10 @@ TEST_F(LearnCommandTest, TheCommandLineReplacesTheSidecarAndTheSidecarReplacesTh
     writeWav("mat.wav", made_, 50.0F);
     write("recordings.json", R"({"full_scale_mps2": 10, "velocity_mps": [0.0, 0.1], "force_newtons": 0.5})");
     write("mat.json", R"({"full_scale_mps2": 50, "speed_mps": 0.2})");
-    const MaterialRecording recording = readMaterialRecording(at("mat.wav").string(), {.forceNewtons = 1.5});
+    const recordings::MaterialRecording recording = readHere("mat.wav", {.forceNewtons = 1.5});
     EXPECT_NEAR(recording.accelerationMps2[1000], made_.acceleration[1000], 1e-3);
-    EXPECT_DOUBLE_EQ(recording.constantVelocityMps[0], 0.2);
-    EXPECT_DOUBLE_EQ(recording.constantVelocityMps[1], 0.0);
-    EXPECT_DOUBLE_EQ(recording.constantForceNewtons, 1.5);
+    EXPECT_EQ(recording.constantVelocityMps, (std::array{0.2, 0.0}));
+    EXPECT_EQ(recording.constantForceNewtons, 1.5);
 }
 
 TEST_F(LearnCommandTest, PositionsOfASlowTrackerGiveTheSpeedAndUnevenTimesAreResampled) {
@@ -138,7 +143,7 @@ TEST_F(LearnCommandTest, PositionsOfASlowTrackerGiveTheSpeedAndUnevenTimesAreRes
              << std::round(80.0 * read * 100.0) / 100.0 << ",5," << 900 << '\n';
     }
     write("tracked.csv", text.str());
-    const MaterialRecording recording = readMaterialRecording(at("tracked.csv").string(), {});
+    const recordings::MaterialRecording recording = readHere("tracked.csv");
     EXPECT_EQ(recording.axisCount, 3U);
     EXPECT_NEAR(recording.rateHz, 2000.0, 2.0);
     const std::size_t middle = recording.accelerationMps2.size() / 6;
@@ -161,11 +166,11 @@ TEST_F(LearnCommandTest, AMotionFileHasItsOwnTimes) {
         motion += std::to_string(0.01 * i) + "," + std::to_string(50 + 0.05 * i) + ",0.7\n";
     }
     write("felt.motion.csv", motion);
-    const MaterialRecording recording = readMaterialRecording(at("felt.csv").string(), {});
+    const recordings::MaterialRecording recording = readHere("felt.csv");
     EXPECT_NEAR(recording.velocityMps[2 * 20'000], 0.075, 1e-4);
     EXPECT_NEAR(recording.forceNewtons[20'000], 0.7, 1e-5);
-    ASSERT_EQ(recording.notes.size(), 1U);
-    EXPECT_THAT(recording.notes[0], HasSubstr("columns a, b, c are not known and are ignored"));
+    ASSERT_EQ(recording.description.notes.size(), 1U);
+    EXPECT_THAT(recording.description.notes[0], HasSubstr("columns a, b, c are not known and are ignored"));
 }
 
 TEST_F(LearnCommandTest, GapsInTheTimesAndCellsWithoutANumberAreMissingSamples) {
@@ -176,7 +181,7 @@ TEST_F(LearnCommandTest, GapsInTheTimesAndCellsWithoutANumberAreMissingSamples) 
         text << time << ',' << (i % 2 == 0 ? "0.5" : "-0.5") << ",0.1," << (i == 4000 ? "" : "1") << '\n';
     }
     write("gap.csv", text.str());
-    const MaterialRecording recording = readMaterialRecording(at("gap.csv").string(), {});
+    const recordings::MaterialRecording recording = readHere("gap.csv");
     EXPECT_TRUE(std::isnan(recording.accelerationMps2[10'006]));
     EXPECT_FALSE(std::isnan(recording.accelerationMps2[9990]));
     EXPECT_FALSE(std::isnan(recording.accelerationMps2[10'030]));
@@ -202,11 +207,11 @@ TEST_F(LearnCommandTest, ErrorsNameTheFileTheColumnOrKeyAndARemedy) {
     write("f.csv", "time_s;acceleration_mps2;speed_mps\n0;1;2\n");
     expectRefused("f.csv", "columns separated by semicolons");
     write("g.csv", "time_s,acceleration_mps2,speed_mps,force_newtons\n0,1,2,3\n0.001,x,2,3\n");
-    expectRefused("g.csv", "g.csv:3: column acceleration_mps2: expected a number with a decimal point, found \"x\"");
+    expectRefused("g.csv", "g.csv:3: column acceleration_mps2: is \"x\"; expected a number with a decimal point");
     write("h.csv", "time_s,acceleration_mps2,speed_mps,force_newtons\n0,1,2,3\n0.001,1,2\n");
-    expectRefused("h.csv", "h.csv:3: expected 4 values as in the first line, found 3");
+    expectRefused("h.csv", "h.csv:3: 3 values; expected 4 as in the first line");
     write("i.csv", "time_s,acceleration_mps2,speed_mps,force_newtons\n0,1,2,3\n1,1,2,3\n1,1,2,3\n2,1,2,3\n3,1,1,1\n");
-    expectRefused("i.csv", "time_s does not rise at row 4");
+    expectRefused("i.csv", "i.csv:4: column time_s: repeats the time before it");
     write("j.csv", "time_s,acceleration_mps2,speed_mps,force_newtons\n0,1,2,3\n1,1,2,3\n2,1,2,3\n3,1,2,3\n");
     expectRefused("j.csv", "1 samples a second by time_s; expected 1000 to 192000; time_s is in seconds");
     write("k.csv", csv_);
@@ -217,7 +222,7 @@ TEST_F(LearnCommandTest, ErrorsNameTheFileTheColumnOrKeyAndARemedy) {
     writeWav("m.wav", made_, 50.0F);
     expectRefused("m.wav", "m.json: no key 'full_scale_mps2' for m.wav");
     write("n.wav", "no sound");
-    expectRefused("n.wav --full-scale-mps2 50", "n.wav: not read as WAV");
+    expectRefused("n.wav --full-scale-mps2 50", "n.wav: not a RIFF WAVE file");
 }
 
 TEST_F(LearnCommandTest, ErrorsForImplausibleNumbersSuggestAUnit) {
@@ -231,7 +236,7 @@ TEST_F(LearnCommandTest, ErrorsForImplausibleNumbersSuggestAUnit) {
         text << i / 2000.0 << ',' << 0.1 * std::sin(i) << ",0,-1,0.1,1\n";
     }
     write("g.csv", text.str());
-    expectRefused("g.csv", "acceleration_x rests at 1, which looks like g");
+    expectRefused("g.csv", "acceleration_x_mps2 rests at 1, which looks like g");
 }
 
 TEST_F(LearnCommandTest, OptionsThatContradictTheFileAreUsageErrors) {
@@ -287,7 +292,7 @@ TEST_F(LearnCommandTest, AMotionFileDoesNotLeaveTheFolderOfItsSidecar) {
         expectRefused("in/felt.csv", "in/felt.json: key 'motion' names " + name + ", which is outside the folder");
     }
     write("in/felt.json", R"({"motion": "../in/./near.csv"})");
-    EXPECT_FALSE(readMaterialRecording(at("in/felt.csv").string(), {}).velocityMps.empty());
+    EXPECT_FALSE(readHere("in/felt.csv").velocityMps.empty());
 }
 
 TEST_F(LearnCommandTest, TextsThatAMaterialFileMayNotHoldAreRefusedBeforeTheFit) {
@@ -398,8 +403,8 @@ std::vector<double> bandsOf(const std::vector<float>& wave) {
 
 /// The wave at 2 kHz without its first and last 0.3 s.
 std::vector<float> middleAt2kHz(const std::vector<float>& wave, double waveRateHz) {
-    const std::vector<double> all = learning::bandPassed(
-        learning::resampledTo2kHz({.first = wave.data(), .stride = 1, .count = wave.size()}, waveRateHz));
+    const std::vector<double> all = recordings::bandPassed(
+        recordings::resampledTo2kHz({.first = wave.data(), .stride = 1, .count = wave.size()}, waveRateHz));
     return {all.begin() + 600, all.end() - 600};
 }
 

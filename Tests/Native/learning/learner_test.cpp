@@ -33,7 +33,7 @@ using ::testing::ThrowsMessage;
 /// The shipped model's default tier.
 class LearnerTest : public ::testing::Test {
 protected:
-    [[nodiscard]] LearntMaterial learn(const Recording& recording, const LearningSettings& settings) {
+    [[nodiscard]] LearntMaterial learn(const recordings::Recording& recording, const LearningSettings& settings) {
         return learnMaterial(recording, model_, generator_, settings);
     }
 
@@ -263,7 +263,7 @@ TEST_F(LearnerTest, AnUnusualLevelGivesAWarningAndAnImpossibleOneIsRefused) {
                 ::testing::Contains(HasSubstr("check the unit or full scale of the acceleration")));
     const MadeRecording absurd = scaled(1e5F);
     EXPECT_THAT([&] { (void)learn(absurd.view(), settings); },
-                ThrowsMessage<RecordingUnusable>(HasSubstr("above every label of the model")));
+                ThrowsMessage<recordings::RecordingUnusable>(HasSubstr("above every label of the model")));
 }
 
 TEST_F(LearnerTest, ACancelledFitEndsAtTheNextGeneration) {

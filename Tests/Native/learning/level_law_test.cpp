@@ -15,7 +15,7 @@ using testing::MadeSurface;
 constexpr double decibelsPerNat = 8.685889638065037;
 
 LevelLaw lawOf(const MadeRecording& made, const ExponentPrior& prior = {}) {
-    const PreparedRecording recording = prepareRecording(made.view());
+    const recordings::PreparedRecording recording = recordings::prepareRecording(made.view());
     model::ModelHeader header;
     header.speedMps.maximum = 1.5;
     return fitLevelLaw(recording, findSliding(recording, header), prior);

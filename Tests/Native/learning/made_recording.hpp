@@ -1,7 +1,7 @@
 #pragma once
 
 #include "inference/gaussian_noise.hpp"
-#include "learning/recording.hpp"
+#include "recordings/recording.hpp"
 
 #include <array>
 #include <cmath>
@@ -90,7 +90,7 @@ public:
         }
     }
 
-    [[nodiscard]] Recording view() const {
+    [[nodiscard]] recordings::Recording view() const {
         return {.rateHz = rateHz_,
                 .axisCount = axisCount,
                 .accelerationMps2 = acceleration,

@@ -20,7 +20,7 @@ TEST(MaterialFrameTest, TheMostDistinctRibsAreAcrossTheFirstAxisAndTheSecondVect
 TEST(MaterialFrameTest, ARotatedMotionCrossesTheSameNumberOfRibsAndKeepsItsForce) {
     const std::vector<WaveVector> vectors{{.x = 0.6, .y = -0.45}};
     const MaterialFrame frame = MaterialFrame::across(vectors);
-    PreparedRecording recording;
+    recordings::PreparedRecording recording;
     recording.motion = {{0.08F, 0.03F, 1.5F}};
     frame.turn(recording);
     const std::array<float, 3>& turned = recording.motion[0];

@@ -1,7 +1,7 @@
-#include "learning/dft321.hpp"
+#include "recordings/dft321.hpp"
 #include "learning/made_recording.hpp"
-#include "learning/prepared_recording.hpp"
-#include "learning/resampling.hpp"
+#include "recordings/prepared_recording.hpp"
+#include "recordings/resampling.hpp"
 
 #include <gtest/gtest.h>
 
@@ -32,8 +32,8 @@ double rmsInside(std::span<const float> wave) {
     return std::sqrt(sum / static_cast<double>(wave.size() - 2 * margin));
 }
 
-PreparedRecording prepared(const std::vector<float>& wave, double rateHz) {
-    return prepareRecording({.rateHz = rateHz,
+recordings::PreparedRecording prepared(const std::vector<float>& wave, double rateHz) {
+    return recordings::prepareRecording({.rateHz = rateHz,
                              .axisCount = 1,
                              .accelerationMps2 = wave,
                              .constantVelocityMps = {0.1, 0.0},
@@ -42,7 +42,7 @@ PreparedRecording prepared(const std::vector<float>& wave, double rateHz) {
 
 TEST(PreparationTest, ASineInsideTheBandKeepsItsLevelAndTimeAtAnyRate) {
     for (const double rateHz : {1000.0, 1666.0, 2000.0, 6024.1, 44'100.0, 192'000.0}) {
-        const PreparedRecording recording = prepared(tone(150.0, rateHz, 4.0), rateHz);
+        const recordings::PreparedRecording recording = prepared(tone(150.0, rateHz, 4.0), rateHz);
         EXPECT_NEAR(rmsInside(recording.wave), std::numbers::sqrt2 / 2.0, 0.005) << rateHz;
         const std::vector<float> wanted = tone(150.0, 2000.0, 4.0);
         for (std::size_t i = 2000; i < 2040; ++i) {
@@ -62,7 +62,7 @@ TEST(PreparationTest, OneMovingAxisOfThreeIsReturnedUnchanged) {
     axes[0].assign(wave.size(), 0.0);
     axes[1].assign(wave.begin(), wave.end());
     axes[2].assign(wave.size(), 0.0);
-    const std::vector<double> combined = combineAxes(axes);
+    const std::vector<double> combined = recordings::combineAxes(axes);
     for (std::size_t i = 500; i < 3500; ++i) {
         ASSERT_NEAR(combined[i], axes[1][i], 0.02);
     }
@@ -74,7 +74,7 @@ TEST(PreparationTest, ThreeAxesKeepTheirEnergyEvenWhereTheyCancel) {
     double energy = 0.0;
     for (std::size_t axis = 0; axis < 2; ++axis) {
         inference::fillStandardNormal({.seed = 3, .voice = static_cast<std::uint32_t>(axis), .segment = 0}, noise);
-        axes[axis] = bandPassed(std::vector<double>(noise.begin(), noise.end()));
+        axes[axis] = recordings::bandPassed(std::vector<double>(noise.begin(), noise.end()));
         for (const double value : axes[axis]) {
             energy += value * value;
         }
@@ -85,7 +85,7 @@ TEST(PreparationTest, ThreeAxesKeepTheirEnergyEvenWhereTheyCancel) {
         energy += value * value;
     }
     double found = 0.0;
-    for (const double value : combineAxes(axes)) {
+    for (const double value : recordings::combineAxes(axes)) {
         found += value * value;
     }
     EXPECT_NEAR(10.0 * std::log10(found / energy), 0.0, 0.5);
@@ -93,13 +93,13 @@ TEST(PreparationTest, ThreeAxesKeepTheirEnergyEvenWhereTheyCancel) {
 
 TEST(PreparationTest, AMissingSampleExcludesOnlyTheSamplesAroundIt) {
     MadeRecording made({}, {});
-    const PreparedRecording whole = prepareRecording(made.view());
+    const recordings::PreparedRecording whole = recordings::prepareRecording(made.view());
     EXPECT_EQ(std::ranges::count(whole.isUsable, 0), 0);
     for (std::size_t i = 20'000; i < 20'028; ++i) {
         made.acceleration[i] = std::numeric_limits<float>::quiet_NaN();
     }
     made.force[30'000] = std::numeric_limits<float>::infinity();
-    const PreparedRecording holed = prepareRecording(made.view());
+    const recordings::PreparedRecording holed = recordings::prepareRecording(made.view());
     const auto lost = std::ranges::count(holed.isUsable, 0);
     EXPECT_GT(lost, 400);
     EXPECT_LT(lost, 600);
@@ -115,7 +115,7 @@ TEST(PreparationTest, AMissingSampleExcludesOnlyTheSamplesAroundIt) {
 TEST(PreparationTest, AFrozenSensorIsExcluded) {
     MadeRecording made({}, {});
     std::fill_n(made.acceleration.begin() + 12'000, 800, made.acceleration[12'000]);
-    const PreparedRecording recording = prepareRecording(made.view());
+    const recordings::PreparedRecording recording = recordings::prepareRecording(made.view());
     EXPECT_EQ(recording.isUsable[6200], 0);
     EXPECT_EQ(recording.isUsable[7000], 1);
 }

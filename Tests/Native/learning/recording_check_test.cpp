@@ -1,6 +1,6 @@
 #include "learning/learner.hpp"
 #include "learning/made_recording.hpp"
-#include "learning/prepared_recording.hpp"
+#include "recordings/prepared_recording.hpp"
 #include "learning/sliding.hpp"
 
 #include <gmock/gmock.h>
@@ -23,9 +23,9 @@ model::ModelHeader header() {
     return result;
 }
 
-void prepareAndFind(const Recording& recording) {
-    checkRecording(recording);
-    (void)findSliding(prepareRecording(recording), header());
+void prepareAndFind(const recordings::Recording& recording) {
+    recordings::checkRecording(recording);
+    (void)findSliding(recordings::prepareRecording(recording), header());
 }
 
 TEST(RecordingCheckTest, AUsableRecordingIsAccepted) {
@@ -36,13 +36,13 @@ TEST(RecordingCheckTest, AUsableRecordingIsAccepted) {
 TEST(RecordingCheckTest, TwoSecondsAreTooShort) {
     const MadeRecording made({}, {.seconds = 2.0});
     EXPECT_THAT([&] { prepareAndFind(made.view()); },
-                ThrowsMessage<RecordingUnusable>(HasSubstr("lasts 2 s; record 10 s or more of sliding")));
+                ThrowsMessage<recordings::RecordingUnusable>(HasSubstr("lasts 2 s; record 10 s or more of sliding")));
 }
 
 TEST(RecordingCheckTest, ASensorThatNeverChangesIsSilent) {
     MadeRecording made({}, {});
     std::ranges::fill(made.acceleration, 9.8F);
-    EXPECT_THAT([&] { prepareAndFind(made.view()); }, ThrowsMessage<RecordingUnusable>(HasSubstr("never changes")));
+    EXPECT_THAT([&] { prepareAndFind(made.view()); }, ThrowsMessage<recordings::RecordingUnusable>(HasSubstr("never changes")));
 }
 
 TEST(RecordingCheckTest, SamplesAtTheEndOfTheRangeAreClipped) {
@@ -50,14 +50,14 @@ TEST(RecordingCheckTest, SamplesAtTheEndOfTheRangeAreClipped) {
     for (float& value : made.acceleration) {
         value = std::clamp(value, -2.0F, 2.0F);
     }
-    EXPECT_THAT([&] { prepareAndFind(made.view()); }, ThrowsMessage<RecordingUnusable>(HasSubstr("is clipped")));
+    EXPECT_THAT([&] { prepareAndFind(made.view()); }, ThrowsMessage<recordings::RecordingUnusable>(HasSubstr("is clipped")));
 }
 
 TEST(RecordingCheckTest, ARecordingThatIsMostlyNotFiniteIsRefused) {
     MadeRecording made({}, {});
     std::fill_n(made.acceleration.begin(), made.acceleration.size() * 3 / 5, std::numeric_limits<float>::quiet_NaN());
     EXPECT_THAT([&] { prepareAndFind(made.view()); },
-                ThrowsMessage<RecordingUnusable>(HasSubstr("is not finite in 60 %")));
+                ThrowsMessage<recordings::RecordingUnusable>(HasSubstr("is not finite in 60 %")));
 }
 
 TEST(RecordingCheckTest, APauseOfAMinuteBetweenTwoPartsIsNoDamage) {
@@ -70,15 +70,15 @@ TEST(RecordingCheckTest, APauseOfAMinuteBetweenTwoPartsIsNoDamage) {
     paused.velocity.insert(paused.velocity.begin() + 2 * middle, 2 * pause, unknown);
     paused.force.insert(paused.force.begin() + middle, pause, unknown);
     EXPECT_NO_THROW(prepareAndFind(paused.view()));
-    const Sliding whole = findSliding(prepareRecording(made.view()), header());
-    const Sliding parts = findSliding(prepareRecording(paused.view()), header());
+    const Sliding whole = findSliding(recordings::prepareRecording(made.view()), header());
+    const Sliding parts = findSliding(recordings::prepareRecording(paused.view()), header());
     EXPECT_NEAR(parts.seconds, whole.seconds, 0.3);
     // Between the parts of damage there is no pause.
     for (std::size_t i = 0; i < paused.acceleration.size(); ++i) {
         paused.acceleration[i] = i % 5 < 3 ? unknown : paused.acceleration[i];
     }
     EXPECT_THAT([&] { prepareAndFind(paused.view()); },
-                ThrowsMessage<RecordingUnusable>(HasSubstr("is not finite in 60")));
+                ThrowsMessage<recordings::RecordingUnusable>(HasSubstr("is not finite in 60")));
 }
 
 TEST(RecordingCheckTest, ARecordingOfARestingTipIsRefused) {
@@ -86,7 +86,7 @@ TEST(RecordingCheckTest, ARecordingOfARestingTipIsRefused) {
     made.velocity.clear();
     made.constantVelocity = {0.001, 0.0};
     EXPECT_THAT([&] { prepareAndFind(made.view()); },
-                ThrowsMessage<RecordingUnusable>(HasSubstr("the tip never moves")));
+                ThrowsMessage<recordings::RecordingUnusable>(HasSubstr("the tip never moves")));
 }
 
 TEST(RecordingCheckTest, TheErrorForAnImpossibleSpeedSuggestsAUnit) {
@@ -94,7 +94,7 @@ TEST(RecordingCheckTest, TheErrorForAnImpossibleSpeedSuggestsAUnit) {
     for (float& value : made.velocity) {
         value *= 1000.0F;
     }
-    EXPECT_THAT([&] { prepareAndFind(made.view()); }, ThrowsMessage<RecordingUnusable>(HasSubstr("is it in mm/s?")));
+    EXPECT_THAT([&] { prepareAndFind(made.view()); }, ThrowsMessage<recordings::RecordingUnusable>(HasSubstr("is it in mm/s?")));
 }
 
 TEST(RecordingCheckTest, ASpeedBeyondTheModelIsRefused) {
@@ -102,31 +102,31 @@ TEST(RecordingCheckTest, ASpeedBeyondTheModelIsRefused) {
     made.velocity.clear();
     made.constantVelocity = {2.0, 0.0};
     EXPECT_THAT([&] { prepareAndFind(made.view()); },
-                ThrowsMessage<RecordingUnusable>(HasSubstr("the model was trained up to 1.5 m/s")));
+                ThrowsMessage<recordings::RecordingUnusable>(HasSubstr("the model was trained up to 1.5 m/s")));
 }
 
 TEST(RecordingCheckTest, NoForceAndAForceInMillinewtonsAreRefused) {
     MadeRecording made({}, {});
     made.force.clear();
-    EXPECT_THAT([&] { prepareAndFind(made.view()); }, ThrowsMessage<RecordingUnusable>(HasSubstr("give the force")));
+    EXPECT_THAT([&] { prepareAndFind(made.view()); }, ThrowsMessage<recordings::RecordingUnusable>(HasSubstr("give the force")));
     made.constantForce = 900.0;
-    EXPECT_THAT([&] { prepareAndFind(made.view()); }, ThrowsMessage<RecordingUnusable>(HasSubstr("millinewtons?")));
+    EXPECT_THAT([&] { prepareAndFind(made.view()); }, ThrowsMessage<recordings::RecordingUnusable>(HasSubstr("millinewtons?")));
 }
 
 TEST(RecordingCheckTest, SizesAndRatesThatDoNotFitAreInvalidArguments) {
     const MadeRecording made({}, {});
-    Recording recording = made.view();
+    recordings::Recording recording = made.view();
     recording.axisCount = 2;
-    EXPECT_THROW(checkRecording(recording), std::invalid_argument);
+    EXPECT_THROW(recordings::checkRecording(recording), std::invalid_argument);
     recording = made.view();
     recording.rateHz = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_THROW(checkRecording(recording), std::invalid_argument);
+    EXPECT_THROW(recordings::checkRecording(recording), std::invalid_argument);
     recording = made.view();
     recording.velocityMps = recording.velocityMps.first(10);
-    EXPECT_THROW(checkRecording(recording), std::invalid_argument);
+    EXPECT_THROW(recordings::checkRecording(recording), std::invalid_argument);
     recording = made.view();
     recording.forceNewtons = recording.forceNewtons.first(10);
-    EXPECT_THROW(checkRecording(recording), std::invalid_argument);
+    EXPECT_THROW(recordings::checkRecording(recording), std::invalid_argument);
 }
 
 }  // namespace

@@ -21,19 +21,19 @@ using testing::MadeMotion;
 using testing::MadeRecording;
 using testing::MadeSurface;
 
-std::vector<WaveVector> vectorsOf(const PreparedRecording& recording) {
+std::vector<WaveVector> vectorsOf(const recordings::PreparedRecording& recording) {
     model::ModelHeader header;
     header.speedMps.maximum = 1.5;
     return findWaveVectors(recording, findSliding(recording, header));
 }
 
 std::vector<WaveVector> vectorsOf(const MadeRecording& made) {
-    return vectorsOf(prepareRecording(made.view()));
+    return vectorsOf(recordings::prepareRecording(made.view()));
 }
 
 /// A recording and the result of the Python estimator for it.
 struct GoldenCase {
-    PreparedRecording recording;
+    recordings::PreparedRecording recording;
     std::vector<WaveVector> vectors;
 };
 

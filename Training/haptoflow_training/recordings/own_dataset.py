@@ -13,7 +13,6 @@ from haptoflow_training.recordings.cluster_dataset_files import DatasetFileError
 from haptoflow_training.recordings.file_names import ending_of
 from haptoflow_training.recordings.labels import LabelMap
 from haptoflow_training.recordings.own_files import OWN_ENDINGS, OwnRecordingFile, is_motion_file, own_identity
-from haptoflow_training.recordings.own_table import column_names, unknown_columns
 
 
 @dataclass(frozen=True)
@@ -36,7 +35,7 @@ class OwnDataset:
     def provenance(self) -> dict[str, Any]:
         """The distinct values that the sidecars state."""
         files = [*self.recordings, *self.unlabelled]
-        said = [(file.sidecar.source or UNKNOWN, file.sidecar.licence or UNKNOWN) for file in files]
+        said = [self.origin_of(file)[::-1] for file in files]
         sources, licences = (list(dict.fromkeys(words)) for words in zip(*said, strict=True)) if said else ([], [])
         return {
             "source": ", ".join(sources) or UNKNOWN,
@@ -46,7 +45,7 @@ class OwnDataset:
 
     def origin_of(self, entry: OwnRecordingFile) -> tuple[str, str]:
         """(licence, source) of one recording."""
-        return entry.sidecar.licence or UNKNOWN, entry.sidecar.source or UNKNOWN
+        return entry.description.licence or UNKNOWN, entry.description.source or UNKNOWN
 
     @property
     def left_out(self) -> str:
@@ -89,8 +88,8 @@ def open_own_dataset(root: Path, labels: LabelMap | None = None) -> OwnDataset:
         name = path.relative_to(base).as_posix()
         entry = OwnRecordingFile(path, own_identity(name), "")
         try:
-            said = entry.sidecar.label
-            notes.extend(_ignored(path) + (_ignored(entry.sidecar.motion) if entry.sidecar.motion else []))
+            said = entry.description.label
+            notes.extend(entry.description.notes)
         except DatasetFileError as error:
             problems.append(DatasetProblem(error.path, error.found, error.expected))
             continue
@@ -123,14 +122,9 @@ def _named_motions(files: list[Path]) -> set[Path]:
     motions = set()
     for path in files:
         try:
-            motion = OwnRecordingFile(path, own_identity(path.name), "").sidecar.motion
+            motion = OwnRecordingFile(path, own_identity(path.name), "").description.motion_path
         except DatasetFileError:
             continue
         if motion is not None:
             motions.add(motion.resolve())
     return motions
-
-
-def _ignored(path: Path) -> list[str]:
-    unknown = unknown_columns(column_names(path)) if ending_of(path) == ".csv" else ()
-    return [f"{path}: columns {', '.join(unknown)} are not known and are ignored"] if unknown else []

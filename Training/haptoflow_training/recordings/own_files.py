@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
@@ -11,28 +12,13 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import signal
 
-from haptoflow_training.recordings.cluster_dataset_files import DatasetFileError
+from haptoflow_training.recordings.cluster_dataset_files import open_table
 from haptoflow_training.recordings.file_names import beside, ending_of, sidecar_of
-from haptoflow_training.recordings.own_sidecar import (
-    DEFAULTS_FILE, MAXIMUM_RATE_HZ, MINIMUM_RATE_HZ, Sidecar, read_sidecar,
-)  # fmt: skip
-from haptoflow_training.recordings.own_table import (
-    FORCE_FORMS,
-    POSITION_FORMS,
-    VELOCITY_FORMS,
-    OwnTable,
-    Series,
-    is_position,
-    misread_units,
-    names_of,
-    read_own_table,
-    velocity_of,
-)
-from haptoflow_training.recordings.own_wav import read_own_wav
+from haptoflow_training.recordings.native_recording import NativeRecording, Track, read_native
 from haptoflow_training.recordings.recording import STANDARD_GRAVITY_MPS2, Recording, RecordingIdentity
 
-TABLE_ENDINGS = (".csv", ".parquet")
-OWN_ENDINGS = (*TABLE_ENDINGS, ".wav")
+OWN_ENDINGS = (".csv", ".parquet", ".wav")
+DEFAULTS_FILE = "recordings.json"
 _MOTION_MARK = ".motion"
 # Above this rate a recording is filtered before it is resampled, to prevent aliasing.
 _MAXIMUM_UNFILTERED_HZ = 8400.0
@@ -49,24 +35,25 @@ class OwnRecordingFile:
     label: str
 
     @cached_property
-    def sidecar(self) -> Sidecar:
-        return read_sidecar(self.path)
+    def description(self) -> NativeRecording:
+        """What its sidecar and the names of its columns say; DatasetFileError if they are wrong."""
+        return _read(self.path, samples=False)
 
     @property
     def paths(self) -> tuple[Path, ...]:
         """Every file that the recording is made from."""
-        others = (sidecar_of(self.path), beside(self.path, DEFAULTS_FILE), self.sidecar.motion)
+        others = (sidecar_of(self.path), beside(self.path, DEFAULTS_FILE), self.description.motion_path)
         return (self.path, *(path for path in others if path is not None and path.is_file()))
 
     def path_of(self, sensor: str) -> Path:
         """The file of acceleration, force or position."""
-        motion = self.sidecar.motion
+        motion = self.description.motion_path
         return self.path if sensor == "acceleration" or motion is None else motion
 
     def load(self) -> Recording:
         """Read the recording. DatasetFileError (an InputError) names file, column or key, what was found and what is
         expected."""
-        return read_own_recording(self.path, self.identity, self.label)
+        return _recording(_read(self.path, samples=True), self.identity, self.label)
 
 
 def own_identity(name: str) -> RecordingIdentity:
@@ -79,101 +66,63 @@ def is_motion_file(path: Path) -> bool:
     return path.stem.lower().endswith(_MOTION_MARK)
 
 
-def read_own_recording(path: Path, identity: RecordingIdentity, label: str) -> Recording:
-    """Read one recording with its sidecar and motion file; a single axis stays a single axis.
+def _read(path: Path, *, samples: bool) -> NativeRecording:
+    if ending_of(path) != ".parquet":
+        return read_native(path, samples=samples, complete=samples)
+    # The library reads text; pandas makes it of a Parquet table, and the files beside it go along.
+    table = path.with_suffix(".csv").name
+    files = {table: _as_csv(path)}
+    for other in (sidecar_of(path), beside(path, DEFAULTS_FILE)):
+        if other.is_file():
+            files[other.name] = other.read_bytes()
+    for motion in _named_motions(list(files.values())[1:]):
+        named = beside(path, motion)
+        if named.is_file():
+            files[motion] = _as_csv(named) if ending_of(named) == ".parquet" else named.read_bytes()
+    return read_native(Path(table), files, samples=samples, complete=samples)
 
-    DatasetFileError names file, column or key, what was found and what is expected.
-    """
-    sidecar = read_sidecar(path)
-    tables: list[OwnTable] = []
-    if ending_of(path) == ".wav":
-        acceleration = read_own_wav(path, sidecar)
+
+def _as_csv(path: Path) -> bytes:
+    return bytes(open_table(path, "a table of a recording").to_csv(index=False).encode())
+
+
+def _named_motions(sidecars: Iterable[bytes]) -> list[str]:
+    names = []
+    for text in sidecars:
+        try:
+            motion = json.loads(text).get("motion")
+        except (ValueError, AttributeError):
+            continue
+        names += [motion] if isinstance(motion, str) and Path(motion).name == motion else []
+    return names
+
+
+def _recording(read: NativeRecording, identity: RecordingIdentity, label: str) -> Recording:
+    """Three sensors with clocks of their own; a single axis stays a single axis."""
+    assert read.acceleration is not None
+    span = (float(read.acceleration.time_seconds[0]), float(read.acceleration.time_seconds[-1]))
+    velocity: NDArray[np.float64] | None = None
+    if read.has_positions:
+        assert read.motion is not None
+        position_time, position_mm = read.motion.time_seconds, 1e3 * read.motion.values
     else:
-        table = read_own_table(path, sidecar.rate_hz)
-        tables.append(table)
-        assert table.acceleration is not None
-        acceleration = table.acceleration
-        _require_rate(path, acceleration)
-    if sidecar.motion is not None:
-        tables.append(read_own_table(sidecar.motion, None, with_acceleration=False))
-    for table in tables:
-        for problem in misread_units(table):
-            raise problem
-    span = (float(acceleration.time_seconds[0]), float(acceleration.time_seconds[-1]))
-    motion = _one(path, [table.motion for table in tables], "motion")
-    force = _one(path, [table.force for table in tables], "force")
-    position_time, position_mm, velocity = _motion(path, sidecar, motion, span)
-    force_time, force_newtons = _force(path, sidecar, force, span)
-    time, values = _band_limited(acceleration)
+        motion = read.motion or _constant(span, np.array(read.velocity_mps))
+        position_time, velocity = motion.time_seconds, motion.values
+        steps = 0.5 * (velocity[1:] + velocity[:-1]) * np.diff(position_time)[:, None]
+        position_mm = 1e3 * np.concatenate([np.zeros((1, 2)), np.cumsum(steps, axis=0)])
+    force = read.force or _constant(span, np.array([read.force_newtons]))
+    time, values = _band_limited(read.acceleration)
     return Recording(
-        identity, label, time, values / STANDARD_GRAVITY_MPS2, force_time, force_newtons, position_time, position_mm,
-        velocity_mps=velocity,
+        identity, label, time, values / STANDARD_GRAVITY_MPS2, force.time_seconds, force.values[:, 0], position_time,
+        position_mm, velocity_mps=velocity,
     )  # fmt: skip
 
 
-def _one(path: Path, found: Iterable[Series | None], what: str) -> Series | None:
-    present = [series for series in found if series is not None]
-    if len(present) > 1:
-        raise DatasetFileError(path, f"{what} in the table and in the motion file", f"{what} in one of them")
-    return present[0] if present else None
+def _constant(span: tuple[float, float], values: NDArray[np.float64]) -> Track:
+    return Track(np.linspace(*span, _CONSTANT_STEPS), np.tile(values, (_CONSTANT_STEPS, 1)))
 
 
-def _require_rate(path: Path, acceleration: Series) -> None:
-    rate_hz = 1.0 / float(np.median(np.diff(acceleration.time_seconds)))
-    if not 0.99 * MINIMUM_RATE_HZ <= rate_hz <= 1.01 * MAXIMUM_RATE_HZ:
-        expected = "1000 to 192000 (time_s is in seconds)"
-        raise DatasetFileError(path, f"{rate_hz:.4g} samples a second by time_s", expected)
-
-
-def _motion(
-    path: Path, sidecar: Sidecar, motion: Series | None, span: tuple[float, float]
-) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64] | None]:
-    """Times, positions in mm, and the velocities in m/s if they were recorded."""
-    if motion is None:
-        if sidecar.velocity_mps is None:
-            expected = (
-                f"motion: columns {names_of(VELOCITY_FORMS + POSITION_FORMS)}; or the key speed_mps, velocity_mps or "
-                f"motion in {sidecar.path.name}"
-            )
-            raise DatasetFileError(path, "no motion in its columns or beside it", expected)
-        time = np.linspace(*span, _CONSTANT_STEPS)
-        velocity = np.tile(np.array(sidecar.velocity_mps), (_CONSTANT_STEPS, 1))
-    elif is_position(motion):
-        time, position = _read_anew(motion)
-        return time, 1e3 * position, None
-    else:
-        time, velocity = motion.time_seconds, velocity_of(motion)
-    steps = 0.5 * (velocity[1:] + velocity[:-1]) * np.diff(time)[:, None]
-    return time, 1e3 * np.concatenate([np.zeros((1, 2)), np.cumsum(steps, axis=0)]), velocity
-
-
-def _read_anew(motion: Series) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Positions at the tracker's readings: rows that repeat the older reading are left out, because they would look
-    like rest and jumps."""
-    time, values = motion.time_seconds, motion.values
-    changes = np.concatenate([[0], np.flatnonzero(np.any(np.diff(values, axis=0) != 0.0, axis=1)) + 1])
-    period = int(np.median(np.diff(changes))) if len(changes) > 8 else 1
-    if period < 2:
-        return time, values
-    # A resting tip is read too: a longer stretch without a change keeps a row for each expected reading.
-    kept: list[int] = []
-    for first, last in zip(changes, [*changes[1:], len(time)], strict=True):
-        kept.extend(range(int(first), int(last) - period + 1, period) if last - first >= 2 * period else [int(first)])
-    return time[kept], values[kept]
-
-
-def _force(
-    path: Path, sidecar: Sidecar, force: Series | None, span: tuple[float, float]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    if force is not None:
-        return force.time_seconds, force.values[:, 0]
-    if sidecar.force_newtons is None:
-        expected = f"force: a column {names_of(FORCE_FORMS)}; or the key force_newtons in {sidecar.path.name}"
-        raise DatasetFileError(path, "no force in its columns or beside it", expected)
-    return np.linspace(*span, _CONSTANT_STEPS), np.full(_CONSTANT_STEPS, sidecar.force_newtons)
-
-
-def _band_limited(acceleration: Series) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _band_limited(acceleration: Track) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Times and values; a recording at a high rate is low-passed and decimated."""
     time, values = acceleration.time_seconds, acceleration.values
     step = float(np.median(np.diff(time)))
@@ -185,4 +134,4 @@ def _band_limited(acceleration: Series) -> tuple[NDArray[np.float64], NDArray[np
     return time[::stride], filtered[::stride]
 
 
-__all__ = ["OWN_ENDINGS", "OwnRecordingFile", "is_motion_file", "own_identity", "read_own_recording"]
+__all__ = ["OWN_ENDINGS", "OwnRecordingFile", "is_motion_file", "own_identity"]

@@ -19,7 +19,8 @@ namespace HaptoFlow.Preview
         {
             int count = Math.Min(recording.SampleCount, (int)(MaximumSeconds * recording.SampleRateHz));
             ReadOnlySpan<float> samples = recording.AccelerationMps2.AsSpan(0, count * recording.AxisCount);
-            float[] still = WithoutDrift(samples, recording.AxisCount, recording.SampleRateHz);
+            float[] still = WithoutDrift(WithoutGaps(samples, recording.AxisCount), recording.AxisCount,
+                recording.SampleRateHz);
             float[] axis = recording.AxisCount == 1
                 ? still
                 : AxisCombination.Combined(still, recording.SampleRateHz);
@@ -63,9 +64,8 @@ namespace HaptoFlow.Preview
 
         /// <summary>Removes gravity and slow motion by a first-order high-pass filter, run forward and backward.
         /// </summary>
-        private static float[] WithoutDrift(ReadOnlySpan<float> samples, int axes, double rateHz)
+        private static float[] WithoutDrift(float[] result, int axes, double rateHz)
         {
-            float[] result = samples.ToArray();
             double share = 1.0 - Math.Exp(-2.0 * Math.PI * HighPassHz / rateHz);
             for (int axis = 0; axis < axes; ++axis)
             {
@@ -76,6 +76,21 @@ namespace HaptoFlow.Preview
                 }
                 HighPass(result, axis, axes, mean, share);
                 HighPass(result, result.Length - axes + axis, -axes, 0.0, share);
+            }
+            return result;
+        }
+
+        /// <summary>A copy in which gaps repeat the sample before them, which the high-pass filter makes silent.
+        /// </summary>
+        private static float[] WithoutGaps(ReadOnlySpan<float> samples, int axes)
+        {
+            float[] result = samples.ToArray();
+            for (int index = 0; index < result.Length; ++index)
+            {
+                if (float.IsNaN(result[index]))
+                {
+                    result[index] = index < axes ? 0f : result[index - axes];
+                }
             }
             return result;
         }

@@ -1,4 +1,5 @@
 #nullable enable
+using System;
 using System.Threading;
 using HaptoFlow.Preview;
 using HaptoFlow.Recordings;
@@ -29,7 +30,12 @@ namespace HaptoFlow.Editor
             }
             catch (HaptoFlowException error)
             {
-                return new RecordingFile(null, error.Message + ".");
+                // The folder is in the window already.
+                string folder = System.IO.Path.GetDirectoryName(request.Path) ?? "";
+                string message = folder.Length > 0 && error.Message.StartsWith(folder, StringComparison.Ordinal)
+                    ? error.Message.Substring(folder.Length + 1)
+                    : error.Message;
+                return new RecordingFile(null, message + ".");
             }
         }
 

@@ -33,6 +33,10 @@ namespace HaptoFlow.Native
             ["haptoflow_exposure"] = sizeof(HapticExposure),
             ["haptoflow_wave_features_options"] = sizeof(WaveFeaturesOptions),
             ["haptoflow_wave_frame"] = sizeof(NativeWaveFrame),
+            ["haptoflow_recording_file"] = sizeof(NativeRecordingFile),
+            ["haptoflow_recording_options"] = sizeof(NativeRecordingOptions),
+            ["haptoflow_track"] = sizeof(NativeTrack),
+            ["haptoflow_recording_info"] = sizeof(NativeRecordingInfo),
             ["haptoflow_learning_options"] = sizeof(NativeLearningOptions),
         };
 

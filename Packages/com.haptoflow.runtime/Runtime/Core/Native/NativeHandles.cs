@@ -96,6 +96,16 @@ namespace HaptoFlow.Native
         protected override int Close(IntPtr* closing) => NativeMethods.CancellationClose(closing);
     }
 
+    internal sealed unsafe class RecordingHandle : NativeHandle
+    {
+        public RecordingHandle(IntPtr opened)
+            : base(opened)
+        {
+        }
+
+        protected override int Close(IntPtr* closing) => NativeMethods.RecordingClose(closing);
+    }
+
     internal sealed unsafe class LearningHandle : NativeHandle
     {
         public LearningHandle(IntPtr opened)

@@ -218,6 +218,15 @@ namespace HaptoFlow.Native
         public static extern int DeviceWaveProcess(
             IntPtr wave, float* samples, ulong sampleCount, float fullScaleMps2);
 
+        [DllImport(Library, EntryPoint = "haptoflow_recording_read")]
+        public static extern int RecordingRead(NativeRecordingOptions* options, IntPtr* recording);
+
+        [DllImport(Library, EntryPoint = "haptoflow_recording_get_info")]
+        public static extern int RecordingGetInfo(IntPtr recording, NativeRecordingInfo* info);
+
+        [DllImport(Library, EntryPoint = "haptoflow_recording_close")]
+        public static extern int RecordingClose(IntPtr* recording);
+
         [DllImport(Library, EntryPoint = "haptoflow_learn_material")]
         public static extern int LearnMaterial(NativeLearningOptions* options, IntPtr* learning);
 

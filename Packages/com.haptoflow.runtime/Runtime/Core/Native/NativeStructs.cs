@@ -148,6 +148,61 @@ namespace HaptoFlow.Native
     }
 
     [Preserve, StructLayout(LayoutKind.Sequential)]
+    internal struct NativeRecordingFile
+    {
+        public IntPtr Name;
+        public IntPtr Bytes;
+        public ulong ByteCount;
+    }
+
+    [Preserve, StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct NativeRecordingOptions
+    {
+        public uint StructSize;
+        public uint FileCount;
+        public IntPtr Path;
+        public NativeRecordingFile* Files;
+        public double FullScaleMps2;
+        public double SpeedMps;
+        public double ForceNewtons;
+        public uint WithoutSamples;
+        public uint NeedsMotionAndForce;
+    }
+
+    [Preserve, StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct NativeTrack
+    {
+        public double* Seconds;
+        public double* Values;
+        public ulong Count;
+        public ulong Width;
+    }
+
+    [Preserve, StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct NativeRecordingInfo
+    {
+        public uint StructSize;
+        public uint AxisCount;
+        public double SampleRateHz;
+        public ulong SampleCount;
+        public float* AccelerationMps2;
+        public float* VelocityMps;
+        public float* ForceNewtons;
+        public fixed double ConstantVelocityMps[2];
+        public double ConstantForceNewtons;
+        public NativeTrack Acceleration;
+        public NativeTrack Motion;
+        public NativeTrack Force;
+        public uint MotionIsPosition;
+        public uint Reserved;
+        public IntPtr Label;
+        public IntPtr Licence;
+        public IntPtr Source;
+        public IntPtr MotionPath;
+        public IntPtr Notes;
+    }
+
+    [Preserve, StructLayout(LayoutKind.Sequential)]
     internal unsafe struct NativeLearningOptions
     {
         public uint StructSize;

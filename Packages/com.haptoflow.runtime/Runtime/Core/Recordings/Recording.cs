@@ -26,17 +26,17 @@ namespace HaptoFlow.Recordings
         /// <summary>Number of axes, 1 or 3.</summary>
         public int AxisCount { get; }
 
-        /// <summary>Samples of all axes, interleaved, in m/s^2. Do not modify.</summary>
+        /// <summary>Samples of all axes, interleaved, in m/s^2; NaN in the recording's gaps. Do not modify.</summary>
         public float[] AccelerationMps2 { get; }
 
-        /// <summary>Two velocity components per sample, in m/s along the surface; null where <see
+        /// <summary>Two velocity components per sample, in m/s along the surface, NaN in gaps; null where <see
         /// cref="ConstantVelocityMps"/> applies. Do not modify.</summary>
         public float[]? VelocityMps { get; internal set; }
 
         /// <summary>Velocity in m/s along the two axes of the surface; null where unknown or not constant.</summary>
         public (double X, double Y)? ConstantVelocityMps { get; internal set; }
 
-        /// <summary>Force per sample, in N; null where <see cref="ConstantForceNewtons"/> applies. Do not
+        /// <summary>Force per sample, in N, NaN in gaps; null where <see cref="ConstantForceNewtons"/> applies. Do not
         /// modify.</summary>
         public float[]? ForceNewtons { get; internal set; }
 
@@ -68,12 +68,14 @@ namespace HaptoFlow.Recordings
 
         /// <summary>Velocity in m/s along the surface's two axes; zero where unknown.</summary>
         public (double X, double Y) VelocityAt(int sample) => VelocityMps != null
-            ? (VelocityMps[2 * sample], VelocityMps[2 * sample + 1])
+            ? (Known(VelocityMps[2 * sample]), Known(VelocityMps[2 * sample + 1]))
             : ConstantVelocityMps ?? (0.0, 0.0);
 
         /// <summary>Force in N; zero where unknown.</summary>
         public double ForceAt(int sample) =>
-            ForceNewtons != null ? ForceNewtons[sample] : ConstantForceNewtons ?? 0.0;
+            ForceNewtons != null ? Known(ForceNewtons[sample]) : ConstantForceNewtons ?? 0.0;
+
+        private static double Known(float value) => float.IsNaN(value) ? 0.0 : value;
 
         /// <summary>A copy with a speed and a force where the files contain none.</summary>
         /// <param name="speedMps">Speed along the first axis; null to leave it unknown.</param>

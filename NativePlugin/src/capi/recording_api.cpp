@@ -1,0 +1,133 @@
+#include "capi/handles.hpp"
+#include "recordings/recording_reader.hpp"
+
+#include <cstddef>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+using namespace haptoflow;
+using namespace haptoflow::capi;
+
+namespace haptoflow::capi {
+
+struct OpenRecording {
+    recordings::MaterialRecording recording;
+    std::string motionPath;
+    std::string notes;
+};
+
+}  // namespace haptoflow::capi
+
+namespace {
+
+constexpr std::size_t mandatoryOptions = offsetof(haptoflow_recording_options, files);
+constexpr double unknownNumber = std::numeric_limits<double>::quiet_NaN();
+
+std::optional<double> positiveOrNone(double value, const char* name) {
+    if (value == 0.0) {
+        return std::nullopt;
+    }
+    if (!(value > 0.0) || value > std::numeric_limits<float>::max()) {
+        throw std::invalid_argument("options: " + std::string(name) + " is " + std::to_string(value) +
+                                    "; expected above 0, or 0 for unknown");
+    }
+    return value;
+}
+
+std::unique_ptr<recordings::RecordingFiles> filesOf(const haptoflow_recording_options& given) {
+    if (given.file_count == 0) {
+        return std::make_unique<recordings::DiskFiles>();
+    }
+    std::map<std::string, std::span<const char>> files;
+    for (const haptoflow_recording_file& file : std::span(require(given.files, "options: files"), given.file_count)) {
+        const auto* bytes = static_cast<const char*>(file.bytes);
+        if (bytes == nullptr && file.byte_count > 0) {
+            throw std::invalid_argument("options: a file's bytes are null");
+        }
+        files.emplace(require(file.name, "options: a file's name"),
+                      std::span(bytes, static_cast<std::size_t>(file.byte_count)));
+    }
+    return std::make_unique<recordings::GivenFiles>(std::move(files));
+}
+
+haptoflow_track trackOf(const recordings::Track& track) {
+    if (track.count() == 0) {
+        return {};
+    }
+    return {.seconds = track.timeSeconds.data(),
+            .values = track.values.data(),
+            .count = track.count(),
+            .width = track.width};
+}
+
+const float* dataOrNull(const std::vector<float>& values) {
+    return values.empty() ? nullptr : values.data();
+}
+
+haptoflow_recording_info infoOf(const OpenRecording& open) {
+    const recordings::MaterialRecording& recording = open.recording;
+    const auto velocity = recording.constantVelocityMps.value_or(std::array{unknownNumber, unknownNumber});
+    haptoflow_recording_info info{};
+    info.axis_count = static_cast<uint32_t>(recording.axisCount);
+    info.sample_rate_hz = recording.rateHz;
+    info.sample_count = recording.view().sampleCount();
+    info.acceleration_mps2 = dataOrNull(recording.accelerationMps2);
+    info.velocity_mps = dataOrNull(recording.velocityMps);
+    info.force_newtons = dataOrNull(recording.forceNewtons);
+    info.constant_velocity_mps[0] = velocity[0];
+    info.constant_velocity_mps[1] = velocity[1];
+    info.constant_force_newtons = recording.constantForceNewtons.value_or(unknownNumber);
+    info.acceleration = trackOf(recording.tracks.acceleration);
+    info.motion = trackOf(recording.tracks.motion);
+    info.force = trackOf(recording.tracks.force);
+    info.motion_is_position = recording.tracks.hasPositions ? 1U : 0U;
+    info.label = recording.description.label.c_str();
+    info.licence = recording.description.licence.c_str();
+    info.source = recording.description.source.c_str();
+    info.motion_path = open.motionPath.c_str();
+    info.notes = open.notes.c_str();
+    return info;
+}
+
+}  // namespace
+
+haptoflow_status haptoflow_recording_read(const haptoflow_recording_options* options,
+                                          haptoflow_recording** recording) {
+    return guarded([&] {
+        const auto given = readDescriptor(options, mandatoryOptions, "options");
+        (void)require(recording, "recording");
+        const std::filesystem::path path = utf8Path(require(given.path, "options: path"));
+        const recordings::RecordingWords words{
+            .speedMps = positiveOrNone(given.speed_mps, "speed_mps"),
+            .forceNewtons = positiveOrNone(given.force_newtons, "force_newtons"),
+            .fullScaleMps2 = positiveOrNone(given.full_scale_mps2, "full_scale_mps2")};
+        const std::unique_ptr<recordings::RecordingFiles> files = filesOf(given);
+        auto open = std::make_shared<OpenRecording>();
+        if (given.without_samples != 0) {
+            open->recording.description = recordings::describeRecording(*files, path);
+        } else {
+            open->recording = recordings::readMaterialRecording(*files, path, words);
+            if (given.needs_motion_and_force != 0) {
+                recordings::requireMotionAndForce(open->recording, path);
+            }
+        }
+        const recordings::RecordingDescription& description = open->recording.description;
+        open->motionPath = description.motion ? recordings::utf8Of(*description.motion) : "";
+        for (const std::string& note : description.notes) {
+            open->notes.append(open->notes.empty() ? "" : "\n").append(note);
+        }
+        *recording = openRecordings().open(std::move(open));
+    });
+}
+
+haptoflow_status haptoflow_recording_get_info(const haptoflow_recording* recording, haptoflow_recording_info* info) {
+    return guarded([&] { writeDescriptor(info, infoOf(*openRecordings().get(recording)), "info"); });
+}
+
+haptoflow_status haptoflow_recording_close(haptoflow_recording** recording) {
+    return guarded([&] { closeHandle(openRecordings(), recording, "recording"); });
+}

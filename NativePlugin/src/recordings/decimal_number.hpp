@@ -1,0 +1,13 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace haptoflow::recordings {
+
+/// The number that the whole text represents, with a decimal point in every locale and an optional plus sign. Empty for
+/// any other text, and for numbers too large or too small to represent.
+[[nodiscard]] std::optional<double> decimalNumber(std::string_view text);
+
+}  // namespace haptoflow::recordings

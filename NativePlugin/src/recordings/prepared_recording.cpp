@@ -1,0 +1,175 @@
+#include "recordings/prepared_recording.hpp"
+
+#include "dsp/sample_rates.hpp"
+#include "recordings/dft321.hpp"
+#include "recordings/resampling.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace haptoflow::recordings {
+namespace {
+
+constexpr double flatShare = 0.95;
+// Resampler and high-pass filter ring for this long around missing samples.
+constexpr double neighbourhoodSeconds = 0.06;
+constexpr double frozenSeconds = 0.03;
+constexpr double motionWindowSeconds = 0.02;
+
+Channel channelOf(const Recording& recording, std::size_t axis, std::size_t samples) {
+    Channel channel{.first = recording.accelerationMps2.data() + axis,
+                    .stride = recording.axisCount,
+                    .count = samples,
+                    .mean = 0.0};
+    double sum = 0.0;
+    std::size_t finite = 0;
+    for (std::size_t i = 0; i < samples; ++i) {
+        const double value = channel.first[i * channel.stride];
+        if (std::isfinite(value)) {
+            sum += value;
+            ++finite;
+        }
+    }
+    channel.mean = finite > 0 ? sum / static_cast<double>(finite) : 0.0;
+    return channel;
+}
+
+std::vector<float> oneAxis(const Recording& recording, std::size_t samples) {
+    std::array<std::vector<double>, 3> axes;
+    for (std::size_t axis = 0; axis < recording.axisCount; ++axis) {
+        axes[axis] = bandPassed(resampledTo2kHz(channelOf(recording, axis, samples), recording.rateHz));
+    }
+    const std::vector<double> wave = recording.axisCount == 3 ? combineAxes(axes) : std::move(axes[0]);
+    std::vector<float> result(wave.size());
+    std::ranges::transform(wave, result.begin(), [](double value) { return static_cast<float>(value); });
+    return result;
+}
+
+class Neighbourhoods {
+public:
+    Neighbourhoods(const Recording& recording, std::size_t samples, std::size_t prepared)
+        : recording_(recording), samples_(samples), isUsable_(prepared, 1) {}
+
+    std::vector<std::uint8_t> usable() {
+        leaveOutNonFinite();
+        leaveOutFrozen();
+        return std::move(isUsable_);
+    }
+
+private:
+    /// Excludes the samples from first to last and their surroundings.
+    void leaveOut(std::size_t first, std::size_t last) {
+        const double startSeconds = static_cast<double>(first) / recording_.rateHz - neighbourhoodSeconds;
+        const double endSeconds = static_cast<double>(last) / recording_.rateHz + neighbourhoodSeconds;
+        const auto begin =
+            static_cast<std::size_t>(std::max(0.0, std::floor(startSeconds * dsp::waveformRateHz)));
+        const auto end = static_cast<std::size_t>(std::ceil(endSeconds * dsp::waveformRateHz));
+        for (std::size_t i = begin; i < std::min(end, isUsable_.size()); ++i) {
+            isUsable_[i] = 0;
+        }
+    }
+
+    void leaveOutNonFinite() {
+        std::size_t after = 0;
+        bool isOpen = false;
+        std::size_t first = 0;
+        const auto allFinite = [](std::span<const float> values) {
+            return std::ranges::all_of(values, [](float value) { return std::isfinite(value); });
+        };
+        for (std::size_t i = 0; i < samples_; ++i) {
+            const bool isFinite =
+                allFinite(recording_.accelerationMps2.subspan(i * recording_.axisCount, recording_.axisCount)) &&
+                (recording_.velocityMps.empty() || allFinite(recording_.velocityMps.subspan(2 * i, 2))) &&
+                (recording_.forceNewtons.empty() || std::isfinite(recording_.forceNewtons[i]));
+            if (!isFinite && !isOpen) {
+                isOpen = true;
+                first = i;
+            } else if (isFinite && isOpen) {
+                isOpen = false;
+                leaveOut(first, i - 1);
+            }
+            after = i;
+        }
+        if (isOpen) {
+            leaveOut(first, after);
+        }
+    }
+
+    void leaveOutFrozen() {
+        const auto longest = static_cast<std::size_t>(frozenSeconds * recording_.rateHz);
+        const auto sample = [&](std::size_t i) {
+            return recording_.accelerationMps2.subspan(i * recording_.axisCount, recording_.axisCount);
+        };
+        std::size_t first = 0;
+        for (std::size_t i = 1; i <= samples_; ++i) {
+            if (i == samples_ || !std::ranges::equal(sample(i), sample(first))) {
+                if (i - first > longest) {
+                    leaveOut(first, i - 1);
+                }
+                first = i;
+            }
+        }
+    }
+
+    const Recording& recording_;
+    std::size_t samples_;
+    std::vector<std::uint8_t> isUsable_;
+};
+
+/// Means of a window around each sample at 2 kHz, without values that are not finite; if none are left, the previous
+/// mean is repeated.
+std::vector<float> windowMeans(const float* values, std::size_t stride, std::size_t samples, double rateHz,
+                               std::size_t prepared) {
+    std::vector<float> means(prepared);
+    float last = 0.0F;
+    for (std::size_t n = 0; n < prepared; ++n) {
+        const double centre = static_cast<double>(n) / dsp::waveformRateHz * rateHz;
+        const double half = 0.5 * motionWindowSeconds * rateHz;
+        const auto first = static_cast<std::size_t>(std::max(0.0, std::ceil(centre - half)));
+        const std::size_t end = std::min(samples, static_cast<std::size_t>(std::floor(centre + half)) + 1);
+        double sum = 0.0;
+        std::size_t count = 0;
+        for (std::size_t i = first; i < end; ++i) {
+            const float value = values[i * stride];
+            if (std::isfinite(value)) {
+                sum += value;
+                ++count;
+            }
+        }
+        last = count > 0 ? static_cast<float>(sum / static_cast<double>(count)) : last;
+        means[n] = last;
+    }
+    return means;
+}
+
+}  // namespace
+
+double PreparedRecording::speedMps(std::size_t sample) const {
+    return std::hypot(static_cast<double>(motion[sample][0]), static_cast<double>(motion[sample][1]));
+}
+
+PreparedRecording prepareRecording(const Recording& recording) {
+    const std::size_t samples =
+        std::min(recording.sampleCount(), static_cast<std::size_t>(maximumSeconds * recording.rateHz));
+    PreparedRecording prepared;
+    prepared.wave = oneAxis(recording, samples);
+    const std::size_t count = prepared.wave.size();
+    prepared.isUsable = Neighbourhoods(recording, samples, count).usable();
+    prepared.bandwidthHz = 0.5 * flatShare * std::min(recording.rateHz, dsp::waveformRateHz);
+    prepared.motion.resize(count);
+    const auto fill = [&](std::size_t component, std::span<const float> values, std::size_t stride, std::size_t offset,
+                          double constant) {
+        const std::vector<float> means =
+            values.empty() ? std::vector<float>(count, static_cast<float>(constant))
+                           : windowMeans(values.data() + offset, stride, samples, recording.rateHz, count);
+        for (std::size_t i = 0; i < count; ++i) {
+            prepared.motion[i][component] = means[i];
+        }
+    };
+    fill(0, recording.velocityMps, 2, 0, recording.constantVelocityMps[0]);
+    fill(1, recording.velocityMps, 2, 1, recording.constantVelocityMps[1]);
+    fill(2, recording.forceNewtons, 1, 0, recording.constantForceNewtons);
+    return prepared;
+}
+
+}  // namespace haptoflow::recordings

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "recordings/recording.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace haptoflow::recordings {
+
+/// A recording in the network's format: one axis at 2 kHz, 10 to 1000 Hz, with the motion at each sample.
+struct PreparedRecording {
+    /// m/s^2.
+    std::vector<float> wave;
+    /// vx, vy in m/s and force in N, each the mean over 20 ms.
+    std::vector<std::array<float, 3>> motion;
+    /// False near samples that were not finite or did not change.
+    std::vector<std::uint8_t> isUsable;
+    /// Upper end of the recording's band, 475 to 950 Hz.
+    double bandwidthHz = 0.0;
+
+    [[nodiscard]] double speedMps(std::size_t sample) const;
+};
+
+/// Resamples (windowed sinc), combines three axes (DFT321) and filters without phase shift, as in training. Uses the
+/// first `maximumSeconds`. Call `checkRecording` first.
+[[nodiscard]] PreparedRecording prepareRecording(const Recording& recording);
+
+}  // namespace haptoflow::recordings

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <stdexcept>
+#include <string>
+
+namespace haptoflow::recordings {
+
+/// No material can be learnt from a recording. The message names the reason and the remedy.
+class RecordingUnusable : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+/// A recording of one material, evenly sampled. The spans belong to the caller. A sample with a value that is not
+/// finite excludes the samples around it.
+struct Recording {
+    double rateHz = 0.0;
+    /// 1 or 3, interleaved.
+    std::size_t axisCount = 1;
+    /// m/s^2, with gravity or without.
+    std::span<const float> accelerationMps2{};
+    /// vx, vy in m/s for each sample; empty if the velocity is constant.
+    std::span<const float> velocityMps{};
+    std::array<double, 2> constantVelocityMps{};
+    /// One for each sample; empty if the force is constant.
+    std::span<const float> forceNewtons{};
+    double constantForceNewtons = 0.0;
+
+    [[nodiscard]] std::size_t sampleCount() const { return axisCount > 0 ? accelerationMps2.size() / axisCount : 0; }
+    [[nodiscard]] double seconds() const { return static_cast<double>(sampleCount()) / rateHz; }
+};
+
+inline constexpr double lowestRateHz = 1000.0;
+inline constexpr double highestRateHz = 192'000.0;
+/// Maximum speed of a hand in m/s; a larger number is in another unit.
+inline constexpr double maximumHandSpeedMps = 10.0;
+/// Later samples are ignored.
+inline constexpr double maximumSeconds = 300.0;
+/// Recordings with less sliding are refused.
+inline constexpr double minimumSlidingSeconds = 3.0;
+
+/// A larger share of clipped samples has another spectrum.
+inline constexpr double maximumClippedShare = 0.02;
+
+/// The share of finite samples of one axis that stand at its largest or smallest value for several samples. `values`
+/// begins with the axis; every `stride`th is its.
+[[nodiscard]] double clippedShare(std::span<const float> values, std::size_t stride);
+
+/// Throws std::invalid_argument if the sizes of the spans do not match or a number is out of range, and
+/// RecordingUnusable if the samples are too short, silent, clipped or not finite.
+void checkRecording(const Recording& recording);
+
+/// A number for messages: three significant digits with a decimal point, in every locale: "0.0823", "12.5", "1200".
+[[nodiscard]] std::string plainNumber(double value);
+
+}  // namespace haptoflow::recordings

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace haptoflow::recordings {
+
+/// The folder of a recording: on disk, or the bytes of files that are part of an application.
+class RecordingFiles {
+public:
+    virtual ~RecordingFiles() = default;
+
+    /// The file's bytes; empty if it is not there. `role` is its name in messages: "the recording". Throws
+    /// RecordingUnusable if it is there and cannot be read.
+    [[nodiscard]] virtual std::optional<std::string> read(const std::string& role,
+                                                          const std::filesystem::path& path) = 0;
+    [[nodiscard]] virtual bool contains(const std::filesystem::path& path) const = 0;
+    /// The file `name` beside another one, in whatever case it is written there; as given if there is none.
+    [[nodiscard]] virtual std::filesystem::path beside(const std::filesystem::path& file,
+                                                       const std::string& name) const = 0;
+    /// False if a name in `origin` leads out of its folder, also by a link.
+    [[nodiscard]] virtual bool isBeside(const std::filesystem::path& origin,
+                                        const std::filesystem::path& path) const = 0;
+};
+
+/// Files on disk.
+class DiskFiles final : public RecordingFiles {
+public:
+    /// `onInput` is called with the role and the path of each file before it is looked for.
+    explicit DiskFiles(std::function<void(const std::string&, const std::filesystem::path&)> onInput = {})
+        : onInput_(std::move(onInput)) {}
+
+    std::optional<std::string> read(const std::string& role, const std::filesystem::path& path) override;
+    bool contains(const std::filesystem::path& path) const override;
+    std::filesystem::path beside(const std::filesystem::path& file, const std::string& name) const override;
+    bool isBeside(const std::filesystem::path& origin, const std::filesystem::path& path) const override;
+
+private:
+    std::function<void(const std::string&, const std::filesystem::path&)> onInput_;
+};
+
+/// Files given by name. Their bytes must outlive the object.
+class GivenFiles final : public RecordingFiles {
+public:
+    explicit GivenFiles(std::map<std::string, std::span<const char>> files) : files_(std::move(files)) {}
+
+    std::optional<std::string> read(const std::string& role, const std::filesystem::path& path) override;
+    bool contains(const std::filesystem::path& path) const override;
+    std::filesystem::path beside(const std::filesystem::path& file, const std::string& name) const override;
+    bool isBeside(const std::filesystem::path& origin, const std::filesystem::path& path) const override;
+
+private:
+    std::map<std::string, std::span<const char>> files_;
+};
+
+/// A path in messages and in the C interface: UTF-8 on every platform.
+[[nodiscard]] std::string utf8Of(const std::filesystem::path& path);
+
+/// The ending in lower case, with its dot: some recorders write .CSV and .WAV.
+[[nodiscard]] std::string endingOf(const std::filesystem::path& path);
+
+}  // namespace haptoflow::recordings

@@ -1,0 +1,298 @@
+#include "recordings/recording_reader.hpp"
+
+#include "recordings/plausibility.hpp"
+#include "recordings/recording_sidecar.hpp"
+#include "recordings/tip_motion.hpp"
+#include "recordings/wave_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace haptoflow::recordings {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double unknownNumber = std::numeric_limits<double>::quiet_NaN();
+/// A longer step between readings of motion or force is a gap.
+constexpr double longestMotionStepSeconds = 0.25;
+
+[[noreturn]] void fail(const std::string& path, const std::string& found, const std::string& expected) {
+    throw RecordingUnusable(path + ": " + found + "; expected " + expected);
+}
+
+std::string joined(const std::vector<std::string>& words) {
+    std::string text;
+    for (const std::string& word : words) {
+        text += (text.empty() ? "" : ", ") + word;
+    }
+    return text;
+}
+
+void noteUnknown(const std::string& path, const std::vector<std::string>& unknown, std::vector<std::string>& notes) {
+    if (!unknown.empty()) {
+        notes.push_back(path + ": columns " + joined(unknown) + " are not known and are ignored");
+    }
+}
+
+bool isTable(const fs::path& path) {
+    return endingOf(path) == ".csv";
+}
+
+void requireKnownEnding(const fs::path& path) {
+    if (!isTable(path) && endingOf(path) != ".wav") {
+        throw RecordingUnusable(utf8Of(path) + ": has the ending '" + utf8Of(path.extension()) +
+                                "'; expected a recording that ends with .csv or .wav (a Parquet table is read by "
+                                "`haptoflow-training`; here, save it as CSV)");
+    }
+}
+
+std::string bytesOf(RecordingFiles& files, const std::string& role, const fs::path& path) {
+    std::optional<std::string> bytes = files.read(role, path);
+    if (!bytes) {
+        throw RecordingUnusable(utf8Of(path) + ": does not exist; expected a recording that ends with .csv or .wav");
+    }
+    return std::move(*bytes);
+}
+
+RecordingDescription descriptionOf(const RecordingSidecar& sidecar) {
+    return {.label = sidecar.label,
+            .licence = sidecar.licence,
+            .source = sidecar.source,
+            .sidecar = sidecar.path,
+            .motion = sidecar.motion,
+            .notes = {}};
+}
+
+class Reader {
+public:
+    Reader(RecordingFiles& files, const fs::path& path, const RecordingWords& words)
+        : files_(files), file_(path), path_(utf8Of(path)), words_(words) {
+        requireKnownEnding(path);
+        sidecar_ = readRecordingSidecar(files, path);
+        recording_.description = descriptionOf(sidecar_);
+    }
+
+    MaterialRecording read() {
+        const std::string bytes = bytesOf(files_, "the recording", file_);
+        isTable(file_) ? readTable(bytes) : readWave(bytes);
+        if (sidecar_.motion) {
+            readMotionFile(*sidecar_.motion);
+        }
+        takeConstants();
+        if (!recording_.velocityMps.empty()) {
+            noteLag(path_, recording_.view(), notes());
+        }
+        return std::move(recording_);
+    }
+
+private:
+    std::vector<std::string>& notes() { return recording_.description.notes; }
+
+    void readWave(const std::string& bytes) {
+        const WaveFile wave = readWaveFile(path_, bytes);
+        const std::optional<double> fullScale = words_.fullScaleMps2 ? words_.fullScaleMps2 : sidecar_.fullScaleMps2;
+        if (!fullScale) {
+            fail(utf8Of(sidecar_.path), "no key 'full_scale_mps2' for " + utf8Of(file_.filename()),
+                 "\"full_scale_mps2\": the acceleration in m/s^2 that +-1 stands for");
+        }
+        Track acceleration{.timeSeconds = {}, .values = {}, .width = wave.channels, .lines = {}};
+        for (std::size_t i = 0; i < wave.samples.size() / wave.channels; ++i) {
+            acceleration.timeSeconds.push_back(static_cast<double>(i) / wave.rateHz);
+        }
+        acceleration.values.resize(wave.samples.size());
+        std::ranges::transform(wave.samples, acceleration.values.begin(),
+                               [&](float sample) { return static_cast<float>(sample * *fullScale); });
+        takeAcceleration(wave.channels == 1 ? "channel 1" : "channel 1, channel 2, channel 3", std::move(acceleration),
+                         wave.rateHz);
+    }
+
+    void readTable(const std::string& text) {
+        RecordingTable table = readRecordingTable(path_, text, true);
+        noteUnknown(path_, table.unknown, notes());
+        if (table.timeSeconds.empty()) {
+            if (!sidecar_.rateHz) {
+                fail(path_, "no column time_s",
+                     "a column time_s, or the key rate_hz in " + utf8Of(sidecar_.path.filename()));
+            }
+            for (std::size_t row = 0; row < table.acceleration->count(); ++row) {
+                table.timeSeconds.push_back(static_cast<double>(row) / *sidecar_.rateHz);
+            }
+        }
+        Track acceleration = trackOf(table, *table.acceleration);
+        noteMissing(table, acceleration);
+        const double rate = table.timeRoundingSeconds > 0.0 || !sidecar_.rateHz ? rateOf(acceleration, table.timeRoundingSeconds)
+                                                                               : *sidecar_.rateHz;
+        if (!(rate >= 0.99 * lowestRateHz && rate <= 1.01 * highestRateHz)) {
+            fail(path_, plainNumber(rate) + " samples a second by time_s", "1000 to 192000; time_s is in seconds");
+        }
+        acceleration = withoutRounding(std::move(acceleration), rate, table.timeRoundingSeconds);
+        takeAcceleration(table.acceleration->columns, std::move(acceleration),
+                         std::clamp(rate, lowestRateHz, highestRateHz));
+        takeMotion(table);
+    }
+
+    void noteMissing(const RecordingTable& table, const Track& acceleration) {
+        const std::size_t missing = table.acceleration->count() - acceleration.count();
+        if (missing > 0) {
+            notes().push_back(path_ + ": " + std::to_string(missing) + " of " +
+                              std::to_string(table.acceleration->count()) + " rows have no number of their own in " +
+                              table.acceleration->columns + " or time_s and are left out");
+        }
+    }
+
+    void takeAcceleration(const std::string& columns, Track measured, double rateHz) {
+        recording_.rateHz = rateHz;
+        recording_.axisCount = measured.width;
+        startSeconds_ = measured.timeSeconds.front();
+        recording_.tracks.acceleration = plausibleAcceleration(path_, columns, std::move(measured), notes());
+        const Track& acceleration = recording_.tracks.acceleration;
+        double span = acceleration.timeSeconds.back() - startSeconds_;
+        if (span > maximumSeconds) {
+            notes().push_back(path_ + ": only the first " + plainNumber(maximumSeconds) + " s are learnt from");
+            span = maximumSeconds;
+        }
+        // The last sample may lie a rounding error before its time.
+        const auto count = static_cast<std::size_t>(span * rateHz + 1e-6) + 1;
+        const double longestStep = longestStepSeconds(rateHz);
+        Cursor cursor(acceleration);
+        recording_.accelerationMps2.reserve(count * acceleration.width);
+        for (std::size_t i = 0; i < count; ++i) {
+            const double seconds = startSeconds_ + static_cast<double>(i) / rateHz;
+            const std::size_t index = cursor.before(seconds);
+            const double sinceReading = seconds - acceleration.timeSeconds[index];
+            const bool isReading = std::abs(sinceReading) < 1e-3 / rateHz;
+            const bool isGap = !isReading && (sinceReading < 0.0 || acceleration.timeSeconds[index + 1] -
+                                                                            acceleration.timeSeconds[index] >
+                                                                        longestStep);
+            for (std::size_t axis = 0; axis < acceleration.width; ++axis) {
+                recording_.accelerationMps2.push_back(
+                    static_cast<float>(isGap ? unknownNumber : cursor.cubic(index, axis, seconds)));
+            }
+        }
+    }
+
+    void readMotionFile(const fs::path& path) {
+        const std::string name = utf8Of(path);
+        const RecordingTable table = readRecordingTable(name, bytesOf(files_, "the motion file", path), false);
+        noteUnknown(name, table.unknown, notes());
+        if (table.timeSeconds.empty()) {
+            fail(name, "no column time_s", "a column time_s: the motion has a clock of its own");
+        }
+        takeMotion(table);
+    }
+
+    void takeMotion(const RecordingTable& table) {
+        if (table.motion) {
+            if (recording_.tracks.motion.count() > 0) {
+                fail(path_, "motion in the table and in the motion file", "motion in one of them");
+            }
+            const Track motion = trackOf(table, *table.motion);
+            checkMotion(table.path, *table.motion, table.motionForm, motion);
+            const Track velocity = velocityOf(motion, table.motionForm);
+            recording_.velocityMps = onGrid(velocity);
+            recording_.tracks.hasPositions = table.motionForm == MotionForm::position;
+            recording_.tracks.motion = recording_.tracks.hasPositions ? readAnew(motion) : velocity;
+        }
+        if (table.force) {
+            if (recording_.tracks.force.count() > 0) {
+                fail(path_, "force in the table and in the motion file", "force in one of them");
+            }
+            recording_.tracks.force = trackOf(table, *table.force);
+            checkForce(table.path, *table.force, recording_.tracks.force);
+            recording_.forceNewtons = onGrid(recording_.tracks.force);
+            // A load cell that is not zeroed reads less than nothing in the air.
+            for (float& force : recording_.forceNewtons) {
+                force = force < 0.0F ? 0.0F : force;
+            }
+        }
+    }
+
+    /// The track at the recording's samples; NaN before and after the track and in its gaps.
+    std::vector<float> onGrid(const Track& track) const {
+        const std::size_t count = recording_.accelerationMps2.size() / recording_.axisCount;
+        std::vector<float> values;
+        values.reserve(count * track.width);
+        Cursor cursor(track);
+        for (std::size_t i = 0; i < count; ++i) {
+            const double seconds = startSeconds_ + static_cast<double>(i) / recording_.rateHz;
+            const std::size_t index = cursor.before(seconds);
+            const bool isKnown =
+                seconds >= track.timeSeconds.front() - longestMotionStepSeconds &&
+                seconds <= track.timeSeconds.back() + longestMotionStepSeconds &&
+                track.timeSeconds[index + 1] - track.timeSeconds[index] <= longestMotionStepSeconds;
+            for (std::size_t column = 0; column < track.width; ++column) {
+                values.push_back(static_cast<float>(isKnown ? cursor.linear(index, column, seconds) : unknownNumber));
+            }
+        }
+        return values;
+    }
+
+    void takeConstants() {
+        if (recording_.velocityMps.empty()) {
+            recording_.constantVelocityMps =
+                words_.speedMps ? std::optional(std::array{*words_.speedMps, 0.0}) : sidecar_.velocityMps;
+        }
+        if (recording_.forceNewtons.empty()) {
+            recording_.constantForceNewtons = words_.forceNewtons ? words_.forceNewtons : sidecar_.forceNewtons;
+        }
+    }
+
+    RecordingFiles& files_;
+    const fs::path file_;
+    const std::string path_;
+    const RecordingWords& words_;
+    RecordingSidecar sidecar_;
+    MaterialRecording recording_;
+    double startSeconds_ = 0.0;
+};
+
+}  // namespace
+
+Recording MaterialRecording::view() const {
+    return {.rateHz = rateHz,
+            .axisCount = axisCount,
+            .accelerationMps2 = accelerationMps2,
+            .velocityMps = velocityMps,
+            .constantVelocityMps = constantVelocityMps.value_or(std::array{0.0, 0.0}),
+            .forceNewtons = forceNewtons,
+            .constantForceNewtons = constantForceNewtons.value_or(0.0)};
+}
+
+MaterialRecording readMaterialRecording(RecordingFiles& files, const fs::path& path, const RecordingWords& words) {
+    return Reader(files, path, words).read();
+}
+
+void requireMotionAndForce(const MaterialRecording& recording, const fs::path& path, const std::string& speedOption,
+                           const std::string& forceOption) {
+    const auto alternative = [](const std::string& option) { return option.empty() ? option : "; or " + option; };
+    const std::string sidecar = utf8Of(recording.description.sidecar.filename());
+    if (!recording.hasMotion()) {
+        fail(utf8Of(path), "no motion in it or beside it",
+             "columns " + motionForms() + "; or the key speed_mps, velocity_mps or motion in " + sidecar +
+                 alternative(speedOption));
+    }
+    if (!recording.hasForce()) {
+        fail(utf8Of(path), "no force in it or beside it",
+             "a column " + forceForms() + "; or the key force_newtons in " + sidecar + alternative(forceOption));
+    }
+}
+
+RecordingDescription describeRecording(RecordingFiles& files, const fs::path& path) {
+    requireKnownEnding(path);
+    RecordingDescription description = descriptionOf(readRecordingSidecar(files, path));
+    const auto describeTable = [&](const std::string& role, const fs::path& table) {
+        const std::string name = utf8Of(table);
+        noteUnknown(name, unknownColumns(name, bytesOf(files, role, table)), description.notes);
+    };
+    if (isTable(path)) {
+        describeTable("the recording", path);
+    }
+    if (description.motion) {
+        describeTable("the motion file", *description.motion);
+    }
+    return description;
+}
+
+}  // namespace haptoflow::recordings

@@ -1,0 +1,20 @@
+using System.Collections.Generic;
+using System.IO;
+using System.Linq;
+using HaptoFlow.Recordings;
+
+namespace HaptoFlow.Tests.Support
+{
+    /// <summary>Recordings for tests.</summary>
+    internal static class MadeRecordings
+    {
+        /// <summary>The recording of the Workshop sample.</summary>
+        public static Recording Doormat() => RecordingReader.Read("doormat.wav", Directory
+            .GetFiles(RepositoryFiles.In("Samples~", "Workshop", "Recordings"))
+            .ToDictionary(path => Path.GetFileName(path).Replace(".bytes", ""), File.ReadAllBytes));
+
+        /// <summary>A table without files beside it.</summary>
+        public static Recording Table(string text) => RecordingReader.Read("made.csv",
+            new Dictionary<string, byte[]> { ["made.csv"] = System.Text.Encoding.UTF8.GetBytes(text) });
+    }
+}

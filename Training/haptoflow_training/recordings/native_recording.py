@@ -1,0 +1,162 @@
+"""A user's own recording, read by the native library: one reader for the command line, Unity and training."""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from haptoflow_training.native_library import NativeError, native_library, options_of
+from haptoflow_training.recordings.cluster_dataset_files import DatasetFileError
+
+_EXPECTED = "; expected "
+
+
+class _File(ctypes.Structure):
+    _fields_ = [("name", ctypes.c_char_p), ("bytes", ctypes.c_char_p), ("byte_count", ctypes.c_uint64)]
+
+
+class _Options(ctypes.Structure):
+    _fields_ = [
+        ("struct_size", ctypes.c_uint32),
+        ("file_count", ctypes.c_uint32),
+        ("path", ctypes.c_char_p),
+        ("files", ctypes.POINTER(_File)),
+        ("full_scale_mps2", ctypes.c_double),
+        ("speed_mps", ctypes.c_double),
+        ("force_newtons", ctypes.c_double),
+        ("without_samples", ctypes.c_uint32),
+        ("needs_motion_and_force", ctypes.c_uint32),
+    ]
+
+
+class _Track(ctypes.Structure):
+    _fields_ = [
+        ("seconds", ctypes.POINTER(ctypes.c_double)),
+        ("values", ctypes.POINTER(ctypes.c_double)),
+        ("count", ctypes.c_uint64),
+        ("width", ctypes.c_uint64),
+    ]
+
+
+class _Info(ctypes.Structure):
+    _fields_ = [
+        ("struct_size", ctypes.c_uint32),
+        ("axis_count", ctypes.c_uint32),
+        ("sample_rate_hz", ctypes.c_double),
+        ("sample_count", ctypes.c_uint64),
+        ("acceleration_mps2", ctypes.POINTER(ctypes.c_float)),
+        ("velocity_mps", ctypes.POINTER(ctypes.c_float)),
+        ("force_newtons", ctypes.POINTER(ctypes.c_float)),
+        ("constant_velocity_mps", ctypes.c_double * 2),
+        ("constant_force_newtons", ctypes.c_double),
+        ("acceleration", _Track),
+        ("motion", _Track),
+        ("force", _Track),
+        ("motion_is_position", ctypes.c_uint32),
+        ("reserved", ctypes.c_uint32),
+        ("label", ctypes.c_char_p),
+        ("licence", ctypes.c_char_p),
+        ("source", ctypes.c_char_p),
+        ("motion_path", ctypes.c_char_p),
+        ("notes", ctypes.c_char_p),
+    ]
+
+
+@dataclass(frozen=True)
+class Track:
+    """Readings of one sensor at its own times. time_seconds: [n], increasing. values: [n, width] in SI units."""
+
+    time_seconds: NDArray[np.float64]
+    values: NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class NativeRecording:
+    """A recording as the library reads it (haptoflow_recording_info in haptoflow.h).
+
+    rate_hz: of the even form, in which the library learns. acceleration: m/s^2; None if only described. motion:
+    velocities in m/s, or positions in m if has_positions. velocity_mps, force_newtons: constants. notes: one sentence
+    each.
+    """
+
+    label: str
+    licence: str
+    source: str
+    motion_path: Path | None
+    notes: tuple[str, ...]
+    rate_hz: float
+    acceleration: Track | None
+    motion: Track | None
+    has_positions: bool
+    force: Track | None
+    velocity_mps: tuple[float, float] | None
+    force_newtons: float | None
+
+
+def read_native(
+    path: Path, files: Mapping[str, bytes] | None = None, *, samples: bool = True, complete: bool = False
+) -> NativeRecording:
+    """Read a recording with the files beside it; `files` by name replace those on disk.
+
+    samples: False for the sidecar and the column names only. complete: refuse a recording without motion or force.
+    DatasetFileError names file, line and column or key, what was found and what is expected.
+    """
+    library = native_library()
+    given = [_File(name.encode(), content, len(content)) for name, content in (files or {}).items()]
+    options = options_of(
+        _Options,
+        file_count=len(given),
+        path=str(path).encode(),
+        files=(_File * len(given))(*given) if given else None,
+        without_samples=not samples,
+        needs_motion_and_force=complete,
+    )
+    handle = ctypes.c_void_p()
+    try:
+        library.call("haptoflow_recording_read", ctypes.byref(options), ctypes.byref(handle))
+    except NativeError as error:
+        raise _as_file_error(path, str(error)) from error
+    try:
+        info = options_of(_Info)
+        library.call("haptoflow_recording_get_info", handle, ctypes.byref(info))
+        return _copied(info)
+    finally:
+        library.call("haptoflow_recording_close", ctypes.byref(handle))
+
+
+def _as_file_error(path: Path, message: str) -> DatasetFileError:
+    """The library's sentence `PLACE: found; expected what`, in parts."""
+    head, _, expected = message.partition(_EXPECTED)
+    place, found = head.split(": ", 1) if ": " in head else (str(path), head)
+    return DatasetFileError(Path(place), found, expected or "another file")
+
+
+def _track(track: _Track) -> Track | None:
+    if track.count == 0:
+        return None
+    seconds = np.ctypeslib.as_array(track.seconds, (track.count,)).copy()
+    return Track(seconds, np.ctypeslib.as_array(track.values, (track.count, track.width)).copy())
+
+
+def _copied(info: _Info) -> NativeRecording:
+    velocity = (info.constant_velocity_mps[0], info.constant_velocity_mps[1])
+    motion_path = info.motion_path.decode()
+    return NativeRecording(
+        label=info.label.decode(),
+        licence=info.licence.decode(),
+        source=info.source.decode(),
+        motion_path=Path(motion_path) if motion_path else None,
+        notes=tuple(info.notes.decode().splitlines()),
+        rate_hz=info.sample_rate_hz,
+        acceleration=_track(info.acceleration),
+        motion=_track(info.motion),
+        has_positions=bool(info.motion_is_position),
+        force=_track(info.force),
+        velocity_mps=None if np.isnan(velocity[0]) else velocity,
+        force_newtons=None if np.isnan(info.constant_force_newtons) else info.constant_force_newtons,
+    )
