@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <ranges>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -98,6 +99,19 @@ std::span<const std::byte> ModelFile::blob(std::string_view name) const {
 std::span<const float, embeddingSize> ModelFile::embedding(std::size_t label) const {
     const std::size_t row = header_.labels.at(label).embeddingRow;
     return std::span(embeddings_).subspan(row * embeddingSize).first<embeddingSize>();
+}
+
+std::size_t ModelFile::nearestLabel(std::span<const float, embeddingSize> embedding) const {
+    const auto distance = [&](std::size_t label) {
+        const auto own = this->embedding(label);
+        double squares = 0.0;
+        for (std::size_t i = 0; i < textureSize; ++i) {
+            const double gap = static_cast<double>(own[i]) - static_cast<double>(embedding[i]);
+            squares += gap * gap;
+        }
+        return squares;
+    };
+    return *std::ranges::min_element(std::views::iota(std::size_t{0}, header_.labels.size()), {}, distance);
 }
 
 std::span<const float, seedSamples> ModelFile::seed(std::size_t seed) const {

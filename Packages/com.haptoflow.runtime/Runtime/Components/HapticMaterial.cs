@@ -218,7 +218,13 @@ namespace HaptoFlow
         /// <exception cref="HaptoFlowException">The text is not a material file; the message names the key.</exception>
         public static HapticMaterial Create(string text, string label)
         {
-            string name = MaterialFile.Read(text).Name;
+            return CreateUnchecked(text, MaterialFile.Read(text).Name, label);
+        }
+
+        /// <summary>As <see cref="Create"/>, for an editor without the native library: engines check the text when they
+        /// register it.</summary>
+        internal static HapticMaterial CreateUnchecked(string text, string name, string label)
+        {
             var material = CreateInstance<HapticMaterial>();
             material.name = name;
             material.Description.Label = label;

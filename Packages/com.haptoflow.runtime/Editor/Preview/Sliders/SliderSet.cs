@@ -13,8 +13,8 @@ namespace HaptoFlow.Preview
         {
             Name = table.Text("name");
             Direction = table.Numbers("direction", MaterialFile.TextureNumbers, MaterialFile.TextureNumbers);
-            LevelDecibels = table.OptionalNumber("level_db", -MaterialRules.MaximumOffsetDecibels,
-                MaterialRules.MaximumOffsetDecibels) ?? 0.0;
+            LevelDecibels = table.OptionalNumber("level_db", -SliderSet.MaximumOffsetDecibels,
+                SliderSet.MaximumOffsetDecibels) ?? 0.0;
             Lowest = (float)table.Number("lowest", -10.0, 0.0);
             Highest = (float)table.Number("highest", 0.0, 10.0);
         }
@@ -37,6 +37,9 @@ namespace HaptoFlow.Preview
     /// thread.</summary>
     internal sealed class SliderSet
     {
+        /// <summary>Largest offset of the level in a material file, either way.</summary>
+        public const double MaximumOffsetDecibels = 24.0;
+
         private const string FormatName = "haptoflow-sliders";
         private const int MaximumSliders = 16;
 
@@ -67,7 +70,7 @@ namespace HaptoFlow.Preview
             highest = root.Numbers("highest", count, count);
         }
 
-        /// <summary>The <see cref="ModelSpace.Id"/> of the model whose materials the sliders change.</summary>
+        /// <summary>The <see cref="HapticModel.Space"/> of the model whose materials the sliders change.</summary>
         public string Space { get; }
 
         public IReadOnlyList<MaterialSlider> Sliders { get; }
@@ -99,7 +102,7 @@ namespace HaptoFlow.Preview
         {
             double offset = material.LevelOffsetDecibels + Sliders.Select((slider, index) =>
                 Value(values, index) * slider.LevelDecibels).Sum();
-            offset = Math.Max(-MaterialRules.MaximumOffsetDecibels, Math.Min(MaterialRules.MaximumOffsetDecibels, offset));
+            offset = Math.Max(-MaximumOffsetDecibels, Math.Min(MaximumOffsetDecibels, offset));
             return MaterialText.With(material, new Dictionary<string, object?>
             {
                 ["name"] = name,

@@ -3,8 +3,9 @@ using System;
 using System.Collections.Generic;
 using System.Globalization;
 using System.Linq;
+using HaptoFlow.Model;
 
-namespace HaptoFlow.Model
+namespace HaptoFlow.Preview
 {
     /// <summary>An object of a JSON document whose values are checked as they are read. Messages name the key and what
     /// was expected, in the same form as the native library's.</summary>
@@ -29,14 +30,7 @@ namespace HaptoFlow.Model
             return new FormatException($"'{NameOf(key)}' {found}: expected {expected}{tail}");
         }
 
-        /// <param name="otherwise">Value of a missing key; null where the key is required.</param>
-        public string Text(string key, string? otherwise = null)
-        {
-            string? value = members.ContainsKey(key) ? members[key].Text : otherwise;
-            return value ?? throw Failure(key, "a text");
-        }
-
-        public bool Boolean(string key) => Value(key)?.Truth ?? throw Failure(key, "true or false");
+        public string Text(string key) => Value(key)?.Text ?? throw Failure(key, "a text");
 
         public int Integer(string key) => Value(key)?.Number is { } number && number == Math.Floor(number) &&
             Math.Abs(number) <= int.MaxValue ? (int)number : throw Failure(key, "a whole number");
@@ -64,19 +58,6 @@ namespace HaptoFlow.Model
             return values.Select(value => value.AsNumber()).ToArray();
         }
 
-        public double[] Rising(string key, int least, int most, double low, double high, bool mayRepeat = false)
-        {
-            double[] values = Numbers(key, least, most, low, high);
-            for (int index = 1; index < values.Length; ++index)
-            {
-                if (values[index] < values[index - 1] || (!mayRepeat && values[index].Equals(values[index - 1])))
-                {
-                    throw Failure(key, "numbers that rise");
-                }
-            }
-            return values;
-        }
-
         /// <summary>Checks rows of numbers of equal length.</summary>
         public void CheckRows(string key, int rows, int columns, double low, double high)
         {
@@ -95,20 +76,6 @@ namespace HaptoFlow.Model
                     throw Failure(key, FormattableString.Invariant($"numbers from {low:R} to {high:R}"));
                 }
             }
-        }
-
-        public CheckedTable Table(string key) => OptionalTable(key) ?? throw Failure(key, "a table");
-
-        /// <summary>Null where the key is missing or null.</summary>
-        public CheckedTable? OptionalTable(string key)
-        {
-            if (!Has(key))
-            {
-                return null;
-            }
-            return members[key].IsObject
-                ? new CheckedTable(members[key], NameOf(key))
-                : throw Failure(key, "a table");
         }
 
         public IReadOnlyList<CheckedTable> Tables(string key, int least, int most)
