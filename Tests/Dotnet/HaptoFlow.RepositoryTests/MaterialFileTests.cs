@@ -32,6 +32,7 @@ namespace HaptoFlow.RepositoryTests
                 Assert.That(material.Embedding, Is.EqualTo(model.Embedding(label.Index)));
                 Assert.That(model.NearestLabel(material.Embedding), Is.EqualTo(label.Name));
             }
+            Assert.Throws<ArgumentException>(() => model.NearestLabel(new double[MaterialFile.TextureNumbers]));
         }
 
         [TestCase("denim")]

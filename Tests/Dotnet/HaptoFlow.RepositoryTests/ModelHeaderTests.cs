@@ -79,7 +79,7 @@ namespace HaptoFlow.RepositoryTests
             Assert.That(ModelHeader.Read(file).Labels, Is.Not.Empty);
         }
 
-        [TestCase(0, 'X', HaptoFlowStatus.NotAModel, "not a .haptoflow file")]
+        [TestCase(0, (int)'X', HaptoFlowStatus.NotAModel, "not a .haptoflow file")]
         [TestCase(28, 0, HaptoFlowStatus.ModelDamaged, "checksum at byte 28")]
         [TestCase(40, 0, HaptoFlowStatus.ModelDamaged, "checksum at byte 24")]
         public void TheLibrarysRefusalIsPassedOn(int position, int value, HaptoFlowStatus status, string message)

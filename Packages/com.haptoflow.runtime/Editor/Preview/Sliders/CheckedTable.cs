@@ -44,39 +44,12 @@ namespace HaptoFlow.Preview
         public double? OptionalNumber(string key, double low, double high) =>
             Has(key) ? Number(key, low, high) : (double?)null;
 
-        public double[] Numbers(string key, int least, int most, double low = -1e6, double high = 1e6)
-        {
-            string count = least == most ? Words(least) : Words(least) + " to " + Words(most);
-            if (!(Value(key)?.Elements is { } values) || values.Count < least || values.Count > most)
-            {
-                throw Failure(key, $"a list of {count} numbers");
-            }
-            if (!values.All(value => value.Number >= low && value.Number <= high))
-            {
-                throw Failure(key, FormattableString.Invariant($"{count} numbers from {low:R} to {high:R}"));
-            }
-            return values.Select(value => value.AsNumber()).ToArray();
-        }
+        public double[] Numbers(string key, int count) => NumbersOf(key, Value(key), count, -1e6, 1e6);
 
-        /// <summary>Checks rows of numbers of equal length.</summary>
-        public void CheckRows(string key, int rows, int columns, double low, double high)
-        {
-            if (!(Value(key)?.Elements is { } values) || values.Count != rows)
-            {
-                throw Failure(key, $"{Words(rows)} rows, one for each speed");
-            }
-            foreach (JsonValue row in values)
-            {
-                if (!(row.Elements is { } numbers) || numbers.Count != columns)
-                {
-                    throw Failure(key, $"{Words(columns)} numbers in each row, one for each frequency");
-                }
-                if (!numbers.All(each => each.Number >= low && each.Number <= high))
-                {
-                    throw Failure(key, FormattableString.Invariant($"numbers from {low:R} to {high:R}"));
-                }
-            }
-        }
+        /// <summary>Rows of numbers of equal length.</summary>
+        public double[][] Rows(string key, int columns, double low, double high) =>
+            (Value(key)?.Elements ?? throw Failure(key, "a list of rows"))
+                .Select(row => NumbersOf(key, row, columns, low, high)).ToArray();
 
         public IReadOnlyList<CheckedTable> Tables(string key, int least, int most)
         {
@@ -89,6 +62,19 @@ namespace HaptoFlow.Preview
                 throw Failure(key, "a list of tables");
             }
             return values.Select((value, index) => new CheckedTable(value, $"{NameOf(key)}[{Words(index)}]")).ToArray();
+        }
+
+        private double[] NumbersOf(string key, JsonValue? list, int count, double low, double high)
+        {
+            if (!(list?.Elements is { } values) || values.Count != count)
+            {
+                throw Failure(key, $"a list of {Words(count)} numbers");
+            }
+            if (!values.All(value => value.Number >= low && value.Number <= high))
+            {
+                throw Failure(key, FormattableString.Invariant($"{Words(count)} numbers from {low:R} to {high:R}"));
+            }
+            return values.Select(value => value.AsNumber()).ToArray();
         }
 
         private JsonValue? Value(string key) => members.TryGetValue(key, out JsonValue? value) ? value : null;

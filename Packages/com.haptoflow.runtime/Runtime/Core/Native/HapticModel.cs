@@ -198,8 +198,14 @@ namespace HaptoFlow
         /// <summary>Name of the label whose embedding is nearest, ignoring wave vectors.</summary>
         /// <param name="embedding"><see cref="EmbeddingSize"/> numbers, such as those of a <see cref="MaterialFile"/>.
         /// </param>
+        /// <exception cref="ArgumentException">It has another length.</exception>
         public string NearestLabel(IReadOnlyList<double> embedding)
         {
+            if (embedding.Count != EmbeddingSize)
+            {
+                throw new ArgumentException(
+                    $"the embedding has {embedding.Count} numbers; expected {EmbeddingSize}", nameof(embedding));
+            }
             float[] wanted = embedding.Select(number => (float)number).ToArray();
             uint index;
             fixed (float* numbers = wanted)
