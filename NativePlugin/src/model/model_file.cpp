@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <ranges>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -102,8 +101,8 @@ std::span<const float, embeddingSize> ModelFile::embedding(std::size_t label) co
 }
 
 std::size_t ModelFile::nearestLabel(std::span<const float, embeddingSize> embedding) const {
-    const auto distance = [&](std::size_t label) {
-        const auto own = this->embedding(label);
+    const auto distance = [&](const Label& label) {
+        const auto own = std::span(embeddings_).subspan(label.embeddingRow * embeddingSize);
         double squares = 0.0;
         for (std::size_t i = 0; i < textureSize; ++i) {
             const double gap = static_cast<double>(own[i]) - static_cast<double>(embedding[i]);
@@ -111,7 +110,8 @@ std::size_t ModelFile::nearestLabel(std::span<const float, embeddingSize> embedd
         }
         return squares;
     };
-    return *std::ranges::min_element(std::views::iota(std::size_t{0}, header_.labels.size()), {}, distance);
+    const auto nearest = std::ranges::min_element(header_.labels, {}, distance);
+    return static_cast<std::size_t>(nearest - header_.labels.begin());
 }
 
 std::span<const float, seedSamples> ModelFile::seed(std::size_t seed) const {
