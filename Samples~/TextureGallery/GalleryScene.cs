@@ -51,7 +51,7 @@ namespace HaptoFlow.Samples.TextureGallery
         private void Awake()
         {
             UseModelIfNoneIsSet();
-            IReadOnlyList<ModelLabel> labels = LabelsOfModel();
+            IReadOnlyList<HapticLabel> labels = LabelsOfModel();
             var wall = new Wall(Math.Max(1, labels.Count));
             for (int index = 0; index < labels.Count; ++index)
             {

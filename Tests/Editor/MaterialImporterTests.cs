@@ -36,9 +36,9 @@ namespace HaptoFlow.EditorTests
         }
 
         [TestCase("", "")]
-        [TestCase("{\"format\": \"haptoflow-material\", \"version\": 1}", "'space' is missing")]
-        [TestCase("{\"format\": \"haptoflow-material\", \"version\": 2}", "version 2; update HaptoFlow")]
-        [TestCase("{\"format\": 3}", "'format'")]
+        [TestCase("{\"format\": \"haptoflow-material\", \"version\": 1}", "expected a member \"space\"")]
+        [TestCase("{\"format\": \"haptoflow-material\", \"version\": 2}", "update HaptoFlow to read a newer one")]
+        [TestCase("{\"format\": 3}", "key \"format\"")]
         public void AnInvalidMaterialFileIsImportedAndLogsTheKey(string text, string message)
         {
             LogAssert.ignoreFailingMessages = true;
@@ -51,7 +51,10 @@ namespace HaptoFlow.EditorTests
         public void TheSummaryShowsNameNearestLabelDurationAndLicence()
         {
             MaterialSummary summary = MaterialSummary.Of(Text(("name", "bottle"), ("provenance",
-                new Dictionary<string, object?> { ["seconds"] = 12.5, ["licence"] = "CC BY 4.0" })), Model());
+                new Dictionary<string, object?>
+                {
+                    ["statement"] = "learnt", ["recordings"] = "one", ["licence"] = "CC BY 4.0", ["seconds"] = 12.5, ["created"] = "",
+                })), Model());
             Dictionary<string, string> rows = summary.Rows.ToDictionary(row => row.Name, row => row.Value);
             Assert.That((summary.Title, summary.Problem, summary.Mismatch), Is.EqualTo(("bottle", (string?)null, (string?)null)));
             Assert.That(rows["Nearest Label"], Is.EqualTo("glass"));
@@ -65,7 +68,7 @@ namespace HaptoFlow.EditorTests
             Assert.That(MaterialSummary.Of(Text(("space", "0badcafe")), Model()).Mismatch,
                 Does.Contain("learnt for another model").And.Contain("Learn it again"));
             Assert.That(MaterialSummary.Of(Text(), null).Mismatch, Does.Contain("no usable model"));
-            Assert.That(MaterialSummary.Of("{}", Model()).Problem, Does.Contain("'format' is missing"));
+            Assert.That(MaterialSummary.Of("{}", Model()).Problem, Does.Contain("expected a member \"format\""));
         }
     }
 }

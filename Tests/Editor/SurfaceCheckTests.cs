@@ -50,7 +50,7 @@ namespace HaptoFlow.EditorTests
             HapticMaterial known = HapticMaterial.Create(text, "wood");
             Tagged("Bottle", "wood").SharedMaterial = known;
             Assert.That(Texts(), Is.Empty);
-            string space = HaptoFlow.Model.ModelSpace.Of(Model().File).Id;
+            string space = Model().Header.Space;
             HapticMaterial foreign = HapticMaterial.Create(text.Replace(space, "0badcafe"), "wood");
             foreign.name = "Foreign";
             Tagged("Jar", "wood").SharedMaterial = foreign;

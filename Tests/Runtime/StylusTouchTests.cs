@@ -193,7 +193,7 @@ namespace HaptoFlow.Tests
 
         private static double StiffnessOf(string label)
         {
-            foreach (Model.ModelLabel each in HaptoFlowSettings.Active.Model!.Header.Labels)
+            foreach (HapticLabel each in HaptoFlowSettings.Active.Model!.Header.Labels)
             {
                 if (each.Name == label)
                 {

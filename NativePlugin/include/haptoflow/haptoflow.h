@@ -232,6 +232,24 @@ typedef struct haptoflow_model_options {
     const char* path;
 } haptoflow_model_options;
 
+/* What a model's header says about the whole model. */
+typedef struct haptoflow_model_info {
+    uint32_t struct_size;
+    /* All texts are valid until the model is closed. */
+    const char* name;
+    const char* description;
+    /* Provenance: how it was trained, its recordings, their licence, the commit of the training code, and a date as
+     * YYYY-MM-DD or an empty text. */
+    const char* statement;
+    const char* recordings;
+    const char* licence;
+    const char* commit;
+    const char* created;
+    /* The lowest and the highest speed and force that the model was trained on. */
+    double speed_mps[2];
+    double force_newtons[2];
+} haptoflow_model_info;
+
 typedef struct haptoflow_label_info {
     uint32_t struct_size;
     /* 1 for a woven or ruled surface, which has a wavelength; 0 otherwise. */
@@ -285,6 +303,10 @@ HAPTOFLOW_API haptoflow_status haptoflow_model_close(haptoflow_model** model);
  * [any-thread] Blocks while another thread opens or closes a handle. */
 HAPTOFLOW_API haptoflow_status haptoflow_model_header(const haptoflow_model* model, const char** header_json);
 
+/* Fills info for the whole model. Errors: INVALID_ARGUMENT.
+ * [any-thread] Blocks while another thread opens or closes a handle. */
+HAPTOFLOW_API haptoflow_status haptoflow_model_describe(const haptoflow_model* model, haptoflow_model_info* info);
+
 /* Returns the number of labels. Errors: INVALID_ARGUMENT.
  * [any-thread] Blocks while another thread opens or closes a handle. */
 HAPTOFLOW_API haptoflow_status haptoflow_model_label_count(const haptoflow_model* model, uint32_t* count);
@@ -298,6 +320,12 @@ HAPTOFLOW_API haptoflow_status haptoflow_model_label(const haptoflow_model* mode
  * [any-thread] Blocks while another thread opens or closes a handle. */
 HAPTOFLOW_API haptoflow_status haptoflow_model_embedding(const haptoflow_model* model, uint32_t index,
                                                          float* embedding);
+
+/* Sets *index to the label whose embedding is nearest to this one, HAPTOFLOW_EMBEDDING_SIZE numbers. Wave vectors, the
+ * last four of them, are not compared. Errors: INVALID_ARGUMENT.
+ * [any-thread] Blocks while another thread opens or closes a handle; takes microseconds. */
+HAPTOFLOW_API haptoflow_status haptoflow_model_nearest_label(const haptoflow_model* model, const float* embedding,
+                                                             uint32_t* index);
 
 /* Sets *space to 8 hexadecimal digits that identify the model's embedding space. A material file works with every model
  * of the same space (Documentation~/own-materials.md). The text is valid until the model is closed.
@@ -313,6 +341,54 @@ HAPTOFLOW_API haptoflow_status haptoflow_model_tier_count(const haptoflow_model*
  * [any-thread] Blocks while another thread opens or closes a handle. */
 HAPTOFLOW_API haptoflow_status haptoflow_model_tier(const haptoflow_model* model, uint32_t index,
                                                     haptoflow_tier_info* info);
+
+/* ---------------------------------------------------------------------------------------------------- materials */
+
+/* The contents of a material file (Documentation~/own-materials.md). */
+typedef struct haptoflow_material haptoflow_material;
+
+typedef struct haptoflow_material_info {
+    uint32_t struct_size;
+    /* All texts are valid until the material is closed. */
+    const char* name;
+    const char* category;
+    const char* description;
+    /* The space of the models that it can be used with: see haptoflow_model_space. */
+    const char* space;
+    /* Provenance: how it was made, its recordings, their licence, and a date as YYYY-MM-DD or an empty text. */
+    const char* statement;
+    const char* recordings;
+    const char* licence;
+    const char* created;
+    /* Duration of the recordings; 0 if unknown. */
+    double seconds;
+    double stiffness_newtons_per_metre;
+    /* Added to every level. */
+    double level_offset_db;
+    /* The lowest and the highest speed and force of the recordings. */
+    double speed_mps[2];
+    double force_newtons[2];
+} haptoflow_material_info;
+
+/* Reads the text of a material file, length bytes, and verifies every value of it, as
+ * haptoflow_engine_register_material does. Close it with haptoflow_material_close. Errors: INVALID_ARGUMENT,
+ * MATERIAL_INVALID (the message names the key), OUT_OF_MEMORY. [any-thread] Blocks while another thread opens or closes
+ * a handle; takes less than a millisecond. */
+HAPTOFLOW_API haptoflow_status haptoflow_material_read(const char* json, uint64_t length,
+                                                       haptoflow_material** material);
+
+/* Closes *material and sets it to null; a null handle is allowed. Errors: INVALID_ARGUMENT.
+ * [any-thread] Blocks while another thread opens or closes a handle. */
+HAPTOFLOW_API haptoflow_status haptoflow_material_close(haptoflow_material** material);
+
+/* Fills info for the material. Errors: INVALID_ARGUMENT.
+ * [any-thread] Blocks while another thread opens or closes a handle. */
+HAPTOFLOW_API haptoflow_status haptoflow_material_describe(const haptoflow_material* material,
+                                                           haptoflow_material_info* info);
+
+/* Writes the material's embedding: HAPTOFLOW_EMBEDDING_SIZE numbers. Errors: INVALID_ARGUMENT.
+ * [any-thread] Blocks while another thread opens or closes a handle. */
+HAPTOFLOW_API haptoflow_status haptoflow_material_embedding(const haptoflow_material* material, float* embedding);
 
 /* --------------------------------------------------------------------------------------------------- generators */
 

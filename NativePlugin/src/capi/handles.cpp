@@ -51,6 +51,11 @@ LearningTable& learnings() {
     return table;
 }
 
+MaterialTable& materials() {
+    static auto& table = *new MaterialTable("material");
+    return table;
+}
+
 const model::Tier& tierNamed(const model::ModelFile& model, const char* name) {
     if (name == nullptr) {
         return model.header().tiers[model.header().defaultTier];

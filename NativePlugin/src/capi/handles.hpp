@@ -7,6 +7,7 @@
 #include "inference/load_limits.hpp"
 #include "inference/onnx_level_estimator.hpp"
 #include "inference/onnx_segment_generator.hpp"
+#include "model/material_file.hpp"
 #include "model/model_file.hpp"
 
 #include <cstddef>
@@ -80,6 +81,7 @@ struct OpenRecording;
 using RecordingTable = HandleTable<haptoflow_recording, const OpenRecording>;
 struct OpenLearning;
 using LearningTable = HandleTable<haptoflow_learning, const OpenLearning>;
+using MaterialTable = HandleTable<haptoflow_material, const model::MaterialFile>;
 
 // The tables are never destroyed, because ONNX Runtime may be unloaded before static objects are destroyed.
 [[nodiscard]] RuntimeTable& runtimes();
@@ -91,6 +93,7 @@ using LearningTable = HandleTable<haptoflow_learning, const OpenLearning>;
 [[nodiscard]] DeviceWaveTable& deviceWaves();
 [[nodiscard]] RecordingTable& openRecordings();
 [[nodiscard]] LearningTable& learnings();
+[[nodiscard]] MaterialTable& materials();
 
 /// The tier of this name, or the model's default tier if `name` is null. Throws std::invalid_argument for an unknown
 /// name.

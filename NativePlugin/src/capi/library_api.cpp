@@ -30,8 +30,10 @@ constexpr StructSize sizeOf(std::string_view name) {
 constexpr std::array structSizes{
     sizeOf<haptoflow_runtime_options>("haptoflow_runtime_options"),
     sizeOf<haptoflow_model_options>("haptoflow_model_options"),
+    sizeOf<haptoflow_model_info>("haptoflow_model_info"),
     sizeOf<haptoflow_label_info>("haptoflow_label_info"),
     sizeOf<haptoflow_tier_info>("haptoflow_tier_info"),
+    sizeOf<haptoflow_material_info>("haptoflow_material_info"),
     sizeOf<haptoflow_generator_options>("haptoflow_generator_options"),
     sizeOf<haptoflow_batch>("haptoflow_batch"),
     sizeOf<haptoflow_engine_options>("haptoflow_engine_options"),

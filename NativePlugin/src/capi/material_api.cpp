@@ -2,7 +2,9 @@
 #include "engine/material_library.hpp"
 #include "model/material_file.hpp"
 
+#include <algorithm>
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -23,6 +25,24 @@ model::MaterialFile readJson(const char* json, uint64_t length) {
     return model::parseMaterial(std::string_view(json, static_cast<std::size_t>(length)));
 }
 
+haptoflow_material_info describe(const model::MaterialFile& material) {
+    haptoflow_material_info info{};
+    info.name = material.label.name.c_str();
+    info.category = material.label.category.c_str();
+    info.description = material.description.c_str();
+    info.space = material.space.c_str();
+    info.statement = material.provenance.statement.c_str();
+    info.recordings = material.provenance.recordings.c_str();
+    info.licence = material.provenance.licence.c_str();
+    info.created = material.provenance.created.c_str();
+    info.seconds = material.provenance.seconds;
+    info.stiffness_newtons_per_metre = material.label.stiffnessNewtonsPerMetre;
+    info.level_offset_db = material.label.levelOffsetDb;
+    std::ranges::copy(material.speedMps, info.speed_mps);
+    std::ranges::copy(material.forceNewtons, info.force_newtons);
+    return info;
+}
+
 /// Loads the level graph at its first use. Only while OpenEngine::registering is locked.
 engine::MaterialLibrary::LevelSource levelsOf(OpenEngine& open) {
     return [&open]() -> inference::LevelEstimator& {
@@ -35,6 +55,28 @@ engine::MaterialLibrary::LevelSource levelsOf(OpenEngine& open) {
 }
 
 }  // namespace
+
+haptoflow_status haptoflow_material_read(const char* json, uint64_t length, haptoflow_material** material) {
+    return guarded([&] {
+        (void)require(material, "material");
+        *material = materials().open(std::make_shared<model::MaterialFile>(readJson(json, length)));
+    });
+}
+
+haptoflow_status haptoflow_material_close(haptoflow_material** material) {
+    return guarded([&] { closeHandle(materials(), material, "material"); });
+}
+
+haptoflow_status haptoflow_material_describe(const haptoflow_material* material, haptoflow_material_info* info) {
+    return guarded([&] { writeDescriptor(info, describe(*materials().get(material)), "info"); });
+}
+
+haptoflow_status haptoflow_material_embedding(const haptoflow_material* material, float* embedding) {
+    return guarded([&] {
+        const auto open = materials().get(material);
+        std::ranges::copy(open->embedding, require(embedding, "embedding"));
+    });
+}
 
 haptoflow_status haptoflow_engine_register_material(haptoflow_engine* engine, const char* json, uint64_t length,
                                                     uint32_t* index) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 using namespace haptoflow;
@@ -47,6 +48,22 @@ haptoflow_solver solverOf(model::SolverKind solver) {
     return HAPTOFLOW_SOLVER_MIDPOINT;
 }
 
+haptoflow_model_info describe(const model::ModelHeader& header) {
+    haptoflow_model_info info{};
+    info.name = header.name.c_str();
+    info.description = header.description.c_str();
+    info.statement = header.provenance.statement.c_str();
+    info.recordings = header.provenance.recordings.c_str();
+    info.licence = header.provenance.licence.c_str();
+    info.commit = header.provenance.commit.c_str();
+    info.created = header.provenance.created.c_str();
+    info.speed_mps[0] = header.speedMps.minimum;
+    info.speed_mps[1] = header.speedMps.maximum;
+    info.force_newtons[0] = header.forceNewtons.minimum;
+    info.force_newtons[1] = header.forceNewtons.maximum;
+    return info;
+}
+
 haptoflow_tier_info describe(const model::Tier& tier, bool isDefault) {
     haptoflow_tier_info info{};
     info.steps = tier.steps;
@@ -82,6 +99,13 @@ haptoflow_status haptoflow_model_header(const haptoflow_model* model, const char
     });
 }
 
+haptoflow_status haptoflow_model_describe(const haptoflow_model* model, haptoflow_model_info* info) {
+    return guarded([&] {
+        const auto open = models().get(model);
+        writeDescriptor(info, describe(open->model.header()), "info");
+    });
+}
+
 haptoflow_status haptoflow_model_label_count(const haptoflow_model* model, uint32_t* count) {
     return guarded([&] {
         const auto open = models().get(model);
@@ -101,6 +125,15 @@ haptoflow_status haptoflow_model_embedding(const haptoflow_model* model, uint32_
         const auto open = models().get(model);
         (void)elementAt(open->model.header().labels, index, "labels");
         std::ranges::copy(open->model.embedding(index), require(embedding, "embedding"));
+    });
+}
+
+haptoflow_status haptoflow_model_nearest_label(const haptoflow_model* model, const float* embedding, uint32_t* index) {
+    return guarded([&] {
+        const auto open = models().get(model);
+        const std::span<const float, model::embeddingSize> wanted(require(embedding, "embedding"),
+                                                                  model::embeddingSize);
+        *require(index, "index") = static_cast<uint32_t>(open->model.nearestLabel(wanted));
     });
 }
 

@@ -11,22 +11,7 @@
 #include <utility>
 
 namespace haptoflow::engine {
-namespace {
-
-// Size of an embedding without its wave vectors, which are not part of the similarity of materials.
-constexpr std::size_t learntSize = model::embeddingSize - 2 * inference::ribCount;
-
-double distance(std::span<const float, model::embeddingSize> first,
-                std::span<const float, model::embeddingSize> second) {
-    double squares = 0.0;
-    for (std::size_t i = 0; i < learntSize; ++i) {
-        const double gap = static_cast<double>(first[i]) - static_cast<double>(second[i]);
-        squares += gap * gap;
-    }
-    return squares;
-}
-
-}  // namespace
+static_assert(model::textureSize == model::embeddingSize - 2 * inference::ribCount);
 
 const Ingredient& Ingredients::heaviest() const noexcept {
     return *std::ranges::max_element(all(), {}, &Ingredient::weight);
@@ -79,11 +64,6 @@ PreparedMaterial MaterialLibrary::prepareLabel(std::size_t label) const {
     return known;
 }
 
-const PreparedMaterial& MaterialLibrary::nearestLabel(std::span<const float, model::embeddingSize> embedding) const {
-    return *std::ranges::min_element(
-        labels_, {}, [embedding](const PreparedMaterial& label) { return distance(label.embedding, embedding); });
-}
-
 std::unique_ptr<const MaterialLibrary::Registered> MaterialLibrary::prepare(model::MaterialFile material,
                                                                             const LevelSource& levels) const {
     model::requireSpace(material, model_.header());
@@ -109,7 +89,7 @@ std::unique_ptr<const MaterialLibrary::Registered> MaterialLibrary::prepare(mode
                                .embedding = known.embedding});
     }
     if (known.seeds.empty()) {
-        known.seeds = nearestLabel(known.embedding).seeds;
+        known.seeds = labels_[model_.nearestLabel(known.embedding)].seeds;
     }
     return made;
 }

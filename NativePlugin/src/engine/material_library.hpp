@@ -98,7 +98,6 @@ private:
     [[nodiscard]] PreparedMaterial prepareLabel(std::size_t label) const;
     [[nodiscard]] std::unique_ptr<const Registered> prepare(model::MaterialFile material,
                                                             const LevelSource& levels) const;
-    [[nodiscard]] const PreparedMaterial& nearestLabel(std::span<const float, model::embeddingSize> embedding) const;
     [[nodiscard]] const PreparedMaterial* find(std::uint32_t index) const noexcept;
     [[nodiscard]] std::size_t placeOf(std::size_t index) const;
     void waitForReaders() noexcept;

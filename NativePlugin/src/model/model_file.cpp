@@ -100,6 +100,20 @@ std::span<const float, embeddingSize> ModelFile::embedding(std::size_t label) co
     return std::span(embeddings_).subspan(row * embeddingSize).first<embeddingSize>();
 }
 
+std::size_t ModelFile::nearestLabel(std::span<const float, embeddingSize> embedding) const {
+    const auto distance = [&](const Label& label) {
+        const auto own = std::span(embeddings_).subspan(label.embeddingRow * embeddingSize);
+        double squares = 0.0;
+        for (std::size_t i = 0; i < textureSize; ++i) {
+            const double gap = static_cast<double>(own[i]) - static_cast<double>(embedding[i]);
+            squares += gap * gap;
+        }
+        return squares;
+    };
+    const auto nearest = std::ranges::min_element(header_.labels, {}, distance);
+    return static_cast<std::size_t>(nearest - header_.labels.begin());
+}
+
 std::span<const float, seedSamples> ModelFile::seed(std::size_t seed) const {
     if (seed >= header_.seeds.size()) {
         throw std::out_of_range("the model has " + std::to_string(header_.seeds.size()) + " seeds, not seed " +

@@ -41,6 +41,9 @@ public:
     [[nodiscard]] std::span<const std::byte> blob(std::string_view name) const;
     /// The material embedding of header().labels[label].
     [[nodiscard]] std::span<const float, embeddingSize> embedding(std::size_t label) const;
+    /// Index of the label whose embedding is nearest, wave vectors ignored: they are not part of the similarity of
+    /// materials. The model needs a label.
+    [[nodiscard]] std::size_t nearestLabel(std::span<const float, embeddingSize> embedding) const;
     /// The waveform of header().seeds[seed]: 400 samples at 2 kHz with an RMS of 1.
     [[nodiscard]] std::span<const float, seedSamples> seed(std::size_t seed) const;
 

@@ -18,6 +18,8 @@ inline constexpr std::size_t maximumTiers = 64;
 inline constexpr std::size_t maximumBlobs = 1024;
 inline constexpr std::size_t maximumSeeds = 65'536;
 inline constexpr std::size_t embeddingSize = 64;
+/// Numbers of an embedding that describe the texture; the last four are the components of two wave vectors.
+inline constexpr std::size_t textureSize = 60;
 /// A seed holds the segment that sounds and, before it, the segment that counts as its past.
 inline constexpr std::size_t seedSamples = 2 * dsp::segmentSamples;
 /// Bytes of a text that is not a name, such as a description.

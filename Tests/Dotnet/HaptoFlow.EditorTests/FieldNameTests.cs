@@ -10,6 +10,7 @@ using NUnit.Framework;
 using UnityEditor;
 using UnityEngine;
 using UnityShim;
+using SerializedFields = UnityShim.SerializedFields;
 
 namespace HaptoFlow.EditorTests
 {
@@ -17,7 +18,7 @@ namespace HaptoFlow.EditorTests
     public sealed class FieldNameTests : EditorTest
     {
         // Words in italics that are no fields of the section's own Inspector.
-        private static readonly string[] Elsewhere = { "Preview" };
+        private static readonly string[] Elsewhere = { "Hand", "Mask", "Preview", "Tip Force" };
 
         private static IEnumerable<TestCaseData> Sections()
         {
@@ -44,28 +45,38 @@ namespace HaptoFlow.EditorTests
                 "shown: " + string.Join(", ", shown.OrderBy(each => each)));
         }
 
+        /// <summary>A tooltip that an Inspector wrote itself would stand twice, and soon in other words.</summary>
+        [TestCaseSource(nameof(Inspected))]
+        public void EveryFieldIsShownWithTheTooltipThatIsWrittenOnIt(Type type)
+        {
+            HashSet<string> written = TooltipsOf(type).ToHashSet();
+            Drawn[] fields = InEveryState(type).Where(item => item.Kind == DrawnKind.Field).ToArray();
+            Assert.That(fields, Is.Not.Empty);
+            Assert.That(fields.Where(item => !written.Contains(item.Tooltip)).Select(item => $"{item.Label}: {item.Tooltip}"),
+                Is.Empty);
+        }
+
+        /// <summary>The components and assets whose fields a custom Inspector draws.</summary>
+        private static IEnumerable<TestCaseData> Inspected() =>
+            new[]
+            {
+                typeof(HapticStylus), typeof(HapticSurface), typeof(HapticMaterial), typeof(HapticOutput), typeof(AutoOutput),
+                typeof(HapticMaterialMap), typeof(HapticMaskMap), typeof(HaptoFlowSettings),
+            }.Select(type => new TestCaseData(type).SetName("{m}(" + type.Name + ")"));
+
         private HashSet<string> ShownBy(Type type)
         {
-            UnityEngine.Object target = typeof(Component).IsAssignableFrom(type)
-                ? World.AddComponent(Make("Owner"), type)
-                : (UnityEngine.Object)typeof(ScriptableObject).GetMethod(nameof(ScriptableObject.CreateInstance))!
-                    .MakeGenericMethod(type).Invoke(null, null)!;
-            var editor = UnityEditor.Editor.CreateEditor(target);
             // The shim cannot draw every kind of field; the default Inspector shows each by its name in words.
-            var shown = editor.GetType() == typeof(UnityEditor.Editor)
+            var shown = UnityEditor.Editor.CreateEditor(New(type)).GetType() == typeof(UnityEditor.Editor)
                 ? new HashSet<string>(FieldsOf(type))
-                : new HashSet<string>(EditorScreen.Draw(editor.OnInspectorGUI).Select(item => item.Label));
-            // A custom Inspector shows some fields only in some states.
+                : new HashSet<string>(InEveryState(type).Select(item => item.Label));
+            // Buttons are shown in some states only.
             foreach (Type drawer in typeof(DocumentationMenu).Assembly.GetTypes()
                 .Where(each => !each.ContainsGenericParameters))
             {
                 const BindingFlags constants = BindingFlags.Static | BindingFlags.NonPublic | BindingFlags.Public;
-                shown.UnionWith(drawer.GetFields(constants).SelectMany(field => field.GetValue(null) switch
-                {
-                    GUIContent single => new[] { single.text },
-                    (string Path, GUIContent Label)[] several => several.Select(each => each.Label.text),
-                    _ => Array.Empty<string>(),
-                }));
+                shown.UnionWith(drawer.GetFields(constants).Select(field => field.GetValue(null)).OfType<GUIContent>()
+                    .Select(content => content.text));
             }
             shown.UnionWith(HelpTests.Assemblies.Append(typeof(HapticEngine).Assembly).SelectMany(each => each.GetTypes())
                 .Where(each => each.IsEnum).SelectMany(Enum.GetNames).Select(InWords));
@@ -73,14 +84,55 @@ namespace HaptoFlow.EditorTests
             return shown;
         }
 
+        /// <summary>What an Inspector draws for every value of every choice, because choices show and hide fields.
+        /// Lists have an element.</summary>
+        private IEnumerable<Drawn> InEveryState(Type type)
+        {
+            UnityEngine.Object target = New(type);
+            foreach (string size in SerializedFields.Leaves(target).Where(path => path.EndsWith(".Array.size")).ToArray())
+            {
+                SerializedFields.Set(target, size, 1);
+            }
+            var editor = UnityEditor.Editor.CreateEditor(target);
+            var drawn = new List<Drawn>(EditorScreen.Draw(editor.OnInspectorGUI));
+            foreach (string path in SerializedFields.Leaves(target).ToArray())
+            {
+                object? before = SerializedFields.Get(target, path);
+                foreach (object value in before is Enum ? Enum.GetValues(before.GetType()) : Array.Empty<object>())
+                {
+                    SerializedFields.Set(target, path, value);
+                    drawn.AddRange(EditorScreen.Draw(editor.OnInspectorGUI));
+                }
+                SerializedFields.Set(target, path, before);
+            }
+            return drawn;
+        }
+
+        private UnityEngine.Object New(Type type) => typeof(Component).IsAssignableFrom(type)
+            ? World.AddComponent(Make("Owner"), type)
+            : (UnityEngine.Object)typeof(ScriptableObject).GetMethod(nameof(ScriptableObject.CreateInstance))!
+                .MakeGenericMethod(type).Invoke(null, null)!;
+
+        private static IEnumerable<string> TooltipsOf(Type? type) => type == null
+            ? Array.Empty<string>()
+            : TooltipsOf(type.BaseType).Concat(SerialisedFieldsOf(type).SelectMany(field =>
+                (IsDrawnInside(InnerOf(field)) ? TooltipsOf(InnerOf(field)) : Array.Empty<string>())
+                .Append(field.GetCustomAttribute<TooltipAttribute>()?.tooltip)).OfType<string>());
+
         /// <summary>The serialised fields of a type, of its bases and of the serialisable types in it, in words.</summary>
         private static IEnumerable<string> FieldsOf(Type? type) => type == null
             ? Array.Empty<string>()
-            : FieldsOf(type.BaseType).Concat(type
-            .GetFields(BindingFlags.Instance | BindingFlags.NonPublic | BindingFlags.DeclaredOnly)
-            .Where(field => field.GetCustomAttribute<SerializeField>() != null)
-            .SelectMany(field => IsDrawnInside(field.FieldType) ? FieldsOf(field.FieldType).Append(NameOf(field))
+            : FieldsOf(type.BaseType).Concat(SerialisedFieldsOf(type)
+            .SelectMany(field => IsDrawnInside(InnerOf(field)) ? FieldsOf(InnerOf(field)).Append(NameOf(field))
                 : new[] { NameOf(field) }));
+
+        private static IEnumerable<FieldInfo> SerialisedFieldsOf(Type type) => type
+            .GetFields(BindingFlags.Instance | BindingFlags.NonPublic | BindingFlags.DeclaredOnly)
+            .Where(field => field.GetCustomAttribute<SerializeField>() != null);
+
+        /// <summary>The type of a field, or of the elements of a list.</summary>
+        private static Type InnerOf(FieldInfo field) =>
+            field.FieldType.IsGenericType ? field.FieldType.GetGenericArguments()[0] : field.FieldType;
 
         /// <summary>True for a serialisable type of the package. A field that names another object shows the name only,
         /// and objects name each other in circles.</summary>

@@ -31,9 +31,11 @@ namespace HaptoFlow.MissingLibraryTests
         }
 
         [Test]
-        public void TheHeaderOfAModelIsReadWithoutTheLibrary()
+        public void TheHeaderOfAModelSaysWhyItCannotBeRead()
         {
-            Assert.That(DefaultModel.Asset().Header.Labels.Select(label => label.Name), Does.Contain("wood"));
+            var refusal = Assert.Throws<HaptoFlowException>(() => _ = DefaultModel.Asset().Header);
+            Assert.That(refusal!.Status, Is.EqualTo(HaptoFlowStatus.LibraryUnavailable));
+            Assert.That(refusal.Message, Does.Contain("install the packages"));
         }
 
         [Test]

@@ -116,7 +116,7 @@ namespace HaptoFlow.PreviewTests
             ComparisonResult matched = worker.Do(Request(carpet, true), CancellationToken.None);
             Assert.That(matched.Sounds[1].Sound.RmsMps2, Is.EqualTo(matched.Sounds[0].Sound.RmsMps2).Within(0.01).Percent);
             Assert.That(matched.Sounds[1].Sound.Title, Does.Match(@"^carpet \([+-]\d+\.\d dB\)$"));
-            string foreign = carpet.Replace(ModelSpace.Of(ModelFiles.Default).Id, "0badcafe");
+            string foreign = carpet.Replace(ModelHeader.Read(ModelFiles.Default).Space, "0badcafe");
             ComparisonResult refused = worker.Do(Request(foreign, false), CancellationToken.None);
             Assert.That((refused.Sounds.Count, refused.Problem != null), Is.EqualTo((1, true)));
         }

@@ -42,7 +42,7 @@ namespace HaptoFlow.PreviewTests
         public void SlidersKeepMaterialsInTheRangeOfTheLabels([Values(-1f, 1f, 1000f, -1000f)] float value)
         {
             JsonValue file = JsonValue.Parse(SliderFiles.For(ModelFiles.Default));
-            foreach (ModelLabel label in ModelHeader.Read(ModelFiles.Default).Labels)
+            foreach (HapticLabel label in ModelHeader.Read(ModelFiles.Default).Labels)
             {
                 MaterialFile material = Label(label.Name);
                 double[] moved = Sliders.Moved(material.Embedding, new[] { value, -value, value });

@@ -59,7 +59,7 @@ namespace HaptoFlow.RepositoryTests
             Assert.That(learning.IsCompleted, Is.True);
             MaterialFile material = MaterialFile.Read(learning.Material!);
             Assert.That((material.Name, material.Category, material.Description, material.Licence, material.Space),
-                Is.EqualTo(("doormat", "cloth", "A mat.", "MIT", ModelSpace.Of(Model).Id)));
+                Is.EqualTo(("doormat", "cloth", "A mat.", "MIT", ModelHeader.Read(Model).Space)));
             Assert.That(material.Seconds, Is.GreaterThan(1.0));
             Assert.That(ModelHeader.Read(Model).Labels.Select(label => label.Name), Does.Contain(learning.NearestLabel));
             Assert.That(JsonValue.Parse(learning.Report!.Trim())["seconds"].AsNumber(), Is.GreaterThan(0.0));

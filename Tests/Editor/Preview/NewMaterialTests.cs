@@ -165,7 +165,7 @@ namespace HaptoFlow.PreviewTests
             MaterialFile material = MaterialFile.Read(State.Material);
             byte[] model = ProjectSettingsAsset.DefaultModel()!.File;
             Assert.That((material.Name, material.Space, material.Licence),
-                Is.EqualTo(("denim", ModelSpace.Of(model).Id, "unknown")));
+                Is.EqualTo(("denim", ModelHeader.Read(model).Space, "unknown")));
             Assert.That(LearningReportText.Of(State.Report), Does.StartWith("Learnt. Nearest label: "));
             Assert.That(Window.Session.Shown!.Sounds, Has.Count.EqualTo(2));
             double decibels = 20.0 * Math.Log10(

@@ -80,7 +80,7 @@ namespace HaptoFlow.PreviewTests
         [Test]
         public void AMaterialOfAnotherModelIsReported()
         {
-            string foreign = Text("glass").Replace(ModelSpace.Of(DefaultFile()).Id, "0badcafe");
+            string foreign = Text("glass").Replace(ModelHeader.Read(DefaultFile()).Space, "0badcafe");
             TexturePreviewWindow.Open(Keep(HapticMaterial.Create(foreign, "fur")));
             Window.Finish();
             Assert.That(Window.Session!.Problem, Does.Contain("0badcafe"));
@@ -118,8 +118,8 @@ namespace HaptoFlow.PreviewTests
         public void OverwritingASavedMaterialCanBeUndone()
         {
             SliderSet sliders = SliderCatalog.Of(ProjectSettingsAsset.DefaultModel()).Sliders!;
-            string moved =
-                new LabelMix("wood", "", 0f, "", Moves("hardness", 0.5f)).MaterialText(DefaultFile(), sliders);
+            using HapticModel model = HapticModel.Open(DefaultFile());
+            string moved = new LabelMix("wood", "", 0f, "", Moves("hardness", 0.5f)).MaterialText(model, sliders);
             HapticMaterial asset = MaterialAssets.Save(Saved, moved, "wood");
             Assert.That(AssetDatabase.LoadAssetAtPath<HapticMaterial>(Saved), Is.SameAs(asset));
             Assert.That((asset.IsLearnt, asset.Description.Label), Is.EqualTo((true, "wood")));

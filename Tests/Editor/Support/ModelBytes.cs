@@ -3,7 +3,7 @@ using System;
 using System.Buffers.Binary;
 using System.Text;
 using System.Text.RegularExpressions;
-using HaptoFlow.Model;
+using HaptoFlow.Tests;
 
 namespace HaptoFlow.EditorTests
 {
@@ -26,22 +26,20 @@ namespace HaptoFlow.EditorTests
         public static int PartsStart(byte[] file) => HeaderStart + HeaderLength(file);
 
         /// <summary>A copy with other measured figures, the same for all tiers, and a matching checksum.</summary>
-        public static byte[] WithFigures(byte[] file, string accuracyJson, string costJson)
-        {
-            string header = Encoding.UTF8.GetString(file, HeaderStart, HeaderLength(file));
-            // The header has to keep its length, so a field that no test reads is shortened.
-            string changed = Regex.Replace(header, "\"commit\":\\s*\"[^\"]*\"", "\"commit\":\"\"");
-            changed = Regex.Replace(changed, "\"configuration\":\\s*\\{.*?\\},\\s*\"created\"",
-                "\"configuration\":{},\"created\"", RegexOptions.Singleline);
-            changed = Regex.Replace(changed, "\"accuracy\":\\s*\\{[^}]*\\}", "\"accuracy\":" + accuracyJson);
-            changed = Regex.Replace(changed, "\"cost\":\\s*\\{[^}]*\\}", "\"cost\":" + costJson).TrimEnd(' ');
-            return WithHeader(file, changed);
-        }
+        public static byte[] WithFigures(byte[] file, string accuracyJson, string costJson) => WithHeader(file, header =>
+            Regex.Replace(Regex.Replace(header, "\"accuracy\":\\s*\\{[^}]*\\}", "\"accuracy\":" + accuracyJson),
+                "\"cost\":\\s*\\{[^}]*\\}", "\"cost\":" + costJson));
 
-        private static byte[] WithHeader(byte[] file, string header)
+        /// <summary>A copy with a changed header and matching checksums.</summary>
+        public static byte[] WithHeader(byte[] file, Func<string, string> change)
         {
             int length = HeaderLength(file);
-            byte[] text = Encoding.UTF8.GetBytes(header.PadRight(length));
+            string header = Encoding.UTF8.GetString(file, HeaderStart, length);
+            // The header has to keep its length, so fields that no test reads are shortened.
+            string shortened = Regex.Replace(header, "\"commit\":\\s*\"[^\"]*\"", "\"commit\":\"\"");
+            shortened = Regex.Replace(shortened, "\"configuration\":\\s*\\{.*?\\},\\s*\"created\"",
+                "\"configuration\":{},\"created\"", RegexOptions.Singleline);
+            byte[] text = Encoding.UTF8.GetBytes(change(shortened).TrimEnd(' ').PadRight(length));
             if (text.Length != length)
             {
                 throw new InvalidOperationException($"the header has {length} bytes and would have {text.Length}");

@@ -3,6 +3,7 @@
 #include "public_header.hpp"
 
 #include <array>
+#include <cstring>
 #include <functional>
 #include <map>
 #include <regex>
@@ -140,12 +141,21 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
     haptoflow_learning* noLearning = nullptr;
     haptoflow_learning* learning = nullptr;
     ASSERT_EQ(haptoflow_learn_material(&learningOptions, &learning), HAPTOFLOW_OK) << message();
+    const char* learnt = nullptr;
+    ASSERT_EQ(haptoflow_learning_material(learning, &learnt), HAPTOFLOW_OK) << message();
+    haptoflow_material* noMaterial = nullptr;
+    haptoflow_material* material = nullptr;
+    ASSERT_EQ(haptoflow_material_read(learnt, std::strlen(learnt), &material), HAPTOFLOW_OK) << message();
     haptoflow_wave_frame frame{};
     haptoflow_voice noVoice = 0;
     uint32_t count = 0;
     const char* text = nullptr;
     haptoflow_label_info label{};
     label.struct_size = sizeof(label);
+    haptoflow_model_info modelInfo{};
+    modelInfo.struct_size = sizeof(modelInfo);
+    haptoflow_material_info materialInfo{};
+    materialInfo.struct_size = sizeof(materialInfo);
     haptoflow_tier_info tier{};
     tier.struct_size = sizeof(tier);
     haptoflow_tier_times times{};
@@ -170,6 +180,9 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
         {"haptoflow_model_header",
          {[&] { return haptoflow_model_header(nullptr, &text); },
           [&] { return haptoflow_model_header(open.model, nullptr); }}},
+        {"haptoflow_model_describe",
+         {[&] { return haptoflow_model_describe(nullptr, &modelInfo); },
+          [&] { return haptoflow_model_describe(open.model, nullptr); }}},
         {"haptoflow_model_label_count",
          {[&] { return haptoflow_model_label_count(nullptr, &count); },
           [&] { return haptoflow_model_label_count(open.model, nullptr); }}},
@@ -179,6 +192,10 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
         {"haptoflow_model_embedding",
          {[&] { return haptoflow_model_embedding(nullptr, 0, numbers.data()); },
           [&] { return haptoflow_model_embedding(open.model, 0, nullptr); }}},
+        {"haptoflow_model_nearest_label",
+         {[&] { return haptoflow_model_nearest_label(nullptr, numbers.data(), &count); },
+          [&] { return haptoflow_model_nearest_label(open.model, nullptr, &count); },
+          [&] { return haptoflow_model_nearest_label(open.model, numbers.data(), nullptr); }}},
         {"haptoflow_model_space",
          {[&] { return haptoflow_model_space(nullptr, &text); },
           [&] { return haptoflow_model_space(open.model, nullptr); }}},
@@ -188,6 +205,16 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
         {"haptoflow_model_tier",
          {[&] { return haptoflow_model_tier(nullptr, 0, &tier); },
           [&] { return haptoflow_model_tier(open.model, 0, nullptr); }}},
+        {"haptoflow_material_read",
+         {[&] { return haptoflow_material_read(nullptr, 1, &noMaterial); },
+          [&] { return haptoflow_material_read("{}", 2, nullptr); }}},
+        {"haptoflow_material_close", {[&] { return haptoflow_material_close(nullptr); }}},
+        {"haptoflow_material_describe",
+         {[&] { return haptoflow_material_describe(nullptr, &materialInfo); },
+          [&] { return haptoflow_material_describe(material, nullptr); }}},
+        {"haptoflow_material_embedding",
+         {[&] { return haptoflow_material_embedding(nullptr, numbers.data()); },
+          [&] { return haptoflow_material_embedding(material, nullptr); }}},
         {"haptoflow_generator_create",
          {[&] { return haptoflow_generator_create(nullptr, &noGenerator); },
           [&] { return haptoflow_generator_create(&generatorOptions, nullptr); }}},
@@ -299,6 +326,8 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
     EXPECT_EQ(noEngine, nullptr);
     EXPECT_EQ(noVoice, 0U);
     EXPECT_EQ(noLearning, nullptr);
+    EXPECT_EQ(noMaterial, nullptr);
+    EXPECT_EQ(haptoflow_material_close(&material), HAPTOFLOW_OK);
     EXPECT_EQ(haptoflow_learning_close(&learning), HAPTOFLOW_OK);
     EXPECT_EQ(haptoflow_generator_close(&generator), HAPTOFLOW_OK);
     EXPECT_EQ(haptoflow_device_wave_close(&deviceWave), HAPTOFLOW_OK);
@@ -314,6 +343,8 @@ TEST(ArgumentTest, ClosingANullHandleIsFine) {
     EXPECT_EQ(haptoflow_cancellation_close(&cancellation), HAPTOFLOW_OK);
     EXPECT_EQ(haptoflow_runtime_close(&runtime), HAPTOFLOW_OK);
     EXPECT_EQ(haptoflow_model_close(&model), HAPTOFLOW_OK);
+    haptoflow_material* material = nullptr;
+    EXPECT_EQ(haptoflow_material_close(&material), HAPTOFLOW_OK);
     EXPECT_EQ(haptoflow_generator_close(&generator), HAPTOFLOW_OK);
     EXPECT_EQ(haptoflow_engine_close(&engine), HAPTOFLOW_OK);
     EXPECT_EQ(haptoflow_voice_destroy(&voice), HAPTOFLOW_OK);

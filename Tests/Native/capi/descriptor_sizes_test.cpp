@@ -1,6 +1,7 @@
 // Every struct of the header that begins with struct_size, in the sizes of callers compiled with older and newer
 // headers.
 #include "learning_options.hpp"
+#include "model/material_builder.hpp"
 #include "open_engine.hpp"
 #include "public_header.hpp"
 
@@ -79,12 +80,19 @@ protected:
         engineOptions_.runtime = open_.runtime;
         engineOptions_.model = open_.model;
         ASSERT_EQ(haptoflow_generator_create(&generatorOptions_, &generator_), HAPTOFLOW_OK) << message();
+        const char* space = nullptr;
+        ASSERT_EQ(haptoflow_model_space(open_.model, &space), HAPTOFLOW_OK) << message();
+        const std::string text = model::testing::validMaterial(space).dump();
+        ASSERT_EQ(haptoflow_material_read(text.data(), text.size(), &material_), HAPTOFLOW_OK) << message();
         // Makes the statistics that are read different from zero.
         for (int update = 0; update < 5; ++update) {
             (void)open_.update(slidingState());
         }
     }
-    void TearDown() override { EXPECT_EQ(haptoflow_generator_close(&generator_), HAPTOFLOW_OK); }
+    void TearDown() override {
+        EXPECT_EQ(haptoflow_material_close(&material_), HAPTOFLOW_OK);
+        EXPECT_EQ(haptoflow_generator_close(&generator_), HAPTOFLOW_OK);
+    }
 
     template <typename Descriptor>
     static Input input(const char* name, const char* function, std::size_t smallest, const Descriptor& content,
@@ -154,6 +162,12 @@ protected:
 
     std::vector<Output> outputs() {
         return {
+            output<haptoflow_model_info>(
+                "haptoflow_model_info",
+                [this](haptoflow_model_info* info) { return haptoflow_model_describe(open_.model, info); }),
+            output<haptoflow_material_info>(
+                "haptoflow_material_info",
+                [this](haptoflow_material_info* info) { return haptoflow_material_describe(material_, info); }),
             output<haptoflow_label_info>(
                 "haptoflow_label_info",
                 [this](haptoflow_label_info* info) { return haptoflow_model_label(open_.model, 1, info); }),
@@ -192,6 +206,7 @@ protected:
     learning::testing::MadeRecording made_{{}, {.seconds = 4.0}};
     haptoflow_learning_options learningOptions_ = optionsOf(made_, open_.runtime, open_.model);
     haptoflow_generator* generator_ = nullptr;
+    haptoflow_material* material_ = nullptr;
     std::array<float, HAPTOFLOW_EMBEDDING_SIZE> embedding_{};
     std::array<float, HAPTOFLOW_MOTION_SIZE> motion_{0.1F, 0.0F, 1.0F};
     std::array<float, HAPTOFLOW_SEGMENT_SAMPLES> silence_{};

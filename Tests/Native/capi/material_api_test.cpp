@@ -71,6 +71,43 @@ TEST_F(MaterialApiTest, TheModelsSpaceIsThatOfTheGoldenFile) {
     EXPECT_EQ(spaceOf(open_.model), json::parse(stream).at("spaces").at("tiny").get<std::string>());
 }
 
+TEST_F(MaterialApiTest, AReadMaterialIsDescribedUntilItIsClosed) {
+    const std::string text = material([](auto& made) { made["level_offset_db"] = -3.5; });
+    haptoflow_material* read = nullptr;
+    ASSERT_EQ(haptoflow_material_read(text.data(), text.size(), &read), HAPTOFLOW_OK) << message();
+    haptoflow_material_info info{};
+    info.struct_size = sizeof(info);
+    ASSERT_EQ(haptoflow_material_describe(read, &info), HAPTOFLOW_OK) << message();
+    EXPECT_STREQ(info.name, "denim");
+    EXPECT_STREQ(info.category, "cloth");
+    EXPECT_STREQ(info.description, "A pair of jeans.");
+    EXPECT_EQ(info.space, spaceOf(open_.model));
+    EXPECT_STREQ(info.statement, "learnt");
+    EXPECT_STREQ(info.recordings, "one");
+    EXPECT_STREQ(info.licence, "unknown");
+    EXPECT_STREQ(info.created, "2026-11-23");
+    EXPECT_EQ(info.seconds, 10.5);
+    EXPECT_EQ(info.stiffness_newtons_per_metre, 300.0);
+    EXPECT_EQ(info.level_offset_db, -3.5);
+    EXPECT_THAT(info.speed_mps, ::testing::ElementsAre(0.02, 0.18));
+    EXPECT_THAT(info.force_newtons, ::testing::ElementsAre(1.0, 1.0));
+    std::vector<float> embedding(HAPTOFLOW_EMBEDDING_SIZE);
+    ASSERT_EQ(haptoflow_material_embedding(read, embedding.data()), HAPTOFLOW_OK) << message();
+    EXPECT_THAT(embedding, ::testing::Each(0.5F));
+    ASSERT_EQ(haptoflow_material_close(&read), HAPTOFLOW_OK);
+    EXPECT_EQ(haptoflow_material_describe(read, &info), HAPTOFLOW_INVALID_ARGUMENT);
+}
+
+TEST_F(MaterialApiTest, AnInvalidMaterialIsNotReadAndItsKeyNamed) {
+    haptoflow_material* read = nullptr;
+    const std::string text = material([](auto& made) { made.erase("space"); });
+    EXPECT_EQ(haptoflow_material_read(text.data(), text.size(), &read), HAPTOFLOW_MATERIAL_INVALID);
+    EXPECT_THAT(message(), HasSubstr("\"space\""));
+    EXPECT_EQ(haptoflow_material_read(text.data(), UINT64_MAX, &read), HAPTOFLOW_MATERIAL_INVALID);
+    EXPECT_EQ(haptoflow_material_read(text.data(), 0, &read), HAPTOFLOW_MATERIAL_INVALID);
+    EXPECT_EQ(read, nullptr);
+}
+
 TEST_F(MaterialApiTest, ARegisteredMaterialIsCountedDescribedAndRendered) {
     uint32_t index = 0;
     ASSERT_EQ(add(material(), &index), HAPTOFLOW_OK) << message();

@@ -91,6 +91,35 @@ TEST_F(OpenModelTest, TheEmbeddingOfALabelIsReturned) {
     EXPECT_EQ(haptoflow_model_embedding(model_, 9, embedding.data()), HAPTOFLOW_INVALID_ARGUMENT);
 }
 
+TEST_F(OpenModelTest, TheHeadersTextsAndRangesAreReturned) {
+    const char* text = nullptr;
+    ASSERT_EQ(haptoflow_model_header(model_, &text), HAPTOFLOW_OK);
+    const auto header = nlohmann::json::parse(text);
+    haptoflow_model_info info{};
+    info.struct_size = sizeof(info);
+    ASSERT_EQ(haptoflow_model_describe(model_, &info), HAPTOFLOW_OK) << message();
+    EXPECT_EQ(header["name"], info.name);
+    EXPECT_EQ(header["description"], info.description);
+    EXPECT_EQ(header["provenance"]["statement"], info.statement);
+    EXPECT_EQ(header["provenance"]["recordings"], info.recordings);
+    EXPECT_EQ(header["provenance"]["licence"], info.licence);
+    EXPECT_EQ(header["provenance"]["commit"], info.commit);
+    EXPECT_EQ(header["provenance"]["created"], info.created);
+    EXPECT_EQ(header["range"]["speed_mps"], std::to_array(info.speed_mps));
+    EXPECT_EQ(header["range"]["force_newtons"], std::to_array(info.force_newtons));
+}
+
+TEST_F(OpenModelTest, EveryLabelIsNearestToItselfWhateverItsWaveVectors) {
+    for (uint32_t label = 0; label < 2; ++label) {
+        std::array<float, HAPTOFLOW_EMBEDDING_SIZE> embedding{};
+        ASSERT_EQ(haptoflow_model_embedding(model_, label, embedding.data()), HAPTOFLOW_OK);
+        std::fill(embedding.end() - 4, embedding.end(), 1000.0F);
+        uint32_t nearest = 77;
+        ASSERT_EQ(haptoflow_model_nearest_label(model_, embedding.data(), &nearest), HAPTOFLOW_OK) << message();
+        EXPECT_EQ(nearest, label);
+    }
+}
+
 TEST_F(OpenModelTest, TheTiersAreListed) {
     uint32_t count = 0;
     ASSERT_EQ(haptoflow_model_tier_count(model_, &count), HAPTOFLOW_OK);

@@ -2,7 +2,6 @@
 using System;
 using System.Buffers.Binary;
 using System.Text;
-using HaptoFlow.Model;
 
 namespace HaptoFlow.Tests
 {

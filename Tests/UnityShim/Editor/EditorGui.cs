@@ -49,12 +49,12 @@ namespace UnityEditor
             return changed;
         }
 
-        public static GUIContent BeginProperty(Rect totalPosition, GUIContent label, SerializedProperty property)
+        public static GUIContent BeginProperty(Rect totalPosition, GUIContent? label, SerializedProperty property)
         {
             EditorScreen.Open("property");
             showMixedValue = property.hasMultipleDifferentValues;
-            return new GUIContent(
-                label.text, label.tooltip.Length > 0 ? label.tooltip : property.tooltip);
+            return new GUIContent(label?.text ?? property.displayName,
+                label == null || label.tooltip.Length == 0 ? property.tooltip : label.tooltip);
         }
 
         public static void EndProperty()
@@ -101,11 +101,11 @@ namespace UnityEditor
                 PropertyScreen.Enter(property, label, property.floatValue), leftValue, rightValue);
 
         public static bool PropertyField(Rect position, SerializedProperty property) =>
-            PropertyField(position, property, new GUIContent(property.displayName));
+            PropertyField(position, property, null);
 
-        public static bool PropertyField(Rect position, SerializedProperty property, GUIContent label)
+        public static bool PropertyField(Rect position, SerializedProperty property, GUIContent? label)
         {
-            PropertyScreen.Show(position, property, label);
+            PropertyScreen.Show(position, property, label ?? new GUIContent(property.displayName, property.tooltip));
             return false;
         }
 
@@ -150,7 +150,7 @@ namespace UnityEditor
 
         public partial class PropertyScope : GUI.Scope
         {
-            public PropertyScope(Rect totalPosition, GUIContent label, SerializedProperty property) =>
+            public PropertyScope(Rect totalPosition, GUIContent? label, SerializedProperty property) =>
                 content = BeginProperty(totalPosition, label, property);
 
             public GUIContent content { get; protected set; }

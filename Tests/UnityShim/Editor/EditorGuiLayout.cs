@@ -42,7 +42,7 @@ namespace UnityEditor
             EditorGUI.PropertyField(Line, property);
 
         public static bool PropertyField(
-            SerializedProperty property, GUIContent label, params GUILayoutOption[] options) =>
+            SerializedProperty property, GUIContent? label, params GUILayoutOption[] options) =>
             EditorGUI.PropertyField(Line, property, label);
 
         public static Object? ObjectField(

@@ -116,6 +116,12 @@ namespace UnityEditor.AssetImporters
             Entries.Add(new ImportLog.ImportLogEntry { message = msg, flags = ImportLogFlags.Error });
             Debug.LogError(msg, obj);
         }
+
+        public void LogImportWarning(string msg, Object? obj = null)
+        {
+            Entries.Add(new ImportLog.ImportLogEntry { message = msg, flags = ImportLogFlags.Warning });
+            Debug.LogWarning(msg, obj);
+        }
     }
 
     public abstract partial class ScriptedImporter : AssetImporter

@@ -90,7 +90,7 @@ namespace UnityEditor
         public bool DrawDefaultInspector()
         {
             serializedObject.Update();
-            foreach (string path in SerializedFields.Roots(target.GetType()))
+            foreach (string path in SerializedFields.Visible(target.GetType()))
             {
                 EditorGUILayout.PropertyField(serializedObject.FindProperty(path));
             }

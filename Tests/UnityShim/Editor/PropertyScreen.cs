@@ -22,6 +22,8 @@ namespace UnityShim
             }
             if (property.isArray)
             {
+                // The heading of a list shows the tooltip of its field, whatever the label has.
+                EditorScreen.Add(DrawnKind.Label, label.text, "", property.tooltip);
                 for (int index = 0; index < property.arraySize; ++index)
                 {
                     Show(position, property.GetArrayElementAtIndex(index), new GUIContent("Element " + index));

@@ -16,7 +16,9 @@ namespace UnityShim
         private const BindingFlags OwnFields =
             BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic | BindingFlags.DeclaredOnly;
 
-        public static IEnumerable<string> Roots(Type type) => FieldsOf(type).Select(field => field.Name);
+        /// <summary>The names of the fields that the default Inspector draws.</summary>
+        public static IEnumerable<string> Visible(Type type) => FieldsOf(type)
+            .Where(field => !field.IsDefined(typeof(HideInInspector), false)).Select(field => field.Name);
 
         /// <summary>The field at a path: "rules.Array.data[2].tag" is the tag of the third rule. Null without such a
         /// field.</summary>

@@ -17,10 +17,10 @@ namespace HaptoFlow.Editor
             HapticMaterial[] materials = scene.Surfaces.Select(surface => surface.SharedDescription.Learnt)
                 .Concat(ofMaps.Select(material => material != null ? material.Description.Learnt : null))
                 .OfType<HapticMaterial>().Distinct().ToArray();
-            ModelSpace? model = materials.Length > 0 ? MaterialSummary.SpaceOf(LabelCatalog.ModelInUse()) : null;
+            string? space = materials.Length > 0 ? SpaceOf(LabelCatalog.ModelInUse()) : null;
             foreach (HapticMaterial material in materials)
             {
-                string? problem = model == null ? null : ProblemOf(material, model);
+                string? problem = space == null ? null : ProblemOf(material, space);
                 if (problem != null)
                 {
                     yield return new Finding(MessageType.Warning, $"{material.name} is felt as its label " +
@@ -35,12 +35,25 @@ namespace HaptoFlow.Editor
             }
         }
 
-        private static string? ProblemOf(HapticMaterial material, ModelSpace model)
+        /// <summary>Null without a usable model, whose Inspector reports the problem.</summary>
+        private static string? SpaceOf(HapticModelAsset? model)
+        {
+            try
+            {
+                return model == null ? null : model.Header.Space;
+            }
+            catch (HaptoFlowException)
+            {
+                return null;
+            }
+        }
+
+        private static string? ProblemOf(HapticMaterial material, string space)
         {
             try
             {
                 MaterialFile file = MaterialFile.Read(material.Learnt);
-                return file.Space == model.Id ? null : MaterialRegistration.ForeignSpace(file.Space, model.Id);
+                return file.Space == space ? null : MaterialRegistration.ForeignSpace(file.Space, space);
             }
             catch (HaptoFlowException refusal)
             {

@@ -45,7 +45,7 @@ namespace HaptoFlow.Editor
                     "Project Settings > HaptoFlow.",
                     new[] { settings }, repairs);
             }
-            string? problem = ModelCheck.ProblemOf(model.File);
+            string? problem = ModelCheck.ProblemOf(model.File)?.Text;
             return problem == null
                 ? null
                 : new Finding(MessageType.Error, $"The model {model.name} cannot be used: {problem}.",

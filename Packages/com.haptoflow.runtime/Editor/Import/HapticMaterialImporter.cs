@@ -10,51 +10,54 @@ namespace HaptoFlow.Editor
 {
     /// <summary>Imports a .haptomaterial file as a <see cref="HapticMaterial"/> that contains its embedding. A damaged
     /// file also becomes a material, so that references to it still hold when the file is replaced; the problem is
-    /// shown in the console and in its Inspector.</summary>
+    /// shown in the console and in its Inspector. Where the native library is missing, the material keeps the file
+    /// unchecked, for players that have the library.</summary>
     [ScriptedImporter(1, "haptomaterial")]
     public sealed class HapticMaterialImporter : ScriptedImporter
     {
+        private const string DefaultLabel = "wood";
+
         /// <inheritdoc/>
         public override void OnImportAsset(AssetImportContext ctx)
         {
             // Asset paths of packages are virtual.
-            string text = ReadText(FileUtil.GetPhysicalPath(ctx.assetPath));
+            byte[] file = File.ReadAllBytes(FileUtil.GetPhysicalPath(ctx.assetPath));
+            string text = TextOf(file);
             ctx.DependsOnSourceAsset(ProjectSettingsAsset.DefaultModelPath);
             HapticMaterial material;
-            string? problem = null;
+            FileProblem? problem = null;
             try
             {
                 material = HapticMaterial.Create(text, NearestLabel(MaterialFile.Read(text)));
             }
             catch (HaptoFlowException refusal)
             {
-                problem = refusal.Message;
-                material = ScriptableObject.CreateInstance<HapticMaterial>();
+                problem = FileProblem.Of(refusal, file);
+                material = problem.WasChecked
+                    ? ScriptableObject.CreateInstance<HapticMaterial>()
+                    : HapticMaterial.CreateUnchecked(
+                        text, Path.GetFileNameWithoutExtension(ctx.assetPath), DefaultLabel);
             }
             ctx.AddObjectToAsset("material", material);
             ctx.SetMainObject(material);
-            if (problem != null)
-            {
-                ctx.LogImportError($"HaptoFlow: {ctx.assetPath}: {problem}", material);
-            }
+            problem?.Log(ctx, material);
         }
 
-        internal static string ReadText(string path) => new UTF8Encoding(false).GetString(File.ReadAllBytes(path));
+        internal static string TextOf(byte[] file) => new UTF8Encoding(false).GetString(file);
 
         /// <summary>The label that replaces the material where the material cannot be used. During an import, only the
         /// package's own model is sure to exist; for materials of other models, it is the default label.</summary>
         private static string NearestLabel(MaterialFile material)
         {
-            const string defaultLabel = "wood";
             try
             {
                 string path = FileUtil.GetPhysicalPath(ProjectSettingsAsset.DefaultModelPath);
-                ModelSpace space = ModelSpace.Of(File.ReadAllBytes(path));
-                return space.Id == material.Space ? space.NearestLabel(material.Embedding) : defaultLabel;
+                using HapticModel model = HapticModel.Open(File.ReadAllBytes(path));
+                return model.Space == material.Space ? model.NearestLabel(material.Embedding) : DefaultLabel;
             }
             catch (System.Exception error) when (error is IOException || error is HaptoFlowException)
             {
-                return defaultLabel;
+                return DefaultLabel;
             }
         }
     }

@@ -1,4 +1,5 @@
 #nullable enable
+using System.IO;
 using UnityEditor;
 using UnityEditor.AssetImporters;
 using UnityEngine;
@@ -21,7 +22,7 @@ namespace HaptoFlow.Editor
             base.OnEnable();
             // From the file, because a damaged one has no text in its asset.
             string path = ((AssetImporter)target).assetPath;
-            text = HapticMaterialImporter.ReadText(FileUtil.GetPhysicalPath(path));
+            text = HapticMaterialImporter.TextOf(File.ReadAllBytes(FileUtil.GetPhysicalPath(path)));
         }
 
         public override void OnInspectorGUI()

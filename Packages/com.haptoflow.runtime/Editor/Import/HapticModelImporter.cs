@@ -19,11 +19,7 @@ namespace HaptoFlow.Editor
             HapticModelAsset asset = HapticModelAsset.Create(file);
             ctx.AddObjectToAsset("model", asset);
             ctx.SetMainObject(asset);
-            string? problem = ModelCheck.ProblemOf(file);
-            if (problem != null)
-            {
-                ctx.LogImportError($"HaptoFlow: {ctx.assetPath}: {problem}", asset);
-            }
+            ModelCheck.ProblemOf(file)?.Log(ctx, asset);
         }
     }
 }

@@ -18,7 +18,7 @@ namespace HaptoFlow.Editor
             Title = header.Name;
             Description = header.Description;
             Origin = OriginOf(header, asset.File.Length).Where(row => row.Value.Length > 0).ToArray();
-            Tiers = header.Tiers.Select(tier => new TierSummary(tier, tier == header.DefaultTier)).ToArray();
+            Tiers = header.Tiers.Select(tier => new TierSummary(tier)).ToArray();
             Labels = header.Labels.Select(LabelRow).ToArray();
         }
 
@@ -39,10 +39,10 @@ namespace HaptoFlow.Editor
 
         public static ModelSummary Of(HapticModelAsset asset)
         {
-            string? problem = ModelCheck.ProblemOf(asset.File);
+            FileProblem? problem = ModelCheck.ProblemOf(asset.File);
             if (problem != null)
             {
-                return new ModelSummary(problem);
+                return new ModelSummary(problem.Text);
             }
             try
             {
@@ -66,7 +66,7 @@ namespace HaptoFlow.Editor
             yield return new SummaryRow("Size", SummaryRow.Format("{0:0.0} MB", bytes / 1e6));
         }
 
-        private static SummaryRow LabelRow(ModelLabel label)
+        private static SummaryRow LabelRow(HapticLabel label)
         {
             string wave = label.WavelengthMetres.HasValue
                 ? SummaryRow.Format(", period {0:0.##} mm", 1000.0 * label.WavelengthMetres.Value)

@@ -21,12 +21,12 @@ namespace HaptoFlow.Editor
             ("drift_db_per_min", "drift", "{0} {1:0.00} dB a minute"),
         };
 
-        public TierSummary(ModelTier tier, bool isDefault)
+        public TierSummary(HapticTier tier)
         {
-            Name = isDefault ? tier.Name + " (default)" : tier.Name;
+            Name = tier.IsDefault ? tier.Name + " (default)" : tier.Name;
             Network = NetworkOf(tier);
-            Accuracy = AccuracyOf(tier.Accuracy);
-            Time = TimeOf(tier.Cost);
+            Accuracy = AccuracyOf(JsonValue.Parse(tier.AccuracyJson));
+            Time = TimeOf(JsonValue.Parse(tier.CostJson));
         }
 
         public string Name { get; }
@@ -40,11 +40,11 @@ namespace HaptoFlow.Editor
         /// <summary>Milliseconds for a segment of 100 ms, and the machine on which they were measured.</summary>
         public string Time { get; }
 
-        private static string NetworkOf(ModelTier tier)
+        private static string NetworkOf(HapticTier tier)
         {
             string work = tier.Kind == "direct"
                 ? "direct, one evaluation"
-                : SummaryRow.Format("{0}, {1} with {2} {3}", tier.Kind, tier.Solver, tier.Steps,
+                : SummaryRow.Format("{0}, {1} with {2} {3}", tier.Kind, tier.Solver.ToString().ToLowerInvariant(), tier.Steps,
                     tier.Steps == 1 ? "step" : "steps");
             return SummaryRow.Format("{0}, {1:0.00} million weights", work, tier.ParameterCount / 1e6);
         }

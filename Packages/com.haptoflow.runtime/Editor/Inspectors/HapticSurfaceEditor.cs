@@ -10,27 +10,8 @@ namespace HaptoFlow.Editor
     [CanEditMultipleObjects]
     internal sealed class HapticSurfaceEditor : UnityEditor.Editor
     {
-        private static readonly GUIContent Shared = new GUIContent("Shared Material",
-            "The shared material is a Haptic Material asset that several surfaces may use. When it is empty, the " +
-            "surface has the material described below.");
-        private static readonly GUIContent Mask = new GUIContent("Mask",
-            "The mask selects further materials by a texture at the touched point. It works on readable mesh " +
-            "colliders that are not convex. It may be empty.");
-        private static readonly GUIContent Children = new GUIContent("Include Children",
-            "The surface includes the colliders of child objects, except for those below another Haptic Surface.");
-        private static readonly GUIContent OwnMotion = new GUIContent("Feel Own Motion",
-            "The velocity of the tip is measured relative to the moving object; when it is off, relative to the " +
-            "world.");
-        private static readonly GUIContent Grain = new GUIContent("Grain",
-            "The grain is the direction of the first tangent axis in the object's local space, for example along the " +
-            "grain of wood.");
-
         private SerializedProperty shared = null!;
         private SerializedProperty own = null!;
-        private SerializedProperty mask = null!;
-        private SerializedProperty children = null!;
-        private SerializedProperty ownMotion = null!;
-        private SerializedProperty grain = null!;
         private SerializedObject? sharedDescription;
         private string extent = "";
 
@@ -38,10 +19,6 @@ namespace HaptoFlow.Editor
         {
             shared = serializedObject.FindProperty("sharedMaterial");
             own = serializedObject.FindProperty("own");
-            mask = serializedObject.FindProperty("mask");
-            children = serializedObject.FindProperty("includeChildren");
-            ownMotion = serializedObject.FindProperty("feelOwnMotion");
-            grain = serializedObject.FindProperty("grain");
             EditorApplication.hierarchyChanged += CountColliders;
             CountColliders();
         }
@@ -54,13 +31,13 @@ namespace HaptoFlow.Editor
             // Read before any field is drawn, so that layout and drawing show the same fields.
             bool several = shared.hasMultipleDifferentValues;
             Object? material = shared.objectReferenceValue;
-            EditorGUILayout.PropertyField(shared, Shared);
+            EditorGUILayout.PropertyField(shared);
             DrawMaterial(several, material);
-            EditorGUILayout.PropertyField(mask, Mask);
+            EditorGUILayout.PropertyField(serializedObject.FindProperty("mask"));
             EditorGUILayout.Space();
-            EditorGUILayout.PropertyField(children, Children);
-            EditorGUILayout.PropertyField(ownMotion, OwnMotion);
-            EditorGUILayout.PropertyField(grain, Grain);
+            EditorGUILayout.PropertyField(serializedObject.FindProperty("includeChildren"));
+            EditorGUILayout.PropertyField(serializedObject.FindProperty("feelOwnMotion"));
+            EditorGUILayout.PropertyField(serializedObject.FindProperty("grain"));
             if (serializedObject.ApplyModifiedProperties())
             {
                 ApplyToScene();

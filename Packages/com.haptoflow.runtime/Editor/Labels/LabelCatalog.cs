@@ -18,12 +18,12 @@ namespace HaptoFlow.Editor
         private readonly Dictionary<string, string> stiffness =
             new Dictionary<string, string>(StringComparer.OrdinalIgnoreCase);
 
-        private LabelCatalog(byte[] file)
+        private LabelCatalog(byte[] file, HapticModelAsset? model)
         {
             this.file = file;
-            IReadOnlyList<ModelLabel> labels = LabelsOf(file);
+            IReadOnlyList<HapticLabel> labels = LabelsOf(model);
             Names = new LabelNames(labels.Select(label => label.Name));
-            foreach (ModelLabel label in labels)
+            foreach (HapticLabel label in labels)
             {
                 stiffness[label.Name] = string.Format(
                     CultureInfo.InvariantCulture, "0: the model's {0:0}", label.StiffnessNewtonsPerMetre);
@@ -35,10 +35,11 @@ namespace HaptoFlow.Editor
         {
             get
             {
-                byte[] file = ModelInUse()?.File ?? Array.Empty<byte>();
+                HapticModelAsset? model = ModelInUse();
+                byte[] file = model != null ? model.File : Array.Empty<byte>();
                 if (current == null || !ReferenceEquals(current.file, file))
                 {
-                    current = new LabelCatalog(file);
+                    current = new LabelCatalog(file, model);
                 }
                 return current;
             }
@@ -73,16 +74,16 @@ namespace HaptoFlow.Editor
             return chosen != null ? chosen : ProjectSettingsAsset.DefaultModel();
         }
 
-        private static IReadOnlyList<ModelLabel> LabelsOf(byte[] file)
+        private static IReadOnlyList<HapticLabel> LabelsOf(HapticModelAsset? model)
         {
             try
             {
-                return ModelHeader.Read(file).Labels;
+                return model != null ? model.Header.Labels : Array.Empty<HapticLabel>();
             }
             catch (HaptoFlowException)
             {
                 // The model's Inspector and the scene check report the problem.
-                return Array.Empty<ModelLabel>();
+                return Array.Empty<HapticLabel>();
             }
         }
     }

@@ -10,9 +10,9 @@ namespace HaptoFlow.Editor
         private const string SeveralValues = "\u2014";
         private static readonly GUIContent Button = new GUIContent();
 
-        public static void Draw(Rect position, SerializedProperty property, GUIContent title, bool canBeEmpty)
+        public static void Draw(Rect position, SerializedProperty property, bool canBeEmpty)
         {
-            using var scope = new EditorGUI.PropertyScope(position, title, property);
+            using var scope = new EditorGUI.PropertyScope(position, null, property);
             Rect field = EditorGUI.PrefixLabel(position, scope.content);
             LabelCatalog catalog = LabelCatalog.Current;
             bool several = property.hasMultipleDifferentValues;

@@ -2,6 +2,7 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
+using System.Text;
 using HaptoFlow.Model;
 
 namespace HaptoFlow.Editor
@@ -12,17 +13,17 @@ namespace HaptoFlow.Editor
     {
         private MaterialSummary(string problem) => Problem = problem;
 
-        private MaterialSummary(MaterialFile material, ModelSpace? model)
+        private MaterialSummary(MaterialFile material, HapticModel? model)
         {
             Title = material.Name;
             Description = material.Description;
-            bool isOfModel = model != null && model.Id == material.Space;
+            bool isOfModel = model != null && model.Space == material.Space;
             Rows = RowsOf(material, isOfModel ? model : null).Where(row => row.Value.Length > 0).ToArray();
             Mismatch = isOfModel
                 ? null
                 : model == null
                     ? "The project has no usable model, so nothing is felt."
-                    : "Its label is used instead: " + MaterialRegistration.ForeignSpace(material.Space, model.Id);
+                    : "Its label is used instead: " + MaterialRegistration.ForeignSpace(material.Space, model.Space);
         }
 
         /// <summary>The problem of a file that cannot be used, which leaves all other properties empty; else null.
@@ -44,20 +45,27 @@ namespace HaptoFlow.Editor
         {
             try
             {
-                return new MaterialSummary(MaterialFile.Read(text), SpaceOf(model));
+                using HapticModel? opened = Opened(model);
+                return new MaterialSummary(MaterialFile.Read(text), opened);
             }
             catch (HaptoFlowException refusal)
             {
-                return new MaterialSummary(refusal.Message);
+                return new MaterialSummary(FileProblem.Of(refusal, Encoding.UTF8.GetBytes(text)).Text);
             }
         }
 
-        /// <summary>The space of a model; null without a usable model.</summary>
-        public static ModelSpace? SpaceOf(HapticModelAsset? model)
+        /// <summary>The label of the model that is nearest to the material; null without a usable model.</summary>
+        public static string? NearestLabel(HapticModelAsset? model, MaterialFile material)
+        {
+            using HapticModel? opened = Opened(model);
+            return opened?.NearestLabel(material.Embedding);
+        }
+
+        private static HapticModel? Opened(HapticModelAsset? model)
         {
             try
             {
-                return model == null ? null : ModelSpace.Of(model.File);
+                return model == null ? null : HapticModel.Open(model.File);
             }
             catch (HaptoFlowException)
             {
@@ -66,7 +74,7 @@ namespace HaptoFlow.Editor
             }
         }
 
-        private static IEnumerable<SummaryRow> RowsOf(MaterialFile material, ModelSpace? model)
+        private static IEnumerable<SummaryRow> RowsOf(MaterialFile material, HapticModel? model)
         {
             yield return new SummaryRow("Category", material.Category);
             yield return new SummaryRow("Nearest Label", model?.NearestLabel(material.Embedding) ?? "");
@@ -76,13 +84,13 @@ namespace HaptoFlow.Editor
             yield return new SummaryRow("Licence", material.Licence);
             yield return new SummaryRow("Provenance", material.Statement);
             yield return new SummaryRow("Created", material.Created);
-            yield return new SummaryRow("Learnt Speeds", Interval(material.Json["range"]["speed_mps"], "m/s"));
-            yield return new SummaryRow("Learnt Forces", Interval(material.Json["range"]["force_newtons"], "N"));
+            yield return new SummaryRow("Learnt Speeds", Interval(material.SpeedMps, "m/s"));
+            yield return new SummaryRow("Learnt Forces", Interval(material.ForceNewtons, "N"));
             yield return new SummaryRow("Stiffness", SummaryRow.Format("{0:0} N/m", material.StiffnessNewtonsPerMetre));
             yield return new SummaryRow("Space", material.Space);
         }
 
-        private static string Interval(JsonValue bounds, string unit) =>
-            SummaryRow.Format("{0:0.###} to {1:0.###} {2}", bounds[0].AsNumber(), bounds[1].AsNumber(), unit);
+        private static string Interval(TrainedInterval learnt, string unit) =>
+            SummaryRow.Format("{0:0.###} to {1:0.###} {2}", learnt.Minimum, learnt.Maximum, unit);
     }
 }

@@ -49,7 +49,7 @@ namespace HaptoFlow.Editor
         {
             try
             {
-                string space = ModelSpace.Of(model.File).Id;
+                string space = model.Header.Space;
                 string own = Path.ChangeExtension(AssetDatabase.GetAssetPath(model), ".sliders.json") ?? "";
                 string path = own.Length > 0 && File.Exists(FileUtil.GetPhysicalPath(own)) ? own : DefaultPath;
                 SliderSet sliders = SliderSet.Read(File.ReadAllText(FileUtil.GetPhysicalPath(path)));

@@ -13,12 +13,7 @@ namespace HaptoFlow.Editor
     internal sealed class HapticMaterialMapEditor : UnityEditor.Editor
     {
         private const int MaximumNames = 3;
-        private static readonly GUIContent Rules = new GUIContent("Rules",
-            "The first rule that matches assigns the material. A Haptic Surface on an object takes precedence over " +
-            "every rule.");
-        private static readonly GUIContent Default = new GUIContent("Default",
-            "Objects that no rule matches have the default material. When it is empty, the next map decides, or they " +
-            "are not felt.");
+        private static readonly GUIContent Default = new GUIContent("Default");
 
         private IReadOnlyList<(string Text, MessageType Kind)> lines = Array.Empty<(string, MessageType)>();
         private SceneChanges? changes;
@@ -31,7 +26,7 @@ namespace HaptoFlow.Editor
         public override void OnInspectorGUI()
         {
             serializedObject.Update();
-            EditorGUILayout.PropertyField(serializedObject.FindProperty("rules"), Rules);
+            EditorGUILayout.PropertyField(serializedObject.FindProperty("rules"));
             EditorGUILayout.PropertyField(serializedObject.FindProperty("defaultMaterial"), Default);
             if (serializedObject.ApplyModifiedProperties())
             {

@@ -10,29 +10,9 @@ namespace HaptoFlow.Editor
     {
         private const int Rows = 5;
 
-        private static readonly GUIContent Subject = new GUIContent("Looks At",
-            "The rule compares this property of an object.");
-        private static readonly GUIContent Tag = new GUIContent("Tag", "The rule matches colliders whose object has " +
-            "this Unity tag.");
-        private static readonly GUIContent Layer = new GUIContent("Layer", "The rule matches colliders whose object " +
-            "is on this layer.");
-        private static readonly GUIContent PhysicsMaterial = new GUIContent("Physics Material",
-            "The rule matches colliders with this physics material.");
-        private static readonly GUIContent RendererMaterial = new GUIContent("Renderer Material",
-            "The rule matches this material of the object's renderer. A mesh collider is compared by submesh, any " +
-            "other collider by the first material.");
-        private static readonly GUIContent TerrainLayer = new GUIContent("Terrain Layer",
-            "The rule matches this layer of a terrain. Where several layers are painted, their materials are blended.");
-        private static readonly GUIContent Mesh = new GUIContent("Mesh",
-            "The rule matches a submesh of this mesh. When it is empty, it matches every mesh.");
-        private static readonly GUIContent Submesh = new GUIContent("Submesh", "The rule matches the submesh of this " +
-            "number, counted from 0.");
-        private static readonly GUIContent Name = new GUIContent("Name",
-            "The rule matches colliders whose object has this name. A * stands for any characters; case is ignored.");
-        private static readonly GUIContent Material = new GUIContent("Feels Like",
-            "Matching objects have this material. When it is empty they are not felt, and no later rule applies.");
-        private static readonly GUIContent Mask = new GUIContent("Mask",
-            "The mask selects further materials by a texture at the touched point. It may be empty.");
+        private static readonly GUIContent Subject = new GUIContent("Looks At");
+        private static readonly GUIContent Name = new GUIContent("Name");
+        private static readonly GUIContent Material = new GUIContent("Feels Like");
 
         public override float GetPropertyHeight(SerializedProperty property, GUIContent label) =>
             InspectorRows.Height * (Rows + (SubjectOf(property) == MaterialRuleSubject.Submesh ? 1 : 0)) -
@@ -50,7 +30,7 @@ namespace HaptoFlow.Editor
             row = DrawCondition(row, property, subject);
             EditorGUI.PropertyField(row, property.FindPropertyRelative("material"), Material);
             row.y += InspectorRows.Height;
-            EditorGUI.PropertyField(row, property.FindPropertyRelative("mask"), Mask);
+            EditorGUI.PropertyField(row, property.FindPropertyRelative("mask"));
         }
 
         private static MaterialRuleSubject SubjectOf(SerializedProperty property) =>
@@ -77,18 +57,18 @@ namespace HaptoFlow.Editor
                     DrawLayer(row, property.FindPropertyRelative("layer"));
                     break;
                 case MaterialRuleSubject.PhysicsMaterial:
-                    EditorGUI.PropertyField(row, property.FindPropertyRelative("physicsMaterial"), PhysicsMaterial);
+                    EditorGUI.PropertyField(row, property.FindPropertyRelative("physicsMaterial"));
                     break;
                 case MaterialRuleSubject.RendererMaterial:
-                    EditorGUI.PropertyField(row, property.FindPropertyRelative("rendererMaterial"), RendererMaterial);
+                    EditorGUI.PropertyField(row, property.FindPropertyRelative("rendererMaterial"));
                     break;
                 case MaterialRuleSubject.TerrainLayer:
-                    EditorGUI.PropertyField(row, property.FindPropertyRelative("terrainLayer"), TerrainLayer);
+                    EditorGUI.PropertyField(row, property.FindPropertyRelative("terrainLayer"));
                     break;
                 case MaterialRuleSubject.Submesh:
-                    EditorGUI.PropertyField(row, property.FindPropertyRelative("mesh"), Mesh);
+                    EditorGUI.PropertyField(row, property.FindPropertyRelative("mesh"));
                     row.y += InspectorRows.Height;
-                    EditorGUI.PropertyField(row, property.FindPropertyRelative("submesh"), Submesh);
+                    EditorGUI.PropertyField(row, property.FindPropertyRelative("submesh"));
                     break;
                 default:
                     EditorGUI.PropertyField(row, property.FindPropertyRelative("namePattern"), Name);
@@ -100,7 +80,7 @@ namespace HaptoFlow.Editor
 
         private static void DrawTag(Rect row, SerializedProperty tag)
         {
-            using var drawn = new EditorGUI.PropertyScope(row, Tag, tag);
+            using var drawn = new EditorGUI.PropertyScope(row, null, tag);
             using var changed = new EditorGUI.ChangeCheckScope();
             string chosen = EditorGUI.TagField(row, drawn.content, tag.stringValue);
             if (changed.changed)
@@ -111,7 +91,7 @@ namespace HaptoFlow.Editor
 
         private static void DrawLayer(Rect row, SerializedProperty layer)
         {
-            using var drawn = new EditorGUI.PropertyScope(row, Layer, layer);
+            using var drawn = new EditorGUI.PropertyScope(row, null, layer);
             using var changed = new EditorGUI.ChangeCheckScope();
             int chosen = EditorGUI.LayerField(row, drawn.content, layer.intValue);
             if (changed.changed)

@@ -8,12 +8,8 @@ namespace HaptoFlow.Editor
     [CustomPropertyDrawer(typeof(MaskChannel))]
     internal sealed class MaskChannelDrawer : PropertyDrawer
     {
-        private static readonly GUIContent Material = new GUIContent("Material",
-            "The material has more weight where the channel is brighter. When it is empty, that share is not felt.");
-        private static readonly GUIContent Lowest = new GUIContent("At Black",
-            "At Black is the factor where the channel is black.");
-        private static readonly GUIContent Highest = new GUIContent("At White",
-            "At White is the factor where the channel is white.");
+        private static readonly GUIContent Lowest = new GUIContent("At Black");
+        private static readonly GUIContent Highest = new GUIContent("At White");
 
         public override float GetPropertyHeight(SerializedProperty property, GUIContent label)
         {
@@ -35,7 +31,7 @@ namespace HaptoFlow.Editor
             row.y += InspectorRows.Height;
             if (use == MaskChannelUse.Material)
             {
-                EditorGUI.PropertyField(row, property.FindPropertyRelative("material"), Material);
+                EditorGUI.PropertyField(row, property.FindPropertyRelative("material"));
                 return;
             }
             EditorGUI.PropertyField(row, property.FindPropertyRelative("lowest"), Lowest);

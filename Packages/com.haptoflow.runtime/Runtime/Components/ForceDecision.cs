@@ -28,17 +28,15 @@ namespace HaptoFlow
         private const float MaximumMetres = 0.04f;
         private const float MaximumReleaseShare = 0.9f;
 
-        [SerializeField, Min(MinimumNewtons), Tooltip("A touch begins when the measured force reaches this value, " +
-            "in newtons.")]
+        [SerializeField, Min(MinimumNewtons), Tooltip("A touch begins at this force, in newtons.")]
         private float pressNewtons = (float)ForceTouchSettings.DefaultPressNewtons;
 
-        [SerializeField, Min(0f), Tooltip("A touch ends when the measured force falls to this value, in newtons. " +
-            "Keep it below the press force by more than the sensor's noise.")]
+        [SerializeField, Min(0f), Tooltip("A touch ends at this force, in newtons. It has to be below the press " +
+            "force by more than the sensor's noise.")]
         private float releaseNewtons = (float)ForceTouchSettings.DefaultReleaseNewtons;
 
-        [SerializeField, Range(MinimumMetres, MaximumMetres), Tooltip("A pressing tip touches a tagged surface " +
-            "within this distance on either side, in metres. Choose it larger than the error of tracking and " +
-            "alignment.")]
+        [SerializeField, Range(MinimumMetres, MaximumMetres), Tooltip("A pressing tip touches a surface within this " +
+            "distance on either side, in metres. The distance has to exceed the errors of tracking and alignment.")]
         private float nearMetres = (float)ForceTouchSettings.DefaultNearMetres;
 
         private ForceTouch? detector;

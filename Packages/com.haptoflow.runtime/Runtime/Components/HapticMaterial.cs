@@ -15,47 +15,48 @@ namespace HaptoFlow
         internal const float MaximumFeatureScale = 4f;
         internal const float MaximumToneDbPerOctave = 12f;
 
-        [SerializeField, Tooltip("The name of a label of the model.")]
+        [SerializeField, Tooltip("The label of the model names the material. It is saved by its name. A learnt " +
+            "material takes its place, except until the engine has that material, and with another model.")]
         private string label = "wood";
 
-        [SerializeField]
-        [Tooltip("A Haptic Material learnt from a recording, used instead of the label. Leave it empty to use the " +
-            "label.")]
+        [SerializeField, Tooltip("The learnt material is a Haptic Material learnt from a recording. It replaces the " +
+            "label. It may be empty.")]
         private HapticMaterial? learnt;
 
         // The asset that contains this description; null for a surface's own.
         [NonSerialized]
         private HapticMaterial? owner;
 
-        [SerializeField, Tooltip("The name of a second label to blend with. Leave it empty for none.")]
+        [SerializeField, Tooltip("The second label is blended with the first. It may be empty.")]
         private string secondLabel = "";
 
-        [SerializeField, Range(0f, 1f), Tooltip("The weight of the second label: 0 for the first label alone, 1 for " +
-            "the second alone.")]
+        [SerializeField, Range(0f, 1f), Tooltip("The blend is 0 for the first label alone and 1 for the second label " +
+            "alone.")]
         private float blend;
 
-        [SerializeField, Min(0f), Tooltip("The stiffness of the spring model, in N/m. 0 uses the model's value of " +
-            "the label.")]
+        [SerializeField, Min(0f), Tooltip("The stiffness of the spring model is the force per metre of penetration " +
+            "depth. 0 takes the model's value for the label.")]
         private float stiffnessNewtonsPerMetre;
 
-        [SerializeField, Range(0f, 1f), Tooltip("The gain of the output while this material is touched.")]
+        [SerializeField, Range(0f, 1f), Tooltip("Strength is the gain of the output while this material is touched, " +
+            "from 0 to 1.")]
         private float strength = 1f;
 
-        [SerializeField, Range(MinimumFeatureScale, MaximumFeatureScale)]
-        [Tooltip("The factor on the size of the material's features, ribs included. 1 leaves them unchanged.")]
+        [SerializeField, Range(MinimumFeatureScale, MaximumFeatureScale), Tooltip("The features of the material, its " +
+            "ribs included, are larger by this factor, 0.25 to 4. The level does not change.")]
         private float featureScale = 1f;
 
-        [SerializeField, Range(-MaximumToneDbPerOctave, MaximumToneDbPerOctave)]
-        [Tooltip("The tilt of the spectrum about 150 Hz, in dB per octave. Positive is brighter, negative is darker.")]
+        [SerializeField, Range(-MaximumToneDbPerOctave, MaximumToneDbPerOctave), Tooltip("The tone tilts the " +
+            "spectrum about 150 Hz, by -12 to 12 dB per octave. Above 0 is brighter, below 0 darker.")]
         private float toneDbPerOctave;
 
-        [SerializeField, Tooltip("Plays the material's texture while the tip slides.")]
+        [SerializeField, Tooltip("The tip feels the material's texture while it slides.")]
         private bool texture = true;
 
-        [SerializeField, Tooltip("Plays an impact at touch-down, stronger for a faster tip.")]
+        [SerializeField, Tooltip("The tip feels an impact at touch-down, stronger the faster it arrives.")]
         private bool impact = true;
 
-        [SerializeField, Tooltip("Plays an edge at rims, and where the tip crosses to a rougher or smoother label.")]
+        [SerializeField, Tooltip("The tip feels edges, and the transition to a rougher or smoother label.")]
         private bool edge = true;
 
         /// <summary>Name of a label of the model.</summary>
@@ -217,7 +218,13 @@ namespace HaptoFlow
         /// <exception cref="HaptoFlowException">The text is not a material file; the message names the key.</exception>
         public static HapticMaterial Create(string text, string label)
         {
-            string name = MaterialFile.Read(text).Name;
+            return CreateUnchecked(text, MaterialFile.Read(text).Name, label);
+        }
+
+        /// <summary>As <see cref="Create"/>, for an editor without the native library: engines check the text when they
+        /// register it.</summary>
+        internal static HapticMaterial CreateUnchecked(string text, string name, string label)
+        {
             var material = CreateInstance<HapticMaterial>();
             material.name = name;
             material.Description.Label = label;

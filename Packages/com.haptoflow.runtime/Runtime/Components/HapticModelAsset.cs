@@ -17,8 +17,9 @@ namespace HaptoFlow
         /// <summary>The bytes of the whole file. Do not modify.</summary>
         public byte[] File => file;
 
-        /// <summary>The header of the file; parsed once.</summary>
-        /// <exception cref="HaptoFlowException">The bytes are not a usable model; the message says why.</exception>
+        /// <summary>The header of the file, which the native library reads and verifies once.</summary>
+        /// <exception cref="HaptoFlowException">The library is missing, or the bytes are not a usable
+        /// model; the message says why.</exception>
         public ModelHeader Header => header ??= ModelHeader.Read(file);
 
         /// <summary>Creates an asset, for importers and for programs that load models themselves.</summary>

@@ -78,7 +78,7 @@ namespace HaptoFlow
         public HapticEngine? Engine { get; private set; }
 
         /// <summary>Empty while loading, and where loading failed.</summary>
-        public ModelLabels Labels { get; private set; } = new ModelLabels(Array.Empty<ModelLabel>());
+        public ModelLabels Labels { get; private set; } = new ModelLabels(Array.Empty<HapticLabel>());
 
         /// <summary>Why there are no haptics; null where there is no error.</summary>
         public string? Problem { get; private set; }
@@ -344,8 +344,7 @@ namespace HaptoFlow
         {
             using OnnxRuntime runtime = OnnxRuntime.Open();
             using HapticModel model = HapticModel.Open(file);
-            var labels = new ModelLabels(ModelHeader.Read(file).Labels);
-            return new Loaded(new HapticEngine(runtime, model, options), labels, ModelSpace.Of(file).Id);
+            return new Loaded(new HapticEngine(runtime, model, options), new ModelLabels(model.Labels), model.Space);
         }
 
         [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.SubsystemRegistration)]

@@ -21,39 +21,43 @@ namespace HaptoFlow
     [HelpPage(HelpPages.Components + "haptic-stylus")]
     public sealed class HapticStylus : MonoBehaviour
     {
-        [SerializeField, Tooltip("The transform at the centre of the tip. Leave it empty for this object.")]
+        [SerializeField, Tooltip("The tip is the centre of the sphere that touches. When it is empty, this object is " +
+            "the tip.")]
         private Transform? tip;
 
-        [SerializeField, Min(0f), Tooltip("The radius of the tip sphere, in metres.")]
+        [SerializeField, Min(0f), Tooltip("The tip sphere has this radius, in metres, and contact begins this far " +
+            "from a surface. A pen has 0.002.")]
         private float tipRadiusMetres = 0.002f;
 
-        [SerializeField, Tooltip("The layers whose colliders the tip can touch.")]
+        [SerializeField, Tooltip("The stylus feels colliders on these layers.")]
         private LayerMask layers = ~0;
 
-        [SerializeField, Tooltip("When the stylus samples its tip: once a rendered frame, or at every physics step.")]
+        [SerializeField, Tooltip("The stylus reads its pose in rendered frames, which follow the hand best, or in " +
+            "fixed updates, which suit tips that physics moves.")]
         private StylusUpdate update = StylusUpdate.RenderedFrames;
 
-        [SerializeField, Tooltip("The source of the measured tip force. Leave it empty to use the spring model " +
-            "(force = stiffness x penetration depth).")]
+        [SerializeField, Tooltip("The component measures the tip force, in newtons. When it is empty, the spring " +
+            "model f = k d gives the force.")]
         private TipForceSource? force;
 
-        [SerializeField, Tooltip("What decides whether the tip touches. Measured Force is for a real object below " +
-            "the virtual one and needs a source of the tip force.")]
+        [SerializeField, Tooltip("With Geometry, a touch is the tip cutting into a surface. With Measured Force, the " +
+            "tip force near a surface decides, for a real object under the virtual one.")]
         private TouchDecision touchBy = TouchDecision.Geometry;
 
         [SerializeField]
         private ForceDecision forceDecision = new ForceDecision();
 
-        [SerializeField, Tooltip("The output that plays the vibration. Leave it empty to use the scene's output or " +
-            "to create one.")]
+        [SerializeField, Tooltip("The wave plays on this output. When it is empty, it plays on the scene's output, " +
+            "or on one that play mode adds.")]
         private HapticOutput? output;
 
-        [SerializeField, Tooltip("The hand that holds the stylus. Outputs that vibrate in a hand need it. With None it " +
-            "is the hand in which the source of the tip force is; an XR Pen sets it by itself.")]
+        [SerializeField, Tooltip("This hand holds the stylus. Outputs that vibrate in a hand need it, and in a scene " +
+            "without outputs the wave plays on the device in this hand. With None, it is the hand in which the tip " +
+            "force is measured. An XR Pen sets the field.")]
         private HapticHand hand = HapticHand.None;
 
-        [SerializeField, Range(0f, 1f), Tooltip("The gain of this stylus, multiplied with the surface's and the " +
-            "output's.")]
+        [SerializeField, Range(0f, 1f), Tooltip("Strength is a gain from 0 to 1, multiplied with those of surface " +
+            "and output.")]
         private float strength = 1f;
 
         [SerializeField]

@@ -11,16 +11,17 @@ namespace HaptoFlow
     [Serializable]
     public sealed class HapticStylusEvents
     {
-        [SerializeField, Tooltip("Raised when the tip touches a surface.")]
+        [SerializeField, Tooltip("Touch Began is raised when the tip touches a surface.")]
         private UnityEvent<HapticSurface> touchBegan = new UnityEvent<HapticSurface>();
 
-        [SerializeField, Tooltip("Raised once an update while the touch continues.")]
+        [SerializeField, Tooltip("Touch Moved is raised in every update while the touch lasts.")]
         private UnityEvent<HapticSurface> touchMoved = new UnityEvent<HapticSurface>();
 
-        [SerializeField, Tooltip("Raised when the tip slides from one surface to another without lifting.")]
+        [SerializeField, Tooltip("Surface Changed is raised when the tip slides onto another surface without lifting " +
+            "off.")]
         private UnityEvent<HapticSurface> surfaceChanged = new UnityEvent<HapticSurface>();
 
-        [SerializeField, Tooltip("Raised when the touch ends, with the last surface.")]
+        [SerializeField, Tooltip("Touch Ended is raised when the touch ends, with the surface touched last.")]
         private UnityEvent<HapticSurface> touchEnded = new UnityEvent<HapticSurface>();
 
         /// <summary>The tip touched a surface.</summary>

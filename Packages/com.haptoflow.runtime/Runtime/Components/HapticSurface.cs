@@ -14,24 +14,27 @@ namespace HaptoFlow
     [HelpPage(HelpPages.Components + "haptic-surface")]
     public sealed class HapticSurface : MonoBehaviour
     {
-        [SerializeField, Tooltip("A material shared with other surfaces. Leave it empty to describe one here.")]
+        [SerializeField, Tooltip("The shared material is a Haptic Material asset that several surfaces may use. When " +
+            "it is empty, the surface has the material described below.")]
         private HapticMaterial? sharedMaterial;
 
         [SerializeField]
         private MaterialDescription own = new MaterialDescription();
 
-        [SerializeField, Tooltip("Includes the colliders of children, except below another Haptic Surface.")]
+        [SerializeField, Tooltip("The surface includes the colliders of child objects, except for those below " +
+            "another Haptic Surface.")]
         private bool includeChildren = true;
 
-        [SerializeField, Tooltip("Takes the tip's velocity relative to the object. Off: relative to the world, so " +
-            "the object's own motion is not felt.")]
+        [SerializeField, Tooltip("The velocity of the tip is measured relative to the moving object; when it is off, " +
+            "relative to the world.")]
         private bool feelOwnMotion = true;
 
-        [SerializeField, Tooltip("The direction of the grain in the object's local space: the first tangent axis.")]
+        [SerializeField, Tooltip("The grain is the direction of the first tangent axis in the object's local space, " +
+            "for example along the grain of wood.")]
         private Vector3 grain = new Vector3(1f, 0f, 0f);
 
-        [SerializeField, Tooltip("A texture that blends in further materials at the touched place. Leave it empty " +
-            "for none.")]
+        [SerializeField, Tooltip("The mask selects further materials by a texture at the touched point. It works on " +
+            "readable mesh colliders that are not convex. It may be empty.")]
         private HapticMaskMap? mask;
 
         private readonly List<Collider> registered = new List<Collider>();

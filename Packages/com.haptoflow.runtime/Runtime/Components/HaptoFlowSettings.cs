@@ -13,32 +13,36 @@ namespace HaptoFlow
     {
         internal const string ResourceName = "HaptoFlowSettings";
 
-        [SerializeField, Tooltip("The .haptoflow model that generates the vibration.")]
+        [SerializeField, Tooltip("The model is the .haptoflow file that generates the vibration.")]
         private HapticModelAsset? model;
 
-        [SerializeField, Tooltip("The quality selects the tier. Auto measures this machine and takes the most " +
-            "accurate tier within the budget.")]
+        [SerializeField, Tooltip("The quality chooses the tier of the model. Auto measures this machine and chooses " +
+            "the most accurate tier that fits the budget. Fine chooses the most accurate tier if the model has none " +
+            "of that name.")]
         private HapticQuality quality = HapticQuality.Auto;
 
-        [SerializeField, Range(0.01f, 1f)]
-        [Tooltip("The share of the time between two contact states that inference may take with the quality Auto.")]
+        [SerializeField, Range(0.01f, 1f), Tooltip("With the quality Auto, inference may take this share of the time " +
+            "between two contact states, 0.01 to 1.")]
         private float budgetShare = 0.25f;
 
-        [SerializeField, Tooltip("Uses the refresh rate of the headset, or of the screen, as the update rate.")]
+        [SerializeField, Tooltip("The update rate is the refresh rate of the headset, or of the screen, read when " +
+            "the engine starts.")]
         private bool followDisplay = true;
 
-        [SerializeField, Range(1f, 1000f)]
-        [Tooltip("The rate of contact states, in Hz, where the display is not followed or does not report its rate.")]
+        [SerializeField, Range(1f, 1000f), Tooltip("The update rate is the number of contact states per second. It " +
+            "is used when Follow Display is off, or when the display does not report its rate.")]
         private float updateRateHz = (float)HapticEngineOptions.DefaultUpdateRateHz;
 
-        [SerializeField, Range(0f, 1f), Tooltip("The limit of all output samples, for safety: 1 is full scale.")]
+        [SerializeField, Range(0f, 1f), Tooltip("The safety ceiling is the largest magnitude of an output sample. 1 " +
+            "is full scale.")]
         private float ceiling = 1f;
 
-        [SerializeField, Min(1f), Tooltip("The acceleration that is full scale in the output, in m/s^2.")]
+        [SerializeField, Min(1f), Tooltip("The full scale is the acceleration of an output sample of 1. A smaller " +
+            "value gives a stronger output.")]
         private float fullScaleMps2 = (float)HapticEngineOptions.DefaultFullScaleMps2;
 
-        [SerializeField, Tooltip("The rules that assign materials to objects. Leave it empty to use Haptic Surfaces " +
-            "alone.")]
+        [SerializeField, Tooltip("The material map assigns materials to objects by rules, in every scene. When it is " +
+            "empty, only objects with a Haptic Surface are felt, and those that the map of a single scene matches.")]
         private HapticMaterialMap? materialMap;
 
         private static HaptoFlowSettings? active;

@@ -16,9 +16,9 @@ namespace HaptoFlow
         private readonly double[] stiffness;
         private readonly HashSet<string> warned = new HashSet<string>(StringComparer.OrdinalIgnoreCase);
 
-        public ModelLabels(IEnumerable<ModelLabel> labels)
+        public ModelLabels(IEnumerable<HapticLabel> labels)
         {
-            ModelLabel[] all = labels.ToArray();
+            HapticLabel[] all = labels.ToArray();
             names = new LabelNames(all.Select(label => label.Name));
             stiffness = all.Select(label => label.StiffnessNewtonsPerMetre).ToArray();
         }

@@ -27,28 +27,30 @@ namespace HaptoFlow
     [HelpPage(HelpPages.Components + "haptic-output")]
     public sealed class HapticOutput : MonoBehaviour, IVoiceTarget
     {
-        [SerializeField, Tooltip("How the output reaches the audio device.")]
+        [SerializeField, Tooltip("The route leads the wave to the audio device. Audio Source plays beside other " +
+            "sounds. Listener Channel overwrites one channel. Mixer Effect plays inside an Audio Mixer. The route is " +
+            "fixed once the scene plays.")]
         private OutputRoute route = OutputRoute.AudioSource;
 
-        [SerializeField, Min(-1), Tooltip("The output channel, from 0. -1 plays on all channels, except with " +
-            "Listener Channel.")]
+        [SerializeField, Min(-1), Tooltip("The wave plays on this channel of the audio device, counted from 0; -1 " +
+            "plays on all channels. A channel that the device does not have is silent. The route Listener Channel " +
+            "needs a channel from 0.")]
         private int channel = HapticVoice.AllChannels;
 
-        [SerializeField, Range(0f, 1f), Tooltip("The gain of this output.")]
+        [SerializeField, Range(0f, 1f), Tooltip("Strength is the gain of this output, from 0 to 1.")]
         private float strength = 1f;
 
-        [SerializeField, Tooltip("A muted output is silent and costs no inference.")]
+        [SerializeField, Tooltip("A muted output is silent, and runs no inference.")]
         private bool muted;
 
-        [SerializeField, Tooltip("Applies AudioListener.pause and AudioListener.volume to the haptics as well, with " +
-            "the route Audio Source.")]
+        [SerializeField, Tooltip("AudioListener.pause and AudioListener.volume also apply to the haptics. When it is " +
+            "off, the haptics stay as they are when a game turns its sound down.")]
         private bool obeyListener;
 
-        [SerializeField, Tooltip("The mixer that contains the effect, with the route Mixer Effect.")]
+        [SerializeField, Tooltip("The Audio Mixer contains the effect HaptoFlow Voice.")]
         private AudioMixer? audioMixer;
 
-        [SerializeField, Tooltip("The name under which the effect's parameter Voice is exposed, with the route " +
-            "Mixer Effect.")]
+        [SerializeField, Tooltip("The mixer exposes the effect's parameter Voice under this name.")]
         private string voiceParameter = "HaptoFlowVoice";
 
         [SerializeField]

@@ -25,17 +25,20 @@ namespace HaptoFlow
         /// <summary>Upper limit of the delay, in ms.</summary>
         public const float MaximumDelayMilliseconds = 500f;
 
-        [SerializeField, Tooltip("The actuator that plays the channel. Its resonances and weak bands are compensated.")]
+        [SerializeField, Tooltip("The actuator plays the channel. A compensation evens out its resonances and weak " +
+            "bands; Uncompensated takes no time.")]
         private OutputActuator actuator;
 
-        [SerializeField, Tooltip("The measured actuator profile (JSON) for the actuator Profile.")]
+        [SerializeField, Tooltip("The actuator profile is a measured one (JSON), as haptoflow actuator identify " +
+            "writes it.")]
         private TextAsset? profile;
 
-        [SerializeField, Tooltip("Lowers slowly what has been strong for too long. This is not a medical device.")]
+        [SerializeField, Tooltip("The exposure guard slowly lowers a level that has been high for too long. It is no " +
+            "medical device.")]
         private bool exposureGuard;
 
-        [SerializeField, Range(0f, MaximumDelayMilliseconds),
-         Tooltip("Delays the output by this many milliseconds, for studies and for displays that lag.")]
+        [SerializeField, Range(0f, MaximumDelayMilliseconds), Tooltip("The output is delayed by this time, for " +
+            "studies and for displays that lag.")]
         private float delayMilliseconds;
 
         [SerializeField, Tooltip("Makes the vibration audible on loudspeakers: louder and brighter. It is for ears " +

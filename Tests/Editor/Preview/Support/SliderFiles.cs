@@ -12,8 +12,8 @@ namespace HaptoFlow.PreviewTests
     {
         public static string For(byte[] modelFile, string? space = null)
         {
-            ModelSpace model = ModelSpace.Of(modelFile);
-            double[][] labels = ModelHeader.Read(modelFile).Labels.Select((_, index) => model.Embedding(index)
+            using HapticModel model = HapticModel.Open(modelFile);
+            double[][] labels = model.Labels.Select(label => model.Embedding(label.Index)
                 .Take(MaterialFile.TextureNumbers).Select(number => (double)number).ToArray()).ToArray();
             double[] mean = Enumerable.Range(0, MaterialFile.TextureNumbers)
                 .Select(number => labels.Average(label => label[number])).ToArray();
@@ -23,7 +23,7 @@ namespace HaptoFlow.PreviewTests
             {
                 ["format"] = "haptoflow-sliders",
                 ["version"] = 1,
-                ["space"] = space ?? model.Id,
+                ["space"] = space ?? model.Space,
                 ["sliders"] = new object[]
                 {
                     Slider("coarseness", Scaled(Minus(labels[1], labels[0]), 1.0 / 3.0), 0.0),

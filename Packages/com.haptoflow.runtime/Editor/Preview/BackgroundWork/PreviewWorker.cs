@@ -30,7 +30,7 @@ namespace HaptoFlow.Preview
             string? problem = null;
             try
             {
-                ModelHeader header = ModelHeader.Read(request.ModelFile);
+                ModelHeader header = engines.Model(request.ModelFile).Header;
                 qualities = QualityRow.Of(header, new Dictionary<string, TierTiming>());
                 var names = new LabelNames(header.Labels.Select(label => label.Name));
                 sounds = request.Materials.Select(material => Sound(request, material, names, token)).ToArray();
@@ -67,7 +67,7 @@ namespace HaptoFlow.Preview
             HapticEngine engine = engines.Engine(
                 request.ModelFile, QualityOf(request.Tier), request.Seed, !request.IsSketch);
             int registered = material.IsRegistered
-                ? engines.MaterialIndex(material.MaterialText(request.ModelFile, request.Sliders))
+                ? engines.MaterialIndex(material.MaterialText(engines.Model(request.ModelFile), request.Sliders))
                 : -1;
             var surface = new ContactState
             {
@@ -112,7 +112,7 @@ namespace HaptoFlow.Preview
                 return;
             }
             float[] embedding = engines.Embedding(request.ModelFile);
-            foreach (ModelTier tier in header.Tiers)
+            foreach (HapticTier tier in header.Tiers)
             {
                 using HapticGenerator generator = engines.Generator(request.ModelFile, tier.Name);
                 timings[tier.Name] = TierTiming.Measure(generator, embedding, token);

@@ -8,14 +8,15 @@ namespace HaptoFlow.Preview
     /// <summary>The accuracy of a tier by the model's header, and its time on this machine.</summary>
     internal sealed class QualityRow
     {
-        private QualityRow(ModelTier tier, bool isDefault, TierTiming? timing)
+        private QualityRow(HapticTier tier, TierTiming? timing)
         {
             Name = tier.Name;
-            IsDefault = isDefault;
+            IsDefault = tier.IsDefault;
             Timing = timing;
-            LevelErrorDecibels = Figure(tier, "level_error_db");
-            GoodnessOfFit = Figure(tier, "gfc_recording");
-            SpectralDistanceDecibels = Figure(tier, "lsd_db");
+            JsonValue accuracy = JsonValue.Parse(tier.AccuracyJson);
+            LevelErrorDecibels = accuracy.Find("level_error_db")?.AsNumber();
+            GoodnessOfFit = accuracy.Find("gfc_recording")?.AsNumber();
+            SpectralDistanceDecibels = accuracy.Find("lsd_db")?.AsNumber();
         }
 
         public string Name { get; }
@@ -42,9 +43,7 @@ namespace HaptoFlow.Preview
         /// <param name="timings">By name of the tier.</param>
         public static IReadOnlyList<QualityRow> Of(
             ModelHeader header, IReadOnlyDictionary<string, TierTiming> timings) =>
-            header.Tiers.Select(tier => new QualityRow(tier, tier.Name == header.DefaultTier.Name,
+            header.Tiers.Select(tier => new QualityRow(tier,
                 timings.TryGetValue(tier.Name, out TierTiming? timing) ? timing : null)).ToArray();
-
-        private static double? Figure(ModelTier tier, string key) => tier.Accuracy.Find(key)?.AsNumber();
     }
 }

@@ -12,9 +12,9 @@ namespace HaptoFlow.Preview
         internal MaterialSlider(CheckedTable table)
         {
             Name = table.Text("name");
-            Direction = table.Numbers("direction", MaterialFile.TextureNumbers, MaterialFile.TextureNumbers);
-            LevelDecibels = table.OptionalNumber("level_db", -MaterialRules.MaximumOffsetDecibels,
-                MaterialRules.MaximumOffsetDecibels) ?? 0.0;
+            Direction = table.Numbers("direction", MaterialFile.TextureNumbers);
+            LevelDecibels = table.OptionalNumber("level_db", -SliderSet.MaximumOffsetDecibels,
+                SliderSet.MaximumOffsetDecibels) ?? 0.0;
             Lowest = (float)table.Number("lowest", -10.0, 0.0);
             Highest = (float)table.Number("highest", 0.0, 10.0);
         }
@@ -37,6 +37,9 @@ namespace HaptoFlow.Preview
     /// thread.</summary>
     internal sealed class SliderSet
     {
+        /// <summary>Largest offset of the level in a material file, either way.</summary>
+        public const double MaximumOffsetDecibels = 24.0;
+
         private const string FormatName = "haptoflow-sliders";
         private const int MaximumSliders = 16;
 
@@ -45,7 +48,7 @@ namespace HaptoFlow.Preview
         private readonly double[] lowest;
         private readonly double[] highest;
 
-        private SliderSet(CheckedTable root, JsonValue json)
+        private SliderSet(CheckedTable root)
         {
             if (!root.Has("format") || root.Text("format") != FormatName)
             {
@@ -58,16 +61,13 @@ namespace HaptoFlow.Preview
             Space = root.Text("space");
             Sliders = root.Tables("sliders", 1, MaximumSliders).Select(each => new MaterialSlider(each)).ToArray();
             const int size = MaterialFile.TextureNumbers;
-            mean = root.Numbers("mean", size, size);
-            int count = json.Find("axes")?.Elements?.Count ?? 0;
-            root.CheckRows("axes", count, size, -1.0, 1.0);
-            axes = json["axes"].AsArray()
-                .Select(axis => axis.AsArray().Select(each => each.AsNumber()).ToArray()).ToArray();
-            lowest = root.Numbers("lowest", count, count);
-            highest = root.Numbers("highest", count, count);
+            mean = root.Numbers("mean", size);
+            axes = root.Rows("axes", size, -1.0, 1.0);
+            lowest = root.Numbers("lowest", axes.Length);
+            highest = root.Numbers("highest", axes.Length);
         }
 
-        /// <summary>The <see cref="ModelSpace.Id"/> of the model whose materials the sliders change.</summary>
+        /// <summary>The <see cref="HapticModel.Space"/> of the model whose materials the sliders change.</summary>
         public string Space { get; }
 
         public IReadOnlyList<MaterialSlider> Sliders { get; }
@@ -78,8 +78,7 @@ namespace HaptoFlow.Preview
         {
             try
             {
-                JsonValue json = JsonValue.Parse(text);
-                return new SliderSet(new CheckedTable(json), json);
+                return new SliderSet(new CheckedTable(JsonValue.Parse(text)));
             }
             catch (FormatException error)
             {
@@ -99,7 +98,7 @@ namespace HaptoFlow.Preview
         {
             double offset = material.LevelOffsetDecibels + Sliders.Select((slider, index) =>
                 Value(values, index) * slider.LevelDecibels).Sum();
-            offset = Math.Max(-MaterialRules.MaximumOffsetDecibels, Math.Min(MaterialRules.MaximumOffsetDecibels, offset));
+            offset = Math.Max(-MaximumOffsetDecibels, Math.Min(MaximumOffsetDecibels, offset));
             return MaterialText.With(material, new Dictionary<string, object?>
             {
                 ["name"] = name,

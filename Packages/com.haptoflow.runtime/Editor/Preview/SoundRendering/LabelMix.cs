@@ -103,9 +103,9 @@ namespace HaptoFlow.Preview
         /// <param name="sliders">Null if the model has none: then their positions are ignored.</param>
         /// <exception cref="HaptoFlowException">The model lacks the label, or the text is not a material file.
         /// </exception>
-        public string MaterialText(byte[] modelFile, SliderSet? sliders)
+        public string MaterialText(HapticModel model, SliderSet? sliders)
         {
-            string text = Learnt.Length > 0 ? Learnt : HaptoFlow.Model.MaterialText.OfLabel(modelFile, First);
+            string text = Learnt.Length > 0 ? Learnt : HaptoFlow.Model.MaterialText.OfLabel(model, First);
             return sliders == null || moves == null
                 ? text
                 : sliders.Moved(MaterialFile.Read(text), moves, First + ", moved");

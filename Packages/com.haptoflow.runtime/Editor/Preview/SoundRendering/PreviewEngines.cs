@@ -23,6 +23,8 @@ namespace HaptoFlow.Preview
         private bool used;
         private (HapticQuality Quality, ulong Seed) options;
 
+        private OnnxRuntime Runtime => runtime ??= OnnxRuntime.Open();
+
         /// <summary>Number of engines created so far. Creating one takes about as long as rendering a stroke.</summary>
         public int Created { get; private set; }
 
@@ -36,7 +38,7 @@ namespace HaptoFlow.Preview
             if (engine == null || options != (quality, seed) || (fresh && used))
             {
                 CloseEngine();
-                engine = new HapticEngine(runtime!, opened, new HapticEngineOptions
+                engine = new HapticEngine(Runtime, opened, new HapticEngineOptions
                 {
                     Quality = quality,
                     UpdateRateHz = Stroke.UpdateRateHz,
@@ -84,11 +86,24 @@ namespace HaptoFlow.Preview
         public HapticGenerator Generator(byte[] modelFile, string tier)
         {
             HapticModel opened = Model(modelFile);
-            return new HapticGenerator(runtime!, opened, tier);
+            return new HapticGenerator(Runtime, opened, tier);
         }
 
         /// <summary>The material embedding of the model's first label.</summary>
         public float[] Embedding(byte[] modelFile) => Model(modelFile).Embedding(0);
+
+        /// <summary>The model, which is kept as long as it is asked for.</summary>
+        /// <exception cref="HaptoFlowException">The library is missing, or the model cannot be used.</exception>
+        public HapticModel Model(byte[] modelFile)
+        {
+            if (model == null || !ReferenceEquals(file, modelFile))
+            {
+                CloseModel();
+                model = HapticModel.Open(modelFile);
+                file = modelFile;
+            }
+            return model;
+        }
 
         /// <summary>Frees native memory.</summary>
         public void Dispose()
@@ -96,18 +111,6 @@ namespace HaptoFlow.Preview
             CloseModel();
             runtime?.Dispose();
             runtime = null;
-        }
-
-        private HapticModel Model(byte[] modelFile)
-        {
-            if (model == null || !ReferenceEquals(file, modelFile))
-            {
-                CloseModel();
-                runtime ??= OnnxRuntime.Open();
-                model = HapticModel.Open(modelFile);
-                file = modelFile;
-            }
-            return model;
         }
 
         private void CloseEngine()

@@ -200,8 +200,7 @@ namespace HaptoFlow.Editor
         private string NearestLabel()
         {
             const string unknown = "wood";
-            return MaterialSummary.SpaceOf(ModelInUse())?.NearestLabel(MaterialFile.Read(State.Material).Embedding) ??
-                unknown;
+            return MaterialSummary.NearestLabel(ModelInUse(), MaterialFile.Read(State.Material)) ?? unknown;
         }
 
         private HapticModelAsset? ModelInUse() => State.Model != null ? State.Model : LabelCatalog.ModelInUse();

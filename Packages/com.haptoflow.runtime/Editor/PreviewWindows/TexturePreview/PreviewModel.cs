@@ -6,7 +6,7 @@ using HaptoFlow.Model;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Labels and tiers of a model, read without the native library. Main thread.</summary>
+    /// <summary>Labels and tiers of a model. Main thread.</summary>
     internal sealed class PreviewModel
     {
         private static readonly string[] Playable = { "draft", "standard", "fine" };
@@ -49,7 +49,7 @@ namespace HaptoFlow.Editor
             }
             try
             {
-                return new PreviewModel(asset.File, ModelHeader.Read(asset.File), null);
+                return new PreviewModel(asset.File, asset.Header, null);
             }
             catch (HaptoFlowException error)
             {

@@ -210,7 +210,8 @@ namespace HaptoFlow.Editor
             {
                 LabelMix mix = State.PlayedMix(Session.Model.Labels);
                 HapticMaterial? learnt = State.Material(State.PlayedIndex).Learnt;
-                string text = mix.MaterialText(Session.Model.File, SliderCatalog.Of(ModelInUse()).Sliders);
+                using HapticModel model = HapticModel.Open(Session.Model.File);
+                string text = mix.MaterialText(model, SliderCatalog.Of(ModelInUse()).Sliders);
                 string label = learnt != null ? learnt.Description.Label : mix.First;
                 HapticMaterial? saved = MaterialAssets.SaveAs(text, label, described =>
                 {

@@ -24,16 +24,17 @@ namespace HaptoFlow
     [Serializable]
     public sealed class MaskChannel
     {
-        [SerializeField, Tooltip("What the channel controls.")]
+        [SerializeField, Tooltip("The channel selects a material or scales a property.")]
         private MaskChannelUse use = MaskChannelUse.Nothing;
 
-        [SerializeField, Tooltip("The material whose weight is the channel's brightness.")]
+        [SerializeField, Tooltip("The material has more weight where the channel is brighter. When it is empty, that " +
+            "share is not felt.")]
         private HapticMaterial? material;
 
-        [SerializeField, Min(0f), Tooltip("The factor where the channel is black.")]
+        [SerializeField, Min(0f), Tooltip("At Black is the factor where the channel is black.")]
         private float lowest;
 
-        [SerializeField, Min(0f), Tooltip("The factor where the channel is white.")]
+        [SerializeField, Min(0f), Tooltip("At White is the factor where the channel is white.")]
         private float highest = 1f;
 
         /// <summary>What the channel controls.</summary>
@@ -84,20 +85,22 @@ namespace HaptoFlow
         // In single precision a larger coordinate has no fraction left to locate a texel.
         private const float MaximumCoordinate = 1e6f;
 
-        [SerializeField, Tooltip("The texture that the channels are baked from. It must be readable during baking.")]
+        [SerializeField, Tooltip("The mask is baked from this texture, which has to be readable meanwhile. At run " +
+            "time only the baked copy is used.")]
         private Texture2D? texture;
 
-        [SerializeField, Tooltip("The upper limit of the baked copy's longer side, in texels. Larger textures are " +
-            "halved until they fit.")]
+        [SerializeField, Tooltip("The longer side of the baked mask has at most this many texels. A larger texture " +
+            "is halved until it fits.")]
         private int largestSize = 512;
 
-        [SerializeField, Tooltip("Uses the mesh's second texture coordinates instead of the first.")]
+        [SerializeField, Tooltip("When it is on, the mask lies over the second texture coordinates of the mesh, else " +
+            "over the first.")]
         private bool secondCoordinates;
 
-        [SerializeField, Tooltip("The number of repetitions of the texture over the texture coordinates.")]
+        [SerializeField, Tooltip("The texture repeats this often over the texture coordinates.")]
         private Vector2 tiling = new Vector2(1f, 1f);
 
-        [SerializeField, Tooltip("The shift of the texture over the texture coordinates.")]
+        [SerializeField, Tooltip("The texture is shifted by this much over the texture coordinates.")]
         private Vector2 offset;
 
         [SerializeField]

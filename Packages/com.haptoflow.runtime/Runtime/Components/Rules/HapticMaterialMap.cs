@@ -15,11 +15,12 @@ namespace HaptoFlow
     [HelpPage(HelpPages.Components + "haptic-material-map")]
     public sealed class HapticMaterialMap : ScriptableObject
     {
-        [SerializeField, Tooltip("The rules in order. The first rule that matches an object applies.")]
+        [SerializeField, Tooltip("The first rule that matches assigns the material. A Haptic Surface on an object " +
+            "takes precedence over every rule.")]
         private List<HapticMaterialRule> rules = new List<HapticMaterialRule>();
 
-        [SerializeField, Tooltip("The material where no rule matches. Leave it empty to try the next map; without " +
-            "one the object is not felt.")]
+        [SerializeField, Tooltip("Objects that no rule matches have the default material. When it is empty, the next " +
+            "map decides, or they are not felt.")]
         private HapticMaterial? defaultMaterial;
 
         /// <summary>The rules in order: the first that matches applies.</summary>

@@ -40,39 +40,42 @@ namespace HaptoFlow
     [Serializable]
     public sealed class HapticMaterialRule
     {
-        [SerializeField, Tooltip("The property of an object that this rule matches.")]
+        [SerializeField, Tooltip("The rule compares this property of an object.")]
         private MaterialRuleSubject subject = MaterialRuleSubject.Tag;
 
-        [SerializeField, Tooltip("The Unity tag of the collider's object.")]
+        [SerializeField, Tooltip("The rule matches colliders whose object has this Unity tag.")]
         private string tag = "";
 
-        [SerializeField, Tooltip("The layer of the collider's object.")]
+        [SerializeField, Tooltip("The rule matches colliders whose object is on this layer.")]
         private int layer;
 
-        [SerializeField, Tooltip("The collider's physics material.")]
+        [SerializeField, Tooltip("The rule matches colliders with this physics material.")]
         private SurfacePhysics? physicsMaterial;
 
-        [SerializeField, Tooltip("A material of the object's renderer. On a mesh collider each submesh is matched by " +
-            "its own.")]
+        [SerializeField, Tooltip("The rule matches this material of the object's renderer. A mesh collider is " +
+            "compared by submesh, any other collider by the first material.")]
         private Material? rendererMaterial;
 
-        [SerializeField, Tooltip("A layer of a terrain.")]
+        [SerializeField, Tooltip("The rule matches this layer of a terrain. Where several layers are painted, their " +
+            "materials are blended.")]
         private TerrainLayer? terrainLayer;
 
-        [SerializeField, Tooltip("The mesh whose submesh is matched. Leave it empty for every mesh.")]
+        [SerializeField, Tooltip("The rule matches a submesh of this mesh. When it is empty, it matches every mesh.")]
         private Mesh? mesh;
 
-        [SerializeField, Min(0), Tooltip("The number of the submesh, from 0.")]
+        [SerializeField, Min(0), Tooltip("The rule matches the submesh of this number, counted from 0.")]
         private int submesh;
 
-        [SerializeField, Tooltip("The pattern for object names. A * stands for any characters; case is ignored.")]
+        [SerializeField, Tooltip("The rule matches colliders whose object has this name. A * stands for any " +
+            "characters; case is ignored.")]
         private string namePattern = "";
 
-        [SerializeField, Tooltip("The material of objects that match. Leave it empty to make them not felt.")]
+        [SerializeField, Tooltip("Matching objects have this material. When it is empty they are not felt, and no " +
+            "later rule applies.")]
         private HapticMaterial? material;
 
-        [SerializeField, Tooltip("A texture that blends in further materials at the touched place. Leave it empty " +
-            "for none.")]
+        [SerializeField, Tooltip("The mask selects further materials by a texture at the touched point. It may be " +
+            "empty.")]
         private HapticMaskMap? mask;
 
         private HapticMaterialRule()

@@ -1,55 +1,38 @@
 #nullable enable
 using System;
 using System.Collections.Generic;
-using System.Linq;
-using System.Text;
+using HaptoFlow.Native;
 
 namespace HaptoFlow.Model
 {
-    /// <summary>A learnt material: the contents of a .haptomaterial file, a label with its embedding. Read and checked
-    /// without the native library. Any thread.</summary>
-    public sealed class MaterialFile
+    /// <summary>A learnt material: the contents of a .haptomaterial file, a label with its embedding, as the native
+    /// library reads and verifies it. Immutable; any thread.</summary>
+    public sealed unsafe class MaterialFile
     {
         /// <summary>Number of an embedding's components that describe the texture; the last four are wave
         /// vectors.</summary>
         public const int TextureNumbers = 60;
 
-        /// <summary>Maximum length of the text in UTF-8.</summary>
-        public const int MaximumBytes = 1024 * 1024;
-
-        private const string FormatName = "haptoflow-material";
-
-        private MaterialFile(JsonValue json)
+        private MaterialFile(string text, in MaterialInfo info, IReadOnlyList<double> embedding)
         {
-            Json = json;
-            var root = new CheckedTable(json);
-            CheckFormat(root);
-            Space = root.Text("space");
-            if (Space.Length != 8 || Space.Any(letter => "0123456789abcdef".IndexOf(letter) < 0))
-            {
-                throw root.Failure("space", "eight lower-case hexadecimal digits");
-            }
-            Name = root.Text("name");
-            if (Name.Trim().Length == 0)
-            {
-                throw root.Failure("name", "a name that is not empty");
-            }
-            Category = root.Text("category", "");
-            Description = root.Text("description", "");
-            CheckedTable? provenance = root.OptionalTable("provenance");
-            Statement = provenance?.Text("statement", "") ?? "";
-            Recordings = provenance?.Text("recordings", "") ?? "";
-            Licence = provenance?.Text("licence", "unknown") ?? "unknown";
-            Created = provenance?.Text("created", "") ?? "";
-            Seconds = provenance?.OptionalNumber("seconds", 0.0, 1e9) ?? 0.0;
-            Embedding = root.Numbers("embedding", HapticModel.EmbeddingSize, HapticModel.EmbeddingSize);
-            StiffnessNewtonsPerMetre = root.Number("stiffness_newtons_per_metre", 1e-3, 1e6);
-            LevelOffsetDecibels = root.OptionalNumber("level_offset_db", -MaterialRules.MaximumOffsetDecibels,
-                MaterialRules.MaximumOffsetDecibels) ?? 0.0;
-            MaterialRules.Check(root);
+            Text = text;
+            Embedding = embedding;
+            Space = NativeCall.Text(info.Space);
+            Name = NativeCall.Text(info.Name);
+            Category = NativeCall.Text(info.Category);
+            Description = NativeCall.Text(info.Description);
+            Statement = NativeCall.Text(info.Statement);
+            Recordings = NativeCall.Text(info.Recordings);
+            Licence = NativeCall.Text(info.Licence);
+            Created = NativeCall.Text(info.Created);
+            Seconds = info.Seconds;
+            StiffnessNewtonsPerMetre = info.StiffnessNewtonsPerMetre;
+            LevelOffsetDecibels = info.LevelOffsetDecibels;
+            SpeedMps = new TrainedInterval(info.SpeedMps[0], info.SpeedMps[1]);
+            ForceNewtons = new TrainedInterval(info.ForceNewtons[0], info.ForceNewtons[1]);
         }
 
-        /// <summary>The <see cref="ModelSpace.Id"/> of the model that the material was learnt for.</summary>
+        /// <summary>The <see cref="HapticModel.Space"/> of the model that the material was learnt for.</summary>
         public string Space { get; }
 
         /// <summary>Name for display.</summary>
@@ -85,37 +68,48 @@ namespace HaptoFlow.Model
         /// <summary>Offset of the level, in dB.</summary>
         public double LevelOffsetDecibels { get; }
 
-        internal JsonValue Json { get; }
+        /// <summary>Speeds of the recordings, in m/s.</summary>
+        public TrainedInterval SpeedMps { get; }
+
+        /// <summary>Forces of the recordings, in N.</summary>
+        public TrainedInterval ForceNewtons { get; }
+
+        /// <summary>The text that was read.</summary>
+        internal string Text { get; }
 
         /// <param name="text">The whole .haptomaterial file.</param>
-        /// <exception cref="HaptoFlowException">The text is not a material file; the message names the key.</exception>
+        /// <exception cref="HaptoFlowException">The library is missing, or the text is not a material file; the message
+        /// names the key.</exception>
         public static MaterialFile Read(string text)
         {
-            if (text.Length > MaximumBytes || Encoding.UTF8.GetByteCount(text) > MaximumBytes)
-            {
-                throw new HaptoFlowException(HaptoFlowStatus.MaterialInvalid,
-                    "the file is longer than 1048576 bytes; a material file has at most that many");
-            }
             try
             {
-                return new MaterialFile(JsonValue.Parse(text));
+                LibraryAgreement.Require();
+                byte[] json = NativeCall.Utf8(text);
+                IntPtr material;
+                fixed (byte* bytes = json)
+                {
+                    NativeCall.Check(NativeMethods.MaterialRead(bytes, (ulong)json.Length - 1, &material));
+                }
+                try
+                {
+                    var info = new MaterialInfo { StructSize = (uint)sizeof(MaterialInfo) };
+                    NativeCall.Check(NativeMethods.MaterialDescribe(material, &info));
+                    var embedding = new float[HapticModel.EmbeddingSize];
+                    fixed (float* numbers = embedding)
+                    {
+                        NativeCall.Check(NativeMethods.MaterialEmbedding(material, numbers));
+                    }
+                    return new MaterialFile(text, info, Array.ConvertAll(embedding, number => (double)number));
+                }
+                finally
+                {
+                    NativeCall.Check(NativeMethods.MaterialClose(&material));
+                }
             }
-            catch (FormatException error)
+            catch (Exception error) when (NativeCall.IsMissing(error))
             {
-                throw new HaptoFlowException(HaptoFlowStatus.MaterialInvalid, error.Message, error);
-            }
-        }
-
-        private static void CheckFormat(CheckedTable root)
-        {
-            if (!root.Has("format") || root.Text("format") != FormatName)
-            {
-                throw root.Failure("format", $"\"{FormatName}\"", "this is not a material file");
-            }
-            int version = root.Integer("version");
-            if (version != 1)
-            {
-                throw root.Failure("version", "1", $"this reader does not know version {version}; update HaptoFlow");
+                throw NativeCall.Missing(error);
             }
         }
     }

@@ -17,10 +17,17 @@ namespace HaptoFlow.Model
         /// <summary>The material file of a label, without seeds: the model's seeds apply.</summary>
         /// <param name="file">The whole .haptoflow file.</param>
         /// <exception cref="HaptoFlowException">The bytes are not a model, or it has no such label.</exception>
-        public static string OfLabel(ReadOnlySpan<byte> file, string label)
+        public static string OfLabel(byte[] file, string label)
         {
-            ModelSpace space = ModelSpace.Of(file);
-            JsonValue header = JsonValue.Parse(ModelFile.HeaderText(file));
+            using HapticModel model = HapticModel.Open(file);
+            return OfLabel(model, label);
+        }
+
+        /// <summary>The material file of a label, without seeds: the model's seeds apply.</summary>
+        /// <exception cref="HaptoFlowException">The model has no such label.</exception>
+        public static string OfLabel(HapticModel model, string label)
+        {
+            JsonValue header = JsonValue.Parse(model.HeaderJson());
             JsonValue[] labels = header["labels"].AsArray().ToArray();
             int index = Array.FindIndex(labels, each => each["name"].AsText() == label);
             if (index < 0)
@@ -32,7 +39,7 @@ namespace HaptoFlow.Model
             {
                 ["format"] = "haptoflow-material",
                 ["version"] = 1,
-                ["space"] = space.Id,
+                ["space"] = model.Space,
                 ["description"] = "",
                 ["provenance"] = new Dictionary<string, object?>
                 {
@@ -42,7 +49,7 @@ namespace HaptoFlow.Model
                     ["seconds"] = 0.0,
                     ["created"] = provenance["created"].AsText(),
                 },
-                ["embedding"] = space.Embedding(index),
+                ["embedding"] = model.Embedding(index),
                 ["range"] = new Dictionary<string, object?>
                 {
                     ["speed_mps"] = header["range"]["speed_mps"],
@@ -65,7 +72,7 @@ namespace HaptoFlow.Model
         public static string With(MaterialFile material, IReadOnlyDictionary<string, object?> changes)
         {
             var members = new Dictionary<string, object?>();
-            foreach (KeyValuePair<string, JsonValue> member in material.Json.AsObject())
+            foreach (KeyValuePair<string, JsonValue> member in JsonValue.Parse(material.Text).AsObject())
             {
                 members[member.Key] = member.Value;
             }

@@ -1,20 +1,20 @@
 #nullable enable
-using System;
 using System.Collections.Generic;
 using System.Linq;
+using HaptoFlow.Native;
 
 namespace HaptoFlow.Model
 {
     /// <summary>Provenance of a model.</summary>
     public sealed class ModelProvenance
     {
-        internal ModelProvenance(JsonValue json)
+        internal ModelProvenance(in ModelInfo info)
         {
-            Statement = json["statement"].AsText();
-            Recordings = json["recordings"].AsText();
-            Licence = json["licence"].AsText();
-            Commit = json["commit"].AsText();
-            Created = json["created"].AsText();
+            Statement = NativeCall.Text(info.Statement);
+            Recordings = NativeCall.Text(info.Recordings);
+            Licence = NativeCall.Text(info.Licence);
+            Commit = NativeCall.Text(info.Commit);
+            Created = NativeCall.Text(info.Created);
         }
 
         /// <summary>One sentence, for example "trained on synthetic recordings".</summary>
@@ -33,20 +33,13 @@ namespace HaptoFlow.Model
         public string Created { get; }
     }
 
-    /// <summary>A trained interval and the 5th, 25th, 50th, 75th and 95th percentile of the training samples in it.
-    /// </summary>
-    public sealed class TrainedInterval
+    /// <summary>The interval of the speeds or forces that a model was trained on, or a material learnt from.</summary>
+    public readonly struct TrainedInterval
     {
-        internal TrainedInterval(JsonValue bounds, JsonValue percentiles)
+        internal TrainedInterval(double minimum, double maximum)
         {
-            double[] edges = bounds.AsArray().Select(edge => edge.AsNumber()).ToArray();
-            if (edges.Length != 2 || !(edges[0] >= 0.0 && edges[0] < edges[1]))
-            {
-                throw bounds.Expected("[min, max] with min below max");
-            }
-            Minimum = edges[0];
-            Maximum = edges[1];
-            Percentiles = percentiles.AsArray().Select(value => value.AsNumber()).ToArray();
+            Minimum = minimum;
+            Maximum = maximum;
         }
 
         /// <summary>Lower limit, in the unit of the property that holds the interval.</summary>
@@ -54,96 +47,23 @@ namespace HaptoFlow.Model
 
         /// <summary>Upper limit, in the unit of the property that holds the interval.</summary>
         public double Maximum { get; }
-
-        /// <summary>The 5th, 25th, 50th, 75th and 95th percentile.</summary>
-        public IReadOnlyList<double> Percentiles { get; }
     }
 
-    /// <summary>A label in the header.</summary>
-    public sealed class ModelLabel
+    /// <summary>The header of a .haptoflow file as the native library reads it, which also verifies the rest of the
+    /// file. Immutable; any thread.</summary>
+    public sealed unsafe class ModelHeader
     {
-        internal ModelLabel(JsonValue json)
+        internal ModelHeader(
+            in ModelInfo info, string space, IReadOnlyList<HapticLabel> labels, IReadOnlyList<HapticTier> tiers)
         {
-            Name = json["name"].AsText();
-            Category = json["category"].AsText();
-            StiffnessNewtonsPerMetre = json["stiffness_newtons_per_metre"].AsNumber();
-            FrictionCoefficient = json["friction_coefficient"].AsNumber();
-            WavelengthMetres = json["periodic"].AsBoolean() ? json["wavelength_metres"].AsNumber() : (double?)null;
-        }
-
-        /// <summary>Name, lower case and unique in the model.</summary>
-        public string Name { get; }
-
-        /// <summary>For example "wood" or "cloth".</summary>
-        public string Category { get; }
-
-        /// <summary>Default stiffness of the spring model.</summary>
-        public double StiffnessNewtonsPerMetre { get; }
-
-        /// <summary>Mean coefficient of kinetic friction.</summary>
-        public double FrictionCoefficient { get; }
-
-        /// <summary>Wavelength of a woven or ruled surface; null for others.</summary>
-        public double? WavelengthMetres { get; }
-    }
-
-    /// <summary>A tier in the header.</summary>
-    public sealed class ModelTier
-    {
-        internal ModelTier(JsonValue json)
-        {
-            Name = json["name"].AsText();
-            Kind = json["kind"].AsText();
-            Solver = json["solver"].AsText();
-            Steps = json["steps"].AsInteger();
-            ParameterCount = (long)json["parameters"].AsNumber();
-            Representation = json["representation"].AsText();
-            Accuracy = json["accuracy"];
-            Cost = json["cost"];
-        }
-
-        /// <summary>Usually "draft", "standard" or "fine".</summary>
-        public string Name { get; }
-
-        /// <summary>"flow", "average-velocity" or "direct".</summary>
-        public string Kind { get; }
-
-        /// <summary>"euler", "midpoint" or "heun".</summary>
-        public string Solver { get; }
-
-        /// <summary>Solver steps, 1 to 16.</summary>
-        public int Steps { get; }
-
-        /// <summary>Number of weights of the network.</summary>
-        public long ParameterCount { get; }
-
-        /// <summary>"raw" or "latent".</summary>
-        public string Representation { get; }
-
-        /// <summary>Measured figures, an empty object where nothing was measured.</summary>
-        public JsonValue Accuracy { get; }
-
-        /// <summary>Measured figures, an empty object where nothing was measured.</summary>
-        public JsonValue Cost { get; }
-    }
-
-    /// <summary>The header of a .haptoflow file, read without the native library: for inspectors, label lists and
-    /// platforms without a binary. The networks are checked when the native library opens the file.</summary>
-    public sealed class ModelHeader
-    {
-        private ModelHeader(JsonValue json)
-        {
-            Name = json["name"].AsText();
-            Description = json["description"].AsText();
-            Provenance = new ModelProvenance(json["provenance"]);
-            JsonValue range = json["range"];
-            SpeedMps = new TrainedInterval(range["speed_mps"], range["speed_percentiles_mps"]);
-            ForceNewtons = new TrainedInterval(range["force_newtons"], range["force_percentiles_newtons"]);
-            Labels = json["labels"].AsArray().Select(label => new ModelLabel(label)).ToArray();
-            Tiers = json["tiers"].AsArray().Select(tier => new ModelTier(tier)).ToArray();
-            JsonValue defaultTier = json["default_tier"];
-            DefaultTier = Tiers.FirstOrDefault(tier => tier.Name == defaultTier.AsText()) ??
-                throw defaultTier.Expected("the name of a tier");
+            Name = NativeCall.Text(info.Name);
+            Description = NativeCall.Text(info.Description);
+            Provenance = new ModelProvenance(info);
+            SpeedMps = new TrainedInterval(info.SpeedMps[0], info.SpeedMps[1]);
+            ForceNewtons = new TrainedInterval(info.ForceNewtons[0], info.ForceNewtons[1]);
+            Space = space;
+            Labels = labels;
+            Tiers = tiers;
         }
 
         /// <summary>Name for display.</summary>
@@ -161,29 +81,25 @@ namespace HaptoFlow.Model
         /// <summary>Forces that the network was trained on, in N.</summary>
         public TrainedInterval ForceNewtons { get; }
 
+        /// <summary>Identifies the space of the embeddings: see <see cref="HapticModel.Space"/>.</summary>
+        public string Space { get; }
+
         /// <summary>The labels in the order of their indices.</summary>
-        public IReadOnlyList<ModelLabel> Labels { get; }
+        public IReadOnlyList<HapticLabel> Labels { get; }
 
         /// <summary>The tiers in order of increasing accuracy.</summary>
-        public IReadOnlyList<ModelTier> Tiers { get; }
+        public IReadOnlyList<HapticTier> Tiers { get; }
 
         /// <summary>The tier that is used unless another is selected.</summary>
-        public ModelTier DefaultTier { get; }
+        public HapticTier DefaultTier => Tiers.Single(tier => tier.IsDefault);
 
-        /// <param name="file">The whole .haptoflow file.</param>
-        /// <exception cref="HaptoFlowException">The bytes break a rule of the format; the message names it.</exception>
-        public static ModelHeader Read(ReadOnlySpan<byte> file)
+        /// <param name="file">The whole .haptoflow file; the array is not kept.</param>
+        /// <exception cref="HaptoFlowException">The library is missing, or the bytes are not a usable model; the
+        /// message says why.</exception>
+        public static ModelHeader Read(byte[] file)
         {
-            string text = ModelFile.HeaderText(file);
-            try
-            {
-                return new ModelHeader(JsonValue.Parse(text));
-            }
-            catch (FormatException error)
-            {
-                throw new HaptoFlowException(
-                    HaptoFlowStatus.ModelInconsistent, "the JSON header: " + error.Message, error);
-            }
+            using HapticModel model = HapticModel.Open(file);
+            return model.Header;
         }
     }
 }

@@ -9,8 +9,8 @@ using Newtonsoft.Json.Linq;
 namespace HaptoFlow.Model
 {
     /// <summary>Reads one JSON document as RFC 8259 defines it. Newtonsoft.Json alone also accepts comments, single
-    /// quotes, trailing commas, NaN, hexadecimal numbers and other forms that the native library refuses; a file must
-    /// not be valid in the Inspector and damaged in the player.</summary>
+    /// quotes, trailing commas, NaN, hexadecimal numbers and other forms that the native library and Python refuse; a
+    /// file must not be valid in one place and damaged in another.</summary>
     internal sealed class StrictJsonReader : JsonTextReader
     {
         /// <summary>Deepest nesting of arrays and objects.</summary>

@@ -171,7 +171,7 @@ namespace HaptoFlow
             {
                 (string material, string report) = NativeLearning.Run(
                     runtime, model, recording, options, cancellation, GCHandle.ToIntPtr(context));
-                string nearest = ModelSpace.Of(modelFile).NearestLabel(MaterialFile.Read(material).Embedding);
+                string nearest = model.NearestLabel(MaterialFile.Read(material).Embedding);
                 return new Learnt(material, report, nearest);
             }
             catch (Exception error) when (NativeCall.IsMissing(error))

@@ -1,6 +1,8 @@
 #nullable enable
 using System;
 using System.Collections.Generic;
+using System.Linq;
+using HaptoFlow.Model;
 using HaptoFlow.Native;
 
 namespace HaptoFlow
@@ -105,22 +107,22 @@ namespace HaptoFlow
         /// <summary>Length of a material embedding.</summary>
         public const int EmbeddingSize = 64;
 
-        private readonly HapticLabel[] labels;
-        private readonly HapticTier[] tiers;
-
         private HapticModel(IntPtr opened)
         {
             Handle = new ModelHandle(opened);
-            labels = ReadLabels(opened);
-            tiers = ReadTiers(opened);
-            Space = ReadSpace(opened);
+            var info = new ModelInfo { StructSize = (uint)sizeof(ModelInfo) };
+            NativeCall.Check(NativeMethods.ModelDescribe(opened, &info));
+            Header = new ModelHeader(info, ReadSpace(opened), ReadLabels(opened), ReadTiers(opened));
         }
 
+        /// <summary>What the model's header says; it stays valid without the model.</summary>
+        public ModelHeader Header { get; }
+
         /// <summary>The labels in the order of their indices.</summary>
-        public IReadOnlyList<HapticLabel> Labels => labels;
+        public IReadOnlyList<HapticLabel> Labels => Header.Labels;
 
         /// <summary>The tiers in order of increasing accuracy.</summary>
-        public IReadOnlyList<HapticTier> Tiers => tiers;
+        public IReadOnlyList<HapticTier> Tiers => Header.Tiers;
 
         internal ModelHandle Handle { get; }
 
@@ -131,7 +133,8 @@ namespace HaptoFlow
         {
             try
             {
-                fixed (byte* bytes = file)
+                // An empty array has no address, and the library says of an empty file what is wrong with it.
+                fixed (byte* bytes = file.Length > 0 ? file : new byte[1])
                 {
                     var options = new ModelOptions
                     {
@@ -168,7 +171,7 @@ namespace HaptoFlow
 
         /// <summary>Identifies the space of the model's embeddings, as 8 hexadecimal digits: a material file can be
         /// used with every model of the same space.</summary>
-        public string Space { get; }
+        public string Space => Header.Space;
 
         /// <summary>The JSON header of the file, unchanged.</summary>
         public string HeaderJson()
@@ -190,6 +193,27 @@ namespace HaptoFlow
             }
             GC.KeepAlive(this);
             return embedding;
+        }
+
+        /// <summary>Name of the label whose embedding is nearest, ignoring wave vectors.</summary>
+        /// <param name="embedding"><see cref="EmbeddingSize"/> numbers, such as those of a <see cref="MaterialFile"/>.
+        /// </param>
+        /// <exception cref="ArgumentException">It has another length.</exception>
+        public string NearestLabel(IReadOnlyList<double> embedding)
+        {
+            if (embedding.Count != EmbeddingSize)
+            {
+                throw new ArgumentException(
+                    $"the embedding has {embedding.Count} numbers; expected {EmbeddingSize}", nameof(embedding));
+            }
+            float[] wanted = embedding.Select(number => (float)number).ToArray();
+            uint index;
+            fixed (float* numbers = wanted)
+            {
+                NativeCall.Check(NativeMethods.ModelNearestLabel(Handle.Value, numbers, &index));
+            }
+            GC.KeepAlive(this);
+            return Labels[(int)index].Name;
         }
 
         /// <summary>Frees the handle; engines and generators created from the model stay usable.</summary>

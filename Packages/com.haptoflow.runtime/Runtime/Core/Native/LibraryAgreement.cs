@@ -19,8 +19,10 @@ namespace HaptoFlow.Native
         {
             ["haptoflow_runtime_options"] = sizeof(RuntimeOptions),
             ["haptoflow_model_options"] = sizeof(ModelOptions),
+            ["haptoflow_model_info"] = sizeof(ModelInfo),
             ["haptoflow_label_info"] = sizeof(LabelInfo),
             ["haptoflow_tier_info"] = sizeof(TierInfo),
+            ["haptoflow_material_info"] = sizeof(MaterialInfo),
             ["haptoflow_generator_options"] = sizeof(GeneratorOptions),
             ["haptoflow_batch"] = sizeof(Batch),
             ["haptoflow_engine_options"] = sizeof(EngineOptions),

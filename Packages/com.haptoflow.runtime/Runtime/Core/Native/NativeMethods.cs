@@ -57,6 +57,9 @@ namespace HaptoFlow.Native
         [DllImport(Library, EntryPoint = "haptoflow_model_header")]
         public static extern int ModelHeader(IntPtr model, IntPtr* headerJson);
 
+        [DllImport(Library, EntryPoint = "haptoflow_model_describe")]
+        public static extern int ModelDescribe(IntPtr model, ModelInfo* info);
+
         [DllImport(Library, EntryPoint = "haptoflow_model_label_count")]
         public static extern int ModelLabelCount(IntPtr model, uint* count);
 
@@ -66,6 +69,9 @@ namespace HaptoFlow.Native
         [DllImport(Library, EntryPoint = "haptoflow_model_embedding")]
         public static extern int ModelEmbedding(IntPtr model, uint index, float* embedding);
 
+        [DllImport(Library, EntryPoint = "haptoflow_model_nearest_label")]
+        public static extern int ModelNearestLabel(IntPtr model, float* embedding, uint* index);
+
         [DllImport(Library, EntryPoint = "haptoflow_model_space")]
         public static extern int ModelSpace(IntPtr model, IntPtr* space);
 
@@ -74,6 +80,18 @@ namespace HaptoFlow.Native
 
         [DllImport(Library, EntryPoint = "haptoflow_model_tier")]
         public static extern int ModelTier(IntPtr model, uint index, TierInfo* info);
+
+        [DllImport(Library, EntryPoint = "haptoflow_material_read")]
+        public static extern int MaterialRead(byte* json, ulong length, IntPtr* material);
+
+        [DllImport(Library, EntryPoint = "haptoflow_material_close")]
+        public static extern int MaterialClose(IntPtr* material);
+
+        [DllImport(Library, EntryPoint = "haptoflow_material_describe")]
+        public static extern int MaterialDescribe(IntPtr material, MaterialInfo* info);
+
+        [DllImport(Library, EntryPoint = "haptoflow_material_embedding")]
+        public static extern int MaterialEmbedding(IntPtr material, float* embedding);
 
         [DllImport(Library, EntryPoint = "haptoflow_generator_create")]
         public static extern int GeneratorCreate(GeneratorOptions* options, IntPtr* generator);

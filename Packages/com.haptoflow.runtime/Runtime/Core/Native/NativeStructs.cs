@@ -30,6 +30,21 @@ namespace HaptoFlow.Native
     }
 
     [Preserve, StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct ModelInfo
+    {
+        public uint StructSize;
+        public IntPtr Name;
+        public IntPtr Description;
+        public IntPtr Statement;
+        public IntPtr Recordings;
+        public IntPtr Licence;
+        public IntPtr Commit;
+        public IntPtr Created;
+        public fixed double SpeedMps[2];
+        public fixed double ForceNewtons[2];
+    }
+
+    [Preserve, StructLayout(LayoutKind.Sequential)]
     internal struct LabelInfo
     {
         public uint StructSize;
@@ -56,6 +71,25 @@ namespace HaptoFlow.Native
         public int Solver;
         public uint IsDefault;
         public long ParameterCount;
+    }
+
+    [Preserve, StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct MaterialInfo
+    {
+        public uint StructSize;
+        public IntPtr Name;
+        public IntPtr Category;
+        public IntPtr Description;
+        public IntPtr Space;
+        public IntPtr Statement;
+        public IntPtr Recordings;
+        public IntPtr Licence;
+        public IntPtr Created;
+        public double Seconds;
+        public double StiffnessNewtonsPerMetre;
+        public double LevelOffsetDecibels;
+        public fixed double SpeedMps[2];
+        public fixed double ForceNewtons[2];
     }
 
     [Preserve, StructLayout(LayoutKind.Sequential)]

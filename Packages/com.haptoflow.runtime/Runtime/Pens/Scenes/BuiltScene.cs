@@ -37,10 +37,10 @@ namespace HaptoFlow
         public abstract void Sketch();
 
         /// <summary>The labels of the model in use, before play mode too; none without a model.</summary>
-        protected IReadOnlyList<ModelLabel> LabelsOfModel()
+        protected IReadOnlyList<HapticLabel> LabelsOfModel()
         {
             HapticModelAsset? used = HaptoFlowSettings.Active.Model != null ? HaptoFlowSettings.Active.Model : model;
-            return used != null ? used.Header.Labels : Array.Empty<ModelLabel>();
+            return used != null ? used.Header.Labels : Array.Empty<HapticLabel>();
         }
 
         private void OnDrawGizmos()

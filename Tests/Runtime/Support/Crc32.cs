@@ -1,10 +1,10 @@
 #nullable enable
 using System;
 
-namespace HaptoFlow.Model
+namespace HaptoFlow.Tests
 {
     /// <summary>CRC-32 as in zlib and PNG. System.IO.Hashing is not part of Unity's class libraries.</summary>
-    internal static class Crc32
+    public static class Crc32
     {
         private static readonly uint[] Table = MakeTable();
 

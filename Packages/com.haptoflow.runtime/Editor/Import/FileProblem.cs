@@ -1,0 +1,54 @@
+#nullable enable
+using System;
+using System.Security.Cryptography;
+using UnityEditor.AssetImporters;
+using Object = UnityEngine.Object;
+
+namespace HaptoFlow.Editor
+{
+    /// <summary>Why a model or a material file cannot be used here.</summary>
+    internal sealed class FileProblem
+    {
+        private FileProblem(string text, bool wasChecked)
+        {
+            Text = text;
+            WasChecked = wasChecked;
+        }
+
+        /// <summary>The problem and its remedy. Of a file that the native library could not be asked about, also what
+        /// identifies it: its size and its SHA-256 checksum.</summary>
+        public string Text { get; }
+
+        /// <summary>False where the native library could not be asked, so that the file may be good.</summary>
+        public bool WasChecked { get; }
+
+        public static FileProblem Of(HaptoFlowException refusal, byte[] file)
+        {
+            bool wasChecked = refusal.Status != HaptoFlowStatus.LibraryUnavailable &&
+                refusal.Status != HaptoFlowStatus.LibraryMismatch;
+            return new FileProblem(wasChecked ? refusal.Message : refusal.Message + Identity(file), wasChecked);
+        }
+
+        /// <summary>Logs the problem of an imported file: an error, or a warning where the file may be good.</summary>
+        public void Log(AssetImportContext ctx, Object asset)
+        {
+            string message = $"HaptoFlow: {ctx.assetPath}: {Text}";
+            if (WasChecked)
+            {
+                ctx.LogImportError(message, asset);
+            }
+            else
+            {
+                ctx.LogImportWarning(message, asset);
+            }
+        }
+
+        private static string Identity(byte[] file)
+        {
+            using SHA256 hash = SHA256.Create();
+            string sum = BitConverter.ToString(hash.ComputeHash(file)).Replace("-", "").ToLowerInvariant();
+            return SummaryRow.Format(". The file was not checked; it has {0} bytes and the SHA-256 checksum {1}",
+                file.Length, sum);
+        }
+    }
+}
