@@ -1,6 +1,5 @@
 #include "command_files.hpp"
 #include "commands.hpp"
-#include "recordings/csv_lines.hpp"
 #include "decimal_text.hpp"
 #include "exit_codes.hpp"
 #include "inference/onnx_segment_generator.hpp"
@@ -15,6 +14,7 @@
 #include "option_values.hpp"
 #include "output_file.hpp"
 #include "progress_bar.hpp"
+#include "recordings/csv_lines.hpp"
 #include "recordings/recording_reader.hpp"
 
 #include <algorithm>
@@ -158,8 +158,9 @@ void runLearn(const LearnOptions& options) {
     const model::Tier& tier = model.header().tiers[model.header().defaultTier];
 
     learning::LearningSettings settings;
-    settings.name = options.name ? *options.name
-                                 : plainName(recording.description.label.empty() ? fs::path(options.recordingPath).stem().string()
+    settings.name =
+        options.name ? *options.name
+                     : plainName(recording.description.label.empty() ? fs::path(options.recordingPath).stem().string()
                                                                      : recording.description.label);
     settings.category = options.category;
     settings.licence = options.licence.empty() ? recording.description.licence : options.licence;

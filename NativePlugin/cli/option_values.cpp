@@ -1,9 +1,9 @@
 #include "option_values.hpp"
 
-#include "recordings/decimal_number.hpp"
 #include "dsp/sample_rates.hpp"
 #include "exit_codes.hpp"
 #include "input_file.hpp"
+#include "recordings/decimal_number.hpp"
 
 #include <charconv>
 #include <optional>

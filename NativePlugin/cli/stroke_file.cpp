@@ -1,10 +1,10 @@
 #include "stroke_file.hpp"
 
-#include "recordings/csv_lines.hpp"
 #include "decimal_text.hpp"
-#include "recordings/decimal_number.hpp"
 #include "exit_codes.hpp"
 #include "input_file.hpp"
+#include "recordings/csv_lines.hpp"
+#include "recordings/decimal_number.hpp"
 
 #include <algorithm>
 #include <array>

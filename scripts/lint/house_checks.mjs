@@ -4,9 +4,12 @@ import { endingIn } from './files.mjs';
 
 const read = (name) => readFileSync(inRepository(name), 'utf8');
 
+// Some of these are broken on purpose.
+const brokenFiles = 'Tests/Golden/recordings/files/';
+
 /** Every JSON file parses. */
 export async function checkJson(files) {
-  const sources = endingIn(files, '.json', '.asmdef');
+  const sources = endingIn(files, '.json', '.asmdef').filter((name) => !name.startsWith(brokenFiles));
   const complaints = [];
   for (const name of sources) {
     try {

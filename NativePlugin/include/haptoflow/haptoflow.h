@@ -984,8 +984,8 @@ HAPTOFLOW_API haptoflow_status haptoflow_noise_fill(uint64_t seed, uint32_t voic
 
 /* --------------------------------------------------------------------------------------------------- recordings */
 
-/* A recording of one material, read from a table (CSV) or a WAV file and the files beside it: NAME.json, recordings.json
- * and the motion's table. Documentation~/own-materials.md describes them. */
+/* A recording of one material, read from a table (CSV) or a WAV file and the files beside it: NAME.json,
+ * recordings.json and the motion's table. Documentation~/own-materials.md describes them. */
 typedef struct haptoflow_recording haptoflow_recording;
 
 /* A file that is part of an application. */

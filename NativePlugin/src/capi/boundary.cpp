@@ -1,9 +1,9 @@
 #include "capi/boundary.hpp"
 
 #include "inference/inference_error.hpp"
-#include "recordings/recording.hpp"
 #include "model/material_file.hpp"
 #include "model/model_error.hpp"
+#include "recordings/recording.hpp"
 
 #include <array>
 #include <new>

@@ -95,8 +95,7 @@ haptoflow_recording_info infoOf(const OpenRecording& open) {
 
 }  // namespace
 
-haptoflow_status haptoflow_recording_read(const haptoflow_recording_options* options,
-                                          haptoflow_recording** recording) {
+haptoflow_status haptoflow_recording_read(const haptoflow_recording_options* options, haptoflow_recording** recording) {
     return guarded([&] {
         const auto given = readDescriptor(options, mandatoryOptions, "options");
         (void)require(recording, "recording");

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "inference/segment_generator.hpp"
-#include "recordings/prepared_recording.hpp"
 #include "model/model_header.hpp"
+#include "recordings/prepared_recording.hpp"
 
 #include <array>
 #include <cstdint>

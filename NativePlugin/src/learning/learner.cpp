@@ -7,8 +7,6 @@
 #include "learning/level_law.hpp"
 #include "learning/material_frame.hpp"
 #include "learning/material_text.hpp"
-#include "recordings/prepared_recording.hpp"
-#include "recordings/recording.hpp"
 #include "learning/seed_choice.hpp"
 #include "learning/seed_ribs.hpp"
 #include "learning/sliding.hpp"
@@ -19,6 +17,8 @@
 #include "model/material_file.hpp"
 #include "model/name_index.hpp"
 #include "model/plain_text.hpp"
+#include "recordings/prepared_recording.hpp"
+#include "recordings/recording.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -46,8 +46,8 @@ constexpr double fitShare = 0.9;
 
 class Learner {
 public:
-    Learner(const recordings::Recording& recording, const model::ModelFile& model, inference::SegmentGenerator& generator,
-            const LearningSettings& settings)
+    Learner(const recordings::Recording& recording, const model::ModelFile& model,
+            inference::SegmentGenerator& generator, const LearningSettings& settings)
         : model_(model), generator_(generator), settings_(settings), began_(threadSeconds()) {
         say(0.0, "reading");
         checkSettings(settings);
@@ -55,7 +55,8 @@ public:
         recording_ = recordings::prepareRecording(recording);
         sliding_ = findSliding(recording_, model.header());
         if (recording.seconds() > recordings::maximumSeconds) {
-            report_.warnings.push_back("only the first " + recordings::plainNumber(recordings::maximumSeconds) + " s were read");
+            report_.warnings.push_back("only the first " + recordings::plainNumber(recordings::maximumSeconds) +
+                                       " s were read");
         }
     }
 
@@ -111,7 +112,8 @@ private:
         }
         if (!report_.stoppedEarly) {
             report_.stoppedEarly = true;
-            report_.warnings.push_back("the fit was stopped by the limit of " + recordings::plainNumber(settings_.secondsLimit) +
+            report_.warnings.push_back("the fit was stopped by the limit of " +
+                                       recordings::plainNumber(settings_.secondsLimit) +
                                        " s: another run may learn another material");
         }
         return true;
@@ -151,8 +153,9 @@ private:
         try {
             (void)model::parseMaterial(material);
         } catch (const model::MaterialError& error) {
-            throw recordings::RecordingUnusable(std::string("gives a material that HaptoFlow would refuse (") + error.what() +
-                                    "); check the units and the extreme values of the recording");
+            throw recordings::RecordingUnusable(std::string("gives a material that HaptoFlow would refuse (") +
+                                                error.what() +
+                                                "); check the units and the extreme values of the recording");
         }
     }
 
@@ -199,11 +202,12 @@ private:
         const double belowDb = decibelsPerNat * std::log(quietest / own);
         const double aboveDb = decibelsPerNat * std::log(own / loudest);
         if (belowDb > suspiciousLevelDb || aboveDb > suspiciousLevelDb) {
-            report_.warnings.push_back(
-                "the level, " + recordings::plainNumber(own) + " m/s^2 RMS at " + recordings::plainNumber(1000.0 * speed) + " mm/s, is " +
-                recordings::plainNumber(std::max(belowDb, aboveDb)) + " dB " + (belowDb > 0.0 ? "below" : "above") +
-                " every label of the model (" + recordings::plainNumber(quietest) + " to " + recordings::plainNumber(loudest) +
-                " m/s^2); check the unit or full scale of the acceleration");
+            report_.warnings.push_back("the level, " + recordings::plainNumber(own) + " m/s^2 RMS at " +
+                                       recordings::plainNumber(1000.0 * speed) + " mm/s, is " +
+                                       recordings::plainNumber(std::max(belowDb, aboveDb)) + " dB " +
+                                       (belowDb > 0.0 ? "below" : "above") + " every label of the model (" +
+                                       recordings::plainNumber(quietest) + " to " + recordings::plainNumber(loudest) +
+                                       " m/s^2); check the unit or full scale of the acceleration");
         }
         if (belowDb > 2.0 * suspiciousLevelDb || aboveDb > 2.0 * suspiciousLevelDb) {
             throw recordings::RecordingUnusable(report_.warnings.back());

@@ -2,8 +2,8 @@
 
 #include "inference/cancellation.hpp"
 #include "inference/segment_generator.hpp"
-#include "recordings/recording.hpp"
 #include "model/model_file.hpp"
+#include "recordings/recording.hpp"
 
 #include <array>
 #include <cstdint>

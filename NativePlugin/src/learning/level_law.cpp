@@ -226,7 +226,8 @@ double overallSlope(const std::vector<double>& knots, const std::vector<double>&
 
 }  // namespace
 
-LevelLaw fitLevelLaw(const recordings::PreparedRecording& recording, const Sliding& sliding, const ExponentPrior& prior) {
+LevelLaw fitLevelLaw(const recordings::PreparedRecording& recording, const Sliding& sliding,
+                     const ExponentPrior& prior) {
     const std::vector<Frame> frames = framesOf(recording, sliding);
     if (frames.size() < 10) {
         throw recordings::RecordingUnusable(

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "recordings/prepared_recording.hpp"
 #include "learning/sliding.hpp"
 #include "model/material_tables.hpp"
+#include "recordings/prepared_recording.hpp"
 
 namespace haptoflow::learning {
 

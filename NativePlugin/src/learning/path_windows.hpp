@@ -1,7 +1,7 @@
 #pragma once
 
-#include "recordings/prepared_recording.hpp"
 #include "learning/sliding.hpp"
+#include "recordings/prepared_recording.hpp"
 
 #include <cstddef>
 #include <vector>
@@ -27,6 +27,7 @@ struct PathWindow {
 
 /// At most 200 windows, half overlapping, evenly chosen from all. No window contains an unusable sample: each usable
 /// stretch is treated as a separate recording. Training does the same (preprocessing/path_windows.py).
-[[nodiscard]] std::vector<PathWindow> pathWindows(const recordings::PreparedRecording& recording, const Sliding& sliding);
+[[nodiscard]] std::vector<PathWindow> pathWindows(const recordings::PreparedRecording& recording,
+                                                  const Sliding& sliding);
 
 }  // namespace haptoflow::learning

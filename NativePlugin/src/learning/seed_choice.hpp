@@ -1,10 +1,10 @@
 #pragma once
 
 #include "inference/segment_generator.hpp"
-#include "recordings/prepared_recording.hpp"
 #include "learning/sliding.hpp"
 #include "learning/tone_fit.hpp"
 #include "model/model_header.hpp"
+#include "recordings/prepared_recording.hpp"
 
 #include <array>
 #include <optional>
@@ -27,7 +27,8 @@ struct LearntSeed {
 inline constexpr std::size_t maximumLearntSeeds = 8;
 
 /// Chooses stretches of the recording with speeds, forces and directions as different as possible.
-[[nodiscard]] std::vector<LearntSeed> chooseSeeds(const recordings::PreparedRecording& recording, const Sliding& sliding,
-                                                  std::span<const float> unitWave, const model::ToneTable& tone);
+[[nodiscard]] std::vector<LearntSeed> chooseSeeds(const recordings::PreparedRecording& recording,
+                                                  const Sliding& sliding, std::span<const float> unitWave,
+                                                  const model::ToneTable& tone);
 
 }  // namespace haptoflow::learning

@@ -30,16 +30,16 @@ std::array<double, 3> percentiles(std::vector<double> values) {
 void checkUnits(double medianSpeed, double medianForce, const model::ModelHeader& model) {
     if (medianSpeed > maximumHandMps) {
         throw recordings::RecordingUnusable("the speed is " + recordings::plainNumber(medianSpeed) +
-                                " m/s in the median, which no hand reaches; is it in mm/s?");
+                                            " m/s in the median, which no hand reaches; is it in mm/s?");
     }
     if (medianSpeed > model.speedMps.maximum) {
         throw recordings::RecordingUnusable("the speed is " + recordings::plainNumber(medianSpeed) +
-                                " m/s in the median; the model was trained up to " +
-                                recordings::plainNumber(model.speedMps.maximum) + " m/s");
+                                            " m/s in the median; the model was trained up to " +
+                                            recordings::plainNumber(model.speedMps.maximum) + " m/s");
     }
     if (medianForce > maximumHandNewtons) {
         throw recordings::RecordingUnusable("the force is " + recordings::plainNumber(medianForce) +
-                                " N in the median, which no hand presses; is it in millinewtons?");
+                                            " N in the median, which no hand presses; is it in millinewtons?");
     }
 }
 
@@ -62,17 +62,19 @@ Sliding findSliding(const recordings::PreparedRecording& recording, const model:
             forces.push_back(recording.motion[i][2]);
         }
     }
-    const auto seconds = [](std::size_t samples) { return recordings::plainNumber(static_cast<double>(samples) * sampleSeconds); };
+    const auto seconds = [](std::size_t samples) {
+        return recordings::plainNumber(static_cast<double>(samples) * sampleSeconds);
+    };
     if (speeds.empty()) {
         throw recordings::RecordingUnusable("the tip never moves: the speed stays below " +
-                                recordings::plainNumber(1000.0 * minimumSlidingMps) +
-                                " mm/s; give the speed, or record sliding strokes");
+                                            recordings::plainNumber(1000.0 * minimumSlidingMps) +
+                                            " mm/s; give the speed, or record sliding strokes");
     }
     const double medianForce = percentiles(forces)[1];
     checkUnits(percentiles(speeds)[1], medianForce, model);
     if (medianForce < lightestTouchNewtons) {
         throw recordings::RecordingUnusable("the force is " + recordings::plainNumber(medianForce) +
-                                " N in the median while the tip moves; give the force in newtons");
+                                            " N in the median while the tip moves; give the force in newtons");
     }
 
     Sliding sliding;
@@ -94,10 +96,11 @@ Sliding findSliding(const recordings::PreparedRecording& recording, const model:
     }
     sliding.seconds = static_cast<double>(keptSpeeds.size()) * sampleSeconds;
     if (sliding.seconds < recordings::minimumSlidingSeconds) {
-        throw recordings::RecordingUnusable("the tip slides for " + seconds(keptSpeeds.size()) + " s of " + seconds(count) +
-                                " s (" + seconds(count - usable) +
-                                " s were left out around missing or frozen samples); record 10 s or more of "
-                                "sliding");
+        throw recordings::RecordingUnusable(
+            "the tip slides for " + seconds(keptSpeeds.size()) + " s of " + seconds(count) + " s (" +
+            seconds(count - usable) +
+            " s were left out around missing or frozen samples); record 10 s or more of "
+            "sliding");
     }
     sliding.speedMps = percentiles(std::move(keptSpeeds));
     sliding.forceNewtons = percentiles(std::move(keptForces));

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "recordings/prepared_recording.hpp"
 #include "model/model_header.hpp"
+#include "recordings/prepared_recording.hpp"
 
 #include <cstdint>
 #include <vector>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "recordings/prepared_recording.hpp"
 #include "learning/sliding.hpp"
+#include "recordings/prepared_recording.hpp"
 
 #include <vector>
 
@@ -21,6 +21,7 @@ struct WaveVector {
 /// at exp(2 pi i k . x), independent of speed and direction. The evidence for a line at k is the mean of the windows'
 /// spectra there divided by that of its neighbours; the evidence for ribs combines their first six harmonics. Training
 /// does the same (preprocessing/wave_vectors.py).
-[[nodiscard]] std::vector<WaveVector> findWaveVectors(const recordings::PreparedRecording& recording, const Sliding& sliding);
+[[nodiscard]] std::vector<WaveVector> findWaveVectors(const recordings::PreparedRecording& recording,
+                                                      const Sliding& sliding);
 
 }  // namespace haptoflow::learning

@@ -96,8 +96,7 @@ std::vector<Band> thirdOctaves(std::size_t size) {
     const double hertzPerBin = dsp::waveformRateHz / static_cast<double>(size);
     const double halfBand = std::pow(2.0, 1.0 / 6.0);
     std::vector<Band> bands;
-    for (double centre = lowestCentreHz; centre * halfBand < dsp::waveformRateHz / 2.0;
-         centre *= halfBand * halfBand) {
+    for (double centre = lowestCentreHz; centre * halfBand < dsp::waveformRateHz / 2.0; centre *= halfBand * halfBand) {
         const Band band{.logCentre = std::log(centre),
                         .first = static_cast<std::size_t>(std::ceil(centre / halfBand / hertzPerBin)),
                         .end = static_cast<std::size_t>(std::ceil(centre * halfBand / hertzPerBin))};

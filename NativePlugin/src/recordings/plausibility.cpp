@@ -85,9 +85,9 @@ void checkUnits(const std::string& path, const std::string& columns, const Track
                                 "mps2 and so on where they are in m/s^2");
     }
     if (isWithin(rest, restInMilligravity)) {
-        throw RecordingUnusable(place + ", which looks like mg; expected " +
-                                std::string(isInG ? "g (1 at rest): divide by 1000"
-                                                  : "m/s^2 (9.8 at rest): divide by 102"));
+        throw RecordingUnusable(
+            place + ", which looks like mg; expected " +
+            std::string(isInG ? "g (1 at rest): divide by 1000" : "m/s^2 (9.8 at rest): divide by 102"));
     }
     double squares = 0.0;
     for (std::size_t i = 0; i < acceleration.values.size(); ++i) {
@@ -150,11 +150,10 @@ Track withoutFrozen(const std::string& path, Track acceleration, std::vector<std
         fail(path, "the acceleration hardly ever changes", "a sensor that is connected");
     }
     const auto first = static_cast<std::size_t>(std::ranges::find(frozen, std::uint8_t{1}) - frozen.begin());
-    notes.push_back(path + ": the acceleration stays the same in " +
-                    plainNumber(100.0 * share(acceleration.count() - left, acceleration.count())) +
-                    " % of its samples, from " +
-                    plainNumber(acceleration.timeSeconds[first] - acceleration.timeSeconds.front()) +
-                    " s on; these are left out");
+    notes.push_back(
+        path + ": the acceleration stays the same in " +
+        plainNumber(100.0 * share(acceleration.count() - left, acceleration.count())) + " % of its samples, from " +
+        plainNumber(acceleration.timeSeconds[first] - acceleration.timeSeconds.front()) + " s on; these are left out");
     Track kept{.timeSeconds = {}, .values = {}, .width = acceleration.width, .lines = {}};
     for (std::size_t i = 0; i < acceleration.count(); ++i) {
         if (frozen[i] == 0) {

@@ -61,8 +61,7 @@ private:
     void leaveOut(std::size_t first, std::size_t last) {
         const double startSeconds = static_cast<double>(first) / recording_.rateHz - neighbourhoodSeconds;
         const double endSeconds = static_cast<double>(last) / recording_.rateHz + neighbourhoodSeconds;
-        const auto begin =
-            static_cast<std::size_t>(std::max(0.0, std::floor(startSeconds * dsp::waveformRateHz)));
+        const auto begin = static_cast<std::size_t>(std::max(0.0, std::floor(startSeconds * dsp::waveformRateHz)));
         const auto end = static_cast<std::size_t>(std::ceil(endSeconds * dsp::waveformRateHz));
         for (std::size_t i = begin; i < std::min(end, isUsable_.size()); ++i) {
             isUsable_[i] = 0;

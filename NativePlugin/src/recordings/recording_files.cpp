@@ -103,8 +103,8 @@ bool GivenFiles::contains(const fs::path& path) const {
 }
 
 fs::path GivenFiles::beside(const fs::path& /*file*/, const std::string& name) const {
-    const auto found = std::ranges::find_if(
-        files_, [&](const auto& entry) { return lowerCase(entry.first) == lowerCase(name); });
+    const auto found =
+        std::ranges::find_if(files_, [&](const auto& entry) { return lowerCase(entry.first) == lowerCase(name); });
     const std::string& chosen = files_.contains(name) || found == files_.end() ? name : found->first;
     return {std::u8string(chosen.begin(), chosen.end())};
 }

@@ -122,8 +122,9 @@ private:
         }
         Track acceleration = trackOf(table, *table.acceleration);
         noteMissing(table, acceleration);
-        const double rate = table.timeRoundingSeconds > 0.0 || !sidecar_.rateHz ? rateOf(acceleration, table.timeRoundingSeconds)
-                                                                               : *sidecar_.rateHz;
+        const double rate = table.timeRoundingSeconds > 0.0 || !sidecar_.rateHz
+                                ? rateOf(acceleration, table.timeRoundingSeconds)
+                                : *sidecar_.rateHz;
         if (!(rate >= 0.99 * lowestRateHz && rate <= 1.01 * highestRateHz)) {
             fail(path_, plainNumber(rate) + " samples a second by time_s", "1000 to 192000; time_s is in seconds");
         }
@@ -163,9 +164,9 @@ private:
             const std::size_t index = cursor.before(seconds);
             const double sinceReading = seconds - acceleration.timeSeconds[index];
             const bool isReading = std::abs(sinceReading) < 1e-3 / rateHz;
-            const bool isGap = !isReading && (sinceReading < 0.0 || acceleration.timeSeconds[index + 1] -
-                                                                            acceleration.timeSeconds[index] >
-                                                                        longestStep);
+            const bool isGap =
+                !isReading && (sinceReading < 0.0 ||
+                               acceleration.timeSeconds[index + 1] - acceleration.timeSeconds[index] > longestStep);
             for (std::size_t axis = 0; axis < acceleration.width; ++axis) {
                 recording_.accelerationMps2.push_back(
                     static_cast<float>(isGap ? unknownNumber : cursor.cubic(index, axis, seconds)));
@@ -218,10 +219,9 @@ private:
         for (std::size_t i = 0; i < count; ++i) {
             const double seconds = startSeconds_ + static_cast<double>(i) / recording_.rateHz;
             const std::size_t index = cursor.before(seconds);
-            const bool isKnown =
-                seconds >= track.timeSeconds.front() - longestMotionStepSeconds &&
-                seconds <= track.timeSeconds.back() + longestMotionStepSeconds &&
-                track.timeSeconds[index + 1] - track.timeSeconds[index] <= longestMotionStepSeconds;
+            const bool isKnown = seconds >= track.timeSeconds.front() - longestMotionStepSeconds &&
+                                 seconds <= track.timeSeconds.back() + longestMotionStepSeconds &&
+                                 track.timeSeconds[index + 1] - track.timeSeconds[index] <= longestMotionStepSeconds;
             for (std::size_t column = 0; column < track.width; ++column) {
                 values.push_back(static_cast<float>(isKnown ? cursor.linear(index, column, seconds) : unknownNumber));
             }

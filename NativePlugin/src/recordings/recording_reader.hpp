@@ -39,8 +39,8 @@ struct RecordingTracks {
     Track acceleration;
     /// Empty tracks where the file has none. A speed is a velocity along the first axis.
     Track motion;
-    /// True if `motion` is positions in m, of which readings that repeat an older one are left out; false for velocities
-    /// in m/s.
+    /// True if `motion` is positions in m, of which readings that repeat an older one are left out; false for
+    /// velocities in m/s.
     bool hasPositions = false;
     Track force;
 };

@@ -1,11 +1,11 @@
 #include "recordings/recording_sidecar.hpp"
 
-#include "recordings/csv_lines.hpp"
-#include "recordings/recording.hpp"
 #include "model/bounded_json.hpp"
 #include "model/model_error.hpp"
 #include "model/model_header.hpp"
 #include "model/plain_text.hpp"
+#include "recordings/csv_lines.hpp"
+#include "recordings/recording.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -105,8 +105,8 @@ public:
     }
 
     [[nodiscard]] std::optional<std::array<double, 2>> velocity() const {
-        if (const auto speed = number("speed_mps", 0.0, maximumHandSpeedMps,
-                                      "metres a second, 0 to 10 (a thousandth of mm/s)")) {
+        if (const auto speed =
+                number("speed_mps", 0.0, maximumHandSpeedMps, "metres a second, 0 to 10 (a thousandth of mm/s)")) {
             return std::array{*speed, 0.0};
         }
         const json* value = find("velocity_mps");
@@ -115,8 +115,7 @@ public:
         }
         const bool isPair =
             value->is_array() && value->size() == 2 && (*value)[0].is_number() && (*value)[1].is_number();
-        if (!isPair ||
-            !(std::hypot((*value)[0].get<double>(), (*value)[1].get<double>()) <= maximumHandSpeedMps)) {
+        if (!isPair || !(std::hypot((*value)[0].get<double>(), (*value)[1].get<double>()) <= maximumHandSpeedMps)) {
             refuse("velocity_mps", "[vx, vy] in metres a second, 10 at most (a thousandth of mm/s)");
         }
         return std::array{(*value)[0].get<double>(), (*value)[1].get<double>()};
@@ -131,8 +130,7 @@ public:
         const fs::path path = files_.beside(origin, name);
         // A name in a file leads no further than its own folder.
         if (!files_.isBeside(origin, path)) {
-            fail(origin,
-                 "key 'motion' names " + name + ", which is outside the folder of " + utf8Of(origin.filename()),
+            fail(origin, "key 'motion' names " + name + ", which is outside the folder of " + utf8Of(origin.filename()),
                  "a table beside the recording: copy it there");
         }
         if (!files_.contains(path)) {
@@ -182,8 +180,7 @@ RecordingSidecar readRecordingSidecar(RecordingFiles& files, const fs::path& rec
     sidecar.velocityMps = values.velocity();
     sidecar.forceNewtons = values.number("force_newtons", 0.0, 100.0, "newtons, 0 to 100 (a thousandth of mN)");
     sidecar.motion = values.motion();
-    sidecar.rateHz =
-        values.number("rate_hz", lowestRateHz, highestRateHz, "samples a second, 1000 to 192000");
+    sidecar.rateHz = values.number("rate_hz", lowestRateHz, highestRateHz, "samples a second, 1000 to 192000");
     sidecar.licence = values.text("licence");
     sidecar.source = values.text("source");
     return sidecar;

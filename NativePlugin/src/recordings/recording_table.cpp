@@ -207,8 +207,8 @@ private:
         const std::optional<double> value = decimalNumber(text);
         if (!value) {
             throw RecordingUnusable(path_ + ":" + std::to_string(lines_.number()) + ": column " + names_[column] +
-                             ": is \"" + std::string(text.substr(0, 40)) +
-                             "\"; expected a number with a decimal point");
+                                    ": is \"" + std::string(text.substr(0, 40)) +
+                                    "\"; expected a number with a decimal point");
         }
         return *value;
     }
@@ -225,9 +225,9 @@ private:
             splitCells(lines_.line(), cells);
             if (cells.size() != names_.size()) {
                 throw RecordingUnusable(path_ + ":" + std::to_string(lines_.number()) + ": " +
-                                 std::to_string(cells.size()) + " values; expected " +
-                                 std::to_string(names_.size()) +
-                                 " as in the first line (decimals need a point, not a comma)");
+                                        std::to_string(cells.size()) + " values; expected " +
+                                        std::to_string(names_.size()) +
+                                        " as in the first line (decimals need a point, not a comma)");
             }
             for (const auto& [places, values] : wanted) {
                 for (const std::size_t column : places) {

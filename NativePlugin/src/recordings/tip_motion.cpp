@@ -33,7 +33,8 @@ Track slopesOf(const Track& positions) {
         fourth += square * square;
         sixth += square * square * square;
     }
-    Track velocities{.timeSeconds = even.timeSeconds, .values = std::vector<double>(even.values.size()), .width = 2, .lines = {}};
+    Track velocities{
+        .timeSeconds = even.timeSeconds, .values = std::vector<double>(even.values.size()), .width = 2, .lines = {}};
     for (std::size_t column = 0; column < 2; ++column) {
         for (std::ptrdiff_t n = 0; n < std::ssize(even.timeSeconds); ++n) {
             double first = 0.0;

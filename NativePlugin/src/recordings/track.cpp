@@ -22,8 +22,7 @@ Track trackOf(const RecordingTable& table, const TableSeries& series) {
     for (std::size_t row = 0; row < series.count(); ++row) {
         const auto cells = std::span(series.values).subspan(row * series.width, series.width);
         const double seconds = table.timeSeconds[row];
-        if (!std::isfinite(seconds) ||
-            !std::ranges::all_of(cells, [](double value) { return std::isfinite(value); })) {
+        if (!std::isfinite(seconds) || !std::ranges::all_of(cells, [](double value) { return std::isfinite(value); })) {
             continue;
         }
         if (!track.timeSeconds.empty() && seconds < track.timeSeconds.back()) {

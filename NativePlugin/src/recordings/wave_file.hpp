@@ -16,8 +16,8 @@ struct WaveFile {
     std::vector<float> samples;
 };
 
-/// Reads a whole file of 1 or 3 channels. `name` is the file's in messages. Throws RecordingUnusable that names the file,
-/// what was found and what is expected.
+/// Reads a whole file of 1 or 3 channels. `name` is the file's in messages. Throws RecordingUnusable that names the
+/// file, what was found and what is expected.
 [[nodiscard]] WaveFile readWaveFile(const std::string& name, std::string_view bytes);
 
 }  // namespace haptoflow::recordings

@@ -3,12 +3,12 @@
 
 #include "exit_codes.hpp"
 #include "learning/made_recording.hpp"
-#include "recordings/resampling.hpp"
 #include "learning/texture_figures.hpp"
 #include "material_output.hpp"
-#include "recordings/recording_reader.hpp"
 #include "model/material_file.hpp"
 #include "model/model_file.hpp"
+#include "recordings/recording_reader.hpp"
+#include "recordings/resampling.hpp"
 #include "wav_file.hpp"
 
 #include <gmock/gmock.h>
@@ -64,7 +64,7 @@ protected:
     }
 
     [[nodiscard]] recordings::MaterialRecording readHere(const std::string& name,
-                                                       const recordings::RecordingWords& words = {}) const {
+                                                         const recordings::RecordingWords& words = {}) const {
         recordings::DiskFiles files;
         return recordings::readMaterialRecording(files, at(name), words);
     }

@@ -1,5 +1,5 @@
-#include "recordings/dft321.hpp"
 #include "learning/made_recording.hpp"
+#include "recordings/dft321.hpp"
 #include "recordings/prepared_recording.hpp"
 #include "recordings/resampling.hpp"
 
@@ -34,10 +34,10 @@ double rmsInside(std::span<const float> wave) {
 
 recordings::PreparedRecording prepared(const std::vector<float>& wave, double rateHz) {
     return recordings::prepareRecording({.rateHz = rateHz,
-                             .axisCount = 1,
-                             .accelerationMps2 = wave,
-                             .constantVelocityMps = {0.1, 0.0},
-                             .constantForceNewtons = 1.0});
+                                         .axisCount = 1,
+                                         .accelerationMps2 = wave,
+                                         .constantVelocityMps = {0.1, 0.0},
+                                         .constantForceNewtons = 1.0});
 }
 
 TEST(PreparationTest, ASineInsideTheBandKeepsItsLevelAndTimeAtAnyRate) {

@@ -1,7 +1,7 @@
 #include "learning/learner.hpp"
 #include "learning/made_recording.hpp"
-#include "recordings/prepared_recording.hpp"
 #include "learning/sliding.hpp"
+#include "recordings/prepared_recording.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -42,7 +42,8 @@ TEST(RecordingCheckTest, TwoSecondsAreTooShort) {
 TEST(RecordingCheckTest, ASensorThatNeverChangesIsSilent) {
     MadeRecording made({}, {});
     std::ranges::fill(made.acceleration, 9.8F);
-    EXPECT_THAT([&] { prepareAndFind(made.view()); }, ThrowsMessage<recordings::RecordingUnusable>(HasSubstr("never changes")));
+    EXPECT_THAT([&] { prepareAndFind(made.view()); },
+                ThrowsMessage<recordings::RecordingUnusable>(HasSubstr("never changes")));
 }
 
 TEST(RecordingCheckTest, SamplesAtTheEndOfTheRangeAreClipped) {
@@ -50,7 +51,8 @@ TEST(RecordingCheckTest, SamplesAtTheEndOfTheRangeAreClipped) {
     for (float& value : made.acceleration) {
         value = std::clamp(value, -2.0F, 2.0F);
     }
-    EXPECT_THAT([&] { prepareAndFind(made.view()); }, ThrowsMessage<recordings::RecordingUnusable>(HasSubstr("is clipped")));
+    EXPECT_THAT([&] { prepareAndFind(made.view()); },
+                ThrowsMessage<recordings::RecordingUnusable>(HasSubstr("is clipped")));
 }
 
 TEST(RecordingCheckTest, ARecordingThatIsMostlyNotFiniteIsRefused) {
@@ -94,7 +96,8 @@ TEST(RecordingCheckTest, TheErrorForAnImpossibleSpeedSuggestsAUnit) {
     for (float& value : made.velocity) {
         value *= 1000.0F;
     }
-    EXPECT_THAT([&] { prepareAndFind(made.view()); }, ThrowsMessage<recordings::RecordingUnusable>(HasSubstr("is it in mm/s?")));
+    EXPECT_THAT([&] { prepareAndFind(made.view()); },
+                ThrowsMessage<recordings::RecordingUnusable>(HasSubstr("is it in mm/s?")));
 }
 
 TEST(RecordingCheckTest, ASpeedBeyondTheModelIsRefused) {
@@ -108,9 +111,11 @@ TEST(RecordingCheckTest, ASpeedBeyondTheModelIsRefused) {
 TEST(RecordingCheckTest, NoForceAndAForceInMillinewtonsAreRefused) {
     MadeRecording made({}, {});
     made.force.clear();
-    EXPECT_THAT([&] { prepareAndFind(made.view()); }, ThrowsMessage<recordings::RecordingUnusable>(HasSubstr("give the force")));
+    EXPECT_THAT([&] { prepareAndFind(made.view()); },
+                ThrowsMessage<recordings::RecordingUnusable>(HasSubstr("give the force")));
     made.constantForce = 900.0;
-    EXPECT_THAT([&] { prepareAndFind(made.view()); }, ThrowsMessage<recordings::RecordingUnusable>(HasSubstr("millinewtons?")));
+    EXPECT_THAT([&] { prepareAndFind(made.view()); },
+                ThrowsMessage<recordings::RecordingUnusable>(HasSubstr("millinewtons?")));
 }
 
 TEST(RecordingCheckTest, SizesAndRatesThatDoNotFitAreInvalidArguments) {

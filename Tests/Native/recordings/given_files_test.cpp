@@ -63,8 +63,7 @@ TEST(GivenFiles, AFileThatIsNotGivenDoesNotExist) {
 TEST(RecordingWords, FillWhatTheFilesDoNotGive) {
     const std::map<std::string, std::string> bytes{{"mat.csv", tableOf(500, ",speed_mps", ",0.2")}};
     GivenFiles files = given(bytes);
-    const MaterialRecording recording =
-        readMaterialRecording(files, "mat.csv", {.speedMps = 0.5, .forceNewtons = 1.5});
+    const MaterialRecording recording = readMaterialRecording(files, "mat.csv", {.speedMps = 0.5, .forceNewtons = 1.5});
     EXPECT_FLOAT_EQ(recording.velocityMps[10], 0.2F) << "the file's own motion counts";
     EXPECT_EQ(recording.constantForceNewtons, 1.5);
     EXPECT_NO_THROW(requireMotionAndForce(recording, "mat.csv"));
@@ -74,10 +73,9 @@ TEST(RecordingWords, FillWhatTheFilesDoNotGive) {
 }
 
 TEST(DescribedRecording, IsTheSidecarAndTheColumnNamesWithoutTheRows) {
-    const std::map<std::string, std::string> bytes{
-        {"mat.csv", "time_s,acceleration_mps2,mood\n0,fine,good\n"},
-        {"mat.json", R"({"label": "mat", "motion": "way.csv"})"},
-        {"way.csv", "time_s,speed_mps,weather\n0,1,wet\n"}};
+    const std::map<std::string, std::string> bytes{{"mat.csv", "time_s,acceleration_mps2,mood\n0,fine,good\n"},
+                                                   {"mat.json", R"({"label": "mat", "motion": "way.csv"})"},
+                                                   {"way.csv", "time_s,speed_mps,weather\n0,1,wet\n"}};
     GivenFiles files = given(bytes);
     const RecordingDescription description = describeRecording(files, "mat.csv");
     EXPECT_EQ(description.label, "mat");

@@ -140,7 +140,8 @@ TEST_P(GoldenRecordings, HasItsOneRightAnswer) {
 
 INSTANTIATE_TEST_SUITE_P(All, GoldenRecordings, ::testing::ValuesIn(answers()), [](const auto& tested) {
     auto name = tested.param.content.at("file").template get<std::string>();
-    std::ranges::replace_if(name, [](char letter) { return letter == '.' || letter == '/'; }, '_');
+    std::ranges::replace_if(
+        name, [](char letter) { return letter == '.' || letter == '/'; }, '_');
     return name;
 });
 
