@@ -138,6 +138,15 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
     ASSERT_EQ(haptoflow_device_wave_create(8000.0, &deviceWave), HAPTOFLOW_OK) << message();
     const learning::testing::MadeRecording made({}, {.seconds = 4.0});
     const haptoflow_learning_options learningOptions = optionsOf(made, open.runtime, open.model);
+    const std::string plain = HAPTOFLOW_TEST_GOLDEN_DIR "/recordings/files/plain.csv";
+    haptoflow_recording_options recordingOptions{};
+    recordingOptions.struct_size = sizeof(recordingOptions);
+    recordingOptions.path = plain.c_str();
+    haptoflow_recording_info recordingInfo{};
+    recordingInfo.struct_size = sizeof(recordingInfo);
+    haptoflow_recording* noRecording = nullptr;
+    haptoflow_recording* recording = nullptr;
+    ASSERT_EQ(haptoflow_recording_read(&recordingOptions, &recording), HAPTOFLOW_OK) << message();
     haptoflow_learning* noLearning = nullptr;
     haptoflow_learning* learning = nullptr;
     ASSERT_EQ(haptoflow_learn_material(&learningOptions, &learning), HAPTOFLOW_OK) << message();
@@ -294,6 +303,13 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
         {"haptoflow_learn_material",
          {[&] { return haptoflow_learn_material(nullptr, &noLearning); },
           [&] { return haptoflow_learn_material(&learningOptions, nullptr); }}},
+        {"haptoflow_recording_read",
+         {[&] { return haptoflow_recording_read(nullptr, &noRecording); },
+          [&] { return haptoflow_recording_read(&recordingOptions, nullptr); }}},
+        {"haptoflow_recording_get_info",
+         {[&] { return haptoflow_recording_get_info(nullptr, &recordingInfo); },
+          [&] { return haptoflow_recording_get_info(recording, nullptr); }}},
+        {"haptoflow_recording_close", {[&] { return haptoflow_recording_close(nullptr); }}},
         {"haptoflow_learning_material",
          {[&] { return haptoflow_learning_material(nullptr, &text); },
           [&] { return haptoflow_learning_material(learning, nullptr); }}},
@@ -329,6 +345,7 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
     EXPECT_EQ(noMaterial, nullptr);
     EXPECT_EQ(haptoflow_material_close(&material), HAPTOFLOW_OK);
     EXPECT_EQ(haptoflow_learning_close(&learning), HAPTOFLOW_OK);
+    EXPECT_EQ(haptoflow_recording_close(&recording), HAPTOFLOW_OK);
     EXPECT_EQ(haptoflow_generator_close(&generator), HAPTOFLOW_OK);
     EXPECT_EQ(haptoflow_device_wave_close(&deviceWave), HAPTOFLOW_OK);
 }

@@ -84,12 +84,16 @@ protected:
         ASSERT_EQ(haptoflow_model_space(open_.model, &space), HAPTOFLOW_OK) << message();
         const std::string text = model::testing::validMaterial(space).dump();
         ASSERT_EQ(haptoflow_material_read(text.data(), text.size(), &material_), HAPTOFLOW_OK) << message();
+        recordingOptions_.struct_size = sizeof(recordingOptions_);
+        recordingOptions_.path = HAPTOFLOW_TEST_GOLDEN_DIR "/recordings/files/plain.csv";
+        ASSERT_EQ(haptoflow_recording_read(&recordingOptions_, &recording_), HAPTOFLOW_OK) << message();
         // Makes the statistics that are read different from zero.
         for (int update = 0; update < 5; ++update) {
             (void)open_.update(slidingState());
         }
     }
     void TearDown() override {
+        EXPECT_EQ(haptoflow_recording_close(&recording_), HAPTOFLOW_OK);
         EXPECT_EQ(haptoflow_material_close(&material_), HAPTOFLOW_OK);
         EXPECT_EQ(haptoflow_generator_close(&generator_), HAPTOFLOW_OK);
     }
@@ -150,6 +154,9 @@ protected:
                 "haptoflow_wave_features_options", "haptoflow_wave_features_create",
                 sizeof(haptoflow_wave_features_options), {0, 8000, 0.005, 60.0, 400.0},
                 opening(haptoflow_wave_features_create, haptoflow_wave_features_close)),
+            input<haptoflow_recording_options>("haptoflow_recording_options", "haptoflow_recording_read",
+                                               offsetof(haptoflow_recording_options, files), recordingOptions_,
+                                               opening(haptoflow_recording_read, haptoflow_recording_close)),
             input<haptoflow_learning_options>("haptoflow_learning_options", "haptoflow_learn_material",
                                               offsetof(haptoflow_learning_options, seed), learningOptions_,
                                               opening(haptoflow_learn_material, haptoflow_learning_close)),
@@ -168,6 +175,9 @@ protected:
             output<haptoflow_material_info>(
                 "haptoflow_material_info",
                 [this](haptoflow_material_info* info) { return haptoflow_material_describe(material_, info); }),
+            output<haptoflow_recording_info>(
+                "haptoflow_recording_info",
+                [this](haptoflow_recording_info* info) { return haptoflow_recording_get_info(recording_, info); }),
             output<haptoflow_label_info>(
                 "haptoflow_label_info",
                 [this](haptoflow_label_info* info) { return haptoflow_model_label(open_.model, 1, info); }),
@@ -205,6 +215,8 @@ protected:
     haptoflow_engine_options engineOptions_{};
     learning::testing::MadeRecording made_{{}, {.seconds = 4.0}};
     haptoflow_learning_options learningOptions_ = optionsOf(made_, open_.runtime, open_.model);
+    haptoflow_recording_options recordingOptions_{};
+    haptoflow_recording* recording_ = nullptr;
     haptoflow_generator* generator_ = nullptr;
     haptoflow_material* material_ = nullptr;
     std::array<float, HAPTOFLOW_EMBEDDING_SIZE> embedding_{};
