@@ -67,7 +67,7 @@ bool DiskFiles::contains(const fs::path& path) const {
 }
 
 fs::path DiskFiles::beside(const fs::path& file, const std::string& name) const {
-    const fs::path wanted = file.parent_path() / fs::path(std::u8string(name.begin(), name.end()));
+    fs::path wanted = file.parent_path() / fs::path(std::u8string(name.begin(), name.end()));
     if (contains(wanted)) {
         return wanted;
     }

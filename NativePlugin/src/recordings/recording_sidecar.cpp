@@ -84,7 +84,7 @@ public:
         if (!value->is_string()) {
             refuse(key, "a text in quotes");
         }
-        const std::string text(trimmed(value->get_ref<const std::string&>(), " \t\r\n"));
+        std::string text(trimmed(value->get_ref<const std::string&>(), " \t\r\n"));
         if (text.size() > model::maximumTextBytes || model::hasControlCharacter(text)) {
             refuse(key, "one line of text without control characters, of " + std::to_string(model::maximumTextBytes) +
                             " bytes at most");
