@@ -245,7 +245,7 @@ typedef struct haptoflow_model_info {
     const char* licence;
     const char* commit;
     const char* created;
-    /* The lowest and the highest speed and force that the model was trained on. */
+    /* The range of speeds in m/s, and of forces in N, that the model was trained on: lowest, highest. */
     double speed_mps[2];
     double force_newtons[2];
 } haptoflow_model_info;
@@ -363,7 +363,7 @@ typedef struct haptoflow_material_info {
     /* Duration of the recordings; 0 if unknown. */
     double seconds;
     double stiffness_newtons_per_metre;
-    /* Added to every level. */
+    /* The material is louder than its level model says by this many dB, at every speed and force. */
     double level_offset_db;
     /* The lowest and the highest speed and force of the recordings. */
     double speed_mps[2];
@@ -1004,7 +1004,8 @@ typedef struct haptoflow_recording_options {
     const char* path;
     /* The recording and what lies beside it; read during the call only. */
     const haptoflow_recording_file* files;
-    /* Acceleration of +-1 in a WAV file, above 0, in place of the sidecar's; 0 for the sidecar's. */
+    /* The acceleration in m/s^2, above 0, that a sample of +-1 in a WAV file stands for. It replaces the sidecar's; 0
+     * leaves it to the sidecar. */
     double full_scale_mps2;
     /* Constants for a recording whose files have none; 0 for unknown. */
     double speed_mps;

@@ -72,7 +72,7 @@ void checkUnits(const std::string& path, const std::string& columns, const Track
     const bool isInG = columns.ends_with("_g");
     const double rest = isInG ? restMps2 / gravityMps2 : restMps2;
     const std::string first = columns.substr(0, columns.find(','));
-    // Without the unit: "acceleration_x_"; a WAV file's channels have none.
+    // The name up to its unit, such as "acceleration_x_"; empty for a channel of a WAV file, whose name has no unit.
     const std::string stem = first.substr(0, first.rfind('_') + 1);
     const std::string place = path + ": " + first + " rests at " + plainNumber(rest);
     // One axis may lie across gravity at any angle, so that 1 m/s^2 says nothing.
@@ -286,8 +286,8 @@ Track plausibleAcceleration(const std::string& path, const std::string& columns,
     return withoutFrozen(path, std::move(acceleration), notes);
 }
 
-void checkMotion(const std::string& path, const TableSeries& series, MotionForm form, const Track& motion) {
-    const Track velocity = velocityOf(motion, form);
+void checkMotion(const std::string& path, const TableSeries& series, MotionForm form, const Track& motion,
+                 const Track& velocity) {
     checkSpeeds(path, series, velocity);
     checkJumps(path, series, form, velocity, motion);
 }

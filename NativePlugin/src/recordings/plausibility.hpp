@@ -18,8 +18,9 @@ namespace haptoflow::recordings {
 [[nodiscard]] Track plausibleAcceleration(const std::string& path, const std::string& columns, Track acceleration,
                                           std::vector<std::string>& notes);
 
-/// Units and jumps of a motion, which is as in the file.
-void checkMotion(const std::string& path, const TableSeries& series, MotionForm form, const Track& motion);
+/// Units and jumps. `motion` is as in the file, `velocity` is its `velocityOf`.
+void checkMotion(const std::string& path, const TableSeries& series, MotionForm form, const Track& motion,
+                 const Track& velocity);
 
 /// Units and spikes.
 void checkForce(const std::string& path, const TableSeries& series, const Track& force);

@@ -30,21 +30,15 @@ std::string endingOf(const fs::path& path) {
     return lowerCase(utf8Of(path.extension()));
 }
 
-std::optional<std::string> DiskFiles::read(const std::string& role, const fs::path& path) {
-    if (onInput_) {
-        onInput_(role, path);
-    }
-    std::error_code ignored;
-    if (!fs::exists(path, ignored)) {
-        return std::nullopt;
-    }
+std::string readWholeFile(const fs::path& path, const std::string& expected) {
     const std::string name = utf8Of(path);
+    std::error_code ignored;
     if (fs::is_directory(path, ignored)) {
-        throw RecordingUnusable(name + ": is a folder; expected a file");
+        throw RecordingUnusable(name + ": is a folder; expected " + expected);
     }
     std::ifstream file(path, std::ios::binary);
     if (!file) {
-        throw RecordingUnusable(name + ": cannot be opened; expected a file that you may read");
+        throw RecordingUnusable(name + ": cannot be opened; expected " + expected);
     }
     constexpr std::size_t maximumBytes = std::size_t{1} << 30U;
     std::string bytes;
@@ -53,12 +47,23 @@ std::optional<std::string> DiskFiles::read(const std::string& role, const fs::pa
         bytes.append(part.data(), static_cast<std::size_t>(file.gcount()));
     }
     if (bytes.size() > maximumBytes) {
-        throw RecordingUnusable(name + ": is larger than 1 GiB; expected minutes of one material");
+        throw RecordingUnusable(name + ": is larger than 1 GiB; expected " + expected);
     }
     if (file.bad()) {
-        throw RecordingUnusable(name + ": cannot be read to its end; expected a whole file");
+        throw RecordingUnusable(name + ": cannot be read to its end; expected " + expected);
     }
     return bytes;
+}
+
+std::optional<std::string> DiskFiles::read(const std::string& role, const fs::path& path) {
+    if (onInput_) {
+        onInput_(role, path);
+    }
+    std::error_code ignored;
+    if (!fs::exists(path, ignored)) {
+        return std::nullopt;
+    }
+    return readWholeFile(path, "a recording or a file beside it that you may read");
 }
 
 bool DiskFiles::contains(const fs::path& path) const {

@@ -19,7 +19,8 @@ public:
     [[nodiscard]] virtual std::optional<std::string> read(const std::string& role,
                                                           const std::filesystem::path& path) = 0;
     [[nodiscard]] virtual bool contains(const std::filesystem::path& path) const = 0;
-    /// The file `name` beside another one, in whatever case it is written there; as given if there is none.
+    /// The path of the file `name` in the folder of another file. Capitals do not matter, because some recorders write
+    /// NAME.JSON. If there is no such file, the path ends with `name` as given.
     [[nodiscard]] virtual std::filesystem::path beside(const std::filesystem::path& file,
                                                        const std::string& name) const = 0;
     /// False if a name in `origin` leads out of its folder, also by a link.
@@ -56,6 +57,10 @@ public:
 private:
     std::map<std::string, std::span<const char>> files_;
 };
+
+/// The bytes of a file or pipe of up to 1 GiB. `expected` is its kind, for messages. Throws RecordingUnusable that
+/// names the path if it is missing, a folder, unreadable or too large.
+[[nodiscard]] std::string readWholeFile(const std::filesystem::path& path, const std::string& expected);
 
 /// A path in messages and in the C interface: UTF-8 on every platform.
 [[nodiscard]] std::string utf8Of(const std::filesystem::path& path);

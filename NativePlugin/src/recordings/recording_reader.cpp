@@ -190,8 +190,8 @@ private:
                 fail(path_, "motion in the table and in the motion file", "motion in one of them");
             }
             const Track motion = trackOf(table, *table.motion);
-            checkMotion(table.path, *table.motion, table.motionForm, motion);
             const Track velocity = velocityOf(motion, table.motionForm);
+            checkMotion(table.path, *table.motion, table.motionForm, motion, velocity);
             recording_.velocityMps = onGrid(velocity);
             recording_.tracks.hasPositions = table.motionForm == MotionForm::position;
             recording_.tracks.motion = recording_.tracks.hasPositions ? readAnew(motion) : velocity;

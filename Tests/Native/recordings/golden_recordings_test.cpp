@@ -22,8 +22,9 @@ struct Answer {
     json content;
 };
 
-void PrintTo(const Answer& answer, std::ostream* stream) {
-    *stream << answer.content.at("file").get<std::string>() << ": " << answer.content.at("why").get<std::string>();
+std::ostream& operator<<(std::ostream& stream, const Answer& answer) {
+    return stream << answer.content.at("file").get<std::string>() << ": "
+                  << answer.content.at("why").get<std::string>();
 }
 
 const std::filesystem::path folder = std::filesystem::path(HAPTOFLOW_TEST_GOLDEN_DIR) / "recordings";
@@ -70,7 +71,8 @@ Figures figuresOf(const MaterialRecording& recording) {
     return figures;
 }
 
-/// The mean size of `width` numbers in a range of samples, without those that are not finite.
+/// The mean magnitude, over a range of samples, of a quantity of `width` components. Samples that are not finite are
+/// left out.
 double meanSize(const std::vector<float>& values, std::size_t width, std::size_t from, std::size_t to) {
     double sum = 0.0;
     double count = 0.0;

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from haptoflow_training.errors import InputError
+from haptoflow_training.native_library import NativeError, NativeLibrary, options_of
 from haptoflow_training.waveform import SEGMENT_SAMPLES
 
 RIB_COUNT = 2
@@ -64,20 +65,13 @@ class _Batch(ctypes.Structure):
     ]
 
 
-def options_of(structure: type[ctypes.Structure], **values: Any) -> ctypes.Structure:
-    """A structure of the C interface with its size field set."""
-    return structure(struct_size=ctypes.sizeof(structure), **values)
-
-
-class EngineLibrary:
+class EngineLibrary(NativeLibrary):
     """The loaded library with ONNX Runtime. Handles live until the process ends."""
 
     def __init__(self, library: Path, onnx_runtime: Path) -> None:
-        for path, remedy in ((library, "npm run build"), (onnx_runtime, "npm ci")):
-            if not path.is_file():
-                raise InputError(f"{path} does not exist: run `{remedy}`")
-        self._library = ctypes.CDLL(str(library))
-        self._library.haptoflow_last_message.restype = ctypes.c_char_p
+        super().__init__(library)
+        if not onnx_runtime.is_file():
+            raise InputError(f"{onnx_runtime} does not exist: run `npm ci`")
         self._runtime = ctypes.c_void_p()
         options = options_of(_RuntimeOptions, library_path=str(onnx_runtime).encode())
         self.call("haptoflow_runtime_open", ctypes.byref(options), ctypes.byref(self._runtime))
@@ -87,10 +81,11 @@ class EngineLibrary:
         return self._runtime
 
     def call(self, name: str, *arguments: Any) -> None:
-        """Call a function of the C interface; InputError with the library's own message if it fails."""
-        status = getattr(self._library, name)(*arguments)
-        if status != 0:
-            raise InputError(f"{name}: {self._library.haptoflow_last_message().decode()}")
+        """As the base's; the message begins with the function's name."""
+        try:
+            super().call(name, *arguments)
+        except NativeError as error:
+            raise InputError(f"{name}: {error}") from error
 
     def open_model(self, path: Path) -> ctypes.c_void_p:
         """A handle, to be closed with haptoflow_model_close."""

@@ -206,7 +206,8 @@ class VelocityField(nn.Module):
         return made
 
     def _heard(self, previous: Tensor) -> Tensor:
-        """The previous waveform, mirrored, so that its newest sample lies beside the first sample of the segment."""
+        """The previous waveform with its newest sample first: the segment's first samples must continue it, and a
+        convolution sees only what lies at the same place."""
         return previous[:, :, self.newest_first]
 
     def _modulation(self, condition: Tensor) -> tuple[Tensor, Tensor, Tensor]:

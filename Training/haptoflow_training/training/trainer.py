@@ -72,8 +72,8 @@ WaveVectors = Sequence[Sequence[tuple[float, float]]]
 
 @dataclass(frozen=True)
 class Phase:
-    """Steps of one objective (losses.py). own_previous_every: every so many steps use chains of the network's own
-    output (self-forcing); 0 for never."""
+    """Steps that train with one objective (losses.py). own_previous_every: every n-th step trains on chains of segments
+    in which the network's own output is the previous waveform (self-forcing); 0 for no such steps."""
 
     name: str
     objective: str
@@ -353,7 +353,7 @@ class Trainer:
         return tried
 
     def divided(self, seconds: float, seconds_per_step: Sequence[float]) -> Budget:
-        """`seconds` as the budget of a run that begins now."""
+        """The budget of a run that begins now and may take `seconds` in all."""
         budget = Budget.shared_out(
             seconds,
             self._planned_steps,

@@ -136,10 +136,11 @@ namespace HaptoFlow.Editor
         private void Search()
         {
             // Play mode registers routes.
-            if (sinks.Count == 0 || routes != HapticSinks.Names().Count)
+            int present = HapticSinks.Names().Count;
+            if (sinks.Count == 0 || routes != present)
             {
                 Close();
-                routes = HapticSinks.Names().Count;
+                routes = present;
                 if (device == FeltDevice.Gamepad)
                 {
                     GamepadSinks.Open(sinks);
