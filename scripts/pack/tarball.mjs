@@ -1,3 +1,4 @@
+import { mkdirSync } from 'node:fs';
 import { gunzipSync } from 'node:zlib';
 import path from 'node:path';
 import { runNpmOrFail } from '../lib/process.mjs';
@@ -8,6 +9,7 @@ import { runNpmOrFail } from '../lib/process.mjs';
  * @returns {Promise<{file: string, bytes: number, unpackedBytes: number}>}
  */
 export async function makeTarball(folder, destination) {
+  mkdirSync(destination, { recursive: true });
   const words = ['pack', folder, '--pack-destination', destination, '--json', '--ignore-scripts', '--loglevel=error'];
   const output = await runNpmOrFail(words);
   const [{ filename, size, unpackedSize }] = JSON.parse(output.slice(output.indexOf('[')));

@@ -1,14 +1,13 @@
 // Puts together what a release offers: both tarballs, the demo's page, notes and checksums; --help
-import { copyFileSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+import { copyFileSync, cpSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import { createHash } from 'node:crypto';
 import path from 'node:path';
 import { parseArgs } from 'node:util';
-import { CommandError, runMain } from '../lib/process.mjs';
+import { CommandError, runMain, runOrFail } from '../lib/process.mjs';
 import { callerFolder, inRepository } from '../lib/repository.mjs';
 import { dependencyName } from '../pack/dependency.mjs';
 import { packageName } from '../pack/layout.mjs';
 import { platforms, pluginsFolder } from '../pack/natives.mjs';
-import { streamTarball } from '../pack/stream_tarball.mjs';
 import { readTarball } from '../pack/tarball.mjs';
 import { tarballOf } from './tarballs.mjs';
 
@@ -66,7 +65,10 @@ if (process.argv[1]?.endsWith('draft.mjs')) {
     rmSync(folder, { recursive: true, force: true });
     mkdirSync(folder, { recursive: true });
     for (const name of [runtime, tarball]) copyFileSync(path.join(tarballs, name), path.join(folder, name));
-    await streamTarball(demo, path.join(folder, 'haptoflow-demo.tgz'), 'haptoflow-demo');
+    const unpacked = path.join(folder, 'haptoflow-demo');
+    cpSync(demo, unpacked, { recursive: true });
+    await runOrFail('tar', ['-czf', `${unpacked}.tgz`, '-C', folder, 'haptoflow-demo']);
+    rmSync(unpacked, { recursive: true });
     const sums = readdirSync(folder).sort().map((name) => `${createHash('sha256').update(readFileSync(path.join(folder, name))).digest('hex')}  ${name}\n`);
     writeFileSync(path.join(folder, 'SHA256SUMS'), sums.join(''));
     writeFileSync(path.join(folder, 'notes.md'), notes);
