@@ -43,7 +43,7 @@ const elf = (machine, alignment) => elfOf({ machine, alignment });
 const android = (alignment) => elfOf({ machine: 183, libraries: ['libc.so'], alignment });
 
 test('every script of a release shows its help', () => {
-  for (const name of ['check_pages', 'check_tag', 'check_tarball', 'collect_natives', 'draft', 'unity_project', 'upm_branch']) {
+  for (const name of ['check_tag', 'check_tarball', 'collect_natives', 'draft', 'unity_project', 'upm_branch']) {
     const { status, stdout } = script(name, '--help');
     assert.equal(status, 0, name);
     assert.match(stdout, new RegExp(`^usage: node scripts/release/${name}\\.mjs`), name);
@@ -66,18 +66,6 @@ test('libraries that lie anywhere below a folder go to the build folders of thei
     assert.deepEqual(readFileSync(path.join(to, 'build', 'android-arm64', 'libaudioplugin_haptoflow.so')), android(16384));
     assert.deepEqual(readFileSync(path.join(to, 'build', 'linux-arm64', 'libaudioplugin_haptoflow.so')), elf(183, 65536));
     assert.deepEqual(readFileSync(path.join(to, 'build', 'native', 'libaudioplugin_haptoflow.so')), elf(62, 4096));
-  });
-});
-
-test('an Android library aligned to 4 KiB is refused, one aligned to 16 KiB passes, and one for another processor is named', () => {
-  inFolder((folder) => {
-    const file = path.join(folder, 'library.so');
-    for (const [bytes, status, said] of [[android(4096), 1, /aligned to 4096 bytes, expected 16384/], [android(16384), 0, /aligned to 16384 bytes/], [elf(183, 16384), 1, /is elf-arm64; expected android-arm64/]]) {
-      writeFileSync(file, bytes);
-      const result = script('check_pages', file);
-      assert.equal(result.status, status);
-      assert.match(result.stdout + result.stderr, said);
-    }
   });
 });
 

@@ -7,6 +7,7 @@ import hashlib
 import io
 import json
 import subprocess
+import sys
 import tempfile
 import warnings
 from dataclasses import dataclass
@@ -141,12 +142,23 @@ def draw_spectrogram(axes: plt.Axes, felt: Render, top_db: float | None = None, 
     )  # fmt: skip
 
 
+def stamp() -> PngImagePlugin.PngInfo:
+    """Names the model in a picture's file."""
+    text = PngImagePlugin.PngInfo()
+    text.add_text("Model-SHA-256", hashlib.sha256(MODEL.read_bytes()).hexdigest())
+    return text
+
+
 def save(figure: plt.Figure, file: Path) -> None:
     """Save with a palette, at a quarter of the size and without visible difference."""
     pixels = io.BytesIO()
     figure.savefig(pixels, dpi=100)
     plt.close(figure)
-    text = PngImagePlugin.PngInfo()
-    text.add_text("Model-SHA-256", hashlib.sha256(MODEL.read_bytes()).hexdigest())
-    Image.open(pixels).convert("RGB").quantize(200).save(file, optimize=True, pnginfo=text)
+    Image.open(pixels).convert("RGB").quantize(200).save(file, optimize=True, pnginfo=stamp())
     print(file.relative_to(ROOT))
+
+
+if __name__ == "__main__":
+    # Stamps pictures of other programs.
+    for name in sys.argv[1:]:
+        Image.open(name).save(name, optimize=True, pnginfo=stamp())
