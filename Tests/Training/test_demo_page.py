@@ -35,12 +35,12 @@ def felt_of(amplitude: float) -> Render:
 
 
 def shown(name: str, amplitude: float, model: str = "default.haptoflow") -> demo.Shown:
-    scene = {"surfaces": [{"name": "ball", "shape": {"sphere": {"radius": 0.1}}, "position": [0, 0, 0], "material": "wood"}]}
+    ball = {"name": "ball", "shape": {"sphere": {"radius": 0.1}}, "position": [0, 0, 0], "material": "wood"}
     report = {
         "model": model, "labels": ["wood"], "seconds": 1, "rms_mps2": 200 * amplitude / np.sqrt(2), "peak": amplitude,
-        "segments": 36, "inference_ms": {"p50": 0.41, "p99": 0.73, "worst": 2}, "nonfinite": 0, "underruns": 0, "steps": 2,
+        "segments": 36, "inference_ms": {"p50": 0.41, "p99": 0.73, "worst": 2}, "nonfinite": 0, "underruns": 0,
     }  # fmt: skip
-    return demo.Shown(name, scene, PATH, felt_of(amplitude), report)
+    return demo.Shown(name, {"surfaces": [ball]}, PATH, felt_of(amplitude), report)
 
 
 def page_of(*renders: demo.Shown) -> str:
@@ -55,7 +55,8 @@ def page() -> str:
 def test_the_renders_are_the_crossing_one_plate_of_eight_labels_and_the_taps_with_all_effects() -> None:
     crossing, *traced, taps = demo.planned()
     assert (crossing[0], taps[3]) == ("crossing", ("--effects", "texture,impact,edge"))
-    assert [[each["material"] for each in scene["surfaces"]] for _, scene, _, _ in traced] == [[x] for x in demo.TRACED_LABELS]
+    materials = [[each["material"] for each in scene["surfaces"]] for _, scene, _, _ in traced]
+    assert materials == [[label] for label in demo.TRACED_LABELS]
     assert len(traced) == 8
 
 
@@ -73,7 +74,8 @@ def test_axes_end_at_a_round_number_times_a_power_of_ten() -> None:
 
 
 def test_the_players_share_one_gain_the_loudest_peaks_at_minus_1_dbfs(page: str) -> None:
-    waves = [np.frombuffer(base64.b64decode(each), np.int16, offset=44) for each in re.findall(r"audio/wav;base64,([^\"]+)", page)]
+    sounds = re.findall(r"audio/wav;base64,([^\"]+)", page)
+    waves = [np.frombuffer(base64.b64decode(each), np.int16, offset=44) for each in sounds]
     loud, quiet, _ = (np.abs(wave).max() / 32767 for wave in waves)
     assert 20.0 * np.log10(loud) == pytest.approx(-1.0, abs=0.01)
     assert loud / quiet == pytest.approx(10.0, rel=2e-3)
@@ -107,11 +109,13 @@ def test_each_player_has_one_element_that_takes_the_keyboard_focus(page: str) ->
     articles = re.findall(r"<article.*?</article>", page, re.DOTALL)
     assert len(articles) == 3
     for article in articles:
-        assert re.findall(r"<(?:button|a|input|select|textarea|iframe)\b|\b(?:tabindex|controls)\b", article) == ["<button"]
+        focusable = r"<(?:button|a|input|select|textarea|iframe)\b|\b(?:tabindex|controls)\b"
+        assert re.findall(focusable, article) == ["<button"]
 
 
 def test_all_waveforms_have_one_scale() -> None:
-    lanes = [drawings.draw_render("x", {}, felt_of(peak), drawings.Range(40.0, -60, 0), False) for peak in (0.19, 0.019)]
+    shared = drawings.Range(40.0, -60, 0)
+    lanes = [drawings.draw_render("x", {}, felt_of(peak), shared, False) for peak in (0.19, 0.019)]
     heights = []
     for lane in lanes:
         assert "+40" in lane

@@ -1,5 +1,5 @@
-"""Renders a stroke over a scene, one stroke over eight labels, and taps, and makes out/demo: the WAV files, report.json with
-their figures, and the page index.html. `./run demo` runs this; the argument describes the machine."""
+"""Renders a stroke over a scene, one stroke over eight labels, and taps, and makes out/demo: the WAV files, report.json
+with their figures, and the page index.html. `./run demo` runs this; the argument describes the machine."""
 
 from __future__ import annotations
 
@@ -125,9 +125,9 @@ def article(each: Shown, shared: Range, gain: float, is_whole: bool) -> str:
     wavfile.write(file, each.felt.rate_hz, np.round(32767.0 * played).astype(np.int16))
     audio = base64.b64encode(file.getvalue()).decode()
     name = escape(each.name)
-    title = "<span>The whole stroke</span>" if is_whole else (
-        f'<i style="background:{colour_of(each.name)}"></i><span>{name} <em>{each.report["rms_mps2"]:.1f} m/s² RMS</em></span>'
-    )  # fmt: skip
+    level = f"<span>{name} <em>{each.report['rms_mps2']:.1f} m/s² RMS</em></span>"
+    own = f'<i style="background:{colour_of(each.name)}"></i>{level}'
+    title = "<span>The whole stroke</span>" if is_whole else own
     return f"""<article class="render" id="{each.slug}"><h3><button type="button" data-name="{name}"></button>{title}
 <output>{each.felt.seconds:.1f} s</output></h3>
 {draw_render(each.name, each.scene, each.felt, shared, is_whole)}
@@ -138,8 +138,8 @@ def table(report: dict) -> str:
     strongest = max(render["rms_mps2"] for render in report["renders"]) or 1.0
     return "\n".join(
         f"""<tr><th scope="row"><a href="#{slug(each["name"])}">{escape(each["name"])}</a></th>
-<td class="bar"><span style="width:{100 * each["rms_mps2"] / strongest:.1f}%;background:{colour_of(each["name"])}"></span></td>
-<td>{each["rms_mps2"]:.2f}</td><td>{each["peak"] * FULL_SCALE_MPS2:.1f}</td><td>{each["segments"]}</td>
+<td class="bar"><span style="width:{100 * each["rms_mps2"] / strongest:.1f}%;background:{colour_of(each["name"])}">
+</span></td><td>{each["rms_mps2"]:.2f}</td><td>{each["peak"] * FULL_SCALE_MPS2:.1f}</td><td>{each["segments"]}</td>
 <td>{each["inference_ms"]["p50"]:.2f}</td><td>{each["inference_ms"]["p99"]:.2f}</td><td>{each["underruns"]}</td>
 <td>{each["nonfinite"]}</td></tr>"""
         for each in report["renders"]
@@ -149,9 +149,9 @@ def table(report: dict) -> str:
 def legend(shared: Range) -> str:
     bottom, top = (signed(str(level)) for level in (shared.bottom_db, shared.top_db))
     stops = ",".join(to_hex(colormaps["inferno"](step / 16)) for step in range(17))
-    return f"""<div class="legend" role="img" aria-label="Colours of the spectrograms: dark is {shared.bottom_db} dB, bright is \
-{shared.top_db} dB, relative to 1 m/s²">
-<span>{bottom} dB</span><i style="background:linear-gradient(to right,{stops})"></i><span>{top} dB re 1 m/s²</span></div>"""
+    return f"""<div class="legend" role="img" aria-label="Colours of the spectrograms: dark is {shared.bottom_db} dB, bright
+is {shared.top_db} dB, relative to 1 m/s²"><span>{bottom} dB</span>
+<i style="background:linear-gradient(to right,{stops})"></i><span>{top} dB re 1 m/s²</span></div>"""
 
 
 def page(shown: list[Shown], machine: str) -> str:

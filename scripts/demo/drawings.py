@@ -1,4 +1,4 @@
-"""The drawings of the demo's page: matplotlib's SVG in the page's own colours, which follow the reader's light or dark theme."""
+"""The drawings of the demo's page: matplotlib's SVG in the page's own colours, which follow the reader's theme."""
 
 from __future__ import annotations
 
@@ -108,14 +108,16 @@ class Lanes:
         axes.set_yticks([0, TOP_HZ / 2, TOP_HZ])
         self.named(axes, "Hz")
 
-    def contact(self, bands: plt.Axes, speed: plt.Axes, force: plt.Axes, felt: Render, names: dict[str, str] | str) -> None:
+    def contact(
+        self, bands: plt.Axes, speed: plt.Axes, force: plt.Axes, felt: Render, names: dict[str, str] | str
+    ) -> None:
         """names: the label of each surface, or one text for all."""
         for surface, begin, end in felt.touches():
             text = names if isinstance(names, str) else names[surface]
             colour = SOFT if isinstance(names, str) else colour_of(text)
             bands.axvspan(begin, end, color=colour, linewidth=0, clip_on=False)
-            bands.text((begin + end) / 2, 0.45, text, color="white", fontsize=FONT_SIZE, weight="bold", ha="center", va="center",
-                       path_effects=[withStroke(linewidth=1.5, foreground="black")])  # fmt: skip
+            bands.text((begin + end) / 2, 0.45, text, color="white", fontsize=FONT_SIZE, weight="bold", ha="center",
+                       va="center", path_effects=[withStroke(linewidth=1.5, foreground="black")])  # fmt: skip
         bands.set_ylim(0, 1)
         self.named(bands, "touches")
         along = [np.hypot(float(row["vx_mps"]), float(row["vy_mps"])) for row in felt.contacts]
@@ -153,8 +155,8 @@ def draw_render(name: str, scene: dict, felt: Render, shared: Range, is_whole: b
     lanes.spectrogram(lanes.axes[1], felt, shared)
     if is_whole:
         lanes.contact(*lanes.axes[2:], felt, {each["name"]: labels_of(each)[0] for each in scene["surfaces"]})
-    label = f"Waveform and spectrogram of {name}, 0 to {TOP_HZ:g} Hz{', what it touches, speed and force' if is_whole else ''}"
-    return lanes.element(name, label, is_whole)
+    more = ", what it touches, speed and force" if is_whole else ""
+    return lanes.element(name, f"Waveform and spectrogram of {name}, 0 to {TOP_HZ:g} Hz{more}", is_whole)
 
 
 def draw_contact(felt: Render, text: str) -> str:
@@ -165,15 +167,15 @@ def draw_contact(felt: Render, text: str) -> str:
 
 
 def draw_scene(scene: dict, path: np.ndarray, felt: Render) -> tuple[str, str]:
-    """From above and from the front, with a stroke [n, 4] of seconds and metres. The elements of class "tip" and "mover"
-    carry data-track, PLAYER_HZ places a second, for the player."""
+    """From above and from the front, with a stroke [n, 4] of seconds and metres. The elements of class "tip" and
+    "mover" carry data-track, PLAYER_HZ places a second, for the player."""
     above = draw_view(scene, path, felt, "Seen from above", [0, 2], 1)
     return above, draw_view(scene, path, felt, "Seen from the front", [0, 1], -2)
 
 
 def draw_view(scene: dict, path: np.ndarray, felt: Render, caption: str, plane_of: list[int], depth: int) -> str:
-    """plane_of: the world's axes that point right and up; depth: the one along which near objects cover far ones, negative
-    where far is up it. One metre is 1000 units of the picture."""
+    """plane_of: the world's axes that point right and up; depth: the one along which near objects cover far ones,
+    negative where far is up it. One metre is 1000 units of the picture."""
     is_top = plane_of == [0, 2]
     planes = [each for each in scene["surfaces"] if "plane" in each["shape"]]
     solids = [each for each in scene["surfaces"] if "plane" not in each["shape"]]
@@ -196,7 +198,8 @@ def draw_view(scene: dict, path: np.ndarray, felt: Render, caption: str, plane_o
             axes.add_patch(Polygon(corners, facecolor=colour, alpha=0.22 if is_top else 1.0, linewidth=0, clip_on=False,
                                    gid=f"surface-{index}"))  # fmt: skip
             if is_top:
-                axes.text(left + 0.014, low + 0.014, f"{surface['name']}: {labels_of(surface)[0]}", color=INK, fontsize=22)
+                name = f"{surface['name']}: {labels_of(surface)[0]}"
+                axes.text(left + 0.014, low + 0.014, name, color=INK, fontsize=22)
         else:
             corners = outlines[solids.index(surface)]
             axes.add_patch(Polygon(corners, facecolor=colour, edgecolor=CARD, alpha=0.82, linewidth=2, clip_on=False,
@@ -211,7 +214,8 @@ def draw_view(scene: dict, path: np.ndarray, felt: Render, caption: str, plane_o
     for touching, width, style in ((True, 5, "-"), (False, 2.5, (0, (0.8, 3.6)))):
         axes.plot(np.where(held == touching, places[:, 0], np.nan), places[:, 1], color=INK, linewidth=width,
                   linestyle=style, dash_capstyle="round", solid_capstyle="round", clip_on=False)  # fmt: skip
-    axes.plot(*places[0], "o", markersize=20, markerfacecolor=CARD, markeredgecolor=INK, markeredgewidth=4, clip_on=False)
+    axes.plot(*places[0], "o", markersize=20, markerfacecolor=CARD, markeredgecolor=INK, markeredgewidth=4,
+              clip_on=False)  # fmt: skip
     axes.text(*(places[0] - [0, 0.031]), "start", color=INK, fontsize=22, ha="center", va="center")
 
     listed = ", ".join(f"{each['name']} ({' and '.join(labels_of(each))})" for each in scene["surfaces"])
@@ -231,7 +235,8 @@ def draw_view(scene: dict, path: np.ndarray, felt: Render, caption: str, plane_o
     tip = np.column_stack([np.interp(seconds, path[:, 0], places[:, axis]) for axis in (0, 1)])
     track = track_of(tip, [left, top])
     tip_element = f'<circle class="tip" r="13" data-track="{track}"/></svg>'
-    return f'<figure class="view">{drawn.removesuffix("</svg>")}{tip_element}<figcaption>{caption}</figcaption></figure>'
+    drawn = drawn.removesuffix("</svg>") + tip_element
+    return f'<figure class="view">{drawn}<figcaption>{caption}</figcaption></figure>'
 
 
 def rest_of(surface: dict) -> np.ndarray:
@@ -246,8 +251,8 @@ def outline(surface: dict, plane_of: list[int]) -> np.ndarray:
 
 
 def positions_at(motion: dict, seconds: np.ndarray) -> np.ndarray:
-    """[n, 3] of a moving surface, interpolated as the engine does it: a cubic with continuous velocity, at each keyframe the
-    mean velocity between its neighbours; the first and last keyframe of a closed loop are the same."""
+    """[n, 3] of a moving surface, interpolated as the engine does it: a cubic with continuous velocity, at each
+    keyframe the mean velocity between its neighbours; the first and last keyframe of a closed loop are the same."""
     times = np.array([each["t"] for each in motion["keyframes"]])
     places = np.array([each["position"] for each in motion["keyframes"]])
     steps = np.diff(places, axis=0) / np.diff(times)[:, None]

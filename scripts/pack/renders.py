@@ -1,4 +1,4 @@
-"""Renders of the command line, and what the pictures of them share: the labels' colours, spectrograms, the model's stamp."""
+"""Renders of the command line, and what their pictures share: the labels' colours, spectrograms, the model's stamp."""
 
 from __future__ import annotations
 
@@ -66,8 +66,9 @@ class Render:
         """Stretches on one surface: its name, begin and end in seconds."""
         touched = [row["surface"] if float(row["touching"]) > 0.5 else "" for row in self.contacts]
         times = [*self.contact_times, self.contact_times[-1]]
-        changes = [0, *(index for index in range(1, len(touched)) if touched[index] != touched[index - 1]), len(touched)]
-        return [(touched[begin], times[begin], times[end]) for begin, end in zip(changes, changes[1:]) if touched[begin]]
+        changes = [index for index in range(1, len(touched)) if touched[index] != touched[index - 1]]
+        stretches = zip([0, *changes], [*changes, len(touched)], strict=True)
+        return [(touched[begin], times[begin], times[end]) for begin, end in stretches if touched[begin]]
 
 
 def labels_of(surface: dict) -> list[str]:
