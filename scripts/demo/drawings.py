@@ -13,10 +13,9 @@ import numpy as np
 from matplotlib.patches import Polygon
 from matplotlib.patheffects import withStroke
 from renders import TOP_HZ, Render, colour_of, labels_of
-from scene_view import facets
+from scene_view import outline, rest_of
 from scipy.interpolate import CubicHermiteSpline
 from scipy.signal import stft
-from scipy.spatial import ConvexHull
 
 # Colours of the light theme, and the variables of page.css that stand for them.
 INK, SOFT, LINE, WAVE, CARD = "#22252a", "#666d77", "#dcd9d2", "#1f5f8b", "#fffffe"
@@ -237,17 +236,6 @@ def draw_view(scene: dict, path: np.ndarray, felt: Render, caption: str, plane_o
     tip_element = f'<circle class="tip" r="13" data-track="{track}"/></svg>'
     drawn = drawn.removesuffix("</svg>") + tip_element
     return f'<figure class="view">{drawn}<figcaption>{caption}</figcaption></figure>'
-
-
-def rest_of(surface: dict) -> np.ndarray:
-    """Where a drawing shows a surface: its own place, or the first of its motion."""
-    return np.array(surface.get("motion", {}).get("keyframes", [surface])[0]["position"])
-
-
-def outline(surface: dict, plane_of: list[int]) -> np.ndarray:
-    """[n, 2] corners in a view along an axis of the world."""
-    points = facets(surface).reshape(-1, 3)[:, plane_of]
-    return points[ConvexHull(points).vertices]
 
 
 def positions_at(motion: dict, seconds: np.ndarray) -> np.ndarray:

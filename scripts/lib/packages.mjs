@@ -28,36 +28,6 @@ export const packagesByPurpose = {
   lint: ['git', 'clang-format', 'clang-tidy', 'python3', 'shellcheck'],
 };
 
-/** Programs that scripts and tests start, with the package above that contains each. `run` installs Node and npm. */
-export const packageOfProgram = {
-  cmake: 'cmake',
-  ctest: 'cmake',
-  ninja: 'ninja-build',
-  nm: 'binutils',
-  mono: 'mono-runtime',
-  curl: 'curl',
-  git: 'git',
-  'clang-format': 'clang-format',
-  'clang-tidy': 'clang-tidy',
-  shellcheck: 'shellcheck',
-  'clang-16': 'clang-16',
-  'clang++-16': 'clang-16',
-  'clang-22': 'clang-22',
-  'clang++-22': 'clang-22',
-  python3: 'python3',
-  '/usr/bin/python3': 'python3',
-  wine: 'wine',
-  wine64: 'wine64',
-  'qemu-aarch64': 'qemu-user',
-  debootstrap: 'debootstrap',
-  'x86_64-w64-mingw32-objdump': 'binutils-mingw-w64-x86-64',
-  'x86_64-w64-mingw32-gcc-posix': 'g++-mingw-w64-x86-64-posix',
-  'x86_64-w64-mingw32-g++-posix': 'g++-mingw-w64-x86-64-posix',
-  'x86_64-w64-mingw32-windres': 'binutils-mingw-w64-x86-64',
-  'aarch64-linux-gnu-gcc': 'g++-aarch64-linux-gnu',
-  'aarch64-linux-gnu-g++': 'g++-aarch64-linux-gnu',
-};
-
 /**
  * Purposes whose packages some releases of Debian lack, with the sentence that says what is skipped there and where to get
  * the packages. The packages of every other purpose are required.

@@ -16,9 +16,10 @@ import json
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.patches import Circle, FancyBboxPatch, Rectangle
+from matplotlib.patches import Polygon
 from matplotlib.patheffects import withStroke
 from renders import ROOT, SAMPLES, Render, colour_of, draw_spectrogram, labels_of, render, save
+from scene_view import outline, rest_of
 
 SCENE = SAMPLES / "HeadlessScenes/crossing.scene.json"
 STROKE = SAMPLES / "HeadlessScenes/crossing.stroke.csv"
@@ -43,33 +44,18 @@ def free_height(path: np.ndarray, x: float, z: float, reach: float) -> float:
 
 def draw_surface(axes: Axes, surface: dict, path: np.ndarray) -> None:
     """A surface from above, as it lies when the scene starts, with its name clear of the path [n, 2]."""
-    label = labels_of(surface)[0]
-    pose = surface["motion"]["keyframes"][0] if "motion" in surface else surface
-    x, _, z = pose["position"]
-    _, turn_y, _, turn_w = pose["rotation"]
-    ((kind, shape),) = surface["shape"].items()
-    if kind == "plane":
-        axes.set_facecolor(colour_of(label) + "55")
+    colour = colour_of(labels_of(surface)[0])
+    if "plane" in surface["shape"]:
+        axes.set_facecolor(colour + "55")
         axes.text(-0.51, -0.22, name_of(surface), ha="left", va="bottom", fontsize=11)
         return
-    if kind == "sphere":
-        patch, half = Circle((x, z), shape["radius"]), shape["radius"]
-    elif kind == "capsule":
-        # This scene's capsule lies along x.
-        length, radius = shape["height"], shape["radius"]
-        patch = FancyBboxPatch((x - length / 2 + radius, z - 0.001), length - 2 * radius, 0.002,
-                               boxstyle=f"round,pad={radius}")
-        half = radius
-    else:
-        width, _, depth = shape["size"]
-        # Unity's frame is left-handed: a positive rotation about y is clockwise from above.
-        degrees = -np.degrees(2.0 * np.arctan2(turn_y, turn_w))
-        patch = Rectangle((x - width / 2, z - depth / 2), width, depth, angle=degrees, rotation_point="center")
-        half = depth / 2
-    patch.set(facecolor=colour_of(label), edgecolor="none", alpha=0.85)
-    axes.add_patch(patch)
-    axes.text(x, free_height(path, x, z, half - 0.015), name_of(surface), ha="center", va="center", fontsize=11, zorder=6,
-              path_effects=[withStroke(linewidth=3.0, foreground="white")])
+    corners = outline(surface, [0, 2])
+    axes.add_patch(Polygon(corners, facecolor=colour, edgecolor="none", alpha=0.85))
+    x, _, z = rest_of(surface)
+    ((_, shape),) = surface["shape"].items()
+    reach = shape["size"][2] / 2 if "size" in shape else np.ptp(corners[:, 1]) / 2
+    axes.text(x, free_height(path, x, z, reach - 0.015), name_of(surface), ha="center", va="center", fontsize=11,
+              zorder=6, path_effects=[withStroke(linewidth=3.0, foreground="white")])
 
 
 def draw_scene(axes: Axes, scene: dict, stroke: np.ndarray, touching: np.ndarray) -> None:

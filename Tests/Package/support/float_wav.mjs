@@ -31,6 +31,3 @@ export function readFloatWav(bytes, name) {
   }
   throw new RangeError(`${name}: has no "data" chunk`);
 }
-
-/** One channel of 16-bit WAV; samples times `gain` beyond +-1 are clipped. */
-export function writePcm16Wav(samples, rateHz, gain) {
