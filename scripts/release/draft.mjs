@@ -40,7 +40,7 @@ export function changesOf(changelog, version) {
 }
 
 function notesOf({ runtime, tarball, files, version }) {
-  const rows = platforms.map(({ name, place }) => `| ${name} | ${files.has(`package/${pluginsFolder}/${place}`) ? 'yes' : 'no'} |`);
+  const rows = platforms.map(({ name, place }) => `| ${name} | ${files.has(`${pluginsFolder}/${place}`) ? 'yes' : 'no'} |`);
   return `Download both tarballs. In Unity: Window > Package Manager > + > Install package from tarball... (2022.3: Add package
 from tarball...), first \`${runtime}\`, then \`${tarball}\`. \`sha256sum --check SHA256SUMS\` compares what was downloaded.
 \`haptoflow-demo.tgz\` is a page to look at and listen to.
@@ -59,8 +59,8 @@ if (process.argv[1]?.endsWith('draft.mjs')) {
   await runMain('draft', async (words) => {
     const { folder, tarballs, demo } = optionsOf(words);
     const [runtime, tarball] = [dependencyName, packageName].map((name) => tarballOf(name, tarballs));
-    const files = readTarball(readFileSync(path.join(tarballs, tarball)));
-    const { version } = JSON.parse(files.get('package/package.json').toString('utf8'));
+    const files = await readTarball(path.join(tarballs, tarball));
+    const { version } = JSON.parse(files.text('package.json'));
     const notes = notesOf({ runtime, tarball, files, version });
     rmSync(folder, { recursive: true, force: true });
     mkdirSync(folder, { recursive: true });
