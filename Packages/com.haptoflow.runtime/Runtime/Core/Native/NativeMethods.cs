@@ -242,6 +242,14 @@ namespace HaptoFlow.Native
         [DllImport(Library, EntryPoint = "haptoflow_recording_get_info")]
         public static extern int RecordingGetInfo(IntPtr recording, NativeRecordingInfo* info);
 
+        [DllImport(Library, EntryPoint = "haptoflow_recording_wave")]
+        public static extern int RecordingWave(float* accelerationMps2, ulong sampleCount, uint axisCount,
+            double sampleRateHz, float* waveMps2, ulong waveCount);
+
+        [DllImport(Library, EntryPoint = "haptoflow_resample")]
+        public static extern int Resample(float* samples, ulong sampleCount, double sampleRateHz, float* wave,
+            ulong waveCount, double waveRateHz);
+
         [DllImport(Library, EntryPoint = "haptoflow_recording_close")]
         public static extern int RecordingClose(IntPtr* recording);
 

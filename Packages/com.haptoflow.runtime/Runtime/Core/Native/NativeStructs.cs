@@ -197,8 +197,6 @@ namespace HaptoFlow.Native
         public IntPtr Path;
         public NativeRecordingFile* Files;
         public double FullScaleMps2;
-        public double SpeedMps;
-        public double ForceNewtons;
         public uint WithoutSamples;
         public uint NeedsMotionAndForce;
     }
