@@ -60,13 +60,6 @@ struct RenderOptions {
     bool quiet = false;
 };
 
-/// The properties of a surface that its contact states contain.
-struct SurfaceProperties {
-    engine::MaterialBlend blend;
-    float spatialScale = 1.0F;
-    float toneDbPerOctave = 0.0F;
-};
-
 const std::map<std::string, effects::EffectKind>& effectNames() {
     static const std::map<std::string, effects::EffectKind> names{{"texture", effects::EffectKind::texture},
                                                                   {"impact", effects::EffectKind::impact},
@@ -125,35 +118,35 @@ inference::SolverSettings chooseSolver(const model::Tier& tier, const std::strin
     return {.kind = solverNames().at(solver), .steps = *steps};
 }
 
-/// The properties of each surface, in the scene's order.
-std::vector<SurfaceProperties> propertiesOf(const headless::Scene& scene, const SceneMaterials& materials,
-                                            const std::string& scenePath) {
-    std::vector<SurfaceProperties> surfaces;
+/// A state with the material, feature scale and tone of each surface, in the scene's order.
+std::vector<engine::ContactState> propertiesOf(const headless::Scene& scene, const SceneMaterials& materials,
+                                               const std::string& scenePath) {
+    std::vector<engine::ContactState> surfaces;
     for (const headless::SceneSurface& surface : scene.surfaces) {
         if (surface.material.size() > engine::MaterialBlend::capacity) {
             throw InputError(scenePath + ": surface '" + surface.name + "' blends " +
                              std::to_string(surface.material.size()) + " labels; expected at most " +
                              std::to_string(engine::MaterialBlend::capacity));
         }
-        SurfaceProperties properties{.blend = {},
-                                     .spatialScale = static_cast<float>(surface.spatialScale),
-                                     .toneDbPerOctave = static_cast<float>(surface.toneDbPerOctave)};
-        engine::MaterialBlend& blend = properties.blend;
+        engine::ContactState& properties = surfaces.emplace_back();
+        properties.spatialScale = static_cast<float>(surface.spatialScale);
+        properties.toneDbPerOctave = static_cast<float>(surface.toneDbPerOctave);
         for (const auto& [name, weight] : surface.material) {
-            blend.entries.at(blend.count) = {.label = materials.indexOf(name), .weight = static_cast<float>(weight)};
-            ++blend.count;
+            properties.material.add(materials.indexOf(name), static_cast<float>(weight));
         }
-        surfaces.push_back(properties);
     }
     return surfaces;
 }
 
-engine::ContactState stateOf(const headless::ContactReading& reading, std::span<const SurfaceProperties> surfaces,
-                             effects::EffectMask effects) {
-    engine::ContactState state;
-    state.effects = effects;
+engine::TimedContactState stateOf(const headless::ContactReading& reading,
+                                  std::span<const engine::ContactState> surfaces, effects::EffectMask effects) {
+    engine::TimedContactState state;
+    if (reading.surfaceIndex >= 0) {
+        state = {surfaces[static_cast<std::size_t>(reading.surfaceIndex)]};
+    }
     state.timeSeconds = reading.timeSeconds;
-    state.touching = reading.touching;
+    state.effects = effects;
+    state.touching = reading.touching ? 1 : 0;
     state.touchCounter = reading.touchCounter;
     state.velocityMps = {static_cast<float>(reading.tangentialVelocityMps.x),
                          static_cast<float>(reading.tangentialVelocityMps.y)};
@@ -162,12 +155,6 @@ engine::ContactState stateOf(const headless::ContactReading& reading, std::span<
     state.landingCounter = reading.landingCounter;
     state.edgeCounter = reading.edgeCounter;
     state.edgeHeightMetres = static_cast<float>(reading.edgeHeightMetres);
-    if (reading.surfaceIndex >= 0) {
-        const SurfaceProperties& surface = surfaces[static_cast<std::size_t>(reading.surfaceIndex)];
-        state.material = surface.blend;
-        state.spatialScale = surface.spatialScale;
-        state.toneDbPerOctave = surface.toneDbPerOctave;
-    }
     return state;
 }
 
@@ -323,7 +310,7 @@ void runRender(const RenderOptions& options) {
     SceneMaterials materials(model, modelPath, options.scenePath);
     std::ranges::for_each(options.materials, [&materials](const std::string& path) { materials.add(path); });
     materials.require(scene);
-    const std::vector<SurfaceProperties> surfaces = propertiesOf(scene, materials, options.scenePath);
+    const std::vector<engine::ContactState> surfaces = propertiesOf(scene, materials, options.scenePath);
     headless::ContactSettings settings;
     useStiffnessOfMaterials(settings, materials);
     StrokePlayer player(scene, stroke, options.strokePath, settings);
@@ -342,7 +329,7 @@ void runRender(const RenderOptions& options) {
     inference::OnnxSegmentGenerator generator(openRuntime(), model, tier.name, solver, 1);
 
     const ProgressBar bar = progressBar("render", options.quiet);
-    const engine::ContactStateSource next = [&]() -> std::optional<engine::ContactState> {
+    const engine::ContactStateSource next = [&]() -> std::optional<engine::TimedContactState> {
         const std::optional<headless::ContactReading> reading = player.next();
         bar(static_cast<double>(player.played()) / static_cast<double>(player.frames()), {});
         return reading ? std::optional(stateOf(*reading, surfaces, effects)) : std::nullopt;

@@ -81,11 +81,16 @@ void VoiceRenderer::readContact() noexcept {
     if (channels_.toAudio.fetch()) {
         hasContact_ = true;
         contactAgeFrames_ = 0;
-        const AudioMessage& contact = channels_.toAudio.current();
-        updates_ = contact.updates;
-        voice_.setRangeLaw(contact.levelGain, contact.readingRate);
-        voice_.setTone(contact.hasTone ? &contact.tone : nullptr);
+        updates_ = contact().updates;
+        applyContact();
     }
+}
+
+void VoiceRenderer::applyContact() noexcept {
+    const AudioMessage& message = channels_.toAudio.current();
+    const RangedMotion& ranged = message.contact.ranged;
+    voice_.setRangeLaw(static_cast<float>(ranged.levelGain), ranged.readingRate);
+    voice_.setTone(message.tone ? &*message.tone : nullptr);
 }
 
 void VoiceRenderer::readControls() noexcept {
@@ -128,14 +133,13 @@ std::size_t VoiceRenderer::framesUntilStale(std::size_t frames) const noexcept {
 }
 
 SoundConditions VoiceRenderer::conditions(double rateHz) const noexcept {
-    const AudioMessage& contact = channels_.toAudio.current();
     const VoiceControls& controls = channels_.controls;
-    const bool hasTexture = contact.sliding || contact.onset != playedOnset_ || tapFramesLeft_ > 0;
-    return {.isTouched = signal_.isSet() ? contact.isMoving : hasTexture,
+    const bool hasTexture = contact().sliding || contact().onset != playedOnset_ || tapFramesLeft_ > 0;
+    return {.isTouched = signal_.isSet() ? contact().state.isMoving() : hasTexture,
             .isStale = framesUntilStale(1) == 0,
             .isMuted = controls.muted.load(std::memory_order_relaxed),
             .isPaused = controls.paused.load(std::memory_order_relaxed),
-            .isPanicked = contact.touch <= silencedTouch_,
+            .isPanicked = contact().touch <= silencedTouch_,
             .isRateServed = rateHz == voice_.outputRateHz(),
             .isClosing = controls.closing.load(std::memory_order_relaxed),
             .isWorkerAlive = workerAlive_.load(std::memory_order_acquire)};
@@ -155,17 +159,16 @@ void VoiceRenderer::decide(double rateHz) noexcept {
     if (silence == Silence::none && signal_.isSet()) {
         silence = Silence::rest;
     }
-    const AudioMessage& contact = channels_.toAudio.current();
     if (silence == Silence::none) {
-        if (!isSounding() || contact.onset != playedOnset_) {
+        if (!isSounding() || contact().onset != playedOnset_) {
             begin();
         }
         return;
     }
     fallSilent(silence);
     // A touch that began and ended during a silence is not played later, unless the voice only waits for a rate.
-    if (!contact.sliding && (silence != Silence::rate || !isPreparable)) {
-        playedOnset_ = contact.onset;
+    if (!contact().sliding && (silence != Silence::rate || !isPreparable)) {
+        playedOnset_ = contact().onset;
     }
 }
 
@@ -184,20 +187,19 @@ void VoiceRenderer::fallSilent(Silence reason) noexcept {
 }
 
 void VoiceRenderer::begin() noexcept {
-    const AudioMessage& contact = channels_.toAudio.current();
-    count(contact.onset != playedOnset_ ? channels_.counters.onsets : channels_.counters.resumptions);
+    const OnsetSeed& seed = channels_.toAudio.current().seed;
+    count(contact().onset != playedOnset_ ? channels_.counters.onsets : channels_.counters.resumptions);
     ++stream_;
     streamStart_ = voice_.timeline().head();
-    seedRibs_ = contact.seedRibs;
-    playedOnset_ = contact.onset;
+    seedRibs_ = seed.ribs;
+    playedOnset_ = contact().onset;
     silence_ = Silence::none;
-    tapFramesLeft_ = contact.sliding ? 0 : static_cast<std::uint64_t>(tapSeconds * voice_.outputRateHz());
-    if (!contact.sliding) {
+    tapFramesLeft_ = contact().sliding ? 0 : static_cast<std::uint64_t>(tapSeconds * voice_.outputRateHz());
+    if (!contact().sliding) {
         count(channels_.counters.taps);
     }
-    voice_.setRangeLaw(contact.levelGain, contact.readingRate);
-    voice_.setTone(contact.hasTone ? &contact.tone : nullptr);
-    voice_.onset(contact.seedMps2);
+    applyContact();
+    voice_.onset(seed.samplesMps2);
 }
 
 void VoiceRenderer::takeBlows(std::size_t frames) noexcept {
@@ -295,7 +297,7 @@ void VoiceRenderer::renderWithBlows(std::span<float> out) noexcept {
 }
 
 void VoiceRenderer::readSignal() noexcept {
-    const bool isMoving = channels_.toAudio.current().isMoving;
+    const bool isMoving = contact().state.isMoving();
     const bool hasChanged = std::exchange(wasMoving_, isMoving) != isMoving;
     // A silence also ends the signal, which restarts afterwards.
     if (silence_ != Silence::none && silence_ != Silence::rest) {
@@ -417,7 +419,7 @@ void VoiceRenderer::sound(std::span<float> out) noexcept {
         renderWithBlows(out.first(before));
         out = out.subspan(before);
         tapFramesLeft_ -= before;
-        if (tapFramesLeft_ == 0 && !channels_.toAudio.current().sliding) {
+        if (tapFramesLeft_ == 0 && !contact().sliding) {
             fallSilent(Silence::rest);
         }
     }

@@ -22,11 +22,11 @@ namespace HaptoFlow
             PenetrationMetres = (float)reading.PenetrationMetres;
             FirstAxis = reading.FirstAxis.ToVector();
             SecondAxis = reading.SecondAxis.ToVector();
-            FirstVelocityMps = (float)reading.FirstVelocityMps;
-            SecondVelocityMps = (float)reading.SecondVelocityMps;
-            ForceNewtons = (float)reading.ForceNewtons;
-            ApproachSpeedMps = (float)reading.ApproachSpeedMps;
-            TouchCounter = reading.TouchCounter;
+            FirstVelocityMps = reading.State.FirstVelocityMps;
+            SecondVelocityMps = reading.State.SecondVelocityMps;
+            ForceNewtons = reading.State.ForceNewtons;
+            ApproachSpeedMps = reading.State.ApproachSpeedMps;
+            TouchCounter = reading.State.TouchCounter;
         }
 
         /// <summary>The touched surface; null where the collider has none and a <see cref="HapticMaterialMap"/> assigns
