@@ -3,7 +3,8 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>A touch of a stylus, in world space: metres, m/s, newtons.</summary>
+    /// <summary>A touch of a stylus, in world space: metres, m/s, newtons. What a handler gets: Unity's types, and
+    /// surface and material, instead of the model's reading.</summary>
     public readonly struct HapticContact
     {
         private readonly MappedCollider? byRules;
