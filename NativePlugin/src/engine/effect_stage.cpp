@@ -65,14 +65,6 @@ EffectStage::EffectStage(double outputRateHz)
       gate_(outputRateHz),
       fadeSamples_(std::max<std::size_t>(1, static_cast<std::size_t>(handOverSeconds * outputRateHz))) {}
 
-void EffectStage::strikeImpact(double speedMps, const effects::ImpactResponse& response) noexcept {
-    impact_.strike(speedMps, response);
-}
-
-void EffectStage::strikeEdge(double speedMps, const effects::ImpactResponse& response) noexcept {
-    edge_.strike(speedMps, response);
-}
-
 void EffectStage::exchange(std::unique_ptr<Processors> fresh) noexcept {
     settleDelay();
     if (guard_ == nullptr) {

@@ -64,9 +64,10 @@ public:
     /// Throws std::invalid_argument for a rate outside 8-192 kHz.
     explicit EffectStage(double outputRateHz);
 
-    /// Starts a blow with the next sample.
-    void strikeImpact(double speedMps, const effects::ImpactResponse& response) noexcept;
-    void strikeEdge(double speedMps, const effects::ImpactResponse& response) noexcept;
+    /// Starts a blow, an impact or an edge, with the next sample.
+    void strike(effects::EffectKind kind, double speedMps, const effects::ImpactResponse& response) noexcept {
+        (kind == effects::EffectKind::edge ? edge_ : impact_).strike(speedMps, response);
+    }
     /// See effects::Signal. `close` also ends the signal.
     void setSignal(const effects::SignalSettings& settings) noexcept { signal_.set(settings); }
     void beginSignal() noexcept { signal_.begin(); }

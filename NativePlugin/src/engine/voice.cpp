@@ -35,14 +35,9 @@ void Voice::stop() noexcept {
     output_->effects.close();
 }
 
-void Voice::strikeImpact(double speedMps, const effects::ImpactResponse& response) noexcept {
-    noteEvent(effects::EffectKind::impact);
-    output_->effects.strikeImpact(speedMps, response);
-}
-
-void Voice::strikeEdge(double speedMps, const effects::ImpactResponse& response) noexcept {
-    noteEvent(effects::EffectKind::edge);
-    output_->effects.strikeEdge(speedMps, response);
+void Voice::strike(effects::EffectKind kind, double speedMps, const effects::ImpactResponse& response) noexcept {
+    noteEvent(kind);
+    output_->effects.strike(kind, speedMps, response);
 }
 
 void Voice::beginSignal() noexcept {

@@ -49,9 +49,8 @@ public:
     void stop() noexcept;
     /// Lets effects sound. Does nothing if they already may.
     void allowEffects() noexcept { output_->effects.open(); }
-    /// Start a blow with the next sample. Call `allowEffects` before.
-    void strikeImpact(double speedMps, const effects::ImpactResponse& response) noexcept;
-    void strikeEdge(double speedMps, const effects::ImpactResponse& response) noexcept;
+    /// Starts a blow, an impact or an edge, with the next sample. Call `allowEffects` before.
+    void strike(effects::EffectKind kind, double speedMps, const effects::ImpactResponse& response) noexcept;
     /// Starts the signal set by `effects().setSignal` with the next sample. Call `allowEffects` before.
     void beginSignal() noexcept;
     [[nodiscard]] EffectStage& effects() noexcept { return output_->effects; }

@@ -273,13 +273,8 @@ void VoiceRenderer::schedule(const Blow& blow, std::size_t frames) noexcept {
 }
 
 void VoiceRenderer::strike(const Blow& blow) noexcept {
-    if (blow.touch <= silencedTouch_) {
-        return;
-    }
-    if (blow.kind == effects::EffectKind::edge) {
-        voice_.strikeEdge(static_cast<double>(blow.speedMps), blow.response);
-    } else {
-        voice_.strikeImpact(static_cast<double>(blow.speedMps), blow.response);
+    if (blow.touch > silencedTouch_) {
+        voice_.strike(blow.kind, static_cast<double>(blow.speedMps), blow.response);
     }
 }
 
