@@ -155,7 +155,6 @@ engine::TimedContactState stateOf(const headless::ContactReading& reading,
     state.landingCounter = reading.landingCounter;
     state.edgeCounter = reading.edgeCounter;
     state.edgeHeightMetres = static_cast<float>(reading.edgeHeightMetres);
-    state.slopeRadians = static_cast<float>(reading.slopeRadians);
     return state;
 }
 

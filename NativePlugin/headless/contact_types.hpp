@@ -47,8 +47,6 @@ struct ContactReading {
     std::uint32_t edgeCounter = 0;
     /// Height of the newest edge; 0 before the first.
     double edgeHeightMetres = 0.0;
-    /// Slope of the surface at the contact: the angle between its normal and straight up; 0 without touch.
-    double slopeRadians = 0.0;
 };
 
 /// Settings of the velocity estimate from tracked positions. See TipHistory.

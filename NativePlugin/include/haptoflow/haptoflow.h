@@ -703,8 +703,6 @@ typedef struct haptoflow_contact_state {
     /* Tilt of the spectrum about 150 Hz, -12 to 12 dB per octave: brighter above 0, darker below; 0 for none. It is
      * added to the material's own tone. */
     float tone_db_per_octave;
-    /* Slope of the surface at the contact: the angle between its normal and straight up, 0 to pi. */
-    float slope_radians;
 } haptoflow_contact_state;
 
 /* The work of one effect for a voice. All values are 0 for an effect that was never requested. */

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numbers>
 
 namespace haptoflow::engine {
 
@@ -52,8 +51,6 @@ struct ContactState {
     float spatialScale = 1.0F;
     /// Tilt of the spectrum about 150 Hz: above 0 brighter, below 0 darker.
     float toneDbPerOctave = 0.0F;
-    /// Slope of the surface at the contact: the angle between its normal and straight up.
-    float slopeRadians = 0.0F;
 
     [[nodiscard]] bool hasEffect(effects::EffectKind kind) const noexcept {
         return (effects & effects::maskOf(kind)) != 0;
@@ -65,7 +62,7 @@ struct ContactState {
 };
 
 /// Makes every number finite and clamps it: speeds to +-20 m/s, force to 0-1,000 N, weights to 0-1, edge height to 0-1
-/// m, scale to 0.25-4, tilt to +-12 dB/octave, slope to 0-pi. Returns the number of changed fields.
+/// m, scale to 0.25-4, tilt to +-12 dB/octave. Returns the number of changed fields.
 inline std::uint32_t sanitise(ContactState& state) noexcept {
     constexpr float maximumMps = 20.0F;
     std::uint32_t changes = 0;
@@ -93,7 +90,6 @@ inline std::uint32_t sanitise(ContactState& state) noexcept {
     }
     limit(state.spatialScale, 0.25F, 4.0F, 1.0F);
     limit(state.toneDbPerOctave, -12.0F, 12.0F);
-    limit(state.slopeRadians, 0.0F, std::numbers::pi_v<float>);
     return changes;
 }
 

@@ -397,7 +397,6 @@ namespace HaptoFlow.Contact
             reading.State.FirstVelocityMps = (float)Double3.Dot(velocity, reading.FirstAxis);
             reading.State.SecondVelocityMps = (float)Double3.Dot(velocity, reading.SecondAxis);
             reading.State.ApproachSpeedMps = (float)approachSpeedMps;
-            reading.State.SlopeRadians = (float)Math.Acos(Vectors.Clamp(normal.Y, -1.0, 1.0));
             reading.State.ForceNewtons = (float)ForceOf(surface, reading.PenetrationMetres);
             return reading;
         }

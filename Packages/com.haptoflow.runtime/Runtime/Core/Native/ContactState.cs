@@ -57,9 +57,6 @@ namespace HaptoFlow
         /// positive is brighter, 0 is none.</summary>
         public float ToneDbPerOctave;
 
-        /// <summary>Slope of the surface at the contact: the angle between its normal and straight up, 0 to pi.</summary>
-        public float SlopeRadians;
-
         /// <summary>True while the tip touches a surface.</summary>
         public bool Touching
         {
