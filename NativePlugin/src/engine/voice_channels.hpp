@@ -63,15 +63,6 @@ struct VoiceControls {
     std::atomic<double> actuatorGain{1.0};
 };
 
-/// EffectFigures::OfKind as atomics, for any thread to read.
-struct EffectCounters {
-    std::atomic<std::uint64_t> prepared{0};
-    std::atomic<std::uint64_t> runs{0};
-    std::atomic<std::uint64_t> samples{0};
-    std::atomic<std::uint64_t> nanoseconds{0};
-    std::atomic<std::uint64_t> events{0};
-};
-
 /// Number of times that a contact state switched a signal on (or off), and the time from that state to the output frame
 /// at which the change begins. Written by the callback; any thread reads.
 struct SignalTransitions {
@@ -85,7 +76,7 @@ struct SignalTransitions {
 /// Counters of a voice; none ever decreases. Any thread reads.
 struct VoiceCounters {
     /// By effects::EffectKind, without the texture, which the other counters describe.
-    std::array<EffectCounters, effects::effectKinds> effects{};
+    EffectFigures effects{};
     SignalTransitions signalStarts;
     SignalTransitions signalStops;
     /// Effects of the newest contact state and processors of the voice.

@@ -17,7 +17,7 @@ void count(std::atomic<std::uint64_t>& counter, std::uint64_t by = 1) noexcept {
 
 VoiceRenderer::VoiceRenderer(VoiceChannels& channels, const std::atomic<bool>& workerAlive, double outputRateHz,
                              float fullScaleMps2)
-    : channels_(channels), workerAlive_(workerAlive), voice_(outputRateHz, fullScaleMps2) {}
+    : channels_(channels), workerAlive_(workerAlive), voice_(outputRateHz, fullScaleMps2, channels.counters.effects) {}
 
 void VoiceRenderer::render(std::span<float> out, double rateHz) noexcept {
     const dsp::ScopedFlushDenormals flush;
@@ -421,23 +421,6 @@ void VoiceRenderer::sound(std::span<float> out) noexcept {
     renderWithBlows(out);
 }
 
-void VoiceRenderer::reportEffects() noexcept {
-    // Skip unchanged figures, because thirty stores in every block take measurable time.
-    if (voice_.effectFigures().changes == reportedEffectChanges_) {
-        return;
-    }
-    reportedEffectChanges_ = voice_.effectFigures().changes;
-    for (std::size_t kind = 0; kind < effects::effectKinds; ++kind) {
-        const EffectFigures::OfKind& figures = voice_.effectFigures().kinds[kind];
-        EffectCounters& counters = channels_.counters.effects[kind];
-        counters.prepared.store(figures.prepared, std::memory_order_relaxed);
-        counters.runs.store(figures.runs, std::memory_order_relaxed);
-        counters.samples.store(figures.samples, std::memory_order_relaxed);
-        counters.nanoseconds.store(figures.nanoseconds, std::memory_order_relaxed);
-        counters.events.store(figures.events, std::memory_order_relaxed);
-    }
-}
-
 void VoiceRenderer::reportExposure() noexcept {
     const effects::ExposureGuard* guard = voice_.effects().exposureGuard();
     if (guard == nullptr && !reportedGuard_) {
@@ -460,7 +443,6 @@ void VoiceRenderer::report(std::uint64_t uncoveredBefore, bool sounded) noexcept
     }
     counters.nonFiniteSamples.store(voice_.limiter().nonFiniteCount(), std::memory_order_relaxed);
     counters.limitedSamples.store(voice_.limiter().limitedCount(), std::memory_order_relaxed);
-    reportEffects();
     reportExposure();
 
     const bool running = isSounding();

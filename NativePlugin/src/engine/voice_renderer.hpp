@@ -60,7 +60,6 @@ private:
     void readSignal() noexcept;
     void noteSignalTransition(SignalTransitions& turns) noexcept;
     void takeProcessors() noexcept;
-    void reportEffects() noexcept;
     void reportExposure() noexcept;
     void fallSilent(Silence reason) noexcept;
     void takeSegments() noexcept;
@@ -123,7 +122,6 @@ private:
     int blocksNoted_ = 0;
     bool reportedRunning_ = false;
     bool reportedGuard_ = false;
-    std::uint64_t reportedEffectChanges_ = 0;
 };
 
 }  // namespace haptoflow::engine
