@@ -663,6 +663,8 @@ enum {
 #define HAPTOFLOW_ASKS_FOR_EDGE 0x4u
 #define HAPTOFLOW_ASKS_FOR_NOTHING 0x80000000u
 
+/* What the tip does now. engine::ContactState and the C# ContactState have the same fields in the same order, so that
+ * nothing converts between them. */
 typedef struct haptoflow_contact_state {
     uint32_t struct_size;
     /* 1 while the tip touches a surface, 0 otherwise. */

@@ -40,7 +40,7 @@ namespace HaptoFlow.Preview
                 double velocityY = cosine * recordedY - sine * recordedX;
                 x += velocityX / Stroke.UpdateRateHz;
                 y += velocityY / Stroke.UpdateRateHz;
-                return new PathPoint
+                return new StrokeState
                 {
                     XMetres = x,
                     YMetres = y,

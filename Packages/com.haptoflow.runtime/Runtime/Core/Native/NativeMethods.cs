@@ -148,7 +148,7 @@ namespace HaptoFlow.Native
         public static extern int VoiceDestroy(ulong* voice);
 
         [DllImport(Library, EntryPoint = "haptoflow_voice_publish")]
-        public static extern int VoicePublish(ulong voice, NativeContactState* state);
+        public static extern int VoicePublish(ulong voice, ContactState* state);
 
         [DllImport(Library, EntryPoint = "haptoflow_voice_render")]
         public static extern int VoiceRender(
