@@ -9,22 +9,15 @@ namespace HaptoFlow
     public sealed unsafe class HapticCancellation : IDisposable
     {
         /// <exception cref="HaptoFlowException">The library is missing, or memory is exhausted.</exception>
-        public HapticCancellation()
+        public HapticCancellation() => Handle = NativeCall.OrMissing(() =>
         {
-            try
-            {
-                LibraryAgreement.Require();
-                IntPtr opened;
-                NativeCall.Check(NativeMethods.CancellationCreate(&opened));
-                Handle = new CancellationHandle(opened);
-            }
-            catch (Exception error) when (NativeCall.IsMissing(error))
-            {
-                throw NativeCall.Missing(error);
-            }
-        }
+            LibraryAgreement.Require();
+            IntPtr opened;
+            NativeCall.Check(NativeMethods.CancellationCreate(&opened));
+            return new NativeHandle(opened, NativeMethods.CancellationClose);
+        });
 
-        internal CancellationHandle Handle { get; }
+        internal NativeHandle Handle { get; }
 
         /// <summary>Cancels permanently: the loads end with <see cref="HaptoFlowStatus.Cancelled"/>, those under way as
         /// soon as ONNX Runtime allows.</summary>

@@ -73,7 +73,7 @@ namespace HaptoFlow
         /// <summary>Number of materials that one engine can hold in addition to its model's labels.</summary>
         public const int MaximumMaterials = 64;
 
-        private readonly EngineHandle handle;
+        private readonly NativeHandle handle;
 
         /// <summary>Loads the tiers of the quality, all of them for automatic quality, and starts the worker. Blocks
         /// while ONNX Runtime optimises the graphs; runtime and model may be disposed afterwards.</summary>
@@ -101,7 +101,7 @@ namespace HaptoFlow
             GC.KeepAlive(runtime);
             GC.KeepAlive(model);
             GC.KeepAlive(options.Cancellation);
-            handle = new EngineHandle(opened);
+            handle = new NativeHandle(opened, NativeMethods.EngineClose);
         }
 
         /// <summary>Changes the quality from the next segment on. Blocks while ONNX Runtime loads a tier that is not

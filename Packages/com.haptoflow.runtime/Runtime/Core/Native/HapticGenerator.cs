@@ -14,7 +14,7 @@ namespace HaptoFlow
         /// <summary>Numbers per motion: vx and vy in m/s along the surface, force in N.</summary>
         public const int MotionSize = 3;
 
-        private readonly GeneratorHandle handle;
+        private readonly NativeHandle handle;
 
         /// <param name="tier">Name of a tier; null for the model's default.</param>
         /// <param name="cancellation">Cancels the creation; null for none.</param>
@@ -39,7 +39,7 @@ namespace HaptoFlow
             GC.KeepAlive(runtime);
             GC.KeepAlive(model);
             GC.KeepAlive(cancellation);
-            handle = new GeneratorHandle(opened);
+            handle = new NativeHandle(opened, NativeMethods.GeneratorClose);
         }
 
         /// <summary>Sets solver and steps from the next call on.</summary>

@@ -25,7 +25,7 @@ namespace HaptoFlow.Outputs
         public const double LatencySeconds = 0.001;
 
         private readonly IWaveSource source;
-        private readonly DeviceWaveHandle handle;
+        private readonly NativeHandle handle;
         private bool keepsTrueLevel;
 
         public DeviceWave(IWaveSource source)
@@ -33,7 +33,7 @@ namespace HaptoFlow.Outputs
             this.source = source;
             IntPtr opened;
             NativeCall.Check(NativeMethods.DeviceWaveCreate(WaveHistory.RateHz, &opened));
-            handle = new DeviceWaveHandle(opened);
+            handle = new NativeHandle(opened, NativeMethods.DeviceWaveClose);
         }
 
         /// <summary>True to pass the wave on as it is.</summary>

@@ -48,7 +48,7 @@ namespace HaptoFlow.Outputs
         /// it.</summary>
         public const double LatencySeconds = 0.0055;
 
-        private readonly WaveFeaturesHandle handle;
+        private readonly NativeHandle handle;
         private readonly NativeWaveFrame[] frames;
         private readonly float[] scaled;
 
@@ -69,7 +69,7 @@ namespace HaptoFlow.Outputs
             LibraryAgreement.Require();
             IntPtr opened;
             NativeCall.Check(NativeMethods.WaveFeaturesCreate(&options, &opened));
-            handle = new WaveFeaturesHandle(opened);
+            handle = new NativeHandle(opened, NativeMethods.WaveFeaturesClose);
         }
 
         /// <summary>Upper limit of frames that one call of <see cref="Process"/> completes.</summary>
