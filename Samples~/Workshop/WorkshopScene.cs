@@ -122,13 +122,8 @@ namespace HaptoFlow.Samples.Workshop
         {
             private readonly string name;
 
-            public Solid(string name, Vector3 place, Vector3 size, Color colour)
-            {
-                this.name = name;
-                Place = place;
-                Size = size;
-                Colour = colour;
-            }
+            public Solid(string name, Vector3 place, Vector3 size, Color colour) =>
+                (this.name, Place, Size, Colour) = (name, place, size, colour);
 
             public Vector3 Place { get; }
 

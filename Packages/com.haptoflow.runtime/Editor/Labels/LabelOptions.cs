@@ -9,11 +9,7 @@ namespace HaptoFlow.Editor
     /// <summary>An entry in the dropdown list of a label.</summary>
     internal readonly struct LabelOption
     {
-        public LabelOption(string text, string label)
-        {
-            Text = text;
-            Label = label;
-        }
+        public LabelOption(string text, string label) => (Text, Label) = (text, label);
 
         public string Text { get; }
 

@@ -17,12 +17,8 @@ namespace HaptoFlow.Editor
 
         private readonly byte[] modelFile;
 
-        private SliderCatalog(byte[] modelFile, SliderSet? sliders, string? problem)
-        {
-            this.modelFile = modelFile;
-            Sliders = sliders;
-            Problem = problem;
-        }
+        private SliderCatalog(byte[] modelFile, SliderSet? sliders, string? problem) =>
+            (this.modelFile, Sliders, Problem) = (modelFile, sliders, problem);
 
         /// <summary>The sliders; null when the model has none.</summary>
         public SliderSet? Sliders { get; }

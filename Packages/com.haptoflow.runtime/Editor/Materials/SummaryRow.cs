@@ -6,11 +6,7 @@ namespace HaptoFlow.Editor
     /// <summary>A row of an Inspector: a name and its value, both as text.</summary>
     internal readonly struct SummaryRow
     {
-        public SummaryRow(string name, string value)
-        {
-            Name = name;
-            Value = value;
-        }
+        public SummaryRow(string name, string value) => (Name, Value) = (name, value);
 
         public string Name { get; }
 

@@ -17,12 +17,7 @@ namespace HaptoFlow.Editor
     /// <summary>A line in world space, in metres.</summary>
     internal readonly struct MarkLine
     {
-        public MarkLine(MarkKind kind, Double3 from, Double3 to)
-        {
-            Kind = kind;
-            From = from;
-            To = to;
-        }
+        public MarkLine(MarkKind kind, Double3 from, Double3 to) => (Kind, From, To) = (kind, from, to);
 
         public MarkKind Kind { get; }
 

@@ -8,11 +8,7 @@ namespace HaptoFlow.Editor
     /// <summary>A line of the overlay.</summary>
     internal readonly struct SurfaceLine
     {
-        public SurfaceLine(Collider collider, string text)
-        {
-            Collider = collider;
-            Text = text;
-        }
+        public SurfaceLine(Collider collider, string text) => (Collider, Text) = (collider, text);
 
         public Collider Collider { get; }
 

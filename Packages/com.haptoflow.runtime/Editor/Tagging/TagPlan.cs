@@ -8,12 +8,8 @@ namespace HaptoFlow.Editor
     /// <summary>An object that can be tagged, with the label that its name or physics material suggests.</summary>
     internal readonly struct TagProposal
     {
-        public TagProposal(GameObject owner, string label, string reason)
-        {
-            Owner = owner;
-            Label = label;
-            Reason = reason;
-        }
+        public TagProposal(GameObject owner, string label, string reason) =>
+            (Owner, Label, Reason) = (owner, label, reason);
 
         public GameObject Owner { get; }
 

@@ -21,14 +21,8 @@ namespace HaptoFlow.DeviceCheck
     /// <summary>One line of the device check.</summary>
     internal readonly struct CheckLine
     {
-        private CheckLine(string group, string name, CheckState state, string measured, string remedy)
-        {
-            Group = group;
-            Name = name;
-            State = state;
-            Measured = measured;
-            Remedy = remedy;
-        }
+        private CheckLine(string group, string name, CheckState state, string measured, string remedy) =>
+            (Group, Name, State, Measured, Remedy) = (group, name, state, measured, remedy);
 
         public string Group { get; }
 

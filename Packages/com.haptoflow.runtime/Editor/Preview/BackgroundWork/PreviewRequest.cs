@@ -5,24 +5,11 @@ using System.Collections.Generic;
 namespace HaptoFlow.Preview
 {
     /// <summary>The input of a preview. Immutable by convention once submitted.</summary>
-    internal sealed class PreviewRequest
+    /// <param name="ModelFile">Bytes of a whole .haptoflow file. Models are compared by reference.</param>
+    /// <param name="Stroke">Strokes are compared by reference.</param>
+    /// <param name="Materials">One, or two to compare.</param>
+    internal sealed record PreviewRequest(byte[] ModelFile, Stroke Stroke, IReadOnlyList<LabelMix> Materials)
     {
-        public PreviewRequest(byte[] modelFile, Stroke stroke, IReadOnlyList<LabelMix> materials)
-        {
-            ModelFile = modelFile;
-            Stroke = stroke;
-            Materials = materials;
-        }
-
-        /// <summary>Bytes of a whole .haptoflow file. Models are compared by reference.</summary>
-        public byte[] ModelFile { get; }
-
-        /// <summary>Strokes are compared by reference.</summary>
-        public Stroke Stroke { get; }
-
-        /// <summary>One, or two to compare.</summary>
-        public IReadOnlyList<LabelMix> Materials { get; }
-
         /// <summary>The model's sliders; null if it has none.</summary>
         public SliderSet? Sliders { get; set; }
 

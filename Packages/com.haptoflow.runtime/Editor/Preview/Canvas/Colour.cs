@@ -6,13 +6,8 @@ namespace HaptoFlow.Preview
     /// <summary>An sRGB colour with opacity, each channel from 0 to 255.</summary>
     internal readonly struct Colour : IEquatable<Colour>
     {
-        public Colour(byte red, byte green, byte blue, byte opacity = 255)
-        {
-            Red = red;
-            Green = green;
-            Blue = blue;
-            Opacity = opacity;
-        }
+        public Colour(byte red, byte green, byte blue, byte opacity = 255) =>
+            (Red, Green, Blue, Opacity) = (red, green, blue, opacity);
 
         public byte Red { get; }
 

@@ -7,20 +7,10 @@ namespace HaptoFlow.Preview
 {
     /// <summary>A recording and the material learnt from it, to be compared. Immutable by convention once submitted.
     /// </summary>
-    internal sealed class ComparisonRequest
+    /// <param name="ModelFile">Bytes of a whole .haptoflow file. Models are compared by reference.</param>
+    /// <param name="Recording">Recordings are compared by reference.</param>
+    internal sealed record ComparisonRequest(byte[] ModelFile, Recording Recording)
     {
-        public ComparisonRequest(byte[] modelFile, Recording recording)
-        {
-            ModelFile = modelFile;
-            Recording = recording;
-        }
-
-        /// <summary>Bytes of a whole .haptoflow file. Models are compared by reference.</summary>
-        public byte[] ModelFile { get; }
-
-        /// <summary>Recordings are compared by reference.</summary>
-        public Recording Recording { get; }
-
         /// <summary>The text of the learnt material's file; empty before one was learnt.</summary>
         public string Material { get; set; } = "";
 

@@ -16,11 +16,8 @@ namespace HaptoFlow.Editor
         private bool looped;
         private bool waits;
 
-        public NewMaterialPlayer(NewMaterialState state, NewMaterialSession session)
-        {
-            this.state = state;
-            this.session = session;
-        }
+        public NewMaterialPlayer(NewMaterialState state, NewMaterialSession session) =>
+            (this.state, this.session) = (state, session);
 
         /// <summary>The chosen sound; null if there is none.</summary>
         public AnalysedSound? PlayedSound => session.Shown == null || session.Shown.Sounds.Count == 0

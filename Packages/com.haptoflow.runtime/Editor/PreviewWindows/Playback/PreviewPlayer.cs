@@ -43,11 +43,8 @@ namespace HaptoFlow.Editor
         private bool waits;
         private bool wasPlaying;
 
-        public PreviewPlayer(TexturePreviewState state, PreviewSession session)
-        {
-            this.state = state;
-            this.session = session;
-        }
+        public PreviewPlayer(TexturePreviewState state, PreviewSession session) =>
+            (this.state, this.session) = (state, session);
 
         /// <summary>The active sound; null if nothing was rendered.</summary>
         public AnalysedSound? PlayedSound =>

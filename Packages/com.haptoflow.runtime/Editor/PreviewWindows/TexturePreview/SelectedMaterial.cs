@@ -9,11 +9,7 @@ namespace HaptoFlow.Editor
     /// its surface or by a rule. Main thread.</summary>
     internal readonly struct SelectedMaterial
     {
-        private SelectedMaterial(Object? described, string remark = "")
-        {
-            Described = described;
-            Remark = remark;
-        }
+        private SelectedMaterial(Object? described, string remark = "") => (Described, Remark) = (described, remark);
 
         /// <summary>The surface or the Haptic Material with the description; null if the object has none.</summary>
         public Object? Described { get; }

@@ -54,11 +54,7 @@ namespace HaptoFlow.Outputs
         private double sampleFraction;
         private protected HapticQueueStatistics statistics;
 
-        protected HapticQueue(IHapticSink sink, IWaveSource source)
-        {
-            this.sink = sink;
-            Source = source;
-        }
+        protected HapticQueue(IHapticSink sink, IWaveSource source) => (this.sink, Source) = (sink, source);
 
         /// <summary>The queue for a device of a form.</summary>
         /// <param name="sink">Implements the interface of the form.</param>

@@ -15,11 +15,8 @@ namespace HaptoFlow.Outputs
 
         /// <param name="firstSeconds">Delay after the first failure, in s, above 0.</param>
         /// <param name="maximumSeconds">Limit of the delay, in s.</param>
-        public RetryDelay(double firstSeconds, double maximumSeconds)
-        {
-            this.firstSeconds = firstSeconds;
-            this.maximumSeconds = maximumSeconds;
-        }
+        public RetryDelay(double firstSeconds, double maximumSeconds) =>
+            (this.firstSeconds, this.maximumSeconds) = (firstSeconds, maximumSeconds);
 
         /// <summary>True where the call may be made: it has not failed since the last success, or the delay is over.
         /// </summary>

@@ -70,11 +70,7 @@ namespace HaptoFlow
         /// <summary>A sink and its form.</summary>
         internal readonly struct OpenSink
         {
-            public OpenSink(HapticForm form, IHapticSink sink)
-            {
-                Form = form;
-                Sink = sink;
-            }
+            public OpenSink(HapticForm form, IHapticSink sink) => (Form, Sink) = (form, sink);
 
             public HapticForm Form { get; }
 
@@ -83,13 +79,8 @@ namespace HaptoFlow
 
         private sealed class Route
         {
-            public Route(string name, HapticForm form, int preference, HapticSinkMaker maker)
-            {
-                Name = name;
-                Form = form;
-                Preference = preference;
-                Maker = maker;
-            }
+            public Route(string name, HapticForm form, int preference, HapticSinkMaker maker) =>
+                (Name, Form, Preference, Maker) = (name, form, preference, maker);
 
             public string Name { get; }
 
