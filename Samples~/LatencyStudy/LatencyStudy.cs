@@ -29,7 +29,8 @@ namespace HaptoFlow.Samples.LatencyStudy
         private Marker marker = null!;
         private QuestionPanel panel = null!;
         private OperatorView view = null!;
-        private AnswerButtons answers = null!;
+        private ButtonPress? yes;
+        private ButtonPress? no;
         private StudySession? session;
         private TrialContact? tracingContact;
         private TrialRecord? answeredRecord;
@@ -97,7 +98,9 @@ namespace HaptoFlow.Samples.LatencyStudy
             view.Detail = Detail;
             view.Begin = Begin;
             view.Advice = number => StudyLog.NumbersLeftOut(settings.Folder, StudyKind.Latency, number);
-            answers = new AnswerButtons(settings.PenHand);
+            string controller = ButtonPress.ControllerOppositeTo(settings.PenHand);
+            yes = new ButtonPress("<Keyboard>/y", controller + "triggerPressed");
+            no = new ButtonPress("<Keyboard>/n", controller + "gripPressed");
             output.SetSignal(settings.ToneHertz, settings.ToneMps2);
             output.Muted = true;
             panel.Welcome();
@@ -133,7 +136,7 @@ namespace HaptoFlow.Samples.LatencyStudy
         private void Update()
         {
             poses.Add(Time.unscaledDeltaTime);
-            bool? answer = answers.Take();
+            bool? answer = ButtonPress.Answer(yes!, no!);
             if (session == null)
             {
                 return;
@@ -160,7 +163,8 @@ namespace HaptoFlow.Samples.LatencyStudy
 
         private void OnDestroy()
         {
-            answers?.Dispose();
+            yes?.Dispose();
+            no?.Dispose();
             pens.ForEach(pen => pen.Contact.Dispose());
         }
 

@@ -15,16 +15,7 @@ namespace HaptoFlow.Editor
     }
 
     /// <summary>A line in world space, in metres.</summary>
-    internal readonly struct MarkLine
-    {
-        public MarkLine(MarkKind kind, Double3 from, Double3 to) => (Kind, From, To) = (kind, from, to);
-
-        public MarkKind Kind { get; }
-
-        public Double3 From { get; }
-
-        public Double3 To { get; }
-    }
+    internal sealed record MarkLine(MarkKind Kind, Double3 From, Double3 To);
 
     /// <summary>The values of a contact that are drawn.</summary>
     internal struct MarkedContact

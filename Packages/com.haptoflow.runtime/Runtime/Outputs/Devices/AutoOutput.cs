@@ -82,7 +82,7 @@ namespace HaptoFlow
             return made;
         }
 
-        private protected override void OpenSinks(HapticHand wanted, List<HapticSinks.OpenSink> into) =>
+        private protected override void OpenSinks(HapticHand wanted, HeldDevice into) =>
             HapticSinks.OpenBest(wanted, into);
 
         private protected override void OnDevice(HapticForm form, IHapticSink sink, HapticHand held)

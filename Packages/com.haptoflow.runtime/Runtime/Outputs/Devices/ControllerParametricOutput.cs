@@ -1,5 +1,4 @@
 #nullable enable
-using System.Collections.Generic;
 using HaptoFlow.Outputs;
 using UnityEngine;
 
@@ -26,7 +25,7 @@ namespace HaptoFlow
             set => useExperimentalFeature = value;
         }
 
-        private protected override void OpenSinks(HapticHand wanted, List<HapticSinks.OpenSink> into)
+        private protected override void OpenSinks(HapticHand wanted, HeldDevice into)
         {
             if (useExperimentalFeature)
             {

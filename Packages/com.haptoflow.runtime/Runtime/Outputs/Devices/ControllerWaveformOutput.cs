@@ -1,5 +1,4 @@
 #nullable enable
-using System.Collections.Generic;
 using HaptoFlow.Outputs;
 using UnityEngine;
 
@@ -28,7 +27,7 @@ namespace HaptoFlow
 
         private protected override bool MayReplace => !queueSubmissions;
 
-        private protected override void OpenSinks(HapticHand wanted, List<HapticSinks.OpenSink> into) =>
+        private protected override void OpenSinks(HapticHand wanted, HeldDevice into) =>
             HapticSinks.Open(HapticForm.Waveform, wanted, into);
     }
 }
