@@ -3,7 +3,6 @@ using System;
 using System.Collections.Generic;
 using System.Threading;
 using System.Threading.Tasks;
-using HaptoFlow.Model;
 using UnityEngine;
 
 namespace HaptoFlow

@@ -1,6 +1,4 @@
 #nullable enable
-using System;
-using UnityEditor;
 using UnityEngine;
 
 namespace HaptoFlow.Editor

@@ -2,7 +2,6 @@
 using System;
 using System.Collections.Generic;
 using HaptoFlow.Preview;
-using UnityEditor;
 using UnityEngine;
 
 namespace HaptoFlow.Editor

@@ -44,7 +44,6 @@ namespace HaptoFlow.Outputs
         private const float LimiterKnee = 0.7f;
 
         private readonly IHapticSink sink;
-        private HapticSinkCapabilities capabilities;
         private bool hasDevice;
         private double beganSeconds = double.NaN;
         private float ceiling = 1f;
@@ -101,7 +100,7 @@ namespace HaptoFlow.Outputs
 
         protected FramePace Pace { get; } = new FramePace();
 
-        protected HapticSinkCapabilities Capabilities => capabilities;
+        protected HapticSinkCapabilities Capabilities { get; private set; }
 
         /// <summary>Call once a frame.</summary>
         /// <param name="nowSeconds">Time of a real-time clock that never runs backwards.</param>
@@ -262,7 +261,7 @@ namespace HaptoFlow.Outputs
                 LoseDevice();
                 return false;
             }
-            if (hasDevice && now.Equals(capabilities))
+            if (hasDevice && now.Equals(Capabilities))
             {
                 return true;
             }
@@ -273,7 +272,7 @@ namespace HaptoFlow.Outputs
                 ++statistics.DeviceChanges;
             }
             hasDevice = true;
-            capabilities = now;
+            Capabilities = now;
             statistics.RateHz = now.RateHz;
             Rest();
             Prepare();
