@@ -34,18 +34,10 @@ namespace HaptoFlow.Samples.SimilarityStudy
         private bool isRefused;
 
         /// <summary>The materials, the methods and the set-up. Set them before the component wakes.</summary>
-        public SimilarityStudySettings? Settings
-        {
-            get => settings;
-            set => settings = value;
-        }
+        public SimilarityStudySettings? Settings { get => settings; set => settings = value; }
 
         /// <summary>The scene's camera, with the Audio Listener. Set it before the component wakes.</summary>
-        public Camera? View
-        {
-            get => view;
-            set => view = value;
-        }
+        public Camera? View { get => view; set => view = value; }
 
         /// <summary>The name under which the place of the virtual object is kept between sessions; empty to keep
         /// nothing. Set it before the component wakes.</summary>

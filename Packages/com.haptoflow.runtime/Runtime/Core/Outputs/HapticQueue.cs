@@ -76,11 +76,7 @@ namespace HaptoFlow.Outputs
         public virtual bool TrueLevel { get; set; } = true;
 
         /// <summary>Limit of the magnitude sent, 0 to 1.</summary>
-        public float Ceiling
-        {
-            get => ceiling;
-            set => ceiling = Math.Max(0f, Math.Min(1f, value));
-        }
+        public float Ceiling { get => ceiling; set => ceiling = Math.Max(0f, Math.Min(1f, value)); }
 
         /// <summary>Full scale: the acceleration that a sample of 1 represents, in m/s^2.</summary>
         public virtual float FullScaleMps2 { get; set; } = (float)HapticEngineOptions.DefaultFullScaleMps2;

@@ -19,11 +19,7 @@ namespace HaptoFlow
         private bool useExperimentalFeature;
 
         /// <summary>Nothing plays while this is false. Set it before the output is enabled.</summary>
-        public bool UseExperimentalFeature
-        {
-            get => useExperimentalFeature;
-            set => useExperimentalFeature = value;
-        }
+        public bool UseExperimentalFeature { get => useExperimentalFeature; set => useExperimentalFeature = value; }
 
         private protected override void OpenSinks(HapticHand wanted, HeldDevice into)
         {

@@ -19,11 +19,7 @@ namespace HaptoFlow
 
         /// <summary>True to queue each submission behind the last one instead of replacing it. Set it before the output
         /// is enabled.</summary>
-        public bool QueueSubmissions
-        {
-            get => queueSubmissions;
-            set => queueSubmissions = value;
-        }
+        public bool QueueSubmissions { get => queueSubmissions; set => queueSubmissions = value; }
 
         private protected override bool MayReplace => !queueSubmissions;
 

@@ -75,18 +75,10 @@ namespace HaptoFlow
         internal HapticStylus? Played => Wanted();
 
         /// <summary>The hand whose device is used; <see cref="HapticHand.None"/> for the stylus's.</summary>
-        public HapticHand Hand
-        {
-            get => hand;
-            set => hand = value;
-        }
+        public HapticHand Hand { get => hand; set => hand = value; }
 
         /// <summary>Gain, 0 to 1.</summary>
-        public float Strength
-        {
-            get => strength;
-            set => strength = Mathf.Clamp01(value);
-        }
+        public float Strength { get => strength; set => strength = Mathf.Clamp01(value); }
 
         /// <summary>A muted output is silent from this frame on and costs no inference.</summary>
         public bool Muted
@@ -113,19 +105,11 @@ namespace HaptoFlow
 
         /// <summary>True to drive the device in proportion to the acceleration, by <see cref="FullScaleMps2"/>, instead
         /// of by the loudness law.</summary>
-        public bool TrueLevel
-        {
-            get => trueLevel;
-            set => trueLevel = value;
-        }
+        public bool TrueLevel { get => trueLevel; set => trueLevel = value; }
 
         /// <summary>Acceleration that drives the device at its full amplitude, in m/s^2, above 0; used with <see
         /// cref="TrueLevel"/>.</summary>
-        public float FullScaleMps2
-        {
-            get => fullScaleMps2;
-            set => fullScaleMps2 = Mathf.Max(0.1f, value);
-        }
+        public float FullScaleMps2 { get => fullScaleMps2; set => fullScaleMps2 = Mathf.Max(0.1f, value); }
 
         /// <summary>True while a device is connected that supports this output.</summary>
         public bool HasDevice => device.IsThere;
