@@ -21,11 +21,7 @@ namespace HaptoFlow
 
         /// <summary>Cancels permanently: the loads end with <see cref="HaptoFlowStatus.Cancelled"/>, those under way as
         /// soon as ONNX Runtime allows.</summary>
-        public void Cancel()
-        {
-            NativeCall.Check(NativeMethods.CancellationCancel(Handle.Value));
-            GC.KeepAlive(this);
-        }
+        public void Cancel() => Handle.Check(NativeMethods.CancellationCancel(Handle.Value));
 
         /// <summary>Frees the handle; loads under way continue.</summary>
         public void Dispose() => Handle.Dispose();

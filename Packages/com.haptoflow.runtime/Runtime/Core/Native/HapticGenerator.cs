@@ -44,11 +44,8 @@ namespace HaptoFlow
 
         /// <summary>Sets solver and steps from the next call on.</summary>
         /// <param name="steps">1 to 16; 0 with <see cref="HapticSolver.OfTier"/>.</param>
-        public void SetSolver(HapticSolver solver, int steps)
-        {
-            NativeCall.Check(NativeMethods.GeneratorSetSolver(handle.Value, (int)solver, steps));
-            GC.KeepAlive(this);
-        }
+        public void SetSolver(HapticSolver solver, int steps) =>
+            handle.Check(NativeMethods.GeneratorSetSolver(handle.Value, (int)solver, steps));
 
         /// <summary>Generates a segment in m/s^2 for each request; requests follow each other in the arrays.</summary>
         /// <param name="embeddings">64 numbers each.</param>
@@ -75,9 +72,8 @@ namespace HaptoFlow
                     PreviousMps2 = previous,
                     Noise = normal,
                 };
-                NativeCall.Check(NativeMethods.GeneratorGenerate(handle.Value, &batch, segment));
+                handle.Check(NativeMethods.GeneratorGenerate(handle.Value, &batch, segment));
             }
-            GC.KeepAlive(this);
         }
 
         /// <summary>Computes the level law for each request: RMS in m/s^2.</summary>
@@ -94,9 +90,8 @@ namespace HaptoFlow
                     Embeddings = embedding,
                     Motions = motion,
                 };
-                NativeCall.Check(NativeMethods.GeneratorLevels(handle.Value, &batch, level));
+                handle.Check(NativeMethods.GeneratorLevels(handle.Value, &batch, level));
             }
-            GC.KeepAlive(this);
         }
 
         /// <summary>Fills an array with standard normal numbers that depend only on seed, voice and segment, identical

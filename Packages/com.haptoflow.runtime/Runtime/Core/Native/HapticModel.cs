@@ -163,7 +163,8 @@ namespace HaptoFlow
         public string HeaderJson()
         {
             IntPtr text;
-            NativeCall.Check(NativeMethods.ModelHeader(Handle.Value, &text));
+            Handle.Check(NativeMethods.ModelHeader(Handle.Value, &text));
+            // The text is the model's.
             string json = NativeCall.Text(text);
             GC.KeepAlive(this);
             return json;
@@ -175,9 +176,8 @@ namespace HaptoFlow
             var embedding = new float[EmbeddingSize];
             fixed (float* numbers = embedding)
             {
-                NativeCall.Check(NativeMethods.ModelEmbedding(Handle.Value, checked((uint)label), numbers));
+                Handle.Check(NativeMethods.ModelEmbedding(Handle.Value, checked((uint)label), numbers));
             }
-            GC.KeepAlive(this);
             return embedding;
         }
 
@@ -196,9 +196,8 @@ namespace HaptoFlow
             uint index;
             fixed (float* numbers = wanted)
             {
-                NativeCall.Check(NativeMethods.ModelNearestLabel(Handle.Value, numbers, &index));
+                Handle.Check(NativeMethods.ModelNearestLabel(Handle.Value, numbers, &index));
             }
-            GC.KeepAlive(this);
             return Labels[(int)index].Name;
         }
 

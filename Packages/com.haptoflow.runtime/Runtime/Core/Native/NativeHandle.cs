@@ -25,6 +25,14 @@ namespace HaptoFlow.Native
         /// <summary>The handle for one call; zero once closed, which the library refuses with a message.</summary>
         public IntPtr Value => IsClosed ? IntPtr.Zero : handle;
 
+        /// <summary>Ends a call that was made with <see cref="Value"/>: the handle stays open until here.</summary>
+        /// <exception cref="HaptoFlowException">As for <see cref="NativeCall.Check"/>.</exception>
+        public void Check(int status)
+        {
+            NativeCall.Check(status);
+            GC.KeepAlive(this);
+        }
+
         protected override bool ReleaseHandle()
         {
             IntPtr closing = handle;

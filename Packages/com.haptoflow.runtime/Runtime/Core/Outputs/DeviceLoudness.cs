@@ -45,8 +45,7 @@ namespace HaptoFlow.Outputs
                 if (value != keepsTrueLevel)
                 {
                     keepsTrueLevel = value;
-                    NativeCall.Check(NativeMethods.DeviceWaveReset(handle.Value));
-                    GC.KeepAlive(this);
+                    handle.Check(NativeMethods.DeviceWaveReset(handle.Value));
                 }
             }
         }
@@ -67,10 +66,9 @@ namespace HaptoFlow.Outputs
             }
             fixed (float* wave = samples)
             {
-                NativeCall.Check(NativeMethods.DeviceWaveProcess(
+                handle.Check(NativeMethods.DeviceWaveProcess(
                     handle.Value, wave, (ulong)samples.Length, FullScaleMps2));
             }
-            GC.KeepAlive(this);
         }
 
         /// <inheritdoc/>
