@@ -80,8 +80,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
         /// <summary>Why the study cannot begin or continue; null when nothing is wrong.</summary>
         public string? Problem => Operator.Problem;
 
-        /// <summary>Whether everything is loaded, measured and aligned, so that <see cref="Begin"/> can be called.
-        /// </summary>
+        /// <summary>Whether all is loaded, measured and aligned, so that <see cref="Begin"/> can be called.</summary>
         public bool CanBegin => !isRefused && Session == null && WhatIsMissing() == null;
 
         /// <summary>The tracked pen; before it was tracked for the first time, the mouse pen.</summary>

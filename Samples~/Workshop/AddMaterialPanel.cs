@@ -81,8 +81,7 @@ namespace HaptoFlow.Samples.Workshop
 
         private static string NameOf(TextAsset asset) => Path.GetFileNameWithoutExtension(asset.name);
 
-        /// <summary>Reads the recording and starts the learning in another thread, so that the scene continues.
-        /// </summary>
+        /// <summary>Reads the recording and learns in another thread, so that the scene continues.</summary>
         private static Task<HapticLearning> Begin(
             byte[] modelFile, string name, Dictionary<string, byte[]> files) => Task.Run(() =>
         {

@@ -50,8 +50,7 @@ namespace HaptoFlow.Samples.Workshop
             return collider;
         }
 
-        /// <param name="colour">The colour of a pixel from the share of the ring there and from the wear, each 0 to 1.
-        /// </param>
+        /// <param name="colour">The colour of a pixel from the ring's share there and the wear, each 0 to 1.</param>
         private static Color32[] Pixels(Func<float, float, Color32> colour)
         {
             var pixels = new Color32[Texels * Texels];

@@ -31,8 +31,7 @@ namespace HaptoFlow.Samples.Workshop
         /// <summary>A terrain whose material is a blend of its layers, weighted as they are painted.</summary>
         public Terrain Garden { get; private set; } = null!;
 
-        /// <summary>A board that looks and feels like oak in its left half and like steel mesh in its right half.
-        /// </summary>
+        /// <summary>A board that looks and feels like oak in its left half, like steel mesh in its right.</summary>
         public MeshCollider Halves { get; private set; } = null!;
 
         /// <summary>A pane with an inlaid ring of jute that is worn away towards one side.</summary>

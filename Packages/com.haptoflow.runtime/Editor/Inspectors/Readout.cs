@@ -29,6 +29,13 @@ namespace HaptoFlow.Editor
             }
         }
 
+        /// <summary>Draws the rows.</summary>
+        public void Draw()
+        {
+            EditorGUILayout.LabelField("Now", EditorStyles.boldLabel);
+            rows.ForEach(row => EditorGUILayout.LabelField(row.Name, row.Value));
+        }
+
         protected abstract void Read(T subject);
 
         protected void Add(string name, string value) => rows.Add(new SummaryRow(name, value));

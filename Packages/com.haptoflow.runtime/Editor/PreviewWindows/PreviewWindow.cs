@@ -6,8 +6,7 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>A window with controls on the left and charts on the right, whose sounds are made in the background.
-    /// </summary>
+    /// <summary>A window with controls left and charts right, whose sounds are made in the background.</summary>
     internal abstract class PreviewWindow<TState> : EditorWindow
         where TState : PreviewState<TState>
     {

@@ -36,8 +36,7 @@ namespace HaptoFlow.Editor
         public double ForceNewtons;
     }
 
-    /// <summary>A contact as lines: a cross at the contact point, the normal, the tangential velocity, the penetration.
-    /// </summary>
+    /// <summary>A contact as lines: a cross at its point, normal, tangential velocity, penetration.</summary>
     internal static class ContactMarks
     {
         /// <summary>The length of the velocity arrow is the distance covered in this time, one segment.</summary>

@@ -74,13 +74,11 @@ namespace HaptoFlow
         };
 #endif
 
-        /// <summary>The path of the controller in the hand that does not hold the pen, with a slash at its end.
-        /// </summary>
+        /// <summary>The path of the controller in the hand without the pen, with a slash at its end.</summary>
         public static string ControllerOppositeTo(PenHand penHand) =>
             "<XRController>{" + (penHand == PenHand.Right ? PenHand.Left : PenHand.Right) + "Hand}/";
 
-        /// <summary>The answer given in this frame; null without one, or with both at once. Call it once a frame.
-        /// </summary>
+        /// <summary>The answer of this frame; null without one, or with both at once. Call it once a frame.</summary>
         public static bool? Answer(ButtonPress yes, ButtonPress no)
         {
             bool isYes = yes.IsNew();

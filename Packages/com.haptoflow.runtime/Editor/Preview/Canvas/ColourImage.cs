@@ -2,8 +2,7 @@
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>A buffer of opaque colours. Immutable by convention, so that a texture made from it stays valid.
-    /// </summary>
+    /// <summary>A buffer of opaque colours. Immutable by convention: a texture made from it stays valid.</summary>
     internal sealed class ColourImage
     {
         public const int BytesPerPixel = 4;
@@ -19,8 +18,7 @@ namespace HaptoFlow.Preview
 
         public int Height { get; }
 
-        /// <summary>Red, green, blue and opacity of each pixel. The lowest row comes first, as in Unity's textures.
-        /// </summary>
+        /// <summary>Red, green, blue and opacity of each pixel. The lowest row is first, as in textures.</summary>
         public byte[] Pixels { get; }
 
         /// <param name="y">0 is the lowest row.</param>

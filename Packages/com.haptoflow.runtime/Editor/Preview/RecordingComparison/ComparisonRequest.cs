@@ -5,8 +5,7 @@ using HaptoFlow.Recordings;
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>A recording and the material learnt from it, to be compared. Immutable by convention once submitted.
-    /// </summary>
+    /// <summary>A recording and the material learnt from it, to be compared. Immutable once submitted.</summary>
     /// <param name="ModelFile">Bytes of a whole .haptoflow file. Models are compared by reference.</param>
     /// <param name="Recording">Recordings are compared by reference.</param>
     internal sealed record ComparisonRequest(byte[] ModelFile, Recording Recording)
@@ -14,8 +13,7 @@ namespace HaptoFlow.Preview
         /// <summary>The text of the learnt material's file; empty before one was learnt.</summary>
         public string Material { get; set; } = "";
 
-        /// <summary>Angle from the recording's first axis to the material's, which is perpendicular to its ribs.
-        /// </summary>
+        /// <summary>Angle from the recording's first axis to the material's, perpendicular to its ribs.</summary>
         public double TurnDegrees { get; set; }
 
         /// <summary>True to play the result at the recording's level.</summary>

@@ -39,8 +39,7 @@ namespace HaptoFlow.Preview
         /// <summary>Increases by one at each touch-down.</summary>
         public uint TouchCounter { get; }
 
-        /// <summary>True if the previous state belongs to the same touch and the path did not wrap in between.
-        /// </summary>
+        /// <summary>True if the previous state is of the same touch and the path did not wrap in between.</summary>
         public bool Continues { get; }
 
         /// <summary>Normal speed at the touch-down.</summary>
@@ -52,8 +51,7 @@ namespace HaptoFlow.Preview
         public double SpeedMps => System.Math.Sqrt(VelocityXMps * VelocityXMps + VelocityYMps * VelocityYMps);
 
         /// <summary>The contact state that a stylus would publish on a surface.</summary>
-        /// <param name="surface">Material, effects, feature scale and tone of the surface; its motion is ignored.
-        /// </param>
+        /// <param name="surface">Material, effects, feature scale, tone of the surface; its motion is ignored.</param>
         public ContactState ContactOn(in ContactState surface)
         {
             ContactState contact = surface;

@@ -14,8 +14,7 @@ namespace HaptoFlow.Editor
         Gamepad = 3,
     }
 
-    /// <summary>Plays a sound on a connected device, at the level that a scene's outputs have by default. Main thread.
-    /// </summary>
+    /// <summary>Plays a sound on a connected device, at the default level of a scene's outputs. Main thread.</summary>
     internal sealed class FeltPlayback
     {
         private const double SearchIntervalSeconds = 0.5;

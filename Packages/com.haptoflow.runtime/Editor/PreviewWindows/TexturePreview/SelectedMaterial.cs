@@ -28,8 +28,7 @@ namespace HaptoFlow.Editor
             return new SelectedMaterial(describes ? selected : null);
         }
 
-        /// <summary>In this order: the object's own surface, the material of its colliders, a disabled surface.
-        /// </summary>
+        /// <summary>In this order: the object's own surface, its colliders' material, a disabled surface.</summary>
         private static SelectedMaterial OfObject(GameObject owner)
         {
             bool hasOwn = owner.TryGetComponent(out HapticSurface own);

@@ -204,8 +204,7 @@ namespace HaptoFlow
         /// <summary>Opens a voice: the signal of one stylus tip. Blocks while another voice is opened or closed, never
         /// for inference.</summary>
         /// <param name="sampleRateHz">Sample rate of the output, 8000 to 192000 Hz. It may change later.</param>
-        /// <exception cref="HaptoFlowException">The rate is out of range, or 64 voices are open in this process.
-        /// </exception>
+        /// <exception cref="HaptoFlowException">The rate is out of range, or the process has 64 voices.</exception>
         public HapticVoice OpenVoice(double sampleRateHz)
         {
             ulong voice;

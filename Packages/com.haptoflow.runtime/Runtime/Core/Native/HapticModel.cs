@@ -182,8 +182,7 @@ namespace HaptoFlow
         }
 
         /// <summary>Name of the label whose embedding is nearest, ignoring wave vectors.</summary>
-        /// <param name="embedding"><see cref="EmbeddingSize"/> numbers, such as those of a <see cref="MaterialFile"/>.
-        /// </param>
+        /// <param name="embedding"><see cref="EmbeddingSize"/> numbers, as of a <see cref="MaterialFile"/>.</param>
         /// <exception cref="ArgumentException">It has another length.</exception>
         public string NearestLabel(IReadOnlyList<double> embedding)
         {

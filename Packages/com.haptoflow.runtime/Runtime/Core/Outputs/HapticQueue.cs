@@ -141,8 +141,7 @@ namespace HaptoFlow.Outputs
             }
         }
 
-        /// <summary>Takes whether playback begins in the midst of a vibration that made way, rather than with its onset.
-        /// </summary>
+        /// <summary>Takes whether playback begins amid a vibration that made way, not with its onset.</summary>
         protected bool TakeReturn()
         {
             bool was = returns;
@@ -153,8 +152,7 @@ namespace HaptoFlow.Outputs
         /// <summary>Advances wave and device by a frame.</summary>
         protected abstract void Advance(double nowSeconds, double elapsedSeconds);
 
-        /// <summary>Called after each frame of the wave that is rendered while the device belongs to another vibration.
-        /// </summary>
+        /// <summary>Called after each frame of the wave while the device belongs to another vibration.</summary>
         protected virtual void PassOver()
         {
         }

@@ -47,8 +47,7 @@ namespace HaptoFlow.Studies
         /// <summary>The order of the trials follows from the seed and the participant's number.</summary>
         public ulong Seed { get => seed; set => seed = value; }
 
-        /// <summary>The folder of the logs. Set to an empty text, it is <see cref="StudyPlayer.DefaultFolder"/>.
-        /// </summary>
+        /// <summary>The folder of the logs. Set to an empty text: <see cref="StudyPlayer.DefaultFolder"/>.</summary>
         public string Folder
         {
             get => folder.Length > 0 ? folder : StudyPlayer.DefaultFolder;
