@@ -24,28 +24,15 @@ namespace HaptoFlow.Preview
     }
 
     /// <summary>The output of a comparison. Immutable by convention.</summary>
-    internal sealed class ComparisonResult
+    /// <param name="Sounds">The recording, and after it the result if there is one.</param>
+    /// <param name="Problem">Why the result cannot be rendered; null if it can, or if there is none yet.</param>
+    internal sealed record ComparisonResult(
+        ComparisonRequest Request, IReadOnlyList<AnalysedSound> Sounds, string? Problem)
     {
-        public ComparisonResult(ComparisonRequest request, IReadOnlyList<AnalysedSound> sounds, string? problem)
-        {
-            Request = request;
-            Sounds = sounds;
-            Panel = new SoundPanel(sounds);
-            Problem = problem;
-        }
-
-        public ComparisonRequest Request { get; }
-
-        /// <summary>The recording, and after it the result if there is one.</summary>
-        public IReadOnlyList<AnalysedSound> Sounds { get; }
-
         /// <summary>Draws the sounds.</summary>
-        public SoundPanel Panel { get; }
+        public SoundPanel Panel { get; } = new SoundPanel(Sounds);
 
         /// <summary>Index of the sound that is played.</summary>
         public int Active => Math.Min(Request.Active, Sounds.Count - 1);
-
-        /// <summary>Why the result cannot be rendered; null if it can, or if there is none yet.</summary>
-        public string? Problem { get; }
     }
 }

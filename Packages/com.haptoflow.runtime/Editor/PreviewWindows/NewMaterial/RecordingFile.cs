@@ -30,17 +30,6 @@ namespace HaptoFlow.Editor
         }
 
         /// <summary>A file to read, and its full scale if it was entered.</summary>
-        internal sealed class Request
-        {
-            public Request(string path, double? fullScaleMps2)
-            {
-                Path = path;
-                FullScaleMps2 = fullScaleMps2;
-            }
-
-            public string Path { get; }
-
-            public double? FullScaleMps2 { get; }
-        }
+        internal sealed record Request(string Path, double? FullScaleMps2);
     }
 }
