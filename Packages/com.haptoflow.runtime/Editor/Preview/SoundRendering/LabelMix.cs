@@ -87,9 +87,6 @@ namespace HaptoFlow.Preview
             }
         }
 
-        /// <exception cref="HaptoFlowException">The model lacks a label.</exception>
-        public LabelBlend ToBlend(LabelNames names) => ToBlend(names, -1);
-
         /// <param name="registered">Index at which the engine registered the first material; -1 for a label.</param>
         /// <exception cref="HaptoFlowException">The model lacks a label.</exception>
         public LabelBlend ToBlend(LabelNames names, int registered)
