@@ -17,7 +17,9 @@ namespace HaptoFlow.Samples.DeviceCheck
             ("corduroy", 0.2f, new Color(0.4f, 0.3f, 0.45f)),
         };
 
-        private CheckButtons buttons = null!;
+        private ButtonPress yes = null!;
+        private ButtonPress no = null!;
+        private ButtonPress skip = null!;
         private TextMesh board = null!;
 
         /// <summary>The check, which begins with the scene.</summary>
@@ -45,18 +47,22 @@ namespace HaptoFlow.Samples.DeviceCheck
             rig.AddPen(PenHand.Right);
             rig.AddPen(PenHand.Left);
             board = SceneObjects.AddText("", new Vector3(0f, 0.16f, 0.25f), View!.transform.rotation);
-            buttons = new CheckButtons();
+            yes = new ButtonPress("<Keyboard>/y",
+                "<XRController>{RightHand}/primaryButton", "<XRController>{LeftHand}/primaryButton");
+            no = new ButtonPress("<Keyboard>/n",
+                "<XRController>{RightHand}/secondaryButton", "<XRController>{LeftHand}/secondaryButton");
+            skip = new ButtonPress("<Keyboard>/s");
             Run = gameObject.AddComponent<DeviceCheckRun>();
         }
 
         private void Update()
         {
-            bool? answer = buttons.Take();
+            bool? answer = ButtonPress.Answer(yes, no);
             if (answer != null)
             {
                 Run.Answer(answer.Value);
             }
-            if (buttons.Skips())
+            if (skip.IsNew())
             {
                 Run.Skip();
             }
@@ -66,7 +72,12 @@ namespace HaptoFlow.Samples.DeviceCheck
             }
         }
 
-        private void OnDestroy() => buttons.Dispose();
+        private void OnDestroy()
+        {
+            yes.Dispose();
+            no.Dispose();
+            skip.Dispose();
+        }
 
         private static Vector3 PlaceOf(float x) => new Vector3(x, -0.5f * PlateMetres.y, 0f);
     }

@@ -1,5 +1,4 @@
 #nullable enable
-using System;
 using System.Collections.Generic;
 using HaptoFlow.Studies;
 using UnityEngine;
@@ -26,31 +25,27 @@ namespace HaptoFlow.Samples.LatencyStudy
         private LatencyStudySettings settings = null!;
         private HapticOutput output = null!;
         private MaskingNoise noise = null!;
-        private Marker marker = null!;
-        private QuestionPanel panel = null!;
-        private OperatorView view = null!;
-        private AnswerButtons answers = null!;
-        private StudySession? session;
+        private ButtonPress? yes;
+        private ButtonPress? no;
         private TrialContact? tracingContact;
         private TrialRecord? answeredRecord;
-        private SystemDelay delay;
         private double nearSinceSeconds = double.NaN;
         private double nextCheckSeconds;
 
         /// <summary>Null until the operator has chosen the participant.</summary>
-        public StudySession? Session => session;
+        public StudySession? Session { get; private set; }
 
         /// <summary>The marker that the pen has to follow.</summary>
-        public Marker Marker => marker;
+        public Marker Marker { get; private set; } = null!;
 
         /// <summary>The panel that the participant reads.</summary>
-        public QuestionPanel Panel => panel;
+        public QuestionPanel Panel { get; private set; } = null!;
 
         /// <summary>The view that the operator sees.</summary>
-        public OperatorView View => view;
+        public OperatorView View { get; private set; } = null!;
 
         /// <summary>The delay of the system in the current trial, without the artificial part.</summary>
-        public SystemDelay Delay => delay;
+        public SystemDelay Delay { get; private set; }
 
         /// <summary>The delay of the system: the current pose interval and audio block, and the device delay of the
         /// settings. Allocates nothing.</summary>
@@ -65,22 +60,22 @@ namespace HaptoFlow.Samples.LatencyStudy
             try
             {
                 CheckIsReady();
-                delay = MeasureDelay();
-                delay.CheckReaches(settings.LevelsMilliseconds);
+                Delay = MeasureDelay();
+                Delay.CheckReaches(settings.LevelsMilliseconds);
                 StudyLog log = StudyLog.Open(settings.Folder, Describe(participant));
-                if (session != null)
+                if (Session != null)
                 {
-                    session.Changed -= OnChanged;
+                    Session.Changed -= OnChanged;
                 }
-                session = new StudySession(log);
-                session.Changed += OnChanged;
-                view.Session = session;
-                view.Problem = null;
-                panel.Welcome();
+                Session = new StudySession(log);
+                Session.Changed += OnChanged;
+                View.Session = Session;
+                View.Problem = null;
+                Panel.Welcome();
             }
             catch (StudyException refusal)
             {
-                view.Problem = refusal.Message;
+                View.Problem = refusal.Message;
             }
         }
 
@@ -90,17 +85,19 @@ namespace HaptoFlow.Samples.LatencyStudy
             settings = chosen;
             output = haptics;
             noise = masking;
-            marker = followed;
-            panel = asking;
-            view = operators;
-            view.Output = output;
-            view.Detail = Detail;
-            view.Begin = Begin;
-            view.Advice = number => StudyLog.NumbersLeftOut(settings.Folder, StudyKind.Latency, number);
-            answers = new AnswerButtons(settings.PenHand);
+            Marker = followed;
+            Panel = asking;
+            View = operators;
+            View.Output = output;
+            View.Detail = Detail;
+            View.Begin = Begin;
+            View.Advice = number => StudyLog.NumbersLeftOut(settings.Folder, StudyKind.Latency, number);
+            string controller = ButtonPress.ControllerOppositeTo(settings.PenHand);
+            yes = new ButtonPress("<Keyboard>/y", controller + "triggerPressed");
+            no = new ButtonPress("<Keyboard>/n", controller + "gripPressed");
             output.SetSignal(settings.ToneHertz, settings.ToneMps2);
             output.Muted = true;
-            panel.Welcome();
+            Panel.Welcome();
         }
 
         internal void AddPen(HapticStylus stylus) => pens.Add((stylus, new TrialContact(stylus)));
@@ -108,7 +105,7 @@ namespace HaptoFlow.Samples.LatencyStudy
         private StudyDescription Describe(int participant)
         {
             StudyPlan plan = StudyPlan.Latency(participant, settings.Seed, settings.LevelsMilliseconds);
-            return new StudyDescription(plan, settings.Fields(), delay)
+            return new StudyDescription(plan, settings.Fields(), Delay)
             {
                 IsSimulated = settings.Simulated,
                 Environment = settings.Environment(),
@@ -133,20 +130,20 @@ namespace HaptoFlow.Samples.LatencyStudy
         private void Update()
         {
             poses.Add(Time.unscaledDeltaTime);
-            bool? answer = answers.Take();
-            if (session == null)
+            bool? answer = ButtonPress.Answer(yes!, no!);
+            if (Session == null)
             {
                 return;
             }
-            session.Advance(Time.realtimeSinceStartupAsDouble);
+            Session.Advance(Time.realtimeSinceStartupAsDouble);
             CheckAgainWhileStopped();
-            if (session.Phase == StudyPhase.Task)
+            if (Session.Phase == StudyPhase.Task)
             {
-                Trace(session);
+                Trace(Session);
             }
-            else if (session.Phase == StudyPhase.Question && answer.HasValue)
+            else if (Session.Phase == StudyPhase.Question && answer.HasValue)
             {
-                session.Answer(answeredRecord!.Set("answer", answer.Value ? "yes" : "no"));
+                Session.Answer(answeredRecord!.Set("answer", answer.Value ? "yes" : "no"));
             }
         }
 
@@ -154,13 +151,14 @@ namespace HaptoFlow.Samples.LatencyStudy
         {
             if (paused)
             {
-                session?.PauseHere();
+                Session?.PauseHere();
             }
         }
 
         private void OnDestroy()
         {
-            answers?.Dispose();
+            yes?.Dispose();
+            no?.Dispose();
             pens.ForEach(pen => pen.Contact.Dispose());
         }
 
@@ -173,14 +171,14 @@ namespace HaptoFlow.Samples.LatencyStudy
                     BeginTrial(changed);
                     break;
                 case StudyPhase.Question:
-                    panel.Ask(changed.Trial!);
+                    Panel.Ask(changed.Trial!);
                     break;
                 case StudyPhase.Finished:
-                    panel.Thank();
+                    Panel.Thank();
                     break;
                 default:
-                    marker.Wait();
-                    panel.Rest();
+                    Marker.Wait();
+                    Panel.Rest();
                     break;
             }
         }
@@ -188,16 +186,16 @@ namespace HaptoFlow.Samples.LatencyStudy
         private void BeginTrial(StudySession begun)
         {
             WaitForThePen();
-            delay = MeasureDelay();
+            Delay = MeasureDelay();
             double planned = begun.Trial!.DelayMilliseconds!.Value;
             if (!TryReach(planned))
             {
                 begun.PauseHere();
                 return;
             }
-            output.Processing.DelayMilliseconds = (float)delay.ArtificialMilliseconds(planned);
+            output.Processing.DelayMilliseconds = (float)Delay.ArtificialMilliseconds(planned);
             output.ApplyProcessing();
-            panel.Instruct(begun.Trial);
+            Panel.Instruct(begun.Trial);
         }
 
         /// <summary>Checks the delay again: when the frame rate has fallen since the start, the set-up may be too slow
@@ -206,13 +204,13 @@ namespace HaptoFlow.Samples.LatencyStudy
         {
             try
             {
-                delay.CheckReaches(new[] { planned });
-                view.Problem = null;
+                Delay.CheckReaches(new[] { planned });
+                View.Problem = null;
                 return true;
             }
             catch (StudyException refusal)
             {
-                view.Problem = refusal.Message;
+                View.Problem = refusal.Message;
                 return false;
             }
         }
@@ -220,12 +218,12 @@ namespace HaptoFlow.Samples.LatencyStudy
         private void CheckAgainWhileStopped()
         {
             double now = Time.unscaledTimeAsDouble;
-            bool isStopped = session!.Phase == StudyPhase.Paused && view.Problem != null;
-            if (isStopped && session.Trial != null && now >= nextCheckSeconds)
+            bool isStopped = Session!.Phase == StudyPhase.Paused && View.Problem != null;
+            if (isStopped && Session.Trial != null && now >= nextCheckSeconds)
             {
                 nextCheckSeconds = now + SecondsBetweenChecks;
-                delay = MeasureDelay();
-                TryReach(session.Trial.DelayMilliseconds!.Value);
+                Delay = MeasureDelay();
+                TryReach(Session.Trial.DelayMilliseconds!.Value);
             }
         }
 
@@ -235,7 +233,7 @@ namespace HaptoFlow.Samples.LatencyStudy
             {
                 RunWhenThePenRestsAtTheMarker();
             }
-            else if (marker.IsDone)
+            else if (Marker.IsDone)
             {
                 double expectedMillimetres = settings.Strokes * settings.MoveSeconds * settings.MarkerSpeedMmps;
                 bool hasFollowed = tracingContact.Starts > 0 && tracingContact.Stops > 0 &&
@@ -248,7 +246,7 @@ namespace HaptoFlow.Samples.LatencyStudy
                 else
                 {
                     WaitForThePen();
-                    panel.AskToFollow(traced.Trial!);
+                    Panel.AskToFollow(traced.Trial!);
                 }
             }
         }
@@ -258,7 +256,7 @@ namespace HaptoFlow.Samples.LatencyStudy
             tracingContact = null;
             nearSinceSeconds = double.NaN;
             output.Muted = true;
-            marker.Wait();
+            Marker.Wait();
         }
 
         private void RunWhenThePenRestsAtTheMarker()
@@ -267,7 +265,7 @@ namespace HaptoFlow.Samples.LatencyStudy
             foreach ((HapticStylus stylus, TrialContact contact) in pens)
             {
                 bool isNear = stylus.IsTouching &&
-                    Vector3.Distance(stylus.Contact.Point, marker.transform.position) <= NearMetres;
+                    Vector3.Distance(stylus.Contact.Point, Marker.transform.position) <= NearMetres;
                 if (!isNear)
                 {
                     continue;
@@ -280,7 +278,7 @@ namespace HaptoFlow.Samples.LatencyStudy
                 {
                     tracingContact = contact;
                     contact.Begin();
-                    marker.Run();
+                    Marker.Run();
                     // The output is muted until here, because the participant judges only the marker's strokes.
                     output.Muted = false;
                 }
@@ -290,16 +288,16 @@ namespace HaptoFlow.Samples.LatencyStudy
         }
 
         private TrialRecord RecordOf(PlannedTrial trial, TrialContact contact) => contact
-            .AddTo(new TrialRecord().SetDelay(trial.DelayMilliseconds!.Value, delay))
+            .AddTo(new TrialRecord().SetDelay(trial.DelayMilliseconds!.Value, Delay))
             .Set("starts", contact.Starts)
             .Set("stops", contact.Stops);
 
         private string Detail()
         {
-            PlannedTrial? trial = session?.Trial;
+            PlannedTrial? trial = Session?.Trial;
             string text = trial == null
                 ? $"system delay {MeasureDelay()}"
-                : OperatorLines.OfTrial(trial, delay, output.Processing.DelayMilliseconds);
+                : OperatorLines.OfTrial(trial, Delay, output.Processing.DelayMilliseconds);
             text += "\n" + OperatorLines.OfDevice(settings);
             foreach ((HapticStylus stylus, TrialContact contact) in pens)
             {

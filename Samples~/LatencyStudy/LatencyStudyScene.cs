@@ -19,11 +19,7 @@ namespace HaptoFlow.Samples.LatencyStudy
 
         /// <summary>Everything that a laboratory decides; null for the defaults. Set it before the component wakes.
         /// </summary>
-        public LatencyStudySettings? Settings
-        {
-            get => settings;
-            set => settings = value;
-        }
+        public LatencyStudySettings? Settings { get => settings; set => settings = value; }
 
         /// <summary>The study's procedure.</summary>
         public LatencyStudy Study { get; private set; } = null!;

@@ -59,11 +59,7 @@ namespace HaptoFlow.Samples.LatencyStudy
         public float ToneHertz => toneHertz;
 
         /// <summary>The peak of the vibration, above 0 to 60 m/s^2.</summary>
-        public float ToneMps2
-        {
-            get => toneMps2;
-            set => toneMps2 = value;
-        }
+        public float ToneMps2 { get => toneMps2; set => toneMps2 = value; }
 
         /// <summary>The speed of the marker, in mm/s.</summary>
         public float MarkerSpeedMmps => markerSpeedMmps;
@@ -72,25 +68,13 @@ namespace HaptoFlow.Samples.LatencyStudy
         public float MarkerRadiusMillimetres => markerRadiusMillimetres;
 
         /// <summary>The time that the marker moves between two stops.</summary>
-        public float MoveSeconds
-        {
-            get => moveSeconds;
-            set => moveSeconds = value;
-        }
+        public float MoveSeconds { get => moveSeconds; set => moveSeconds = value; }
 
         /// <summary>The time that the marker stops.</summary>
-        public float RestSeconds
-        {
-            get => restSeconds;
-            set => restSeconds = value;
-        }
+        public float RestSeconds { get => restSeconds; set => restSeconds = value; }
 
         /// <summary>How often the marker sets off and stops in a trial.</summary>
-        public int Strokes
-        {
-            get => strokes;
-            set => strokes = value;
-        }
+        public int Strokes { get => strokes; set => strokes = value; }
 
         /// <summary>The hand that holds the pen.</summary>
         public PenHand PenHand => penHand;

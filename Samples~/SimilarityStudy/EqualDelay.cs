@@ -8,8 +8,7 @@ using HaptoFlow.Studies;
 
 namespace HaptoFlow.Samples.SimilarityStudy
 {
-    /// <summary>Gives all methods the delay of the slowest one, by adding an artificial delay to the faster ones.
-    /// </summary>
+    /// <summary>Gives all methods the delay of the slowest, by adding an artificial delay to the others.</summary>
     public sealed class EqualDelay
     {
         /// <summary>The reserve above the delay of the slowest method. With it, a session that is resumed after an
@@ -21,8 +20,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
         /// <param name="delays">The delay of the system with each method.</param>
         /// <param name="milliseconds">The delay that every method shall have; null for that of the slowest method plus
         /// <see cref="ReserveMilliseconds"/>.</param>
-        /// <exception cref="StudyException">A method is too slow or too fast for the delay; the message names it.
-        /// </exception>
+        /// <exception cref="StudyException">A method is too slow or too fast; the message names it.</exception>
         public EqualDelay(IReadOnlyDictionary<string, SystemDelay> delays, double? milliseconds)
         {
             this.delays = delays.ToDictionary(each => each.Key, each => each.Value, StringComparer.Ordinal);

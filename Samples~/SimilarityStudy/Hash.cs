@@ -7,8 +7,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
     /// <summary>Hashes that identify in a log which bytes a study used.</summary>
     internal static class Hash
     {
-        /// <summary>The SHA-256 of the bytes as 64 hexadecimal digits. Unity 2022.3 has no Convert.ToHexString.
-        /// </summary>
+        /// <summary>The SHA-256 of the bytes as 64 hex digits. Unity 2022.3 has no Convert.ToHexString.</summary>
         public static string Sha256(byte[] bytes)
         {
             using SHA256 hash = SHA256.Create();

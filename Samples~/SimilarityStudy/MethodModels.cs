@@ -142,8 +142,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
             return new[] { description.Label, description.SecondLabel }.Where(label => label.Length > 0);
         }
 
-        /// <summary>Refuses two methods with the same tier of the same model, which would be compared with themselves.
-        /// </summary>
+        /// <summary>Refuses two methods with one tier of one model, which would be compared with themselves.</summary>
         private void RefuseEqualMethods()
         {
             var known = new Dictionary<string, string>(StringComparer.Ordinal);

@@ -7,7 +7,6 @@ namespace HaptoFlow.Samples.SimilarityStudy
     /// the Input System, only the keyboard answers.</summary>
     public sealed class RatingButtons : MonoBehaviour
     {
-#if HAPTOFLOW_INPUT_SYSTEM && ENABLE_INPUT_SYSTEM
         private readonly ButtonPress[] numbers = new ButtonPress[RatingPanel.Highest];
         private RatingPanel panel = null!;
         private ButtonPress lower = null!;
@@ -65,34 +64,5 @@ namespace HaptoFlow.Samples.SimilarityStudy
                 each.Dispose();
             }
         }
-#else
-        private RatingPanel panel = null!;
-
-        /// <summary>Creates the buttons of a panel.</summary>
-        /// <param name="penHand">Not used without the Input System.</param>
-        public static RatingButtons Create(RatingPanel panel, PenHand penHand)
-        {
-            var buttons = new GameObject("Rating Buttons").AddComponent<RatingButtons>();
-            buttons.panel = panel;
-            return buttons;
-        }
-
-#if ENABLE_LEGACY_INPUT_MANAGER
-        private void Update()
-        {
-            for (int answer = RatingPanel.Lowest; answer <= RatingPanel.Highest; ++answer)
-            {
-                if (Input.GetKeyDown(KeyCode.Alpha0 + answer))
-                {
-                    panel.Choose(answer);
-                }
-            }
-            if (Input.GetKeyDown(KeyCode.Return))
-            {
-                panel.Confirm();
-            }
-        }
-#endif
-#endif
     }
 }

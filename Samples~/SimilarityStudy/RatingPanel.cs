@@ -60,8 +60,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
         /// <summary>Hides the question.</summary>
         public void Close() => gameObject.SetActive(false);
 
-        /// <summary>Chooses an answer while the question is shown. Until one is confirmed, another can be chosen.
-        /// </summary>
+        /// <summary>Chooses an answer while the question is shown, until one is confirmed.</summary>
         public void Choose(int answer)
         {
             if (IsOpen && answer >= Lowest && answer <= Highest)

@@ -18,8 +18,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
         public string Text { get; private set; } = "";
 
         /// <summary>Adds the alignment to the pair of objects.</summary>
-        /// <param name="pair">The object that moves. The plane y = 0 of its local space is the top of both objects.
-        /// </param>
+        /// <param name="pair">The object that moves. The plane y = 0 of its space is the top of both objects.</param>
         /// <param name="saveName">The name under which the alignment is kept; empty to keep nothing.</param>
         public static SampleAlignment Create(GameObject pair, XrRig rig, string saveName)
         {

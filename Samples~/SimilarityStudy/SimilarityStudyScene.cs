@@ -26,29 +26,18 @@ namespace HaptoFlow.Samples.SimilarityStudy
             "points through it.")]
         private Camera? view;
 
-        private MethodModels? models;
         private TrialParts? parts;
         private GameObject pair = null!;
         private TextMesh instruction = null!;
-        private RatingPanel panel = null!;
-        private HapticOutput output = null!;
         private MaskingNoise noise = null!;
         private XrRig rig = null!;
         private bool isRefused;
 
         /// <summary>The materials, the methods and the set-up. Set them before the component wakes.</summary>
-        public SimilarityStudySettings? Settings
-        {
-            get => settings;
-            set => settings = value;
-        }
+        public SimilarityStudySettings? Settings { get => settings; set => settings = value; }
 
         /// <summary>The scene's camera, with the Audio Listener. Set it before the component wakes.</summary>
-        public Camera? View
-        {
-            get => view;
-            set => view = value;
-        }
+        public Camera? View { get => view; set => view = value; }
 
         /// <summary>The name under which the place of the virtual object is kept between sessions; empty to keep
         /// nothing. Set it before the component wakes.</summary>
@@ -74,10 +63,10 @@ namespace HaptoFlow.Samples.SimilarityStudy
         public EqualDelay? Delay { get; private set; }
 
         /// <summary>The methods' models; null where the settings cannot be used.</summary>
-        public MethodModels? Models => models;
+        public MethodModels? Models { get; private set; }
 
         /// <summary>The question and its answers.</summary>
-        public RatingPanel Panel => panel;
+        public RatingPanel Panel { get; private set; } = null!;
 
         /// <summary>The object in the place of the real sample; null where the settings cannot be used.</summary>
         public StudyObject Real { get; private set; } = null!;
@@ -86,13 +75,12 @@ namespace HaptoFlow.Samples.SimilarityStudy
         public StudyObject Virtual { get; private set; } = null!;
 
         /// <summary>The output that drives the actuator.</summary>
-        public HapticOutput Output => output;
+        public HapticOutput Output { get; private set; } = null!;
 
         /// <summary>Why the study cannot begin or continue; null when nothing is wrong.</summary>
         public string? Problem => Operator.Problem;
 
-        /// <summary>Whether everything is loaded, measured and aligned, so that <see cref="Begin"/> can be called.
-        /// </summary>
+        /// <summary>Whether all is loaded, measured and aligned, so that <see cref="Begin"/> can be called.</summary>
         public bool CanBegin => !isRefused && Session == null && WhatIsMissing() == null;
 
         /// <summary>The tracked pen; before it was tracked for the first time, the mouse pen.</summary>
@@ -116,7 +104,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
                 }
                 StudyLog log = OpenLog(participant);
                 parts = new TrialParts(
-                    settings!, models!, Delay!, Real, Virtual, rig, output, panel, instruction);
+                    settings!, Models!, Delay!, Real, Virtual, rig, Output, Panel, instruction);
                 Session = new StudySession(log);
                 Procedure = SimilarityProcedure.Create(Session, parts);
                 Operator.Session = Session;
@@ -161,16 +149,16 @@ namespace HaptoFlow.Samples.SimilarityStudy
             SimilarityStudySettings chosen = settings != null
                 ? settings
                 : ScriptableObject.CreateInstance<SimilarityStudySettings>();
-            output = chosen.AddOutput(view.gameObject, out noise);
+            Output = chosen.AddOutput(view.gameObject, out noise);
             rig = XrRig.Create(view);
             rig.MousePen = MousePen.Create(view);
-            rig.MousePen.Stylus.Output = output;
-            rig.AddPen(chosen.PenHand).Stylus!.Output = output;
+            rig.MousePen.Stylus.Output = Output;
+            rig.AddPen(chosen.PenHand).Stylus!.Output = Output;
             instruction = SceneObjects.AddText("Please wait.", InstructionPlace, facing);
-            panel = RatingPanel.Create(PanelPlace, facing);
-            RatingButtons.Create(panel, chosen.PenHand);
+            Panel = RatingPanel.Create(PanelPlace, facing);
+            RatingButtons.Create(Panel, chosen.PenHand);
             Operator = gameObject.AddComponent<OperatorView>();
-            Operator.Output = output;
+            Operator.Output = Output;
             Operator.Detail = Detail;
             Operator.Begin = Begin;
             Operator.Advice = number => settings == null
@@ -192,7 +180,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
                 settings.Check();
                 MakeObjects(settings);
                 Alignment.SetSample(settings.SampleMetres, settings.PlateUnderVirtual);
-                models = new MethodModels(settings, MeasureInference);
+                Models = new MethodModels(settings, MeasureInference);
             }
             catch (StudyException refusal)
             {
@@ -204,13 +192,13 @@ namespace HaptoFlow.Samples.SimilarityStudy
         {
             poseInterval.Add(Time.unscaledDeltaTime);
             PauseWhenTheModelFails();
-            if (isRefused || models == null || models.IsReady)
+            if (isRefused || Models == null || Models.IsReady)
             {
                 return;
             }
             try
             {
-                models.Update();
+                Models.Update();
             }
             catch (StudyException refusal)
             {
@@ -223,7 +211,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
         private void PauseWhenTheModelFails()
         {
             string? method = Procedure != null && Procedure.Stage != TrialStage.Waiting ? Session!.Trial!.Method : null;
-            string? problem = method != null ? models!.Of(method).Problem : null;
+            string? problem = method != null ? Models!.Of(method).Problem : null;
             if (problem != null)
             {
                 Session!.PauseHere();
@@ -239,7 +227,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
                 Destroy(Procedure.gameObject);
             }
             parts?.Dispose();
-            models?.Dispose();
+            Models?.Dispose();
         }
 
         private void Stop(StudyException refusal)
@@ -261,14 +249,14 @@ namespace HaptoFlow.Samples.SimilarityStudy
             {
                 IsSimulated = settings.Simulated,
                 Environment = settings.Environment(),
-                Models = models!.ForLog(),
+                Models = Models!.ForLog(),
             };
             return StudyLog.Open(settings.Folder, description);
         }
 
         private Dictionary<string, SystemDelay> DelaysOfMethods() => settings!.Methods.ToDictionary(
             each => each.Name,
-            each => new SystemDelay(poseInterval.MedianMilliseconds, models!.InferenceMilliseconds(each.Name),
+            each => new SystemDelay(poseInterval.MedianMilliseconds, Models!.InferenceMilliseconds(each.Name),
                 StudyPlayer.BlockMilliseconds, settings.DeviceDelayMilliseconds),
             StringComparer.Ordinal);
 
@@ -286,9 +274,9 @@ namespace HaptoFlow.Samples.SimilarityStudy
 
         private string? WhatIsMissing()
         {
-            if (models == null || !models.IsReady)
+            if (Models == null || !Models.IsReady)
             {
-                return models?.Doing;
+                return Models?.Doing;
             }
             if (!poseInterval.IsMeasured)
             {

@@ -83,21 +83,13 @@ namespace HaptoFlow.Samples.SimilarityStudy
         public bool PlateUnderVirtual => plateUnderVirtual;
 
         /// <summary>Whether the study begins only after the alignment.</summary>
-        public bool NeedsAlignment
-        {
-            get => needsAlignment;
-            set => needsAlignment = value;
-        }
+        public bool NeedsAlignment { get => needsAlignment; set => needsAlignment = value; }
 
         /// <summary>The hand that holds the pen.</summary>
         public PenHand PenHand => penHand;
 
         /// <summary>The delay of every method, in ms; 0 for the delay of the slowest method.</summary>
-        public float EqualDelayMilliseconds
-        {
-            get => equalDelayMilliseconds;
-            set => equalDelayMilliseconds = value;
-        }
+        public float EqualDelayMilliseconds { get => equalDelayMilliseconds; set => equalDelayMilliseconds = value; }
 
         /// <summary>Ratings that differ by less count as equal, in points of the scale.</summary>
         public float EquivalencePoints => equivalencePoints;

@@ -28,12 +28,8 @@ namespace HaptoFlow.Samples.SimilarityStudy
         }
 
         /// <summary>Creates a material from a script.</summary>
-        public StudyMaterial(string name, string label, HapticMaterial? material = null)
-        {
-            this.name = name;
-            this.label = label;
-            this.material = material;
-        }
+        public StudyMaterial(string name, string label, HapticMaterial? material = null) =>
+            (this.name, this.label, this.material) = (name, label, material);
 
         /// <summary>The name in logs and reports.</summary>
         public string Name => name;

@@ -25,12 +25,8 @@ namespace HaptoFlow.Samples.SimilarityStudy
         }
 
         /// <summary>Creates a method from a script.</summary>
-        public StudyMethod(string name, HapticModelAsset? model, HapticQuality quality)
-        {
-            this.name = name;
-            this.model = model;
-            this.quality = quality;
-        }
+        public StudyMethod(string name, HapticModelAsset? model, HapticQuality quality) =>
+            (this.name, this.model, this.quality) = (name, model, quality);
 
         /// <summary>The name in logs and reports.</summary>
         public string Name => name;

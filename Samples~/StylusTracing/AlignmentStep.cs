@@ -27,8 +27,7 @@ namespace HaptoFlow.Samples.StylusTracing
         public string Text => text.text;
 
         /// <summary>Adds the step to the table.</summary>
-        /// <param name="exhibits">The object that moves. The plane y = 0 of its local space is the top of the table.
-        /// </param>
+        /// <param name="exhibits">The object that moves. The plane y = 0 of its space is the top of the table.</param>
         /// <param name="saveName">The name under which the alignment is kept; empty to keep nothing.</param>
         /// <param name="facing">The rotation of the text.</param>
         public static AlignmentStep Create(GameObject exhibits, string saveName, Quaternion facing)

@@ -44,8 +44,7 @@ namespace HaptoFlow.Samples.StylusTracing
         public bool Slides { get; }
     }
 
-    /// <summary>The objects of the sample. StylusTracing.scene.json holds the same objects for the command line.
-    /// </summary>
+    /// <summary>The objects of the sample. StylusTracing.scene.json holds them for the command line.</summary>
     public static class Exhibits
     {
         /// <summary>Objects of eight labels. The top of the table is the plane y = 0.</summary>

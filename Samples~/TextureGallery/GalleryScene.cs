@@ -1,7 +1,6 @@
 #nullable enable
 using System;
 using System.Collections.Generic;
-using HaptoFlow.Model;
 using UnityEngine;
 
 namespace HaptoFlow.Samples.TextureGallery

@@ -29,7 +29,6 @@ namespace HaptoFlow.Samples.Workshop
 
         private HapticMaterial? target;
         private TextMesh? board;
-        private Collider? button;
         private HapticMaterial? buttonMaterial;
         private Task<HapticLearning>? starting;
         private HapticLearning? learning;
@@ -44,7 +43,7 @@ namespace HaptoFlow.Samples.Workshop
         public bool IsLearning => starting != null || learning != null;
 
         /// <summary>The button that starts the learning; null before the scene is built.</summary>
-        public Collider? Button => button;
+        public Collider? Button { get; private set; }
 
         /// <summary>Sets another recording. Call it before the button is touched.</summary>
         /// <param name="file">The recording: a CSV table, or a WAV file whose name ends in .wav.bytes.</param>
@@ -82,8 +81,7 @@ namespace HaptoFlow.Samples.Workshop
 
         private static string NameOf(TextAsset asset) => Path.GetFileNameWithoutExtension(asset.name);
 
-        /// <summary>Reads the recording and starts the learning in another thread, so that the scene continues.
-        /// </summary>
+        /// <summary>Reads the recording and learns in another thread, so that the scene continues.</summary>
         private static Task<HapticLearning> Begin(
             byte[] modelFile, string name, Dictionary<string, byte[]> files) => Task.Run(() =>
         {
@@ -122,7 +120,7 @@ namespace HaptoFlow.Samples.Workshop
             Transform place = scene.PanelPlace;
             GameObject solid = SceneObjects.AddSolid("Add Material", PrimitiveType.Cube, place.position, ButtonSize,
                 new Color(0.2f, 0.5f, 0.35f));
-            button = solid.GetComponent<Collider>();
+            Button = solid.GetComponent<Collider>();
             buttonMaterial = ScriptableObject.CreateInstance<HapticMaterial>();
             buttonMaterial.name = "plastic";
             buttonMaterial.Description.Label = "plastic";
@@ -208,7 +206,7 @@ namespace HaptoFlow.Samples.Workshop
 
         private void OnTouchBegan(HapticStylus who, in HapticContact contact)
         {
-            if (contact.Collider == button)
+            if (contact.Collider == Button)
             {
                 Press();
             }

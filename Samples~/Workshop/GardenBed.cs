@@ -27,11 +27,7 @@ namespace HaptoFlow.Samples.Workshop
 
         /// <param name="corner">The position of the terrain's origin, its corner.</param>
         /// <param name="keep">Marks an asset to be destroyed with the scene.</param>
-        public GardenBed(Vector3 corner, Func<Object, Object> keep)
-        {
-            this.corner = corner;
-            this.keep = keep;
-        }
+        public GardenBed(Vector3 corner, Func<Object, Object> keep) => (this.corner, this.keep) = (corner, keep);
 
         public Terrain Build(HapticMaterialMap map, Func<string, HapticMaterial> createMaterial)
         {

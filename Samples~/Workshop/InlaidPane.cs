@@ -22,11 +22,7 @@ namespace HaptoFlow.Samples.Workshop
 
         /// <param name="place">The position of the middle of its underside.</param>
         /// <param name="keep">Marks an asset to be destroyed with the scene.</param>
-        public InlaidPane(Vector3 place, Func<Object, Object> keep)
-        {
-            this.place = place;
-            this.keep = keep;
-        }
+        public InlaidPane(Vector3 place, Func<Object, Object> keep) => (this.place, this.keep) = (place, keep);
 
         public MeshCollider Build(HapticMaterialMap map, Func<string, HapticMaterial> createMaterial)
         {
@@ -54,8 +50,7 @@ namespace HaptoFlow.Samples.Workshop
             return collider;
         }
 
-        /// <param name="colour">The colour of a pixel from the share of the ring there and from the wear, each 0 to 1.
-        /// </param>
+        /// <param name="colour">The colour of a pixel from the ring's share there and the wear, each 0 to 1.</param>
         private static Color32[] Pixels(Func<float, float, Color32> colour)
         {
             var pixels = new Color32[Texels * Texels];

@@ -13,8 +13,7 @@ namespace HaptoFlow.Samples.Workshop
             Vector3.up, -Vector3.up, Vector3.right, -Vector3.right, Vector3.forward, -Vector3.forward,
         };
 
-        /// <summary>Creates a sheet that faces upwards. Its texture coordinates run from 0 to 1 along x and z.
-        /// </summary>
+        /// <summary>Creates a sheet that faces up. Its texture coordinates run from 0 to 1 along x and z.</summary>
         /// <param name="columns">The number of vertices along x, 2 or more.</param>
         /// <param name="rows">The number of vertices along z, 2 or more.</param>
         /// <param name="corner">The position of a vertex from its texture coordinates.</param>

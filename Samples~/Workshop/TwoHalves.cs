@@ -23,11 +23,7 @@ namespace HaptoFlow.Samples.Workshop
 
         /// <param name="place">The position of the middle of its underside.</param>
         /// <param name="keep">Marks an asset to be destroyed with the scene.</param>
-        public TwoHalves(Vector3 place, Func<Object, Object> keep)
-        {
-            this.place = place;
-            this.keep = keep;
-        }
+        public TwoHalves(Vector3 place, Func<Object, Object> keep) => (this.place, this.keep) = (place, keep);
 
         public MeshCollider Build(HapticMaterialMap map, Func<string, HapticMaterial> createMaterial)
         {

@@ -31,8 +31,7 @@ namespace HaptoFlow.Samples.Workshop
         /// <summary>A terrain whose material is a blend of its layers, weighted as they are painted.</summary>
         public Terrain Garden { get; private set; } = null!;
 
-        /// <summary>A board that looks and feels like oak in its left half and like steel mesh in its right half.
-        /// </summary>
+        /// <summary>A board that looks and feels like oak in its left half, like steel mesh in its right.</summary>
         public MeshCollider Halves { get; private set; } = null!;
 
         /// <summary>A pane with an inlaid ring of jute that is worn away towards one side.</summary>
@@ -122,13 +121,8 @@ namespace HaptoFlow.Samples.Workshop
         {
             private readonly string name;
 
-            public Solid(string name, Vector3 place, Vector3 size, Color colour)
-            {
-                this.name = name;
-                Place = place;
-                Size = size;
-                Colour = colour;
-            }
+            public Solid(string name, Vector3 place, Vector3 size, Color colour) =>
+                (this.name, Place, Size, Colour) = (name, place, size, colour);
 
             public Vector3 Place { get; }
 

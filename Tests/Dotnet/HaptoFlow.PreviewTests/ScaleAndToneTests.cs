@@ -68,7 +68,7 @@ namespace HaptoFlow.PreviewTests
             HapticEngine engine = engines.Engine(ModelFiles.Default, HapticQuality.Draft, 1, true);
             var silent = new ContactState
             {
-                Material = Mix("corduroy").ToBlend(names),
+                Material = Mix("corduroy").ToBlend(names, -1),
                 Effects = HapticEffects.Texture,
             };
             float[] expected = StrokeRenderer.Render(engine, Slide, silent, CancellationToken.None);

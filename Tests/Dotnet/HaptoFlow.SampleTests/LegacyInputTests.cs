@@ -5,7 +5,7 @@ using NUnit.Framework;
 using UnityEngine;
 using UnityEngine.TestTools;
 using UnityShim;
-using LegacyAnswers = Legacy::HaptoFlow.Samples.LatencyStudy.AnswerButtons;
+using LegacyButton = Legacy::HaptoFlow.ButtonPress;
 using LegacyScene = Legacy::HaptoFlow.Samples.StylusTracing.TracingScene;
 using LegacyXrPen = Legacy::HaptoFlow.XrPen;
 
@@ -30,12 +30,13 @@ namespace HaptoFlow.SampleTests
         [Test]
         public void TheOldInputManagersKeysAnswerTheDelayStudy()
         {
-            using var answers = new LegacyAnswers(Legacy::HaptoFlow.PenHand.Right);
-            Assert.That(answers.Take(), Is.Null);
+            using var yes = new LegacyButton("<Keyboard>/y", "<XRController>{LeftHand}/triggerPressed");
+            using var no = new LegacyButton("<Keyboard>/n", "<XRController>{LeftHand}/gripPressed");
+            Assert.That(LegacyButton.Answer(yes, no), Is.Null);
             SimulatedInput.KeyDown = KeyCode.Y;
-            Assert.That(answers.Take(), Is.True);
+            Assert.That(LegacyButton.Answer(yes, no), Is.True);
             SimulatedInput.KeyDown = KeyCode.N;
-            Assert.That(answers.Take(), Is.False);
+            Assert.That(LegacyButton.Answer(yes, no), Is.False);
         }
 
         [Test]

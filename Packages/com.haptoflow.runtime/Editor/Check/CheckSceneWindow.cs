@@ -82,7 +82,7 @@ namespace HaptoFlow.Editor
         {
             Action? chosen = null;
             EditorGUILayout.HelpBox(finding.Text, finding.Severity);
-            if (finding.Objects.Count == 0 && finding.Repairs.Count == 0)
+            if (finding.Objects.Count == 0 && finding.Repairs.Length == 0)
             {
                 return null;
             }

@@ -77,8 +77,7 @@ namespace HaptoFlow.Editor
         private static string FormattableCost(double microseconds) =>
             System.FormattableString.Invariant($", {microseconds:0.0} us a run");
 
-        /// <summary>The mean time of a run over all styluses, in microseconds; null before the effect has run.
-        /// </summary>
+        /// <summary>The mean time of a run over all styluses, in microseconds; null before the first run.</summary>
         private static double? Cost(SceneContents scene, HapticEffect effect)
         {
             double microseconds = 0.0;

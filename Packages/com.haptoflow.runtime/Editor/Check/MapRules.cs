@@ -105,8 +105,7 @@ namespace HaptoFlow.Editor
                 : null;
         }
 
-        /// <summary>Submeshes with different materials can be told apart only when the touched triangle is known.
-        /// </summary>
+        /// <summary>Submeshes with different materials can be told apart only by the touched triangle.</summary>
         private static IEnumerable<Finding> CheckMeshes(SceneContents scene)
         {
             ColliderMaterial[] several = scene.Answers

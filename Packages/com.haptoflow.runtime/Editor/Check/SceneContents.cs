@@ -35,8 +35,7 @@ namespace HaptoFlow.Editor
 
         public IEnumerable<DeviceOutput> DeviceOutputs => AllDeviceOutputs.Where(output => output.isActiveAndEnabled);
 
-        /// <summary>The colliders that can be felt, on the layers of any stylus; on all layers when there is no stylus.
-        /// </summary>
+        /// <summary>The colliders that can be felt, on the layers of any stylus; without one, on all layers.</summary>
         public IReadOnlyList<Collider> Colliders { get; }
 
         /// <summary>The material maps in use.</summary>

@@ -4,8 +4,7 @@ using UnityEditor;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Checks that the project has settings with a usable model, and that player builds include them.
-    /// </summary>
+    /// <summary>Checks that the project has settings with a usable model, which player builds include.</summary>
     internal static class SettingsRules
     {
         public static IEnumerable<Finding> Check()

@@ -1,7 +1,6 @@
 #nullable enable
 using System.Collections.Generic;
 using System.Linq;
-using UnityEngine;
 
 namespace HaptoFlow.Editor
 {

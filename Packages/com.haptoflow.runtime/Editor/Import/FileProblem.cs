@@ -7,21 +7,12 @@ using Object = UnityEngine.Object;
 namespace HaptoFlow.Editor
 {
     /// <summary>Why a model or a material file cannot be used here.</summary>
-    internal sealed class FileProblem
+    /// <param name="Text">The problem and its remedy. Of a file that the native library could not be asked about, also
+    /// what identifies it: its size and its SHA-256 checksum.</param>
+    /// <param name="WasChecked">False where the native library could not be asked, so that the file may be
+    /// good.</param>
+    internal sealed record FileProblem(string Text, bool WasChecked)
     {
-        private FileProblem(string text, bool wasChecked)
-        {
-            Text = text;
-            WasChecked = wasChecked;
-        }
-
-        /// <summary>The problem and its remedy. Of a file that the native library could not be asked about, also what
-        /// identifies it: its size and its SHA-256 checksum.</summary>
-        public string Text { get; }
-
-        /// <summary>False where the native library could not be asked, so that the file may be good.</summary>
-        public bool WasChecked { get; }
-
         public static FileProblem Of(HaptoFlowException refusal, byte[] file)
         {
             bool wasChecked = refusal.Status != HaptoFlowStatus.LibraryUnavailable &&

@@ -22,8 +22,7 @@ namespace HaptoFlow.Editor
             Labels = header.Labels.Select(LabelRow).ToArray();
         }
 
-        /// <summary>The problem of a file that cannot be used, which leaves all other properties empty; else null.
-        /// </summary>
+        /// <summary>The problem of a file that cannot be used, with all other properties empty; else null.</summary>
         public string? Problem { get; }
 
         public string Title { get; } = "";

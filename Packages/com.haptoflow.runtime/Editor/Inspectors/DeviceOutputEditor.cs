@@ -35,7 +35,7 @@ namespace HaptoFlow.Editor
             var output = (DeviceOutput)target;
             readout.Update(output);
             EditorGUILayout.Space();
-            ReadoutView.Draw("Now", readout.Rows);
+            readout.Draw();
             if (GUILayout.Button(Panic))
             {
                 output.Panic();

@@ -3,8 +3,7 @@ using HaptoFlow.Outputs;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>The state of an output for a device in play mode: the device, its form, its delay and its gaps.
-    /// </summary>
+    /// <summary>The state of an output for a device in play mode: device, form, delay and gaps.</summary>
     internal sealed class DeviceReadout : Readout<DeviceOutput>
     {
         protected override void Read(DeviceOutput output)

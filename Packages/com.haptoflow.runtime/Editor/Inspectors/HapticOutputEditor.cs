@@ -107,7 +107,7 @@ namespace HaptoFlow.Editor
             {
                 LevelMeter.Draw(EditorGUILayout.GetControlRect(), output.Level);
             }
-            ReadoutView.Draw("Now", readout.Rows);
+            readout.Draw();
             if (GUILayout.Button(Panic))
             {
                 output.Panic();

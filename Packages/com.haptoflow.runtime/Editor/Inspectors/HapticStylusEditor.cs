@@ -4,8 +4,7 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>The Inspector of a stylus. In play mode, it shows what the stylus touches and the state of its voice.
-    /// </summary>
+    /// <summary>The Inspector of a stylus. In play mode it shows what the stylus touches, and its voice.</summary>
     [CustomEditor(typeof(HapticStylus))]
     [CanEditMultipleObjects]
     internal sealed class HapticStylusEditor : UnityEditor.Editor
@@ -13,8 +12,7 @@ namespace HaptoFlow.Editor
         private const string TouchBy = "touchBy";
         private const string ForceFields = "forceDecision.";
 
-        /// <summary>The fields in the order of drawing; where a field has a title, its name does not say enough.
-        /// </summary>
+        /// <summary>The fields in the order of drawing; a title stands where the name does not say enough.</summary>
         private static readonly (string Field, GUIContent? Title)[] Fields =
         {
             ("tip", null), ("tipRadiusMetres", new GUIContent("Tip Radius (m)")), ("layers", null), ("update", null),
@@ -58,7 +56,7 @@ namespace HaptoFlow.Editor
             }
             readout.Update((HapticStylus)target);
             EditorGUILayout.Space();
-            ReadoutView.Draw("Now", readout.Rows);
+            readout.Draw();
         }
 
         private SerializedProperty Property(string field) =>

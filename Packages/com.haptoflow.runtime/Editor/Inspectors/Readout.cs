@@ -14,8 +14,6 @@ namespace HaptoFlow.Editor
         private readonly List<SummaryRow> rows = new List<SummaryRow>();
         private double lastUpdateSeconds = double.NegativeInfinity;
 
-        public IReadOnlyList<SummaryRow> Rows => rows;
-
         /// <summary>Updates the rows when they are due, but only while Unity lays out the Inspector: the number of rows
         /// must not change before it draws.</summary>
         public void Update(T subject)
@@ -27,6 +25,13 @@ namespace HaptoFlow.Editor
                 rows.Clear();
                 Read(subject);
             }
+        }
+
+        /// <summary>Draws the rows.</summary>
+        public void Draw()
+        {
+            EditorGUILayout.LabelField("Now", EditorStyles.boldLabel);
+            rows.ForEach(row => EditorGUILayout.LabelField(row.Name, row.Value));
         }
 
         protected abstract void Read(T subject);

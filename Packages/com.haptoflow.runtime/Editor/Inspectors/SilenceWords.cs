@@ -5,37 +5,22 @@ namespace HaptoFlow.Editor
     /// <summary>Describes why nothing is felt, with the remedy where there is one.</summary>
     internal static class SilenceWords
     {
-        public static string Of(in VoiceStatistics voice)
+        public static string Of(in VoiceStatistics voice) => voice.Silence switch
         {
-            switch (voice.Silence)
-            {
-                case HapticSilence.None:
-                    return "none: it plays";
-                case HapticSilence.Rest:
-                    return "rest: nothing touches, or the tip does not slide";
-                case HapticSilence.Stale:
-                    return "stale: no contact state came for 100 ms";
-                case HapticSilence.Muted:
-                    return "muted";
-                case HapticSilence.Paused:
-                    return "the application is paused";
-                case HapticSilence.Panic:
-                    return "panic: it plays again from the next touch-down on";
-                case HapticSilence.Rate when !voice.IsRateSupported:
-                    return $"the device's sample rate is outside {OutputRules.MinimumRateHz} to " +
-                        $"{OutputRules.MaximumRateHz} Hz";
-                case HapticSilence.Rate:
-                    return "the device changed its sample rate";
-                case HapticSilence.Closing:
-                    return "the voice is being closed";
-                case HapticSilence.WorkerDead:
-                    return "the worker thread has ended";
-                case HapticSilence.TurnedDown:
-                    return "turned down: a strength or the ceiling is 0";
-                default:
-                    return "unknown reason " + (int)voice.Silence;
-            }
-        }
+            HapticSilence.None => "none: it plays",
+            HapticSilence.Rest => "rest: nothing touches, or the tip does not slide",
+            HapticSilence.Stale => "stale: no contact state came for 100 ms",
+            HapticSilence.Muted => "muted",
+            HapticSilence.Paused => "the application is paused",
+            HapticSilence.Panic => "panic: it plays again from the next touch-down on",
+            HapticSilence.Rate when !voice.IsRateSupported =>
+                $"the device's sample rate is outside {OutputRules.MinimumRateHz} to {OutputRules.MaximumRateHz} Hz",
+            HapticSilence.Rate => "the device changed its sample rate",
+            HapticSilence.Closing => "the voice is being closed",
+            HapticSilence.WorkerDead => "the worker thread has ended",
+            HapticSilence.TurnedDown => "turned down: a strength or the ceiling is 0",
+            _ => "unknown reason " + (int)voice.Silence,
+        };
 
         /// <summary>Describes why a stylus has no voice.</summary>
         public static string OfMissingVoice(HapticStylus stylus)

@@ -2,24 +2,12 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
-using HaptoFlow.Model;
 
 namespace HaptoFlow.Editor
 {
     /// <summary>An entry in the dropdown list of a label.</summary>
-    internal readonly struct LabelOption
-    {
-        public LabelOption(string text, string label)
-        {
-            Text = text;
-            Label = label;
-        }
-
-        public string Text { get; }
-
-        /// <summary>The label that the entry chooses; empty for none.</summary>
-        public string Label { get; }
-    }
+    /// <param name="Label">The label that the entry chooses; empty for none.</param>
+    internal sealed record LabelOption(string Text, string Label);
 
     /// <summary>The entries in the dropdown list of a label.</summary>
     internal static class LabelOptions

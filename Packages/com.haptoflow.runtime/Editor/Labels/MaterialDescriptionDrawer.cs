@@ -23,50 +23,40 @@ namespace HaptoFlow.Editor
         private static readonly string[] EffectToggles = { "texture", "impact", "edge" };
 
         public override float GetPropertyHeight(SerializedProperty property, GUIContent label) =>
-            InspectorRows.Height * (FieldRows + (label.text.Length > 0 ? 1 : 0)) -
-            EditorGUIUtility.standardVerticalSpacing;
+            InspectorRows.Height(FieldRows + (label.text.Length > 0 ? 1 : 0));
 
         public override void OnGUI(Rect position, SerializedProperty property, GUIContent label)
         {
-            var row = new Rect(position.x, position.y, position.width, EditorGUIUtility.singleLineHeight);
+            var rows = new InspectorRows(position, property);
             if (label.text.Length > 0)
             {
-                EditorGUI.LabelField(row, label.text, EditorStyles.boldLabel);
-                row.y += InspectorRows.Height;
+                EditorGUI.LabelField(rows.Next(), label.text, EditorStyles.boldLabel);
             }
             SerializedProperty first = property.FindPropertyRelative("label");
             SerializedProperty second = property.FindPropertyRelative("secondLabel");
-            DrawLearnt(row, property);
-            row.y += InspectorRows.Height;
-            LabelField.Draw(row, first, false);
-            row.y += InspectorRows.Height;
-            LabelField.Draw(row, second, true);
-            row.y += InspectorRows.Height;
+            DrawLearnt(rows, property);
+            LabelField.Draw(rows.Next(), first, false);
+            LabelField.Draw(rows.Next(), second, true);
             bool blends = second.hasMultipleDifferentValues || second.stringValue.Length > 0;
             using (new EditorGUI.DisabledScope(!blends))
             {
-                EditorGUI.PropertyField(row, property.FindPropertyRelative("blend"));
+                rows.Field("blend");
             }
-            row.y += InspectorRows.Height;
-            DrawStiffness(row, property.FindPropertyRelative("stiffnessNewtonsPerMetre"), first);
-            row.y += InspectorRows.Height;
-            EditorGUI.PropertyField(row, property.FindPropertyRelative("strength"));
-            row.y += InspectorRows.Height;
-            EditorGUI.PropertyField(row, property.FindPropertyRelative("featureScale"));
-            row.y += InspectorRows.Height;
-            EditorGUI.PropertyField(row, property.FindPropertyRelative("toneDbPerOctave"), Tone);
-            row.y += InspectorRows.Height;
-            DrawEffects(row, property);
+            DrawStiffness(rows.Next(), property.FindPropertyRelative("stiffnessNewtonsPerMetre"), first);
+            rows.Field("strength");
+            rows.Field("featureScale");
+            rows.Field("toneDbPerOctave", Tone);
+            DrawEffects(rows.Next(), property);
         }
 
-        private static void DrawLearnt(Rect row, SerializedProperty property)
+        private static void DrawLearnt(InspectorRows rows, SerializedProperty property)
         {
             if (property.serializedObject.targetObject is HapticMaterial { IsLearnt: true })
             {
-                EditorGUI.LabelField(row, ItsOwn, Itself);
+                EditorGUI.LabelField(rows.Next(), ItsOwn, Itself);
                 return;
             }
-            EditorGUI.PropertyField(row, property.FindPropertyRelative("learnt"), Learnt);
+            rows.Field("learnt", Learnt);
         }
 
         private static void DrawEffects(Rect row, SerializedProperty property)

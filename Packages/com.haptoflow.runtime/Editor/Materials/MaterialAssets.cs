@@ -7,8 +7,7 @@ using UnityEditor;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Saves learnt materials in the project, as assets with one step of undo each, or as files. Main thread.
-    /// </summary>
+    /// <summary>Saves learnt materials, as assets with one step of undo each, or as files. Main thread.</summary>
     internal static class MaterialAssets
     {
         private const string AssetExtension = "asset";

@@ -1,5 +1,4 @@
 #nullable enable
-using System;
 using System.Collections.Generic;
 using System.Linq;
 using System.Text;
@@ -26,8 +25,7 @@ namespace HaptoFlow.Editor
                     : "Its label is used instead: " + MaterialRegistration.ForeignSpace(material.Space, model.Space);
         }
 
-        /// <summary>The problem of a file that cannot be used, which leaves all other properties empty; else null.
-        /// </summary>
+        /// <summary>The problem of a file that cannot be used, with all other properties empty; else null.</summary>
         public string? Problem { get; }
 
         /// <summary>Why it cannot be used with the project's model; null when it can.</summary>

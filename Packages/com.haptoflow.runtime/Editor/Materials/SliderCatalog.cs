@@ -1,7 +1,6 @@
 #nullable enable
 using System;
 using System.IO;
-using HaptoFlow.Model;
 using HaptoFlow.Preview;
 using UnityEditor;
 
@@ -17,12 +16,8 @@ namespace HaptoFlow.Editor
 
         private readonly byte[] modelFile;
 
-        private SliderCatalog(byte[] modelFile, SliderSet? sliders, string? problem)
-        {
-            this.modelFile = modelFile;
-            Sliders = sliders;
-            Problem = problem;
-        }
+        private SliderCatalog(byte[] modelFile, SliderSet? sliders, string? problem) =>
+            (this.modelFile, Sliders, Problem) = (modelFile, sliders, problem);
 
         /// <summary>The sliders; null when the model has none.</summary>
         public SliderSet? Sliders { get; }

@@ -4,18 +4,8 @@ using System.Globalization;
 namespace HaptoFlow.Editor
 {
     /// <summary>A row of an Inspector: a name and its value, both as text.</summary>
-    internal readonly struct SummaryRow
+    internal sealed record SummaryRow(string Name, string Value)
     {
-        public SummaryRow(string name, string value)
-        {
-            Name = name;
-            Value = value;
-        }
-
-        public string Name { get; }
-
-        public string Value { get; }
-
         /// <summary>Formats values for a row, the same in every language of the system.</summary>
         public static string Format(string format, params object[] values) =>
             string.Format(CultureInfo.InvariantCulture, format, values);

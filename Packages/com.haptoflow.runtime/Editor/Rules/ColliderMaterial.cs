@@ -6,23 +6,10 @@ using UnityEngine;
 namespace HaptoFlow.Editor
 {
     /// <summary>What a collider feels like, and why: by a Haptic Surface or by the rules of maps.</summary>
-    internal sealed class ColliderMaterial
+    /// <param name="Surface">The surface that assigns the material; null when rules do.</param>
+    /// <param name="ByRules">The material by the rules, which applies when there is no surface.</param>
+    internal sealed record ColliderMaterial(Collider Collider, HapticSurface? Surface, MappedCollider ByRules)
     {
-        /// <param name="surface">The surface that assigns the material; null when rules do.</param>
-        /// <param name="byRules">The material by the rules, which applies when there is no surface.</param>
-        public ColliderMaterial(Collider collider, HapticSurface? surface, MappedCollider byRules)
-        {
-            Collider = collider;
-            Surface = surface;
-            ByRules = byRules;
-        }
-
-        public Collider Collider { get; }
-
-        public HapticSurface? Surface { get; }
-
-        public MappedCollider ByRules { get; }
-
         public bool CanBeFelt => Surface is object || ByRules.CanBeFelt;
 
         /// <summary>The material as text, or the different materials of its parts.</summary>

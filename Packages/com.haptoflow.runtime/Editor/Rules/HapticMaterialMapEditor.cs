@@ -7,8 +7,7 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>The Inspector of a map: its rules, what each of them matches in the open scenes, and their problems.
-    /// </summary>
+    /// <summary>The Inspector of a map: its rules, what each matches in the open scenes, their problems.</summary>
     [CustomEditor(typeof(HapticMaterialMap))]
     internal sealed class HapticMaterialMapEditor : UnityEditor.Editor
     {

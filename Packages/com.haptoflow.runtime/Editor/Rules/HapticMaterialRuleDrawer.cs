@@ -15,22 +15,18 @@ namespace HaptoFlow.Editor
         private static readonly GUIContent Material = new GUIContent("Feels Like");
 
         public override float GetPropertyHeight(SerializedProperty property, GUIContent label) =>
-            InspectorRows.Height * (Rows + (SubjectOf(property) == MaterialRuleSubject.Submesh ? 1 : 0)) -
-            EditorGUIUtility.standardVerticalSpacing;
+            InspectorRows.Height(Rows + (SubjectOf(property) == MaterialRuleSubject.Submesh ? 1 : 0));
 
         public override void OnGUI(Rect position, SerializedProperty property, GUIContent label)
         {
             // Read before any field is drawn, so that layout and drawing show the same fields.
             MaterialRuleSubject subject = SubjectOf(property);
-            var row = new Rect(position.x, position.y, position.width, EditorGUIUtility.singleLineHeight);
-            EditorGUI.LabelField(row, Title(property), EditorStyles.boldLabel);
-            row.y += InspectorRows.Height;
-            EditorGUI.PropertyField(row, property.FindPropertyRelative("subject"), Subject);
-            row.y += InspectorRows.Height;
-            row = DrawCondition(row, property, subject);
-            EditorGUI.PropertyField(row, property.FindPropertyRelative("material"), Material);
-            row.y += InspectorRows.Height;
-            EditorGUI.PropertyField(row, property.FindPropertyRelative("mask"));
+            var rows = new InspectorRows(position, property);
+            EditorGUI.LabelField(rows.Next(), Title(property), EditorStyles.boldLabel);
+            rows.Field("subject", Subject);
+            DrawCondition(rows, property, subject);
+            rows.Field("material", Material);
+            rows.Field("mask");
         }
 
         private static MaterialRuleSubject SubjectOf(SerializedProperty property) =>
@@ -46,36 +42,33 @@ namespace HaptoFlow.Editor
                 : "Rule";
         }
 
-        private static Rect DrawCondition(Rect row, SerializedProperty property, MaterialRuleSubject subject)
+        private static void DrawCondition(InspectorRows rows, SerializedProperty property, MaterialRuleSubject subject)
         {
             switch (subject)
             {
                 case MaterialRuleSubject.Tag:
-                    DrawTag(row, property.FindPropertyRelative("tag"));
+                    DrawTag(rows.Next(), property.FindPropertyRelative("tag"));
                     break;
                 case MaterialRuleSubject.Layer:
-                    DrawLayer(row, property.FindPropertyRelative("layer"));
+                    DrawLayer(rows.Next(), property.FindPropertyRelative("layer"));
                     break;
                 case MaterialRuleSubject.PhysicsMaterial:
-                    EditorGUI.PropertyField(row, property.FindPropertyRelative("physicsMaterial"));
+                    rows.Field("physicsMaterial");
                     break;
                 case MaterialRuleSubject.RendererMaterial:
-                    EditorGUI.PropertyField(row, property.FindPropertyRelative("rendererMaterial"));
+                    rows.Field("rendererMaterial");
                     break;
                 case MaterialRuleSubject.TerrainLayer:
-                    EditorGUI.PropertyField(row, property.FindPropertyRelative("terrainLayer"));
+                    rows.Field("terrainLayer");
                     break;
                 case MaterialRuleSubject.Submesh:
-                    EditorGUI.PropertyField(row, property.FindPropertyRelative("mesh"));
-                    row.y += InspectorRows.Height;
-                    EditorGUI.PropertyField(row, property.FindPropertyRelative("submesh"));
+                    rows.Field("mesh");
+                    rows.Field("submesh");
                     break;
                 default:
-                    EditorGUI.PropertyField(row, property.FindPropertyRelative("namePattern"), Name);
+                    rows.Field("namePattern", Name);
                     break;
             }
-            row.y += InspectorRows.Height;
-            return row;
         }
 
         private static void DrawTag(Rect row, SerializedProperty tag)

@@ -15,28 +15,26 @@ namespace HaptoFlow.Editor
         {
             MaskChannelUse use = UseOf(property);
             int rows = use == MaskChannelUse.Nothing ? 1 : use == MaskChannelUse.Material ? 2 : 3;
-            return InspectorRows.Height * rows - EditorGUIUtility.standardVerticalSpacing;
+            return InspectorRows.Height(rows);
         }
 
         public override void OnGUI(Rect position, SerializedProperty property, GUIContent label)
         {
             MaskChannelUse use = UseOf(property);
-            var row = new Rect(position.x, position.y, position.width, EditorGUIUtility.singleLineHeight);
-            EditorGUI.PropertyField(row, property.FindPropertyRelative("use"), label);
+            var rows = new InspectorRows(position, property);
+            rows.Field("use", label);
             if (use == MaskChannelUse.Nothing)
             {
                 return;
             }
             using var indent = new EditorGUI.IndentLevelScope();
-            row.y += InspectorRows.Height;
             if (use == MaskChannelUse.Material)
             {
-                EditorGUI.PropertyField(row, property.FindPropertyRelative("material"));
+                rows.Field("material");
                 return;
             }
-            EditorGUI.PropertyField(row, property.FindPropertyRelative("lowest"), Lowest);
-            row.y += InspectorRows.Height;
-            EditorGUI.PropertyField(row, property.FindPropertyRelative("highest"), Highest);
+            rows.Field("lowest", Lowest);
+            rows.Field("highest", Highest);
         }
 
         private static MaskChannelUse UseOf(SerializedProperty property) =>

@@ -1,5 +1,4 @@
 #nullable enable
-using System.Collections.Generic;
 using System.Linq;
 using UnityEditorInternal;
 using UnityEngine;
@@ -56,24 +55,18 @@ namespace HaptoFlow.Editor
             {
                 return false;
             }
-            switch (first.Subject)
+            return first.Subject switch
             {
-                case MaterialRuleSubject.Tag:
-                    return first.Tag == second.Tag;
-                case MaterialRuleSubject.Layer:
-                    return first.Layer == second.Layer;
-                case MaterialRuleSubject.PhysicsMaterial:
-                    return first.PhysicsMaterial == second.PhysicsMaterial;
-                case MaterialRuleSubject.RendererMaterial:
-                    return first.RendererMaterial == second.RendererMaterial;
-                case MaterialRuleSubject.TerrainLayer:
-                    return first.TerrainLayer == second.TerrainLayer;
-                case MaterialRuleSubject.Submesh:
-                    return first.Submesh == second.Submesh && (first.Mesh == null || first.Mesh == second.Mesh);
-                default:
-                    // A * in the second pattern is treated as a character, which only a * in the first one matches.
-                    return NamePattern.Matches(first.NamePattern, second.NamePattern);
-            }
+                MaterialRuleSubject.Tag => first.Tag == second.Tag,
+                MaterialRuleSubject.Layer => first.Layer == second.Layer,
+                MaterialRuleSubject.PhysicsMaterial => first.PhysicsMaterial == second.PhysicsMaterial,
+                MaterialRuleSubject.RendererMaterial => first.RendererMaterial == second.RendererMaterial,
+                MaterialRuleSubject.TerrainLayer => first.TerrainLayer == second.TerrainLayer,
+                MaterialRuleSubject.Submesh =>
+                    first.Submesh == second.Submesh && (first.Mesh == null || first.Mesh == second.Mesh),
+                // A * in the second pattern is treated as a character, which only a * in the first one matches.
+                _ => NamePattern.Matches(first.NamePattern, second.NamePattern),
+            };
         }
     }
 }

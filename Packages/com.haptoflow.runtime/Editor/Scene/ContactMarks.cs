@@ -15,21 +15,7 @@ namespace HaptoFlow.Editor
     }
 
     /// <summary>A line in world space, in metres.</summary>
-    internal readonly struct MarkLine
-    {
-        public MarkLine(MarkKind kind, Double3 from, Double3 to)
-        {
-            Kind = kind;
-            From = from;
-            To = to;
-        }
-
-        public MarkKind Kind { get; }
-
-        public Double3 From { get; }
-
-        public Double3 To { get; }
-    }
+    internal sealed record MarkLine(MarkKind Kind, Double3 From, Double3 To);
 
     /// <summary>The values of a contact that are drawn.</summary>
     internal struct MarkedContact
@@ -50,8 +36,7 @@ namespace HaptoFlow.Editor
         public double ForceNewtons;
     }
 
-    /// <summary>A contact as lines: a cross at the contact point, the normal, the tangential velocity, the penetration.
-    /// </summary>
+    /// <summary>A contact as lines: a cross at its point, normal, tangential velocity, penetration.</summary>
     internal static class ContactMarks
     {
         /// <summary>The length of the velocity arrow is the distance covered in this time, one segment.</summary>

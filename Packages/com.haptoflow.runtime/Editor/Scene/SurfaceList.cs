@@ -6,18 +6,7 @@ using UnityEngine;
 namespace HaptoFlow.Editor
 {
     /// <summary>A line of the overlay.</summary>
-    internal readonly struct SurfaceLine
-    {
-        public SurfaceLine(Collider collider, string text)
-        {
-            Collider = collider;
-            Text = text;
-        }
-
-        public Collider Collider { get; }
-
-        public string Text { get; }
-    }
+    internal sealed record SurfaceLine(Collider Collider, string Text);
 
     /// <summary>Lists what colliders feel like and by which rule, and which colliders are not felt: those of the
     /// selection, or those of the open scenes when the selection has none.</summary>

@@ -3,7 +3,6 @@ using System;
 using System.Linq;
 using UnityEditor;
 using UnityEngine;
-using Object = UnityEngine.Object;
 
 namespace HaptoFlow.Editor
 {

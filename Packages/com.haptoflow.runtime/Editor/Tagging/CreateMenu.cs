@@ -86,8 +86,7 @@ namespace HaptoFlow.Editor
             return output;
         }
 
-        /// <summary>Creates the pen below the parent of the main camera, which is the tracking space in an XR rig.
-        /// </summary>
+        /// <summary>Creates the pen below the parent of the main camera, the tracking space of an XR rig.</summary>
         private static void CreateXrPen(MenuCommand command, PenHand hand)
         {
             Camera? camera = Camera.main;

@@ -6,22 +6,8 @@ using UnityEngine;
 namespace HaptoFlow.Editor
 {
     /// <summary>An object that can be tagged, with the label that its name or physics material suggests.</summary>
-    internal readonly struct TagProposal
-    {
-        public TagProposal(GameObject owner, string label, string reason)
-        {
-            Owner = owner;
-            Label = label;
-            Reason = reason;
-        }
-
-        public GameObject Owner { get; }
-
-        public string Label { get; }
-
-        /// <summary>What suggests the label: "name" or the physics material.</summary>
-        public string Reason { get; }
-    }
+    /// <param name="Reason">What suggests the label: "name" or the physics material.</param>
+    internal sealed record TagProposal(GameObject Owner, string Label, string Reason);
 
     /// <summary>The labels proposed for untagged colliders. Creating a plan changes no object.</summary>
     internal sealed class TagPlan

@@ -50,11 +50,7 @@ namespace HaptoFlow
 
         /// <summary>A touch ends at this force, in newtons. Values above nine tenths of the press force are treated as
         /// nine tenths of it.</summary>
-        public float ReleaseNewtons
-        {
-            get => releaseNewtons;
-            set => Change(ref releaseNewtons, Mathf.Max(0f, value));
-        }
+        public float ReleaseNewtons { get => releaseNewtons; set => Change(ref releaseNewtons, Mathf.Max(0f, value)); }
 
         /// <summary>Largest distance between the pressing tip and a tagged surface, in metres, 0.001 to 0.04.</summary>
         public float NearMetres

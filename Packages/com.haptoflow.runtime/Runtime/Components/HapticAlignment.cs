@@ -51,29 +51,17 @@ namespace HaptoFlow
         public event Action<HapticAlignment>? Changed;
 
         /// <summary>The pen that touches the real object.</summary>
-        public HapticStylus? Stylus
-        {
-            get => stylus;
-            set => stylus = value;
-        }
+        public HapticStylus? Stylus { get => stylus; set => stylus = value; }
 
         /// <summary>Three points in local space, in the order in which they are touched.</summary>
         public IReadOnlyList<Vector3> Marks => marks;
 
         /// <summary>Direction out of the object at the marks, in local space.</summary>
-        public Vector3 Outward
-        {
-            get => outward;
-            set => outward = value;
-        }
+        public Vector3 Outward { get => outward; set => outward = value; }
 
         /// <summary>Name under which the pose is saved; it is restored when the component starts. Empty to save
         /// nothing.</summary>
-        public string SaveName
-        {
-            get => saveName;
-            set => saveName = value ?? "";
-        }
+        public string SaveName { get => saveName; set => saveName = value ?? ""; }
 
         /// <summary>True between <see cref="Begin"/> and the third point.</summary>
         public bool IsTaking { get; private set; }

@@ -60,11 +60,7 @@ namespace HaptoFlow
         private bool edge = true;
 
         /// <summary>Name of a label of the model.</summary>
-        public string Label
-        {
-            get => label;
-            set => Change(ref label, value);
-        }
+        public string Label { get => label; set => Change(ref label, value); }
 
         /// <summary>A Haptic Material with an embedding of its own, used instead of <see cref="Label"/>; null for the
         /// label. For the description inside such an asset this is the asset itself.</summary>
@@ -79,11 +75,7 @@ namespace HaptoFlow
         }
 
         /// <summary>Name of a second label to blend with; empty for none.</summary>
-        public string SecondLabel
-        {
-            get => secondLabel;
-            set => Change(ref secondLabel, value);
-        }
+        public string SecondLabel { get => secondLabel; set => Change(ref secondLabel, value); }
 
         /// <summary>Weight of the second label: 0 for the first label alone, 1 for the second alone.</summary>
         public float Blend
@@ -108,11 +100,7 @@ namespace HaptoFlow
         }
 
         /// <summary>Gain of the output while this material is touched, 0 to 1.</summary>
-        public float Strength
-        {
-            get => strength;
-            set => strength = Mathf.Clamp01(value);
-        }
+        public float Strength { get => strength; set => strength = Mathf.Clamp01(value); }
 
         /// <summary>Feature scale: factor on the size of the material's features, ribs included, 0.25 to 4. The level
         /// stays that of the tip's speed.</summary>
@@ -216,10 +204,8 @@ namespace HaptoFlow
         /// <param name="text">The whole .haptomaterial file.</param>
         /// <param name="label">The label used where the material cannot be: usually the nearest.</param>
         /// <exception cref="HaptoFlowException">The text is not a material file; the message names the key.</exception>
-        public static HapticMaterial Create(string text, string label)
-        {
-            return CreateUnchecked(text, MaterialFile.Read(text).Name, label);
-        }
+        public static HapticMaterial Create(string text, string label) =>
+            CreateUnchecked(text, MaterialFile.Read(text).Name, label);
 
         /// <summary>As <see cref="Create"/>, for an editor without the native library: engines check the text when they
         /// register it.</summary>

@@ -3,7 +3,6 @@ using System;
 using System.Collections.Generic;
 using System.Threading;
 using System.Threading.Tasks;
-using HaptoFlow.Model;
 using UnityEngine;
 
 namespace HaptoFlow
@@ -18,7 +17,7 @@ namespace HaptoFlow
         private static HapticSession? replacingSession;
         private static int lastLabelsVersion;
 
-        private readonly Task<Loaded> loading;
+        private readonly Task<(HapticEngine Engine, ModelLabels Labels, string Space)> loading;
         private readonly HapticCancellation? cancellation;
         private readonly CancellationTokenSource closing = new CancellationTokenSource();
         private readonly EngineHealth health = new EngineHealth();
@@ -35,7 +34,8 @@ namespace HaptoFlow
             this.isAdditional = isAdditional;
             if (model == null)
             {
-                loading = Task.FromException<Loaded>(new HaptoFlowException(HaptoFlowStatus.InvalidArgument,
+                loading = Task.FromException<(HapticEngine, ModelLabels, string)>(new HaptoFlowException(
+                    HaptoFlowStatus.InvalidArgument,
                     "no model is chosen: choose one in Project Settings > HaptoFlow, or set HaptoFlowSettings.Active"));
                 return;
             }
@@ -340,11 +340,12 @@ namespace HaptoFlow
             return options;
         }
 
-        private static Loaded Load(byte[] file, HapticEngineOptions options)
+        private static (HapticEngine Engine, ModelLabels Labels, string Space) Load(
+            byte[] file, HapticEngineOptions options)
         {
             using OnnxRuntime runtime = OnnxRuntime.Open();
             using HapticModel model = HapticModel.Open(file);
-            return new Loaded(new HapticEngine(runtime, model, options), new ModelLabels(model.Labels), model.Space);
+            return (new HapticEngine(runtime, model, options), new ModelLabels(model.Labels), model.Space);
         }
 
         [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.SubsystemRegistration)]
@@ -355,22 +356,6 @@ namespace HaptoFlow
             Application.quitting += ShutDown;
             Application.quitting -= HapticLearning.EndAll;
             Application.quitting += HapticLearning.EndAll;
-        }
-
-        private sealed class Loaded
-        {
-            public Loaded(HapticEngine engine, ModelLabels labels, string space)
-            {
-                Engine = engine;
-                Labels = labels;
-                Space = space;
-            }
-
-            public HapticEngine Engine { get; }
-
-            public ModelLabels Labels { get; }
-
-            public string Space { get; }
         }
     }
 }

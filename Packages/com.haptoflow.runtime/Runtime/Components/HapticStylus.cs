@@ -84,11 +84,7 @@ namespace HaptoFlow
         public event HapticContactHandler? TouchEnded;
 
         /// <summary>Transform at the centre of the tip; null for this object.</summary>
-        public Transform? Tip
-        {
-            get => tip;
-            set => tip = value;
-        }
+        public Transform? Tip { get => tip; set => tip = value; }
 
         /// <summary>Radius of the tip sphere, in metres, 0 or more.</summary>
         public float TipRadiusMetres
@@ -105,32 +101,16 @@ namespace HaptoFlow
         }
 
         /// <summary>Layers whose colliders the tip can touch.</summary>
-        public LayerMask Layers
-        {
-            get => layers;
-            set => layers = value;
-        }
+        public LayerMask Layers { get => layers; set => layers = value; }
 
         /// <summary>When the stylus samples its tip.</summary>
-        public StylusUpdate UpdateMode
-        {
-            get => update;
-            set => update = value;
-        }
+        public StylusUpdate UpdateMode { get => update; set => update = value; }
 
         /// <summary>Source of the measured tip force; null for the spring model.</summary>
-        public TipForceSource? Force
-        {
-            get => force;
-            set => force = value;
-        }
+        public TipForceSource? Force { get => force; set => force = value; }
 
         /// <summary>What decides whether the tip touches.</summary>
-        public TouchDecision TouchBy
-        {
-            get => touchBy;
-            set => touchBy = value;
-        }
+        public TouchDecision TouchBy { get => touchBy; set => touchBy = value; }
 
         /// <summary>Thresholds of a measured force; used with <see cref="TouchDecision.MeasuredForce"/>.</summary>
         public ForceDecision ForceDecision => forceDecision;
@@ -140,11 +120,7 @@ namespace HaptoFlow
 
         /// <summary>The audio output of the stylus; null for the scene's. Outputs that vibrate in a hand (<see
         /// cref="DeviceOutput"/>) reference their stylus instead, so one stylus can have several.</summary>
-        public HapticOutput? Output
-        {
-            get => output;
-            set => output = value;
-        }
+        public HapticOutput? Output { get => output; set => output = value; }
 
         /// <summary>The hand that holds the stylus, for outputs that vibrate in it: the one set here, else the one in
         /// which <see cref="Force"/> is (<see cref="TipForceSource.HeldIn"/>).</summary>
@@ -155,11 +131,7 @@ namespace HaptoFlow
         }
 
         /// <summary>Gain, 0 to 1, multiplied with the surface's and the output's.</summary>
-        public float Strength
-        {
-            get => strength;
-            set => strength = Mathf.Clamp01(value);
-        }
+        public float Strength { get => strength; set => strength = Mathf.Clamp01(value); }
 
         /// <summary>True while the tip touches a surface.</summary>
         public bool IsTouching => touching;

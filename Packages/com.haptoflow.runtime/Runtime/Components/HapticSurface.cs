@@ -86,25 +86,13 @@ namespace HaptoFlow
 
         /// <summary>True to take the tip's velocity relative to the object; false to take it relative to the
         /// world.</summary>
-        public bool FeelOwnMotion
-        {
-            get => feelOwnMotion;
-            set => feelOwnMotion = value;
-        }
+        public bool FeelOwnMotion { get => feelOwnMotion; set => feelOwnMotion = value; }
 
         /// <summary>Direction of the first tangent axis, in the object's local space.</summary>
-        public Vector3 Grain
-        {
-            get => grain;
-            set => grain = value;
-        }
+        public Vector3 Grain { get => grain; set => grain = value; }
 
         /// <summary>A texture that blends in further materials at the touched place; null for none.</summary>
-        public HapticMaskMap? Mask
-        {
-            get => mask;
-            set => mask = value;
-        }
+        public HapticMaskMap? Mask { get => mask; set => mask = value; }
 
         /// <summary>Colliders that belong to this surface. Direct children that come or go, and colliders added deeper
         /// below, are detected automatically.</summary>

@@ -51,65 +51,33 @@ namespace HaptoFlow
         private static HaptoFlowSettings? preloaded;
 
         /// <summary>The model; null where none is chosen.</summary>
-        public HapticModelAsset? Model
-        {
-            get => model;
-            set => model = value;
-        }
+        public HapticModelAsset? Model { get => model; set => model = value; }
 
         /// <summary>Selects the tier.</summary>
-        public HapticQuality Quality
-        {
-            get => quality;
-            set => quality = value;
-        }
+        public HapticQuality Quality { get => quality; set => quality = value; }
 
         /// <summary>With the quality Auto, share of the time between two contact states that inference may take, above
         /// 0 to 1.</summary>
-        public float BudgetShare
-        {
-            get => budgetShare;
-            set => budgetShare = value;
-        }
+        public float BudgetShare { get => budgetShare; set => budgetShare = value; }
 
         /// <summary>True to start the engine with the refresh rate of the running headset, else of the screen, as its
         /// update rate. A later change of the display's rate takes effect after <see
         /// cref="Haptics.Restart"/>.</summary>
-        public bool FollowDisplay
-        {
-            get => followDisplay;
-            set => followDisplay = value;
-        }
+        public bool FollowDisplay { get => followDisplay; set => followDisplay = value; }
 
         /// <summary>Contact states per second, 1 to 10000; used where the display is not followed or does not report
         /// its rate.</summary>
-        public float UpdateRateHz
-        {
-            get => updateRateHz;
-            set => updateRateHz = value;
-        }
+        public float UpdateRateHz { get => updateRateHz; set => updateRateHz = value; }
 
         /// <summary>Limit of the absolute output samples, 0 to 1.</summary>
-        public float Ceiling
-        {
-            get => ceiling;
-            set => ceiling = value;
-        }
+        public float Ceiling { get => ceiling; set => ceiling = value; }
 
         /// <summary>Full scale: the acceleration that is +-1 in the output, in m/s^2, above 0.</summary>
-        public float FullScaleMps2
-        {
-            get => fullScaleMps2;
-            set => fullScaleMps2 = value;
-        }
+        public float FullScaleMps2 { get => fullScaleMps2; set => fullScaleMps2 = value; }
 
         /// <summary>Assigns materials to objects by rules, in every scene; null for none. Changes take effect at once,
         /// also during a touch.</summary>
-        public HapticMaterialMap? MaterialMap
-        {
-            get => materialMap;
-            set => materialMap = value;
-        }
+        public HapticMaterialMap? MaterialMap { get => materialMap; set => materialMap = value; }
 
         /// <summary>The project's settings; defaults where the project has none. Changes take effect for engines that
         /// start afterwards (<see cref="Haptics.Restart"/>). Main thread.</summary>

@@ -24,12 +24,8 @@ namespace HaptoFlow
         /// <param name="space">Space of the engine's model.</param>
         /// <param name="labelCount">Number of labels of the engine's model: indices of materials follow those of
         /// labels.</param>
-        public LearntMaterials(HapticEngine engine, string space, int labelCount)
-        {
-            this.engine = engine;
-            this.space = space;
-            this.labelCount = labelCount;
-        }
+        public LearntMaterials(HapticEngine engine, string space, int labelCount) =>
+            (this.engine, this.space, this.labelCount) = (engine, space, labelCount);
 
         /// <summary>Number of registered materials.</summary>
         public int Felt { get; private set; }

@@ -14,12 +14,8 @@ namespace HaptoFlow
 
         /// <param name="owner">The entry that the result belongs to.</param>
         /// <param name="place">Index of the material to replace, or <see cref="NewPlace"/>.</param>
-        public MaterialRegistration(object owner, string text, int place)
-        {
-            Owner = owner;
-            Place = place;
-            this.text = text;
-        }
+        public MaterialRegistration(object owner, string text, int place) =>
+            (Owner, Place, this.text) = (owner, place, text);
 
         public object Owner { get; }
 

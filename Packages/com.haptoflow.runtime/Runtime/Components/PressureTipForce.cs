@@ -25,11 +25,7 @@ namespace HaptoFlow
         }
 
         /// <summary>Pressures up to this value, 0 to 1, count as a tip in the air.</summary>
-        public float MinimumPressure
-        {
-            get => minimumPressure;
-            set => minimumPressure = Mathf.Clamp01(value);
-        }
+        public float MinimumPressure { get => minimumPressure; set => minimumPressure = Mathf.Clamp01(value); }
 
         /// <inheritdoc/>
         public sealed override bool TryRead(out float forceNewtons)

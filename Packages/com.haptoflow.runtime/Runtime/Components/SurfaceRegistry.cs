@@ -36,8 +36,7 @@ namespace HaptoFlow
             Surfaces.TryGetValue(collider, out HapticSurface registered) && ReferenceEquals(registered, surface) &&
             surface.Keeps(collider);
 
-        /// <summary>Makes colliders that belonged to no surface be searched again: a surface came, changed or moved.
-        /// </summary>
+        /// <summary>Has colliders of no surface searched again: a surface came, changed or moved.</summary>
         public static void Changed() => Untagged.Forget();
 
         /// <summary>Finds the surface of a collider by the collider's present place in the hierarchy, so that colliders

@@ -19,29 +19,10 @@ namespace HaptoFlow.DeviceCheck
     }
 
     /// <summary>One line of the device check.</summary>
-    internal readonly struct CheckLine
+    /// <param name="Measured">What was measured, with units; for a skipped line, why nothing was.</param>
+    /// <param name="Remedy">What to do; empty for lines that did not fail.</param>
+    internal sealed record CheckLine(string Group, string Name, CheckState State, string Measured, string Remedy)
     {
-        private CheckLine(string group, string name, CheckState state, string measured, string remedy)
-        {
-            Group = group;
-            Name = name;
-            State = state;
-            Measured = measured;
-            Remedy = remedy;
-        }
-
-        public string Group { get; }
-
-        public string Name { get; }
-
-        public CheckState State { get; }
-
-        /// <summary>What was measured, with units; for a skipped line, why nothing was.</summary>
-        public string Measured { get; }
-
-        /// <summary>What to do; empty for lines that did not fail.</summary>
-        public string Remedy { get; }
-
         /// <summary>A line that passed or failed.</summary>
         public static CheckLine Of(string group, string name, bool passed, string measured, string remedy) =>
             new CheckLine(group, name, passed ? CheckState.Passed : CheckState.Failed, measured, passed ? "" : remedy);

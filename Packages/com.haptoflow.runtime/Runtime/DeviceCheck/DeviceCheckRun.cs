@@ -36,9 +36,11 @@ namespace HaptoFlow
         private const double PauseSeconds = 30.0;
         private const double AfterSeconds = 1.5;
 
+        // A stage returns null to wait for the next frame, or a time to wait for, in s.
         private readonly Queue<(string Name, IEnumerator Steps)> stages = new Queue<(string, IEnumerator)>();
         private DeviceCheckReport? report;
         private SimulatedStroke? stroke;
+        private double resumeSeconds;
         private bool? answer;
         private bool hasSkipped;
         private double pausedSeconds;
@@ -97,8 +99,13 @@ namespace HaptoFlow
             try
             {
                 stroke?.Publish();
+                if (Now < resumeSeconds)
+                {
+                    return;
+                }
                 if (steps.MoveNext())
                 {
+                    resumeSeconds = steps.Current is double seconds ? Now + seconds : 0.0;
                     return;
                 }
             }
@@ -254,10 +261,7 @@ namespace HaptoFlow
             }
             Instruction = "Measuring audio thread and engine with a simulated stroke.\nYou may hear it. Please wait.";
             stroke = new SimulatedStroke(engine);
-            for (double end = Now + SettlingSeconds; Now < end;)
-            {
-                yield return null;
-            }
+            yield return SettlingSeconds;
             VoiceStatistics before = stroke.Statistics;
             stroke.Record();
             double began = Now;
@@ -318,10 +322,7 @@ namespace HaptoFlow
                 {
                     ulong segments = stroke!.Statistics.Inferences;
                     stroke.Record();
-                    for (double end = Now + AfterSeconds; Now < end;)
-                    {
-                        yield return null;
-                    }
+                    yield return AfterSeconds;
                     facts.BlocksAfter = stroke.Blocks.Blocks;
                     facts.SegmentsAfter = stroke.Statistics.Inferences - segments;
                 }
@@ -392,10 +393,7 @@ namespace HaptoFlow
             })
             {
                 Instruction = words;
-                for (double end = Now + ReadSeconds; Now < end;)
-                {
-                    yield return null;
-                }
+                yield return ReadSeconds;
                 Instruction = words + "\nMeasuring.";
                 double last = Now;
                 for (double end = Now + seconds; Now < end;)
@@ -435,10 +433,7 @@ namespace HaptoFlow
             {
                 ulong segments = stroke.Statistics.Inferences;
                 stroke.Record();
-                for (double end = Now + AfterSeconds; Now < end;)
-                {
-                    yield return null;
-                }
+                yield return AfterSeconds;
                 facts.EngineIsReady = Haptics.IsReady && Haptics.Problem == null;
                 facts.BlocksAfter = stroke.Blocks.Blocks;
                 facts.SegmentsAfter = stroke.Statistics.Inferences - segments;

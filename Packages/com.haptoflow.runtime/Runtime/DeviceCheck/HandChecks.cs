@@ -63,11 +63,7 @@ namespace HaptoFlow.DeviceCheck
 
         /// <param name="name">Names the stylus on the page.</param>
         /// <param name="pressNewtons">The force at which a touch would begin.</param>
-        public StylusProbe(string name, double pressNewtons)
-        {
-            Name = name;
-            PressNewtons = pressNewtons;
-        }
+        public StylusProbe(string name, double pressNewtons) => (Name, PressNewtons) = (name, pressNewtons);
 
         public string Name { get; }
 

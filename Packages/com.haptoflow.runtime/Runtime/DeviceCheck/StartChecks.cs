@@ -62,8 +62,7 @@ namespace HaptoFlow.DeviceCheck
         /// <summary>True where the settings are the project's, or the scene's, with a model.</summary>
         public bool HasModel;
 
-        /// <summary>The first word that the library reported through a managed callback; empty where none came.
-        /// </summary>
+        /// <summary>The first word that the library reported by a managed callback; empty where none came.</summary>
         public string Callback;
 
         /// <summary>Why learning ended before a callback came; null where it did not.</summary>

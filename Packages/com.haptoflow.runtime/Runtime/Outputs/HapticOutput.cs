@@ -121,11 +121,7 @@ namespace HaptoFlow
         }
 
         /// <summary>Gain, 0 to 1.</summary>
-        public float Strength
-        {
-            get => strength;
-            set => strength = Mathf.Clamp01(value);
-        }
+        public float Strength { get => strength; set => strength = Mathf.Clamp01(value); }
 
         /// <summary>A muted output is silent and costs no inference.</summary>
         public bool Muted

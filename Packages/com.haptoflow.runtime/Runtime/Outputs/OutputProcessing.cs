@@ -46,25 +46,13 @@ namespace HaptoFlow
         private bool listen;
 
         /// <summary>The actuator that plays the channel.</summary>
-        public OutputActuator Actuator
-        {
-            get => actuator;
-            set => actuator = value;
-        }
+        public OutputActuator Actuator { get => actuator; set => actuator = value; }
 
         /// <summary>A measured profile as JSON, for <see cref="OutputActuator.Profile"/>.</summary>
-        public TextAsset? Profile
-        {
-            get => profile;
-            set => profile = value;
-        }
+        public TextAsset? Profile { get => profile; set => profile = value; }
 
         /// <summary>True to lower slowly what has been strong for too long. Not a medical device.</summary>
-        public bool ExposureGuard
-        {
-            get => exposureGuard;
-            set => exposureGuard = value;
-        }
+        public bool ExposureGuard { get => exposureGuard; set => exposureGuard = value; }
 
         /// <summary>Added delay, 0 to <see cref="MaximumDelayMilliseconds"/>.</summary>
         public float DelayMilliseconds
@@ -75,11 +63,7 @@ namespace HaptoFlow
 
         /// <summary>True to make the vibration audible on loudspeakers: louder and brighter. For ears only: it has no
         /// effect with an actuator, or on an output with a channel of its own.</summary>
-        public bool Listen
-        {
-            get => listen;
-            set => listen = value;
-        }
+        public bool Listen { get => listen; set => listen = value; }
 
         /// <summary>True where Listen is on and has no effect, because an actuator or the channel that one is wired to
         /// is chosen: it would be far too strong there.</summary>

@@ -1,15 +1,20 @@
 #nullable enable
-#if HAPTOFLOW_INPUT_SYSTEM && ENABLE_INPUT_SYSTEM
 using System;
+#if HAPTOFLOW_INPUT_SYSTEM && ENABLE_INPUT_SYSTEM
 using UnityEngine.InputSystem;
+#else
+using UnityEngine;
+#endif
 
 namespace HaptoFlow
 {
-    /// <summary>Detects that one of several buttons with the same function goes down. Main thread.</summary>
+    /// <summary>Detects that one of several buttons with the same function goes down. Without the Input System, only
+    /// keys do, by the old Input Manager. Main thread.</summary>
     /// <remarks>InputAction.WasPressedThisFrame would do the same, but the Input System has it only from version 1.1,
     /// and this package accepts 1.0.</remarks>
     public sealed class ButtonPress : IDisposable
     {
+#if HAPTOFLOW_INPUT_SYSTEM && ENABLE_INPUT_SYSTEM
         private readonly InputAction[] actions;
         private bool wasDown;
 
@@ -23,11 +28,6 @@ namespace HaptoFlow
                 action.Enable();
             }
         }
-
-        /// <summary>The path of the controller in the hand that does not hold the pen, with a slash at its end.
-        /// </summary>
-        public static string ControllerOppositeTo(PenHand penHand) =>
-            "<XRController>{" + (penHand == PenHand.Right ? PenHand.Left : PenHand.Right) + "Hand}/";
 
         /// <summary>True in the frame in which a button goes down while none was held. Call it once a frame.</summary>
         public bool IsNew()
@@ -43,13 +43,47 @@ namespace HaptoFlow
         }
 
         /// <summary>Disables and releases the buttons.</summary>
+        public void Dispose() => Array.ForEach(actions, action => action.Dispose());
+#else
+        private const string Keyboard = "<Keyboard>/";
+        private readonly KeyCode[] keys;
+
+        /// <summary>Finds the keys among the buttons.</summary>
+        /// <param name="bindings">Control paths of the Input System, for example "&lt;Keyboard&gt;/y".</param>
+        public ButtonPress(params string[] bindings) => keys = Array.ConvertAll(
+            Array.FindAll(bindings, path => path.StartsWith(Keyboard, StringComparison.Ordinal)),
+            path => KeyOf(path.Substring(Keyboard.Length)));
+
+        /// <summary>True in the frame in which a key goes down. Call it once a frame.</summary>
+#if ENABLE_LEGACY_INPUT_MANAGER
+        public bool IsNew() => Array.Exists(keys, Input.GetKeyDown);
+#else
+        public bool IsNew() => false;
+#endif
+
+        /// <summary>Does nothing without the Input System.</summary>
         public void Dispose()
         {
-            foreach (InputAction action in actions)
-            {
-                action.Dispose();
-            }
+        }
+
+        private static KeyCode KeyOf(string name) => name switch
+        {
+            "enter" => KeyCode.Return,
+            _ when char.IsDigit(name[0]) => KeyCode.Alpha0 + (name[0] - '0'),
+            _ => (KeyCode)Enum.Parse(typeof(KeyCode), name, true),
+        };
+#endif
+
+        /// <summary>The path of the controller in the hand without the pen, with a slash at its end.</summary>
+        public static string ControllerOppositeTo(PenHand penHand) =>
+            "<XRController>{" + (penHand == PenHand.Right ? PenHand.Left : PenHand.Right) + "Hand}/";
+
+        /// <summary>The answer of this frame; null without one, or with both at once. Call it once a frame.</summary>
+        public static bool? Answer(ButtonPress yes, ButtonPress no)
+        {
+            bool isYes = yes.IsNew();
+            bool isNo = no.IsNew();
+            return isYes == isNo ? (bool?)null : isYes;
         }
     }
 }
-#endif

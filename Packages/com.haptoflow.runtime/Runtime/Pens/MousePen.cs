@@ -38,32 +38,16 @@ namespace HaptoFlow
         public HapticStylus Stylus => stylus != null ? stylus : stylus = GetComponent<HapticStylus>();
 
         /// <summary>The camera of the pointer; null for the scene's main camera.</summary>
-        public Camera? View
-        {
-            get => view;
-            set => view = value;
-        }
+        public Camera? View { get => view; set => view = value; }
 
         /// <summary>Maximum distance of objects from the camera, in metres; 0 or more.</summary>
-        public float ReachMetres
-        {
-            get => reachMetres;
-            set => reachMetres = Mathf.Max(0f, value);
-        }
+        public float ReachMetres { get => reachMetres; set => reachMetres = Mathf.Max(0f, value); }
 
         /// <summary>Height of the tip above the surface while nothing is pressed, in metres; 0 or more.</summary>
-        public float HoverMetres
-        {
-            get => hoverMetres;
-            set => hoverMetres = Mathf.Max(0f, value);
-        }
+        public float HoverMetres { get => hoverMetres; set => hoverMetres = Mathf.Max(0f, value); }
 
         /// <summary>Penetration depth at full pressure, in metres; 0 or more.</summary>
-        public float DepthMetres
-        {
-            get => depthMetres;
-            set => depthMetres = Mathf.Max(0f, value);
-        }
+        public float DepthMetres { get => depthMetres; set => depthMetres = Mathf.Max(0f, value); }
 
         /// <summary>Creates a pen with stylus and body. Main thread, also in edit mode.</summary>
         /// <param name="view">Null for the scene's main camera.</param>

@@ -4,8 +4,7 @@ using System.Collections.Generic;
 
 namespace HaptoFlow
 {
-    /// <summary>The pens of vendors' SDKs, which optional assemblies register when they are loaded. Main thread.
-    /// </summary>
+    /// <summary>The pens of vendors' SDKs, which optional assemblies register when loaded. Main thread.</summary>
     public static class PenDevices
     {
         private static readonly Dictionary<string, Func<PenHand, IPenDevice>> Makers =

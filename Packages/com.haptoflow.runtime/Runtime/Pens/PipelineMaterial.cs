@@ -39,11 +39,7 @@ namespace HaptoFlow
         }
 
         /// <summary>The material; null for the render pipeline's default. Set it before the component awakes.</summary>
-        public Material? Material
-        {
-            get => material;
-            set => material = value;
-        }
+        public Material? Material { get => material; set => material = value; }
 
         /// <summary>Gives a renderer a coloured copy of the pipeline's material. Main thread, in play mode.</summary>
         public static void Paint(Renderer target, Color colour)

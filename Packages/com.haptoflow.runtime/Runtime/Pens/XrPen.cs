@@ -20,8 +20,7 @@ namespace HaptoFlow
     /// <summary>A stylus on the device in one hand: MX Ink at its tip with the measured force, a controller at its
     /// pointer with the spring model. Place it below the rig's tracking space. Its stylus is inactive while nothing is
     /// tracked.</summary>
-    /// <remarks>Reads the Input System, as OpenXR needs it, and pens that Meta's SDK knows by Logitech's action set.
-    /// </remarks>
+    /// <remarks>Reads the Input System, as OpenXR needs, and pens of Meta's SDK by Logitech's action set.</remarks>
     [AddComponentMenu("HaptoFlow/XR Pen")]
     [DisallowMultipleComponent]
     [HelpPage(HelpPages.Components + "xr-pen")]

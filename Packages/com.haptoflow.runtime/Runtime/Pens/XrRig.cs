@@ -33,19 +33,11 @@ namespace HaptoFlow
 
         /// <summary>The camera that follows the head; null for the scene's main camera. Set it before the head is
         /// tracked.</summary>
-        public Camera? View
-        {
-            get => view;
-            set => view = value;
-        }
+        public Camera? View { get => view; set => view = value; }
 
         /// <summary>The mouse pen that is switched off when an XR Pen of this rig is tracked for the first time; null
         /// to leave mouse pens alone.</summary>
-        public MousePen? MousePen
-        {
-            get => mousePen;
-            set => mousePen = value;
-        }
+        public MousePen? MousePen { get => mousePen; set => mousePen = value; }
 
         /// <summary>The stylus of the first XR Pen that was tracked, even while it is out of sight. Before any was
         /// tracked, the stylus of <see cref="MousePen"/>; null without one.</summary>

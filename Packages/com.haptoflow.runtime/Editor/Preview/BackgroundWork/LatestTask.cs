@@ -44,8 +44,7 @@ namespace HaptoFlow.Preview
             return finished.GetAwaiter().GetResult();
         }
 
-        /// <summary>Blocks until the running request is finished. <see cref="Poll"/> then starts the waiting one.
-        /// </summary>
+        /// <summary>Blocks until the running request ends. <see cref="Poll"/> then starts the waiting one.</summary>
         public void Wait()
         {
             if (running != null)

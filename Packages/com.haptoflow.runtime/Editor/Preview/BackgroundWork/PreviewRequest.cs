@@ -1,28 +1,14 @@
 #nullable enable
-using System;
 using System.Collections.Generic;
 
 namespace HaptoFlow.Preview
 {
     /// <summary>The input of a preview. Immutable by convention once submitted.</summary>
-    internal sealed class PreviewRequest
+    /// <param name="ModelFile">Bytes of a whole .haptoflow file. Models are compared by reference.</param>
+    /// <param name="Stroke">Strokes are compared by reference.</param>
+    /// <param name="Materials">One, or two to compare.</param>
+    internal sealed record PreviewRequest(byte[] ModelFile, Stroke Stroke, IReadOnlyList<LabelMix> Materials)
     {
-        public PreviewRequest(byte[] modelFile, Stroke stroke, IReadOnlyList<LabelMix> materials)
-        {
-            ModelFile = modelFile;
-            Stroke = stroke;
-            Materials = materials;
-        }
-
-        /// <summary>Bytes of a whole .haptoflow file. Models are compared by reference.</summary>
-        public byte[] ModelFile { get; }
-
-        /// <summary>Strokes are compared by reference.</summary>
-        public Stroke Stroke { get; }
-
-        /// <summary>One, or two to compare.</summary>
-        public IReadOnlyList<LabelMix> Materials { get; }
-
         /// <summary>The model's sliders; null if it has none.</summary>
         public SliderSet? Sliders { get; set; }
 
@@ -50,28 +36,14 @@ namespace HaptoFlow.Preview
     }
 
     /// <summary>The output of a preview. Immutable by convention.</summary>
-    internal sealed class PreviewResult
+    /// <param name="Sounds">As many as the request has materials, and one more if a device renders the first; none if
+    /// there is a problem.</param>
+    /// <param name="Qualities">One for each tier; none if the model cannot be read.</param>
+    /// <param name="Problem">Why there is no sound; null if there is one.</param>
+    internal sealed record PreviewResult(PreviewRequest Request, IReadOnlyList<AnalysedSound> Sounds,
+        IReadOnlyList<QualityRow> Qualities, string? Problem)
     {
-        public PreviewResult(PreviewRequest request, IReadOnlyList<AnalysedSound> sounds)
-        {
-            Request = request;
-            Sounds = sounds;
-            Panel = new SoundPanel(sounds);
-        }
-
-        public PreviewRequest Request { get; }
-
-        /// <summary>As many as the request has materials, and one more if a device renders the first; none if there is
-        /// a problem.</summary>
-        public IReadOnlyList<AnalysedSound> Sounds { get; }
-
         /// <summary>Draws the sounds.</summary>
-        public SoundPanel Panel { get; }
-
-        /// <summary>One for each tier; none if the model cannot be read.</summary>
-        public IReadOnlyList<QualityRow> Qualities { get; set; } = Array.Empty<QualityRow>();
-
-        /// <summary>Why there is no sound; null if there is one.</summary>
-        public string? Problem { get; set; }
+        public SoundPanel Panel { get; } = new SoundPanel(Sounds);
     }
 }

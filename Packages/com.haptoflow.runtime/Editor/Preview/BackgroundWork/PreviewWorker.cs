@@ -12,7 +12,8 @@ namespace HaptoFlow.Preview
     internal sealed class PreviewWorker : IDisposable
     {
         private readonly PreviewEngines engines = new PreviewEngines();
-        private readonly List<(SoundKey Key, AnalysedSound Sound)> kept = new List<(SoundKey, AnalysedSound)>();
+        private readonly List<(PreviewRequest Request, AnalysedSound Sound)> kept =
+            new List<(PreviewRequest, AnalysedSound)>();
         private readonly Dictionary<string, TierTiming> timings = new Dictionary<string, TierTiming>();
         private byte[]? timedFile;
         private int timedMeasurement;
@@ -45,11 +46,7 @@ namespace HaptoFlow.Preview
                 sounds = Array.Empty<AnalysedSound>();
             }
             token.ThrowIfCancellationRequested();
-            return new PreviewResult(request, sounds)
-            {
-                Qualities = qualities,
-                Problem = problem,
-            };
+            return new PreviewResult(request, sounds, qualities, problem);
         }
 
         public void Dispose() => engines.Dispose();
@@ -57,9 +54,9 @@ namespace HaptoFlow.Preview
         private AnalysedSound Sound(
             PreviewRequest request, LabelMix material, LabelNames names, CancellationToken token)
         {
-            var key = new SoundKey(request, material);
-            AnalysedSound? known =
-                kept.Where(each => each.Key.CanServe(key)).Select(each => each.Sound).FirstOrDefault();
+            AnalysedSound? known = kept
+                .Where(each => each.Sound.Sound.Material.Equals(material) && CanServe(each.Request, request))
+                .Select(each => each.Sound).FirstOrDefault();
             if (known != null)
             {
                 return known;
@@ -78,7 +75,7 @@ namespace HaptoFlow.Preview
             };
             float[] samples = StrokeRenderer.Render(engine, request.Stroke, surface, token);
             AnalysedSound made = AnalysedSound.Of(new PreviewSound(material, request.Stroke, samples), token);
-            kept.Add((key, made));
+            kept.Add((request, made));
             return made;
         }
 
@@ -130,35 +127,11 @@ namespace HaptoFlow.Preview
                 $"tier \"{tier}\" cannot be previewed; expected draft, standard or fine"),
         };
 
-        /// <summary>Everything that the samples of a sound depend on.</summary>
-        private readonly struct SoundKey
-        {
-            private readonly byte[] modelFile;
-            private readonly Stroke stroke;
-            private readonly LabelMix material;
-            private readonly string tier;
-            private readonly ulong seed;
-            private readonly bool isSketch;
-            private readonly HapticEffects effects;
-
-            public SoundKey(PreviewRequest request, LabelMix material)
-            {
-                modelFile = request.ModelFile;
-                stroke = request.Stroke;
-                this.material = material;
-                tier = request.Tier;
-                seed = request.Seed;
-                isSketch = request.IsSketch;
-                effects = request.Effects;
-            }
-
-            /// <summary>True if a sound of this key can be used for another one. A sketch can only be used for a
-            /// sketch.</summary>
-            public bool CanServe(in SoundKey requested) =>
-                ReferenceEquals(modelFile, requested.modelFile) && ReferenceEquals(stroke, requested.stroke) &&
-                material.Equals(requested.material) && tier == requested.tier && seed == requested.seed &&
-                effects == requested.effects &&
-                (!isSketch || requested.isSketch);
-        }
+        /// <summary>True if the sounds of a request can be used for another one, as far as they do not depend on the
+        /// material. A sketch can only be used for a sketch.</summary>
+        private static bool CanServe(PreviewRequest made, PreviewRequest wanted) =>
+            ReferenceEquals(made.ModelFile, wanted.ModelFile) && ReferenceEquals(made.Stroke, wanted.Stroke) &&
+            made.Tier == wanted.Tier && made.Seed == wanted.Seed && made.Effects == wanted.Effects &&
+            (!made.IsSketch || wanted.IsSketch);
     }
 }

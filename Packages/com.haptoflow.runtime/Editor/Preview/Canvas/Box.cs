@@ -6,13 +6,8 @@ namespace HaptoFlow.Preview
     /// <summary>A rectangle in points, y downwards.</summary>
     internal readonly struct Box
     {
-        public Box(double left, double top, double width, double height)
-        {
-            Left = left;
-            Top = top;
-            Width = width;
-            Height = height;
-        }
+        public Box(double left, double top, double width, double height) =>
+            (Left, Top, Width, Height) = (left, top, width, height);
 
         public double Left { get; }
 

@@ -2,26 +2,13 @@
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>A buffer of opaque colours. Immutable by convention, so that a texture made from it stays valid.
-    /// </summary>
-    internal sealed class ColourImage
+    /// <summary>A buffer of opaque colours. Immutable by convention: a texture made from it stays valid.</summary>
+    internal sealed record ColourImage(int Width, int Height)
     {
         public const int BytesPerPixel = 4;
 
-        public ColourImage(int width, int height)
-        {
-            Width = width;
-            Height = height;
-            Pixels = new byte[width * height * BytesPerPixel];
-        }
-
-        public int Width { get; }
-
-        public int Height { get; }
-
-        /// <summary>Red, green, blue and opacity of each pixel. The lowest row comes first, as in Unity's textures.
-        /// </summary>
-        public byte[] Pixels { get; }
+        /// <summary>Red, green, blue and opacity of each pixel. The lowest row is first, as in textures.</summary>
+        public byte[] Pixels { get; } = new byte[Width * Height * BytesPerPixel];
 
         /// <param name="y">0 is the lowest row.</param>
         public void Set(int x, int y, Colour colour)

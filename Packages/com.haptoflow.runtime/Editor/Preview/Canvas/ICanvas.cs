@@ -73,8 +73,7 @@ namespace HaptoFlow.Preview
         public static void FillCircle(this ICanvas canvas, double x, double y, double radius, Colour colour) =>
             canvas.FillRectangle(new Box(x - radius, y - radius, 2.0 * radius, 2.0 * radius), colour, radius);
 
-        /// <summary>The text, or as much of it as is no wider than <paramref name="width"/>, ending in an ellipsis.
-        /// </summary>
+        /// <summary>The text, or what of it is no wider than <paramref name="width"/>, ending in an ellipsis.</summary>
         public static string FitText(this ICanvas canvas, string text, double size, double width, bool bold = false)
         {
             if (canvas.MeasureText(text, size, bold) <= width)

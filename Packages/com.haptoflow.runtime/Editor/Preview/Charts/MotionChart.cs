@@ -7,8 +7,7 @@ namespace HaptoFlow.Preview
     /// <summary>Draws speed and force of a stroke over time; both are zero while the tip does not touch.</summary>
     internal static class MotionChart
     {
-        /// <param name="frame">The plot area; the axis of speed stands left of it, of force right, of time below.
-        /// </param>
+        /// <param name="frame">The plot area; the axis of speed is left of it, of force right, of time below.</param>
         public static void Draw(ICanvas canvas, Palette palette, Box frame, Stroke stroke)
         {
             double fastest = AxisNumbers.RoundUp(stroke.MaximumSpeedMps);

@@ -35,8 +35,7 @@ namespace HaptoFlow.Preview
         public static double Highest(Spectrum spectrum) =>
             spectrum.DecibelsBetween(Spectrum.MinimumHz, Spectrum.MaximumHz);
 
-        /// <summary>Each column of pixels shows the highest level of its band, so that no narrow peak is lost.
-        /// </summary>
+        /// <summary>Each column of pixels shows the highest level of its band: no narrow peak is lost.</summary>
         private static void DrawCurve(ICanvas canvas, Plot plot, Spectrum spectrum, Colour colour)
         {
             var points = new List<(double X, double Y)>();

@@ -5,27 +5,15 @@ using HaptoFlow.Recordings;
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>A recording and the material learnt from it, to be compared. Immutable by convention once submitted.
-    /// </summary>
-    internal sealed class ComparisonRequest
+    /// <summary>A recording and the material learnt from it, to be compared. Immutable once submitted.</summary>
+    /// <param name="ModelFile">Bytes of a whole .haptoflow file. Models are compared by reference.</param>
+    /// <param name="Recording">Recordings are compared by reference.</param>
+    internal sealed record ComparisonRequest(byte[] ModelFile, Recording Recording)
     {
-        public ComparisonRequest(byte[] modelFile, Recording recording)
-        {
-            ModelFile = modelFile;
-            Recording = recording;
-        }
-
-        /// <summary>Bytes of a whole .haptoflow file. Models are compared by reference.</summary>
-        public byte[] ModelFile { get; }
-
-        /// <summary>Recordings are compared by reference.</summary>
-        public Recording Recording { get; }
-
         /// <summary>The text of the learnt material's file; empty before one was learnt.</summary>
         public string Material { get; set; } = "";
 
-        /// <summary>Angle from the recording's first axis to the material's, which is perpendicular to its ribs.
-        /// </summary>
+        /// <summary>Angle from the recording's first axis to the material's, perpendicular to its ribs.</summary>
         public double TurnDegrees { get; set; }
 
         /// <summary>True to play the result at the recording's level.</summary>
@@ -36,28 +24,15 @@ namespace HaptoFlow.Preview
     }
 
     /// <summary>The output of a comparison. Immutable by convention.</summary>
-    internal sealed class ComparisonResult
+    /// <param name="Sounds">The recording, and after it the result if there is one.</param>
+    /// <param name="Problem">Why the result cannot be rendered; null if it can, or if there is none yet.</param>
+    internal sealed record ComparisonResult(
+        ComparisonRequest Request, IReadOnlyList<AnalysedSound> Sounds, string? Problem)
     {
-        public ComparisonResult(ComparisonRequest request, IReadOnlyList<AnalysedSound> sounds, string? problem)
-        {
-            Request = request;
-            Sounds = sounds;
-            Panel = new SoundPanel(sounds);
-            Problem = problem;
-        }
-
-        public ComparisonRequest Request { get; }
-
-        /// <summary>The recording, and after it the result if there is one.</summary>
-        public IReadOnlyList<AnalysedSound> Sounds { get; }
-
         /// <summary>Draws the sounds.</summary>
-        public SoundPanel Panel { get; }
+        public SoundPanel Panel { get; } = new SoundPanel(Sounds);
 
         /// <summary>Index of the sound that is played.</summary>
         public int Active => Math.Min(Request.Active, Sounds.Count - 1);
-
-        /// <summary>Why the result cannot be rendered; null if it can, or if there is none yet.</summary>
-        public string? Problem { get; }
     }
 }

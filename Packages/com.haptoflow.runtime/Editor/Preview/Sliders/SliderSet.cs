@@ -72,8 +72,7 @@ namespace HaptoFlow.Preview
 
         public IReadOnlyList<MaterialSlider> Sliders { get; }
 
-        /// <exception cref="HaptoFlowException">The text is not a file of sliders; the message names the key.
-        /// </exception>
+        /// <exception cref="HaptoFlowException">The text is no file of sliders; the message names the key.</exception>
         public static SliderSet Read(string text)
         {
             try

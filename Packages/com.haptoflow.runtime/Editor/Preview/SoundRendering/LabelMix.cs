@@ -87,11 +87,7 @@ namespace HaptoFlow.Preview
             }
         }
 
-        /// <exception cref="HaptoFlowException">The model lacks a label.</exception>
-        public LabelBlend ToBlend(LabelNames names) => ToBlend(names, -1);
-
-        /// <param name="registered">Index at which the first material was registered with the engine; -1 for a label.
-        /// </param>
+        /// <param name="registered">Index at which the engine registered the first material; -1 for a label.</param>
         /// <exception cref="HaptoFlowException">The model lacks a label.</exception>
         public LabelBlend ToBlend(LabelNames names, int registered)
         {
@@ -101,8 +97,7 @@ namespace HaptoFlow.Preview
 
         /// <summary>The text of a material file for the first material with the sliders' changes.</summary>
         /// <param name="sliders">Null if the model has none: then their positions are ignored.</param>
-        /// <exception cref="HaptoFlowException">The model lacks the label, or the text is not a material file.
-        /// </exception>
+        /// <exception cref="HaptoFlowException">The model lacks the label, or the text is no material file.</exception>
         public string MaterialText(HapticModel model, SliderSet? sliders)
         {
             string text = Learnt.Length > 0 ? Learnt : HaptoFlow.Model.MaterialText.OfLabel(model, First);

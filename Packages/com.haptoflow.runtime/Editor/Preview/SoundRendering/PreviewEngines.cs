@@ -57,8 +57,7 @@ namespace HaptoFlow.Preview
         /// <summary>Index of a learnt material in the engine that was created last. Registers the material first if
         /// necessary, in place of the oldest one if there are too many.</summary>
         /// <param name="text">The text of a material file.</param>
-        /// <exception cref="HaptoFlowException">The text is not a material file, or was learnt for another model.
-        /// </exception>
+        /// <exception cref="HaptoFlowException">The text is no material file, or learnt for another model.</exception>
         public int MaterialIndex(string text)
         {
             int known = materials.FindIndex(each => each.Text == text);

@@ -11,8 +11,7 @@ namespace HaptoFlow.Preview
         /// its first sample, run inference, render the samples up to the next state. Never the main thread.</summary>
         /// <param name="engine">Without worker. If no voice was opened in it before and its lead is fixed, the samples
         /// depend only on stroke and seed.</param>
-        /// <param name="surface">Material, effects, feature scale and tone of the surface; its motion is ignored.
-        /// </param>
+        /// <param name="surface">Material, effects, feature scale, tone of the surface; its motion is ignored.</param>
         /// <returns>Samples at <see cref="PreviewSound.RateHz"/>, as long as the stroke.</returns>
         /// <exception cref="OperationCanceledException">The token was cancelled.</exception>
         public static float[] Render(

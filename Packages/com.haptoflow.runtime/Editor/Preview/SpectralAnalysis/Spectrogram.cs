@@ -12,13 +12,8 @@ namespace HaptoFlow.Preview
 
         private readonly float[] decibels;
 
-        private Spectrogram(float[] decibels, int columns, int rows, double hertzPerRow)
-        {
-            this.decibels = decibels;
-            Columns = columns;
-            Rows = rows;
-            HertzPerRow = hertzPerRow;
-        }
+        private Spectrogram(float[] decibels, int columns, int rows, double hertzPerRow) =>
+            (this.decibels, Columns, Rows, HertzPerRow) = (decibels, columns, rows, hertzPerRow);
 
         /// <summary>Number of windows, spread evenly over the sound's length.</summary>
         public int Columns { get; }

@@ -15,11 +15,8 @@ namespace HaptoFlow.Preview
 
         private readonly double[] densities;
 
-        private Spectrum(double[] densities, double hertzPerBin)
-        {
-            this.densities = densities;
-            HertzPerBin = hertzPerBin;
-        }
+        private Spectrum(double[] densities, double hertzPerBin) =>
+            (this.densities, HertzPerBin) = (densities, hertzPerBin);
 
         public double HertzPerBin { get; }
 

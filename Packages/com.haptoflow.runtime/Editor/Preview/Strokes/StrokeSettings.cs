@@ -5,8 +5,7 @@ namespace HaptoFlow.Preview
     /// <summary>Predefined strokes.</summary>
     internal enum StrokePreset
     {
-        /// <summary>Constant speed and direction. A path that leaves the patch enters again at the opposite edge.
-        /// </summary>
+        /// <summary>Constant speed and direction. A path that leaves the patch enters at the opposite edge.</summary>
         Slide = 0,
 
         /// <summary>Back and forth: full speed in the middle, zero at the turning points.</summary>

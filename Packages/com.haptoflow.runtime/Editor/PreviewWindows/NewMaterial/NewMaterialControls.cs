@@ -83,12 +83,7 @@ namespace HaptoFlow.Editor
             }
             float before = EditorGUIUtility.labelWidth;
             EditorGUIUtility.labelWidth = LabelWidth;
-            var chosen = (HapticModelAsset?)EditorGUILayout.ObjectField(
-                Model, state.Model, typeof(HapticModelAsset), false);
-            if (chosen != state.Model)
-            {
-                state.Change("Model", changed => changed.Model = chosen);
-            }
+            state.DrawModel(Model);
             if (GUILayout.Button(Choose))
             {
                 ChoosePressed?.Invoke();
@@ -201,11 +196,8 @@ namespace HaptoFlow.Editor
                 {
                     player.Toggle();
                 }
-                int side = GUILayout.Toolbar(state.Active, Sides);
-                if (side != state.Active)
-                {
-                    state.Change("Side", changed => changed.Active = side);
-                }
+                state.Enter("Side", state.Active, GUILayout.Toolbar(state.Active, Sides),
+                    (changed, side) => changed.Active = side);
             }
             using (new EditorGUILayout.HorizontalScope())
             {
@@ -235,30 +227,15 @@ namespace HaptoFlow.Editor
             using (new EditorGUI.DisabledScope(isKnown))
             {
                 float entered = Mathf.Clamp(EditorGUILayout.FloatField(title, value), 0f, maximum);
-                if (!entered.Equals(value) && !float.IsNaN(entered))
-                {
-                    state.Change(title.text.Split(' ')[0], changed => change(changed, entered));
-                }
+                state.Enter(title.text.Split(' ')[0], value, float.IsNaN(entered) ? value : entered, change);
             }
         }
 
-        private void DrawText(GUIContent title, string value, Action<NewMaterialState, string> change)
-        {
-            string entered = EditorGUILayout.TextField(title, value);
-            if (entered != value)
-            {
-                state.Change(title.text, changed => change(changed, entered));
-            }
-        }
+        private void DrawText(GUIContent title, string value, Action<NewMaterialState, string> change) =>
+            state.Enter(title.text, value, EditorGUILayout.TextField(title, value), change);
 
-        private void DrawSwitch(GUIContent title, bool value, Action<NewMaterialState, bool> change)
-        {
-            bool entered = GUILayout.Toggle(value, title);
-            if (entered != value)
-            {
-                state.Change(title.text, changed => change(changed, entered));
-            }
-        }
+        private void DrawSwitch(GUIContent title, bool value, Action<NewMaterialState, bool> change) =>
+            state.Enter(title.text, value, GUILayout.Toggle(value, title), change);
 
         private static string Text(string format, params object[] values) =>
             string.Format(CultureInfo.InvariantCulture, format, values);

@@ -1,6 +1,5 @@
 #nullable enable
 using System;
-using HaptoFlow.Model;
 using HaptoFlow.Preview;
 using HaptoFlow.Recordings;
 using UnityEngine;
@@ -19,7 +18,6 @@ namespace HaptoFlow.Editor
         private (string Path, float FullScale) requested;
         private (Recording, string Material, bool Matches, int Active, byte[])? compared;
         private (Recording? File, float Speed, float Force) completedOf;
-        private HapticLearning? learning;
         private string? failure;
 
         public NewMaterialSession(NewMaterialState state)
@@ -39,7 +37,7 @@ namespace HaptoFlow.Editor
         public ComparisonResult? Shown { get; private set; }
 
         /// <summary>The running learning; null if none runs.</summary>
-        public HapticLearning? Learning => learning;
+        public HapticLearning? Learning { get; private set; }
 
         /// <summary>True while a recording is read or rendered.</summary>
         public bool IsBusy => reading.IsBusy || comparing.IsBusy;
@@ -90,14 +88,14 @@ namespace HaptoFlow.Editor
         /// <summary>Starts learning in the background.</summary>
         public void Learn(HapticModelAsset model)
         {
-            if (learning != null || Obstacle(model) != null)
+            if (Learning != null || Obstacle(model) != null)
             {
                 return;
             }
             failure = null;
             try
             {
-                learning = HapticLearning.Start(model.File, Recording!, new LearningOptions
+                Learning = HapticLearning.Start(model.File, Recording!, new LearningOptions
                 {
                     Name = state.Name.Trim().ToLowerInvariant(),
                     Category = state.Category.Trim(),
@@ -112,7 +110,7 @@ namespace HaptoFlow.Editor
         }
 
         /// <summary>Stops learning; an earlier result is kept.</summary>
-        public void Cancel() => learning?.Cancel();
+        public void Cancel() => Learning?.Cancel();
 
         /// <summary>Takes finished results.</summary>
         /// <returns>True if the window must be drawn again.</returns>
@@ -144,22 +142,22 @@ namespace HaptoFlow.Editor
             do
             {
                 refresh();
-                learning?.Wait();
+                Learning?.Wait();
                 reading.Wait();
                 comparing.Wait();
                 Poll();
                 refresh();
             }
-            while (IsBusy || learning != null);
+            while (IsBusy || Learning != null);
         }
 
         /// <summary>Cancels everything and blocks until it ends, because native calls must not outlive a domain reload.
         /// </summary>
         public void Dispose()
         {
-            learning?.Cancel();
-            learning?.Wait();
-            learning = null;
+            Learning?.Cancel();
+            Learning?.Wait();
+            Learning = null;
             reading.Dispose();
             comparing.Dispose();
             worker.Dispose();
@@ -204,12 +202,12 @@ namespace HaptoFlow.Editor
 
         private bool PollLearning()
         {
-            if (learning == null || !learning.IsCompleted)
+            if (Learning == null || !Learning.IsCompleted)
             {
-                return learning != null;
+                return Learning != null;
             }
-            HapticLearning ended = learning;
-            learning = null;
+            HapticLearning ended = Learning;
+            Learning = null;
             if (ended.Material is { } material)
             {
                 state.Change("Material", changed =>

@@ -1,20 +1,14 @@
 #nullable enable
-using System;
-using UnityEditor;
 using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
     /// <summary>The settings of the New Material window, with undo. Also holds the learnt material, which thus survives
     /// domain reloads and errors.</summary>
-    internal sealed class NewMaterialState : ScriptableObject
+    internal sealed class NewMaterialState : PreviewState<NewMaterialState>
     {
         public const float MaximumSpeedMps = 10f;
         public const float MaximumForceNewtons = 100f;
-
-        /// <summary>Null for the project's model.</summary>
-        [field: SerializeField]
-        public HapticModelAsset? Model { get; set; }
 
         /// <summary>Path of the recording's file; empty until one is chosen.</summary>
         [field: SerializeField]
@@ -61,22 +55,6 @@ namespace HaptoFlow.Editor
         [field: SerializeField]
         public int Active { get; set; } = 1;
 
-        [field: SerializeField]
-        public bool Loops { get; set; }
-
-        /// <summary>Changes whenever a setting may have changed.</summary>
-        public int Version { get; private set; }
-
-        /// <summary>Makes a change that can be undone.</summary>
-        /// <param name="what">Completes the name of the undo step, for example "Speed".</param>
-        public void Change(string what, Action<NewMaterialState> change)
-        {
-            Undo.RecordObject(this, "New Material " + what);
-            change(this);
-            ++Version;
-        }
-
-        /// <summary>Call this after an undo or redo.</summary>
-        public void MarkChanged() => ++Version;
+        protected override string WindowName => "New Material";
     }
 }

@@ -9,114 +9,59 @@ namespace HaptoFlow.Editor
 {
     /// <summary>Window > HaptoFlow > New Material from Recording: learns a material from a recording of ten seconds,
     /// compares both, and saves the material as an asset. Learning and rendering run in the background.</summary>
-    internal sealed class NewMaterialWindow : EditorWindow
+    internal sealed class NewMaterialWindow : PreviewWindow<NewMaterialState>
     {
-        private const float Width = 1200f;
-        private const float Height = 760f;
-
-        // A smaller window scrolls.
-        private const float MinimumWidth = 480f;
-        private const float MinimumHeight = 320f;
-
         private static readonly string[] FileFilters = { "Recordings", "csv,wav" };
-
-        [SerializeField]
-        private NewMaterialState? state;
 
         private EditorPicture? picture;
         private NewMaterialControls? controls;
-        private NewMaterialPlayer? player;
-        private PreviewView? view;
-        private Vector2 scroll;
-
-        /// <summary>For scripts and tests that control the window.</summary>
-        internal NewMaterialState State => state!;
 
         /// <summary>Null while the window is closed.</summary>
         internal NewMaterialSession? Session { get; private set; }
 
         /// <summary>Null while the window is closed.</summary>
-        internal NewMaterialPlayer? Player => player;
+        internal NewMaterialPlayer? Player { get; private set; }
 
         [MenuItem("Window/HaptoFlow/New Material from Recording", false, 2101)]
-        internal static void Open()
-        {
-            bool isNew = !HasOpenInstances<NewMaterialWindow>();
-            var window = GetWindow<NewMaterialWindow>();
-            if (isNew)
-            {
-                Rect place = window.position;
-                window.position = new Rect(place.x, place.y, Width, Height);
-            }
-        }
+        internal static void Open() => Open<NewMaterialWindow>(1200f, 760f);
 
-        private void OnEnable()
+        protected override PreviewRoom Room => PreviewRoom.WithoutStroke;
+
+        protected override bool IsOpen => Session != null;
+
+        protected override void OnEnable()
         {
+            base.OnEnable();
             titleContent = new GUIContent("New Material");
-            minSize = new Vector2(MinimumWidth, MinimumHeight);
-            if (state == null)
-            {
-                state = CreateInstance<NewMaterialState>();
-                state.hideFlags = HideFlags.HideAndDontSave;
-            }
-            Session = new NewMaterialSession(state);
+        }
+
+        protected override void Begin()
+        {
+            Session = new NewMaterialSession(State);
             picture = new EditorPicture(DrawCharts);
-            player = new NewMaterialPlayer(state, Session);
-            controls = new NewMaterialControls(state);
-            // A modal dialog within OnGUI would disturb the layout, so that it opens after the event.
-            controls.ChoosePressed += () => EditorApplication.delayCall += Choose;
+            Player = new NewMaterialPlayer(State, Session);
+            controls = new NewMaterialControls(State);
+            controls.ChoosePressed += () => Later(Choose);
             controls.LearnPressed += Learn;
-            controls.SavePressed += () => EditorApplication.delayCall += Save;
-            controls.ExportPressed += () => EditorApplication.delayCall += Export;
-            Undo.undoRedoPerformed += OnUndo;
-            EditorApplication.update += Step;
-            AssemblyReloadEvents.beforeAssemblyReload += Release;
+            controls.SavePressed += () => Later(Save);
+            controls.ExportPressed += () => Later(Export);
         }
 
-        private void OnDisable()
-        {
-            Undo.undoRedoPerformed -= OnUndo;
-            EditorApplication.update -= Step;
-            AssemblyReloadEvents.beforeAssemblyReload -= Release;
-            Release();
-        }
+        protected override void DrawControls() => controls!.Draw(Session!, Player!, ModelInUse());
 
-        private void OnDestroy()
+        protected override void DrawPictures(PreviewLayout layout)
         {
-            if (state != null)
+            if (Session!.Shown is { } shown)
             {
-                DestroyImmediate(state);
-            }
-        }
-
-        private void OnGUI()
-        {
-            if (Session == null)
-            {
-                return;
-            }
-            view = PreviewView.Of(position, PreviewRoom.WithoutStroke, view);
-            PreviewLayout layout = view.Layout;
-            var all = new Rect(0f, 0f, (float)layout.Width, (float)layout.Height);
-            var window = new Rect(0f, 0f, position.width, position.height);
-            using var scrolled = new GUI.ScrollViewScope(window, scroll, all);
-            scroll = scrolled.scrollPosition;
-            using (new GUILayout.AreaScope(layout.Controls.ToRect()))
-            {
-                controls!.Draw(Session, player!, ModelInUse());
-            }
-            if (Session.Shown is { } shown)
-            {
-                picture!.OnGUI(shown, view);
-                if (player!.PlayedSeconds is { } seconds)
+                picture!.OnGUI(shown, View);
+                if (Player!.PlayedSeconds is { } seconds)
                 {
-                    Playhead.DrawLines(layout.Charts, shown.Sounds, seconds, view.Palette);
+                    Playhead.DrawLines(layout.Charts, shown.Sounds, seconds, View.Palette);
                 }
             }
         }
 
-        /// <summary>Called at each editor update: submits changes, takes results, and continues playback.</summary>
-        internal void Step()
+        internal override void Step()
         {
             if (Session == null)
             {
@@ -124,7 +69,7 @@ namespace HaptoFlow.Editor
             }
             bool isOther = Session.Poll();
             Session.Refresh(ModelInUse());
-            if (player!.Step() || isOther)
+            if (Player!.Step() || isOther)
             {
                 Repaint();
             }
@@ -134,7 +79,7 @@ namespace HaptoFlow.Editor
         internal void Finish()
         {
             Session!.Finish(() => Session.Refresh(ModelInUse()));
-            player!.Step();
+            Player!.Step();
             Repaint();
         }
 
@@ -203,24 +148,15 @@ namespace HaptoFlow.Editor
             return MaterialSummary.NearestLabel(ModelInUse(), MaterialFile.Read(State.Material)) ?? unknown;
         }
 
-        private HapticModelAsset? ModelInUse() => State.Model != null ? State.Model : LabelCatalog.ModelInUse();
-
-        private void OnUndo()
-        {
-            State.MarkChanged();
-            Repaint();
-        }
-
         private void DrawCharts(ICanvas canvas)
         {
             ComparisonResult shown = Session!.Shown!;
-            shown.Panel.Draw(canvas, view!.Palette, view.Layout.Charts, shown.Active);
+            shown.Panel.Draw(canvas, View.Palette, View.Layout.Charts, shown.Active);
         }
 
-        /// <summary>Frees everything that would outlive a domain reload.</summary>
-        private void Release()
+        protected override void Release()
         {
-            player?.Stop();
+            Player?.Stop();
             Session?.Dispose();
             Session = null;
             picture?.Release();

@@ -7,20 +7,10 @@ using HaptoFlow.Recordings;
 namespace HaptoFlow.Editor
 {
     /// <summary>The result of reading a recording's file in the background.</summary>
-    internal sealed class RecordingFile
+    /// <param name="Recording">Null if the file cannot be read.</param>
+    /// <param name="Problem">What is wrong with the file and what was expected; null on success.</param>
+    internal sealed record RecordingFile(Recording? Recording, string? Problem)
     {
-        private RecordingFile(Recording? recording, string? problem)
-        {
-            Recording = recording;
-            Problem = problem;
-        }
-
-        /// <summary>Null if the file cannot be read.</summary>
-        public Recording? Recording { get; }
-
-        /// <summary>What is wrong with the file and what was expected; null on success.</summary>
-        public string? Problem { get; }
-
         /// <summary>Reads a file; the work of a <see cref="LatestTask{TRequest,TResult}"/>.</summary>
         public static RecordingFile Read(Request request, CancellationToken token)
         {
@@ -40,17 +30,6 @@ namespace HaptoFlow.Editor
         }
 
         /// <summary>A file to read, and its full scale if it was entered.</summary>
-        internal sealed class Request
-        {
-            public Request(string path, double? fullScaleMps2)
-            {
-                Path = path;
-                FullScaleMps2 = fullScaleMps2;
-            }
-
-            public string Path { get; }
-
-            public double? FullScaleMps2 { get; }
-        }
+        internal sealed record Request(string Path, double? FullScaleMps2);
     }
 }

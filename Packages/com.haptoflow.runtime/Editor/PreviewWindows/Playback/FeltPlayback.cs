@@ -1,6 +1,4 @@
 #nullable enable
-using System;
-using System.Collections.Generic;
 using HaptoFlow.Outputs;
 using HaptoFlow.Preview;
 using UnityEngine;
@@ -16,8 +14,7 @@ namespace HaptoFlow.Editor
         Gamepad = 3,
     }
 
-    /// <summary>Plays a sound on a connected device, at the level that a scene's outputs have by default. Main thread.
-    /// </summary>
+    /// <summary>Plays a sound on a connected device, at the default level of a scene's outputs. Main thread.</summary>
     internal sealed class FeltPlayback
     {
         private const double SearchIntervalSeconds = 0.5;
@@ -26,9 +23,7 @@ namespace HaptoFlow.Editor
         private const float YieldSeconds = 0.25f;
 
         private readonly SoundWave wave = new SoundWave();
-        private readonly List<HapticSinks.OpenSink> sinks = new List<HapticSinks.OpenSink>();
-        private HapticSinks.OpenSink? used;
-        private HapticQueue? queue;
+        private readonly HeldDevice held = new HeldDevice();
         private FeltDevice device;
         private int routes;
         private double nextSearchSeconds;
@@ -63,15 +58,15 @@ namespace HaptoFlow.Editor
                 {
                     return "";
                 }
-                if (queue == null || !used!.Value.Sink.TryGetCapabilities(out _))
+                if (!held.IsThere)
                 {
                     return device == FeltDevice.Gamepad
                         ? GamepadSinks.IsSupported ? "no gamepad is connected" : "needs the package Input System"
                         : Application.isPlaying ? "no haptic device in this hand" : "found in Play mode only";
                 }
-                string form = used!.Value.Form == HapticForm.Waveform ? "waveform" : "envelope";
-                long gaps = queue.Statistics.Gaps;
-                return $"{used.Value.Sink.Name}, {form}" + (gaps > 0 ? $", {gaps} gaps" : "");
+                string form = held.Form == HapticForm.Waveform ? "waveform" : "envelope";
+                long gaps = held.Queue!.Statistics.Gaps;
+                return $"{held.Sink!.Name}, {form}" + (gaps > 0 ? $", {gaps} gaps" : "");
             }
         }
 
@@ -83,7 +78,7 @@ namespace HaptoFlow.Editor
         public void Stop()
         {
             wave.Stop();
-            queue?.Flush(Time.realtimeSinceStartupAsDouble);
+            held.Flush();
         }
 
         /// <summary>Call this at each editor update.</summary>
@@ -108,7 +103,7 @@ namespace HaptoFlow.Editor
             {
                 Haptics.Yield(Hand, YieldSeconds);
             }
-            if (queue != null)
+            if (held.Queue is { } queue)
             {
                 HaptoFlowSettings? settings = ProjectSettingsAsset.Find();
                 queue.Ceiling = settings != null ? settings.Ceiling : 1f;
@@ -119,15 +114,7 @@ namespace HaptoFlow.Editor
         /// <summary>Stops and forgets the device.</summary>
         public void Close()
         {
-            queue?.Flush(Time.realtimeSinceStartupAsDouble);
-            queue?.Dispose();
-            queue = null;
-            used = null;
-            foreach (HapticSinks.OpenSink each in sinks)
-            {
-                (each.Sink as IDisposable)?.Dispose();
-            }
-            sinks.Clear();
+            held.Close();
             routes = 0;
         }
 
@@ -137,28 +124,23 @@ namespace HaptoFlow.Editor
         {
             // Play mode registers routes.
             int present = HapticSinks.Names().Count;
-            if (sinks.Count == 0 || routes != present)
+            if (!held.HasSinks || routes != present)
             {
                 Close();
                 routes = present;
                 if (device == FeltDevice.Gamepad)
                 {
-                    GamepadSinks.Open(sinks);
+                    GamepadSinks.Open(held);
                 }
                 else
                 {
-                    HapticSinks.OpenBest(Hand, sinks);
+                    HapticSinks.OpenBest(Hand, held);
                 }
             }
-            if (HapticSinks.TryFind(sinks, out HapticSinks.OpenSink found) &&
-                !ReferenceEquals(found.Sink, used?.Sink))
+            if (held.Find(wave))
             {
-                queue?.Flush(Time.realtimeSinceStartupAsDouble);
-                queue?.Dispose();
-                used = found;
-                queue = HapticQueue.For(found.Form, found.Sink, wave);
-                queue.TrueLevel = false;
-                queue.FullScaleMps2 = PreviewSound.FullScaleMps2;
+                held.Queue!.TrueLevel = false;
+                held.Queue.FullScaleMps2 = PreviewSound.FullScaleMps2;
             }
         }
     }

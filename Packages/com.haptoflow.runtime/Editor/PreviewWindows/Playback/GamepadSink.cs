@@ -1,5 +1,4 @@
 #nullable enable
-using System.Collections.Generic;
 using HaptoFlow.Outputs;
 #if HAPTOFLOW_INPUT_SYSTEM
 using UnityEngine;
@@ -14,12 +13,11 @@ namespace HaptoFlow.Editor
 #if HAPTOFLOW_INPUT_SYSTEM
         public const bool IsSupported = true;
 
-        public static void Open(List<HapticSinks.OpenSink> into) =>
-            into.Add(new HapticSinks.OpenSink(HapticForm.Amplitude, new GamepadSink()));
+        public static void Open(HeldDevice into) => into.Add(HapticForm.Amplitude, new GamepadSink());
 #else
         public const bool IsSupported = false;
 
-        public static void Open(List<HapticSinks.OpenSink> into)
+        public static void Open(HeldDevice into)
         {
         }
 #endif

@@ -1,17 +1,15 @@
 #nullable enable
 using System;
+using System.Collections.Generic;
 using HaptoFlow.Preview;
 using UnityEditor;
 using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Plays the active sound, and continues with its replacement at the same position. Main thread.</summary>
-    internal sealed class PreviewPlayer
+    /// <summary>Plays the active sound of the Texture Preview, also on a device. Main thread.</summary>
+    internal sealed class PreviewPlayer : SoundPlayer
     {
-        /// <summary>Peak of the louder sound after normalising.</summary>
-        public const float RaisedPeak = 0.9f;
-
         private static readonly GUIContent Play = new GUIContent("Play", "Plays or stops. Key Space.");
         private static readonly GUIContent Stopping = new GUIContent("Stop", "Plays or stops. Key Space.");
         private static readonly GUIContent Loop =
@@ -35,70 +33,30 @@ namespace HaptoFlow.Editor
 
         private readonly TexturePreviewState state;
         private readonly PreviewSession session;
-        private readonly PreviewSpeaker speaker = new PreviewSpeaker();
         private readonly FeltPlayback felt = new FeltPlayback();
-        private AnalysedSound? playing;
-        private bool raised;
-        private bool looped;
-        private bool waits;
-        private bool wasPlaying;
 
-        public PreviewPlayer(TexturePreviewState state, PreviewSession session)
-        {
-            this.state = state;
-            this.session = session;
-        }
-
-        /// <summary>The active sound; null if nothing was rendered.</summary>
-        public AnalysedSound? PlayedSound =>
-            session.Shown != null && state.PlayedIndex < session.Shown.Sounds.Count
-                ? session.Shown.Sounds[state.PlayedIndex]
-                : null;
-
-        /// <summary>Position of playback; null while nothing plays.</summary>
-        public double? PlayedSeconds => IsPlaying ? PositionSamples / (double)PreviewSound.RateHz : (double?)null;
+        public PreviewPlayer(TexturePreviewState state, PreviewSession session) =>
+            (this.state, this.session) = (state, session);
 
         // Where the editor cannot play clips, a device still can.
-        public bool IsPlaying => speaker.IsPlaying || (!speaker.IsAvailable && felt.IsPlaying);
+        public override bool IsPlaying => base.IsPlaying || (!Speaker.IsAvailable && felt.IsPlaying);
 
         /// <summary>Gain of playback.</summary>
-        public float Gain
-        {
-            get
-            {
-                float peak = 0f;
-                if (session.Shown != null)
-                {
-                    foreach (AnalysedSound sound in session.Shown.Sounds)
-                    {
-                        peak = Mathf.Max(peak, sound.Sound.Peak);
-                    }
-                }
-                return state.Raises && peak > 0f ? Mathf.Max(1f, RaisedPeak / peak) : 1f;
-            }
-        }
+        public override float Gain => state.Raises && Peak > 0f ? Mathf.Max(1f, RaisedPeak / Peak) : 1f;
 
-        /// <summary>Plays from the beginning, or stops.</summary>
-        public void Toggle()
-        {
-            if (IsPlaying)
-            {
-                Stop();
-            }
-            else
-            {
-                PlayWhenReady();
-            }
-        }
+        protected override IReadOnlyList<AnalysedSound> Sounds => session.Shown?.Sounds ?? Array.Empty<AnalysedSound>();
 
-        /// <summary>Plays as soon as the present settings are rendered.</summary>
-        public void PlayWhenReady() => waits = true;
+        protected override int Index => state.PlayedIndex;
 
-        public void Stop()
+        protected override (bool Raises, bool Loops) Mode => (state.Raises, state.Loops);
+
+        protected override bool IsFinal => session.IsFinal;
+
+        protected override int PositionSamples => base.IsPlaying ? base.PositionSamples : felt.PositionSamples;
+
+        public override void Stop()
         {
-            waits = false;
-            playing = null;
-            speaker.Stop();
+            base.Stop();
             felt.Stop();
         }
 
@@ -109,27 +67,12 @@ namespace HaptoFlow.Editor
             felt.Close();
         }
 
-        /// <summary>Call this at each editor update.</summary>
-        /// <returns>True if the window must be drawn again.</returns>
-        public bool Step()
+        /// <inheritdoc/>
+        public override bool Step()
         {
             felt.Device = state.FeltOn;
-            if (waits && session.IsFinal && PlayedSound != null)
-            {
-                waits = false;
-                Start(0);
-            }
-            else if (IsPlaying && session.IsFinal && PlayedSound != null && IsOther())
-            {
-                Start(PositionSamples);
-            }
-            else if (playing != null && !IsPlaying)
-            {
-                Stop();
-            }
-            felt.Step(speaker.IsPlaying ? speaker.PositionSamples : (int?)null);
-            bool moved = wasPlaying || IsPlaying;
-            wasPlaying = IsPlaying;
+            bool moved = base.Step();
+            felt.Step(Speaker.IsPlaying ? Speaker.PositionSamples : (int?)null);
             return moved;
         }
 
@@ -144,11 +87,9 @@ namespace HaptoFlow.Editor
                 }
                 using (new EditorGUI.DisabledScope(!state.Compares && !state.ShowsDevice))
                 {
-                    int side = GUILayout.Toolbar(state.PlayedIndex, Sides, GUILayout.Width(64f));
-                    if (side != state.PlayedIndex)
-                    {
-                        state.Change("Material", changed => changed.Active = side);
-                    }
+                    state.Enter("Material", state.PlayedIndex,
+                        GUILayout.Toolbar(state.PlayedIndex, Sides, GUILayout.Width(64f)),
+                        (changed, side) => changed.Active = side);
                 }
                 if (GUILayout.Button(ExportButton))
                 {
@@ -175,44 +116,28 @@ namespace HaptoFlow.Editor
             {
                 float before = EditorGUIUtility.labelWidth;
                 EditorGUIUtility.labelWidth = 56f;
-                int entered = EditorGUILayout.Popup(FeelOn, (int)state.FeltOn, FeltNames, GUILayout.Width(148f));
+                state.Enter("Device", (int)state.FeltOn,
+                    EditorGUILayout.Popup(FeelOn, (int)state.FeltOn, FeltNames, GUILayout.Width(148f)),
+                    (changed, device) => changed.FeltOn = (FeltDevice)device);
                 EditorGUIUtility.labelWidth = before;
-                if (entered != (int)state.FeltOn)
-                {
-                    state.Change("Device", changed => changed.FeltOn = (FeltDevice)entered);
-                }
                 GUILayout.Label(felt.Remark, EditorStyles.miniLabel);
             }
         }
 
-        private void DrawSwitch(GUIContent title, bool value, Action<TexturePreviewState, bool> change)
-        {
-            bool entered = GUILayout.Toggle(value, title, GUILayout.Width(84f));
-            if (entered != value)
-            {
-                state.Change(title.text, changed => change(changed, entered));
-            }
-        }
+        private void DrawSwitch(GUIContent title, bool value, Action<TexturePreviewState, bool> change) =>
+            state.Enter(title.text, value, GUILayout.Toggle(value, title, GUILayout.Width(84f)), change);
 
-        private string Remark() => !speaker.IsAvailable
+        private string Remark() => !Speaker.IsAvailable
             ? "this editor cannot play clips; export instead"
             : session.IsBusy
                 ? "rendering\u2026"
                 : Gain > 1f ? AxisNumbers.Text(20.0 * Math.Log10(Gain), 0, true) + " dB" : "";
 
-        private int PositionSamples => speaker.IsPlaying ? speaker.PositionSamples : felt.PositionSamples;
-
-        private bool IsOther() =>
-            !ReferenceEquals(PlayedSound, playing) || raised != state.Raises || looped != state.Loops;
-
-        private void Start(int sample)
+        protected override void Start(AnalysedSound sound, int sample)
         {
-            playing = PlayedSound;
-            raised = state.Raises;
-            looped = state.Loops;
-            speaker.Play(playing!.Sound, Gain, sample, looped);
+            base.Start(sound, sample);
             // A simulated device's sound on a real device would be that of two devices.
-            felt.Play(state.ShowsDevice ? session.Shown!.Sounds[0].Sound : playing.Sound, sample, looped);
+            felt.Play(state.ShowsDevice ? Sounds[0].Sound : sound.Sound, sample, state.Loops);
         }
     }
 }

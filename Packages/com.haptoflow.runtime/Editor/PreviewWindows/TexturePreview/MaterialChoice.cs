@@ -31,8 +31,7 @@ namespace HaptoFlow.Editor
         [field: SerializeField]
         public float Share { get; set; } = 0.5f;
 
-        /// <summary>Positions of the sliders; empty if they are all 0. Set a new array instead of changing elements.
-        /// </summary>
+        /// <summary>Positions of the sliders; empty if all are 0. Set a new array, do not change elements.</summary>
         [field: SerializeField]
         public float[] Moves { get; set; } = Array.Empty<float>();
 
@@ -62,8 +61,7 @@ namespace HaptoFlow.Editor
             set => learnt = value;
         }
 
-        /// <summary>Chooses the material of a mix, with its feature scale and tone; the other sliders are reset.
-        /// </summary>
+        /// <summary>Chooses the material of a mix, its feature scale and tone; resets the other sliders.</summary>
         public void Take(LabelMix mix, HapticMaterial? material)
         {
             Label = mix.First;

@@ -82,16 +82,12 @@ namespace HaptoFlow.Editor
             }
             float before = EditorGUIUtility.labelWidth;
             EditorGUIUtility.labelWidth = LabelWidth;
-            var chosen = (HapticModelAsset?)EditorGUILayout.ObjectField(
-                Model, state.Model, typeof(HapticModelAsset), false);
-            if (chosen != state.Model)
-            {
-                state.Change("Model", changed => changed.Model = chosen);
-            }
+            state.DrawModel(Model);
             DrawMaterial(First, state.First, model, 0);
             using (new EditorGUI.DisabledScope(state.ShowsDevice))
             {
-                DrawToggle(Compare, state.Compares, (changed, value) => changed.Compares = value);
+                state.Enter("Compare", state.Compares, EditorGUILayout.Toggle(Compare, state.Compares),
+                    (changed, value) => changed.Compares = value);
             }
             if (compares)
             {
@@ -101,7 +97,9 @@ namespace HaptoFlow.Editor
             DrawStroke();
             DrawEffects();
             EditorGUILayout.Space(4f);
-            DrawDevice();
+            int device = (int)state.Device;
+            state.Enter("Device", device, EditorGUILayout.Popup(Device, device, DeviceNames),
+                (changed, value) => changed.Device = (PreviewDevice)value);
             DrawQuality(model);
             EditorGUIUtility.labelWidth = before;
         }
@@ -120,11 +118,9 @@ namespace HaptoFlow.Editor
 
         private void DrawStroke()
         {
-            int preset = EditorGUILayout.Popup(StrokeChoice, (int)state.Preset, StrokeNames);
-            if (preset != (int)state.Preset)
-            {
-                state.Change("Stroke", changed => changed.Preset = (StrokePreset)preset);
-            }
+            int preset = (int)state.Preset;
+            state.Enter("Stroke", preset, EditorGUILayout.Popup(StrokeChoice, preset, StrokeNames),
+                (changed, value) => changed.Preset = (StrokePreset)value);
             DrawSlider(Speed, state.SpeedMps, TexturePreviewState.MinimumSpeedMps, TexturePreviewState.MaximumSpeedMps,
                 (changed, value) => changed.SpeedMps = value);
             DrawSlider(Force, state.ForceNewtons, TexturePreviewState.MinimumForceNewtons,
@@ -148,58 +144,24 @@ namespace HaptoFlow.Editor
             DrawEffect(rest, 2, state.HasEdge, (changed, value) => changed.HasEdge = value);
         }
 
-        private void DrawEffect(Rect place, int index, bool value, Action<TexturePreviewState, bool> change)
-        {
-            bool entered = EditorGUI.ToggleLeft(place, EffectTitles[index], value);
-            if (entered != value)
-            {
-                state.Change(EffectTitles[index].text, changed => change(changed, entered));
-            }
-        }
-
-        private void DrawDevice()
-        {
-            int device = EditorGUILayout.Popup(Device, (int)state.Device, DeviceNames);
-            if (device != (int)state.Device)
-            {
-                state.Change("Device", changed => changed.Device = (PreviewDevice)device);
-            }
-        }
+        private void DrawEffect(Rect place, int index, bool value, Action<TexturePreviewState, bool> change) =>
+            state.Enter(
+                EffectTitles[index].text, value, EditorGUI.ToggleLeft(place, EffectTitles[index], value), change);
 
         private void DrawQuality(PreviewModel model)
         {
             string[] tiers = model.Tiers.ToArray();
             int present = Array.IndexOf(tiers, model.TierOrDefault(state.Tier));
-            int tier = EditorGUILayout.Popup(Quality, present, tiers);
-            if (tier != present)
-            {
-                state.Change("Quality", changed => changed.Tier = tiers[tier]);
-            }
-            int seed = EditorGUILayout.IntField(Seed, state.Seed);
-            if (seed != state.Seed)
-            {
-                state.Change("Seed", changed => changed.Seed = seed);
-            }
+            state.Enter("Quality", present, EditorGUILayout.Popup(Quality, present, tiers),
+                (changed, tier) => changed.Tier = tiers[tier]);
+            state.Enter("Seed", state.Seed, EditorGUILayout.IntField(Seed, state.Seed),
+                (changed, seed) => changed.Seed = seed);
         }
 
         private void DrawSlider(GUIContent title, float value, float minimum, float maximum,
-            Action<TexturePreviewState, float> change)
-        {
-            float entered = EditorGUILayout.Slider(title, value, minimum, maximum);
-            if (!entered.Equals(value))
-            {
-                state.Change(title.text.Split(' ')[0], changed => change(changed, entered));
-            }
-        }
-
-        private void DrawToggle(GUIContent title, bool value, Action<TexturePreviewState, bool> change)
-        {
-            bool entered = EditorGUILayout.Toggle(title, value);
-            if (entered != value)
-            {
-                state.Change(title.text, changed => change(changed, entered));
-            }
-        }
+            Action<TexturePreviewState, float> change) =>
+            state.Enter(
+                title.text.Split(' ')[0], value, EditorGUILayout.Slider(title, value, minimum, maximum), change);
 
         private static void DrawLabel(
             GUIContent title, string present, IReadOnlyList<string> labels, bool canBeEmpty, Action<string> choose)

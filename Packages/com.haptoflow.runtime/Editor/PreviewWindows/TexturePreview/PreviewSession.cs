@@ -6,8 +6,7 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Requests previews of the window's state in the background, and holds the latest result. Main thread.
-    /// </summary>
+    /// <summary>Requests previews of the window's state in the background, holds the latest. Main thread.</summary>
     internal sealed class PreviewSession : IDisposable
     {
         private readonly TexturePreviewState state;
@@ -115,8 +114,7 @@ namespace HaptoFlow.Editor
         /// <summary>Times the tiers again with the next request.</summary>
         public void MeasureAgain() => ++measurement;
 
-        /// <summary>Blocks until the running request ends, because native calls must not outlive a domain reload.
-        /// </summary>
+        /// <summary>Blocks until the running request ends: native calls must not outlive a domain reload.</summary>
         public void Dispose()
         {
             task.Dispose();

@@ -11,8 +11,7 @@ namespace HaptoFlow.Editor
     /// step. Main thread.</summary>
     internal static class SceneMaterial
     {
-        /// <summary>The material of a surface, of a Haptic Material asset, or of an object that has one by a rule.
-        /// </summary>
+        /// <summary>The material of a surface, of a Haptic Material asset, or of an object by a rule.</summary>
         /// <param name="learnt">A learnt material that replaces the mix's first label; null for the label.</param>
         /// <returns>False for anything else.</returns>
         public static bool TryRead(Object? source, out LabelMix mix, out HapticMaterial? learnt)

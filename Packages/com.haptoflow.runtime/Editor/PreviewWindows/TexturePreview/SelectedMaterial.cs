@@ -9,11 +9,7 @@ namespace HaptoFlow.Editor
     /// its surface or by a rule. Main thread.</summary>
     internal readonly struct SelectedMaterial
     {
-        private SelectedMaterial(Object? described, string remark = "")
-        {
-            Described = described;
-            Remark = remark;
-        }
+        private SelectedMaterial(Object? described, string remark = "") => (Described, Remark) = (described, remark);
 
         /// <summary>The surface or the Haptic Material with the description; null if the object has none.</summary>
         public Object? Described { get; }
@@ -32,8 +28,7 @@ namespace HaptoFlow.Editor
             return new SelectedMaterial(describes ? selected : null);
         }
 
-        /// <summary>In this order: the object's own surface, the material of its colliders, a disabled surface.
-        /// </summary>
+        /// <summary>In this order: the object's own surface, its colliders' material, a disabled surface.</summary>
         private static SelectedMaterial OfObject(GameObject owner)
         {
             bool hasOwn = owner.TryGetComponent(out HapticSurface own);

@@ -88,14 +88,9 @@ namespace HaptoFlow.Editor
             });
         }
 
-        private void DrawSlider(GUIContent title, float present, float minimum, float maximum, Action<float> change)
-        {
-            float entered = EditorGUILayout.Slider(title, present, minimum, maximum);
-            if (!entered.Equals(present))
-            {
-                state.Change(title.text, _ => change(entered));
-            }
-        }
+        private void DrawSlider(GUIContent title, float present, float minimum, float maximum, Action<float> change) =>
+            state.Enter(title.text, present, EditorGUILayout.Slider(title, present, minimum, maximum),
+                (_, entered) => change(entered));
 
         private void DrawButtons(MaterialChoice material, Action save)
         {

@@ -2,13 +2,12 @@
 using System;
 using System.Collections.Generic;
 using HaptoFlow.Preview;
-using UnityEditor;
 using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
     /// <summary>The settings of the Texture Preview window, with undo.</summary>
-    internal sealed class TexturePreviewState : ScriptableObject
+    internal sealed class TexturePreviewState : PreviewState<TexturePreviewState>
     {
         public const float MinimumSpeedMps = 0.002f;
         public const float MaximumSpeedMps = 2f;
@@ -17,10 +16,6 @@ namespace HaptoFlow.Editor
         public const float MaximumSeconds = 8f;
         public const float MinimumLandingMps = 0.01f;
         public const float MaximumLandingMps = 2f;
-
-        /// <summary>Null for the project's model.</summary>
-        [field: SerializeField]
-        public HapticModelAsset? Model { get; set; }
 
         [field: SerializeField]
         public MaterialChoice First { get; private set; } = new MaterialChoice();
@@ -87,15 +82,11 @@ namespace HaptoFlow.Editor
         [field: SerializeField]
         public bool Raises { get; set; } = true;
 
-        [field: SerializeField]
-        public bool Loops { get; set; }
-
         /// <summary>True if the sliders are unfolded.</summary>
         [field: SerializeField]
         public bool ShowsSliders { get; set; }
 
-        /// <summary>Changes whenever a setting may have changed.</summary>
-        public int Version { get; private set; }
+        protected override string WindowName => "Texture Preview";
 
         /// <summary>True if a device's output is shown in place of the second material.</summary>
         public bool ShowsDevice => Device != PreviewDevice.Actuator;
@@ -130,21 +121,9 @@ namespace HaptoFlow.Editor
         /// <summary>The one of <see cref="Mixes"/> that is played, directly or by the device.</summary>
         public LabelMix PlayedMix(IReadOnlyList<string> labels) => Mixes(labels)[ShowsDevice ? 0 : PlayedIndex];
 
-        /// <summary>Makes a change that can be undone.</summary>
-        /// <param name="what">Completes the name of the undo step, for example "Speed".</param>
-        public void Change(string what, Action<TexturePreviewState> change)
-        {
-            Undo.RecordObject(this, "Texture Preview " + what);
-            change(this);
-            ++Version;
-        }
-
         /// <summary>Replaces the active material. Can be undone.</summary>
         /// <param name="learnt">A learnt material that replaces the mix's first label; null for the label.</param>
         public void Take(LabelMix mix, HapticMaterial? learnt) =>
             Change("Material", changed => changed.Material(changed.PlayedIndex).Take(mix, learnt));
-
-        /// <summary>Call this after an undo or redo, or when an asset has changed.</summary>
-        public void MarkChanged() => ++Version;
     }
 }

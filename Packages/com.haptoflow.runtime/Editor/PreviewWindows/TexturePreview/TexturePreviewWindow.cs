@@ -9,53 +9,28 @@ namespace HaptoFlow.Editor
 {
     /// <summary>Window > HaptoFlow > Texture Preview: renders, plays and draws the vibration of materials without a
     /// headset. Rendering and analysis run in the background.</summary>
-    internal sealed class TexturePreviewWindow : EditorWindow
+    internal sealed class TexturePreviewWindow : PreviewWindow<TexturePreviewState>
     {
-        private const float Width = 1200f;
-        private const float Height = 940f;
-
-        // A smaller window scrolls.
-        private const float MinimumWidth = 480f;
-        private const float MinimumHeight = 320f;
-
         private static readonly GUIContent FromRecording = new GUIContent("New Material from Recording\u2026",
             "Learns a material from a recording of ten seconds, and saves it as a Haptic Material.");
-
-        [SerializeField]
-        private TexturePreviewState? state;
 
         private EditorPicture? strokePicture;
         private EditorPicture? chartsPicture;
         private PreviewControls? controls;
         private SliderControls? sliders;
-        private PreviewPlayer? player;
         private PatchInput? patch;
-        private PreviewView? view;
-        private Vector2 scroll;
-
-        /// <summary>For scripts and tests that control the window.</summary>
-        internal TexturePreviewState State => state!;
 
         /// <summary>Null while the window is closed.</summary>
         internal PreviewSession? Session { get; private set; }
 
         /// <summary>Null while the window is closed.</summary>
-        internal PreviewPlayer? Player => player;
+        internal PreviewPlayer? Player { get; private set; }
 
         /// <summary>Clock for drawn strokes.</summary>
         internal Func<double> ClockSeconds { get; set; } = () => EditorApplication.timeSinceStartup;
 
         [MenuItem("Window/HaptoFlow/Texture Preview", false, 2100)]
-        internal static void Open()
-        {
-            bool isNew = !HasOpenInstances<TexturePreviewWindow>();
-            var window = GetWindow<TexturePreviewWindow>();
-            if (isNew)
-            {
-                Rect place = window.position;
-                window.position = new Rect(place.x, place.y, Width, Height);
-            }
-        }
+        internal static void Open() => Open<TexturePreviewWindow>(1200f, 940f);
 
         /// <summary>Opens the window with the material of a surface or of a Haptic Material asset.</summary>
         internal static void Open(Object described)
@@ -67,85 +42,61 @@ namespace HaptoFlow.Editor
             }
         }
 
-        private void OnEnable()
+        protected override PreviewRoom Room =>
+            State.ShowsSliders ? PreviewRoom.WithSliders : PreviewRoom.Default;
+
+        protected override bool IsOpen => Session != null;
+
+        protected override void OnEnable()
         {
+            base.OnEnable();
             titleContent = new GUIContent("Texture Preview");
-            minSize = new Vector2(MinimumWidth, MinimumHeight);
-            if (state == null)
-            {
-                state = CreateInstance<TexturePreviewState>();
-                state.hideFlags = HideFlags.HideAndDontSave;
-            }
-            Session = new PreviewSession(state);
+            EditorApplication.projectChanged += OnProjectChanged;
+        }
+
+        protected override void OnDisable()
+        {
+            EditorApplication.projectChanged -= OnProjectChanged;
+            base.OnDisable();
+        }
+
+        protected override void Begin()
+        {
+            Session = new PreviewSession(State);
             strokePicture = new EditorPicture(DrawStroke);
             chartsPicture = new EditorPicture(DrawCharts);
-            controls = new PreviewControls(state);
-            sliders = new SliderControls(state);
-            player = new PreviewPlayer(state, Session);
-            patch = new PatchInput(state);
-            patch.Ended += player.PlayWhenReady;
-            Undo.undoRedoPerformed += OnUndo;
-            EditorApplication.update += Step;
-            EditorApplication.projectChanged += OnProjectChanged;
-            AssemblyReloadEvents.beforeAssemblyReload += Release;
+            controls = new PreviewControls(State);
+            sliders = new SliderControls(State);
+            Player = new PreviewPlayer(State, Session);
+            patch = new PatchInput(State);
+            patch.Ended += Player.PlayWhenReady;
         }
 
-        private void OnDisable()
-        {
-            Undo.undoRedoPerformed -= OnUndo;
-            EditorApplication.update -= Step;
-            EditorApplication.projectChanged -= OnProjectChanged;
-            AssemblyReloadEvents.beforeAssemblyReload -= Release;
-            Release();
-        }
+        protected override bool TakesKey(Event input) =>
+            PreviewKeys.Handle(input, State, Player!.Toggle, () => Later(Export));
 
-        private void OnDestroy()
+        protected override void DrawControls()
         {
-            if (state != null)
+            controls!.Draw(Session!.Model);
+            if (SceneControls.Draw(State, Session.Model) is { } message)
             {
-                DestroyImmediate(state);
+                ShowNotification(new GUIContent(message));
+            }
+            Player!.DrawButtons(() => Later(Export));
+            sliders!.Draw(ModelInUse(), () => Later(Save));
+            if (GUILayout.Button(FromRecording))
+            {
+                NewMaterialWindow.Open();
             }
         }
 
-        private void OnGUI()
+        protected override void DrawPictures(PreviewLayout layout)
         {
-            if (Session == null)
-            {
-                return;
-            }
-            if (PreviewKeys.Handle(Event.current, State, player!.Toggle, ExportLater))
-            {
-                // The change may need controls that this event did not lay out.
-                Repaint();
-                return;
-            }
-            PreviewRoom room = State.ShowsSliders ? PreviewRoom.WithSliders : PreviewRoom.Default;
-            view = PreviewView.Of(position, room, view);
-            PreviewLayout layout = view.Layout;
-            var all = new Rect(0f, 0f, (float)layout.Width, (float)layout.Height);
-            var window = new Rect(0f, 0f, position.width, position.height);
-            using var scrolled = new GUI.ScrollViewScope(window, scroll, all);
-            scroll = scrolled.scrollPosition;
-            using (new GUILayout.AreaScope(layout.Controls.ToRect()))
-            {
-                controls!.Draw(Session.Model);
-                if (SceneControls.Draw(State, Session.Model) is { } message)
-                {
-                    ShowNotification(new GUIContent(message));
-                }
-                player.DrawButtons(ExportLater);
-                sliders!.Draw(ModelInUse(), SaveLater);
-                if (GUILayout.Button(FromRecording))
-                {
-                    NewMaterialWindow.Open();
-                }
-            }
             ShowStroke(layout.StrokePanel);
             ShowCharts(layout.Charts);
         }
 
-        /// <summary>Called at each editor update: submits changes, takes results, and continues playback.</summary>
-        internal void Step()
+        internal override void Step()
         {
             if (Session == null)
             {
@@ -153,7 +104,7 @@ namespace HaptoFlow.Editor
             }
             Session.Refresh(ModelInUse(), GUIUtility.hotControl != 0);
             bool isOther = Session.Poll();
-            if (player!.Step() || isOther)
+            if (Player!.Step() || isOther)
             {
                 Repaint();
             }
@@ -164,7 +115,7 @@ namespace HaptoFlow.Editor
         {
             Session!.Refresh(ModelInUse(), false);
             Session.Finish();
-            player!.Step();
+            Player!.Step();
             Repaint();
         }
 
@@ -173,11 +124,8 @@ namespace HaptoFlow.Editor
         internal string? ExportTo(string path)
         {
             Finish();
-            return Session!.Problem ?? WaveExport.Write(path, player!.PlayedSound!.Sound);
+            return Session!.Problem ?? WaveExport.Write(path, Player!.PlayedSound!.Sound);
         }
-
-        // A modal dialog within OnGUI would disturb the layout, so that it opens after the event.
-        private void ExportLater() => EditorApplication.delayCall += Export;
 
         private void Export()
         {
@@ -186,19 +134,17 @@ namespace HaptoFlow.Editor
                 return;
             }
             Finish();
-            if (player!.PlayedSound == null)
+            if (Player!.PlayedSound == null)
             {
                 return;
             }
-            string name = WaveExport.FileName(player.PlayedSound.Sound.Material, State.Settings);
+            string name = WaveExport.FileName(Player.PlayedSound.Sound.Material, State.Settings);
             string path = EditorUtility.SaveFilePanel("Export WAV", "", name, "wav");
             if (path.Length > 0)
             {
                 ShowNotification(new GUIContent(ExportTo(path) ?? "Exported"));
             }
         }
-
-        private void SaveLater() => EditorApplication.delayCall += Save;
 
         private void Save()
         {
@@ -231,14 +177,6 @@ namespace HaptoFlow.Editor
             }
         }
 
-        private HapticModelAsset? ModelInUse() => State.Model != null ? State.Model : LabelCatalog.ModelInUse();
-
-        private void OnUndo()
-        {
-            State.MarkChanged();
-            Repaint();
-        }
-
         /// <summary>A learnt material or the file of the sliders may have changed.</summary>
         private void OnProjectChanged()
         {
@@ -249,12 +187,12 @@ namespace HaptoFlow.Editor
         private void ShowStroke(Box panel)
         {
             // While a stroke is drawn, the picture follows the pointer; the sound is rendered later.
-            strokePicture!.OnGUI(Session!.Stroke, view!);
+            strokePicture!.OnGUI(Session!.Stroke, View);
             Box place = PreviewLayout.Patch(panel);
             patch!.Handle(Event.current, place.ToRect(), ClockSeconds());
-            if (player!.PlayedSeconds is { } seconds)
+            if (Player!.PlayedSeconds is { } seconds)
             {
-                Playhead.DrawTip(place, Session!.Stroke.At(seconds), view!.Palette, State.PlayedIndex);
+                Playhead.DrawTip(place, Session!.Stroke.At(seconds), View.Palette, State.PlayedIndex);
             }
         }
 
@@ -262,10 +200,10 @@ namespace HaptoFlow.Editor
         {
             if (Session!.Shown is { } shown)
             {
-                chartsPicture!.OnGUI(shown, view!);
-                if (player!.PlayedSeconds is { } seconds)
+                chartsPicture!.OnGUI(shown, View);
+                if (Player!.PlayedSeconds is { } seconds)
                 {
-                    Playhead.DrawLines(panel, shown.Sounds, seconds, view!.Palette);
+                    Playhead.DrawLines(panel, shown.Sounds, seconds, View.Palette);
                 }
             }
             if (Session.Problem is { } problem)
@@ -276,19 +214,18 @@ namespace HaptoFlow.Editor
         }
 
         private void DrawStroke(ICanvas canvas) =>
-            StrokePanel.Draw(canvas, view!.Palette, view.Layout.StrokePanel, Session!.Stroke);
+            StrokePanel.Draw(canvas, View.Palette, View.Layout.StrokePanel, Session!.Stroke);
 
         private void DrawCharts(ICanvas canvas)
         {
             PreviewResult shown = Session!.Shown!;
-            shown.Panel.Draw(canvas, view!.Palette, view.Layout.Charts, shown.Request.Active, shown.Qualities,
+            shown.Panel.Draw(canvas, View.Palette, View.Layout.Charts, shown.Request.Active, shown.Qualities,
                 shown.Request.Tier);
         }
 
-        /// <summary>Frees everything that would outlive a domain reload.</summary>
-        private void Release()
+        protected override void Release()
         {
-            player?.Close();
+            Player?.Close();
             Session?.Dispose();
             Session = null;
             strokePicture?.Release();

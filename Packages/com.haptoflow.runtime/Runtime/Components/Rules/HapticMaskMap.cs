@@ -131,35 +131,19 @@ namespace HaptoFlow
         private string bakedContents = "";
 
         /// <summary>The texture that the channels are baked from, in the editor.</summary>
-        public Texture2D? Texture
-        {
-            get => texture;
-            set => texture = value;
-        }
+        public Texture2D? Texture { get => texture; set => texture = value; }
 
         /// <summary>Upper limit of the longer side of the baked copy, in texels.</summary>
         public int MaximumSize => Math.Max(1, largestSize);
 
         /// <summary>True to use the mesh's second texture coordinates instead of the first.</summary>
-        public bool SecondCoordinates
-        {
-            get => secondCoordinates;
-            set => secondCoordinates = value;
-        }
+        public bool SecondCoordinates { get => secondCoordinates; set => secondCoordinates = value; }
 
         /// <summary>Number of repetitions of the texture over the texture coordinates.</summary>
-        public Vector2 Tiling
-        {
-            get => tiling;
-            set => tiling = value;
-        }
+        public Vector2 Tiling { get => tiling; set => tiling = value; }
 
         /// <summary>Shift of the texture over the texture coordinates.</summary>
-        public Vector2 Offset
-        {
-            get => offset;
-            set => offset = value;
-        }
+        public Vector2 Offset { get => offset; set => offset = value; }
 
         /// <summary>What the red channel controls.</summary>
         public MaskChannel Red => red;
@@ -183,11 +167,7 @@ namespace HaptoFlow
         public int Height => height;
 
         /// <summary>The editor's hash of the texture's contents at the time of baking.</summary>
-        internal string BakedContents
-        {
-            get => bakedContents;
-            set => bakedContents = value;
-        }
+        internal string BakedContents { get => bakedContents; set => bakedContents = value; }
 
         /// <summary>True where a channel has a material.</summary>
         internal bool NamesMaterials => Names(red) || Names(green) || Names(blue) || Names(alpha);

@@ -180,27 +180,17 @@ namespace HaptoFlow
             };
 
         /// <summary>Describes what the rule matches, for people: <c>tag "Floor"</c>. Makes garbage.</summary>
-        public string Describe()
+        public string Describe() => subject switch
         {
-            switch (subject)
-            {
-                case MaterialRuleSubject.Tag:
-                    return $"tag \"{Tag}\"";
-                case MaterialRuleSubject.Layer:
-                    string name = LayerMask.LayerToName(layer);
-                    return name.Length > 0 ? $"layer \"{name}\"" : $"layer {layer}";
-                case MaterialRuleSubject.PhysicsMaterial:
-                    return "physics material " + NameOf(physicsMaterial);
-                case MaterialRuleSubject.RendererMaterial:
-                    return "renderer material " + NameOf(rendererMaterial);
-                case MaterialRuleSubject.TerrainLayer:
-                    return "terrain layer " + NameOf(terrainLayer);
-                case MaterialRuleSubject.Submesh:
-                    return mesh != null ? $"submesh {submesh} of \"{mesh.name}\"" : $"submesh {submesh}";
-                default:
-                    return $"name \"{NamePattern}\"";
-            }
-        }
+            MaterialRuleSubject.Tag => $"tag \"{Tag}\"",
+            MaterialRuleSubject.Layer => LayerMask.LayerToName(layer) is { Length: > 0 } name
+                ? $"layer \"{name}\"" : $"layer {layer}",
+            MaterialRuleSubject.PhysicsMaterial => "physics material " + NameOf(physicsMaterial),
+            MaterialRuleSubject.RendererMaterial => "renderer material " + NameOf(rendererMaterial),
+            MaterialRuleSubject.TerrainLayer => "terrain layer " + NameOf(terrainLayer),
+            MaterialRuleSubject.Submesh => $"submesh {submesh}" + (mesh != null ? $" of \"{mesh.name}\"" : ""),
+            _ => $"name \"{NamePattern}\"",
+        };
 
         /// <summary>False where the rule lacks the value to compare with; it then matches nothing.</summary>
         internal bool IsComplete => subject switch
@@ -215,26 +205,18 @@ namespace HaptoFlow
         };
 
         /// <param name="part">A submesh or a terrain layer, from 0.</param>
-        internal bool Matches(ColliderFacts facts, int part)
+        internal bool Matches(ColliderFacts facts, int part) => subject switch
         {
-            switch (subject)
-            {
-                case MaterialRuleSubject.Tag:
-                    return string.Equals(Tag, facts.Tag, StringComparison.Ordinal);
-                case MaterialRuleSubject.Layer:
-                    return layer == facts.Layer;
-                case MaterialRuleSubject.PhysicsMaterial:
-                    return ColliderFacts.IsSameOrCopy(physicsMaterial, facts.PhysicsMaterial);
-                case MaterialRuleSubject.RendererMaterial:
-                    return ColliderFacts.IsSameOrCopy(rendererMaterial, facts.RendererMaterialOf(part));
-                case MaterialRuleSubject.TerrainLayer:
-                    return terrainLayer != null && facts.TerrainLayerOf(part) == terrainLayer;
-                case MaterialRuleSubject.Submesh:
-                    return facts.Mesh != null && submesh == part && (mesh == null || mesh == facts.Mesh);
-                default:
-                    return HaptoFlow.NamePattern.Matches(NamePattern, facts.Name);
-            }
-        }
+            MaterialRuleSubject.Tag => string.Equals(Tag, facts.Tag, StringComparison.Ordinal),
+            MaterialRuleSubject.Layer => layer == facts.Layer,
+            MaterialRuleSubject.PhysicsMaterial => ColliderFacts.IsSameOrCopy(physicsMaterial, facts.PhysicsMaterial),
+            MaterialRuleSubject.RendererMaterial =>
+                ColliderFacts.IsSameOrCopy(rendererMaterial, facts.RendererMaterialOf(part)),
+            MaterialRuleSubject.TerrainLayer => terrainLayer != null && facts.TerrainLayerOf(part) == terrainLayer,
+            MaterialRuleSubject.Submesh =>
+                facts.Mesh != null && submesh == part && (mesh == null || mesh == facts.Mesh),
+            _ => HaptoFlow.NamePattern.Matches(NamePattern, facts.Name),
+        };
 
         private static string NameOf(UnityEngine.Object? asset) => asset != null ? $"\"{asset.name}\"" : "(none)";
     }

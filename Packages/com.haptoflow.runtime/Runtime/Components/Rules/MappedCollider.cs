@@ -1,7 +1,6 @@
 #nullable enable
 using System;
 using System.Collections.Generic;
-using HaptoFlow.Numerics;
 using UnityEngine;
 
 namespace HaptoFlow
@@ -10,15 +9,13 @@ namespace HaptoFlow
     /// Matching the rules makes garbage; looking up a place makes none.</summary>
     internal sealed class MappedCollider
     {
-        private ColliderFacts facts;
         private MappedPart[] parts;
         private int[] trianglesUpTo = Array.Empty<int>();
-        private bool isUniform;
 
         public MappedCollider(Collider collider, IReadOnlyList<HapticMaterialMap> maps)
         {
             Collider = collider;
-            facts = new ColliderFacts(collider);
+            Facts = new ColliderFacts(collider);
             parts = Array.Empty<MappedPart>();
             Match(maps);
         }
@@ -35,28 +32,28 @@ namespace HaptoFlow
         public IReadOnlyList<MappedPart> Parts => parts;
 
         /// <summary>True where the same rule matches all parts.</summary>
-        public bool IsUniform => isUniform;
+        public bool IsUniform { get; private set; }
 
-        public ColliderFacts Facts => facts;
+        public ColliderFacts Facts { get; private set; }
 
         /// <summary>True where no property that rules can match has changed.</summary>
-        public bool IsUpToDate() => facts.AreUnchanged();
+        public bool IsUpToDate() => Facts.AreUnchanged();
 
         /// <summary>Matches the rules again.</summary>
         public void Renew(IReadOnlyList<HapticMaterialMap> maps)
         {
-            facts = new ColliderFacts(Collider);
+            Facts = new ColliderFacts(Collider);
             Match(maps);
         }
 
         /// <summary>The material at a place; without labels where there is none.</summary>
         public ResolvedMaterial At(in TouchedPlace place, HapticSession session)
         {
-            if (!isUniform && facts.Terrain is { } terrain)
+            if (!IsUniform && Facts.Terrain is { } terrain)
             {
                 return OnTerrain(terrain, place, session);
             }
-            int part = isUniform ? 0 : PartOf(place.Triangle);
+            int part = IsUniform ? 0 : PartOf(place.Triangle);
             return OfPart(part, place, session);
         }
 
@@ -65,29 +62,29 @@ namespace HaptoFlow
 
         private void Match(IReadOnlyList<HapticMaterialMap> maps)
         {
-            if (parts.Length != facts.Parts)
+            if (parts.Length != Facts.Parts)
             {
-                parts = new MappedPart[facts.Parts];
+                parts = new MappedPart[Facts.Parts];
             }
-            isUniform = true;
+            IsUniform = true;
             CanBeFelt = false;
             bool isSupportedKind = ColliderProbe.IsSupportedKind(Collider);
             for (int part = 0; part < parts.Length; ++part)
             {
                 parts[part] = Match(maps, part);
-                isUniform &= parts[part].IsSameAs(parts[0]);
+                IsUniform &= parts[part].IsSameAs(parts[0]);
                 CanBeFelt |= isSupportedKind && parts[part].CanBeFelt;
             }
-            trianglesUpTo = isUniform || facts.Mesh is null || !facts.Mesh.isReadable
+            trianglesUpTo = IsUniform || Facts.Mesh is null || !Facts.Mesh.isReadable
                 ? Array.Empty<int>()
-                : TrianglesUpTo(facts.Mesh);
+                : TrianglesUpTo(Facts.Mesh);
         }
 
         private MappedPart Match(IReadOnlyList<HapticMaterialMap> maps, int part)
         {
             for (int index = 0; index < maps.Count; ++index)
             {
-                if (maps[index].TryMatch(facts, part, out MappedPart found))
+                if (maps[index].TryMatch(Facts, part, out MappedPart found))
                 {
                     return found;
                 }

@@ -9,12 +9,8 @@ namespace HaptoFlow.Alignment
     /// <summary>The pose of an object after its three marked points were touched.</summary>
     internal readonly struct AlignmentFit
     {
-        private AlignmentFit(string? refusal, in RigidPose pose, double largestErrorMetres)
-        {
-            Refusal = refusal;
-            Pose = pose;
-            LargestErrorMetres = largestErrorMetres;
-        }
+        private AlignmentFit(string? refusal, in RigidPose pose, double largestErrorMetres) =>
+            (Refusal, Pose, LargestErrorMetres) = (refusal, pose, largestErrorMetres);
 
         /// <summary>Why there is no pose, with the remedy; null with one.</summary>
         public string? Refusal { get; }

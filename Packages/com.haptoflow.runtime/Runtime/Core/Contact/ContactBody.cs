@@ -42,12 +42,8 @@ namespace HaptoFlow.Contact
 
         public readonly SurfacePoint Local;
 
-        public ContactCandidate(ContactBody surface, in RigidPose pose, in SurfacePoint local)
-        {
-            Surface = surface;
-            Pose = pose;
-            Local = local;
-        }
+        public ContactCandidate(ContactBody surface, in RigidPose pose, in SurfacePoint local) =>
+            (Surface, Pose, Local) = (surface, pose, local);
     }
 
     /// <summary>Computes closest points for a tracker. Main thread, no garbage.</summary>

@@ -14,11 +14,8 @@ namespace HaptoFlow.Contact
         /// <summary>Height of the edge that the tip crossed; 0 for none.</summary>
         public readonly double EdgeHeightMetres;
 
-        public ContactEvent(bool landed, double edgeHeightMetres)
-        {
-            Landed = landed;
-            EdgeHeightMetres = edgeHeightMetres;
-        }
+        public ContactEvent(bool landed, double edgeHeightMetres) =>
+            (Landed, EdgeHeightMetres) = (landed, edgeHeightMetres);
     }
 
     /// <summary>Distinguishes landings and edges from smooth sliding during a touch. No garbage.</summary>

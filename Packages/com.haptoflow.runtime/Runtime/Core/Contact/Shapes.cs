@@ -15,12 +15,8 @@ namespace HaptoFlow.Contact
         /// <summary>Signed distance, negative inside the material.</summary>
         public readonly double SignedDistanceMetres;
 
-        public SurfacePoint(Double3 pointMetres, Double3 normal, double signedDistanceMetres)
-        {
-            PointMetres = pointMetres;
-            Normal = normal;
-            SignedDistanceMetres = signedDistanceMetres;
-        }
+        public SurfacePoint(Double3 pointMetres, Double3 normal, double signedDistanceMetres) =>
+            (PointMetres, Normal, SignedDistanceMetres) = (pointMetres, normal, signedDistanceMetres);
     }
 
     /// <summary>Closest points of shapes with a formula. Points are in the shape's local frame and usable; results are

@@ -1,5 +1,4 @@
 #nullable enable
-using System;
 using HaptoFlow.Numerics;
 
 namespace HaptoFlow.Contact

@@ -15,11 +15,7 @@ namespace HaptoFlow.Contact
         /// <summary>Measured tip force, which replaces the spring force; null without one.</summary>
         public readonly double? ForceNewtons;
 
-        public TipSample(double timeSeconds, Double3 positionMetres, double? forceNewtons = null)
-        {
-            TimeSeconds = timeSeconds;
-            PositionMetres = positionMetres;
-            ForceNewtons = forceNewtons;
-        }
+        public TipSample(double timeSeconds, Double3 positionMetres, double? forceNewtons = null) =>
+            (TimeSeconds, PositionMetres, ForceNewtons) = (timeSeconds, positionMetres, forceNewtons);
     }
 }

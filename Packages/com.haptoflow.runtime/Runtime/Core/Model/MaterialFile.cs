@@ -80,37 +80,24 @@ namespace HaptoFlow.Model
         /// <param name="text">The whole .haptomaterial file.</param>
         /// <exception cref="HaptoFlowException">The library is missing, or the text is not a material file; the message
         /// names the key.</exception>
-        public static MaterialFile Read(string text)
+        public static MaterialFile Read(string text) => NativeCall.OrMissing(() =>
         {
-            try
+            LibraryAgreement.Require();
+            byte[] json = NativeCall.Utf8(text);
+            IntPtr opened;
+            fixed (byte* bytes = json)
             {
-                LibraryAgreement.Require();
-                byte[] json = NativeCall.Utf8(text);
-                IntPtr material;
-                fixed (byte* bytes = json)
-                {
-                    NativeCall.Check(NativeMethods.MaterialRead(bytes, (ulong)json.Length - 1, &material));
-                }
-                try
-                {
-                    var info = new MaterialInfo { StructSize = (uint)sizeof(MaterialInfo) };
-                    NativeCall.Check(NativeMethods.MaterialDescribe(material, &info));
-                    var embedding = new float[HapticModel.EmbeddingSize];
-                    fixed (float* numbers = embedding)
-                    {
-                        NativeCall.Check(NativeMethods.MaterialEmbedding(material, numbers));
-                    }
-                    return new MaterialFile(text, info, Array.ConvertAll(embedding, number => (double)number));
-                }
-                finally
-                {
-                    NativeCall.Check(NativeMethods.MaterialClose(&material));
-                }
+                NativeCall.Check(NativeMethods.MaterialRead(bytes, (ulong)json.Length - 1, &opened));
             }
-            catch (Exception error) when (NativeCall.IsMissing(error))
+            using var material = new NativeHandle(opened, NativeMethods.MaterialClose);
+            var info = new MaterialInfo { StructSize = (uint)sizeof(MaterialInfo) };
+            NativeCall.Check(NativeMethods.MaterialDescribe(material.Value, &info));
+            var embedding = new float[HapticModel.EmbeddingSize];
+            fixed (float* numbers = embedding)
             {
-                throw NativeCall.Missing(error);
+                NativeCall.Check(NativeMethods.MaterialEmbedding(material.Value, numbers));
             }
-        }
+            return new MaterialFile(text, info, Array.ConvertAll(embedding, number => (double)number));
+        });
     }
 }

@@ -36,11 +36,7 @@ namespace HaptoFlow.Model
     /// <summary>The interval of the speeds or forces that a model was trained on, or a material learnt from.</summary>
     public readonly struct TrainedInterval
     {
-        internal TrainedInterval(double minimum, double maximum)
-        {
-            Minimum = minimum;
-            Maximum = maximum;
-        }
+        internal TrainedInterval(double minimum, double maximum) => (Minimum, Maximum) = (minimum, maximum);
 
         /// <summary>Lower limit, in the unit of the property that holds the interval.</summary>
         public double Minimum { get; }

@@ -9,30 +9,19 @@ namespace HaptoFlow
     public sealed unsafe class HapticCancellation : IDisposable
     {
         /// <exception cref="HaptoFlowException">The library is missing, or memory is exhausted.</exception>
-        public HapticCancellation()
+        public HapticCancellation() => Handle = NativeCall.OrMissing(() =>
         {
-            try
-            {
-                LibraryAgreement.Require();
-                IntPtr opened;
-                NativeCall.Check(NativeMethods.CancellationCreate(&opened));
-                Handle = new CancellationHandle(opened);
-            }
-            catch (Exception error) when (NativeCall.IsMissing(error))
-            {
-                throw NativeCall.Missing(error);
-            }
-        }
+            LibraryAgreement.Require();
+            IntPtr opened;
+            NativeCall.Check(NativeMethods.CancellationCreate(&opened));
+            return new NativeHandle(opened, NativeMethods.CancellationClose);
+        });
 
-        internal CancellationHandle Handle { get; }
+        internal NativeHandle Handle { get; }
 
         /// <summary>Cancels permanently: the loads end with <see cref="HaptoFlowStatus.Cancelled"/>, those under way as
         /// soon as ONNX Runtime allows.</summary>
-        public void Cancel()
-        {
-            NativeCall.Check(NativeMethods.CancellationCancel(Handle.Value));
-            GC.KeepAlive(this);
-        }
+        public void Cancel() => Handle.Check(NativeMethods.CancellationCancel(Handle.Value));
 
         /// <summary>Frees the handle; loads under way continue.</summary>
         public void Dispose() => Handle.Dispose();

@@ -73,7 +73,7 @@ namespace HaptoFlow
         /// <summary>Number of materials that one engine can hold in addition to its model's labels.</summary>
         public const int MaximumMaterials = 64;
 
-        private readonly EngineHandle handle;
+        private readonly NativeHandle handle;
 
         /// <summary>Loads the tiers of the quality, all of them for automatic quality, and starts the worker. Blocks
         /// while ONNX Runtime optimises the graphs; runtime and model may be disposed afterwards.</summary>
@@ -101,16 +101,13 @@ namespace HaptoFlow
             GC.KeepAlive(runtime);
             GC.KeepAlive(model);
             GC.KeepAlive(options.Cancellation);
-            handle = new EngineHandle(opened);
+            handle = new NativeHandle(opened, NativeMethods.EngineClose);
         }
 
         /// <summary>Changes the quality from the next segment on. Blocks while ONNX Runtime loads a tier that is not
         /// loaded yet.</summary>
-        public void SetQuality(HapticQuality quality)
-        {
-            NativeCall.Check(NativeMethods.EngineSetQuality(handle.Value, (int)quality));
-            GC.KeepAlive(this);
-        }
+        public void SetQuality(HapticQuality quality) =>
+            handle.Check(NativeMethods.EngineSetQuality(handle.Value, (int)quality));
 
         /// <summary>Registers a material in addition to the model's labels until the engine is disposed. Takes
         /// milliseconds; voices never wait for it. Any thread except an audio callback.</summary>
@@ -125,10 +122,9 @@ namespace HaptoFlow
             byte[] text = NativeCall.Utf8(json);
             fixed (byte* bytes = text)
             {
-                NativeCall.Check(
+                handle.Check(
                     NativeMethods.EngineRegisterMaterial(handle.Value, bytes, (ulong)text.Length - 1, &index));
             }
-            GC.KeepAlive(this);
             return (int)index;
         }
 
@@ -143,18 +139,16 @@ namespace HaptoFlow
             byte[] text = NativeCall.Utf8(json);
             fixed (byte* bytes = text)
             {
-                NativeCall.Check(NativeMethods.EngineReplaceMaterial(
+                handle.Check(NativeMethods.EngineReplaceMaterial(
                     handle.Value, checked((uint)index), bytes, (ulong)text.Length - 1));
             }
-            GC.KeepAlive(this);
         }
 
         /// <summary>Number of registered materials.</summary>
         public int MaterialCount()
         {
             uint count;
-            NativeCall.Check(NativeMethods.EngineMaterialCount(handle.Value, &count));
-            GC.KeepAlive(this);
+            handle.Check(NativeMethods.EngineMaterialCount(handle.Value, &count));
             return (int)count;
         }
 
@@ -164,7 +158,8 @@ namespace HaptoFlow
         public HapticLabel Material(int index)
         {
             var info = new LabelInfo { StructSize = (uint)sizeof(LabelInfo) };
-            NativeCall.Check(NativeMethods.EngineMaterial(handle.Value, checked((uint)index), &info));
+            handle.Check(NativeMethods.EngineMaterial(handle.Value, checked((uint)index), &info));
+            // Its texts are the engine's.
             var material = new HapticLabel(info, index);
             GC.KeepAlive(this);
             return material;
@@ -172,18 +167,13 @@ namespace HaptoFlow
 
         /// <summary>Runs one round of inference for all voices that need a segment. For engines without worker; any
         /// thread that may block.</summary>
-        public void Step()
-        {
-            NativeCall.Check(NativeMethods.EngineStep(handle.Value));
-            GC.KeepAlive(this);
-        }
+        public void Step() => handle.Check(NativeMethods.EngineStep(handle.Value));
 
         /// <summary>Statistics since the engine was created.</summary>
         public EngineStatistics Statistics()
         {
             var statistics = new EngineStatistics { StructSize = (uint)sizeof(EngineStatistics) };
-            NativeCall.Check(NativeMethods.EngineGetStatistics(handle.Value, &statistics));
-            GC.KeepAlive(this);
+            handle.Check(NativeMethods.EngineGetStatistics(handle.Value, &statistics));
             return statistics;
         }
 
@@ -192,14 +182,13 @@ namespace HaptoFlow
         public string LastFailure()
         {
             ulong length;
-            NativeCall.Check(NativeMethods.EngineLastFailure(handle.Value, null, 0, &length));
+            handle.Check(NativeMethods.EngineLastFailure(handle.Value, null, 0, &length));
             // A longer message that replaces it meanwhile is truncated.
             var text = new byte[length + 1];
             fixed (byte* bytes = text)
             {
-                NativeCall.Check(NativeMethods.EngineLastFailure(handle.Value, bytes, (ulong)text.Length, &length));
+                handle.Check(NativeMethods.EngineLastFailure(handle.Value, bytes, (ulong)text.Length, &length));
             }
-            GC.KeepAlive(this);
             int end = Array.IndexOf(text, (byte)0);
             return Encoding.UTF8.GetString(text, 0, end < 0 ? text.Length : end);
         }
@@ -208,21 +197,18 @@ namespace HaptoFlow
         public TierTimes Times(int tier)
         {
             var times = new TierTimes { StructSize = (uint)sizeof(TierTimes) };
-            NativeCall.Check(NativeMethods.EngineTierTimes(handle.Value, checked((uint)tier), &times));
-            GC.KeepAlive(this);
+            handle.Check(NativeMethods.EngineTierTimes(handle.Value, checked((uint)tier), &times));
             return times;
         }
 
         /// <summary>Opens a voice: the signal of one stylus tip. Blocks while another voice is opened or closed, never
         /// for inference.</summary>
         /// <param name="sampleRateHz">Sample rate of the output, 8000 to 192000 Hz. It may change later.</param>
-        /// <exception cref="HaptoFlowException">The rate is out of range, or 64 voices are open in this process.
-        /// </exception>
+        /// <exception cref="HaptoFlowException">The rate is out of range, or the process has 64 voices.</exception>
         public HapticVoice OpenVoice(double sampleRateHz)
         {
             ulong voice;
-            NativeCall.Check(NativeMethods.VoiceCreate(handle.Value, sampleRateHz, &voice));
-            GC.KeepAlive(this);
+            handle.Check(NativeMethods.VoiceCreate(handle.Value, sampleRateHz, &voice));
             return new HapticVoice(voice);
         }
 

@@ -14,7 +14,7 @@ namespace HaptoFlow
         /// <summary>Numbers per motion: vx and vy in m/s along the surface, force in N.</summary>
         public const int MotionSize = 3;
 
-        private readonly GeneratorHandle handle;
+        private readonly NativeHandle handle;
 
         /// <param name="tier">Name of a tier; null for the model's default.</param>
         /// <param name="cancellation">Cancels the creation; null for none.</param>
@@ -39,16 +39,13 @@ namespace HaptoFlow
             GC.KeepAlive(runtime);
             GC.KeepAlive(model);
             GC.KeepAlive(cancellation);
-            handle = new GeneratorHandle(opened);
+            handle = new NativeHandle(opened, NativeMethods.GeneratorClose);
         }
 
         /// <summary>Sets solver and steps from the next call on.</summary>
         /// <param name="steps">1 to 16; 0 with <see cref="HapticSolver.OfTier"/>.</param>
-        public void SetSolver(HapticSolver solver, int steps)
-        {
-            NativeCall.Check(NativeMethods.GeneratorSetSolver(handle.Value, (int)solver, steps));
-            GC.KeepAlive(this);
-        }
+        public void SetSolver(HapticSolver solver, int steps) =>
+            handle.Check(NativeMethods.GeneratorSetSolver(handle.Value, (int)solver, steps));
 
         /// <summary>Generates a segment in m/s^2 for each request; requests follow each other in the arrays.</summary>
         /// <param name="embeddings">64 numbers each.</param>
@@ -75,9 +72,8 @@ namespace HaptoFlow
                     PreviousMps2 = previous,
                     Noise = normal,
                 };
-                NativeCall.Check(NativeMethods.GeneratorGenerate(handle.Value, &batch, segment));
+                handle.Check(NativeMethods.GeneratorGenerate(handle.Value, &batch, segment));
             }
-            GC.KeepAlive(this);
         }
 
         /// <summary>Computes the level law for each request: RMS in m/s^2.</summary>
@@ -94,9 +90,8 @@ namespace HaptoFlow
                     Embeddings = embedding,
                     Motions = motion,
                 };
-                NativeCall.Check(NativeMethods.GeneratorLevels(handle.Value, &batch, level));
+                handle.Check(NativeMethods.GeneratorLevels(handle.Value, &batch, level));
             }
-            GC.KeepAlive(this);
         }
 
         /// <summary>Fills an array with standard normal numbers that depend only on seed, voice and segment, identical

@@ -46,7 +46,7 @@ namespace HaptoFlow
 
         private readonly LearningProgress progress = new LearningProgress();
         private readonly HapticCancellation cancellation;
-        private readonly Task<Learnt> work;
+        private readonly Task<(string Material, string Report, string NearestLabel)> work;
         private Task ended = Task.CompletedTask;
         private bool isDisposed;
 
@@ -162,7 +162,8 @@ namespace HaptoFlow
             }
         }
 
-        private Learnt Learn(byte[] modelFile, Recording recording, LearningOptions options)
+        private (string Material, string Report, string NearestLabel) Learn(
+            byte[] modelFile, Recording recording, LearningOptions options)
         {
             using OnnxRuntime runtime = OnnxRuntime.Open();
             using HapticModel model = HapticModel.Open(modelFile);
@@ -172,7 +173,7 @@ namespace HaptoFlow
                 (string material, string report) = NativeLearning.Run(
                     runtime, model, recording, options, cancellation, GCHandle.ToIntPtr(context));
                 string nearest = model.NearestLabel(MaterialFile.Read(material).Embedding);
-                return new Learnt(material, report, nearest);
+                return (material, report, nearest);
             }
             catch (Exception error) when (NativeCall.IsMissing(error))
             {
@@ -182,22 +183,6 @@ namespace HaptoFlow
             {
                 context.Free();
             }
-        }
-
-        private sealed class Learnt
-        {
-            public Learnt(string material, string report, string nearestLabel)
-            {
-                Material = material;
-                Report = report;
-                NearestLabel = nearestLabel;
-            }
-
-            public string Material { get; }
-
-            public string Report { get; }
-
-            public string NearestLabel { get; }
         }
     }
 }

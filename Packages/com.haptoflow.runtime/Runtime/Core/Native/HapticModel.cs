@@ -109,7 +109,7 @@ namespace HaptoFlow
 
         private HapticModel(IntPtr opened)
         {
-            Handle = new ModelHandle(opened);
+            Handle = new NativeHandle(opened, NativeMethods.ModelClose);
             var info = new ModelInfo { StructSize = (uint)sizeof(ModelInfo) };
             NativeCall.Check(NativeMethods.ModelDescribe(opened, &info));
             Header = new ModelHeader(info, ReadSpace(opened), ReadLabels(opened), ReadTiers(opened));
@@ -124,50 +124,36 @@ namespace HaptoFlow
         /// <summary>The tiers in order of increasing accuracy.</summary>
         public IReadOnlyList<HapticTier> Tiers => Header.Tiers;
 
-        internal ModelHandle Handle { get; }
+        internal NativeHandle Handle { get; }
 
         /// <param name="file">The whole .haptoflow file; the array is not kept.</param>
         /// <exception cref="HaptoFlowException">The library is missing, or the bytes are not a usable
         /// model.</exception>
-        public static HapticModel Open(byte[] file)
+        public static HapticModel Open(byte[] file) => NativeCall.OrMissing(() =>
         {
-            try
+            // An empty array has no address, and the library says of an empty file what is wrong with it.
+            fixed (byte* bytes = file.Length > 0 ? file : new byte[1])
             {
-                // An empty array has no address, and the library says of an empty file what is wrong with it.
-                fixed (byte* bytes = file.Length > 0 ? file : new byte[1])
+                var options = new ModelOptions
                 {
-                    var options = new ModelOptions
-                    {
-                        StructSize = (uint)sizeof(ModelOptions),
-                        Bytes = (IntPtr)bytes,
-                        ByteCount = (ulong)file.LongLength,
-                    };
-                    return Open(&options);
-                }
+                    StructSize = (uint)sizeof(ModelOptions),
+                    Bytes = (IntPtr)bytes,
+                    ByteCount = (ulong)file.LongLength,
+                };
+                return Open(&options);
             }
-            catch (Exception error) when (NativeCall.IsMissing(error))
-            {
-                throw NativeCall.Missing(error);
-            }
-        }
+        });
 
         /// <param name="path">Path of a .haptoflow file.</param>
         /// <exception cref="HaptoFlowException">The library is missing, or the file is not a usable model.</exception>
-        public static HapticModel Open(string path)
+        public static HapticModel Open(string path) => NativeCall.OrMissing(() =>
         {
-            try
+            fixed (byte* text = NativeCall.Utf8(path))
             {
-                fixed (byte* text = NativeCall.Utf8(path))
-                {
-                    var options = new ModelOptions { StructSize = (uint)sizeof(ModelOptions), Path = (IntPtr)text };
-                    return Open(&options);
-                }
+                var options = new ModelOptions { StructSize = (uint)sizeof(ModelOptions), Path = (IntPtr)text };
+                return Open(&options);
             }
-            catch (Exception error) when (NativeCall.IsMissing(error))
-            {
-                throw NativeCall.Missing(error);
-            }
-        }
+        });
 
         /// <summary>Identifies the space of the model's embeddings, as 8 hexadecimal digits: a material file can be
         /// used with every model of the same space.</summary>
@@ -177,7 +163,8 @@ namespace HaptoFlow
         public string HeaderJson()
         {
             IntPtr text;
-            NativeCall.Check(NativeMethods.ModelHeader(Handle.Value, &text));
+            Handle.Check(NativeMethods.ModelHeader(Handle.Value, &text));
+            // The text is the model's.
             string json = NativeCall.Text(text);
             GC.KeepAlive(this);
             return json;
@@ -189,15 +176,13 @@ namespace HaptoFlow
             var embedding = new float[EmbeddingSize];
             fixed (float* numbers = embedding)
             {
-                NativeCall.Check(NativeMethods.ModelEmbedding(Handle.Value, checked((uint)label), numbers));
+                Handle.Check(NativeMethods.ModelEmbedding(Handle.Value, checked((uint)label), numbers));
             }
-            GC.KeepAlive(this);
             return embedding;
         }
 
         /// <summary>Name of the label whose embedding is nearest, ignoring wave vectors.</summary>
-        /// <param name="embedding"><see cref="EmbeddingSize"/> numbers, such as those of a <see cref="MaterialFile"/>.
-        /// </param>
+        /// <param name="embedding"><see cref="EmbeddingSize"/> numbers, as of a <see cref="MaterialFile"/>.</param>
         /// <exception cref="ArgumentException">It has another length.</exception>
         public string NearestLabel(IReadOnlyList<double> embedding)
         {
@@ -210,9 +195,8 @@ namespace HaptoFlow
             uint index;
             fixed (float* numbers = wanted)
             {
-                NativeCall.Check(NativeMethods.ModelNearestLabel(Handle.Value, numbers, &index));
+                Handle.Check(NativeMethods.ModelNearestLabel(Handle.Value, numbers, &index));
             }
-            GC.KeepAlive(this);
             return Labels[(int)index].Name;
         }
 

@@ -27,6 +27,20 @@ namespace HaptoFlow.Native
             return bytes;
         }
 
+        /// <summary>Runs calls of a library that may be missing.</summary>
+        /// <exception cref="HaptoFlowException">The library, or a function in it, was not found.</exception>
+        public static T OrMissing<T>(Func<T> calls)
+        {
+            try
+            {
+                return calls();
+            }
+            catch (Exception error) when (IsMissing(error))
+            {
+                throw Missing(error);
+            }
+        }
+
         /// <summary>The exception for a library, or a function in it, that was not found.</summary>
         public static HaptoFlowException Missing(Exception cause) => new HaptoFlowException(
             HaptoFlowStatus.LibraryUnavailable,

@@ -53,7 +53,7 @@ namespace HaptoFlow.Native
             GC.KeepAlive(runtime);
             GC.KeepAlive(model);
             GC.KeepAlive(cancellation);
-            using var learning = new LearningHandle(opened);
+            using var learning = new NativeHandle(opened, NativeMethods.LearningClose);
             IntPtr material;
             IntPtr report;
             NativeCall.Check(NativeMethods.LearningMaterial(learning.Value, &material));

@@ -7,54 +7,32 @@ namespace HaptoFlow
     /// <summary>ONNX Runtime for the native library. One per process is enough.</summary>
     public sealed unsafe class OnnxRuntime : IDisposable
     {
-        private OnnxRuntime(IntPtr opened) => Handle = new RuntimeHandle(opened);
+        private OnnxRuntime(IntPtr opened) => Handle = new NativeHandle(opened, NativeMethods.RuntimeClose);
 
-        internal RuntimeHandle Handle { get; }
+        internal NativeHandle Handle { get; }
 
         /// <summary>Opens the ONNX Runtime of this platform's package (onnxruntime). Any thread that may block for the
         /// disk.</summary>
         /// <exception cref="HaptoFlowException">A library is missing or belongs to another version of the
         /// package, or ONNX Runtime is older than version 1.16.</exception>
-        public static OnnxRuntime Open()
+        public static OnnxRuntime Open() => NativeCall.OrMissing(() =>
         {
-            try
+            LibraryAgreement.Require();
+            var options = new RuntimeOptions
             {
-                LibraryAgreement.Require();
-                var options = new RuntimeOptions
-                {
-                    StructSize = (uint)sizeof(RuntimeOptions),
-                    OrtApiBase = NativeMethods.OrtGetApiBase(),
-                };
-                return Open(&options);
-            }
-            catch (Exception error) when (NativeCall.IsMissing(error))
-            {
-                throw NativeCall.Missing(error);
-            }
-        }
+                StructSize = (uint)sizeof(RuntimeOptions),
+                OrtApiBase = NativeMethods.OrtGetApiBase(),
+            };
+            IntPtr opened;
+            NativeCall.Check(NativeMethods.RuntimeOpen(&options, &opened));
+            return new OnnxRuntime(opened);
+        });
 
         /// <summary>Version of the native library, for example "0.1.0". Any thread.</summary>
         /// <exception cref="HaptoFlowException">The library is missing.</exception>
-        public static string LibraryVersion()
-        {
-            try
-            {
-                return NativeCall.Text(NativeMethods.Version());
-            }
-            catch (Exception error) when (NativeCall.IsMissing(error))
-            {
-                throw NativeCall.Missing(error);
-            }
-        }
+        public static string LibraryVersion() => NativeCall.OrMissing(() => NativeCall.Text(NativeMethods.Version()));
 
         /// <summary>Frees the handle; engines and generators created with it stay usable.</summary>
         public void Dispose() => Handle.Dispose();
-
-        private static OnnxRuntime Open(RuntimeOptions* options)
-        {
-            IntPtr opened;
-            NativeCall.Check(NativeMethods.RuntimeOpen(options, &opened));
-            return new OnnxRuntime(opened);
-        }
     }
 }

@@ -12,12 +12,7 @@ namespace HaptoFlow.Numerics
         public readonly double Y;
         public readonly double Z;
 
-        public Double3(double x, double y, double z)
-        {
-            X = x;
-            Y = y;
-            Z = z;
-        }
+        public Double3(double x, double y, double z) => (X, Y, Z) = (x, y, z);
 
         public static Double3 Zero => default;
         public static Double3 Right => new Double3(1.0, 0.0, 0.0);

@@ -11,13 +11,7 @@ namespace HaptoFlow.Numerics
         public readonly double Z;
         public readonly double W;
 
-        public Rotation(double x, double y, double z, double w)
-        {
-            X = x;
-            Y = y;
-            Z = z;
-            W = w;
-        }
+        public Rotation(double x, double y, double z, double w) => (X, Y, Z, W) = (x, y, z, w);
 
         public static Rotation Identity => new Rotation(0.0, 0.0, 0.0, 1.0);
 

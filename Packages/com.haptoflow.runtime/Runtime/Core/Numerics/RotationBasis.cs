@@ -5,24 +5,16 @@ namespace HaptoFlow.Numerics
     /// <summary>Three perpendicular unit vectors with third = first x second.</summary>
     internal readonly struct RotationBasis
     {
-        private readonly Double3 first;
-        private readonly Double3 second;
-        private readonly Double3 third;
-
         /// <param name="first">A unit vector.</param>
         /// <param name="third">A unit vector perpendicular to the first.</param>
-        public RotationBasis(Double3 first, Double3 third)
-        {
-            this.first = first;
-            this.third = third;
-            second = Double3.Cross(third, first);
-        }
+        public RotationBasis(Double3 first, Double3 third) =>
+            (First, Second, Third) = (first, Double3.Cross(third, first), third);
 
-        public Double3 First => first;
+        public Double3 First { get; }
 
-        public Double3 Second => second;
+        public Double3 Second { get; }
 
-        public Double3 Third => third;
+        public Double3 Third { get; }
 
         /// <summary>The rotation that maps one basis to the other.</summary>
         public static Rotation Between(in RotationBasis from, in RotationBasis to)
@@ -47,6 +39,6 @@ namespace HaptoFlow.Numerics
 
         /// <summary>The image of one coordinate axis under the rotation.</summary>
         private static Double3 Column(in RotationBasis from, in RotationBasis to, int axis) =>
-            to.first * from.first[axis] + to.second * from.second[axis] + to.third * from.third[axis];
+            to.First * from.First[axis] + to.Second * from.Second[axis] + to.Third * from.Third[axis];
     }
 }

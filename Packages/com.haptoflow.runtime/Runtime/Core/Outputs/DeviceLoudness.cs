@@ -25,7 +25,7 @@ namespace HaptoFlow.Outputs
         public const double LatencySeconds = 0.001;
 
         private readonly IWaveSource source;
-        private readonly DeviceWaveHandle handle;
+        private readonly NativeHandle handle;
         private bool keepsTrueLevel;
 
         public DeviceWave(IWaveSource source)
@@ -33,7 +33,7 @@ namespace HaptoFlow.Outputs
             this.source = source;
             IntPtr opened;
             NativeCall.Check(NativeMethods.DeviceWaveCreate(WaveHistory.RateHz, &opened));
-            handle = new DeviceWaveHandle(opened);
+            handle = new NativeHandle(opened, NativeMethods.DeviceWaveClose);
         }
 
         /// <summary>True to pass the wave on as it is.</summary>
@@ -45,8 +45,7 @@ namespace HaptoFlow.Outputs
                 if (value != keepsTrueLevel)
                 {
                     keepsTrueLevel = value;
-                    NativeCall.Check(NativeMethods.DeviceWaveReset(handle.Value));
-                    GC.KeepAlive(this);
+                    handle.Check(NativeMethods.DeviceWaveReset(handle.Value));
                 }
             }
         }
@@ -67,10 +66,9 @@ namespace HaptoFlow.Outputs
             }
             fixed (float* wave = samples)
             {
-                NativeCall.Check(NativeMethods.DeviceWaveProcess(
+                handle.Check(NativeMethods.DeviceWaveProcess(
                     handle.Value, wave, (ulong)samples.Length, FullScaleMps2));
             }
-            GC.KeepAlive(this);
         }
 
         /// <inheritdoc/>

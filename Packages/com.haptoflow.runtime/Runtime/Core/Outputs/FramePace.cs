@@ -13,16 +13,14 @@ namespace HaptoFlow.Outputs
         private const double MarginSeconds = 0.006;
         private const double DecayPerFrame = 0.02;
 
-        private double longestSeconds = 1.0 / HapticEngineOptions.DefaultUpdateRateHz;
-
         /// <summary>Time that must be queued on the device after a submission, in s.</summary>
-        public double DepthSeconds => longestSeconds + MarginSeconds;
+        public double DepthSeconds => MaximumSeconds + MarginSeconds;
 
         /// <summary>Upper limit of <see cref="DepthSeconds"/>, in s.</summary>
         public static double MaximumDepthSeconds => HitchSeconds + MarginSeconds;
 
         /// <summary>The longest of the recent frames, in s.</summary>
-        public double MaximumSeconds => longestSeconds;
+        public double MaximumSeconds { get; private set; } = 1.0 / HapticEngineOptions.DefaultUpdateRateHz;
 
         public void Note(double frameSeconds)
         {
@@ -30,8 +28,8 @@ namespace HaptoFlow.Outputs
             {
                 return;
             }
-            longestSeconds = Math.Max(frameSeconds,
-                longestSeconds + DecayPerFrame * (frameSeconds - longestSeconds));
+            MaximumSeconds = Math.Max(frameSeconds,
+                MaximumSeconds + DecayPerFrame * (frameSeconds - MaximumSeconds));
         }
     }
 }

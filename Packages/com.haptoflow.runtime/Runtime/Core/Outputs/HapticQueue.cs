@@ -44,7 +44,6 @@ namespace HaptoFlow.Outputs
         private const float LimiterKnee = 0.7f;
 
         private readonly IHapticSink sink;
-        private HapticSinkCapabilities capabilities;
         private bool hasDevice;
         private double beganSeconds = double.NaN;
         private float ceiling = 1f;
@@ -54,11 +53,7 @@ namespace HaptoFlow.Outputs
         private double sampleFraction;
         private protected HapticQueueStatistics statistics;
 
-        protected HapticQueue(IHapticSink sink, IWaveSource source)
-        {
-            this.sink = sink;
-            Source = source;
-        }
+        protected HapticQueue(IHapticSink sink, IWaveSource source) => (this.sink, Source) = (sink, source);
 
         /// <summary>The queue for a device of a form.</summary>
         /// <param name="sink">Implements the interface of the form.</param>
@@ -81,11 +76,7 @@ namespace HaptoFlow.Outputs
         public virtual bool TrueLevel { get; set; } = true;
 
         /// <summary>Limit of the magnitude sent, 0 to 1.</summary>
-        public float Ceiling
-        {
-            get => ceiling;
-            set => ceiling = Math.Max(0f, Math.Min(1f, value));
-        }
+        public float Ceiling { get => ceiling; set => ceiling = Math.Max(0f, Math.Min(1f, value)); }
 
         /// <summary>Full scale: the acceleration that a sample of 1 represents, in m/s^2.</summary>
         public virtual float FullScaleMps2 { get; set; } = (float)HapticEngineOptions.DefaultFullScaleMps2;
@@ -105,7 +96,7 @@ namespace HaptoFlow.Outputs
 
         protected FramePace Pace { get; } = new FramePace();
 
-        protected HapticSinkCapabilities Capabilities => capabilities;
+        protected HapticSinkCapabilities Capabilities { get; private set; }
 
         /// <summary>Call once a frame.</summary>
         /// <param name="nowSeconds">Time of a real-time clock that never runs backwards.</param>
@@ -150,8 +141,7 @@ namespace HaptoFlow.Outputs
             }
         }
 
-        /// <summary>Takes whether playback begins in the midst of a vibration that made way, rather than with its onset.
-        /// </summary>
+        /// <summary>Takes whether playback begins amid a vibration that made way, not with its onset.</summary>
         protected bool TakeReturn()
         {
             bool was = returns;
@@ -162,8 +152,7 @@ namespace HaptoFlow.Outputs
         /// <summary>Advances wave and device by a frame.</summary>
         protected abstract void Advance(double nowSeconds, double elapsedSeconds);
 
-        /// <summary>Called after each frame of the wave that is rendered while the device belongs to another vibration.
-        /// </summary>
+        /// <summary>Called after each frame of the wave while the device belongs to another vibration.</summary>
         protected virtual void PassOver()
         {
         }
@@ -266,7 +255,7 @@ namespace HaptoFlow.Outputs
                 LoseDevice();
                 return false;
             }
-            if (hasDevice && now.Equals(capabilities))
+            if (hasDevice && now.Equals(Capabilities))
             {
                 return true;
             }
@@ -277,7 +266,7 @@ namespace HaptoFlow.Outputs
                 ++statistics.DeviceChanges;
             }
             hasDevice = true;
-            capabilities = now;
+            Capabilities = now;
             statistics.RateHz = now.RateHz;
             Rest();
             Prepare();

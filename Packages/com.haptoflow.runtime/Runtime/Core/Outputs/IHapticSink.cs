@@ -96,11 +96,7 @@ namespace HaptoFlow.Outputs
     {
         /// <param name="seconds">See <see cref="Seconds"/>.</param>
         /// <param name="value">See <see cref="Value"/>.</param>
-        public ParametricPoint(double seconds, float value)
-        {
-            Seconds = seconds;
-            Value = value;
-        }
+        public ParametricPoint(double seconds, float value) => (Seconds, Value) = (seconds, value);
 
         /// <summary>Time from the start of the stream, in s.</summary>
         public double Seconds { get; }
@@ -115,12 +111,8 @@ namespace HaptoFlow.Outputs
         /// <param name="seconds">See <see cref="Seconds"/>.</param>
         /// <param name="amplitude">See <see cref="Amplitude"/>.</param>
         /// <param name="frequency">See <see cref="Frequency"/>.</param>
-        public ParametricTransient(double seconds, float amplitude, float frequency)
-        {
-            Seconds = seconds;
-            Amplitude = amplitude;
-            Frequency = frequency;
-        }
+        public ParametricTransient(double seconds, float amplitude, float frequency) =>
+            (Seconds, Amplitude, Frequency) = (seconds, amplitude, frequency);
 
         /// <summary>Time from the start of the stream, in s.</summary>
         public double Seconds { get; }

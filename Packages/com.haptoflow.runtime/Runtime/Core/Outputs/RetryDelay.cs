@@ -15,14 +15,10 @@ namespace HaptoFlow.Outputs
 
         /// <param name="firstSeconds">Delay after the first failure, in s, above 0.</param>
         /// <param name="maximumSeconds">Limit of the delay, in s.</param>
-        public RetryDelay(double firstSeconds, double maximumSeconds)
-        {
-            this.firstSeconds = firstSeconds;
-            this.maximumSeconds = maximumSeconds;
-        }
+        public RetryDelay(double firstSeconds, double maximumSeconds) =>
+            (this.firstSeconds, this.maximumSeconds) = (firstSeconds, maximumSeconds);
 
-        /// <summary>True where the call may be made: it has not failed since the last success, or the delay is over.
-        /// </summary>
+        /// <summary>True where the call may be made: it has not failed since a success, or the delay is over.</summary>
         /// <param name="nowSeconds">Time of a real-time clock, in s.</param>
         public bool IsDue(double nowSeconds) => nowSeconds >= dueSeconds;
 
@@ -45,8 +41,7 @@ namespace HaptoFlow.Outputs
             dueSeconds = double.NegativeInfinity;
         }
 
-        /// <summary>Forgets the failures altogether: the next one counts as the first. Call it for another device.
-        /// </summary>
+        /// <summary>Forgets the failures: the next one counts as the first. Call it for another device.</summary>
         public void Restart()
         {
             Forget();

@@ -48,7 +48,7 @@ namespace HaptoFlow.Outputs
         /// it.</summary>
         public const double LatencySeconds = 0.0055;
 
-        private readonly WaveFeaturesHandle handle;
+        private readonly NativeHandle handle;
         private readonly NativeWaveFrame[] frames;
         private readonly float[] scaled;
 
@@ -69,7 +69,7 @@ namespace HaptoFlow.Outputs
             LibraryAgreement.Require();
             IntPtr opened;
             NativeCall.Check(NativeMethods.WaveFeaturesCreate(&options, &opened));
-            handle = new WaveFeaturesHandle(opened);
+            handle = new NativeHandle(opened, NativeMethods.WaveFeaturesClose);
         }
 
         /// <summary>Upper limit of frames that one call of <see cref="Process"/> completes.</summary>
@@ -80,19 +80,12 @@ namespace HaptoFlow.Outputs
         public float FullScaleMps2 { get; set; } = (float)HapticEngineOptions.DefaultFullScaleMps2;
 
         /// <summary>Discards the state before a new wave.</summary>
-        public void Reset()
-        {
-            NativeCall.Check(NativeMethods.WaveFeaturesReset(handle.Value));
-            GC.KeepAlive(this);
-        }
+        public void Reset() => handle.Check(NativeMethods.WaveFeaturesReset(handle.Value));
 
         /// <summary>Sets the device's frequency range from the next frame on, above 0 to 1000 Hz; equal limits for a
         /// motor of one frequency.</summary>
-        public void SetRange(double minimumHz, double maximumHz)
-        {
-            NativeCall.Check(NativeMethods.WaveFeaturesSetRange(handle.Value, minimumHz, maximumHz));
-            GC.KeepAlive(this);
-        }
+        public void SetRange(double minimumHz, double maximumHz) =>
+            handle.Check(NativeMethods.WaveFeaturesSetRange(handle.Value, minimumHz, maximumHz));
 
         /// <summary>Processes samples and writes the frames that they complete.</summary>
         /// <param name="into">At least <see cref="MaximumFrames"/> long.</param>
@@ -107,10 +100,9 @@ namespace HaptoFlow.Outputs
             fixed (float* wave = scaled)
             fixed (NativeWaveFrame* written = frames)
             {
-                NativeCall.Check(NativeMethods.WaveFeaturesProcess(
+                handle.Check(NativeMethods.WaveFeaturesProcess(
                     handle.Value, wave, (ulong)samples.Length, written, (ulong)frames.Length, &count));
             }
-            GC.KeepAlive(this);
             for (int index = 0; index < (int)count; ++index)
             {
                 NativeWaveFrame frame = frames[index];

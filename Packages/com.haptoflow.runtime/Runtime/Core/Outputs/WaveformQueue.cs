@@ -56,18 +56,10 @@ namespace HaptoFlow.Outputs
         }
 
         /// <inheritdoc/>
-        public override bool TrueLevel
-        {
-            get => wave.KeepsTrueLevel;
-            set => wave.KeepsTrueLevel = value;
-        }
+        public override bool TrueLevel { get => wave.KeepsTrueLevel; set => wave.KeepsTrueLevel = value; }
 
         /// <inheritdoc/>
-        public override float FullScaleMps2
-        {
-            get => wave.FullScaleMps2;
-            set => wave.FullScaleMps2 = value;
-        }
+        public override float FullScaleMps2 { get => wave.FullScaleMps2; set => wave.FullScaleMps2 = value; }
 
         /// <inheritdoc/>
         public override void Dispose() => wave.Dispose();

@@ -62,7 +62,7 @@ namespace HaptoFlow.Recordings
                     };
                     NativeCall.Check(NativeMethods.RecordingRead(&options, &opened));
                 }
-                using var handle = new RecordingHandle(opened);
+                using var handle = new NativeHandle(opened, NativeMethods.RecordingClose);
                 var info = new NativeRecordingInfo { StructSize = (uint)sizeof(NativeRecordingInfo) };
                 NativeCall.Check(NativeMethods.RecordingGetInfo(handle.Value, &info));
                 return Made(Path.GetFileNameWithoutExtension(path), info);

@@ -16,11 +16,7 @@ namespace HaptoFlow
 
         /// <summary>A value action of type Axis, 0 to 1. Set it before the component is enabled, or while it is
         /// disabled.</summary>
-        public InputActionProperty Pressure
-        {
-            get => pressure;
-            set => pressure = value;
-        }
+        public InputActionProperty Pressure { get => pressure; set => pressure = value; }
 
         /// <summary>The hand that the action's bindings name, as in &lt;XRController&gt;{RightHand}/tip; None where they
         /// name none or both.</summary>

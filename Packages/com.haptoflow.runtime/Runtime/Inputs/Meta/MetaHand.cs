@@ -31,8 +31,7 @@ namespace HaptoFlow
         /// </summary>
         public bool HasFocus { get; private set; }
 
-        /// <summary>True while a controller is connected that the runtime counts as the hand's, an MX Ink included.
-        /// </summary>
+        /// <summary>True while a controller that the runtime counts as the hand's is connected, or an MX Ink.</summary>
         public bool IsConnected => (connected & Mask) != 0;
 
         /// <summary>True while an MX Ink is in the hand and the project has its action set.</summary>
@@ -41,8 +40,7 @@ namespace HaptoFlow
         /// <summary>True while the Touch controller in the hand is an MX Ink without its action set.</summary>
         public bool HoldsDisguisedMxInk => disguise.IsRecognised;
 
-        /// <summary>Increases with every change of session, controllers or profile: a failed call may now succeed.
-        /// </summary>
+        /// <summary>Increases with each change of session, controllers or profile: a failed call may succeed.</summary>
         public int Version { get; private set; }
 
         /// <summary>Reads the present state. Call it before the properties; several calls in a frame are cheap.</summary>

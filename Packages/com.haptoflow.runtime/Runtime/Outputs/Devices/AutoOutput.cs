@@ -26,8 +26,7 @@ namespace HaptoFlow
 
         /// <summary>Creates an output for the device in the stylus's hand at the first call; true where it plays the
         /// stylus.</summary>
-        /// <param name="left">The scene's audio output, which leaves the stylus to the device; null without one.
-        /// </param>
+        /// <param name="left">The scene's audio output, which leaves the stylus to the device; or null.</param>
         internal static bool Serves(HapticStylus asker, HapticOutput? left)
         {
             if (asker.Hand == HapticHand.None)
@@ -82,7 +81,7 @@ namespace HaptoFlow
             return made;
         }
 
-        private protected override void OpenSinks(HapticHand wanted, List<HapticSinks.OpenSink> into) =>
+        private protected override void OpenSinks(HapticHand wanted, HeldDevice into) =>
             HapticSinks.OpenBest(wanted, into);
 
         private protected override void OnDevice(HapticForm form, IHapticSink sink, HapticHand held)

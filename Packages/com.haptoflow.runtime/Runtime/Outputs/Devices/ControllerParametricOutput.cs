@@ -1,5 +1,4 @@
 #nullable enable
-using System.Collections.Generic;
 using HaptoFlow.Outputs;
 using UnityEngine;
 
@@ -20,13 +19,9 @@ namespace HaptoFlow
         private bool useExperimentalFeature;
 
         /// <summary>Nothing plays while this is false. Set it before the output is enabled.</summary>
-        public bool UseExperimentalFeature
-        {
-            get => useExperimentalFeature;
-            set => useExperimentalFeature = value;
-        }
+        public bool UseExperimentalFeature { get => useExperimentalFeature; set => useExperimentalFeature = value; }
 
-        private protected override void OpenSinks(HapticHand wanted, List<HapticSinks.OpenSink> into)
+        private protected override void OpenSinks(HapticHand wanted, HeldDevice into)
         {
             if (useExperimentalFeature)
             {

@@ -1,5 +1,4 @@
 #nullable enable
-using System.Collections.Generic;
 using HaptoFlow.Outputs;
 using UnityEngine;
 
@@ -20,15 +19,11 @@ namespace HaptoFlow
 
         /// <summary>True to queue each submission behind the last one instead of replacing it. Set it before the output
         /// is enabled.</summary>
-        public bool QueueSubmissions
-        {
-            get => queueSubmissions;
-            set => queueSubmissions = value;
-        }
+        public bool QueueSubmissions { get => queueSubmissions; set => queueSubmissions = value; }
 
         private protected override bool MayReplace => !queueSubmissions;
 
-        private protected override void OpenSinks(HapticHand wanted, List<HapticSinks.OpenSink> into) =>
+        private protected override void OpenSinks(HapticHand wanted, HeldDevice into) =>
             HapticSinks.Open(HapticForm.Waveform, wanted, into);
     }
 }

@@ -1,6 +1,5 @@
 #nullable enable
 using System;
-using System.Collections.Generic;
 using HaptoFlow.Outputs;
 using UnityEngine;
 
@@ -47,7 +46,7 @@ namespace HaptoFlow
         private float fullScaleMps2 = DefaultFullScaleMps2;
 
         private readonly VoiceSource source = new VoiceSource();
-        private readonly List<HapticSinks.OpenSink> sinks = new List<HapticSinks.OpenSink>();
+        private readonly HeldDevice device = new HeldDevice();
         // Recompiling while playing keeps the values of serialisable fields. The values of these would be out of date.
         [NonSerialized]
         private HapticStylus? attached;
@@ -55,9 +54,6 @@ namespace HaptoFlow
         private HapticStylus? namedIn;
         [NonSerialized]
         private HapticHand openedFor;
-        private IHapticSink? device;
-        private HapticForm form;
-        private HapticQueue? queue;
         private double nextSearchSeconds;
         private bool wasThere;
 
@@ -79,18 +75,10 @@ namespace HaptoFlow
         internal HapticStylus? Played => Wanted();
 
         /// <summary>The hand whose device is used; <see cref="HapticHand.None"/> for the stylus's.</summary>
-        public HapticHand Hand
-        {
-            get => hand;
-            set => hand = value;
-        }
+        public HapticHand Hand { get => hand; set => hand = value; }
 
         /// <summary>Gain, 0 to 1.</summary>
-        public float Strength
-        {
-            get => strength;
-            set => strength = Mathf.Clamp01(value);
-        }
+        public float Strength { get => strength; set => strength = Mathf.Clamp01(value); }
 
         /// <summary>A muted output is silent from this frame on and costs no inference.</summary>
         public bool Muted
@@ -117,35 +105,27 @@ namespace HaptoFlow
 
         /// <summary>True to drive the device in proportion to the acceleration, by <see cref="FullScaleMps2"/>, instead
         /// of by the loudness law.</summary>
-        public bool TrueLevel
-        {
-            get => trueLevel;
-            set => trueLevel = value;
-        }
+        public bool TrueLevel { get => trueLevel; set => trueLevel = value; }
 
         /// <summary>Acceleration that drives the device at its full amplitude, in m/s^2, above 0; used with <see
         /// cref="TrueLevel"/>.</summary>
-        public float FullScaleMps2
-        {
-            get => fullScaleMps2;
-            set => fullScaleMps2 = Mathf.Max(0.1f, value);
-        }
+        public float FullScaleMps2 { get => fullScaleMps2; set => fullScaleMps2 = Mathf.Max(0.1f, value); }
 
         /// <summary>True while a device is connected that supports this output.</summary>
-        public bool HasDevice => device != null && device.TryGetCapabilities(out _);
+        public bool HasDevice => device.IsThere;
 
         /// <summary>Name of the device in use, for people; empty without one.</summary>
-        public string DeviceName => HasDevice ? device!.Name : "";
+        public string DeviceName => HasDevice ? device.Sink!.Name : "";
 
         /// <summary>The form in which the device is driven; null without one.</summary>
-        public HapticForm? Form => HasDevice ? form : (HapticForm?)null;
+        public HapticForm? Form => HasDevice ? device.Form : (HapticForm?)null;
 
         /// <summary>The hand whose device is searched for: the field's, else the stylus's.</summary>
         internal HapticHand SearchedHand =>
             hand != HapticHand.None ? hand : attached != null ? attached.Hand : HapticHand.None;
 
         /// <summary>Statistics since the device was connected.</summary>
-        public HapticQueueStatistics Statistics => queue?.Statistics ?? default;
+        public HapticQueueStatistics Statistics => device.Queue?.Statistics ?? default;
 
         bool IVoiceTarget.PlaysSignal => false;
 
@@ -173,7 +153,7 @@ namespace HaptoFlow
         private protected virtual bool MayReplace => true;
 
         /// <summary>Opens the sinks to try, in order of preference.</summary>
-        private protected abstract void OpenSinks(HapticHand wanted, List<HapticSinks.OpenSink> into);
+        private protected abstract void OpenSinks(HapticHand wanted, HeldDevice into);
 
         /// <summary>Called when another device is used.</summary>
         private protected virtual void OnDevice(HapticForm form, IHapticSink sink, HapticHand held)
@@ -186,16 +166,17 @@ namespace HaptoFlow
             HapticHand held = SearchedHand;
             if (held != openedFor)
             {
-                Close();
+                device.Close();
                 openedFor = held;
                 if (held != HapticHand.None)
                 {
-                    OpenSinks(held, sinks);
+                    OpenSinks(held, device);
                 }
             }
-            if (HapticSinks.TryFind(sinks, out HapticSinks.OpenSink found))
+            if (device.Find(source, MayReplace))
             {
-                Use(found, held);
+                wasThere = false;
+                OnDevice(device.Form, device.Sink!, held);
             }
         }
 
@@ -215,13 +196,13 @@ namespace HaptoFlow
 
         private void OnDisable()
         {
-            queue?.Flush(Time.realtimeSinceStartupAsDouble);
+            device.Flush();
             Detach();
         }
 
         private void OnDestroy()
         {
-            Close();
+            device.Close();
             Name(null);
         }
 
@@ -250,7 +231,7 @@ namespace HaptoFlow
                 Attach();
                 FindDevice();
             }
-            if (queue != null)
+            if (device.Queue is { } queue)
             {
                 HaptoFlowSettings settings = HaptoFlowSettings.Active;
                 queue.TrueLevel = trueLevel;
@@ -272,7 +253,7 @@ namespace HaptoFlow
         private void DiscardSubmitted()
         {
             source.Discard();
-            queue?.Flush(Time.realtimeSinceStartupAsDouble);
+            device.Flush();
         }
 
         private HapticStylus? Wanted()
@@ -326,34 +307,6 @@ namespace HaptoFlow
                 namedIn = wanted;
                 namedIn?.Voices.Name(true);
             }
-        }
-
-        private void Use(in HapticSinks.OpenSink chosen, HapticHand held)
-        {
-            if (ReferenceEquals(chosen.Sink, device))
-            {
-                return;
-            }
-            queue?.Flush(Time.realtimeSinceStartupAsDouble);
-            queue?.Dispose();
-            device = chosen.Sink;
-            wasThere = false;
-            form = chosen.Form;
-            queue = HapticQueue.For(form, chosen.Sink, source, MayReplace);
-            OnDevice(chosen.Form, chosen.Sink, held);
-        }
-
-        private void Close()
-        {
-            queue?.Flush(Time.realtimeSinceStartupAsDouble);
-            queue?.Dispose();
-            queue = null;
-            device = null;
-            foreach (HapticSinks.OpenSink each in sinks)
-            {
-                (each.Sink as IDisposable)?.Dispose();
-            }
-            sinks.Clear();
         }
     }
 }

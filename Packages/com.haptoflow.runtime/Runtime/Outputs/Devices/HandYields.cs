@@ -4,8 +4,7 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>Until when the outputs of each hand leave its device to another vibration. Main thread; no garbage.
-    /// </summary>
+    /// <summary>Until when outputs leave each hand's device to another vibration. Main thread; no garbage.</summary>
     internal static class HandYields
     {
         /// <summary>Limit of one call, in s: a mistaken length must not silence a hand for good.</summary>
@@ -30,8 +29,7 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>Time of <see cref="Time.realtimeSinceStartupAsDouble"/> until which outputs of a hand yield.
-        /// </summary>
+        /// <summary>The <see cref="Time.realtimeSinceStartupAsDouble"/> until which outputs of a hand yield.</summary>
         public static double UntilSeconds(HapticHand hand) => Until[(int)hand];
 
         [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.SubsystemRegistration)]

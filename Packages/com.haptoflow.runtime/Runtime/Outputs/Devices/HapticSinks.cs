@@ -27,37 +27,22 @@ namespace HaptoFlow
         }
 
         /// <summary>Opens a sink for each route of a form, in order of preference.</summary>
-        internal static void Open(HapticForm form, HapticHand hand, List<OpenSink> into)
+        internal static void Open(HapticForm form, HapticHand hand, HeldDevice into)
         {
             foreach (Route route in Routes)
             {
                 if (route.Form == form)
                 {
-                    into.Add(new OpenSink(form, route.Maker(hand)));
+                    into.Add(form, route.Maker(hand));
                 }
             }
         }
 
         /// <summary>Opens a sink for each route that plays the waveform, or else its envelope, best first.</summary>
-        internal static void OpenBest(HapticHand hand, List<OpenSink> into)
+        internal static void OpenBest(HapticHand hand, HeldDevice into)
         {
             Open(HapticForm.Waveform, hand, into);
             Open(HapticForm.Amplitude, hand, into);
-        }
-
-        /// <summary>Finds the first sink whose device is there.</summary>
-        internal static bool TryFind(List<OpenSink> sinks, out OpenSink found)
-        {
-            foreach (OpenSink each in sinks)
-            {
-                if (each.Sink.TryGetCapabilities(out _))
-                {
-                    found = each;
-                    return true;
-                }
-            }
-            found = default;
-            return false;
         }
 
         /// <summary>Names of all routes.</summary>
@@ -67,37 +52,6 @@ namespace HaptoFlow
         internal static void ForEach(Action<string, HapticForm, HapticSinkMaker> act) =>
             Routes.ForEach(route => act(route.Name, route.Form, route.Maker));
 
-        /// <summary>A sink and its form.</summary>
-        internal readonly struct OpenSink
-        {
-            public OpenSink(HapticForm form, IHapticSink sink)
-            {
-                Form = form;
-                Sink = sink;
-            }
-
-            public HapticForm Form { get; }
-
-            public IHapticSink Sink { get; }
-        }
-
-        private sealed class Route
-        {
-            public Route(string name, HapticForm form, int preference, HapticSinkMaker maker)
-            {
-                Name = name;
-                Form = form;
-                Preference = preference;
-                Maker = maker;
-            }
-
-            public string Name { get; }
-
-            public HapticForm Form { get; }
-
-            public int Preference { get; }
-
-            public HapticSinkMaker Maker { get; }
-        }
+        private sealed record Route(string Name, HapticForm Form, int Preference, HapticSinkMaker Maker);
     }
 }

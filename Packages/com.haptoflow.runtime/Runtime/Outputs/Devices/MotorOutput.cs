@@ -1,5 +1,4 @@
 #nullable enable
-using System.Collections.Generic;
 using HaptoFlow.Outputs;
 using UnityEngine;
 
@@ -13,7 +12,7 @@ namespace HaptoFlow
     [HelpPage(HelpPages.Outputs + "motor")]
     public sealed class MotorOutput : DeviceOutput
     {
-        private protected override void OpenSinks(HapticHand wanted, List<HapticSinks.OpenSink> into) =>
+        private protected override void OpenSinks(HapticHand wanted, HeldDevice into) =>
             HapticSinks.Open(HapticForm.Amplitude, wanted, into);
     }
 }

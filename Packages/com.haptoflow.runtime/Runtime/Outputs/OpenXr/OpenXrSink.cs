@@ -18,19 +18,18 @@ namespace HaptoFlow
         private const double MaximumHz = 400.0;
 
         private readonly InputAction action;
-        private readonly string name;
         private bool isBound;
         private double nextCheckSeconds = double.NegativeInfinity;
 
         public OpenXrSink(HapticHand hand)
         {
-            name = $"the OpenXR device in the {hand} hand";
+            Name = $"the OpenXR device in the {hand} hand";
             action = new InputAction(type: InputActionType.PassThrough,
                 binding: "<XRController>{" + hand + "Hand}/haptic");
             action.Enable();
         }
 
-        public string Name => name;
+        public string Name { get; }
 
         public bool TryGetCapabilities(out HapticSinkCapabilities capabilities)
         {

@@ -12,7 +12,6 @@ namespace HaptoFlow
         private const double QueryIntervalSeconds = 0.25;
 
         private readonly XRNode node;
-        private InputDevice device;
         private HapticCapabilities capabilities;
         private bool hasHaptics;
         private double nextQuerySeconds = double.NegativeInfinity;
@@ -21,13 +20,13 @@ namespace HaptoFlow
 
         public string Name { get; private set; } = "an XR device";
 
-        public InputDevice Device => device;
+        public InputDevice Device { get; private set; }
 
         /// <returns>False while no device with haptics is connected.</returns>
         public bool TryGetCapabilities(out HapticCapabilities now)
         {
             double seconds = Time.realtimeSinceStartupAsDouble;
-            if (seconds >= nextQuerySeconds || (hasHaptics && !device.isValid))
+            if (seconds >= nextQuerySeconds || (hasHaptics && !Device.isValid))
             {
                 nextQuerySeconds = seconds + QueryIntervalSeconds;
                 Query();
@@ -38,12 +37,12 @@ namespace HaptoFlow
 
         private void Query()
         {
-            InputDevice before = device;
-            device = InputDevices.GetDeviceAtXRNode(node);
-            hasHaptics = device.isValid && device.TryGetHapticCapabilities(out capabilities);
-            if (hasHaptics && device != before)
+            InputDevice before = Device;
+            Device = InputDevices.GetDeviceAtXRNode(node);
+            hasHaptics = Device.isValid && Device.TryGetHapticCapabilities(out capabilities);
+            if (hasHaptics && Device != before)
             {
-                Name = device.name;
+                Name = Device.name;
             }
         }
     }

@@ -1,7 +1,6 @@
 #nullable enable
 using System;
 using System.Collections.Generic;
-using HaptoFlow.Model;
 using UnityEngine;
 
 namespace HaptoFlow
@@ -19,18 +18,10 @@ namespace HaptoFlow
 
         /// <summary>The model that is used when the project's settings name none. Set it before the component wakes.
         /// </summary>
-        public HapticModelAsset? Model
-        {
-            get => model;
-            set => model = value;
-        }
+        public HapticModelAsset? Model { get => model; set => model = value; }
 
         /// <summary>The scene's camera. Set it before the component wakes.</summary>
-        public Camera? View
-        {
-            get => view;
-            set => view = value;
-        }
+        public Camera? View { get => view; set => view = value; }
 
         /// <summary>Draws in the scene view what the scene will build. It is called before play mode only; use
         /// <see cref="SceneSketch"/>.</summary>

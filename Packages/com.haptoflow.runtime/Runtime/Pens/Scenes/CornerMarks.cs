@@ -20,8 +20,7 @@ namespace HaptoFlow
         /// alignment takes points.</summary>
         public string NextCorner => CornerNames[alignment.PointsTaken];
 
-        /// <summary>Sets the alignment's marks and adds the balls below its object. Main thread, in play mode.
-        /// </summary>
+        /// <summary>Sets the alignment's marks and adds balls below its object. Main thread, in play mode.</summary>
         /// <param name="nearLeft">The near left corner, in the alignment's local space.</param>
         /// <param name="widthMetres">The rectangle's extent along the local x axis.</param>
         /// <param name="depthMetres">The rectangle's extent along the local z axis.</param>

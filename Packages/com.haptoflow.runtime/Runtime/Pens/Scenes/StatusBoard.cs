@@ -4,8 +4,7 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>Shows in the scene which label a stylus touches, how fast and how hard, or why there are no haptics.
-    /// </summary>
+    /// <summary>Shows which label a stylus touches, how fast and how hard, or why there are no haptics.</summary>
     [DisallowMultipleComponent]
     [HelpPage(HelpPages.Components + "status-board")]
     public sealed class StatusBoard : MonoBehaviour

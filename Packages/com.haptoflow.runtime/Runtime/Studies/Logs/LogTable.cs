@@ -8,23 +8,10 @@ namespace HaptoFlow.Studies
 {
     /// <summary>The rows of an existing log, checked against the plan. The CSV format has no quoted cells, so lines
     /// split at commas.</summary>
-    internal sealed class LogTable
+    /// <param name="Content">The complete lines; a last line without line break is dropped.</param>
+    /// <param name="ElapsedSeconds">Elapsed seconds of the last row; 0 without one.</param>
+    internal sealed record LogTable(byte[] Content, int Rows, double ElapsedSeconds)
     {
-        private LogTable(byte[] content, int rows, double elapsedSeconds)
-        {
-            Content = content;
-            Rows = rows;
-            ElapsedSeconds = elapsedSeconds;
-        }
-
-        /// <summary>The complete lines; a last line without line break is dropped.</summary>
-        public byte[] Content { get; }
-
-        public int Rows { get; }
-
-        /// <summary>Elapsed seconds of the last row; 0 without one.</summary>
-        public double ElapsedSeconds { get; }
-
         public static string Header(StudyKind kind) => string.Join(",", kind.Columns) + "\n";
 
         /// <exception cref="FormatException">The file is not a log of this plan; the message names line and

@@ -7,22 +7,12 @@ using HaptoFlow.Model;
 namespace HaptoFlow.Studies
 {
     /// <summary>The progress of a session, as its sidecar records it.</summary>
-    internal sealed class SidecarState
+    /// <param name="Session">8 hexadecimal digits.</param>
+    /// <param name="Created">UTC, to the second.</param>
+    internal sealed record SidecarState(string Session, string Created)
     {
         public const string Format = "haptoflow-study";
         public const int Version = 1;
-
-        public SidecarState(string session, string created)
-        {
-            Session = session;
-            Created = created;
-        }
-
-        /// <summary>8 hexadecimal digits.</summary>
-        public string Session { get; }
-
-        /// <summary>UTC, to the second.</summary>
-        public string Created { get; }
 
         public bool IsFinished { get; set; }
 

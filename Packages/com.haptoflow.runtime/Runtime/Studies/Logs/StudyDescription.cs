@@ -9,12 +9,7 @@ namespace HaptoFlow.Studies
     public readonly struct StudyModel
     {
         /// <param name="sha256">SHA-256 of the file, 64 hexadecimal digits.</param>
-        public StudyModel(string method, string file, string sha256)
-        {
-            Method = method;
-            File = file;
-            Sha256 = sha256;
-        }
+        public StudyModel(string method, string file, string sha256) => (Method, File, Sha256) = (method, file, sha256);
 
         /// <summary>The method's name in the settings; "signal" in the latency study.</summary>
         public string Method { get; }
@@ -32,12 +27,8 @@ namespace HaptoFlow.Studies
         /// <param name="plan">The participant's plan.</param>
         /// <param name="settings">The study's own settings; a session can be resumed only with the same ones.</param>
         /// <param name="delay">The parts of the system's delay at the start.</param>
-        public StudyDescription(StudyPlan plan, StudyFields settings, SystemDelay delay)
-        {
-            Plan = plan;
-            Settings = settings;
-            Delay = delay;
-        }
+        public StudyDescription(StudyPlan plan, StudyFields settings, SystemDelay delay) =>
+            (Plan, Settings, Delay) = (plan, settings, delay);
 
         /// <summary>The participant's plan.</summary>
         public StudyPlan Plan { get; }

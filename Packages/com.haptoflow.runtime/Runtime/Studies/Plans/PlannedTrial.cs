@@ -12,12 +12,8 @@ namespace HaptoFlow.Studies
         /// <summary>Value of <see cref="Block"/> for trials that are analysed.</summary>
         public const string Main = "main";
 
-        internal PlannedTrial(int trial, string block, bool restBefore)
-        {
-            Trial = trial;
-            Block = block;
-            RestBefore = restBefore;
-        }
+        internal PlannedTrial(int trial, string block, bool restBefore) =>
+            (Trial, Block, RestBefore) = (trial, block, restBefore);
 
         /// <summary>Number of the trial in the plan, from 1.</summary>
         public int Trial { get; }

@@ -50,18 +50,10 @@ namespace HaptoFlow.Studies
 
         /// <summary>The output whose channel carries no noise. There is no noise without an output, or with one that
         /// plays on all channels: see <see cref="Problem"/>.</summary>
-        public HapticOutput? Output
-        {
-            get => output;
-            set => output = value;
-        }
+        public HapticOutput? Output { get => output; set => output = value; }
 
         /// <summary>Spectrum of the noise.</summary>
-        public NoiseColour Colour
-        {
-            get => colour;
-            set => colour = value;
-        }
+        public NoiseColour Colour { get => colour; set => colour = value; }
 
         /// <summary>Root mean square in dB of full scale, <see cref="MinimumDecibels"/> to <see
         /// cref="MaximumDecibels"/>.</summary>

@@ -45,14 +45,9 @@ namespace HaptoFlow.Studies
         private bool simulated;
 
         /// <summary>The order of the trials follows from the seed and the participant's number.</summary>
-        public ulong Seed
-        {
-            get => seed;
-            set => seed = value;
-        }
+        public ulong Seed { get => seed; set => seed = value; }
 
-        /// <summary>The folder of the logs. Set to an empty text, it is <see cref="StudyPlayer.DefaultFolder"/>.
-        /// </summary>
+        /// <summary>The folder of the logs. Set to an empty text: <see cref="StudyPlayer.DefaultFolder"/>.</summary>
         public string Folder
         {
             get => folder.Length > 0 ? folder : StudyPlayer.DefaultFolder;
@@ -63,11 +58,7 @@ namespace HaptoFlow.Studies
         public string Headset => headset;
 
         /// <summary>The channel of the audio device that the actuator is wired to, from 0.</summary>
-        public int HapticChannel
-        {
-            get => hapticChannel;
-            set => hapticChannel = value;
-        }
+        public int HapticChannel { get => hapticChannel; set => hapticChannel = value; }
 
         /// <summary>The colour of the masking noise in the headphones.</summary>
         public NoiseColour NoiseColour => noiseColour;
@@ -76,28 +67,16 @@ namespace HaptoFlow.Studies
         public float NoiseDecibels => noiseDecibels;
 
         /// <summary>The delay from the audio callback to the hand, in ms.</summary>
-        public float DeviceDelayMilliseconds
-        {
-            get => deviceDelayMilliseconds;
-            set => deviceDelayMilliseconds = value;
-        }
+        public float DeviceDelayMilliseconds { get => deviceDelayMilliseconds; set => deviceDelayMilliseconds = value; }
 
         /// <summary>Whether the device delay was measured or estimated.</summary>
-        public DeviceDelaySource DeviceDelaySource
-        {
-            get => deviceDelaySource;
-            set => deviceDelaySource = value;
-        }
+        public DeviceDelaySource DeviceDelaySource { get => deviceDelaySource; set => deviceDelaySource = value; }
 
         /// <summary>How the device delay was measured, or what its estimate rests on.</summary>
         public string DeviceDelayNote => deviceDelayNote;
 
         /// <summary>Whether the session is a rehearsal without a participant.</summary>
-        public bool Simulated
-        {
-            get => simulated;
-            set => simulated = value;
-        }
+        public bool Simulated { get => simulated; set => simulated = value; }
 
         /// <summary>Application, platform, audio device, headset and device delay, for the log. Allocates.</summary>
         public StudyEnvironment Environment()

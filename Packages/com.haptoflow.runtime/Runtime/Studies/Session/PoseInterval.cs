@@ -14,27 +14,26 @@ namespace HaptoFlow.Studies
 
         private readonly double[] ring = new double[Frames];
         private readonly double[] sorted = new double[Frames];
-        private int count;
         private int next;
 
         /// <summary>The number of frames in the median, at most 128.</summary>
-        public int Count => count;
+        public int Count { get; private set; }
 
         /// <summary>Whether there have been enough frames for a reliable median.</summary>
-        public bool IsMeasured => count >= MinimumFrames;
+        public bool IsMeasured => Count >= MinimumFrames;
 
         /// <summary>Median of the last frames, in ms; 0 before the first.</summary>
         public double MedianMilliseconds
         {
             get
             {
-                if (count == 0)
+                if (Count == 0)
                 {
                     return 0.0;
                 }
-                Array.Copy(ring, sorted, count);
-                Array.Sort(sorted, 0, count);
-                return 1000.0 * sorted[count / 2];
+                Array.Copy(ring, sorted, Count);
+                Array.Sort(sorted, 0, Count);
+                return 1000.0 * sorted[Count / 2];
             }
         }
 
@@ -46,7 +45,7 @@ namespace HaptoFlow.Studies
             {
                 ring[next] = seconds;
                 next = (next + 1) % Frames;
-                count = Math.Min(Frames, count + 1);
+                Count = Math.Min(Frames, Count + 1);
             }
         }
     }

@@ -53,7 +53,6 @@ namespace HaptoFlow.Studies
 
         private readonly StudyLog log;
         private readonly SessionClock clock;
-        private int attempt;
         private double askedSeconds;
         private double nextAttemptSeconds;
 
@@ -62,7 +61,7 @@ namespace HaptoFlow.Studies
         {
             this.log = log;
             clock = new SessionClock(log.ElapsedSeconds);
-            attempt = Trial != null ? log.AttemptsAt(Trial.Trial) : 1;
+            Attempt = Trial != null ? log.AttemptsAt(Trial.Trial) : 1;
             if (Trial == null)
             {
                 Phase = StudyPhase.Disk;
@@ -83,7 +82,7 @@ namespace HaptoFlow.Studies
             log.Answered < log.Plan.Trials.Count ? log.Plan.Trials[log.Answered] : null;
 
         /// <summary>Number of the present attempt at the trial, from 1.</summary>
-        public int Attempt => attempt;
+        public int Attempt { get; private set; }
 
         /// <summary>Time since the session began, without pauses.</summary>
         public double ElapsedSeconds => clock.ElapsedSeconds;
@@ -150,7 +149,7 @@ namespace HaptoFlow.Studies
             }
             record.Set("response_seconds", clock.ElapsedSeconds - askedSeconds);
             record.Set("elapsed_seconds", clock.ElapsedSeconds);
-            record.Set("attempt", attempt);
+            record.Set("attempt", Attempt);
             log.Append(record);
             WriteAndAdvance();
             return true;
@@ -160,7 +159,7 @@ namespace HaptoFlow.Studies
         {
             if (Phase == StudyPhase.Task || Phase == StudyPhase.Question)
             {
-                ++attempt;
+                ++Attempt;
                 Pause = reason;
                 SetPhase(StudyPhase.Paused);
             }
@@ -174,7 +173,7 @@ namespace HaptoFlow.Studies
                 SetPhase(StudyPhase.Disk);
                 return;
             }
-            attempt = 1;
+            Attempt = 1;
             if (Trial == null)
             {
                 SetPhase(StudyPhase.Finished);
