@@ -15,8 +15,9 @@ from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.preprocessing.preparation import prepare_cut_where_needed, prepare_store
 from haptoflow_training.preprocessing.split import Split
 from haptoflow_training.preprocessing.store import SegmentStore, StoredRecording
+from haptoflow_training.recordings.dataset import Dataset
 from haptoflow_training.recordings.labels import load_labels
-from haptoflow_training.recordings.open_recordings import Dataset, RecordingFile, open_recordings
+from haptoflow_training.recordings.open_recordings import RecordingFile, open_recordings
 
 ROOT = Path(__file__).resolve().parents[3]
 ENGINE = ROOT / "build" / "native" / "haptoflow"

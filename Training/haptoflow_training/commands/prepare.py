@@ -12,8 +12,9 @@ from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.preprocessing.split import SPLITS
 from haptoflow_training.preprocessing.store import SegmentStore
 from haptoflow_training.preprocessing.store_lock import store_lock
+from haptoflow_training.recordings.dataset import Dataset
 from haptoflow_training.recordings.labels import LabelMap, load_labels
-from haptoflow_training.recordings.open_recordings import Dataset, open_recordings
+from haptoflow_training.recordings.open_recordings import open_recordings
 
 _DESCRIPTION = """\
 Turn recordings into what training reads: one axis of vibration (DFT321) at 2 kHz with the velocity and force

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from haptoflow_training.recordings.cluster_dataset import ClusterDataset, RecordingFiles, open_dataset
+from haptoflow_training.recordings.cluster_dataset import RecordingFiles, open_dataset
+from haptoflow_training.recordings.dataset import Dataset
 from haptoflow_training.recordings.dataset_layout import SENSOR_FOLDER
 from haptoflow_training.recordings.labels import LabelMap
-from haptoflow_training.recordings.own_dataset import OwnDataset, open_own_dataset
+from haptoflow_training.recordings.own_dataset import open_own_dataset
 from haptoflow_training.recordings.own_files import OwnRecordingFile
 
-Dataset = ClusterDataset | OwnDataset
 RecordingFile = RecordingFiles | OwnRecordingFile
 
 

@@ -18,11 +18,10 @@ from haptoflow_training.preprocessing.preparation import prepare_cut_where_neede
 from haptoflow_training.preprocessing.split import SPLITS
 from haptoflow_training.preprocessing.store import SegmentStore
 from haptoflow_training.preprocessing.store_lock import store_lock
-from haptoflow_training.recordings.cluster_dataset import UNKNOWN
+from haptoflow_training.recordings.dataset import UNKNOWN, Dataset
 from haptoflow_training.recordings.labels import LabelDefinition, LabelMap, load_labels
 from haptoflow_training.recordings.landing import landing_of
-from haptoflow_training.recordings.open_recordings import Dataset, RecordingFile, open_recordings
-from haptoflow_training.recordings.own_dataset import OwnDataset
+from haptoflow_training.recordings.open_recordings import RecordingFile, open_recordings
 from haptoflow_training.recordings.recording import Recording, RecordingIdentity
 from haptoflow_training.recordings.synthetic import (
     Material,
@@ -281,7 +280,7 @@ def _remedy(unusable: Sequence[str], of_what: str) -> str:
 
 def _label_map(data: DataConfig, roots: list[Dataset]) -> LabelMap:
     if not data.labels_file:
-        own = [str(root.root) for root in roots if isinstance(root, OwnDataset)]
+        own = [str(root.root) for root in roots if root.is_own]
         if own:
             raise InputError(
                 f"{', '.join(own)}: recordings of your own; name their labels, with stiffness and friction, in a file like "
