@@ -104,7 +104,7 @@ def test_a_rival_given_the_same_trains_through_its_phases_and_becomes_a_model_fi
     EvaluatedTrainer(config, store, tmp_path / "run", ALONE, wave_vectors=WAVE_VECTORS).run()
     phases = json.loads((tmp_path / "run" / "run.json").read_text(encoding="utf-8"))["phases"]
     assert [phase["steps"] for phase in phases] == planned_steps(config)
-    export_run(tmp_path / "run", store, INFOS, PROVENANCE, tmp_path / "m.haptoflow", tmp_path / "parity.json")
+    export_run(tmp_path / "run", Source(store, INFOS, PROVENANCE), tmp_path / "m.haptoflow", tmp_path / "parity.json")
     file = read_model_file(tmp_path / "m.haptoflow")
     graph = file.graphs[f"{config.tier}.field"]
     _check(graph)

@@ -10,16 +10,14 @@ import time
 from pathlib import Path
 
 from haptoflow_training.closed_loop.level_calibration import Extent
-from haptoflow_training.closed_loop.measured_levels import MeasuredLevels, by_label, measured_levels
-from haptoflow_training.commands.export import announce
+from haptoflow_training.closed_loop.measured_levels import MeasuredLevels, measured_levels
+from haptoflow_training.commands.export import write_model
 from haptoflow_training.commands.minutes import MINIMUM_MINUTES, Minutes, share_out
 from haptoflow_training.errors import InputError
-from haptoflow_training.export.exporter import export_run
 from haptoflow_training.stopping import Stopped, end_if_stopped
 from haptoflow_training.training.config import TrainingConfig, load_config
 from haptoflow_training.training.processes import join_processes
 from haptoflow_training.training.recordings_source import Source, open_source
-from haptoflow_training.training.run_log import write_json
 from haptoflow_training.training.trainer import TrainingStopped, trainer_of
 
 OWN_CONFIGURATION = Path(__file__).resolve().parents[2] / "configs" / "own.toml"
@@ -161,11 +159,7 @@ def _run(options: argparse.Namespace) -> int:
         if processes.is_first and options.export is not None:
             measured = measured_levels(options.out, source, extent) if config.calibrates_level else MeasuredLevels()
             end_if_stopped()
-            checksum = export_run(
-                options.out, source.store, source.labels, source.provenance, options.export, options.parity,
-                level_offsets_db=measured.offsets_db, level_tables=measured.tables,
-            )  # fmt: skip
-            described = {"file": options.export.name, "crc32": f"{checksum:08x}"}
-            write_json(options.out / "export.json", {**described, **by_label(measured, source)})
-            announce(options.export, checksum)
+            write_model(
+                options.out, source, options.export, options.parity, measured, record=options.out / "export.json"
+            )
     return 0

@@ -11,7 +11,6 @@ from pathlib import Path
 from typing import Any
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.export.exporter import Provenance
 from haptoflow_training.export.label_info import LabelInfo
 from haptoflow_training.export.seed_bank import SEED_SAMPLES
 from haptoflow_training.preprocessing.preparation import prepare_cut_where_needed, prepare_store
@@ -63,6 +62,15 @@ class SyntheticRecording:
                 guided_share=self.hand_guided_share,
             )
         return record_machine_condition(self.material, self.identity, seed=self.seed)
+
+
+@dataclass(frozen=True)
+class Provenance:
+    """Where the recordings come from, as stated in the model file."""
+
+    statement: str
+    recordings: str
+    licence: str
 
 
 @dataclass(frozen=True)
@@ -179,7 +187,6 @@ def open_source(data: DataConfig, store_folder: Path, workers: int) -> Source:
                     f"{len(store.recordings)} recordings of {len(infos)} labels"
                 ),
                 licence="MIT",
-                created="",
             ),
         )
     return _open_folders(data, store_folder, workers)
@@ -218,7 +225,7 @@ def _open_folders(data: DataConfig, store_folder: Path, workers: int) -> Source:
     _require_splits(store, [f"skipped: {problem}" for root in roots for problem in root.problems])
     counted = f"{len(store.recordings)} recordings of {len(infos)} labels"
     if synthetic:
-        return Source(store, infos, Provenance(SYNTHETIC_STATEMENT, f"synthetic recorder: {counted}", "MIT", ""))
+        return Source(store, infos, Provenance(SYNTHETIC_STATEMENT, f"synthetic recorder: {counted}", "MIT"))
     sources = _joined(root.provenance.get("source") for root in roots)
     infos, found_vectors = with_found_wave_vectors(store, infos, asked)
     return Source(
@@ -228,7 +235,6 @@ def _open_folders(data: DataConfig, store_folder: Path, workers: int) -> Source:
             statement="trained on recordings of unknown origin" if sources == UNKNOWN else f"trained on {sources}",
             recordings=f"{sources}: {counted}",
             licence=_joined(root.provenance.get("licence") for root in roots),
-            created="",
         ),
         left_out,
         found_vectors,
