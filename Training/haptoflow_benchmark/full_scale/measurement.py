@@ -19,6 +19,7 @@ from haptoflow_benchmark.engine.engine_render import read_wav, write_scene
 from haptoflow_benchmark.full_scale.recorded_strokes import onto_table
 from haptoflow_training.closed_loop.render import UPDATE_RATE_HZ
 from haptoflow_training.errors import InputError
+from haptoflow_training.markdown import table
 
 # The limiter is linear up to this share of the full scale (SoftLimiter::knee).
 KNEE = 0.7
@@ -144,11 +145,11 @@ def summarise(levels: Sequence[StrokeLevel], full_scales_mps2: Sequence[float]) 
 
 def full_scale_table(report: Mapping[str, Any]) -> str:
     """A Markdown table: the share of samples above the knee at each full scale."""
-    lines = ["| full scale, m/s^2 | samples in the knee, all labels | of the loudest label |", "|---|---|---|"]
+    rows = []
     for entry in report["full_scales"]:
         label, share = max(entry["share_in_knee_by_label"].items(), key=lambda item: item[1])
-        lines.append(f"| {entry['full_scale_mps2']:.0f} | {entry['share_in_knee']:.3%} | {share:.2%} ({label}) |")
-    return "\n".join(lines)
+        rows.append([f"{entry['full_scale_mps2']:.0f}", f"{entry['share_in_knee']:.3%}", f"{share:.2%} ({label})"])
+    return table(("full scale, m/s^2", "samples in the knee, all labels", "of the loudest label"), rows)
 
 
 def _distinct(levels: Sequence[StrokeLevel], field: str) -> list[Any]:

@@ -25,8 +25,7 @@ from haptoflow_training.recordings.synthetic import (
     hand_conditions,
     load_materials,
     machine_conditions,
-    record_hand_condition,
-    record_machine_condition,
+    record_condition_of,
 )
 from haptoflow_training.recordings.synthetic.materials import select_materials
 
@@ -128,8 +127,4 @@ def _record(task: tuple[Path, int, float, Material, RecordingIdentity]) -> None:
     # One process a core: numeric libraries that start threads of their own would only compete.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     root, seed, duration_seconds, material, identity = task
-    if identity.protocol == "hand":
-        recording = record_hand_condition(material, identity, seed=seed, duration_seconds=duration_seconds)
-    else:
-        recording = record_machine_condition(material, identity, seed=seed)
-    write_recording(root, recording)
+    write_recording(root, record_condition_of(material, identity, seed=seed, duration_seconds=duration_seconds))

@@ -201,16 +201,12 @@ def _list(values: tuple[float, ...]) -> str:
 
 def draw_spectra(path: Path, rows: list[Row]) -> None:
     """Small multiples: each material's density at 100 mm/s and 1 N, with those of all other materials behind it."""
-    import matplotlib
-
-    matplotlib.use("Agg")
-    from matplotlib import pyplot
+    from matplotlib.figure import Figure
 
     columns = min(5, len(rows))
     lines = -(-len(rows) // columns)
-    figure, axes = pyplot.subplots(
-        lines, columns, figsize=(2.6 * columns, 2.1 * lines), sharex=True, sharey=True, squeeze=False
-    )
+    figure = Figure(figsize=(2.6 * columns, 2.1 * lines))
+    axes = figure.subplots(lines, columns, sharex=True, sharey=True, squeeze=False)
     band = (rows[0].measured.frequency_hz >= 20.0) & (rows[0].measured.frequency_hz <= 1000.0)
     frequency = rows[0].measured.frequency_hz[band]
     for panel, row in zip(axes.flat, rows):
@@ -229,4 +225,3 @@ def draw_spectra(path: Path, rows: list[Row]) -> None:
     figure.supylabel("acceleration density at 100 mm/s and 1 N, (m/s²)²/Hz", fontsize=9)
     figure.tight_layout()
     figure.savefig(path, dpi=110)
-    pyplot.close(figure)

@@ -20,7 +20,7 @@ from itertools import combinations
 import numpy as np
 from scipy import stats
 
-from haptoflow_training.studies.shaffer import adjusted
+from haptoflow_training.studies.shaffer import adjusted, stepped_down
 
 SIGNIFICANCE = 0.05
 TREND = 0.1
@@ -71,6 +71,14 @@ class Pair:
     p_equivalence: float
     p_holm: float
 
+    @property
+    def differs(self) -> bool:
+        return _is_significant(self.p_shaffer)
+
+    @property
+    def differs_alone(self) -> bool:
+        return _is_significant(self.p)
+
 
 @dataclass(frozen=True)
 class RatingResult:
@@ -81,6 +89,15 @@ class RatingResult:
     friedman: Friedman | None
     friedman_statement: str
     pairs: tuple[Pair, ...]
+
+    @property
+    def differs(self) -> bool:
+        """Whether Friedman's test found a difference."""
+        return self.friedman is not None and _is_significant(self.friedman.p)
+
+
+def _is_significant(p: float | None) -> bool:
+    return p is not None and p < SIGNIFICANCE
 
 
 def signed_rank_p(differences: np.ndarray, alternative: str = "two-sided") -> float | None:
@@ -134,11 +151,7 @@ def holm(p_values: Sequence[float]) -> list[float]:
     Shaffer's smaller factors are for hypotheses of equality, of which one implies others; two pairs that are equivalent
     do not make the third one so.
     """
-    result, largest = [0.0] * len(p_values), 0.0
-    for rank, place in enumerate(sorted(range(len(p_values)), key=lambda index: p_values[index])):
-        largest = max(largest, min(1.0, (len(p_values) - rank) * p_values[place]))
-        result[place] = largest
-    return result
+    return stepped_down(p_values, range(len(p_values), 0, -1))
 
 
 def equivalences(ratings: np.ndarray, bound: float) -> list[tuple[float, float]]:
@@ -192,7 +205,7 @@ def analysed(ratings: np.ndarray, bound: float = EQUIVALENCE_POINTS) -> RatingRe
         statement = "every participant rated all methods alike"
     elif found.p >= SIGNIFICANCE:
         statement = "the methods' ratings do not differ significantly, so that no pair is tested for a difference"
-    follows_up = methods == 2 or (found is not None and found.p < SIGNIFICANCE)
+    follows_up = methods == 2 or not statement
     names = list(combinations(range(methods), 2))
     raw = {pair: signed_rank_p(ratings[:, pair[0]] - ratings[:, pair[1]]) for pair in names}
     corrected = _corrected(raw, methods) if follows_up else dict.fromkeys(names)

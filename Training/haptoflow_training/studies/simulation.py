@@ -142,9 +142,7 @@ def _delays(study: str, planned_ms: float | None) -> dict[str, float]:
 def _latency_row(random: np.random.Generator, trial: LatencyTrial, is_yes: bool) -> dict[str, Any]:
     strokes = int(random.integers(2, 6))
     return {
-        "trial": trial.trial,
-        "block": trial.block,
-        "condition": trial.condition,
+        **asdict(trial),
         **_delays(LATENCY, trial.delay_ms),
         "starts": strokes,
         "stops": strokes,
@@ -156,10 +154,7 @@ def _latency_row(random: np.random.Generator, trial: LatencyTrial, is_yes: bool)
 def _similarity_row(random: np.random.Generator, trial: SimilarityTrial, rating: int) -> dict[str, Any]:
     real, virtual, free = (float(seconds) for seconds in random.uniform(4.0, 12.0, 3))
     return {
-        "trial": trial.trial,
-        "block": trial.block,
-        "material": trial.material,
-        "method": trial.method,
+        **asdict(trial),
         **_delays(SIMILARITY, None),
         "real_edges_seconds": real,
         "virtual_edges_seconds": virtual,

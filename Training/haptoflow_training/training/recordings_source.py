@@ -27,8 +27,7 @@ from haptoflow_training.recordings.synthetic import (
     hand_conditions,
     load_materials,
     machine_conditions,
-    record_hand_condition,
-    record_machine_condition,
+    record_condition_of,
 )
 from haptoflow_training.recordings.synthetic.materials import select_materials
 from haptoflow_training.training.config import DataConfig
@@ -53,15 +52,13 @@ class SyntheticRecording:
         return self.material.label
 
     def load(self) -> Recording:
-        if self.identity.protocol == "hand":
-            return record_hand_condition(
-                self.material,
-                self.identity,
-                seed=self.seed,
-                duration_seconds=self.hand_duration_seconds,
-                guided_share=self.hand_guided_share,
-            )
-        return record_machine_condition(self.material, self.identity, seed=self.seed)
+        return record_condition_of(
+            self.material,
+            self.identity,
+            seed=self.seed,
+            duration_seconds=self.hand_duration_seconds,
+            guided_share=self.hand_guided_share,
+        )
 
 
 @dataclass(frozen=True)
