@@ -44,8 +44,8 @@ def run_program(
     """Run the subcommand that `arguments` (default: those of this process) name; returns the exit code.
 
     commands: each one's line in the list of commands. The command `a-b` is the module commands.a_b of the program's
-    package, or of this one if it is borrowed. The module has `register(subparsers, summary)`, which adds a parser whose
-    default `run` takes the options and returns the exit code.
+    package, or of this one if it is borrowed. The module has `add_options(parser)`, and `run(options)`, which returns
+    the exit code.
     """
     words = list(sys.argv[1:] if arguments is None else arguments)
     chosen = next((word for word in words if word in commands), None)
@@ -59,8 +59,16 @@ def run_program(
     for key, summary in commands.items():
         if key == chosen:
             package = "haptoflow-training" if key in borrowed else name
-            module = f"{package}.commands.{key}".replace("-", "_")
-            importlib.import_module(module).register(subparsers, summary)
+            module = importlib.import_module(f"{package}.commands.{key}".replace("-", "_"))
+            if hasattr(module, "register"):
+                module.register(subparsers, summary)
+                continue
+            layout = argparse.RawDescriptionHelpFormatter
+            subparser = subparsers.add_parser(key, help=summary, formatter_class=layout)
+            module.add_options(subparser)
+            # A command with steps of its own sets `run` itself.
+            if hasattr(module, "run"):
+                subparser.set_defaults(run=module.run)
         else:
             subparsers.add_parser(key, help=summary, add_help=False)
     options = parser.parse_args(words)

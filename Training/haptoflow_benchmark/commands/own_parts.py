@@ -31,7 +31,7 @@ class OwnParts:
     seen: list[HeldOutPart]
 
 
-def add_options(parser: argparse.ArgumentParser) -> None:
+def add_recording_options(parser: argparse.ArgumentParser) -> None:
     """Add --recordings, --labels and --all, which mean the same in both commands."""
     parser.add_argument(
         "--recordings", type=Path, nargs="+", metavar="PATH",

@@ -13,17 +13,12 @@ from haptoflow_training.training.run_log import write_json
 from haptoflow_training.training.trainer import load_trained
 
 
-def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], summary: str) -> None:
-    parser = subparsers.add_parser(
-        "export",
-        help=summary,
-        description=(
-            "Writes the moving average of a finished run as a model file. The run's recordings are needed again, for "
-            "seeds, exponents and ranges: the store is reused where it is, made anew where it is not."
-        ),
-        epilog="example:\n  haptoflow-training export --run out/train/default --out default.haptoflow",
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+def add_options(parser: argparse.ArgumentParser) -> None:
+    parser.description = (
+        "Writes the moving average of a finished run as a model file. The run's recordings are needed again, for "
+        "seeds, exponents and ranges: the store is reused where it is, made anew where it is not."
     )
+    parser.epilog = "example:\n  haptoflow-training export --run out/train/default --out default.haptoflow"
     parser.add_argument("--run", dest="folder", type=Path, required=True, help="folder of the run (checkpoint.pt)")
     parser.add_argument(
         "--tier", dest="tiers", type=Path, nargs="+", default=[], metavar="FOLDER",
@@ -33,7 +28,6 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
     parser.add_argument("--out", type=Path, required=True, metavar="FILE", help="the model file")
     parser.add_argument("--parity", type=Path, metavar="FILE", help="also write golden vectors for the engine's tests")
     parser.add_argument("--workers", type=int, default=2, help="processes that prepare recordings (default: 2)")
-    parser.set_defaults(run=run)
 
 
 def write_model(

@@ -33,20 +33,14 @@ examples:
 exit codes: 0 read (problems, if any, are listed), 2 wrong usage, 3 nothing could be read"""
 
 
-def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], summary: str) -> None:
-    parser = subparsers.add_parser(
-        "inspect",
-        help=summary,
-        description=_DESCRIPTION,
-        epilog=_EXAMPLES,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+def add_options(parser: argparse.ArgumentParser) -> None:
+    parser.description = _DESCRIPTION
+    parser.epilog = _EXAMPLES
     parser.add_argument("folder", metavar="DIR", type=Path, help="a folder of recordings, or one file")
     parser.add_argument(
         "--labels", metavar="FILE", type=Path, help="count by the labels of this TOML file, not by texture"
     )
     parser.add_argument("--json", action="store_true", help="print the report as JSON")
-    parser.set_defaults(run=run)
 
 
 def run(options: argparse.Namespace) -> int:

@@ -33,14 +33,9 @@ examples:
   haptoflow-training prepare --recordings machine --out store --hold-out-direction 135 --hold-out-speed 50"""
 
 
-def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], summary: str) -> None:
-    parser = subparsers.add_parser(
-        "prepare",
-        help=summary,
-        description=_DESCRIPTION,
-        epilog=_EXAMPLES,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+def add_options(parser: argparse.ArgumentParser) -> None:
+    parser.description = _DESCRIPTION
+    parser.epilog = _EXAMPLES
     add = parser.add_argument
     add("--recordings", metavar="DIR", type=Path, nargs="+", required=True, help="folders, or files")
     add("--labels", metavar="FILE", type=Path, help="TOML file: labels and their textures")
@@ -50,7 +45,6 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
     held_out = {"type": int, "action": "append", "default": [], "help": "test only; may be repeated"}
     add("--hold-out-direction", metavar="DEGREES", **held_out)
     add("--hold-out-speed", metavar="MM/S", **held_out)
-    parser.set_defaults(run=run)
 
 
 def run(options: argparse.Namespace) -> int:

@@ -48,21 +48,21 @@ class Row:
     deviation: Deviation
 
 
-def register(subparsers: argparse._SubParsersAction, summary: str) -> None:
-    parser = subparsers.add_parser(
-        "report-recorder",
-        help=summary,
-        description="Record each material at 20-200 mm/s and 0.3-2 N in four directions, prepare the "
-        "recordings as training does, and compare level, exponents, centroid and slope with the targets.",
-        epilog="Writes recorder-report.md, recorder-report.json and images/recorder-spectra.png. "
-        "Ends with 3 when a material misses a target.",
+def add_options(parser: argparse.ArgumentParser) -> None:
+    parser.description = (
+        "Record each material at 20-200 mm/s and 0.3-2 N in four directions, prepare the "
+        "recordings as training does, and compare level, exponents, centroid and slope with the targets."
     )
+    parser.epilog = (
+        "Writes recorder-report.md, recorder-report.json and images/recorder-spectra.png. "
+        "Ends with 3 when a material misses a target."
+    )
+    parser.formatter_class = argparse.HelpFormatter
     parser.add_argument("--out", type=Path, default=Path("out/recorder-report"))
     parser.add_argument("--labels", help="labels separated by commas (default: all)")
     parser.add_argument("--materials", type=Path, default=DEFAULT_MATERIALS_PATH)
     parser.add_argument("--calibrate", action="store_true", help="first fit and rewrite calibrated values")
     parser.add_argument("--jobs", type=int, default=2, help="processes (default 2)")
-    parser.set_defaults(run=run)
 
 
 def run(options: argparse.Namespace) -> int:

@@ -26,13 +26,10 @@ from haptoflow_training.whole_file import write_whole
 _PUBLISHED = Path("Documentation~") / "benchmarks.md"
 
 
-def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], summary: str) -> None:
-    parser = subparsers.add_parser(
-        "study",
-        help=summary,
-        description="Logs of the delay tolerance study and of the similarity study: simulate, check, merge, analyse.",
-        epilog="`haptoflow-training study STEP --help` explains one step with examples.",
-    )
+def add_options(parser: argparse.ArgumentParser) -> None:
+    parser.description = "Logs of the delay tolerance study and of the similarity study: simulate, check, merge, analyse."
+    parser.epilog = "`haptoflow-training study STEP --help` explains one step with examples."
+    parser.formatter_class = argparse.HelpFormatter
     steps = parser.add_subparsers(dest="step", required=True, metavar="STEP")
     for name, (add_step, words) in _STEPS.items():
         add_step(steps.add_parser(name, help=words, formatter_class=argparse.RawDescriptionHelpFormatter))

@@ -23,27 +23,22 @@ from haptoflow_training.training.trainer import TrainingStopped, trainer_of
 OWN_CONFIGURATION = Path(__file__).resolve().parents[2] / "configs" / "own.toml"
 
 
-def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], summary: str) -> None:
-    parser = subparsers.add_parser(
-        "train",
-        help=summary,
-        description=(
-            "Prepares the recordings that the configuration names (once), trains the level model and the velocity "
-            "field, and writes checkpoint.pt, metrics.csv, metrics.png and run.json into --out. Run it again to resume "
-            "after an interruption (the exit code is then not 0): the result is the same. "
-            "Paths are relative to the current folder; those in a "
-            "configuration file are relative to that file."
-        ),
-        epilog=(
-            "examples:\n"
-            "  haptoflow-training train --recordings recordings --labels labels.toml --minutes 10 --out out/own "
-            "--export own.haptoflow\n"
-            "  haptoflow-training train --config cluster.toml --recordings ~/cluster-haptic --out out/train/real\n"
-            "  haptoflow-training train --config Training/configs/default/base.toml --out out/train/base\n"
-            "  torchrun --redirects 1 --tee 1 --nproc_per_node 2 -m haptoflow_training train --config … --out …\n"
-            "`haptoflow-training train-tiers` trains the whole default model."
-        ),
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+def add_options(parser: argparse.ArgumentParser) -> None:
+    parser.description = (
+        "Prepares the recordings that the configuration names (once), trains the level model and the velocity "
+        "field, and writes checkpoint.pt, metrics.csv, metrics.png and run.json into --out. Run it again to resume "
+        "after an interruption (the exit code is then not 0): the result is the same. "
+        "Paths are relative to the current folder; those in a "
+        "configuration file are relative to that file."
+    )
+    parser.epilog = (
+        "examples:\n"
+        "  haptoflow-training train --recordings recordings --labels labels.toml --minutes 10 --out out/own "
+        "--export own.haptoflow\n"
+        "  haptoflow-training train --config cluster.toml --recordings ~/cluster-haptic --out out/train/real\n"
+        "  haptoflow-training train --config Training/configs/default/base.toml --out out/train/base\n"
+        "  torchrun --redirects 1 --tee 1 --nproc_per_node 2 -m haptoflow_training train --config … --out …\n"
+        "`haptoflow-training train-tiers` trains the whole default model."
     )
     parser.add_argument(
         "--config",
@@ -81,7 +76,6 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
     parser.add_argument("--export", type=Path, metavar="FILE", help="write the .haptoflow model file here at the end")
     parser.add_argument("--parity", type=Path, metavar="FILE", help="write golden vectors of the exported model here")
     parser.add_argument("--workers", type=int, default=2, help="processes that prepare recordings (default: 2)")
-    parser.set_defaults(run=run)
 
 
 def _minutes(text: str) -> float:

@@ -20,21 +20,16 @@ from haptoflow_training.training.trainer import planned_steps
 CONFIGURATIONS = Path(__file__).resolve().parents[2] / "configs" / "default"
 
 
-def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], summary: str) -> None:
-    parser = subparsers.add_parser(
-        "train-tiers",
-        help=summary,
-        description=(
-            "Trains what the tiers share (embedding, level model), then the tiers, --lanes of them at a time, each on "
-            "one core, corrects the level error of the default tier for each label, and writes one model "
-            "file. Run it again to resume after an interruption."
-        ),
-        epilog=(
-            "example:\n"
-            "  haptoflow-training train-tiers --out out/train/default --export default.haptoflow\n"
-            "Each tier's log and curves lie in its folder below --out."
-        ),
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+def add_options(parser: argparse.ArgumentParser) -> None:
+    parser.description = (
+        "Trains what the tiers share (embedding, level model), then the tiers, --lanes of them at a time, each on "
+        "one core, corrects the level error of the default tier for each label, and writes one model "
+        "file. Run it again to resume after an interruption."
+    )
+    parser.epilog = (
+        "example:\n"
+        "  haptoflow-training train-tiers --out out/train/default --export default.haptoflow\n"
+        "Each tier's log and curves lie in its folder below --out."
     )
     parser.add_argument(
         "--configs", type=Path, default=CONFIGURATIONS, metavar="DIR",
@@ -47,7 +42,6 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
     parser.add_argument("--workers", type=int, default=2, help="processes that prepare recordings (default: 2)")
     parser.add_argument("--export", type=Path, metavar="FILE", help="write the .haptoflow model file here at the end")
     parser.add_argument("--parity", type=Path, metavar="FILE", help="write golden vectors of the exported model here")
-    parser.set_defaults(run=run)
 
 
 def run(options: argparse.Namespace) -> int:
