@@ -168,8 +168,7 @@ class TierSource:
                 log_level[row, 0] = float(table.log_level(speed, motions[row, 2]))
         previous = model.encode(scaled_previous(torch.from_numpy(previous_mps2).unsqueeze(1), log_level))
         drawn = model.start(torch.from_numpy(noise).unsqueeze(1))
-        made = tier.generate(
-            drawn, previous, embedding, motion, torch.from_numpy(rib_phase), tier.solver, tier.steps
-        )
+        condition = previous, embedding, motion, torch.from_numpy(rib_phase)
+        made = tier.generate(drawn, condition, tier.solver, tier.steps)
         segments: _Floats = (model.decode(made) * log_level.exp().unsqueeze(-1)).squeeze(1).numpy()
         return segments
