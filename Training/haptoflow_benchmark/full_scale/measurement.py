@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import subprocess
 import tempfile
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -15,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from haptoflow_benchmark.engine.engine_render import read_wav, write_scene
+from haptoflow_benchmark.engine.engine_render import read_wav, run_engine, write_scene
 from haptoflow_benchmark.full_scale.recorded_strokes import onto_table
 from haptoflow_training.closed_loop.render import UPDATE_RATE_HZ
 from haptoflow_training.errors import InputError
@@ -46,7 +45,7 @@ class StrokeLevel:
 
 def model_labels(engine: Path, model: Path) -> list[str]:
     """The labels of a model file, as the engine reads it."""
-    described = json.loads(_run([str(engine), "inspect", str(model), "--json"]))
+    described = json.loads(run_engine([str(engine), "inspect", str(model), "--json"]))
     return [label["name"] for label in described["header"]["labels"]]
 
 
@@ -82,21 +81,11 @@ def _render(
     columns = np.c_[onto_table(stroke), np.full(len(stroke), force_newtons)]
     np.savetxt(table, columns, fmt="%.7f", delimiter=",", header="t,x,y,z,force", comments="")
     command = [str(engine), "render", str(scene), "--stroke", str(table), "-o", str(wav), "--model", str(model)]
-    _run([*command, "--rate", str(_RATE_HZ), "--full-scale", str(_UNBENT_FULL_SCALE_MPS2), "--quiet"])
+    run_engine([*command, "--rate", str(_RATE_HZ), "--full-scale", str(_UNBENT_FULL_SCALE_MPS2), "--quiet"])
     magnitudes = np.abs(read_wav(wav))
     if magnitudes.max() > KNEE:
         raise InputError(f"label '{label}' passes {KNEE * _UNBENT_FULL_SCALE_MPS2:.0f} m/s^2: too loud to be measured")
     return np.sort(magnitudes[magnitudes > 0.0]) * np.float32(_UNBENT_FULL_SCALE_MPS2)
-
-
-def _run(command: list[str]) -> str:
-    try:
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
-    except OSError as error:
-        raise InputError(f"{command[0]}: cannot be run ({error.strerror}); build it with `npm run build`") from error
-    if done.returncode != 0:
-        raise InputError(f"{command[0]} {command[1]} failed: {done.stderr.strip()}")
-    return done.stdout
 
 
 def share_in_knee(levels: Sequence[StrokeLevel], full_scale_mps2: float) -> float:

@@ -14,7 +14,7 @@ from haptoflow_training.preprocessing.store import SegmentStore
 from haptoflow_training.preprocessing.store_lock import store_lock
 from haptoflow_training.recordings.dataset import Dataset
 from haptoflow_training.recordings.labels import LabelMap, load_labels
-from haptoflow_training.recordings.open_recordings import open_recordings
+from haptoflow_training.recordings.open_recordings import open_with_labels
 
 _DESCRIPTION = """\
 Turn recordings into what training reads: one axis of vibration (DFT321) at 2 kHz with the velocity and force
@@ -48,7 +48,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    datasets = [_open(folder, options.labels) for folder in options.recordings]
+    datasets = [open_with_labels(folder, options.labels) for folder in options.recordings]
     entries = [entry for dataset in datasets for entry in dataset]
     if not entries:
         first = next(
@@ -81,13 +81,6 @@ def run(options: argparse.Namespace) -> int:
         )
     _report(store, time.perf_counter() - begun)
     return 0
-
-
-def _open(folder: Path, labels_path: Path | None) -> Dataset:
-    dataset = open_recordings(folder, load_labels(labels_path) if labels_path else None)
-    if labels_path is None and dataset.published:
-        return open_recordings(folder, load_labels())
-    return dataset
 
 
 def _labels(datasets: list[Dataset], labels_path: Path | None) -> list[str]:

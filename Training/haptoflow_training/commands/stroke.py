@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import argparse
-import os
 import tomllib
 from pathlib import Path
 
 from haptoflow_training.errors import InputError
 from haptoflow_training.strokes.hand_stroke import DEFAULT_TREMOR_METRES, SpatialStroke, scripted_stroke
+from haptoflow_training.whole_file import write_whole
 
 _KEYS = ("waypoints_metres", "segment_seconds", "rate_hz", "seed", "tremor_metres", "force_newtons")
 
@@ -68,7 +68,4 @@ def write_stroke(path: Path, stroke: SpatialStroke) -> None:
         if stroke.force_newtons is not None:
             row += f",{stroke.force_newtons[index]:.6f}"
         lines.append(row)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    unfinished = path.with_name(f".{os.getpid()}.{path.name}")
-    unfinished.write_text("\n".join(lines) + "\n", encoding="utf-8")
-    os.replace(unfinished, path)
+    write_whole(path, ("\n".join(lines) + "\n").encode())

@@ -24,8 +24,8 @@ from haptoflow_training.export.seed_bank import SEED_SAMPLES, build_seed_bank
 from haptoflow_training.export.trained_tier import TrainedTier, load_tiers
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE
 from haptoflow_training.models.level_model import shift_level
-from haptoflow_training.recordings.landing import Landing
 from haptoflow_training.preprocessing.store import SegmentStore
+from haptoflow_training.recordings.landing import Landing
 from haptoflow_training.training.batches import SegmentBatches
 from haptoflow_training.training.config import TrainingConfig
 from haptoflow_training.training.held_out import HeldOut

@@ -13,8 +13,8 @@ import numpy as np
 from haptoflow_training.errors import InputError
 from haptoflow_training.studies.log_columns import LATENCY, SIMILARITY, STUDIES
 from haptoflow_training.studies.plans import MAIN, LatencyTrial, SimilarityTrial, latency_plan, similarity_plan
-from haptoflow_training.studies.session_file import NAME
 from haptoflow_training.studies.rating_tests import EQUIVALENCE_POINTS
+from haptoflow_training.studies.session_file import NAME
 from haptoflow_training.studies.session_writer import write_session
 from haptoflow_training.studies.similarity_analysis import EQUIVALENCE_KEY
 from haptoflow_training.studies.simulated_participants import LEVELS_MS, AnswerModel, RatingModel
