@@ -93,12 +93,11 @@ def render_motion(
     *,
     model: Path | None = None,
     seed: int = 1,
-    update_rate_hz: float = UPDATE_RATE_HZ,
     options: tuple[str, ...] = (),
 ) -> EngineRender:
     """Run `haptoflow render`; InputError carries the command's own message if it fails."""
     scene, stroke, wav, report = (folder / name for name in ("scene.json", "stroke.csv", "out.wav", "report.json"))
-    write_scene(scene, label, update_rate_hz)
+    write_scene(scene, label, UPDATE_RATE_HZ)
     write_stroke(stroke, motion)
     command = [str(engine), "render", str(scene), "--stroke", str(stroke), "-o", str(wav)]
     command += ["--report", str(report), "--rate", str(_RENDER_RATE_HZ), "--seed", str(seed), *options]

@@ -99,11 +99,11 @@ def _count_up_to(level: StrokeLevel, mps2: float) -> int:
     return int(np.searchsorted(level.magnitudes_mps2, mps2, side="right"))
 
 
-def smallest_full_scale(levels: Sequence[StrokeLevel], allowed_share: float = ALLOWED_SHARE) -> float:
+def smallest_full_scale(levels: Sequence[StrokeLevel]) -> float:
     """In m/s^2, the smallest multiple of 10 with less than the allowed share of samples above the knee."""
     everything = np.concatenate([level.magnitudes_mps2 for level in levels])
-    full_scale = 10.0 * max(1, math.floor(float(np.quantile(everything, 1.0 - allowed_share)) / KNEE / 10.0))
-    while share_in_knee(levels, full_scale) >= allowed_share:
+    full_scale = 10.0 * max(1, math.floor(float(np.quantile(everything, 1.0 - ALLOWED_SHARE)) / KNEE / 10.0))
+    while share_in_knee(levels, full_scale) >= ALLOWED_SHARE:
         full_scale += 10.0
     return full_scale
 

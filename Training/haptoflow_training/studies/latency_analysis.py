@@ -9,7 +9,7 @@ import numpy as np
 
 from haptoflow_training.studies.intervals import Interval, share
 from haptoflow_training.studies.plans import CONDITIONS, MAIN
-from haptoflow_training.studies.psychometric import RESAMPLES, Answers, Fit, fit, threshold_difference
+from haptoflow_training.studies.psychometric import Answers, Fit, fit, threshold_difference
 from haptoflow_training.studies.session_file import Session
 
 
@@ -40,13 +40,13 @@ class LatencyResult:
     difference_interval: Interval | None
 
 
-def analyse_latency(sessions: Sequence[Session], *, resamples: int = RESAMPLES, seed: int = 0) -> LatencyResult:
+def analyse_latency(sessions: Sequence[Session], *, seed: int = 0) -> LatencyResult:
     """Analyse the sessions; practice trials are left out."""
     points, fits, counts, single = {}, {}, {}, {}
     for condition in CONDITIONS:
         answers, levels = answers_of(sessions, condition)
         points[condition] = [point_at(answers, float(level), levels == level) for level in np.unique(levels)]
-        fits[condition] = fit(answers, resamples=resamples, seed=seed)
+        fits[condition] = fit(answers, seed=seed)
         counts[condition], single[condition] = len(levels), answers
     first, second = (fits[condition] for condition in CONDITIONS)
     difference = first.curve.x0 - second.curve.x0 if first.curve and second.curve else None

@@ -105,11 +105,10 @@ def latency_power(
     *,
     simulations: int,
     seed: int,
-    model: AnswerModel | None = None,
     advance: Callable[[], object] = int,
 ) -> LatencyPower:
     """participants: at least 5, because fewer give no interval."""
-    model = model or AnswerModel()
+    model = AnswerModel()
     random = np.random.default_rng(seed)
     widths: dict[str, list[float]] = {condition: [] for condition in CONDITIONS}
     covered: Counter[str] = Counter()

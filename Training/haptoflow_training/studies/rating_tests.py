@@ -34,14 +34,6 @@ _DECIMALS = 9
 
 
 @dataclass(frozen=True)
-class Normality:
-    """Shapiro and Wilk's W and p; None for ratings that are all equal or fewer than three."""
-
-    w: float | None
-    p: float | None
-
-
-@dataclass(frozen=True)
 class Friedman:
     """chi_square has k - 1 degrees of freedom, corrected for ties. kendall_w: 0 no agreement on the order, 1 full."""
 
@@ -85,7 +77,7 @@ class RatingResult:
     """The tests of one material. friedman is None for two methods, whose pair is tested directly, and for ratings
     all equal."""
 
-    normality: tuple[Normality, ...]
+    normality_p: tuple[float | None, ...]
     friedman: Friedman | None
     friedman_statement: str
     pairs: tuple[Pair, ...]
@@ -176,11 +168,9 @@ def cohen_dz(differences: np.ndarray) -> float | None:
     return float(np.mean(differences)) / spread if spread > 0.0 else None
 
 
-def normality(ratings: np.ndarray) -> Normality:
-    if len(ratings) < 3 or np.ptp(ratings) == 0.0:
-        return Normality(None, None)
-    result = stats.shapiro(ratings)
-    return Normality(float(result.statistic), float(result.pvalue))
+def normality_p(ratings: np.ndarray) -> float | None:
+    """Of Shapiro and Wilk's test; None for ratings that are all equal or fewer than three."""
+    return None if len(ratings) < 3 or np.ptp(ratings) == 0.0 else float(stats.shapiro(ratings).pvalue)
 
 
 def friedman(ratings: np.ndarray) -> Friedman | None:
@@ -211,7 +201,7 @@ def analysed(ratings: np.ndarray, bound: float = EQUIVALENCE_POINTS) -> RatingRe
     corrected = _corrected(raw, methods) if follows_up else dict.fromkeys(names)
     pairs = [(pair, *ps) for pair, ps in zip(names, equivalences(ratings, bound), strict=True)]
     return RatingResult(
-        tuple(normality(column) for column in ratings.T),
+        tuple(normality_p(column) for column in ratings.T),
         found,
         statement,
         tuple(_pair(ratings, pair, raw[pair], corrected[pair], bound, p, p_holm) for pair, p, p_holm in pairs),

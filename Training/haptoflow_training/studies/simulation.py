@@ -26,12 +26,10 @@ _INFERENCE_MS = {LATENCY: 0.0, SIMILARITY: 15.0}
 _ARTIFICIAL_MS = 10.0
 
 
-def simulate_latency(
-    folder: Path, participants: int, seed: int, model: AnswerModel | None = None, advance: Callable[[], object] = int
-) -> None:
+def simulate_latency(folder: Path, participants: int, seed: int, advance: Callable[[], object] = int) -> None:
     """Write one session for each participant, with the paper's levels. InputError if the folder holds sessions
     already."""
-    model = model or AnswerModel()
+    model = AnswerModel()
     _refuse_sessions(folder, LATENCY)
     random = np.random.default_rng((seed, STUDIES.index(LATENCY)))
     curves = {condition: asdict(curve) for condition, curve in model.curves.items()}
