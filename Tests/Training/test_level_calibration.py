@@ -13,8 +13,8 @@ from test_trainer import ALONE, _config
 from training_fixtures import level_offsets_db, make_store
 
 from haptoflow_training.closed_loop.level_calibration import TierSource, hops
-from haptoflow_training.closed_loop.measured_levels import MeasuredLevels
 from haptoflow_training.export.exporter import export_run
+from haptoflow_training.export.level_table import MeasuredLevels
 from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.export.trained_tier import load_tiers
 from haptoflow_training.models.level_model import LevelModel, shift_level

@@ -26,11 +26,11 @@ from haptoflow_paper.rivals.spsi import SpsiRival
 from haptoflow_paper.rows.row_plan import PlannedRow, load_plan
 from haptoflow_paper.runs.losses import EvaluatedLosses
 from haptoflow_paper.runs.trainer import EvaluatedTrainer
-from haptoflow_training.closed_loop.measured_levels import MeasuredLevels
 from haptoflow_training.commands import train
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.exporter import export_run
 from haptoflow_training.export.label_info import LabelInfo
+from haptoflow_training.export.level_table import MeasuredLevels
 from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.training.batches import SegmentBatches
 from haptoflow_training.training.config import BatchConfig, TrainingConfig, load_config

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -22,20 +21,12 @@ from haptoflow_training.closed_loop.level_calibration import (
 )
 from haptoflow_training.closed_loop.level_following import level_tables
 from haptoflow_training.export.exponents import fit_exponents
-from haptoflow_training.export.level_table import LevelTable
+from haptoflow_training.export.level_table import LevelTable, MeasuredLevels
 from haptoflow_training.export.trained_tier import TrainedTier, load_tiers
 from haptoflow_training.training.held_out import HeldOut
 
 if TYPE_CHECKING:
     from haptoflow_training.training.recordings_source import Source
-
-
-@dataclass(frozen=True)
-class MeasuredLevels:
-    """offsets_db: None where nothing was measured. tables: by label index."""
-
-    offsets_db: list[float] | None = None
-    tables: Mapping[int, LevelTable] = field(default_factory=dict)
 
 
 def measured_levels(folder: Path, source: Source, extent: Extent = Extent()) -> MeasuredLevels:

@@ -6,8 +6,9 @@ import argparse
 from collections.abc import Sequence
 from pathlib import Path
 
-from haptoflow_training.closed_loop.measured_levels import MeasuredLevels, by_label, measured_levels
+from haptoflow_training.closed_loop.measured_levels import by_label, measured_levels
 from haptoflow_training.export.exporter import export_run
+from haptoflow_training.export.level_table import MeasuredLevels
 from haptoflow_training.training.recordings_source import Source, open_source
 from haptoflow_training.training.run_log import write_json
 from haptoflow_training.training.trainer import load_trained

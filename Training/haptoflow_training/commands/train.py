@@ -10,10 +10,11 @@ import time
 from pathlib import Path
 
 from haptoflow_training.closed_loop.level_calibration import Extent
-from haptoflow_training.closed_loop.measured_levels import MeasuredLevels, measured_levels
+from haptoflow_training.closed_loop.measured_levels import measured_levels
 from haptoflow_training.commands.export import write_model
 from haptoflow_training.commands.minutes import MINIMUM_MINUTES, Minutes, share_out
 from haptoflow_training.errors import InputError
+from haptoflow_training.export.level_table import MeasuredLevels
 from haptoflow_training.stopping import Stopped, end_if_stopped
 from haptoflow_training.training.config import TrainingConfig, load_config
 from haptoflow_training.training.processes import join_processes

@@ -8,9 +8,10 @@ from pathlib import Path
 
 from tqdm import tqdm
 
-from haptoflow_training.closed_loop.measured_levels import MeasuredLevels, measured_levels
+from haptoflow_training.closed_loop.measured_levels import measured_levels
 from haptoflow_training.commands.export import write_model
 from haptoflow_training.errors import InputError
+from haptoflow_training.export.level_table import MeasuredLevels
 from haptoflow_training.training.config import load_config
 from haptoflow_training.training.job_lanes import Job, run_jobs
 from haptoflow_training.training.recordings_source import open_source

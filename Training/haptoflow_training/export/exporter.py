@@ -12,11 +12,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import torch
 
-from haptoflow_training.closed_loop.measured_levels import MeasuredLevels
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.exponents import fit_exponents
 from haptoflow_training.export.label_info import LabelInfo
-from haptoflow_training.export.level_table import LevelTable
+from haptoflow_training.export.level_table import LevelTable, MeasuredLevels
 from haptoflow_training.export.model_file import ModelFile, write_model_file
 from haptoflow_training.export.onnx_graphs import export_level_model
 from haptoflow_training.export.parity import write_parity

@@ -11,8 +11,8 @@ from haptoflow_training.studies.figures import SIMULATED_WORDS, latency_figure, 
 from haptoflow_training.studies.html import heading, listing, page, paragraph, picture, table
 from haptoflow_training.studies.intervals import Interval
 from haptoflow_training.studies.latency_analysis import LatencyResult
-from haptoflow_training.studies.problems import participants_words
 from haptoflow_training.studies.plans import CONDITIONS
+from haptoflow_training.studies.problems import participants_words
 from haptoflow_training.studies.psychometric import Fit
 from haptoflow_training.studies.rating_tests import Pair
 from haptoflow_training.studies.session_file import Session
