@@ -7,7 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from haptoflow_benchmark.engine.engine_library import EngineGenerator, default_engine
+from haptoflow_benchmark.engine.engine_library import default_engine
+from haptoflow_paper.rows.engine_generator import EngineGenerator
 
 ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT / "Tests" / "Golden" / "model"))

@@ -17,19 +17,20 @@ from haptoflow_paper.report.annotation import annotate_model
 from haptoflow_paper.runs.trainer import EvaluatedTrainer
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.exponents import fit_exponents
-from haptoflow_training.export.exporter import Provenance, export_run
+from haptoflow_training.export.exporter import export_run
 from haptoflow_training.export.label_info import LabelInfo
 from haptoflow_training.export.model_file import ModelFile, read_model_file
 from haptoflow_training.export.seed_bank import build_seed_bank
 from haptoflow_training.recordings.landing import Landing, LandingMode
 from haptoflow_training.training.held_out import HeldOut
+from haptoflow_training.training.recordings_source import Provenance, Source
 from haptoflow_training.training.trainer import Trainer
 
 LANDING = Landing((LandingMode(180.0, 75.5, 170.0), LandingMode(640.0, 700.0, 40.0)), 0.25)
 INFOS = [
     LabelInfo("tone", "metal", 900.0, 0.3, 0.002, landing=LANDING), LabelInfo("noise", "stone", 1500.0, 0.6),
 ]  # fmt: skip
-PROVENANCE = Provenance("trained on nothing real", "a test", "MIT", "")
+PROVENANCE = Provenance("trained on nothing real", "a test", "MIT")
 
 
 @pytest.fixture(scope="module")
@@ -37,7 +38,7 @@ def exported(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, ModelFile,
     folder = tmp_path_factory.mktemp("export")
     store = make_store(seconds=6.0, recordings_per_split=4)
     Trainer(_config(), store, folder / "run", ALONE).run()
-    export_run(folder / "run", store, INFOS, PROVENANCE, folder / "m.haptoflow", folder / "parity.json")
+    export_run(folder / "run", Source(store, INFOS, PROVENANCE), folder / "m.haptoflow", folder / "parity.json")
     return folder, read_model_file(folder / "m.haptoflow"), store
 
 
@@ -134,7 +135,7 @@ def test_golden_vectors_name_the_file_they_belong_to(exported: tuple[Path, Model
 
 def test_labels_that_were_not_trained_are_refused(exported: tuple[Path, ModelFile, FakeStore], tmp_path: Path) -> None:
     with pytest.raises(InputError, match="trained on labels"):
-        export_run(exported[0] / "run", exported[2], INFOS[::-1], PROVENANCE, tmp_path / "x.haptoflow")
+        export_run(exported[0] / "run", Source(exported[2], INFOS[::-1], PROVENANCE), tmp_path / "x.haptoflow")
 
 
 def test_measured_figures_go_into_the_header_and_the_golden_vectors_follow(
@@ -159,7 +160,7 @@ def test_a_run_in_latents_is_exported_with_its_encoder_and_decoder(tmp_path: Pat
     codec = {"kind": "small-codec", "checkpoint": str(tmp_path / "codec.pt")}
     config = evaluated(_config(steps=4), model={"patch": 5, "representation": codec})
     EvaluatedTrainer(config, store, tmp_path / "run", ALONE).run()
-    export_run(tmp_path / "run", store, INFOS, PROVENANCE, tmp_path / "m.haptoflow")
+    export_run(tmp_path / "run", Source(store, INFOS, PROVENANCE), tmp_path / "m.haptoflow")
     file = read_model_file(tmp_path / "m.haptoflow")
     tier = file.header["tiers"][0]
     assert tier["representation"] == "latent"
@@ -175,7 +176,7 @@ def test_a_rival_becomes_a_direct_tier_with_the_inputs_that_it_reads(tmp_path: P
     store = make_store(seconds=6.0, recordings_per_split=4)
     config = evaluated(_config(steps=4), model={"architecture": "spsi"})
     EvaluatedTrainer(config, store, tmp_path / "run", ALONE).run()
-    export_run(tmp_path / "run", store, INFOS, PROVENANCE, tmp_path / "m.haptoflow", tmp_path / "parity.json")
+    export_run(tmp_path / "run", Source(store, INFOS, PROVENANCE), tmp_path / "m.haptoflow", tmp_path / "parity.json")
     file = read_model_file(tmp_path / "m.haptoflow")
     assert file.header["tiers"][0]["kind"] == "direct"
     field = onnx.load_from_string(file.graphs["standard.field"])

@@ -12,7 +12,7 @@ import pytest
 from haptoflow_training import native_library as library_module
 from haptoflow_training.errors import InputError
 from haptoflow_training.recordings.native_recording import read_native
-from haptoflow_training.recordings.own_files import OwnRecordingFile, own_identity
+from haptoflow_training.recordings.own_files import described_file
 
 FOLDER = Path(__file__).parents[1] / "Golden" / "recordings"
 ANSWERS: list[dict[str, Any]] = json.loads((FOLDER / "expected.json").read_text(encoding="utf-8"))
@@ -54,7 +54,7 @@ def test_a_recording_has_its_one_right_answer(answer: dict[str, Any]) -> None:
 @pytest.mark.parametrize("name", ["plain.csv", "position_mm.csv", "pause.csv", "wave_axes.wav", "constant.csv"])
 def test_training_gets_what_was_measured_at_its_own_times(name: str) -> None:
     answer = next(each for each in ANSWERS if each["file"] == name)
-    recording = OwnRecordingFile(FOLDER / "files" / name, own_identity(name), "a").load()
+    recording = described_file(FOLDER / "files" / name, name).load()
     assert recording.acceleration_g.shape[1] == answer["axes"]
     assert np.isfinite(recording.acceleration_g).all()
     span = recording.position_time_seconds[-1] - recording.position_time_seconds[0]

@@ -11,12 +11,11 @@ import numpy as np
 import pytest
 import torch
 from numpy.typing import NDArray
-from training_fixtures import FakeRecording, FakeStore, travelled_mm
+from training_fixtures import FakeRecording, FakeStore, level_offsets_db, travelled_mm
 
 from haptoflow_paper.codec.small_codec_config import read_small_codec_config
 from haptoflow_paper.codec.trainer import SegmentSampler
 from haptoflow_paper.reference.reference_conditions import conditions
-from haptoflow_training.closed_loop.level_calibration import level_offsets_db
 from haptoflow_training.export.exponents import fit_exponents
 from haptoflow_training.export.recorded_windows import draw_windows
 from haptoflow_training.export.seed_bank import build_seed_bank

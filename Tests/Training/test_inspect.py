@@ -26,7 +26,7 @@ def root(tmp_path: Path) -> Path:
 
 
 def test_inspect_counts_by_every_part_of_a_name(root: Path) -> None:
-    assert inspect_dataset(open_dataset(root)).counts() == {
+    assert inspect_dataset(open_dataset(root))["counts"] == {
         "protocol": {"hand": 1, "machine": 4},
         "material": {"Nyatoh": 3, "Steel": 2},
         "speed_mmps": {"20": 3, "40": 1},
@@ -37,21 +37,21 @@ def test_inspect_counts_by_every_part_of_a_name(root: Path) -> None:
 
 
 def test_inspect_finds_rates_and_irregularity_from_the_time_stamps(root: Path) -> None:
-    clocks = inspect_dataset(open_dataset(root)).clocks
-    assert clocks["acceleration"].rate_hz == pytest.approx(1 / 170e-6, rel=0.01)
-    assert clocks["acceleration"].irregularity == pytest.approx(72 / 170, rel=0.05)
-    assert clocks["force"].rate_hz == pytest.approx(1000.0)
-    assert clocks["position"].rate_hz == pytest.approx(100.0)
-    assert clocks["position"].irregularity == pytest.approx(0.0, abs=1e-6)
+    clocks = inspect_dataset(open_dataset(root))["clocks"]
+    assert clocks["acceleration"]["rate_hz"] == pytest.approx(1 / 170e-6, rel=0.01)
+    assert clocks["acceleration"]["irregularity"] == pytest.approx(72 / 170, rel=0.05)
+    assert clocks["force"]["rate_hz"] == pytest.approx(1000.0)
+    assert clocks["position"]["rate_hz"] == pytest.approx(100.0)
+    assert clocks["position"]["irregularity"] == pytest.approx(0.0, abs=1e-6)
 
 
 def test_inspect_prints_ranges_that_reveal_a_wrong_unit(root: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    ranges = inspect_dataset(open_dataset(root)).ranges
-    assert (ranges["force"].low, ranges["force"].high) == pytest.approx((0.49, 1.51), abs=0.02)
+    ranges = inspect_dataset(open_dataset(root))["ranges"]
+    assert (ranges["force"]["low"], ranges["force"]["high"]) == pytest.approx((0.49, 1.51), abs=0.02)
     # At rest before and after, otherwise at the speeds in the names, including the hand's 400 mm/s.
-    assert ranges["speed"].low == pytest.approx(0.0, abs=1.0)
-    assert ranges["speed"].high == pytest.approx(400.0, rel=0.02)
-    assert 0.01 < ranges["vibration"].middle < 0.2
+    assert ranges["speed"]["low"] == pytest.approx(0.0, abs=1.0)
+    assert ranges["speed"]["high"] == pytest.approx(400.0, rel=0.02)
+    assert 0.01 < ranges["vibration"]["middle"] < 0.2
     assert main(["inspect", str(root)]) == 0
     printed = capsys.readouterr().out
     assert "force         0.49 to 1.51 N, median 0.5 N" in printed
@@ -59,7 +59,7 @@ def test_inspect_prints_ranges_that_reveal_a_wrong_unit(root: Path, capsys: pyte
 
 
 def test_inspect_lists_coverage_against_the_grid_of_the_folder(root: Path) -> None:
-    assert inspect_dataset(open_dataset(root)).coverage() == [
+    assert inspect_dataset(open_dataset(root))["coverage"] == [
         {"material": "Nyatoh", "machine": 3, "machine_grid": 16, "hand": 0},
         {"material": "Steel", "machine": 1, "machine_grid": 16, "hand": 1},
     ]

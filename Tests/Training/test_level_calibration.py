@@ -10,14 +10,16 @@ import torch
 from numpy.typing import NDArray
 from test_export import INFOS, PROVENANCE
 from test_trainer import ALONE, _config
-from training_fixtures import make_store
+from training_fixtures import level_offsets_db, make_store
 
-from haptoflow_training.closed_loop.level_calibration import TierSource, hops, level_offsets_db
+from haptoflow_training.closed_loop.level_calibration import TierSource, hops
 from haptoflow_training.export.exporter import export_run
+from haptoflow_training.export.level_table import MeasuredLevels
 from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.export.trained_tier import load_tiers
 from haptoflow_training.models.level_model import LevelModel, shift_level
 from haptoflow_training.training.held_out import HeldOut
+from haptoflow_training.training.recordings_source import Source
 from haptoflow_training.training.trainer import Trainer
 
 _Floats = NDArray[np.float32]
@@ -69,8 +71,9 @@ def test_a_level_shift_affects_its_label_only_and_is_the_same_at_every_motion() 
 def test_a_level_shift_in_the_file_scales_the_closed_loop_by_the_same_factor(tmp_path: Path) -> None:
     store = make_store(seconds=6.0, recordings_per_split=4)
     Trainer(_config(), store, tmp_path / "run", ALONE).run()
-    export_run(tmp_path / "run", store, INFOS, PROVENANCE, tmp_path / "plain.haptoflow")
-    export_run(tmp_path / "run", store, INFOS, PROVENANCE, tmp_path / "level.haptoflow", level_offsets_db=[1.5, -0.5])
+    recorded, levels = Source(store, INFOS, PROVENANCE), MeasuredLevels([1.5, -0.5])
+    export_run(tmp_path / "run", recorded, tmp_path / "plain.haptoflow")
+    export_run(tmp_path / "run", recorded, tmp_path / "level.haptoflow", levels=levels)
     files = [read_model_file(tmp_path / f"{name}.haptoflow") for name in ("plain", "level")]
     assert files[1].header["measurements"]["level_offsets_db"] == [1.5, -0.5]
     assert files[0].graphs["standard.field"] == files[1].graphs["standard.field"]

@@ -188,7 +188,7 @@ def test_paths_are_relative_to_the_current_folder_and_those_of_a_configuration_t
 
 def parsed(words: list[str]) -> argparse.Namespace:
     parser = argparse.ArgumentParser()
-    train.register(parser.add_subparsers(), "")
+    train.add_options(parser.add_subparsers().add_parser("train"))
     return parser.parse_args(words)
 
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 import torch
+from synthetic_samples import record_machine
 from training_fixtures import FakeRecording, FakeStore, travelled_mm
 
 from haptoflow_benchmark.metrics.waveform_metrics import fundamental_hz
@@ -15,7 +16,7 @@ from haptoflow_training.export.exponents import LabelExponents, fit_exponents
 from haptoflow_training.models.level_model import LevelModel, level_loss
 from haptoflow_training.preprocessing.pipeline import preprocess_recording
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
-from haptoflow_training.recordings.synthetic import load_materials, record_condition, record_machine
+from haptoflow_training.recordings.synthetic import load_materials, record_condition
 from haptoflow_training.training.held_out import HeldOut
 
 LABELS = ("wood", "stone", "metal mesh", "plastic", "leather", "corduroy", "sandpaper")

@@ -212,8 +212,8 @@ def test_a_recipe_runs_through_its_phases_and_states_its_tier_kind(name: str, tm
     assert len({row.split(",")[1] for row in rows[1:]}) == len(planned_steps(config))
     tier = tier_of(*load_trained(tmp_path))
     assert tier.kind == kind
-    made = tier.generate(torch.randn(3, 1, 200), torch.zeros(3, 1, 200), torch.randn(3, 64), torch.rand(3, 3),
-                         torch.rand(3, 2), tier.solver, tier.steps)  # fmt: skip
+    condition = torch.zeros(3, 1, 200), torch.randn(3, 64), torch.rand(3, 3), torch.rand(3, 2)
+    made = tier.generate(torch.randn(3, 1, 200), condition, tier.solver, tier.steps)
     assert made.shape == (3, 1, 200) and torch.isfinite(made).all()
 
 

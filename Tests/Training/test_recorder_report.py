@@ -20,7 +20,6 @@ from haptoflow_training.recordings.synthetic.measurement import (
     band_level,
     centroid_hz,
     measure,
-    pooled_exponent,
     slope_db_per_octave,
 )
 
@@ -86,8 +85,8 @@ def test_the_pooled_centroid_grows_with_speed_as_in_published_textures_and_beyon
         fast_speeds_mmps=(1500.0,),
     )
     found = [measure(material, seed=31, design=design) for material in MATERIALS.values()]
-    assert 0.10 < pooled_exponent(each.centroid_exponent for each in found) < 0.20
-    assert 0.05 < pooled_exponent(each.fast_centroid_exponent for each in found) < 0.15
+    assert 0.10 < np.mean([each.centroid_exponent for each in found]) < 0.20
+    assert 0.05 < np.mean([each.fast_centroid_exponent for each in found]) < 0.15
     moving = [each.centroid_exponent > 0.04 for each in found]
     assert all(moving), "a label whose centroid stays is one filter at every speed"
 

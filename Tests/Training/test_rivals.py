@@ -26,11 +26,11 @@ from haptoflow_paper.rivals.spsi import SpsiRival
 from haptoflow_paper.rows.row_plan import PlannedRow, load_plan
 from haptoflow_paper.runs.losses import EvaluatedLosses
 from haptoflow_paper.runs.trainer import EvaluatedTrainer
-from haptoflow_training.closed_loop.measured_levels import MeasuredLevels
 from haptoflow_training.commands import train
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.exporter import export_run
 from haptoflow_training.export.label_info import LabelInfo
+from haptoflow_training.export.level_table import MeasuredLevels
 from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.training.batches import SegmentBatches
 from haptoflow_training.training.config import BatchConfig, TrainingConfig, load_config
@@ -104,7 +104,7 @@ def test_a_rival_given_the_same_trains_through_its_phases_and_becomes_a_model_fi
     EvaluatedTrainer(config, store, tmp_path / "run", ALONE, wave_vectors=WAVE_VECTORS).run()
     phases = json.loads((tmp_path / "run" / "run.json").read_text(encoding="utf-8"))["phases"]
     assert [phase["steps"] for phase in phases] == planned_steps(config)
-    export_run(tmp_path / "run", store, INFOS, PROVENANCE, tmp_path / "m.haptoflow", tmp_path / "parity.json")
+    export_run(tmp_path / "run", Source(store, INFOS, PROVENANCE), tmp_path / "m.haptoflow", tmp_path / "parity.json")
     file = read_model_file(tmp_path / "m.haptoflow")
     graph = file.graphs[f"{config.tier}.field"]
     _check(graph)

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from synthetic_samples import record_hand, record_machine
 
 from haptoflow_training.recordings.recording import RecordingIdentity
 from haptoflow_training.recordings.synthetic import (
@@ -18,9 +19,7 @@ from haptoflow_training.recordings.synthetic import (
     machine_conditions,
     protocols,
     record_condition,
-    record_hand,
     record_hand_condition,
-    record_machine,
     record_machine_condition,
     training_specimen,
 )

@@ -7,8 +7,9 @@ import pytest
 from scipy import optimize, special
 
 from haptoflow_training.studies.intervals import expanded_interval, jackknife_error, participant_weights
+from haptoflow_training.studies.latency_analysis import Point, point_at
 from haptoflow_training.studies.psychometric import (
-    Answers, Curve, degenerate_statement, fit, fit_curve, percent_yes, threshold_difference,
+    Answers, Curve, degenerate_statement, fit, fit_curve, threshold_difference,
 )  # fmt: skip
 
 LEVELS = np.arange(50.0, 251.0, 20.0)
@@ -149,9 +150,10 @@ def test_the_difference_of_two_thresholds_is_resampled_by_the_same_participants(
 def test_points_of_the_plot_have_the_share_of_yes_and_its_standard_error() -> None:
     yes = np.zeros((4, 11))
     yes[0, 3] = 1
-    rows = percent_yes(answers_of(yes), [110.0], np.tile(LEVELS, 4))
+    point = point_at(answers_of(yes), 110.0, np.tile(LEVELS, 4) == 110.0)
     # Wilson's interval of one in four.
-    assert rows == [(110.0, 25.0, pytest.approx(4.56, abs=0.01), pytest.approx(69.94, abs=0.01), 4)]
+    interval = pytest.approx(4.56, abs=0.01), pytest.approx(69.94, abs=0.01)
+    assert point == Point(110.0, 110.0, 25.0, *interval, 4)
 
 
 def test_the_expanded_interval_is_wider_than_the_percentiles_by_students_t_and_the_count() -> None:

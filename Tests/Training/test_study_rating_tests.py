@@ -9,7 +9,7 @@ import pytest
 from scipy import stats
 
 from haptoflow_training.studies.rating_tests import (
-    EQUIVALENCE_POINTS, analysed, cohen_dz, equivalence, friedman, holm, normality, rank_biserial, signed_rank_p,
+    EQUIVALENCE_POINTS, analysed, cohen_dz, equivalence, friedman, holm, normality_p, rank_biserial, signed_rank_p,
 )  # fmt: skip
 
 
@@ -91,7 +91,7 @@ def test_ratings_that_are_all_equal_get_a_reason_in_place_of_tests() -> None:
     assert all(pair.p is None and pair.p_shaffer is None for pair in result.pairs)
     # That all ratings are equal is the strongest evidence for equivalence.
     assert all(pair.p_equivalence < 0.001 for pair in result.pairs)
-    assert all(one.p is None for one in result.normality)
+    assert all(p is None for p in result.normality_p)
 
 
 def test_pairs_are_followed_up_only_where_the_methods_differ() -> None:
@@ -144,11 +144,11 @@ def test_equivalence_is_corrected_for_the_number_of_pairs() -> None:
 
 def test_a_method_that_everyone_rates_alike_can_still_be_compared_with_one_that_varies() -> None:
     result = analysed(np.column_stack([np.full(24, 7.0), ratings_of(4, 24, [3.0]).ravel()]))
-    assert result.normality[0].p is None and result.normality[1].p is not None
+    assert result.normality_p[0] is None and result.normality_p[1] is not None
     assert result.pairs[0].p is not None and result.pairs[0].p < 0.001
 
 
 def test_normality_is_rejected_for_clustered_ratings_and_not_tested_for_two() -> None:
-    piled = normality(np.array([7.0] * 20 + [1.0, 2.0, 6.0, 6.0]))
-    assert piled.p is not None and piled.p < 0.001
-    assert normality(np.array([1.0, 2.0])).p is None
+    piled = normality_p(np.array([7.0] * 20 + [1.0, 2.0, 6.0, 6.0]))
+    assert piled is not None and piled < 0.001
+    assert normality_p(np.array([1.0, 2.0])) is None

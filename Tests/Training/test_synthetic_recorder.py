@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from synthetic_samples import record_hand, record_machine
 
 from haptoflow_training.recordings.recording import STANDARD_GRAVITY_MPS2, RecordingIdentity
 from haptoflow_training.recordings.synthetic import (
@@ -13,9 +14,7 @@ from haptoflow_training.recordings.synthetic import (
     load_materials,
     machine_conditions,
     record_condition,
-    record_hand,
     record_hand_condition,
-    record_machine,
     record_machine_condition,
 )
 from haptoflow_training.recordings.synthetic.contact import SIMULATION_RATE_HZ, tool_acceleration

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+from haptoflow_training.closed_loop.level_calibration import closed_loop_levels, offsets_db
+from haptoflow_training.training.held_out import HeldOut
 
 RATE_HZ = 2000
 
@@ -65,3 +70,15 @@ def make_store(*, seconds: float = 4.0, recordings_per_split: int = 2, seed: int
         ["tone", "noise"],
         recordings,
     )
+
+
+def level_offsets_db(
+    source: Any,
+    embeddings: NDArray[np.float32],
+    store: FakeStore,
+    held_out: HeldOut,
+    advance: Callable[[int], None] = lambda count: None,
+) -> list[float]:
+    """For each label, the level that the source generates over the recorded one in dB, in closed loop."""
+    levels = closed_loop_levels(source, embeddings, store, held_out, advance)  # type: ignore[arg-type]
+    return offsets_db(levels, len(store.labels))

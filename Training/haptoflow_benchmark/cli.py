@@ -5,27 +5,14 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 
-from haptoflow_training.cli import Command, run_program
-
-
-def _command(summary: str, name: str) -> Command:
-    return Command(summary, f"haptoflow_benchmark.commands.{name}")
-
+from haptoflow_training.cli import run_program
 
 _COMMANDS = {
-    "evaluate": _command("compare a model with recordings of your own: level and spectrum of each label", "evaluate"),
-    "discriminate": _command(
-        "check that a classifier trained on recordings recognises the label of what the engine renders", "discriminate"
-    ),
-    "learn-figures": _command(
-        "measure materials fitted by `haptoflow learn` to ten seconds of recording", "learn_figures"
-    ),
-    "measure-wave-vectors": _command(
-        "count ribs found, missed and falsely found in seconds of strokes", "measure_wave_vectors"
-    ),
-    "measure-full-scale": _command(
-        "measure which acceleration should be full scale, from recorded strokes on every label", "measure_full_scale"
-    ),
+    "evaluate": "compare a model with recordings of your own: level and spectrum of each label",
+    "discriminate": "check that a classifier trained on recordings recognises the label of what the engine renders",
+    "learn-figures": "measure materials fitted by `haptoflow learn` to ten seconds of recording",
+    "measure-wave-vectors": "count ribs found, missed and falsely found in seconds of strokes",
+    "measure-full-scale": "measure which acceleration should be full scale, from recorded strokes on every label",
 }
 _DESCRIPTION = """Measures a model, the shipped one or your own: accuracy beside recordings, labels told apart, materials
 learnt from seconds of recording, ribs found, the full scale. Each command measures one property.

@@ -5,25 +5,14 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 
-from haptoflow_training.cli import Command, run_program
-
-
-def _command(summary: str, name: str) -> Command:
-    return Command(summary, f"haptoflow_paper.commands.{name}")
-
+from haptoflow_training.cli import run_program
 
 _COMMANDS = {
-    "evaluate": _command("measure accuracy and time of every row of the plan", "evaluate"),
-    "few-shot": _command("measure materials fitted to ten seconds of recording, beside rivals", "few_shot"),
-    "train": Command(
-        "`haptoflow-training train` for rivals, codecs, their objectives and ablations too",
-        "haptoflow_training.commands.train",
-    ),
-    "train-codec": _command("train the small codec whose latents some rows work on", "train_codec"),
-    "export": Command(
-        "`haptoflow-training export` for rivals, codecs, their objectives and ablations too",
-        "haptoflow_training.commands.export",
-    ),
+    "evaluate": "measure accuracy and time of every row of the plan",
+    "few-shot": "measure materials fitted to ten seconds of recording, beside rivals",
+    "train": "`haptoflow-training train` for rivals, codecs, their objectives and ablations too",
+    "train-codec": "train the small codec whose latents some rows work on",
+    "export": "`haptoflow-training export` for rivals, codecs, their objectives and ablations too",
 }
 _DESCRIPTION = """Measures what the published tables state: the product's models beside rivals (transformer, DSTN, SPSI,
 autoregressive), latent codecs, reflow and mean flow, one row for each method and configuration.
@@ -35,7 +24,7 @@ To train and export a model of your own, `haptoflow-training` is enough; `haptof
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """`haptoflow-paper`; returns the exit code."""
-    return run_program("haptoflow-paper", _DESCRIPTION, _COMMANDS, arguments)
+    return run_program("haptoflow-paper", _DESCRIPTION, _COMMANDS, arguments, borrowed=("train", "export"))
 
 
 if __name__ == "__main__":

@@ -8,43 +8,25 @@ from __future__ import annotations
 import argparse
 import importlib
 import sys
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Mapping, Sequence
 
 from haptoflow_training.errors import InputError, printable
 from haptoflow_training.stopping import Stopped, stoppable
 from haptoflow_training.whole_file import require_apart
 
 
-@dataclass(frozen=True)
-class Command:
-    """summary: its line in the list of commands. module: has `register(subparsers, summary)`, which adds a parser whose
-    default `run` takes the options and returns the exit code."""
-
-    summary: str
-    module: str
-
-
-def _command(summary: str, name: str) -> Command:
-    return Command(summary, f"haptoflow_training.commands.{name}")
-
-
 _COMMANDS = {
-    "record": _command("record synthetic recordings in the published data set's layout", "record"),
-    "report-recorder": _command(
-        "compare the synthetic recorder with its published targets, material by material", "report_recorder"
-    ),
-    "inspect": _command("count and validate the recordings of a data set folder", "inspect"),
-    "prepare": _command("turn recordings into memory-mapped 2 kHz training arrays", "prepare"),
-    "train": _command("train the level model and the network from one TOML file; resumable", "train"),
-    "train-tiers": _command("train a model file with several tiers over one embedding and level model", "train_tiers"),
-    "export": _command("write a trained run into a .haptoflow model file", "export"),
-    "add-material": _command(
-        "add a material to a model, or write a material file, from ten seconds of recording", "add_material"
-    ),
-    "sliders": _command("find a designer's sliders in a model's embedding space", "sliders"),
-    "stroke": _command("write a hand-like stroke as CSV for `haptoflow render`", "stroke"),
-    "study": _command("the two user studies: simulate, check, merge and analyse their logs", "study"),
+    "record": "record synthetic recordings in the published data set's layout",
+    "report-recorder": "compare the synthetic recorder with its published targets, material by material",
+    "inspect": "count and validate the recordings of a data set folder",
+    "prepare": "turn recordings into memory-mapped 2 kHz training arrays",
+    "train": "train the level model and the network from one TOML file; resumable",
+    "train-tiers": "train a model file with several tiers over one embedding and level model",
+    "export": "write a trained run into a .haptoflow model file",
+    "add-material": "add a material to a model, or write a material file, from ten seconds of recording",
+    "sliders": "find a designer's sliders in a model's embedding space",
+    "stroke": "write a hand-like stroke as CSV for `haptoflow render`",
+    "study": "the two user studies: simulate, check, merge and analyse their logs",
 }
 _DESCRIPTION = """Turns recordings into a .haptoflow model file: reads or synthesises recordings, prepares them, trains the
 networks and exports them; adds materials from seconds of recording; analyses the user studies.
@@ -53,9 +35,18 @@ networks and exports them; adds materials from seconds of recording; analyses th
 
 
 def run_program(
-    name: str, description: str, commands: Mapping[str, Command], arguments: Sequence[str] | None = None
+    name: str,
+    description: str,
+    commands: Mapping[str, str],
+    arguments: Sequence[str] | None = None,
+    borrowed: Collection[str] = (),
 ) -> int:
-    """Run the subcommand that `arguments` (default: those of this process) name; returns the exit code."""
+    """Run the subcommand that `arguments` (default: those of this process) name; returns the exit code.
+
+    commands: each one's line in the list of commands. The command `a-b` is the module commands.a_b of the program's
+    package, or of this one if it is borrowed. The module has `add_options(parser)`, and `run(options)`, which returns
+    the exit code.
+    """
     words = list(sys.argv[1:] if arguments is None else arguments)
     chosen = next((word for word in words if word in commands), None)
     parser = argparse.ArgumentParser(
@@ -65,11 +56,21 @@ def run_program(
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     subparsers = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
-    for key, command in commands.items():
+    for key, summary in commands.items():
         if key == chosen:
-            importlib.import_module(command.module).register(subparsers, command.summary)
+            package = "haptoflow-training" if key in borrowed else name
+            module = importlib.import_module(f"{package}.commands.{key}".replace("-", "_"))
+            if hasattr(module, "register"):
+                module.register(subparsers, summary)
+                continue
+            layout = argparse.RawDescriptionHelpFormatter
+            subparser = subparsers.add_parser(key, help=summary, formatter_class=layout)
+            module.add_options(subparser)
+            # A command with steps of its own sets `run` itself.
+            if hasattr(module, "run"):
+                subparser.set_defaults(run=module.run)
         else:
-            subparsers.add_parser(key, help=command.summary, add_help=False)
+            subparsers.add_parser(key, help=summary, add_help=False)
     options = parser.parse_args(words)
     try:
         require_apart(vars(options))

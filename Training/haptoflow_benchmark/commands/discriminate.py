@@ -8,7 +8,7 @@ from pathlib import Path
 
 from tqdm import tqdm
 
-from haptoflow_benchmark.commands.own_parts import ENGINE, add_options, own_parts, require_engine
+from haptoflow_benchmark.commands.own_parts import ENGINE, add_recording_options, own_parts, require_engine
 from haptoflow_benchmark.own_model.label_discrimination import (
     DiscriminationReport,
     discriminate,
@@ -22,26 +22,23 @@ from haptoflow_training.recordings.synthetic import load_materials
 _ROOT = Path(__file__).resolve().parents[3]
 
 
-def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], summary: str) -> None:
-    parser = subparsers.add_parser(
-        "discriminate",
-        help=summary,
-        description=(
-            "Trains a simple classifier (third-octave spectrum and level, given the stroke's speed and force) on "
-            "synthetic hand recordings, renders held-out strokes with the engine's command line, and counts how often "
-            "the classifier recognises the label. Recordings of the same strokes are classified too, as an upper "
-            "bound. With --recordings, the classifier is trained on the training part of these recordings, and the "
-            "held-out parts are rendered and classified."
-        ),
-        epilog="example:\n  haptoflow-benchmark discriminate --engine build/native/haptoflow"
+def add_options(parser: argparse.ArgumentParser) -> None:
+    parser.description = (
+        "Trains a simple classifier (third-octave spectrum and level, given the stroke's speed and force) on "
+        "synthetic hand recordings, renders held-out strokes with the engine's command line, and counts how often "
+        "the classifier recognises the label. Recordings of the same strokes are classified too, as an upper "
+        "bound. With --recordings, the classifier is trained on the training part of these recordings, and the "
+        "held-out parts are rendered and classified."
+    )
+    parser.epilog = (
+        "example:\n  haptoflow-benchmark discriminate --engine build/native/haptoflow"
         " --out Training/results/default\n"
-        "  haptoflow-benchmark discriminate --model own.haptoflow --recordings recordings --out out/own/discrimination",
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+        "  haptoflow-benchmark discriminate --model own.haptoflow --recordings recordings --out out/own/discrimination"
     )
     parser.add_argument(
         "--engine", type=Path, default=ENGINE, help="the built command line (default: build/native/haptoflow)"
     )
-    add_options(parser)
+    add_recording_options(parser)
     parser.add_argument(
         "--model", type=Path, default=_ROOT / SHIPPED_MODEL, help="the .haptoflow file (default: the shipped one)"
     )
@@ -54,7 +51,6 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
     )
     parser.add_argument("--workers", type=int, default=2, help="processes that record (default: 2)")
     parser.add_argument("--out", type=Path, required=True, help="folder of the report (JSON, Markdown, picture)")
-    parser.set_defaults(run=run)
 
 
 def run(options: argparse.Namespace) -> int:

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from tqdm import tqdm
 
-from haptoflow_benchmark.commands.own_parts import ENGINE, add_options, own_parts, require_engine
+from haptoflow_benchmark.commands.own_parts import ENGINE, add_recording_options, own_parts, require_engine
 from haptoflow_benchmark.own_model.own_accuracy import RenderedPart, label_accuracy, render_parts
 from haptoflow_benchmark.own_model.own_report import lines, write_own_report
 from haptoflow_training.errors import InputError
@@ -18,22 +18,17 @@ from haptoflow_training.model_stamp import SHIPPED_MODEL, sha256_of
 _ROOT = Path(__file__).resolve().parents[3]
 
 
-def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], summary: str) -> None:
-    parser = subparsers.add_parser(
-        "evaluate",
-        help=summary,
-        description=(
-            "Compares a model with recordings of your own: the held-out parts are rendered by the engine, and level, "
-            "GFC and LSD of each label are printed; --out also writes them, with a picture."
-        ),
-        epilog=(
-            "example:\n"
-            "  haptoflow-benchmark evaluate --model own.haptoflow --recordings recordings --out out/own/accuracy\n"
-            "The rows of the table of accuracy and time are measured by `haptoflow-paper evaluate`."
-        ),
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+def add_options(parser: argparse.ArgumentParser) -> None:
+    parser.description = (
+        "Compares a model with recordings of your own: the held-out parts are rendered by the engine, and level, "
+        "GFC and LSD of each label are printed; --out also writes them, with a picture."
     )
-    add_options(parser)
+    parser.epilog = (
+        "example:\n"
+        "  haptoflow-benchmark evaluate --model own.haptoflow --recordings recordings --out out/own/accuracy\n"
+        "The rows of the table of accuracy and time are measured by `haptoflow-paper evaluate`."
+    )
+    add_recording_options(parser)
     parser.add_argument(
         "--model", type=Path, default=_ROOT / SHIPPED_MODEL, metavar="FILE",
         help="the model file (default: the shipped one)",
@@ -44,7 +39,6 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
     parser.add_argument(
         "--out", type=Path, help="for own-accuracy.json, .md and .png (default: printed only)"
     )
-    parser.set_defaults(run=run)
 
 
 def run(options: argparse.Namespace) -> int:

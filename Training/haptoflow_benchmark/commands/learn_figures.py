@@ -25,25 +25,21 @@ About 15 s of one core for each material.
 """
 
 
-def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], summary: str) -> None:
-    parser = subparsers.add_parser(
-        "learn-figures",
-        help=summary,
-        description="Fit materials unknown to the model with `haptoflow learn` to ten seconds each, render them at six "
-        "speeds, and print the errors of level and spectrum against another specimen of the material.",
-        epilog=_EXAMPLES,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+def add_options(parser: argparse.ArgumentParser) -> None:
+    parser.description = (
+        "Fit materials unknown to the model with `haptoflow learn` to ten seconds each, render them at six "
+        "speeds, and print the errors of level and spectrum against another specimen of the material."
     )
+    parser.epilog = _EXAMPLES
     parser.add_argument("--model", required=True, type=Path, help=".haptoflow file trained on the recorder's labels")
     parser.add_argument("--engine", required=True, type=Path, help="built command line (build/native/haptoflow)")
     parser.add_argument("--results", type=Path, help="JSON file to write")
     parser.add_argument("--plain", type=int, default=9, help="how many materials without ribs (default 9)")
     parser.add_argument("--ruled", type=int, default=3, help="how many with ribs (default 3)")
     parser.add_argument("--seed", type=int, default=2026, help="of materials, recordings and fits (default 2026)")
-    parser.set_defaults(run=_run)
 
 
-def _run(options: argparse.Namespace) -> int:
+def run(options: argparse.Namespace) -> int:
     model = FileModel(read_model_file(options.model))
     figures = []
     with tempfile.TemporaryDirectory() as folder:

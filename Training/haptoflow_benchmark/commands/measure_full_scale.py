@@ -27,20 +27,17 @@ from haptoflow_training.model_stamp import (
 from haptoflow_training.whole_file import check_writable, write_whole
 
 
-def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], summary: str) -> None:
-    parser = subparsers.add_parser(
-        "measure-full-scale",
-        help=summary,
-        description=(
-            "Renders recorded strokes on every label of a model through the engine's command line, with each force "
-            "held for the whole stroke, far below the limiter's knee, and reports the smallest full scale at "
-            f"which less than {ALLOWED_SHARE:.1%} of the samples exceed the knee, with the shares at others."
-        ),
-        epilog="example:\n  haptoflow-benchmark measure-full-scale --engine build/native/haptoflow \\\n"
+def add_options(parser: argparse.ArgumentParser) -> None:
+    parser.description = (
+        "Renders recorded strokes on every label of a model through the engine's command line, with each force "
+        "held for the whole stroke, far below the limiter's knee, and reports the smallest full scale at "
+        f"which less than {ALLOWED_SHARE:.1%} of the samples exceed the knee, with the shares at others."
+    )
+    parser.epilog = (
+        "example:\n  haptoflow-benchmark measure-full-scale --engine build/native/haptoflow \\\n"
         "    --model Packages/com.haptoflow.runtime/Runtime/Models/default.haptoflow \\\n"
         "    --strokes ../shared/strokes/vr-pen-on-surface/strokes.csv \\\n"
-        "    --out Training/results/default/full-scale.json --page Documentation~/actuator-wiring.md",
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+        "    --out Training/results/default/full-scale.json --page Documentation~/actuator-wiring.md"
     )
     parser.add_argument("--engine", type=Path, required=True, help="the built command line, build/native/haptoflow")
     parser.add_argument("--model", type=Path, required=True, help="the .haptoflow file")
@@ -55,7 +52,6 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
     parser.add_argument("--workers", type=int, default=2, help="renders at a time (default: 2)")
     parser.add_argument("--out", type=Path, required=True, help="the report, JSON")
     parser.add_argument("--page", type=Path, help="a page whose measured table is replaced")
-    parser.set_defaults(run=run)
 
 
 def run(options: argparse.Namespace) -> int:

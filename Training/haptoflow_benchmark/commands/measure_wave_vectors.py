@@ -19,21 +19,17 @@ All 68 surfaces take about four minutes of one core, mostly for recording.
 """
 
 
-def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], summary: str) -> None:
-    parser = subparsers.add_parser(
-        "measure-wave-vectors",
-        help=summary,
-        description="Estimate the wave vectors of 30 ruled surfaces and of 38 without ribs from 10 and 30 s of strokes, "
-        "and count those found, missed and wrong.",
-        epilog=_EXAMPLES,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+def add_options(parser: argparse.ArgumentParser) -> None:
+    parser.description = (
+        "Estimate the wave vectors of 30 ruled surfaces and of 38 without ribs from 10 and 30 s of strokes, "
+        "and count those found, missed and wrong."
     )
+    parser.epilog = _EXAMPLES
     parser.add_argument("--results", required=True, type=Path, help="JSON file to write")
     parser.add_argument("--every", type=int, default=1, help="use every Nth surface (default 1: all)")
-    parser.set_defaults(run=_run)
 
 
-def _run(options: argparse.Namespace) -> int:
+def run(options: argparse.Namespace) -> int:
     surfaces = list(study_surfaces())[:: max(options.every, 1)]
     with tqdm(total=len(surfaces), unit="surface") as progress:
         results = measured(surfaces, lambda: progress.update(1) and None)

@@ -15,8 +15,8 @@ from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.preprocessing.preparation import prepare_cut_where_needed, prepare_store
 from haptoflow_training.preprocessing.split import Split
 from haptoflow_training.preprocessing.store import SegmentStore, StoredRecording
-from haptoflow_training.recordings.labels import load_labels
-from haptoflow_training.recordings.open_recordings import Dataset, RecordingFile, open_recordings
+from haptoflow_training.recordings.dataset import Dataset
+from haptoflow_training.recordings.open_recordings import RecordingFile, open_with_labels
 
 ROOT = Path(__file__).resolve().parents[3]
 ENGINE = ROOT / "build" / "native" / "haptoflow"
@@ -30,7 +30,7 @@ class OwnParts:
     seen: list[HeldOutPart]
 
 
-def add_options(parser: argparse.ArgumentParser) -> None:
+def add_recording_options(parser: argparse.ArgumentParser) -> None:
     """Add --recordings, --labels and --all, which mean the same in both commands."""
     parser.add_argument(
         "--recordings", type=Path, nargs="+", metavar="PATH",
@@ -58,7 +58,7 @@ def own_parts(options: argparse.Namespace, model: Path, folder: Path) -> OwnPart
         raise InputError("--recordings is missing: name the folder of recordings to compare the model with")
     header = read_model_file(model).header
     known = [label["name"] for label in header["labels"]]
-    datasets = [_open(path, options.labels) for path in options.recordings]
+    datasets = [open_with_labels(path, options.labels) for path in options.recordings]
     entries = [entry for dataset in datasets for entry in dataset if entry.label in known]
     _say_what_is_left_out(datasets, known, model)
     if not entries:
@@ -81,11 +81,6 @@ def own_parts(options: argparse.Namespace, model: Path, folder: Path) -> OwnPart
             "trained on them"
         )
     return OwnParts(held_out, [*_parts(store, "train"), *_parts(store, "validation")])
-
-
-def _open(path: Path, labels: Path | None) -> Dataset:
-    dataset = open_recordings(path, load_labels(labels) if labels else None)
-    return open_recordings(path, load_labels()) if labels is None and dataset.published else dataset
 
 
 def _say_what_is_left_out(datasets: list[Dataset], known: list[str], model: Path) -> None:

@@ -74,6 +74,17 @@ def read_wav(path: Path) -> NDArray[np.float32]:
     return samples
 
 
+def run_engine(command: list[str]) -> str:
+    """Run the command line, and return what it prints; InputError carries its own message if it fails."""
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+    except OSError as error:
+        raise InputError(f"{command[0]}: cannot be run ({error.strerror}); build it with `npm run build`") from error
+    if done.returncode != 0:
+        raise InputError(f"{command[0]} {command[1]} failed: {done.stderr.strip()}")
+    return done.stdout
+
+
 def render_motion(
     engine: Path,
     label: str,
@@ -82,22 +93,16 @@ def render_motion(
     *,
     model: Path | None = None,
     seed: int = 1,
-    update_rate_hz: float = UPDATE_RATE_HZ,
     options: tuple[str, ...] = (),
 ) -> EngineRender:
     """Run `haptoflow render`; InputError carries the command's own message if it fails."""
     scene, stroke, wav, report = (folder / name for name in ("scene.json", "stroke.csv", "out.wav", "report.json"))
-    write_scene(scene, label, update_rate_hz)
+    write_scene(scene, label, UPDATE_RATE_HZ)
     write_stroke(stroke, motion)
     command = [str(engine), "render", str(scene), "--stroke", str(stroke), "-o", str(wav)]
     command += ["--report", str(report), "--rate", str(_RENDER_RATE_HZ), "--seed", str(seed), *options]
     if model is not None:
         command += ["--model", str(model)]
-    try:
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
-    except OSError as error:
-        raise InputError(f"{engine}: cannot be run ({error.strerror}); build it with `npm run build`") from error
-    if done.returncode != 0:
-        raise InputError(f"{engine} render failed: {done.stderr.strip()}")
+    run_engine(command)
     waveform = resample_poly(read_wav(wav).astype(np.float64), 1, _RENDER_RATE_HZ // SAMPLE_RATE_HZ) * FULL_SCALE_MPS2
     return EngineRender(waveform[: len(motion)], json.loads(report.read_text(encoding="utf-8")))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import subprocess
 import tempfile
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -15,10 +14,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from haptoflow_benchmark.engine.engine_render import read_wav, write_scene
+from haptoflow_benchmark.engine.engine_render import read_wav, run_engine, write_scene
 from haptoflow_benchmark.full_scale.recorded_strokes import onto_table
 from haptoflow_training.closed_loop.render import UPDATE_RATE_HZ
 from haptoflow_training.errors import InputError
+from haptoflow_training.markdown import table
 
 # The limiter is linear up to this share of the full scale (SoftLimiter::knee).
 KNEE = 0.7
@@ -45,7 +45,7 @@ class StrokeLevel:
 
 def model_labels(engine: Path, model: Path) -> list[str]:
     """The labels of a model file, as the engine reads it."""
-    described = json.loads(_run([str(engine), "inspect", str(model), "--json"]))
+    described = json.loads(run_engine([str(engine), "inspect", str(model), "--json"]))
     return [label["name"] for label in described["header"]["labels"]]
 
 
@@ -81,21 +81,11 @@ def _render(
     columns = np.c_[onto_table(stroke), np.full(len(stroke), force_newtons)]
     np.savetxt(table, columns, fmt="%.7f", delimiter=",", header="t,x,y,z,force", comments="")
     command = [str(engine), "render", str(scene), "--stroke", str(table), "-o", str(wav), "--model", str(model)]
-    _run([*command, "--rate", str(_RATE_HZ), "--full-scale", str(_UNBENT_FULL_SCALE_MPS2), "--quiet"])
+    run_engine([*command, "--rate", str(_RATE_HZ), "--full-scale", str(_UNBENT_FULL_SCALE_MPS2), "--quiet"])
     magnitudes = np.abs(read_wav(wav))
     if magnitudes.max() > KNEE:
         raise InputError(f"label '{label}' passes {KNEE * _UNBENT_FULL_SCALE_MPS2:.0f} m/s^2: too loud to be measured")
     return np.sort(magnitudes[magnitudes > 0.0]) * np.float32(_UNBENT_FULL_SCALE_MPS2)
-
-
-def _run(command: list[str]) -> str:
-    try:
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
-    except OSError as error:
-        raise InputError(f"{command[0]}: cannot be run ({error.strerror}); build it with `npm run build`") from error
-    if done.returncode != 0:
-        raise InputError(f"{command[0]} {command[1]} failed: {done.stderr.strip()}")
-    return done.stdout
 
 
 def share_in_knee(levels: Sequence[StrokeLevel], full_scale_mps2: float) -> float:
@@ -109,11 +99,11 @@ def _count_up_to(level: StrokeLevel, mps2: float) -> int:
     return int(np.searchsorted(level.magnitudes_mps2, mps2, side="right"))
 
 
-def smallest_full_scale(levels: Sequence[StrokeLevel], allowed_share: float = ALLOWED_SHARE) -> float:
+def smallest_full_scale(levels: Sequence[StrokeLevel]) -> float:
     """In m/s^2, the smallest multiple of 10 with less than the allowed share of samples above the knee."""
     everything = np.concatenate([level.magnitudes_mps2 for level in levels])
-    full_scale = 10.0 * max(1, math.floor(float(np.quantile(everything, 1.0 - allowed_share)) / KNEE / 10.0))
-    while share_in_knee(levels, full_scale) >= allowed_share:
+    full_scale = 10.0 * max(1, math.floor(float(np.quantile(everything, 1.0 - ALLOWED_SHARE)) / KNEE / 10.0))
+    while share_in_knee(levels, full_scale) >= ALLOWED_SHARE:
         full_scale += 10.0
     return full_scale
 
@@ -144,11 +134,11 @@ def summarise(levels: Sequence[StrokeLevel], full_scales_mps2: Sequence[float]) 
 
 def full_scale_table(report: Mapping[str, Any]) -> str:
     """A Markdown table: the share of samples above the knee at each full scale."""
-    lines = ["| full scale, m/s^2 | samples in the knee, all labels | of the loudest label |", "|---|---|---|"]
+    rows = []
     for entry in report["full_scales"]:
         label, share = max(entry["share_in_knee_by_label"].items(), key=lambda item: item[1])
-        lines.append(f"| {entry['full_scale_mps2']:.0f} | {entry['share_in_knee']:.3%} | {share:.2%} ({label}) |")
-    return "\n".join(lines)
+        rows.append([f"{entry['full_scale_mps2']:.0f}", f"{entry['share_in_knee']:.3%}", f"{share:.2%} ({label})"])
+    return table(("full scale, m/s^2", "samples in the knee, all labels", "of the loudest label"), rows)
 
 
 def _distinct(levels: Sequence[StrokeLevel], field: str) -> list[Any]:

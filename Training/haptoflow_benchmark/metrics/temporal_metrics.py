@@ -7,13 +7,13 @@ kHz, m/s^2. Documentation~/accuracy-and-time.md repeats the definitions.
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 from haptoflow_training.recordings.synthetic.materials import Material
 from haptoflow_training.waveform import SAMPLE_RATE_HZ
-
 
 # Frames of 5 ms: shorter than the hand's resolution in time, longer than the periods of perceived pitch.
 ENVELOPE_SAMPLES = 10
@@ -56,8 +56,8 @@ def variation(values: _Doubles) -> float:
     return float(np.std(values) / (np.mean(values) + _FLOOR))
 
 
-def modulation_spectrum_db(wave: _Wave, edges_hz: tuple[float, ...] = MODULATION_EDGES_HZ) -> _Doubles:
-    """Power of the envelope in bands of modulation frequency, dB over its squared mean, [len(edges_hz) - 1].
+def modulation_spectrum_db(wave: _Wave) -> _Doubles:
+    """Power of the envelope in bands of modulation frequency, dB over its squared mean, [11].
 
     The envelope is divided by its mean; Hann windows of one second, half overlapped, each without its mean. 0 dB in a
     band is a modulation of 100 % RMS, and the level has no effect.
@@ -71,7 +71,7 @@ def modulation_spectrum_db(wave: _Wave, edges_hz: tuple[float, ...] = MODULATION
     # Parseval: one-sided sums of this are the mean square of the frame.
     power = 2.0 * np.square(np.abs(np.fft.rfft(frames, axis=1))).mean(axis=0) / (length * np.square(window).sum())
     frequency = np.fft.rfftfreq(length, 1.0 / ENVELOPE_RATE_HZ)
-    bands = zip(edges_hz[:-1], edges_hz[1:], strict=True)
+    bands = pairwise(MODULATION_EDGES_HZ)
     sums = [power[(frequency >= low) & (frequency < high)].sum() for low, high in bands]
     return np.asarray(10.0 * np.log10(np.array(sums) + 1e-8))
 
@@ -118,7 +118,6 @@ def rib_modulation_error_db(generated: _Wave, recorded: _Wave, rib_rate_hz: floa
     counts as 0.01."""
     depths = [max(0.01, rib_modulation_depth(wave, rib_rate_hz)) for wave in (generated, recorded)]
     return 20.0 * float(np.log10(depths[0] / depths[1]))
-
 
 
 def folded(ratio: float) -> float:

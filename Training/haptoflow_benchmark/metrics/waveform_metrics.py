@@ -12,36 +12,31 @@ from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 _FLOOR = 1e-9
 _FREQUENCY_POINTS = 1 << 16
+_GFC_POINTS = 1024
 
 _Wave = NDArray[np.floating]
 _Doubles = NDArray[np.float64]
 
 
-def mean_spectrum(wave: _Wave, window: int, points: int | None = None, hop: int | None = None) -> _Doubles:
-    """Magnitudes averaged over Hann-windowed frames, [points / 2 + 1]; hop: half a window."""
+def _frames(wave: _Wave, window: int) -> _Doubles:
+    """[frames, window]: Hann-windowed, half overlapped."""
     wave = np.asarray(wave, dtype=np.float64)
-    window = min(window, len(wave))
-    hop = hop or max(1, window // 2)
-    frames = np.lib.stride_tricks.sliding_window_view(wave, window)[::hop] * np.hanning(window + 1)[:-1]
-    return np.asarray(np.abs(np.fft.rfft(frames, points or window, axis=1)).mean(axis=0))
+    hop = max(1, window // 2)
+    return np.lib.stride_tricks.sliding_window_view(wave, window)[::hop] * np.hanning(window + 1)[:-1]
 
 
 def power_spectrum(wave: _Wave, window: int) -> _Doubles:
     """Mean power over Hann-windowed frames, half overlapped, [window / 2 + 1]."""
-    wave = np.asarray(wave, dtype=np.float64)
-    frames = np.lib.stride_tricks.sliding_window_view(wave, window)[:: window // 2] * np.hanning(window + 1)[:-1]
-    return np.asarray(np.square(np.abs(np.fft.rfft(frames, axis=1))).mean(axis=0))
-
-
-def _cosine(first: _Doubles, second: _Doubles) -> float:
-    return float((first * second).sum() / (np.sqrt((first**2).sum() * (second**2).sum()) + _FLOOR))
+    return np.asarray(np.square(np.abs(np.fft.rfft(_frames(wave, window), axis=1))).mean(axis=0))
 
 
 def gfc_recording(generated: _Wave, recorded: _Wave) -> float:
     """GFC (goodness of fit criterion) of the spectra of whole recordings: window min(L, 1024), 1024-point FFT."""
-    return _cosine(mean_spectrum(generated, 1024, 1024), mean_spectrum(recorded, 1024, 1024))
-
-
+    first, second = (
+        np.abs(np.fft.rfft(_frames(wave, min(_GFC_POINTS, len(wave))), _GFC_POINTS, axis=1)).mean(axis=0)
+        for wave in (generated, recorded)
+    )
+    return float((first * second).sum() / (np.sqrt((first**2).sum() * (second**2).sum()) + _FLOOR))
 
 
 def rms(wave: _Wave) -> float:
@@ -66,7 +61,6 @@ def log_spectral_distance_db(
     return float(np.sqrt(np.square(difference).mean()))
 
 
-
 def fundamental_hz(wave: _Wave, expected_hz: float) -> float:
     """The strongest line within 12 % of `expected_hz`, interpolated between bins by zero-padding."""
     wave = np.asarray(wave, dtype=np.float64)
@@ -74,7 +68,6 @@ def fundamental_hz(wave: _Wave, expected_hz: float) -> float:
     frequency = np.fft.rfftfreq(_FREQUENCY_POINTS, 1.0 / SAMPLE_RATE_HZ)
     near = np.flatnonzero(np.abs(frequency - expected_hz) <= 0.12 * expected_hz)
     return float(frequency[near[np.argmax(spectrum[near])]])
-
 
 
 def hop_jump_ratio(wave: _Wave, hop_starts: NDArray[np.int64]) -> float:

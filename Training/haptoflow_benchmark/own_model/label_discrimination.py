@@ -18,6 +18,7 @@ from haptoflow_benchmark.engine.engine_render import EngineRender, render_motion
 from haptoflow_benchmark.metrics.label_classifier import LabelClassifier, WindowFeatures, concatenate, window_features
 from haptoflow_benchmark.own_model.own_accuracy import HeldOutPart
 from haptoflow_training.errors import InputError
+from haptoflow_training.markdown import table
 from haptoflow_training.model_stamp import model_line, picture_metadata
 from haptoflow_training.preprocessing.pipeline import PreparedRecording, preprocess_recording
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
@@ -234,40 +235,32 @@ def write_report(report: DiscriminationReport, out: Path, model_sha256: str) -> 
         "outcomes": [asdict(outcome) for outcome in report.outcomes],
     }
     (out / "label-discrimination.json").write_text(json.dumps(figures, indent=1) + "\n", encoding="utf-8")
-    lines = [
-        "# Which label is it?",
-        "",
-        model_line(model_sha256),
-        "",
+    said = (
         f"Engine renders named right: {report.render_accuracy:.1%}; recordings of the same strokes: "
         f"{report.recording_accuracy:.1%}. Level order of the labels: Spearman {report.level_order_spearman:.3f}. "
         f"Level error of a stroke: median {report.level_error_median_db:+.2f} dB, 90 % within "
-        f"{report.level_error_p90_db:.2f} dB.",
-        "",
-        "| label | strokes | renders right | recordings right | taken for | level error, median dB |",
-        "|---|---|---|---|---|---|",
-    ]
+        f"{report.level_error_p90_db:.2f} dB."
+    )
+    headings = ("label", "strokes", "renders right", "recordings right", "taken for", "level error, median dB")
+    rows = []
     for label in report.labels:
         own = [outcome for outcome in report.outcomes if outcome.label == label]
         others = sorted({outcome.named_render for outcome in own} - {label})
-        lines.append(
-            f"| {label} | {len(own)} | {sum(o.named_render == label for o in own)} | "
-            f"{sum(o.named_recording == label for o in own)} | {', '.join(others)} | "
-            f"{np.median([o.level_error_db for o in own]):+.2f} |"
-        )
-    (out / "label-discrimination.md").write_text("\n".join(lines) + "\n", encoding="utf-8")
+        right = [str(sum(o.named_render == label for o in own)), str(sum(o.named_recording == label for o in own))]
+        error = f"{np.median([o.level_error_db for o in own]):+.2f}"
+        rows.append([label, str(len(own)), *right, ", ".join(others), error])
+    parts = ["# Which label is it?", model_line(model_sha256), said, table(headings, rows)]
+    (out / "label-discrimination.md").write_text("\n\n".join(parts) + "\n", encoding="utf-8")
     _draw_confusion(report, out / "label-discrimination.png", model_sha256)
 
 
 def _draw_confusion(report: DiscriminationReport, path: Path, model_sha256: str) -> None:
-    import matplotlib
-
-    matplotlib.use("Agg")
-    from matplotlib import pyplot
+    from matplotlib.figure import Figure
 
     matrix = report.confusion().astype(float)
     matrix /= np.maximum(matrix.sum(axis=1, keepdims=True), 1.0)
-    figure, axis = pyplot.subplots(figsize=(7.5, 6.5))
+    figure = Figure(figsize=(7.5, 6.5))
+    axis = figure.subplots()
     image = axis.imshow(matrix, cmap="viridis", vmin=0.0, vmax=1.0)
     axis.set_xticks(range(len(report.labels)), report.labels, rotation=90)
     axis.set_yticks(range(len(report.labels)), report.labels)
@@ -276,4 +269,3 @@ def _draw_confusion(report: DiscriminationReport, path: Path, model_sha256: str)
     figure.colorbar(image, label="share of strokes")
     figure.tight_layout()
     figure.savefig(path, dpi=100, metadata=picture_metadata(model_sha256))
-    pyplot.close(figure)

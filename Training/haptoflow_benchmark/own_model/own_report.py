@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from haptoflow_benchmark.own_model.own_accuracy import LabelAccuracy, RenderedPart, spectra_db
+from haptoflow_training.markdown import table
 from haptoflow_training.model_stamp import model_line, picture_metadata
 from haptoflow_training.training.run_log import write_json, write_text
 
@@ -57,23 +58,20 @@ def write_own_report(
     out.mkdir(parents=True, exist_ok=True)
     write_json(out / "own-accuracy.json", {"model_sha256": model_sha256, "labels": [one.to_json() for one in found]})
     heading, *rows = table_rows(found)
-    table = [f"| {' | '.join(heading)} |", "|" + "---|" * len(heading), *(f"| {' | '.join(row)} |" for row in rows)]
-    text = "\n".join(["# A model beside recordings that it was not trained on", "", model_line(model_sha256), "", *table])
-    write_text(out / "own-accuracy.md", text + "\n")
+    parts = ["# A model beside recordings that it was not trained on", model_line(model_sha256), table(heading, rows)]
+    write_text(out / "own-accuracy.md", "\n\n".join(parts) + "\n")
     _draw(out / "own-accuracy.png", found, rendered, model_sha256)
 
 
 def _draw(
     path: Path, found: Sequence[LabelAccuracy], rendered: dict[str, list[RenderedPart]], model_sha256: str
 ) -> None:
-    import matplotlib
-
-    matplotlib.use("Agg")
-    from matplotlib import pyplot
+    from matplotlib.figure import Figure
 
     columns = min(4, len(found))
     rows = -(-len(found) // columns)
-    figure, axes = pyplot.subplots(rows, columns, figsize=(3.4 * columns, 2.6 * rows), squeeze=False)
+    figure = Figure(figsize=(3.4 * columns, 2.6 * rows))
+    axes = figure.subplots(rows, columns, squeeze=False)
     for axis, one in zip(axes.flat, found, strict=False):
         frequency, recorded, made = spectra_db(rendered[one.label])
         axis.semilogx(frequency[2:], recorded[2:], color="0.35", label="recorded")
@@ -87,4 +85,3 @@ def _draw(
     axes.flat[0].legend(fontsize=7)
     figure.tight_layout()
     figure.savefig(path, dpi=100, metadata=picture_metadata(model_sha256))
-    pyplot.close(figure)

@@ -38,24 +38,19 @@ _PACKAGE = Path(__file__).resolve().parents[1]
 _ROOT = _PACKAGE.parents[1]
 
 
-def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], summary: str) -> None:
-    parser = subparsers.add_parser(
-        "evaluate",
-        help=summary,
-        description=(
-            "Measures every row of the plan on held-out recordings: accuracy in open and closed loop, and milliseconds"
-            " for a segment in the engine. Trains the models that rows need (about eight minutes of one core each), "
-            "stores measured rows, and resumes after an interruption. A stored row is measured again only if its "
-            "configuration or its model has changed. Every timing run is added to timing-history.json; the first "
-            "complete one of the shipped model is published. `haptoflow-benchmark evaluate` compares a model of your "
-            "own with its recordings."
-        ),
-        epilog=(
-            "examples:\n"
-            "  haptoflow-paper evaluate --quick        trained models only, on a quarter of the recordings\n"
-            "  haptoflow-paper evaluate --rows plain-euler-1 standard\n"
-        ),
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+def add_options(parser: argparse.ArgumentParser) -> None:
+    parser.description = (
+        "Measures every row of the plan on held-out recordings: accuracy in open and closed loop, and milliseconds"
+        " for a segment in the engine. Trains the models that rows need (about eight minutes of one core each), "
+        "stores measured rows, and resumes after an interruption. A stored row is measured again only if its "
+        "configuration or its model has changed. Every timing run is added to timing-history.json; the first "
+        "complete one of the shipped model is published. `haptoflow-benchmark evaluate` compares a model of your "
+        "own with its recordings."
+    )
+    parser.epilog = (
+        "examples:\n"
+        "  haptoflow-paper evaluate --quick        trained models only, on a quarter of the recordings\n"
+        "  haptoflow-paper evaluate --rows plain-euler-1 standard\n"
     )
     parser.add_argument("--plan", type=Path, default=_PACKAGE / "configs" / "rows.toml")
     parser.add_argument("--rows", nargs="+", metavar="NAME", help="only these rows (default: all)")
@@ -74,7 +69,6 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
     parser.add_argument(
         "--workers", type=int, default=os.cpu_count() or 1, help="processes that record and measure (default: cores)"
     )
-    parser.set_defaults(run=run)
 
 
 def run(options: argparse.Namespace) -> int:

@@ -41,15 +41,12 @@ core for each material.
 """
 
 
-def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], summary: str) -> None:
-    parser = subparsers.add_parser(
-        "few-shot",
-        help=summary,
-        description="Fit materials unknown to the model to 3, 10, 30 and 120 s of recording, beside autoregressive "
-        "models, the nearest label and a fit of the whole network, and write figures with intervals.",
-        epilog=_EXAMPLES,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+def add_options(parser: argparse.ArgumentParser) -> None:
+    parser.description = (
+        "Fit materials unknown to the model to 3, 10, 30 and 120 s of recording, beside autoregressive "
+        "models, the nearest label and a fit of the whole network, and write figures with intervals."
     )
+    parser.epilog = _EXAMPLES
     parser.add_argument("--model", required=True, type=Path, help=".haptoflow file trained on the recorder's labels")
     parser.add_argument("--results", required=True, type=Path, help="JSON file to write")
     parser.add_argument("--chart", type=Path, help="PNG file to write")
@@ -61,10 +58,9 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
     parser.add_argument(
         "--engine", type=Path, help="built command line (build/native/haptoflow); measures the fit to 10 s in it, too"
     )
-    parser.set_defaults(run=_run)
 
 
-def _run(options: argparse.Namespace) -> int:
+def run(options: argparse.Namespace) -> int:
     if options.page is not None:
         read_measured_page(options.page)
     for place in (options.results, options.chart, options.page):

@@ -11,22 +11,16 @@ from haptoflow_paper.codec.trainer import RESULT_NAME, train_small_codec
 from haptoflow_training.preprocessing.store import SegmentStore
 
 
-def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], summary: str) -> None:
-    parser = subparsers.add_parser(
-        "train-codec",
-        help=summary,
-        description="Trains the small codec on prepared recordings; run it again to go on after an interruption.",
-        epilog=(
-            "example:\n"
-            "  haptoflow-paper train-codec --config Training/haptoflow_paper/configs/codec-small.toml \\\n"
-            "    --store out/train/default/store"
-        ),
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+def add_options(parser: argparse.ArgumentParser) -> None:
+    parser.description = "Trains the small codec on prepared recordings; run it again to go on after an interruption."
+    parser.epilog = (
+        "example:\n"
+        "  haptoflow-paper train-codec --config Training/haptoflow_paper/configs/codec-small.toml \\\n"
+        "    --store out/train/default/store"
     )
     parser.add_argument("--config", type=Path, required=True, help="the codec's TOML file")
     parser.add_argument("--store", type=Path, required=True, help="prepared recordings (`haptoflow-training prepare`)")
     parser.add_argument("--out", type=Path, help="in place of the configuration's output_folder")
-    parser.set_defaults(run=run)
 
 
 def run(options: argparse.Namespace) -> int:

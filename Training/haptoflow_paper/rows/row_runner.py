@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 import torch
 
-from haptoflow_benchmark.engine.engine_library import EngineGenerator, EngineLibrary, default_engine
+from haptoflow_benchmark.engine.engine_library import EngineLibrary, default_engine
 from haptoflow_benchmark.metrics.waveform_metrics import rms
 from haptoflow_paper.codec.codec_reconstruction import codec_reconstruction
 from haptoflow_paper.metrics.row_metrics import kink_db
@@ -22,6 +22,7 @@ from haptoflow_paper.reference.reference_rows import CODEC_ROW, reference_waves
 from haptoflow_paper.reference.reference_set import ReferencePair
 from haptoflow_paper.rows import accuracy
 from haptoflow_paper.rows.accuracy import Yardstick
+from haptoflow_paper.rows.engine_generator import EngineGenerator
 from haptoflow_paper.rows.row_plan import PlannedRow
 from haptoflow_paper.rows.row_store import read_row, stored_row, write_row
 from haptoflow_paper.rows.row_summary import over_labels

@@ -7,6 +7,7 @@ from torch import Tensor
 
 from haptoflow_paper.objectives.mean_flow import AverageField, mean_flow_loss
 from haptoflow_paper.objectives.reflow import ReflowPairs
+from haptoflow_training.models.haptoflow_model import Condition
 from haptoflow_training.training.batches import SegmentBatch
 from haptoflow_training.training.losses import Losses, ScaledBatch
 
@@ -46,7 +47,7 @@ class EvaluatedLosses(Losses):
             return mean_flow_loss(bound, given.segment, generator, 1.0 / given.power)
         return super().field_loss(given, objective, generator)
 
-    def drawn(self, objective: str, noise: Tensor, condition: tuple[Tensor, Tensor, Tensor, Tensor]) -> Tensor:
+    def drawn(self, objective: str, noise: Tensor, condition: Condition) -> Tensor:
         if objective == "average-velocity":
             start = torch.zeros(len(noise), 1)
             return noise + self.model.field(noise, start, *condition, torch.ones_like(start))

@@ -14,6 +14,7 @@ from haptoflow_paper.runs.configuration import EvaluatedConfig
 from haptoflow_paper.runs.networks import EvaluatedModel
 from haptoflow_training.export.onnx_graphs import example_inputs, export_graph, export_network
 from haptoflow_training.export.trained_tier import TrainedTier
+from haptoflow_training.models.haptoflow_model import Condition
 
 
 class _AverageVelocity(nn.Module):
@@ -62,19 +63,10 @@ class EvaluatedTier(TrainedTier):
             return "direct"
         return "average-velocity" if self.config.recipe.objective == "average-velocity" else super().kind
 
-    def evaluate(
-        self,
-        noisy: Tensor,
-        time: Tensor,
-        interval: Tensor,
-        previous: Tensor,
-        embedding: Tensor,
-        motion: Tensor,
-        rib_phase: Tensor,
-    ) -> Tensor:
+    def evaluate(self, noisy: Tensor, time: Tensor, interval: Tensor, condition: Condition) -> Tensor:
         if self.kind == "average-velocity":
-            return self.model.field(noisy, time, previous, embedding, motion, rib_phase, interval)
-        return super().evaluate(noisy, time, interval, previous, embedding, motion, rib_phase)
+            return self.model.field(noisy, time, *condition, interval)
+        return super().evaluate(noisy, time, interval, condition)
 
     def graphs(self) -> dict[str, bytes]:
         graphs = {f"{self.name}.field": network_graph(self.model, self.kind)}

@@ -19,7 +19,7 @@ from haptoflow_training.closed_loop.render import UPDATE_RATE_HZ, SegmentSource,
 from haptoflow_training.export.level_table import LevelTable
 from haptoflow_training.export.trained_tier import TrainedTier
 from haptoflow_training.models.level_model import scaled_previous
-from haptoflow_training.training.batches import Store, StoredRecording
+from haptoflow_training.preprocessing.store import SegmentStore, StoredRecording
 from haptoflow_training.training.held_out import HeldOut
 
 _Floats = NDArray[np.float32]
@@ -53,31 +53,16 @@ class ClosedLoopLevels:
     owners: NDArray[np.int64]
 
 
-def hops(store: Store, extent: Extent = Extent()) -> int:
-    """The number of hops that `level_offsets_db` renders, for a progress bar."""
+def hops(store: SegmentStore, extent: Extent = Extent()) -> int:
+    """The number of hops that `closed_loop_levels` renders, for a progress bar."""
     longest = max(_length(recording, extent) for recording in _chosen(store, extent))
     return len(hop_positions(longest, UPDATE_RATE_HZ))
 
 
-def level_offsets_db(
-    source: SegmentSource,
-    embeddings: _Floats,
-    store: Store,
-    held_out: HeldOut,
-    advance: Callable[[int], None] = lambda count: None,
-) -> list[float]:
-    """For each label, the generated level over the recorded level in dB, in closed loop at 72 Hz; 0 where too little
-    was recorded. It is the mean over classes of speed (borders from 20 mm/s to 1.6 m/s), so that a speed that is
-    recorded often does not weigh more than another.
-
-    embeddings [labels, 64]. Recordings of the test split are not used, and windows with a sample in a held-out band are
-    not compared.
-    """
-    return offsets_db(closed_loop_levels(source, embeddings, store, held_out, advance), len(store.labels))
-
-
 def offsets_db(levels: ClosedLoopLevels, labels: int) -> list[float]:
-    """As `level_offsets_db`, from levels that are already measured."""
+    """For each label, the generated level over the recorded level in dB; 0 where too little was recorded. It is the
+    mean over classes of speed (borders from 20 mm/s to 1.6 m/s), so that a speed that is recorded often does not weigh
+    more than another."""
     classes = np.digitize(levels.speeds_mps, _SPEED_BORDERS_MPS)
     owned = [levels.owners == label for label in range(labels)]
     return [_offset_db(levels.powers[own], classes[own]) for own in owned]
@@ -86,14 +71,17 @@ def offsets_db(levels: ClosedLoopLevels, labels: int) -> list[float]:
 def closed_loop_levels(
     source: SegmentSource,
     embeddings: _Floats,
-    store: Store,
+    store: SegmentStore,
     held_out: HeldOut,
     advance: Callable[[int], None] = lambda count: None,
     extent: Extent = Extent(),
     labels_wanted: frozenset[int] | None = None,
 ) -> ClosedLoopLevels:
-    """The levels that `source` generates for the motion of training recordings, with the recorded ones.
-    labels_wanted: only these label indices; None for all."""
+    """The levels that `source` generates for the motion of training recordings in closed loop at 72 Hz, with the
+    recorded ones. embeddings [labels, 64]. labels_wanted: only these label indices; None for all.
+
+    Recordings of the test split are not used, and windows with a sample in a held-out band are not compared.
+    """
     chosen = [one for one in _chosen(store, extent) if labels_wanted is None or one.label_index in labels_wanted]
     longest = max(_length(recording, extent) for recording in chosen)
     motions = np.stack([_padded(store.motion[_span(recording, extent)], longest) for recording in chosen])
@@ -134,7 +122,7 @@ def _offset_db(powers: NDArray[np.float64], classes: NDArray[np.int64]) -> float
     return float(np.mean(ratios)) if ratios else 0.0
 
 
-def _chosen(store: Store, extent: Extent) -> list[StoredRecording]:
+def _chosen(store: SegmentStore, extent: Extent) -> list[StoredRecording]:
     """The same number of recordings for each label, spread evenly over what there is."""
     chosen = []
     for label in range(len(store.labels)):
@@ -180,8 +168,7 @@ class TierSource:
                 log_level[row, 0] = float(table.log_level(speed, motions[row, 2]))
         previous = model.encode(scaled_previous(torch.from_numpy(previous_mps2).unsqueeze(1), log_level))
         drawn = model.start(torch.from_numpy(noise).unsqueeze(1))
-        made = tier.generate(
-            drawn, previous, embedding, motion, torch.from_numpy(rib_phase), tier.solver, tier.steps
-        )
+        condition = previous, embedding, motion, torch.from_numpy(rib_phase)
+        made = tier.generate(drawn, condition, tier.solver, tier.steps)
         segments: _Floats = (model.decode(made) * log_level.exp().unsqueeze(-1)).squeeze(1).numpy()
         return segments

@@ -5,9 +5,8 @@ from __future__ import annotations
 
 import time
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import torch
 from tqdm import tqdm
@@ -18,24 +17,16 @@ from haptoflow_training.closed_loop.level_calibration import (
     TierSource,
     closed_loop_levels,
     hops,
-    level_offsets_db,
     offsets_db,
 )
 from haptoflow_training.closed_loop.level_following import level_tables
 from haptoflow_training.export.exponents import fit_exponents
-from haptoflow_training.export.level_table import LevelTable
+from haptoflow_training.export.level_table import LevelTable, MeasuredLevels
 from haptoflow_training.export.trained_tier import TrainedTier, load_tiers
-from haptoflow_training.models.level_model import LevelModel
 from haptoflow_training.training.held_out import HeldOut
-from haptoflow_training.training.recordings_source import Source
 
-
-@dataclass(frozen=True)
-class MeasuredLevels:
-    """offsets_db: None where nothing was measured. tables: by label index."""
-
-    offsets_db: list[float] | None = None
-    tables: Mapping[int, LevelTable] = field(default_factory=dict)
+if TYPE_CHECKING:
+    from haptoflow_training.training.recordings_source import Source
 
 
 def measured_levels(folder: Path, source: Source, extent: Extent = Extent()) -> MeasuredLevels:
@@ -43,13 +34,7 @@ def measured_levels(folder: Path, source: Source, extent: Extent = Extent()) -> 
     synthetic recordings follow the law by construction."""
     torch.set_num_threads(1)
     tier = load_tiers([folder])[0]
-    if not tier.config.calibrates_level:
-        return MeasuredLevels()
     held_out = HeldOut.of(tier.config.batch)
-    exponents = {
-        row: fit_exponents(source.store, row, periodic=info.periodic, seed=tier.config.seed, held_out=held_out)
-        for row, info in enumerate(source.labels)
-    }
 
     def measure(tables: Mapping[int, LevelTable]) -> ClosedLoopLevels:
         made = TierSource(tier, tables)
@@ -58,20 +43,14 @@ def measured_levels(folder: Path, source: Source, extent: Extent = Extent()) -> 
             return closed_loop_levels(made, made.embeddings, source.store, held_out, bar.update, extent, wanted)
 
     levels = measure({})
-    tables = level_tables(levels, exponents, measure) if tier.config.data.source == "folders" else {}
-    return MeasuredLevels(offsets_db(levels, len(source.labels)), tables)
-
-
-def measured_offsets_db(folder: Path, source: Source) -> list[float] | None:
-    """The level error of the finished run in `folder` for each label, in dB; None if one constant level serves all
-    labels."""
-    torch.set_num_threads(1)
-    tier = load_tiers([folder])[0]
-    if not isinstance(tier.model.level, LevelModel):
-        return None
-    with tqdm(total=hops(source.store), unit="hop", desc="levels") as bar:
-        made = TierSource(tier)
-        return level_offsets_db(made, made.embeddings, source.store, HeldOut.of(tier.config.batch), bar.update)
+    offsets = offsets_db(levels, len(source.labels))
+    if tier.config.data.source != "folders":
+        return MeasuredLevels(offsets)
+    exponents = {
+        row: fit_exponents(source.store, row, periodic=info.periodic, seed=tier.config.seed, held_out=held_out)
+        for row, info in enumerate(source.labels)
+    }
+    return MeasuredLevels(offsets, level_tables(levels, exponents, measure))
 
 
 def seconds_of_a_measurement(tier: TrainedTier, source: Source, extent: Extent) -> float:

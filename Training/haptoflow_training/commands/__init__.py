@@ -1,1 +1,1 @@
-"""The subcommands of `haptoflow-training`: each module has `register(subparsers, summary)`."""
+"""The subcommands of `haptoflow-training`: each module has `add_options(parser)` and `run(options)`."""

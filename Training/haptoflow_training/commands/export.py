@@ -3,25 +3,23 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Sequence
 from pathlib import Path
 
-from haptoflow_training.closed_loop.measured_levels import MeasuredLevels, measured_levels
+from haptoflow_training.closed_loop.measured_levels import by_label, measured_levels
 from haptoflow_training.export.exporter import export_run
-from haptoflow_training.training.recordings_source import open_source
+from haptoflow_training.export.level_table import MeasuredLevels
+from haptoflow_training.training.recordings_source import Source, open_source
+from haptoflow_training.training.run_log import write_json
 from haptoflow_training.training.trainer import load_trained
 
 
-def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], summary: str) -> None:
-    parser = subparsers.add_parser(
-        "export",
-        help=summary,
-        description=(
-            "Writes the moving average of a finished run as a model file. The run's recordings are needed again, for "
-            "seeds, exponents and ranges: the store is reused where it is, made anew where it is not."
-        ),
-        epilog="example:\n  haptoflow-training export --run out/train/default --out default.haptoflow",
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+def add_options(parser: argparse.ArgumentParser) -> None:
+    parser.description = (
+        "Writes the moving average of a finished run as a model file. The run's recordings are needed again, for "
+        "seeds, exponents and ranges: the store is reused where it is, made anew where it is not."
     )
+    parser.epilog = "example:\n  haptoflow-training export --run out/train/default --out default.haptoflow"
     parser.add_argument("--run", dest="folder", type=Path, required=True, help="folder of the run (checkpoint.pt)")
     parser.add_argument(
         "--tier", dest="tiers", type=Path, nargs="+", default=[], metavar="FOLDER",
@@ -31,28 +29,28 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
     parser.add_argument("--out", type=Path, required=True, metavar="FILE", help="the model file")
     parser.add_argument("--parity", type=Path, metavar="FILE", help="also write golden vectors for the engine's tests")
     parser.add_argument("--workers", type=int, default=2, help="processes that prepare recordings (default: 2)")
-    parser.set_defaults(run=run)
 
 
-def announce(out: Path, checksum: int) -> None:
-    """Print the name and checksum of the model file."""
+def write_model(
+    folder: Path,
+    source: Source,
+    out: Path,
+    parity: Path | None,
+    levels: MeasuredLevels,
+    further_tiers: Sequence[Path] = (),
+    record: Path | None = None,
+) -> None:
+    """Write the model file of the run in `folder`, and print its name and checksum. record: a JSON file that keeps
+    them, with the measured levels."""
+    checksum = export_run(folder, source, out, parity, further_tiers, levels)
+    if record is not None:
+        write_json(record, {"file": out.name, "crc32": f"{checksum:08x}", **by_label(levels, source)})
     print(f"{out}: {out.stat().st_size / 2**20:.2f} MiB, CRC-32 {checksum:08x}")
 
 
 def run(options: argparse.Namespace) -> int:
     config, _, _ = load_trained(options.folder)
     source = open_source(config.data, options.store or options.folder.parent / "store", options.workers)
-    measured = measured_levels(options.folder, source) if config.calibrates_level else MeasuredLevels()
-    checksum = export_run(
-        options.folder,
-        source.store,
-        source.labels,
-        source.provenance,
-        options.out,
-        options.parity,
-        options.tiers,
-        measured.offsets_db,
-        measured.tables,
-    )
-    announce(options.out, checksum)
+    levels = measured_levels(options.folder, source) if config.calibrates_level else MeasuredLevels()
+    write_model(options.folder, source, options.out, options.parity, levels, options.tiers)
     return 0

@@ -6,11 +6,12 @@ import argparse
 import json
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 from tqdm import tqdm
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.recordings.dataset_inspection import Inspection, inspect_dataset
+from haptoflow_training.recordings.dataset_inspection import inspect_dataset
 from haptoflow_training.recordings.labels import load_labels
 from haptoflow_training.recordings.open_recordings import open_recordings
 
@@ -32,47 +33,36 @@ examples:
 exit codes: 0 read (problems, if any, are listed), 2 wrong usage, 3 nothing could be read"""
 
 
-def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], summary: str) -> None:
-    parser = subparsers.add_parser(
-        "inspect",
-        help=summary,
-        description=_DESCRIPTION,
-        epilog=_EXAMPLES,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+def add_options(parser: argparse.ArgumentParser) -> None:
+    parser.description = _DESCRIPTION
+    parser.epilog = _EXAMPLES
     parser.add_argument("folder", metavar="DIR", type=Path, help="a folder of recordings, or one file")
     parser.add_argument(
         "--labels", metavar="FILE", type=Path, help="count by the labels of this TOML file, not by texture"
     )
     parser.add_argument("--json", action="store_true", help="print the report as JSON")
-    parser.set_defaults(run=run)
 
 
 def run(options: argparse.Namespace) -> int:
     labels = load_labels(options.labels) if options.labels else None
     dataset = open_recordings(options.folder, labels)
     bar = tqdm(dataset.recordings, unit=" recordings", desc="inspect", disable=None)
-    inspection = inspect_dataset(dataset, bar)
+    report = inspect_dataset(dataset, bar)
+    problems = ["{file}: {found}; expected {expected}".format(**problem) for problem in report["problems"]]
     if options.json:
-        print(json.dumps(inspection.to_json(), indent=1))
+        print(json.dumps(report, indent=1))
     else:
-        print("\n".join(_lines(inspection)))
-    if not inspection.readable:
-        raise InputError(_nothing_readable(inspection))
-    return 0
-
-
-def _nothing_readable(inspection: Inspection) -> str:
-    dataset = inspection.dataset
+        print("\n".join(_lines(report, problems)))
+    if report["recordings"]:
+        return 0
     if dataset.unlabelled and not dataset.recordings:
         count = len(dataset.unlabelled)
-        return f"{dataset.root}: none of {count} recordings has a label; name their textures in --labels"
-    first = f"; the first problem: {inspection.problems[0]}" if inspection.problems else ""
-    return f"{dataset.root}: no recording could be read{first}"
+        raise InputError(f"{dataset.root}: none of {count} recordings has a label; name their textures in --labels")
+    first = f"; the first problem: {problems[0]}" if problems else ""
+    raise InputError(f"{dataset.root}: no recording could be read{first}")
 
 
-def _lines(inspection: Inspection) -> Iterator[str]:
-    report = inspection.to_json()
+def _lines(report: dict[str, Any], problems: list[str]) -> Iterator[str]:
     durations = report["duration_seconds"]
     yield f"{report['root']}: {report['recordings']} recordings, {durations['total'] / 60:.1f} minutes"
     yield f"  source        {report['provenance'].get('source')} ({report['provenance'].get('licence')})"
@@ -95,9 +85,9 @@ def _lines(inspection: Inspection) -> Iterator[str]:
             yield f"  {axis:<20}" + ", ".join(f"{value}: {count}" for value, count in counts.items())
     yield from _coverage_table(report["coverage"])
     yield from (f"  note: {note}" for note in report["notes"])
-    if report["problems"]:
-        yield f"{len(report['problems'])} problems:"
-        yield from (f"  {problem}" for problem in inspection.problems)
+    if problems:
+        yield f"{len(problems)} problems:"
+        yield from (f"  {problem}" for problem in problems)
 
 
 def _coverage_table(rows: list[dict[str, object]]) -> Iterator[str]:

@@ -12,8 +12,9 @@ from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.preprocessing.split import SPLITS
 from haptoflow_training.preprocessing.store import SegmentStore
 from haptoflow_training.preprocessing.store_lock import store_lock
+from haptoflow_training.recordings.dataset import Dataset
 from haptoflow_training.recordings.labels import LabelMap, load_labels
-from haptoflow_training.recordings.open_recordings import Dataset, open_recordings
+from haptoflow_training.recordings.open_recordings import open_with_labels
 
 _DESCRIPTION = """\
 Turn recordings into what training reads: one axis of vibration (DFT321) at 2 kHz with the velocity and force
@@ -32,14 +33,9 @@ examples:
   haptoflow-training prepare --recordings machine --out store --hold-out-direction 135 --hold-out-speed 50"""
 
 
-def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], summary: str) -> None:
-    parser = subparsers.add_parser(
-        "prepare",
-        help=summary,
-        description=_DESCRIPTION,
-        epilog=_EXAMPLES,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+def add_options(parser: argparse.ArgumentParser) -> None:
+    parser.description = _DESCRIPTION
+    parser.epilog = _EXAMPLES
     add = parser.add_argument
     add("--recordings", metavar="DIR", type=Path, nargs="+", required=True, help="folders, or files")
     add("--labels", metavar="FILE", type=Path, help="TOML file: labels and their textures")
@@ -49,11 +45,10 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
     held_out = {"type": int, "action": "append", "default": [], "help": "test only; may be repeated"}
     add("--hold-out-direction", metavar="DEGREES", **held_out)
     add("--hold-out-speed", metavar="MM/S", **held_out)
-    parser.set_defaults(run=run)
 
 
 def run(options: argparse.Namespace) -> int:
-    datasets = [_open(folder, options.labels) for folder in options.recordings]
+    datasets = [open_with_labels(folder, options.labels) for folder in options.recordings]
     entries = [entry for dataset in datasets for entry in dataset]
     if not entries:
         first = next(
@@ -86,13 +81,6 @@ def run(options: argparse.Namespace) -> int:
         )
     _report(store, time.perf_counter() - begun)
     return 0
-
-
-def _open(folder: Path, labels_path: Path | None) -> Dataset:
-    dataset = open_recordings(folder, load_labels(labels_path) if labels_path else None)
-    if labels_path is None and dataset.published:
-        return open_recordings(folder, load_labels())
-    return dataset
 
 
 def _labels(datasets: list[Dataset], labels_path: Path | None) -> list[str]:

@@ -25,8 +25,7 @@ from haptoflow_training.recordings.synthetic import (
     hand_conditions,
     load_materials,
     machine_conditions,
-    record_hand_condition,
-    record_machine_condition,
+    record_condition_of,
 )
 from haptoflow_training.recordings.synthetic.materials import select_materials
 
@@ -35,14 +34,13 @@ _SOURCE = "HaptoFlow's synthetic recorder: simulated surfaces and sensors, nothi
 _LICENCE = "the repository's own licence; no third-party data"
 
 
-def register(subparsers: argparse._SubParsersAction, summary: str) -> None:
-    parser = subparsers.add_parser(
-        "record",
-        help=summary,
-        description="Simulate a stylus on the materials of configs/materials.toml and its sensors.",
-        epilog="example: haptoflow-training record --protocol hand --out recordings --labels wood,stone "
-        "--recordings-per-label 20. Complete recordings already in the folder are kept.",
+def add_options(parser: argparse.ArgumentParser) -> None:
+    parser.description = "Simulate a stylus on the materials of configs/materials.toml and its sensors."
+    parser.epilog = (
+        "example: haptoflow-training record --protocol hand --out recordings --labels wood,stone "
+        "--recordings-per-label 20. Complete recordings already in the folder are kept."
     )
+    parser.formatter_class = argparse.HelpFormatter
     parser.add_argument("--protocol", choices=("machine", "hand", "both"), default="both")
     parser.add_argument("--out", type=Path, required=True, help="data set folder to write or to complete")
     parser.add_argument("--labels", help="labels separated by commas (default: all)")
@@ -52,7 +50,6 @@ def register(subparsers: argparse._SubParsersAction, summary: str) -> None:
     parser.add_argument("--recordings-per-label", type=int, default=40, help="hand recordings (default 40)")
     parser.add_argument("--duration-seconds", type=float, default=8.0, help="of a hand recording (default 8)")
     parser.add_argument("--jobs", type=int, default=2, help="processes (default 2)")
-    parser.set_defaults(run=run)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -128,8 +125,4 @@ def _record(task: tuple[Path, int, float, Material, RecordingIdentity]) -> None:
     # One process a core: numeric libraries that start threads of their own would only compete.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     root, seed, duration_seconds, material, identity = task
-    if identity.protocol == "hand":
-        recording = record_hand_condition(material, identity, seed=seed, duration_seconds=duration_seconds)
-    else:
-        recording = record_machine_condition(material, identity, seed=seed)
-    write_recording(root, recording)
+    write_recording(root, record_condition_of(material, identity, seed=seed, duration_seconds=duration_seconds))

@@ -6,10 +6,12 @@ from __future__ import annotations
 import argparse
 import json
 import time
+from collections.abc import Iterable
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
+import numpy as np
 from tqdm import tqdm
 
 from haptoflow_training.errors import InputError
@@ -27,7 +29,6 @@ from haptoflow_training.recordings.synthetic.measurement import (
     Deviation,
     Measurement,
     measure,
-    pooled_exponent,
 )
 
 # The report measures another specimen than the calibration used, so that a fit to one random draw would show.
@@ -48,21 +49,21 @@ class Row:
     deviation: Deviation
 
 
-def register(subparsers: argparse._SubParsersAction, summary: str) -> None:
-    parser = subparsers.add_parser(
-        "report-recorder",
-        help=summary,
-        description="Record each material at 20-200 mm/s and 0.3-2 N in four directions, prepare the "
-        "recordings as training does, and compare level, exponents, centroid and slope with the targets.",
-        epilog="Writes recorder-report.md, recorder-report.json and images/recorder-spectra.png. "
-        "Ends with 3 when a material misses a target.",
+def add_options(parser: argparse.ArgumentParser) -> None:
+    parser.description = (
+        "Record each material at 20-200 mm/s and 0.3-2 N in four directions, prepare the "
+        "recordings as training does, and compare level, exponents, centroid and slope with the targets."
     )
+    parser.epilog = (
+        "Writes recorder-report.md, recorder-report.json and images/recorder-spectra.png. "
+        "Ends with 3 when a material misses a target."
+    )
+    parser.formatter_class = argparse.HelpFormatter
     parser.add_argument("--out", type=Path, default=Path("out/recorder-report"))
     parser.add_argument("--labels", help="labels separated by commas (default: all)")
     parser.add_argument("--materials", type=Path, default=DEFAULT_MATERIALS_PATH)
     parser.add_argument("--calibrate", action="store_true", help="first fit and rewrite calibrated values")
     parser.add_argument("--jobs", type=int, default=2, help="processes (default 2)")
-    parser.set_defaults(run=run)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -127,8 +128,8 @@ def _document(rows: list[Row], speed: float) -> dict[str, object]:
         "design": asdict(Design()),
         "tolerance": asdict(TOLERANCE),
         "recorded_seconds_per_processor_second": round(speed, 1),
-        "pooled_centroid_exponent": _pooled(rows),
-        "pooled_fast_centroid_exponent": _pooled_fast(rows),
+        "pooled_centroid_exponent": _pooled(row.measured.centroid_exponent for row in rows),
+        "pooled_fast_centroid_exponent": _pooled(row.measured.fast_centroid_exponent for row in rows),
         "materials": [
             {
                 "label": row.material.label,
@@ -145,18 +146,17 @@ def _document(rows: list[Row], speed: float) -> dict[str, object]:
     }
 
 
-def _pooled(rows: list[Row]) -> float:
-    return pooled_exponent(row.measured.centroid_exponent for row in rows)
-
-
-def _pooled_fast(rows: list[Row]) -> float | None:
-    found = [row.measured.fast_centroid_exponent for row in rows]
-    known = [exponent for exponent in found if exponent is not None]
-    return pooled_exponent(known) if known else None
+def _pooled(exponents: Iterable[float | None]) -> float | None:
+    """The slope of one line through the logarithms of all labels, each with an offset of its own; the labels share a
+    design. None if no exponent is known."""
+    known = [exponent for exponent in exponents if exponent is not None]
+    return float(np.mean(known)) if known else None
 
 
 def _markdown(rows: list[Row], speed: float) -> str:
     design = Design()
+    usual = _pooled(row.measured.centroid_exponent for row in rows)
+    fast = _pooled(row.measured.fast_centroid_exponent for row in rows)
     passed = sum(row.deviation.passes() for row in rows)
     lines = [
         "# The synthetic recorder against its targets\n\n",
@@ -174,8 +174,8 @@ def _markdown(rows: list[Row], speed: float) -> str:
         f"in centroid, {TOLERANCE.slope_db_per_octave} dB/octave. Each cell: measured (target).\n\n",
         f"**{passed} of {len(rows)} materials meet their targets.** One processor core records {speed:.0f} "
         "seconds of hand strokes in a second.\n\n",
-        f"Pooled over the labels, the centroid grows as v^{_pooled(rows):.2f} (published, tool-held: about v^0.15), "
-        f"and as v^{_number(_pooled_fast(rows))} at the fast speeds.\n\n",
+        f"Pooled over the labels, the centroid grows as v^{_number(usual)} (published, tool-held: about v^0.15), "
+        f"and as v^{_number(fast)} at the fast speeds.\n\n",
         _TABLE_HEAD,
     ]
     for row in rows:
@@ -201,16 +201,12 @@ def _list(values: tuple[float, ...]) -> str:
 
 def draw_spectra(path: Path, rows: list[Row]) -> None:
     """Small multiples: each material's density at 100 mm/s and 1 N, with those of all other materials behind it."""
-    import matplotlib
-
-    matplotlib.use("Agg")
-    from matplotlib import pyplot
+    from matplotlib.figure import Figure
 
     columns = min(5, len(rows))
     lines = -(-len(rows) // columns)
-    figure, axes = pyplot.subplots(
-        lines, columns, figsize=(2.6 * columns, 2.1 * lines), sharex=True, sharey=True, squeeze=False
-    )
+    figure = Figure(figsize=(2.6 * columns, 2.1 * lines))
+    axes = figure.subplots(lines, columns, sharex=True, sharey=True, squeeze=False)
     band = (rows[0].measured.frequency_hz >= 20.0) & (rows[0].measured.frequency_hz <= 1000.0)
     frequency = rows[0].measured.frequency_hz[band]
     for panel, row in zip(axes.flat, rows):
@@ -229,4 +225,3 @@ def draw_spectra(path: Path, rows: list[Row]) -> None:
     figure.supylabel("acceleration density at 100 mm/s and 1 N, (m/s²)²/Hz", fontsize=9)
     figure.tight_layout()
     figure.savefig(path, dpi=110)
-    pyplot.close(figure)

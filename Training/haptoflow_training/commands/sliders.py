@@ -15,22 +15,18 @@ _EXAMPLES = """examples:
 """
 
 
-def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], summary: str) -> None:
-    parser = subparsers.add_parser(
-        "sliders",
-        help=summary,
-        description="Find what coarseness, hardness, regularity, stickiness and level are in a model's embedding "
-        "space, from the parameters that the synthetic recorder has of the model's labels.",
-        epilog=_EXAMPLES,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+def add_options(parser: argparse.ArgumentParser) -> None:
+    parser.description = (
+        "Find what coarseness, hardness, regularity, stickiness and level are in a model's embedding "
+        "space, from the parameters that the synthetic recorder has of the model's labels."
     )
+    parser.epilog = _EXAMPLES
     parser.add_argument("--model", required=True, type=Path, help=".haptoflow file trained on the recorder's labels")
     parser.add_argument("-o", "--out", required=True, type=Path, help="file to write, for example default.sliders.json")
     parser.add_argument("--materials", type=Path, help="materials.toml of the recorder (default: the shipped one)")
-    parser.set_defaults(run=_run)
 
 
-def _run(options: argparse.Namespace) -> int:
+def run(options: argparse.Namespace) -> int:
     sliders = find_sliders(read_model_file(options.model), load_materials(options.materials))
     write_sliders(options.out, sliders)
     print(f"{options.out}: {', '.join(sliders.directions)} and level, for models of space {sliders.space}")

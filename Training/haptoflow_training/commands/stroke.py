@@ -3,28 +3,26 @@
 from __future__ import annotations
 
 import argparse
-import os
 import tomllib
 from pathlib import Path
 
 from haptoflow_training.errors import InputError
 from haptoflow_training.strokes.hand_stroke import DEFAULT_TREMOR_METRES, SpatialStroke, scripted_stroke
+from haptoflow_training.whole_file import write_whole
 
 _KEYS = ("waypoints_metres", "segment_seconds", "rate_hz", "seed", "tremor_metres", "force_newtons")
 
 
-def register(subparsers: argparse._SubParsersAction, summary: str) -> None:
-    parser = subparsers.add_parser(
-        "stroke",
-        help=summary,
-        description="Sigma-lognormal movement through the way-points of a TOML script.",
-        epilog="script keys: waypoints_metres = [[x, y, z], ...], segment_seconds (a number, or one a leg), "
-        "and optionally rate_hz (120), seed (0), tremor_metres (5e-5), force_newtons = [one a way-point].",
+def add_options(parser: argparse.ArgumentParser) -> None:
+    parser.description = "Sigma-lognormal movement through the way-points of a TOML script."
+    parser.epilog = (
+        "script keys: waypoints_metres = [[x, y, z], ...], segment_seconds (a number, or one a leg), "
+        "and optionally rate_hz (120), seed (0), tremor_metres (5e-5), force_newtons = [one a way-point]."
     )
+    parser.formatter_class = argparse.HelpFormatter
     parser.add_argument("--script", type=Path, required=True)
     parser.add_argument("--out", type=Path, required=True)
     parser.add_argument("--seed", type=int, help="instead of the script's")
-    parser.set_defaults(run=run)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -70,7 +68,4 @@ def write_stroke(path: Path, stroke: SpatialStroke) -> None:
         if stroke.force_newtons is not None:
             row += f",{stroke.force_newtons[index]:.6f}"
         lines.append(row)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    unfinished = path.with_name(f".{os.getpid()}.{path.name}")
-    unfinished.write_text("\n".join(lines) + "\n", encoding="utf-8")
-    os.replace(unfinished, path)
+    write_whole(path, ("\n".join(lines) + "\n").encode())

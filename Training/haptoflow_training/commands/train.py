@@ -10,42 +10,36 @@ import time
 from pathlib import Path
 
 from haptoflow_training.closed_loop.level_calibration import Extent
-from haptoflow_training.closed_loop.measured_levels import MeasuredLevels, by_label, measured_levels
-from haptoflow_training.commands.export import announce
+from haptoflow_training.closed_loop.measured_levels import measured_levels
+from haptoflow_training.commands.export import write_model
 from haptoflow_training.commands.minutes import MINIMUM_MINUTES, Minutes, share_out
 from haptoflow_training.errors import InputError
-from haptoflow_training.export.exporter import export_run
+from haptoflow_training.export.level_table import MeasuredLevels
 from haptoflow_training.stopping import Stopped, end_if_stopped
 from haptoflow_training.training.config import TrainingConfig, load_config
 from haptoflow_training.training.processes import join_processes
 from haptoflow_training.training.recordings_source import Source, open_source
-from haptoflow_training.training.run_log import write_json
 from haptoflow_training.training.trainer import TrainingStopped, trainer_of
 
 OWN_CONFIGURATION = Path(__file__).resolve().parents[2] / "configs" / "own.toml"
 
 
-def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], summary: str) -> None:
-    parser = subparsers.add_parser(
-        "train",
-        help=summary,
-        description=(
-            "Prepares the recordings that the configuration names (once), trains the level model and the velocity "
-            "field, and writes checkpoint.pt, metrics.csv, metrics.png and run.json into --out. Run it again to resume "
-            "after an interruption (the exit code is then not 0): the result is the same. "
-            "Paths are relative to the current folder; those in a "
-            "configuration file are relative to that file."
-        ),
-        epilog=(
-            "examples:\n"
-            "  haptoflow-training train --recordings recordings --labels labels.toml --minutes 10 --out out/own "
-            "--export own.haptoflow\n"
-            "  haptoflow-training train --config cluster.toml --recordings ~/cluster-haptic --out out/train/real\n"
-            "  haptoflow-training train --config Training/configs/default/base.toml --out out/train/base\n"
-            "  torchrun --redirects 1 --tee 1 --nproc_per_node 2 -m haptoflow_training train --config … --out …\n"
-            "`haptoflow-training train-tiers` trains the whole default model."
-        ),
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+def add_options(parser: argparse.ArgumentParser) -> None:
+    parser.description = (
+        "Prepares the recordings that the configuration names (once), trains the level model and the velocity "
+        "field, and writes checkpoint.pt, metrics.csv, metrics.png and run.json into --out. Run it again to resume "
+        "after an interruption (the exit code is then not 0): the result is the same. "
+        "Paths are relative to the current folder; those in a "
+        "configuration file are relative to that file."
+    )
+    parser.epilog = (
+        "examples:\n"
+        "  haptoflow-training train --recordings recordings --labels labels.toml --minutes 10 --out out/own "
+        "--export own.haptoflow\n"
+        "  haptoflow-training train --config cluster.toml --recordings ~/cluster-haptic --out out/train/real\n"
+        "  haptoflow-training train --config Training/configs/default/base.toml --out out/train/base\n"
+        "  torchrun --redirects 1 --tee 1 --nproc_per_node 2 -m haptoflow_training train --config … --out …\n"
+        "`haptoflow-training train-tiers` trains the whole default model."
     )
     parser.add_argument(
         "--config",
@@ -83,7 +77,6 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
     parser.add_argument("--export", type=Path, metavar="FILE", help="write the .haptoflow model file here at the end")
     parser.add_argument("--parity", type=Path, metavar="FILE", help="write golden vectors of the exported model here")
     parser.add_argument("--workers", type=int, default=2, help="processes that prepare recordings (default: 2)")
-    parser.set_defaults(run=run)
 
 
 def _minutes(text: str) -> float:
@@ -161,11 +154,7 @@ def _run(options: argparse.Namespace) -> int:
         if processes.is_first and options.export is not None:
             measured = measured_levels(options.out, source, extent) if config.calibrates_level else MeasuredLevels()
             end_if_stopped()
-            checksum = export_run(
-                options.out, source.store, source.labels, source.provenance, options.export, options.parity,
-                level_offsets_db=measured.offsets_db, level_tables=measured.tables,
-            )  # fmt: skip
-            described = {"file": options.export.name, "crc32": f"{checksum:08x}"}
-            write_json(options.out / "export.json", {**described, **by_label(measured, source)})
-            announce(options.export, checksum)
+            write_model(
+                options.out, source, options.export, options.parity, measured, record=options.out / "export.json"
+            )
     return 0

@@ -8,34 +8,29 @@ from pathlib import Path
 
 from tqdm import tqdm
 
-from haptoflow_training.closed_loop.measured_levels import MeasuredLevels, by_label, measured_offsets_db
-from haptoflow_training.commands.export import announce
+from haptoflow_training.closed_loop.measured_levels import measured_levels
+from haptoflow_training.commands.export import write_model
 from haptoflow_training.errors import InputError
-from haptoflow_training.export.exporter import export_run
+from haptoflow_training.export.level_table import MeasuredLevels
 from haptoflow_training.training.config import load_config
 from haptoflow_training.training.job_lanes import Job, run_jobs
 from haptoflow_training.training.recordings_source import open_source
-from haptoflow_training.training.run_log import last_step, write_json
+from haptoflow_training.training.run_log import last_step
 from haptoflow_training.training.trainer import planned_steps
 
 CONFIGURATIONS = Path(__file__).resolve().parents[2] / "configs" / "default"
 
 
-def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], summary: str) -> None:
-    parser = subparsers.add_parser(
-        "train-tiers",
-        help=summary,
-        description=(
-            "Trains what the tiers share (embedding, level model), then the tiers, --lanes of them at a time, each on "
-            "one core, corrects the level error of the default tier for each label, and writes one model "
-            "file. Run it again to resume after an interruption."
-        ),
-        epilog=(
-            "example:\n"
-            "  haptoflow-training train-tiers --out out/train/default --export default.haptoflow\n"
-            "Each tier's log and curves lie in its folder below --out."
-        ),
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+def add_options(parser: argparse.ArgumentParser) -> None:
+    parser.description = (
+        "Trains what the tiers share (embedding, level model), then the tiers, --lanes of them at a time, each on "
+        "one core, corrects the level error of the default tier for each label, and writes one model "
+        "file. Run it again to resume after an interruption."
+    )
+    parser.epilog = (
+        "example:\n"
+        "  haptoflow-training train-tiers --out out/train/default --export default.haptoflow\n"
+        "Each tier's log and curves lie in its folder below --out."
     )
     parser.add_argument(
         "--configs", type=Path, default=CONFIGURATIONS, metavar="DIR",
@@ -48,7 +43,6 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
     parser.add_argument("--workers", type=int, default=2, help="processes that prepare recordings (default: 2)")
     parser.add_argument("--export", type=Path, metavar="FILE", help="write the .haptoflow model file here at the end")
     parser.add_argument("--parity", type=Path, metavar="FILE", help="write golden vectors of the exported model here")
-    parser.set_defaults(run=run)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -68,20 +62,9 @@ def run(options: argparse.Namespace) -> int:
         return 0
     folders = [options.out / path.stem for path in tier_files]
     default = options.out / "standard" if options.out / "standard" in folders else folders[0]
-    offsets = measured_offsets_db(default, source)
-    checksum = export_run(
-        default,
-        source.store,
-        source.labels,
-        source.provenance,
-        options.export,
-        options.parity,
-        [folder for folder in folders if folder != default],
-        offsets,
-    )
-    described = {"file": options.export.name, "crc32": f"{checksum:08x}"}
-    write_json(options.out / "export.json", {**described, **by_label(MeasuredLevels(offsets), source)})
-    announce(options.export, checksum)
+    levels = MeasuredLevels(measured_levels(default, source).offsets_db)
+    further = [folder for folder in folders if folder != default]
+    write_model(default, source, options.export, options.parity, levels, further, options.out / "export.json")
     return 0
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from haptoflow_training.export.recorded_windows import draw_windows
-from haptoflow_training.training.batches import Store
+from haptoflow_training.preprocessing.store import SegmentStore
 from haptoflow_training.training.held_out import HeldOut
 from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
@@ -33,7 +33,7 @@ def _centroid_hz(waves: np.ndarray, rate_hz: float) -> np.ndarray:
 
 
 def fit_exponents(
-    store: Store, label_index: int, *, periodic: bool, seed: int, held_out: HeldOut
+    store: SegmentStore, label_index: int, *, periodic: bool, seed: int, held_out: HeldOut
 ) -> LabelExponents:
     """Least squares of log RMS over log speed and log force in the upper half of the recorded speeds, because the
     law is extrapolated from there. The frequency exponent of a periodic label is 1 (frequency = v / wavelength); for

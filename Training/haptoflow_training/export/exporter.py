@@ -5,9 +5,9 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import torch
@@ -15,7 +15,7 @@ import torch
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.exponents import fit_exponents
 from haptoflow_training.export.label_info import LabelInfo
-from haptoflow_training.export.level_table import LevelTable
+from haptoflow_training.export.level_table import LevelTable, MeasuredLevels
 from haptoflow_training.export.model_file import ModelFile, write_model_file
 from haptoflow_training.export.onnx_graphs import export_level_model
 from haptoflow_training.export.parity import write_parity
@@ -23,27 +23,21 @@ from haptoflow_training.export.seed_bank import SEED_SAMPLES, build_seed_bank
 from haptoflow_training.export.trained_tier import TrainedTier, load_tiers
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE
 from haptoflow_training.models.level_model import shift_level
+from haptoflow_training.preprocessing.store import SegmentStore
 from haptoflow_training.recordings.landing import Landing
-from haptoflow_training.training.batches import SegmentBatches, Store
+from haptoflow_training.training.batches import SegmentBatches
 from haptoflow_training.training.config import TrainingConfig
 from haptoflow_training.training.held_out import HeldOut
 from haptoflow_training.training.run_log import source_commit
 from haptoflow_training.waveform import SAMPLE_RATE_HZ, SEGMENT_SAMPLES
 
+if TYPE_CHECKING:
+    from haptoflow_training.training.recordings_source import Source
+
 _PERCENTILES = (5, 25, 50, 75, 95)
 
 
-@dataclass(frozen=True)
-class Provenance:
-    """Where the recordings come from, as stated in the file."""
-
-    statement: str
-    recordings: str
-    licence: str
-    created: str
-
-
-def _range(store: Store) -> dict[str, Any]:
+def _range(store: SegmentStore) -> dict[str, Any]:
     rows = np.concatenate(
         [
             store.motion[recording.start : recording.start + recording.length]
@@ -62,7 +56,7 @@ def _range(store: Store) -> dict[str, Any]:
 
 
 def _label_entry(
-    store: Store, row: int, info: LabelInfo, seed: int, held_out: HeldOut, table: LevelTable | None
+    store: SegmentStore, row: int, info: LabelInfo, seed: int, held_out: HeldOut, table: LevelTable | None
 ) -> dict[str, Any]:
     exponents = fit_exponents(store, row, periodic=info.periodic, seed=seed, held_out=held_out)
     return {
@@ -88,13 +82,12 @@ def _impact_entry(landing: Landing) -> dict[str, Any]:
 def _header(
     config: TrainingConfig,
     tiers: Sequence[TrainedTier],
-    store: Store,
-    infos: Sequence[LabelInfo],
-    provenance: Provenance,
+    source: Source,
     seed_entries: list[dict[str, object]],
     measurements: dict[str, Any],
     level_tables: Mapping[int, LevelTable],
 ) -> dict[str, Any]:
+    store, provenance = source.store, source.provenance
     return {
         "format": "haptoflow",
         "name": config.name,
@@ -106,7 +99,7 @@ def _header(
             "seed": config.seed,
             "commit": measurements.get("commit", source_commit(Path(__file__).parent)),
             "configuration": _described(config),
-            "created": provenance.created,
+            "created": "",
         },
         "sample_rate_hz": SAMPLE_RATE_HZ,
         "segment_samples": SEGMENT_SAMPLES,
@@ -115,7 +108,7 @@ def _header(
         "embedding_size": EMBEDDING_SIZE,
         "labels": [
             _label_entry(store, row, info, config.seed, HeldOut.of(config.batch), level_tables.get(row))
-            for row, info in enumerate(infos)
+            for row, info in enumerate(source.labels)
         ],
         "tiers": [tier.header_entry() for tier in tiers],
         "default_tier": config.tier,
@@ -141,26 +134,23 @@ def _subtract_level_error(tier: TrainedTier, offsets_db: Sequence[float]) -> Non
 
 def export_run(
     folder: Path,
-    store: Store,
-    infos: Sequence[LabelInfo],
-    provenance: Provenance,
+    source: Source,
     out: Path,
     parity: Path | None = None,
     further_tiers: Sequence[Path] = (),
-    level_offsets_db: Sequence[float] | None = None,
-    level_tables: Mapping[int, LevelTable] | None = None,
+    levels: MeasuredLevels = MeasuredLevels(),
 ) -> int:
     """Write the finished run in `folder` to `out`, and golden vectors to `parity`; returns the file's CRC-32.
 
     Golden vectors cover the raw tiers only: a latent tier starts from noise of another shape, which only the engine
-    draws. further_tiers: folders of runs trained with `--base folder`, each one more tier of the same file.
-    level_offsets_db: the level error of each label (closed_loop/level_calibration.py), which is subtracted.
-    level_tables: by label index, for labels whose level has a table.
+    draws. further_tiers: folders of runs trained with `--base folder`, each one more tier of the same file. levels: the
+    level error of each label, which is subtracted, and level tables.
     """
+    store, infos = source.store, source.labels
     tiers = load_tiers([folder, *further_tiers])
-    if level_offsets_db is not None:
+    if levels.offsets_db is not None:
         for tier in tiers:
-            _subtract_level_error(tier, level_offsets_db)
+            _subtract_level_error(tier, levels.offsets_db)
     default = next(tier for tier in tiers if tier.folder == folder)
     config, model = default.config, default.model
     if [info.name for info in infos] != default.labels:
@@ -170,9 +160,9 @@ def export_run(
     run_file = folder / "run.json"
     measurements = json.loads(run_file.read_text(encoding="utf-8")) if run_file.exists() else {}
     measurements.pop("configuration", None)
-    if level_offsets_db is not None:
-        measurements["level_offsets_db"] = [round(offset, 3) for offset in level_offsets_db]
-    header = _header(config, tiers, store, infos, provenance, bank.entries, measurements, level_tables or {})
+    if levels.offsets_db is not None:
+        measurements["level_offsets_db"] = [round(offset, 3) for offset in levels.offsets_db]
+    header = _header(config, tiers, source, bank.entries, measurements, levels.tables)
     graphs = {name: graph for tier in tiers for name, graph in tier.graphs().items()}
     file = ModelFile(
         header=header,

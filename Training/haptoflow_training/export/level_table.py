@@ -7,7 +7,8 @@ between 60 and 80 mm/s) are stored in a table of at most 16 speeds; below and ab
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -45,6 +46,15 @@ class LevelTable:
             "force_newtons": round(self.force_newtons, 4),
             "force_exponent": round(self.force_exponent, 4),
         }
+
+
+@dataclass(frozen=True)
+class MeasuredLevels:
+    """What closed_loop/measured_levels.py found. offsets_db: the level error of each label, None where nothing was
+    measured. tables: by label index."""
+
+    offsets_db: list[float] | None = None
+    tables: Mapping[int, LevelTable] = field(default_factory=dict)
 
 
 def speed_bins(speeds_mps: _Doubles) -> NDArray[np.int64]:

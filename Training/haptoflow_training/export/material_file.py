@@ -6,9 +6,10 @@ with its embedding, so it is valid only for models with the same embedding space
 
 from __future__ import annotations
 
+import ctypes
 import json
 import zlib
-from dataclasses import dataclass, field
+from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
@@ -16,31 +17,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.export.material_checks import Checked
-from haptoflow_training.export.material_sound import (
-    FORCE_EXPONENT_LIMIT,
-    FORCE_RANGE_NEWTONS,
-    LEVEL_OFFSET_LIMIT_DB,
-    MAXIMUM_LEVEL_SPEEDS,
-    MAXIMUM_TONE_FREQUENCIES,
-    MAXIMUM_TONE_SPEEDS,
-    TONE_FREQUENCY_RANGE_HZ,
-    TONE_LIMIT_DB,
-    LevelTable,
-    ToneTable,
-)
+from haptoflow_training.export.material_sound import LevelTable, ToneTable
 from haptoflow_training.export.model_file import ModelFile
+from haptoflow_training.native_library import NativeError, native_library
 from haptoflow_training.whole_file import write_whole
 
 FORMAT, VERSION = "haptoflow-material", 1
 SUFFIX = ".haptomaterial"
-MAXIMUM_BYTES = 1 << 20
-MAXIMUM_SEEDS = 16
 SEED_SAMPLES = 400
-EMBEDDING_SIZE = 64
 UNKNOWN_LICENCE = "unknown"
-# A label's own waveform is scaled to RMS 1; rounding to few decimals leaves it within this tolerance.
-_SEED_RMS_TOLERANCE = 0.02
 
 
 @dataclass(frozen=True)
@@ -98,7 +83,7 @@ class Material:
     level: LevelTable | None = None
     tone: ToneTable | None = None
     level_offset_db: float = 0.0
-    seeds: tuple[MaterialSeed, ...] = field(default=())
+    seeds: tuple[MaterialSeed, ...] = ()
 
     @property
     def periodic(self) -> bool:
@@ -147,7 +132,7 @@ def model_space(model: ModelFile) -> str:
 def encode_material(material: Material) -> str:
     """The file's text, in the form that was checked; ValueError if a number is not finite."""
     text = json.dumps(material.to_json(), ensure_ascii=False, allow_nan=False, separators=(",", ":"))
-    parse_material(text, material.name)
+    _check(text, material.name)
     return text
 
 
@@ -160,9 +145,6 @@ def read_material(path: Path, space: str | None = None) -> Material:
     """Read a material file; InputError names the file, the key and the expected value. space: the space of the model
     that will render the material, compared if given."""
     try:
-        size = path.stat().st_size
-        if size > MAXIMUM_BYTES:
-            raise InputError(f"{path}: is {size} bytes long; a material file has at most {MAXIMUM_BYTES}")
         text = path.read_text(encoding="utf-8")
     except OSError as error:
         raise InputError(f"{path}: cannot be read ({error.strerror})") from error
@@ -177,113 +159,55 @@ def read_material(path: Path, space: str | None = None) -> Material:
     return material
 
 
-def parse_material(text: str, where: str) -> Material:
-    """Parse the text of a material file; `where` begins every message."""
-    if len(text.encode("utf-8")) > MAXIMUM_BYTES:
-        raise InputError(f"{where}: is longer than {MAXIMUM_BYTES} bytes; a material file has at most that many")
+def _check(text: str, where: str) -> None:
+    """InputError with the native library's sentence if it would refuse the text: it is the one reader of material
+    files. `where` begins the message."""
+    content, handle = text.encode("utf-8"), ctypes.c_void_p()
+    library = native_library()
     try:
-        document = json.loads(text, parse_constant=lambda word: float("nan"))
-    except (json.JSONDecodeError, RecursionError) as error:
-        raise InputError(f"{where}: is not JSON ({error}); expected a material file") from error
-    root = Checked(where, document)
-    if not isinstance(document, dict) or document.get("format") != FORMAT:
-        raise root.failure("format", f'"{FORMAT}"', "this is not a material file")
-    version = root.integer("version")
-    if version != VERSION:
-        raise root.failure("version", str(VERSION), f"this reader does not know version {version}; update HaptoFlow")
-    space = root.text("space")
-    if len(space) != 8 or any(letter not in "0123456789abcdef" for letter in space):
-        raise root.failure("space", "eight lower-case hexadecimal digits")
-    if not root.text("name").strip():
-        raise root.failure("name", "a name that is not empty")
-    exponents = root.table("level_exponents")
-    wavelength = root.number("wavelength_metres", 1e-6, 1.0, optional=True)
-    if root.boolean("periodic") != (wavelength is not None):
-        raise root.failure("periodic", "true exactly where 'wavelength_metres' is a number")
-    seeds = root.rows("seeds", 0, MAXIMUM_SEEDS)
-    provenance = root.table("provenance", optional=True)
-    limits = root.table("range")
+        library.call("haptoflow_material_read", content, ctypes.c_uint64(len(content)), ctypes.byref(handle))
+    except NativeError as error:
+        raise InputError(f"{where}: {error}") from error
+    library.call("haptoflow_material_close", ctypes.byref(handle))
+
+
+def parse_material(text: str, where: str) -> Material:
+    """The material in the text of a material file; `where` begins every message."""
+    _check(text, where)
+    document = json.loads(text)
+    exponents, level, tone = document["level_exponents"], document.get("level"), document.get("tone")
     return Material(
-        space=space,
-        name=root.text("name"),
-        embedding=np.array(root.numbers("embedding", EMBEDDING_SIZE, EMBEDDING_SIZE), dtype=np.float32),
-        speed_range_mps=_pair(limits.rising("speed_mps", 2, 2, 0.0, 100.0, may_repeat=True)),
-        force_range_newtons=_pair(limits.rising("force_newtons", 2, 2, 0.0, 1000.0, may_repeat=True)),
-        category=root.text("category", ""),
-        description=root.text("description", ""),
-        provenance=MaterialProvenance() if provenance is None else _provenance(provenance),
-        speed_exponent=exponents.number("speed", -10.0, 10.0),
-        force_exponent=exponents.number("force", -10.0, 10.0),
-        frequency_exponent=root.number("frequency_exponent", -4.0, 4.0),
-        wavelength_metres=wavelength,
-        stiffness_newtons_per_metre=root.number("stiffness_newtons_per_metre", 1e-3, 1e6),
-        friction_coefficient=root.number("friction_coefficient", 0.0, 10.0),
-        impact=_impact(root.table("impact", optional=True)),
-        level=_level(root.table("level", optional=True)),
-        tone=_tone(root.table("tone", optional=True)),
-        level_offset_db=root.number("level_offset_db", -LEVEL_OFFSET_LIMIT_DB, LEVEL_OFFSET_LIMIT_DB, default=0.0),
-        seeds=tuple(_seed(seed) for seed in seeds),
+        space=document["space"],
+        name=document["name"],
+        embedding=np.array(document["embedding"], dtype=np.float32),
+        speed_range_mps=tuple(document["range"]["speed_mps"]),
+        force_range_newtons=tuple(document["range"]["force_newtons"]),
+        category=document.get("category", ""),
+        description=document.get("description", ""),
+        provenance=MaterialProvenance(**_known(MaterialProvenance, document.get("provenance") or {})),
+        speed_exponent=exponents["speed"],
+        force_exponent=exponents["force"],
+        frequency_exponent=document["frequency_exponent"],
+        wavelength_metres=document.get("wavelength_metres"),
+        stiffness_newtons_per_metre=document["stiffness_newtons_per_metre"],
+        friction_coefficient=document["friction_coefficient"],
+        impact=document.get("impact"),
+        level=None if level is None else LevelTable(**_known(LevelTable, level)),
+        tone=None if tone is None else ToneTable(**_known(ToneTable, tone)),
+        level_offset_db=document.get("level_offset_db", 0.0),
+        seeds=tuple(_seed(seed) for seed in document["seeds"]),
     )
 
 
-def _pair(values: list[float]) -> tuple[float, float]:
-    return values[0], values[1]
+def _known(kind: type, table: dict[str, Any]) -> dict[str, Any]:
+    """The entries of a table that are fields of `kind`; lists as tuples."""
+    return {field.name: _frozen(table[field.name]) for field in fields(kind) if field.name in table}
 
 
-def _provenance(table: Checked) -> MaterialProvenance:
-    return MaterialProvenance(
-        statement=table.text("statement", ""),
-        recordings=table.text("recordings", ""),
-        licence=table.text("licence", UNKNOWN_LICENCE),
-        seconds=table.number("seconds", 0.0, 1e9, default=0.0),
-        created=table.text("created", ""),
-    )
+def _frozen(value: Any) -> Any:
+    return tuple(_frozen(entry) for entry in value) if isinstance(value, list) else value
 
 
-def _impact(table: Checked | None) -> dict[str, Any] | None:
-    if table is None:
-        return None
-    modes = [
-        {
-            "frequency_hz": mode.number("frequency_hz", 1.0, 1000.0),
-            "decay_per_second": mode.number("decay_per_second", 10.0, 10000.0),
-            "gain_per_second": mode.number("gain_per_second", 0.0, 10000.0),
-        }
-        for mode in table.rows("modes", 1, 2)
-    ]
-    return {"modes": modes, "restitution": table.number("restitution", 0.0, 0.9)}
-
-
-def _level(table: Checked | None) -> LevelTable | None:
-    if table is None:
-        return None
-    speeds = table.rising("speeds_mps", 1, MAXIMUM_LEVEL_SPEEDS, 0.0, 100.0)
-    return LevelTable(
-        tuple(speeds),
-        tuple(table.numbers("log_levels", len(speeds), len(speeds), -30.0, 10.0)),
-        table.number("force_newtons", *FORCE_RANGE_NEWTONS),
-        table.number("force_exponent", -FORCE_EXPONENT_LIMIT, FORCE_EXPONENT_LIMIT),
-    )
-
-
-def _tone(table: Checked | None) -> ToneTable | None:
-    if table is None:
-        return None
-    speeds = table.rising("speeds_mps", 1, MAXIMUM_TONE_SPEEDS, 1e-6, 100.0)
-    frequencies = table.rising("frequencies_hz", 2, MAXIMUM_TONE_FREQUENCIES, *TONE_FREQUENCY_RANGE_HZ)
-    gains = table.number_rows("gains_db", len(speeds), len(frequencies), -TONE_LIMIT_DB, TONE_LIMIT_DB)
-    return ToneTable(tuple(speeds), tuple(frequencies), tuple(tuple(row) for row in gains))
-
-
-def _seed(table: Checked) -> MaterialSeed:
-    samples = np.array(table.numbers("samples", SEED_SAMPLES, SEED_SAMPLES), dtype=np.float32)
-    rms = float(np.sqrt(np.square(samples, dtype=np.float64).mean()))
-    if abs(rms - 1.0) > _SEED_RMS_TOLERANCE:
-        raise table.failure("samples", f"an RMS of 1, not {rms:.3g}", "divide the samples by their RMS")
-    phase = table.numbers("rib_phase", 2, 2, 0.0, 1.0) if "rib_phase" in table else None
-    return MaterialSeed(
-        velocity_mps=_pair(table.numbers("velocity_mps", 2, 2, -100.0, 100.0)),
-        force_newtons=table.number("force_newtons", 0.0, 1000.0),
-        samples=samples,
-        rib_phase=None if phase is None else _pair(phase),
-    )
+def _seed(table: dict[str, Any]) -> MaterialSeed:
+    values = _known(MaterialSeed, table)
+    return MaterialSeed(**{**values, "samples": np.array(values["samples"], dtype=np.float32)})

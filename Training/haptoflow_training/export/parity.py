@@ -35,10 +35,10 @@ def write_parity(
         motion, previous = batch.motion[row : row + 1], batch.previous[row : row + 1]
         phase = rib_phase(embedding, batch.position_mm[row : row + 1])
         log_level = tier.model.level(embedding, motion)
-        scaled = scaled_previous(previous, log_level)
+        condition = scaled_previous(previous, log_level), embedding, motion, phase
         noise = torch.randn(1, 1, 200, generator=generator)
         start, interval = torch.zeros(1, 1), torch.full((1, 1), 1.0 / steps)
-        segment = tier.generate(noise, scaled, embedding, motion, phase, kind, steps) * torch.exp(log_level).unsqueeze(-1)
+        segment = tier.generate(noise, condition, kind, steps) * torch.exp(log_level).unsqueeze(-1)
         cases.append(
             {
                 "tier": tier.name,
@@ -50,9 +50,7 @@ def write_parity(
                 "previous": previous.flatten().tolist(),
                 "noise": noise.flatten().tolist(),
                 "log_level": log_level.item(),
-                "field_at_start": tier.evaluate(noise, start, interval, scaled, embedding, motion, phase)
-                .flatten()
-                .tolist(),
+                "field_at_start": tier.evaluate(noise, start, interval, condition).flatten().tolist(),
                 "segment": segment.flatten().tolist(),
             }
         )

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from haptoflow_training.training.batches import Store
+from haptoflow_training.preprocessing.store import SegmentStore
 from haptoflow_training.training.held_out import HeldOut, clear_spans
 
 
@@ -32,7 +32,7 @@ class RecordedWindows:
 
 
 def draw_windows(
-    store: Store, label_index: int, *, samples: int, count: int, seed: int, held_out: HeldOut
+    store: SegmentStore, label_index: int, *, samples: int, count: int, seed: int, held_out: HeldOut
 ) -> RecordedWindows:
     """`count` random windows of the label's training recordings, each within one recording and outside the held-out
     bands."""

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from haptoflow_training.export.recorded_windows import RecordedWindows, draw_windows
-from haptoflow_training.training.batches import Store
+from haptoflow_training.preprocessing.store import SegmentStore
 from haptoflow_training.training.held_out import HeldOut
 
 SEED_SAMPLES = 400
@@ -39,7 +39,7 @@ def _condition_distance(windows: RecordedWindows, speed_mps: float, force_newton
 
 
 def build_seed_bank(
-    store: Store, wave_numbers: NDArray[np.float32], *, seed: int, held_out: HeldOut, candidates: int = 3000
+    store: SegmentStore, wave_numbers: NDArray[np.float32], *, seed: int, held_out: HeldOut, candidates: int = 3000
 ) -> SeedBank:
     """For every label, the steadiest recorded window nearest to each point of a grid of speeds and forces.
 

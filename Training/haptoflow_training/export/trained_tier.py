@@ -12,7 +12,7 @@ from torch import Tensor
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.onnx_graphs import export_network
 from haptoflow_training.extensions import located
-from haptoflow_training.models.haptoflow_model import HaptoFlowModel
+from haptoflow_training.models.haptoflow_model import Condition, HaptoFlowModel
 from haptoflow_training.models.velocity_field import parameter_count
 from haptoflow_training.training.config import TrainingConfig
 from haptoflow_training.training.flow_matching import solve
@@ -47,37 +47,19 @@ class TrainedTier:
     def steps(self) -> int:
         return 1 if self.kind == "direct" else self.config.solver.steps
 
-    def evaluate(
-        self,
-        noisy: Tensor,
-        time: Tensor,
-        interval: Tensor,
-        previous: Tensor,
-        embedding: Tensor,
-        motion: Tensor,
-        rib_phase: Tensor,
-    ) -> Tensor:
+    def evaluate(self, noisy: Tensor, time: Tensor, interval: Tensor, condition: Condition) -> Tensor:
         """The output of the exported graph: the velocity, or the segment of a direct tier. interval [B, 1]: the flow
         time of a step, which only a derived tier may read."""
         if self.kind == "direct":
-            return self.model.one_step(noisy, previous, embedding, motion, rib_phase)
-        return self.model.field(noisy, time, previous, embedding, motion, rib_phase)
+            return self.model.one_step(noisy, *condition)
+        return self.model.field(noisy, time, *condition)
 
-    def generate(
-        self,
-        noise: Tensor,
-        previous: Tensor,
-        embedding: Tensor,
-        motion: Tensor,
-        rib_phase: Tensor,
-        solver: str,
-        steps: int,
-    ) -> Tensor:
+    def generate(self, noise: Tensor, condition: Condition, solver: str, steps: int) -> Tensor:
         """A segment in unit scale [B, 1, 200] from noise, computed as in the engine."""
 
         def field(noisy: Tensor, time: Tensor) -> Tensor:
             interval = torch.full_like(time, 1.0 / steps)
-            return self.evaluate(noisy, time, interval, previous, embedding, motion, rib_phase)
+            return self.evaluate(noisy, time, interval, condition)
 
         if self.kind == "direct":
             return field(noise, torch.zeros(noise.shape[0], 1))

@@ -14,6 +14,11 @@ from haptoflow_training.models.velocity_field import VelocityField
 from haptoflow_training.waveform import SEGMENT_SAMPLES
 
 
+# What a segment is generated under: previous waveform [B, *shape] in unit scale, embedding [B, 64], motion [B, 3] and rib
+# phase [B, 2] in turns.
+Condition = tuple[Tensor, Tensor, Tensor, Tensor]
+
+
 class HaptoFlowModel(nn.Module):
     """The trainable model behind one tier of a `.haptoflow` file: embedding, level and the network itself.
 

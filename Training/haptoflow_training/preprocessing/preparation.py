@@ -263,17 +263,15 @@ def _append_all(
             for file, values in zip(files, (whole.waveform_mps2, whole.motion, whole.position_mm), strict=True):
                 _append(file, values)
             identity = item.identity
+            conditions = dataclasses.asdict(identity)
+            del conditions["file_name"]
             stored.append(
                 StoredRecording(
                     name=item.name,
                     label=item.label,
                     label_index=labels.index(item.label),
-                    texture_id=identity.texture_id,
                     protocol=identity.protocol,
-                    direction_degrees=identity.direction_degrees,
-                    speed_mmps=identity.speed_mmps,
-                    force_millinewtons=identity.force_millinewtons,
-                    repeat=identity.repeat,
+                    **conditions,
                     split=item.split or split_of(identity, settings, seed),
                     start=start,
                     length=length,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -15,8 +14,6 @@ from haptoflow_training.recordings.file_names import ending_of
 
 if TYPE_CHECKING:
     import pandas
-
-TableReader = Callable[[Path], "pandas.DataFrame"]
 
 TOLERATED_SHARE = 0.01
 
@@ -49,12 +46,12 @@ def read_table(path: Path) -> pandas.DataFrame:
     return pandas.read_csv(path, encoding="utf-8-sig", skipinitialspace=True)
 
 
-def open_table(path: Path, expected: str, table_reader: TableReader = read_table) -> pandas.DataFrame:
+def open_table(path: Path, expected: str) -> pandas.DataFrame:
     """The table as read. DatasetFileError with the expected content if the file is empty, unreadable or not a table."""
     try:
         if path.stat().st_size == 0:
             raise DatasetFileError(path, "empty file", expected)
-        return table_reader(path)
+        return read_table(path)
     except InputError:
         raise
     except OSError as error:
@@ -63,16 +60,14 @@ def open_table(path: Path, expected: str, table_reader: TableReader = read_table
         raise DatasetFileError(path, f"not a table ({str(error).splitlines()[0]})", expected) from error
 
 
-def read_sensor(
-    path: Path, kind: SensorKind, table_reader: TableReader = read_table
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def read_sensor(path: Path, kind: SensorKind) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """(time [n] in seconds, strictly increasing; values [n] or [n, columns - 1]), all finite.
 
     DatasetFileError if the file is empty, has other columns, contains text, or its clock runs backwards. Up to 1 % of
     rows without a number are dropped, and so are repeated time stamps.
     """
     header = f"columns {','.join(kind.columns)}"
-    table = open_table(path, header, table_reader)
+    table = open_table(path, header)
     found = [str(column).strip() for column in table.columns]
     if not set(kind.columns) <= set(found):
         raise DatasetFileError(path, f"columns {','.join(found)}", header)

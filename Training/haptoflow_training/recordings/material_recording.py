@@ -49,13 +49,12 @@ def read_material_recordings(paths: Sequence[Path | str]) -> list[MaterialRecord
         for problem in dataset.problems:
             raise InputError(str(problem))
         for entry in (*dataset.recordings, *dataset.unlabelled):
-            licence, source = dataset.origin_of(entry)
             for number, part in enumerate(preprocess_parts(entry.load(), settings)):
                 name = entry.identity.name if number == 0 else f"{entry.identity.name} part {number + 1}"
                 recordings.append(
                     MaterialRecording(
                         name, entry.label, part.waveform_mps2, part.motion[:, :2].copy(), part.motion[:, 2].copy(),
-                        licence, source,
+                        entry.licence, entry.source,
                     )  # fmt: skip
                 )
     if not recordings:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from haptoflow_training.recordings.cluster_dataset import ClusterDataset, RecordingFiles, open_dataset
+from haptoflow_training.recordings.cluster_dataset import RecordingFiles, open_dataset
+from haptoflow_training.recordings.dataset import Dataset
 from haptoflow_training.recordings.dataset_layout import SENSOR_FOLDER
-from haptoflow_training.recordings.labels import LabelMap
-from haptoflow_training.recordings.own_dataset import OwnDataset, open_own_dataset
+from haptoflow_training.recordings.labels import LabelMap, load_labels
+from haptoflow_training.recordings.own_dataset import open_own_dataset
 from haptoflow_training.recordings.own_files import OwnRecordingFile
 
-Dataset = ClusterDataset | OwnDataset
 RecordingFile = RecordingFiles | OwnRecordingFile
 
 
@@ -24,3 +24,9 @@ def open_recordings(path: Path | str, labels: LabelMap | None = None) -> Dataset
     if (root / SENSOR_FOLDER).is_dir():
         return open_dataset(root, labels)
     return open_own_dataset(root, labels)
+
+
+def open_with_labels(path: Path, labels_path: Path | None) -> Dataset:
+    """As `open_recordings`, with the labels of a file; without one, the published data set has its own."""
+    dataset = open_recordings(path, load_labels(labels_path) if labels_path else None)
+    return open_recordings(path, load_labels()) if labels_path is None and dataset.published else dataset

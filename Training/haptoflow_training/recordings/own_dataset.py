@@ -2,101 +2,65 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.recordings.cluster_dataset import UNKNOWN, DatasetProblem
 from haptoflow_training.recordings.cluster_dataset_files import DatasetFileError
+from haptoflow_training.recordings.dataset import UNKNOWN, Dataset
 from haptoflow_training.recordings.file_names import ending_of
 from haptoflow_training.recordings.labels import LabelMap
-from haptoflow_training.recordings.own_files import OWN_ENDINGS, OwnRecordingFile, is_motion_file, own_identity
+from haptoflow_training.recordings.own_files import OWN_ENDINGS, OwnRecordingFile, described_file, is_motion_file
 
 
-@dataclass(frozen=True)
-class OwnDataset:
-    """The contents of `root`, with the members of ClusterDataset. textures: the names that sidecars use as labels.
-
-    notes: a line for each thing that was ignored. problems: unusable files.
-    """
-
-    root: Path
-    recordings: tuple[OwnRecordingFile, ...]
-    unlabelled: tuple[OwnRecordingFile, ...]
-    problems: tuple[DatasetProblem, ...] = field(default=())
-    notes: tuple[str, ...] = field(default=())
-    audio_files: int = 0
-    synthetic: bool = False
-    published: bool = False
-
-    @property
-    def provenance(self) -> dict[str, Any]:
-        """The distinct values that the sidecars state."""
-        files = [*self.recordings, *self.unlabelled]
-        said = [self.origin_of(file)[::-1] for file in files]
-        sources, licences = (list(dict.fromkeys(words)) for words in zip(*said, strict=True)) if said else ([], [])
-        return {
-            "source": ", ".join(sources) or UNKNOWN,
-            "licence": ", ".join(licences) or UNKNOWN,
-            "synthetic": False,
-        }
-
-    def origin_of(self, entry: OwnRecordingFile) -> tuple[str, str]:
-        """(licence, source) of one recording."""
-        return entry.description.licence or UNKNOWN, entry.description.source or UNKNOWN
-
-    @property
-    def left_out(self) -> str:
-        """One printable line about the recordings that no label names; empty if there are none."""
-        if not self.unlabelled:
-            return ""
-        nameless = [entry.identity.name for entry in self.unlabelled if not entry.label]
-        named = dict.fromkeys(entry.label for entry in self.unlabelled if entry.label)
-        reasons = [f"no sidecar has a key 'label' for {', '.join(nameless)}"] if nameless else []
-        reasons += [f"no label of the labels file names {', '.join(named)}"] if named else []
-        return f"{self.root}: {len(self.unlabelled)} recordings are left out: {'; '.join(reasons)}"
-
-    @property
-    def labels(self) -> list[str]:
-        return list(dict.fromkeys(entry.label for entry in self.recordings))
-
-    def __iter__(self) -> Iterator[OwnRecordingFile]:
-        return iter(self.recordings)
-
-    def __len__(self) -> int:
-        return len(self.recordings)
-
-
-def open_own_dataset(root: Path, labels: LabelMap | None = None) -> OwnDataset:
+def open_own_dataset(root: Path, labels: LabelMap | None = None) -> Dataset:
     """Index a folder with its subfolders, or one file; reads sidecars and headings, but no samples.
 
     Without `labels` a recording's label is the one in its sidecar. InputError if the path does not exist or holds no
     recording.
     """
-    files = _files(root)
+    base = root.parent if root.is_file() else root
+    broken: dict[Path, DatasetFileError] = {}
+    described: list[OwnRecordingFile] = []
+    for path in _files(root):
+        try:
+            described.append(described_file(path, path.relative_to(base).as_posix()))
+        except DatasetFileError as error:
+            broken[path] = error
+    motions = {entry.motion_path.resolve() for entry in described if entry.motion_path is not None}
     complete: list[OwnRecordingFile] = []
     unlabelled: list[OwnRecordingFile] = []
-    problems: list[DatasetProblem] = []
     notes: list[str] = []
-    base = root.parent if root.is_file() else root
-    motions = _named_motions(files)
-    for path in files:
-        if is_motion_file(path) or path.resolve() in motions:
+    for entry in described:
+        if _is_motion(entry.path, motions):
             continue
-        name = path.relative_to(base).as_posix()
-        entry = OwnRecordingFile(path, own_identity(name), "")
-        try:
-            said = entry.description.label
-            notes.extend(entry.description.notes)
-        except DatasetFileError as error:
-            problems.append(DatasetProblem(error.path, error.found, error.expected))
-            continue
-        label = said if labels is None else labels.label_of(-1, said) if said else None
-        file = OwnRecordingFile(path, own_identity(name), label or said)
-        (complete if label else unlabelled).append(file)
-    return OwnDataset(root, tuple(complete), tuple(unlabelled), tuple(problems), tuple(notes))
+        notes.extend(entry.notes)
+        label = entry.label if labels is None else labels.label_of(-1, entry.label) if entry.label else None
+        (complete if label else unlabelled).append(replace(entry, label=label or entry.label))
+    problems = [error for path, error in broken.items() if not _is_motion(path, motions)]
+    entries = [*complete, *unlabelled]
+    provenance = {
+        key: ", ".join(dict.fromkeys(getattr(entry, key) for entry in entries)) or UNKNOWN
+        for key in ("source", "licence")
+    }
+    return Dataset(
+        root, tuple(complete), tuple(unlabelled), tuple(problems), {**provenance, "synthetic": False},
+        _left_out(root, unlabelled), tuple(notes), is_own=True,
+    )  # fmt: skip
+
+
+def _is_motion(path: Path, named: set[Path]) -> bool:
+    return is_motion_file(path) or path.resolve() in named
+
+
+def _left_out(root: Path, unlabelled: list[OwnRecordingFile]) -> str:
+    if not unlabelled:
+        return ""
+    nameless = [entry.identity.name for entry in unlabelled if not entry.label]
+    named = dict.fromkeys(entry.label for entry in unlabelled if entry.label)
+    reasons = [f"no sidecar has a key 'label' for {', '.join(nameless)}"] if nameless else []
+    reasons += [f"no label of the labels file names {', '.join(named)}"] if named else []
+    return f"{root}: {len(unlabelled)} recordings are left out: {'; '.join(reasons)}"
 
 
 def _files(root: Path) -> list[Path]:
@@ -116,15 +80,3 @@ def _files(root: Path) -> list[Path]:
             "holds sensor_data"
         )
     return sorted(visible)
-
-
-def _named_motions(files: list[Path]) -> set[Path]:
-    motions = set()
-    for path in files:
-        try:
-            motion = OwnRecordingFile(path, own_identity(path.name), "").description.motion_path
-        except DatasetFileError:
-            continue
-        if motion is not None:
-            motions.add(motion.resolve())
-    return motions

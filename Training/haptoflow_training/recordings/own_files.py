@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable
 from dataclasses import dataclass
-from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +12,7 @@ from numpy.typing import NDArray
 from scipy import signal
 
 from haptoflow_training.recordings.cluster_dataset_files import open_table
+from haptoflow_training.recordings.dataset import UNKNOWN
 from haptoflow_training.recordings.file_names import beside, ending_of, sidecar_of
 from haptoflow_training.recordings.native_recording import NativeRecording, Track, read_native
 from haptoflow_training.recordings.recording import STANDARD_GRAVITY_MPS2, Recording, RecordingIdentity
@@ -28,27 +28,27 @@ _CONSTANT_STEPS = 64
 
 @dataclass(frozen=True)
 class OwnRecordingFile:
-    """One recording on disk; `load` reads it. Can be passed to another process."""
+    """One recording on disk, as its sidecar and the names of its columns describe it; `load` reads it. Can be passed
+    to another process. identity: its name, without the conditions that published names contain. label: empty if not
+    stated."""
 
     path: Path
     identity: RecordingIdentity
     label: str
-
-    @cached_property
-    def description(self) -> NativeRecording:
-        """What its sidecar and the names of its columns say; DatasetFileError if they are wrong."""
-        return _read(self.path, samples=False)
+    licence: str
+    source: str
+    motion_path: Path | None
+    notes: tuple[str, ...]
 
     @property
     def paths(self) -> tuple[Path, ...]:
         """Every file that the recording is made from."""
-        others = (sidecar_of(self.path), beside(self.path, DEFAULTS_FILE), self.description.motion_path)
+        others = (sidecar_of(self.path), beside(self.path, DEFAULTS_FILE), self.motion_path)
         return (self.path, *(path for path in others if path is not None and path.is_file()))
 
     def path_of(self, sensor: str) -> Path:
         """The file of acceleration, force or position."""
-        motion = self.description.motion_path
-        return self.path if sensor == "acceleration" or motion is None else motion
+        return self.path if sensor == "acceleration" or self.motion_path is None else self.motion_path
 
     def load(self) -> Recording:
         """Read the recording. DatasetFileError (an InputError) names file, column or key, what was found and what is
@@ -56,9 +56,12 @@ class OwnRecordingFile:
         return _recording(_read(self.path, samples=True), self.identity, self.label)
 
 
-def own_identity(name: str) -> RecordingIdentity:
-    """The identity of an own file: its name, without the conditions that published names contain."""
-    return RecordingIdentity(0, None, 0, 0, 0, name)
+def described_file(path: Path, name: str) -> OwnRecordingFile:
+    """The file under a name of its own; DatasetFileError if its sidecar or the names of its columns are wrong."""
+    read = _read(path, samples=False)
+    identity = RecordingIdentity(0, None, 0, 0, 0, name)
+    licence, source = read.licence or UNKNOWN, read.source or UNKNOWN
+    return OwnRecordingFile(path, identity, read.label, licence, source, read.motion_path, read.notes)
 
 
 def is_motion_file(path: Path) -> bool:
@@ -132,6 +135,3 @@ def _band_limited(acceleration: Track) -> tuple[NDArray[np.float64], NDArray[np.
     sections = signal.butter(6, _KEPT_HZ, "lowpass", fs=1.0 / step, output="sos")
     filtered = signal.sosfiltfilt(sections, values, axis=0, padlen=min(len(values) - 1, round(30 * 0.0004 / step)))
     return time[::stride], filtered[::stride]
-
-
-__all__ = ["OWN_ENDINGS", "OwnRecordingFile", "is_motion_file", "own_identity"]

@@ -16,6 +16,7 @@ from haptoflow_training.strokes.sigma_lognormal import Submovement, summed_veloc
 MAXIMUM_SPEED_MPS = 1.5
 # Root mean square of physiological postural tremor of a supported hand, 8-12 Hz.
 DEFAULT_TREMOR_METRES = 5e-5
+_FORCE_RANGE_NEWTONS = (0.1, 5.0)
 TREMOR_BAND_HZ = (8.0, 12.0)
 
 
@@ -123,12 +124,9 @@ def force_profile(
     duration_seconds: float,
     rate_hz: float,
     median_force_newtons: float,
-    speed_mps: NDArray[np.float64] | None = None,
-    lowest_newtons: float = 0.1,
-    highest_newtons: float = 5.0,
+    speed_mps: NDArray[np.float64],
 ) -> NDArray[np.float64]:
-    """Normal force [n] in newtons: slow wandering on a log scale, partly coupled to `speed_mps` [n] when
-    given.
+    """Normal force [n] in newtons: slow wandering on a log scale, partly coupled to `speed_mps` [n].
 
     The coupling's sign and strength differ from stroke to stroke (some hands press harder when fast, others
     lift).
@@ -138,12 +136,11 @@ def force_profile(
     wander = np.interp(
         np.linspace(0.0, knots - 1.0, count), np.arange(knots), rng.standard_normal(knots)
     ) * float(rng.uniform(0.2, 0.6))
-    if speed_mps is not None:
-        scale = float(np.median(speed_mps)) + 1e-3
-        wander = wander + float(rng.normal(0.05, 0.2)) * np.tanh(np.log((speed_mps + 0.1 * scale) / scale))
+    scale = float(np.median(speed_mps)) + 1e-3
+    wander = wander + float(rng.normal(0.05, 0.2)) * np.tanh(np.log((speed_mps + 0.1 * scale) / scale))
     smooth = _low_pass(wander, 4.0, rate_hz)
     smooth -= float(np.median(smooth))
-    return np.clip(median_force_newtons * np.exp(smooth), lowest_newtons, highest_newtons)
+    return np.clip(median_force_newtons * np.exp(smooth), *_FORCE_RANGE_NEWTONS)
 
 
 def tremor(

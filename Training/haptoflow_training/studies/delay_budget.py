@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from haptoflow_training.markdown import table
 from haptoflow_training.model_stamp import model_line, picture_metadata
 from haptoflow_training.studies.bench_figures import BenchFigures, Block
 from haptoflow_training.studies.plans import TURN_OFF, TURN_ON
@@ -55,17 +56,17 @@ def page_words(bench: BenchFigures, chart: str, device_ms: float | None = None) 
         [
             model_line(bench.model_sha256),
             f"Inference and latencies: {bench.words}, as [benchmarks](benchmarks.md) publishes them.",
-            "\n".join(_parts_table(main, device_ms)),
+            _parts_table(main, device_ms),
             f"![Parts of the delay by quality, and the two thresholds of the paper]({chart})",
             "Other frame rates and blocks, quality `standard`, everything but the device:",
-            "\n".join(_settings_table(bench, device_ms)),
+            _settings_table(bench, device_ms),
             "The same way measured inside the library, 99th percentile of events, with the frame in which they happen:",
-            "\n".join(_measured_table(bench, device_ms)),
+            _measured_table(bench, device_ms),
         ]
     )
 
 
-def _parts_table(main: Mapping[str, Budget], device_ms: float | None) -> list[str]:
+def _parts_table(main: Mapping[str, Budget], device_ms: float | None) -> str:
     device = _NOT_MEASURED if device_ms is None else f"{device_ms:.1f}"
     together = "together, without device" if device_ms is None else "together"
     rows: Sequence[tuple[str, Sequence[str]]] = (
@@ -79,8 +80,7 @@ def _parts_table(main: Mapping[str, Budget], device_ms: float | None) -> list[st
             for condition, title in _TITLES.items()
         ),
     )
-    lines = ["| ms | " + " | ".join(main) + " |", "|---|" + "---|" * len(main)]
-    return lines + [f"| {words} | " + " | ".join(cells) + " |" for words, cells in rows]
+    return table(["ms", *main], ([words, *cells] for words, cells in rows))
 
 
 def _left(budget: Budget, condition: str) -> str:
@@ -88,44 +88,37 @@ def _left(budget: Budget, condition: str) -> str:
     return f"{left:.1f}" if left >= 0.0 else f"**passed by {-left:.1f}**"
 
 
-def _settings_table(bench: BenchFigures, device_ms: float | None) -> list[str]:
-    rates = " | ".join(f"{rate:.0f} Hz, ms" for rate in REFRESH_RATES_HZ)
-    lines = [
-        f"| block, frames | {rates} | left before Turn-Off at 72 Hz |",
-        "|---|" + "---|" * (len(REFRESH_RATES_HZ) + 1),
-    ]
+def _settings_table(bench: BenchFigures, device_ms: float | None) -> str:
+    rates = [f"{rate:.0f} Hz, ms" for rate in REFRESH_RATES_HZ]
+    rows = []
     for block in sorted(bench.onset_ms, key=lambda each: each.frames * each.burst):
         by_rate = [budgets(bench, rate, block, device_ms)["standard"] for rate in REFRESH_RATES_HZ]
-        cells = [f"{one.known_ms:.1f}" for one in by_rate]
-        lines.append(f"| {block} | " + " | ".join(cells) + f" | {_left(by_rate[0], TURN_OFF)} |")
-    return lines
+        rows.append([str(block), *(f"{one.known_ms:.1f}" for one in by_rate), _left(by_rate[0], TURN_OFF)])
+    return table(["block, frames", *rates, "left before Turn-Off at 72 Hz"], rows)
 
 
-def _measured_table(bench: BenchFigures, device_ms: float | None) -> list[str]:
+def _measured_table(bench: BenchFigures, device_ms: float | None) -> str:
     interval = 1000.0 / REFRESH_RATES_HZ[0]
-    lines = [
-        "| block, frames | onset, ms | with pose interval | left before Turn-On "
-        "| stop, ms | with pose interval | left before Turn-Off |",
-        "|---|---|---|---|---|---|---|",
-    ]
+    headings = ["block, frames"]
+    for event, title in (("onset", "Turn-On"), ("stop", "Turn-Off")):
+        headings += [f"{event}, ms", "with pose interval", f"left before {title}"]
+    rows = []
     for block in sorted(bench.onset_ms, key=lambda each: each.frames * each.burst):
-        cells = []
+        cells = [str(block)]
         for spread, condition in ((bench.onset_ms[block], TURN_ON), (bench.stop_ms[block], TURN_OFF)):
             budget = Budget(interval, 0.0, spread.p99, device_ms)
             cells += [f"{spread.p99:.1f}", f"{budget.known_ms:.1f}", _left(budget, condition)]
-        lines.append(f"| {block} | " + " | ".join(cells) + " |")
-    return lines
+        rows.append(cells)
+    return table(headings, rows)
 
 
 def write_chart(path: Path, bench: BenchFigures, device_ms: float | None = None) -> None:
     """Draw a bar for each quality, its parts one after another, and the paper's thresholds; PNG."""
-    import matplotlib
-
-    matplotlib.use("Agg")
-    from matplotlib import pyplot
+    from matplotlib.figure import Figure
 
     found = budgets(bench, REFRESH_RATES_HZ[0], _MAIN_BLOCK, device_ms)
-    figure, axis = pyplot.subplots(figsize=(8.6, 1.9 + 0.55 * len(found)), layout="constrained")
+    figure = Figure(figsize=(8.6, 1.9 + 0.55 * len(found)), layout="constrained")
+    axis = figure.subplots()
     for place, budget in enumerate(found.values()):
         left = 0.0
         values = (budget.pose_interval_ms, budget.inference_ms, budget.block_ms)
@@ -152,5 +145,4 @@ def write_chart(path: Path, bench: BenchFigures, device_ms: float | None = None)
     axis.legend(fontsize=8, ncols=4, loc="upper center", bbox_to_anchor=(0.5, -0.24))
     picture = io.BytesIO()
     figure.savefig(picture, format="png", dpi=110, bbox_inches="tight", metadata=picture_metadata(bench.model_sha256))
-    pyplot.close(figure)
     write_whole(path, picture.getvalue())

@@ -180,13 +180,11 @@ def _draw(axis: Axes, bracket: Bracket) -> None:
 
 
 def _figure(rows: int, columns: int, width: float, height: float, is_simulated: bool) -> tuple[Figure, list[Any]]:
-    import matplotlib
-
-    matplotlib.use("Agg")
-    from matplotlib import pyplot
+    from matplotlib.figure import Figure
 
     size = max(width, 5.0), height
-    figure, axes = pyplot.subplots(rows, columns, figsize=size, layout="constrained", squeeze=False)
+    figure = Figure(figsize=size, layout="constrained")
+    axes = figure.subplots(rows, columns, squeeze=False)
     if is_simulated:
         figure.suptitle(SIMULATED_WORDS, color="#b00020", fontsize=11, fontweight="bold")
         for axis in axes.flat:
@@ -204,7 +202,6 @@ def _plain(name: str) -> str:
 
 def _svg(figure: Figure) -> str:
     import matplotlib
-    from matplotlib import pyplot
 
     text = io.StringIO()
     # Text is stored as text, so that the reader's browser supplies the glyphs of any script; matplotlib's own font has
@@ -212,5 +209,4 @@ def _svg(figure: Figure) -> str:
     with matplotlib.rc_context({"svg.hashsalt": "haptoflow", "svg.fonttype": "none"}), warnings.catch_warnings():
         warnings.filterwarnings("ignore", message="Glyph .* missing from current font")
         figure.savefig(text, format="svg", metadata={"Date": None})
-    pyplot.close(figure)
     return text.getvalue()

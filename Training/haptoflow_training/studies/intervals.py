@@ -57,20 +57,15 @@ def jackknife_error(without_one: np.ndarray) -> float | None:
 
 
 @dataclass(frozen=True)
-class Share:
+class Share(Interval):
     """low, high: Wilson's interval of 95 % for the underlying rate."""
 
     count: int
     of: int
-    low: float
-    high: float
 
     @property
     def rate(self) -> float:
         return self.count / self.of
-
-    def covers(self, rate: float) -> bool:
-        return self.low <= rate <= self.high
 
     def as_json(self) -> dict[str, float]:
         return {"rate": round(self.rate, 4), "low": round(self.low, 4), "high": round(self.high, 4), "of": self.of}
@@ -82,4 +77,4 @@ class Share:
 def share(count: int, of: int) -> Share:
     """The share of `count` among `of` studies; of: at least 1."""
     interval = binomtest(count, of).proportion_ci(0.95, method="wilson")
-    return Share(count, of, float(interval.low), float(interval.high))
+    return Share(float(interval.low), float(interval.high), count, of)

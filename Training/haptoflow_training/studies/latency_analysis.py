@@ -7,15 +7,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from haptoflow_training.studies.intervals import Interval
+from haptoflow_training.studies.intervals import Interval, share
 from haptoflow_training.studies.plans import CONDITIONS, MAIN
-from haptoflow_training.studies.psychometric import RESAMPLES, Answers, Fit, fit, percent_yes, threshold_difference
+from haptoflow_training.studies.psychometric import Answers, Fit, fit, threshold_difference
 from haptoflow_training.studies.session_file import Session
 
 
 @dataclass(frozen=True)
 class Point:
-    """One planned level: the mean delivered delay, percentage of yes with its interval of 95 %, number of answers."""
+    """One planned level: the mean delivered delay, percentage of yes with Wilson's interval of 95 %, number of
+    answers."""
 
     level_ms: float
     delivered_ms: float
@@ -39,20 +40,25 @@ class LatencyResult:
     difference_interval: Interval | None
 
 
-def analyse_latency(sessions: Sequence[Session], *, resamples: int = RESAMPLES, seed: int = 0) -> LatencyResult:
+def analyse_latency(sessions: Sequence[Session], *, seed: int = 0) -> LatencyResult:
     """Analyse the sessions; practice trials are left out."""
     points, fits, counts, single = {}, {}, {}, {}
     for condition in CONDITIONS:
         answers, levels = answers_of(sessions, condition)
-        found = np.unique(levels)
-        rows = percent_yes(answers, list(found), levels)
-        points[condition] = [Point(float(level), *row) for level, row in zip(found, rows, strict=True)]
-        fits[condition] = fit(answers, resamples=resamples, seed=seed)
+        points[condition] = [point_at(answers, float(level), levels == level) for level in np.unique(levels)]
+        fits[condition] = fit(answers, seed=seed)
         counts[condition], single[condition] = len(levels), answers
     first, second = (fits[condition] for condition in CONDITIONS)
     difference = first.curve.x0 - second.curve.x0 if first.curve and second.curve else None
     interval = threshold_difference(first, second, len(sessions))
     return LatencyResult(len(sessions), points, fits, counts, single, difference, interval)
+
+
+def point_at(answers: Answers, level_ms: float, chosen: np.ndarray) -> Point:
+    """Each participant answers once at a level, so that the answers at one level are independent of each other."""
+    found = share(int(answers.yes[chosen].sum()), int(chosen.sum()))
+    delivered = float(answers.delay_ms[chosen].mean())
+    return Point(level_ms, delivered, 100.0 * found.rate, 100.0 * found.low, 100.0 * found.high, found.of)
 
 
 def answers_of(sessions: Sequence[Session], condition: str) -> tuple[Answers, np.ndarray]:

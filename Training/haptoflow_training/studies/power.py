@@ -65,31 +65,25 @@ def rating_power(
     random = np.random.default_rng(seed)
     counts: Counter[str] = Counter()
     for _ in range(simulations):
-        counts.update(_found(analysed(model.ratings(random, participants)[0], bound), methods - 1))
+        counts.update(findings(analysed(model.ratings(random, participants)[0], bound), methods - 1))
         advance()
     shares = {key: share(counts[key], simulations) for key in ("friedman", "pair", "alone", "false", "equivalence")}
     equivalence = shares["equivalence"] if methods > 2 else None
     return RatingPower(shares["friedman"], shares["pair"], shares["alone"], shares["false"], equivalence)
 
 
-def _found(result: RatingResult, lowered: int) -> list[str]:
+def findings(result: RatingResult, lowered: int) -> list[str]:
     """The shares to which a study contributes; lowered: column of the method that is rated lower."""
-    found = []
     pairs = {(pair.first, pair.second): pair for pair in result.pairs}
     planted = pairs[0, lowered]
-    if result.friedman is not None and result.friedman.p < SIGNIFICANCE:
-        found.append("friedman")
-    if planted.p_shaffer is not None and planted.p_shaffer < SIGNIFICANCE:
-        found.append("pair")
-    if planted.p is not None and planted.p < SIGNIFICANCE:
-        found.append("alone")
-    alike = [pair for (_, second), pair in pairs.items() if second != lowered]
-    if any(pair.p_shaffer is not None and pair.p_shaffer < SIGNIFICANCE for pair in alike):
-        found.append("false")
-    if lowered > 1:
-        if pairs[0, 1].p_holm < SIGNIFICANCE:
-            found.append("equivalence")
-    return found
+    found = {
+        "friedman": result.differs,
+        "pair": planted.differs,
+        "alone": planted.differs_alone,
+        "false": any(pair.differs for pair in result.pairs if pair.second != lowered),
+        "equivalence": lowered > 1 and pairs[0, 1].p_holm < SIGNIFICANCE,
+    }
+    return [key for key, is_found in found.items() if is_found]
 
 
 @dataclass(frozen=True)
@@ -111,11 +105,10 @@ def latency_power(
     *,
     simulations: int,
     seed: int,
-    model: AnswerModel | None = None,
     advance: Callable[[], object] = int,
 ) -> LatencyPower:
     """participants: at least 5, because fewer give no interval."""
-    model = model or AnswerModel()
+    model = AnswerModel()
     random = np.random.default_rng(seed)
     widths: dict[str, list[float]] = {condition: [] for condition in CONDITIONS}
     covered: Counter[str] = Counter()

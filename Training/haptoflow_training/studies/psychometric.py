@@ -7,15 +7,12 @@ at 50 %. (All resamples are fitted at once by Newton's method; SciPy would fit t
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from scipy import special
 
-from haptoflow_training.studies.intervals import (
-    Interval, expanded_interval, jackknife_error, participant_weights, share,
-)  # fmt: skip
+from haptoflow_training.studies.intervals import Interval, expanded_interval, jackknife_error, participant_weights
 
 RESAMPLES = 2000
 MINIMUM_PARTICIPANTS = 5
@@ -215,19 +212,3 @@ def _curves(counted: _Counts, weights: np.ndarray) -> tuple[np.ndarray, np.ndarr
     rises = overlaps & (slope > 0.0)
     divisor = np.where(rises, slope, 1.0)
     return np.where(rises, slope / scale, np.nan), np.where(rises, centre - intercept * scale / divisor, np.nan)
-
-
-def percent_yes(
-    answers: Answers, level_ms: Sequence[float], levels: np.ndarray
-) -> list[tuple[float, float, float, float, int]]:
-    """For each level: mean delivered delay, percentage of yes, both ends of Wilson's interval of 95 %, and the count.
-
-    Each participant answers once at a level, so that the answers at one level are independent of each other.
-    """
-    rows = []
-    for level in level_ms:
-        chosen = levels == level
-        found = share(int(answers.yes[chosen].sum()), int(chosen.sum()))
-        delivered = float(answers.delay_ms[chosen].mean())
-        rows.append((delivered, 100.0 * found.rate, 100.0 * found.low, 100.0 * found.high, found.of))
-    return rows

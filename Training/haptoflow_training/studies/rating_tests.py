@@ -20,7 +20,7 @@ from itertools import combinations
 import numpy as np
 from scipy import stats
 
-from haptoflow_training.studies.shaffer import adjusted
+from haptoflow_training.studies.shaffer import adjusted, stepped_down
 
 SIGNIFICANCE = 0.05
 TREND = 0.1
@@ -31,14 +31,6 @@ EQUIVALENCE_POINTS = 0.5
 _MAXIMUM_COUNTED_SIGNS = 12
 # Rounding restores ties that a shift by an equivalence bound breaks in the last bits.
 _DECIMALS = 9
-
-
-@dataclass(frozen=True)
-class Normality:
-    """Shapiro and Wilk's W and p; None for ratings that are all equal or fewer than three."""
-
-    w: float | None
-    p: float | None
 
 
 @dataclass(frozen=True)
@@ -71,16 +63,33 @@ class Pair:
     p_equivalence: float
     p_holm: float
 
+    @property
+    def differs(self) -> bool:
+        return _is_significant(self.p_shaffer)
+
+    @property
+    def differs_alone(self) -> bool:
+        return _is_significant(self.p)
+
 
 @dataclass(frozen=True)
 class RatingResult:
     """The tests of one material. friedman is None for two methods, whose pair is tested directly, and for ratings
     all equal."""
 
-    normality: tuple[Normality, ...]
+    normality_p: tuple[float | None, ...]
     friedman: Friedman | None
     friedman_statement: str
     pairs: tuple[Pair, ...]
+
+    @property
+    def differs(self) -> bool:
+        """Whether Friedman's test found a difference."""
+        return self.friedman is not None and _is_significant(self.friedman.p)
+
+
+def _is_significant(p: float | None) -> bool:
+    return p is not None and p < SIGNIFICANCE
 
 
 def signed_rank_p(differences: np.ndarray, alternative: str = "two-sided") -> float | None:
@@ -134,11 +143,7 @@ def holm(p_values: Sequence[float]) -> list[float]:
     Shaffer's smaller factors are for hypotheses of equality, of which one implies others; two pairs that are equivalent
     do not make the third one so.
     """
-    result, largest = [0.0] * len(p_values), 0.0
-    for rank, place in enumerate(sorted(range(len(p_values)), key=lambda index: p_values[index])):
-        largest = max(largest, min(1.0, (len(p_values) - rank) * p_values[place]))
-        result[place] = largest
-    return result
+    return stepped_down(p_values, range(len(p_values), 0, -1))
 
 
 def equivalences(ratings: np.ndarray, bound: float) -> list[tuple[float, float]]:
@@ -163,11 +168,9 @@ def cohen_dz(differences: np.ndarray) -> float | None:
     return float(np.mean(differences)) / spread if spread > 0.0 else None
 
 
-def normality(ratings: np.ndarray) -> Normality:
-    if len(ratings) < 3 or np.ptp(ratings) == 0.0:
-        return Normality(None, None)
-    result = stats.shapiro(ratings)
-    return Normality(float(result.statistic), float(result.pvalue))
+def normality_p(ratings: np.ndarray) -> float | None:
+    """Of Shapiro and Wilk's test; None for ratings that are all equal or fewer than three."""
+    return None if len(ratings) < 3 or np.ptp(ratings) == 0.0 else float(stats.shapiro(ratings).pvalue)
 
 
 def friedman(ratings: np.ndarray) -> Friedman | None:
@@ -192,13 +195,13 @@ def analysed(ratings: np.ndarray, bound: float = EQUIVALENCE_POINTS) -> RatingRe
         statement = "every participant rated all methods alike"
     elif found.p >= SIGNIFICANCE:
         statement = "the methods' ratings do not differ significantly, so that no pair is tested for a difference"
-    follows_up = methods == 2 or (found is not None and found.p < SIGNIFICANCE)
+    follows_up = methods == 2 or not statement
     names = list(combinations(range(methods), 2))
     raw = {pair: signed_rank_p(ratings[:, pair[0]] - ratings[:, pair[1]]) for pair in names}
     corrected = _corrected(raw, methods) if follows_up else dict.fromkeys(names)
     pairs = [(pair, *ps) for pair, ps in zip(names, equivalences(ratings, bound), strict=True)]
     return RatingResult(
-        tuple(normality(column) for column in ratings.T),
+        tuple(normality_p(column) for column in ratings.T),
         found,
         statement,
         tuple(_pair(ratings, pair, raw[pair], corrected[pair], bound, p, p_holm) for pair, p, p_holm in pairs),

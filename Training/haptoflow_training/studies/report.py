@@ -11,8 +11,8 @@ from haptoflow_training.studies.figures import SIMULATED_WORDS, latency_figure, 
 from haptoflow_training.studies.html import heading, listing, page, paragraph, picture, table
 from haptoflow_training.studies.intervals import Interval
 from haptoflow_training.studies.latency_analysis import LatencyResult
-from haptoflow_training.studies.problems import participants_words
 from haptoflow_training.studies.plans import CONDITIONS
+from haptoflow_training.studies.problems import participants_words
 from haptoflow_training.studies.psychometric import Fit
 from haptoflow_training.studies.rating_tests import Pair
 from haptoflow_training.studies.session_file import Session
@@ -132,9 +132,9 @@ def _similarity(result: SimilarityResult, is_simulated: bool) -> list[str]:
             parts.append(paragraph(f"{found.friedman_statement[:1].upper()}{found.friedman_statement[1:]}."))
         ratings = result.ratings[place]
         means = [
-            [method, f"{mean:.2f}", f"{low:.2f} to {high:.2f}", _p(one.p)]
-            for method, mean, low, high, one in zip(
-                result.methods, ratings.mean(axis=0), *mean_interval(ratings), found.normality, strict=True
+            [method, f"{mean:.2f}", f"{low:.2f} to {high:.2f}", _p(p)]
+            for method, mean, low, high, p in zip(
+                result.methods, ratings.mean(axis=0), *mean_interval(ratings), found.normality_p, strict=True
             )
         ]
         parts += [
@@ -146,7 +146,7 @@ def _similarity(result: SimilarityResult, is_simulated: bool) -> list[str]:
 
 def _material_row(result: SimilarityResult, name: str) -> list[str]:
     found = result.by_material[name]
-    normal = _normality_words([one.p for one in found.normality])
+    normal = _normality_words(found.normality_p)
     if found.friedman is None:
         return [name, normal, _NONE, _NONE, _NONE]
     return [name, normal, f"{found.friedman.chi_square:.2f}", _p(found.friedman.p), f"{found.friedman.kendall_w:.2f}"]
@@ -249,7 +249,7 @@ def _similarity_results(result: SimilarityResult) -> dict[str, Any]:
         "materials": {
             name: {
                 "means": [float(value) for value in result.ratings[place].mean(axis=0)],
-                "shapiro_p": [one.p for one in result.by_material[name].normality],
+                "shapiro_p": list(result.by_material[name].normality_p),
                 "friedman": None if (found := result.by_material[name].friedman) is None else vars(found),
                 "statement": result.by_material[name].friedman_statement,
                 "pairs": [pair_results(pair) for pair in result.by_material[name].pairs],

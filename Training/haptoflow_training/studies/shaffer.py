@@ -11,6 +11,8 @@ from collections.abc import Sequence
 from functools import cache
 from math import comb
 
+import numpy as np
+
 
 @cache
 def possible_true_counts(methods: int) -> frozenset[int]:
@@ -41,9 +43,12 @@ def adjusted(p_values: Sequence[float], methods: int) -> list[float]:
     by_rank = factors(methods)
     if len(p_values) != len(by_rank):
         raise ValueError(f"{len(p_values)} p-values; {methods} methods have {len(by_rank)} pairs")
-    result = [0.0] * len(p_values)
-    largest = 0.0
-    for rank, place in enumerate(sorted(range(len(p_values)), key=lambda index: p_values[index])):
-        largest = max(largest, min(1.0, by_rank[rank] * p_values[place]))
-        result[place] = largest
-    return result
+    return stepped_down(p_values, by_rank)
+
+
+def stepped_down(p_values: Sequence[float], factors_by_rank: Sequence[int]) -> list[float]:
+    """The p-values, in the given order, times the factor of their rank; at most 1, and monotonic in the p-values."""
+    order = np.argsort(p_values, kind="stable")
+    result = np.empty(len(p_values))
+    result[order] = np.maximum.accumulate(np.minimum(1.0, np.asarray(factors_by_rank) * np.asarray(p_values)[order]))
+    return [float(p) for p in result]

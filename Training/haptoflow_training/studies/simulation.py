@@ -13,8 +13,8 @@ import numpy as np
 from haptoflow_training.errors import InputError
 from haptoflow_training.studies.log_columns import LATENCY, SIMILARITY, STUDIES
 from haptoflow_training.studies.plans import MAIN, LatencyTrial, SimilarityTrial, latency_plan, similarity_plan
-from haptoflow_training.studies.session_file import NAME
 from haptoflow_training.studies.rating_tests import EQUIVALENCE_POINTS
+from haptoflow_training.studies.session_file import NAME
 from haptoflow_training.studies.session_writer import write_session
 from haptoflow_training.studies.similarity_analysis import EQUIVALENCE_KEY
 from haptoflow_training.studies.simulated_participants import LEVELS_MS, AnswerModel, RatingModel
@@ -26,12 +26,10 @@ _INFERENCE_MS = {LATENCY: 0.0, SIMILARITY: 15.0}
 _ARTIFICIAL_MS = 10.0
 
 
-def simulate_latency(
-    folder: Path, participants: int, seed: int, model: AnswerModel | None = None, advance: Callable[[], object] = int
-) -> None:
+def simulate_latency(folder: Path, participants: int, seed: int, advance: Callable[[], object] = int) -> None:
     """Write one session for each participant, with the paper's levels. InputError if the folder holds sessions
     already."""
-    model = model or AnswerModel()
+    model = AnswerModel()
     _refuse_sessions(folder, LATENCY)
     random = np.random.default_rng((seed, STUDIES.index(LATENCY)))
     curves = {condition: asdict(curve) for condition, curve in model.curves.items()}
@@ -142,9 +140,7 @@ def _delays(study: str, planned_ms: float | None) -> dict[str, float]:
 def _latency_row(random: np.random.Generator, trial: LatencyTrial, is_yes: bool) -> dict[str, Any]:
     strokes = int(random.integers(2, 6))
     return {
-        "trial": trial.trial,
-        "block": trial.block,
-        "condition": trial.condition,
+        **asdict(trial),
         **_delays(LATENCY, trial.delay_ms),
         "starts": strokes,
         "stops": strokes,
@@ -156,10 +152,7 @@ def _latency_row(random: np.random.Generator, trial: LatencyTrial, is_yes: bool)
 def _similarity_row(random: np.random.Generator, trial: SimilarityTrial, rating: int) -> dict[str, Any]:
     real, virtual, free = (float(seconds) for seconds in random.uniform(4.0, 12.0, 3))
     return {
-        "trial": trial.trial,
-        "block": trial.block,
-        "material": trial.material,
-        "method": trial.method,
+        **asdict(trial),
         **_delays(SIMILARITY, None),
         "real_edges_seconds": real,
         "virtual_edges_seconds": virtual,

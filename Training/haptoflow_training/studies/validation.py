@@ -16,7 +16,7 @@ from haptoflow_training.studies.intervals import Interval, share
 from haptoflow_training.studies.latency_analysis import analyse_latency
 from haptoflow_training.studies.log_columns import LATENCY, SIMILARITY
 from haptoflow_training.studies.plans import CONDITIONS
-from haptoflow_training.studies.power import latency_answers, planned_signed_rank_power, rating_power
+from haptoflow_training.studies.power import findings, latency_answers, planned_signed_rank_power, rating_power
 from haptoflow_training.studies.psychometric import Answers, Fit, fit, leave_one_out
 from haptoflow_training.studies.rating_tests import (
     EQUIVALENCE_POINTS, SIGNIFICANCE, analysed, equivalences, signed_rank_p,
@@ -97,14 +97,10 @@ def recovered_differences(studies: int, seed: int, advance: Advance = int) -> di
             simulate_similarity(Path(folder), PARTICIPANTS, seed + study, model)
             result = analyse_similarity(read_faultless(Path(folder)).of(SIMILARITY))
         for material, one in result.by_material.items():
-            differs = one.friedman is not None and one.friedman.p < SIGNIFICANCE
-            if material not in lowered:
-                counts["false"] += differs
-                continue
-            pair = next(pair for pair in one.pairs if (pair.first, pair.second) == (0, len(METHODS) - 1))
-            counts["friedman"] += differs
-            counts["pair"] += pair.p_shaffer is not None and pair.p_shaffer < SIGNIFICANCE
-            counts["alone"] += pair.p is not None and pair.p < SIGNIFICANCE
+            if material in lowered:
+                counts.update(findings(one, len(METHODS) - 1))
+            else:
+                counts["no difference"] += one.differs
         advance()
     found, empty = studies * len(lowered), studies * (len(MATERIALS) - len(lowered))
     return {
@@ -112,7 +108,7 @@ def recovered_differences(studies: int, seed: int, advance: Advance = int) -> di
         "friedman": share(counts["friedman"], found).as_json(),
         "pair": share(counts["pair"], found).as_json(),
         "pair_alone": share(counts["alone"], found).as_json(),
-        "friedman_without_difference": share(counts["false"], empty).as_json(),
+        "friedman_without_difference": share(counts["no difference"], empty).as_json(),
     }
 
 
@@ -215,14 +211,12 @@ def false_positives(simulations: int, seed: int, advance: Advance = int) -> dict
 def _false_findings(model: RatingModel, random: np.random.Generator) -> Sequence[str]:
     result = analysed(model.ratings(random, PARTICIPANTS)[0])
     pairs = [pair for pair in result.pairs if not model.lowered or pair.second < len(METHODS) - 1]
-    found = []
-    if result.friedman is not None and result.friedman.p < SIGNIFICANCE:
-        found.append("friedman")
-    if pairs[0].p is not None and pairs[0].p < SIGNIFICANCE:
-        found.append("wilcoxon")
-    if any(pair.p_shaffer is not None and pair.p_shaffer < SIGNIFICANCE for pair in pairs):
-        found.append("any")
-    return found
+    found = {
+        "friedman": result.differs,
+        "wilcoxon": pairs[0].differs_alone,
+        "any": any(pair.differs for pair in pairs),
+    }
+    return [key for key, is_found in found.items() if is_found]
 
 
 def measured_equivalence(simulations: int, seed: int, advance: Advance = int) -> dict[str, Any]:

@@ -5,17 +5,20 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from haptoflow_training.markdown import table
+from haptoflow_training.studies.plans import CONDITIONS
+
 
 def page_words(found: Mapping[str, Any]) -> str:
     """Markdown of what `validated` returned; every rate with the interval of 95 % that so many studies allow."""
     return "\n\n".join(
         [
             f"{found['participants']} simulated participants a study, seed {found['seed']}, SciPy {found['scipy']}.",
-            "\n".join(_thresholds(found)),
-            "\n".join(_intervals(found)),
-            "\n".join(_false_positives(found)),
-            "\n".join(_planted(found)),
-            "\n".join(_equivalence(found)),
+            *_thresholds(found),
+            *_intervals(found),
+            *_false_positives(found),
+            *_planted(found),
+            *_equivalence(found),
         ]
     )
 
@@ -25,33 +28,33 @@ def _rate(value: Mapping[str, float]) -> str:
 
 
 def _thresholds(found: Mapping[str, Any]) -> list[str]:
-    lines = [
+    headings = ("condition", "truth, ms", "mean threshold, ms", "spread between studies, ms", "mean standard error, ms")
+    rows = [
+        [
+            condition, str(one["truth_ms"]), str(one["mean_ms"]), str(one["spread_ms"]),
+            str(one["mean_standard_error_ms"]), _rate(one["covered"]),
+        ]
+        for condition, one in found["thresholds"].items()
+    ]  # fmt: skip
+    return [
         f"Thresholds, {found['studies']} studies written as logs, read and analysed:",
-        "",
-        "| condition | truth, ms | mean threshold, ms | spread between studies, ms | mean standard error, ms "
-        "| interval of 95 % holds the truth |",
-        "|---|---|---|---|---|---|",
+        table([*headings, "interval of 95 % holds the truth"], rows),
     ]
-    for condition, one in found["thresholds"].items():
-        lines.append(
-            f"| {condition} | {one['truth_ms']} | {one['mean_ms']} | {one['spread_ms']} "
-            f"| {one['mean_standard_error_ms']} | {_rate(one['covered'])} |"
-        )
-    return lines
 
 
 def _intervals(found: Mapping[str, Any]) -> list[str]:
-    lines = [
-        f"Which interval, {found['simulations']} studies a row; the correlation is that of one participant's answers:",
-        "",
-        "| correlation | interval | turn-on holds the truth | width, ms | turn-off holds the truth | width, ms |",
-        "|---|---|---|---|---|---|",
-    ]
+    headings = ["correlation", "interval"]
+    for condition in CONDITIONS:
+        headings += [f"{condition} holds the truth", "width, ms"]
+    rows = []
     for case in found["intervals"]:
         for name, by_condition in case["by_interval"].items():
             cells = [cell for one in by_condition.values() for cell in (_rate(one), f"{one['median_width_ms']:.1f}")]
-            lines.append(f"| {case['between']} | {name} | " + " | ".join(cells) + " |")
-    return lines
+            rows.append([str(case["between"]), name, *cells])
+    return [
+        f"Which interval, {found['simulations']} studies a row; the correlation is that of one participant's answers:",
+        table(headings, rows),
+    ]
 
 
 _FALSE_POSITIVES = {
@@ -66,27 +69,28 @@ _FALSE_POSITIVES = {
 
 
 def _false_positives(found: Mapping[str, Any]) -> list[str]:
-    title = f"False findings at a level of 5 %, {found['simulations']} studies each:"
     rates = found["false_positives"]
-    rows = [f"| {words} | {_rate(rates[key])} |" for key, words in _FALSE_POSITIVES.items()]
-    return [title, "", "| what | found in |", "|---|---|", *rows]
+    return [
+        f"False findings at a level of 5 %, {found['simulations']} studies each:",
+        table(("what", "found in"), ([words, _rate(rates[key])] for key, words in _FALSE_POSITIVES.items())),
+    ]
 
 
 def _planted(found: Mapping[str, Any]) -> list[str]:
     planted, planned = found["planted"], found["planned"]
-    rows = (
-        ("friedman", "Friedman's test"),
-        ("pair", "the pair, after correction"),
-        ("pair_alone", "the pair, tested alone"),
+    words = {
+        "friedman": "Friedman's test",
+        "pair": "the pair, after correction",
+        "pair_alone": "the pair, tested alone",
+    }
+    headings = (
+        "found by",
+        f"planned by `study power`, {found['simulations']} studies",
+        f"found in the logs of {found['studies']} studies, three materials each",
     )
     return [
         f"One method rated below three others by d_z {planted['difference_dz']}, before rounding to whole ratings:",
-        "",
-        f"| found by | planned by `study power`, {found['simulations']} studies "
-        f"| found in the logs of {found['studies']} studies, three materials each |",
-        "|---|---|---|",
-        *(f"| {words} | {_rate(planned[key])} | {_rate(planted[key])} |" for key, words in rows),
-        "",
+        table(headings, ([said, _rate(planned[key]), _rate(planted[key])] for key, said in words.items())),
         f"Three materials of each study had no difference; Friedman's test found one on "
         f"{_rate(planted['friedman_without_difference'])} of them. For differences that are not rounded, G*Power's "
         f"formula plans {100 * planned['formula']:.1f} %, and Wilcoxon's test found {_rate(planned['unrounded'])}.",
@@ -97,18 +101,13 @@ def _equivalence(found: Mapping[str, Any]) -> list[str]:
     by_bound = found["equivalence"]
     counts = list(next(iter(by_bound.values()))["alike"])
     studies = round(next(iter(by_bound.values()))["at_the_bound"]["of"])
+    headings = ["bound, points", 'false "equal", one pair alone', "any of four such pairs of six, corrected"]
+    rows = (
+        [bound, *(_rate(each) for each in (one["at_the_bound"], one["any_of_four"], *one["alike"].values()))]
+        for bound, one in by_bound.items()
+    )
     return [
         f"Equivalence, {studies} studies each. False \"equal\": the means are just the bound apart; the last "
         "columns: a given pair of four methods that are alike is found equivalent, after Holm's correction:",
-        "",
-        '| bound, points | false "equal", one pair alone | any of four such pairs of six, corrected '
-        + "".join(f"| found with {count} participants " for count in counts)
-        + "|",
-        "|---" * (3 + len(counts)) + "|",
-        *(
-            f"| {bound} | {_rate(one['at_the_bound'])} | {_rate(one['any_of_four'])} | "
-            + " | ".join(_rate(one["alike"][count]) for count in counts)
-            + " |"
-            for bound, one in by_bound.items()
-        ),
+        table([*headings, *(f"found with {count} participants" for count in counts)], rows),
     ]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import dataclasses
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
 import torch
@@ -12,6 +11,7 @@ from numpy.typing import NDArray
 from torch import Tensor
 
 from haptoflow_training.errors import InputError
+from haptoflow_training.preprocessing.store import SegmentStore
 from haptoflow_training.training.config import BatchConfig
 from haptoflow_training.training.held_out import HeldOut, clear_spans
 from haptoflow_training.waveform import SEGMENT_SAMPLES
@@ -19,27 +19,6 @@ from haptoflow_training.waveform import SEGMENT_SAMPLES
 LEVEL_WINDOW_SAMPLES = 100
 # Where inside a segment its motion is stored for the level: every 10 ms, both ends included.
 _KNOTS = np.linspace(0, SEGMENT_SAMPLES - 1, 11).round().astype(np.int64)
-
-
-class StoredRecording(Protocol):
-    """The properties of a stored recording that batches need."""
-
-    label_index: int
-    protocol: str
-    split: str
-    start: int
-    length: int
-
-
-class Store(Protocol):
-    """The memory-mapped store of `prepare`: waveform [n] in units of peak_mps2, motion [n, 3], position_mm [n, 2]."""
-
-    waveform: NDArray[np.float32]
-    motion: NDArray[np.float32]
-    position_mm: NDArray[np.float32]
-    peak_mps2: float
-    labels: list[str]
-    recordings: list[StoredRecording]
 
 
 @dataclass(frozen=True)
@@ -84,7 +63,7 @@ class SegmentBatches:
     Nothing leaks between splits, and held-out motion is never seen.
     """
 
-    def __init__(self, store: Store, split: str, config: BatchConfig, seed: int) -> None:
+    def __init__(self, store: SegmentStore, split: str, config: BatchConfig, seed: int) -> None:
         self._store = store
         self._config = config
         self._generator = np.random.default_rng(seed)

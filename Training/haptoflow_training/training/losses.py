@@ -7,14 +7,14 @@ from dataclasses import dataclass
 import torch
 from torch import Tensor, nn
 
-from haptoflow_training.models.haptoflow_model import HaptoFlowModel
+from haptoflow_training.models.haptoflow_model import Condition, HaptoFlowModel
 from haptoflow_training.models.label_embedding import rib_frequencies_hz, rib_phase
 from haptoflow_training.models.level_model import level_loss, scaled_previous
 from haptoflow_training.models.rib_comb import PARTIALS
 from haptoflow_training.training.batches import Chain, SegmentBatch
 from haptoflow_training.training.config import SolverConfig
 from haptoflow_training.training.energy_distance import energy_distance_loss, envelopes, halves_of, spectra
-from haptoflow_training.training.flow_matching import flow_matching_loss, solve
+from haptoflow_training.training.flow_matching import Field, flow_matching_loss, solve
 from haptoflow_training.training.label_balance import LabelBalance, label_features
 
 _BALANCE_WEIGHT = 2.0
@@ -39,6 +39,10 @@ class ScaledBatch:
     rib_phase: Tensor
     power: Tensor
     unsteadiness: Tensor
+
+    @property
+    def condition(self) -> Condition:
+        return self.previous, self.embedding, self.batch.motion, self.rib_phase
 
 
 class Losses(nn.Module):
@@ -106,18 +110,12 @@ class Losses(nn.Module):
 
     def field_loss(self, given: ScaledBatch, objective: str, generator: torch.Generator) -> Tensor:
         """The network's loss by one objective, a scalar."""
-        motion, segment = given.batch.motion, given.segment
+        segment = given.segment
         if objective == "flow":
-
-            def field(noisy: Tensor, time: Tensor) -> Tensor:
-                return self.model.field(noisy, time, given.previous, given.embedding, motion, given.rib_phase)
-
-            return flow_matching_loss(field, segment, generator, 1.0 / given.power)
+            return flow_matching_loss(self._field(given.condition), segment, generator, 1.0 / given.power)
         # Both draws in one pass: few large matrix products are faster than many small ones.
         noise = torch.randn(2 * len(segment), *segment.shape[1:], generator=generator)
-        condition = [
-            torch.cat([part, part]) for part in (given.previous, given.embedding, motion, given.rib_phase)
-        ]
+        condition = [torch.cat([part, part]) for part in given.condition]
         first, second = self.model.one_step(noise, *condition).chunk(2)
         return self._one_step_loss(given, (first, second))
 
@@ -198,16 +196,15 @@ class Losses(nn.Module):
         made = self.drawn(objective, noise, (previous, embedding, motion, phase))
         return model.decode(made) * torch.exp(log_level).unsqueeze(-1)
 
-    def drawn(self, objective: str, noise: Tensor, condition: tuple[Tensor, Tensor, Tensor, Tensor]) -> Tensor:
+    def drawn(self, objective: str, noise: Tensor, condition: Condition) -> Tensor:
         """The segment [B, *shape] that the network of an objective makes of noise. condition: previous, embedding,
         motion, rib phase."""
         if objective == "energy":
             return self.model.one_step(noise, *condition)
+        return solve(self._field(condition), noise, self._solver.kind, self._solver.steps)
 
-        def field(noisy: Tensor, time: Tensor) -> Tensor:
-            return self.model.field(noisy, time, *condition)
-
-        return solve(field, noise, self._solver.kind, self._solver.steps)
+    def _field(self, condition: Condition) -> Field:
+        return lambda noisy, time: self.model.field(noisy, time, *condition)
 
     def _steady_segment(self, batch: SegmentBatch, embedding: Tensor) -> tuple[Tensor, Tensor]:
         """The segment in unit scale, as if the motion continued as it began: each sample is divided by the level at

@@ -11,26 +11,23 @@ from pathlib import Path
 from typing import Any
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.export.exporter import Provenance
 from haptoflow_training.export.label_info import LabelInfo
 from haptoflow_training.export.seed_bank import SEED_SAMPLES
 from haptoflow_training.preprocessing.preparation import prepare_cut_where_needed, prepare_store
 from haptoflow_training.preprocessing.split import SPLITS
 from haptoflow_training.preprocessing.store import SegmentStore
 from haptoflow_training.preprocessing.store_lock import store_lock
-from haptoflow_training.recordings.cluster_dataset import UNKNOWN
+from haptoflow_training.recordings.dataset import UNKNOWN, Dataset
 from haptoflow_training.recordings.labels import LabelDefinition, LabelMap, load_labels
 from haptoflow_training.recordings.landing import landing_of
-from haptoflow_training.recordings.open_recordings import Dataset, RecordingFile, open_recordings
-from haptoflow_training.recordings.own_dataset import OwnDataset
+from haptoflow_training.recordings.open_recordings import RecordingFile, open_recordings
 from haptoflow_training.recordings.recording import Recording, RecordingIdentity
 from haptoflow_training.recordings.synthetic import (
     Material,
     hand_conditions,
     load_materials,
     machine_conditions,
-    record_hand_condition,
-    record_machine_condition,
+    record_condition_of,
 )
 from haptoflow_training.recordings.synthetic.materials import select_materials
 from haptoflow_training.training.config import DataConfig
@@ -55,15 +52,22 @@ class SyntheticRecording:
         return self.material.label
 
     def load(self) -> Recording:
-        if self.identity.protocol == "hand":
-            return record_hand_condition(
-                self.material,
-                self.identity,
-                seed=self.seed,
-                duration_seconds=self.hand_duration_seconds,
-                guided_share=self.hand_guided_share,
-            )
-        return record_machine_condition(self.material, self.identity, seed=self.seed)
+        return record_condition_of(
+            self.material,
+            self.identity,
+            seed=self.seed,
+            duration_seconds=self.hand_duration_seconds,
+            guided_share=self.hand_guided_share,
+        )
+
+
+@dataclass(frozen=True)
+class Provenance:
+    """Where the recordings come from, as stated in the model file."""
+
+    statement: str
+    recordings: str
+    licence: str
 
 
 @dataclass(frozen=True)
@@ -180,7 +184,6 @@ def open_source(data: DataConfig, store_folder: Path, workers: int) -> Source:
                     f"{len(store.recordings)} recordings of {len(infos)} labels"
                 ),
                 licence="MIT",
-                created="",
             ),
         )
     return _open_folders(data, store_folder, workers)
@@ -219,7 +222,7 @@ def _open_folders(data: DataConfig, store_folder: Path, workers: int) -> Source:
     _require_splits(store, [f"skipped: {problem}" for root in roots for problem in root.problems])
     counted = f"{len(store.recordings)} recordings of {len(infos)} labels"
     if synthetic:
-        return Source(store, infos, Provenance(SYNTHETIC_STATEMENT, f"synthetic recorder: {counted}", "MIT", ""))
+        return Source(store, infos, Provenance(SYNTHETIC_STATEMENT, f"synthetic recorder: {counted}", "MIT"))
     sources = _joined(root.provenance.get("source") for root in roots)
     infos, found_vectors = with_found_wave_vectors(store, infos, asked)
     return Source(
@@ -229,7 +232,6 @@ def _open_folders(data: DataConfig, store_folder: Path, workers: int) -> Source:
             statement="trained on recordings of unknown origin" if sources == UNKNOWN else f"trained on {sources}",
             recordings=f"{sources}: {counted}",
             licence=_joined(root.provenance.get("licence") for root in roots),
-            created="",
         ),
         left_out,
         found_vectors,
@@ -281,7 +283,7 @@ def _remedy(unusable: Sequence[str], of_what: str) -> str:
 
 def _label_map(data: DataConfig, roots: list[Dataset]) -> LabelMap:
     if not data.labels_file:
-        own = [str(root.root) for root in roots if isinstance(root, OwnDataset)]
+        own = [str(root.root) for root in roots if root.is_own]
         if own:
             raise InputError(
                 f"{', '.join(own)}: recordings of your own; name their labels, with stiffness and friction, in a file like "

@@ -77,16 +77,14 @@ def last_step(path: Path) -> int:
 
 def plot_metrics(log: MetricsLog, path: Path) -> None:
     """Plot every figure of the log over the steps, one panel a figure."""
-    import matplotlib
-
-    matplotlib.use("Agg")
-    from matplotlib import pyplot
+    from matplotlib.figure import Figure
 
     rows = log.rows()
     if not rows:
         return
     names = [name for name in rows[0] if name not in ("step", "phase", "seconds")]
-    figure, axes = pyplot.subplots(1, len(names), figsize=(4.2 * len(names), 3.2), squeeze=False)
+    figure = Figure(figsize=(4.2 * len(names), 3.2))
+    axes = figure.subplots(1, len(names), squeeze=False)
     for axis, name in zip(axes[0], names, strict=True):
         points = [(int(row["step"]), float(row[name])) for row in rows if row[name] not in ("", "nan")]
         if points:
@@ -99,4 +97,3 @@ def plot_metrics(log: MetricsLog, path: Path) -> None:
         axis.grid(alpha=0.3)
     figure.tight_layout()
     figure.savefig(path, dpi=100)
-    pyplot.close(figure)

@@ -28,8 +28,9 @@ from haptoflow_training.extensions import located
 from haptoflow_training.models.haptoflow_model import HaptoFlowModel
 from haptoflow_training.models.level_model import LevelModel
 from haptoflow_training.models.velocity_field import VelocityField
+from haptoflow_training.preprocessing.store import SegmentStore
 from haptoflow_training.stopping import Stopped, end_if_stopped
-from haptoflow_training.training.batches import SegmentBatches, Store
+from haptoflow_training.training.batches import SegmentBatches
 from haptoflow_training.training.budget import Budget
 from haptoflow_training.training.config import TrainingConfig, config_from_dict
 from haptoflow_training.training.label_balance import LabelBalance
@@ -112,7 +113,7 @@ class Trainer:
     def __init__(
         self,
         config: TrainingConfig,
-        store: Store,
+        store: SegmentStore,
         folder: Path,
         processes: Processes,
         base: Path | None = None,

@@ -4,9 +4,8 @@ from haptoflow_training.recordings.synthetic.materials import Material, load_mat
 from haptoflow_training.recordings.synthetic.protocols import (
     hand_conditions,
     machine_conditions,
-    record_hand,
+    record_condition_of,
     record_hand_condition,
-    record_machine,
     record_machine_condition,
 )
 from haptoflow_training.recordings.synthetic.recorder import record_condition
@@ -24,9 +23,8 @@ __all__ = [
     "load_materials",
     "machine_conditions",
     "record_condition",
-    "record_hand",
+    "record_condition_of",
     "record_hand_condition",
-    "record_machine",
     "record_machine_condition",
     "training_specimen",
 ]

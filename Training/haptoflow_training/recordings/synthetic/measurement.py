@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 from functools import partial
 
@@ -37,7 +37,7 @@ class Design:
 
 
 @dataclass(frozen=True)
-class Measurement:
+class Measurement(Targets):
     """The result in the terms of `Targets`, with the spectrum at the reference condition.
 
     frequency_hz [n]; spectrum [n] in (m/s^2)^2/Hz; crest: the 99.9th percentile of |a| over its RMS. centroid_exponent:
@@ -45,11 +45,6 @@ class Measurement:
     fastest of all, None without fast speeds.
     """
 
-    k: float
-    p: float
-    q: float
-    centroid_hz: float
-    slope_db_per_octave: float
     crest: float
     centroid_exponent: float
     fast_centroid_exponent: float | None
@@ -120,12 +115,6 @@ def measure(
         slope_db_per_octave(frequency, power), crest, float(centroid_exponent),
         _fast_centroid_exponent(record, design, resting[1], seed), frequency, power,
     )
-
-
-def pooled_exponent(exponents: Iterable[float]) -> float:
-    """The slope of one line through the logarithms of all labels, each with an offset of its own; the labels share a
-    design."""
-    return float(np.mean(list(exponents)))
 
 
 def _fast_centroid_exponent(

@@ -6,13 +6,13 @@ determines which training specimen is recorded.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
 from haptoflow_training.recordings.recording import Recording, RecordingIdentity
 from haptoflow_training.recordings.synthetic.carriers import guided_ride, hand_ride, machine_pass
-from haptoflow_training.recordings.synthetic.materials import Material, select_materials
+from haptoflow_training.recordings.synthetic.materials import Material
 from haptoflow_training.recordings.synthetic.recorder import record_ride
 from haptoflow_training.recordings.synthetic.specimens import training_specimen
 
@@ -103,53 +103,24 @@ def record_hand_condition(
     return record_ride(material, identity, ride, rng, specimen=chosen)
 
 
-def record_machine(
-    materials: Sequence[Material],
+def record_condition_of(
+    material: Material,
+    identity: RecordingIdentity,
     *,
     seed: int,
-    labels: Sequence[str] | None = None,
-    directions: Sequence[int] = MACHINE_DIRECTIONS_DEGREES,
-    speeds_mmps: Sequence[int] = MACHINE_SPEEDS_MMPS,
-    forces_millinewtons: Sequence[int] = MACHINE_FORCES_MILLINEWTONS,
-    repeats: int = MACHINE_REPEATS,
-) -> Iterator[Recording]:
-    """The published design (8 directions x 5 speeds x 2 forces x 2 repeats a material), or a subset of it."""
-    for material in select_materials(materials, labels):
-        for identity in machine_conditions(
-            material,
-            directions=directions,
-            speeds_mmps=speeds_mmps,
-            forces_millinewtons=forces_millinewtons,
-            repeats=repeats,
-        ):
-            yield record_machine_condition(material, identity, seed=seed)
-
-
-def record_hand(
-    materials: Sequence[Material],
-    *,
-    seed: int,
-    labels: Sequence[str] | None = None,
-    recordings_per_label: int = 40,
     duration_seconds: float = 8.0,
-) -> Iterator[Recording]:
-    """Free hand strokes, 0-1500 mm/s and 0.1-5 N varying within each recording."""
-    if duration_seconds < 2.0:
-        raise ValueError("a hand recording lasts 2 s or more: rests at both ends take 0.7 s")
-    for material in select_materials(materials, labels):
-        for identity in hand_conditions(material, seed=seed, recordings=recordings_per_label):
-            yield record_hand_condition(material, identity, seed=seed, duration_seconds=duration_seconds)
+    guided_share: float = 0.0,
+) -> Recording:
+    """The training protocols' recording of an identity; duration_seconds and guided_share: of a hand recording."""
+    if identity.protocol == "machine":
+        return record_machine_condition(material, identity, seed=seed)
+    return record_hand_condition(
+        material, identity, seed=seed, duration_seconds=duration_seconds, guided_share=guided_share
+    )
 
 
 def _generator(seed: int, identity: RecordingIdentity) -> np.random.Generator:
     direction = 360 if identity.direction_degrees is None else identity.direction_degrees
     return np.random.default_rng(
-        [
-            seed,
-            identity.texture_id,
-            direction,
-            identity.speed_mmps,
-            identity.force_millinewtons,
-            identity.repeat,
-        ]
+        [seed, identity.texture_id, direction, identity.speed_mmps, identity.force_millinewtons, identity.repeat]
     )

@@ -1,0 +1,114 @@
+"""Batches of segments from the native library, through its C interface."""
+
+from __future__ import annotations
+
+import ctypes
+from pathlib import Path
+from types import TracebackType
+
+import numpy as np
+from numpy.typing import NDArray
+
+from haptoflow_benchmark.engine.engine_library import EngineLibrary
+from haptoflow_training.native_library import options_of
+from haptoflow_training.waveform import SEGMENT_SAMPLES
+
+RIB_COUNT = 2
+MAXIMUM_BATCH = 256
+SOLVERS = {"tier": 0, "euler": 1, "midpoint": 2, "heun": 3}
+
+_Floats = NDArray[np.float32]
+_pointer = ctypes.POINTER(ctypes.c_float)
+
+
+class _GeneratorOptions(ctypes.Structure):
+    _fields_ = [
+        ("struct_size", ctypes.c_uint32),
+        ("solver", ctypes.c_int32),
+        ("runtime", ctypes.c_void_p),
+        ("model", ctypes.c_void_p),
+        ("tier", ctypes.c_char_p),
+        ("steps", ctypes.c_int32),
+        ("maximum_batch", ctypes.c_uint32),
+    ]
+
+
+class _Batch(ctypes.Structure):
+    _fields_ = [
+        ("struct_size", ctypes.c_uint32),
+        ("count", ctypes.c_uint32),
+        ("embeddings", _pointer),
+        ("motions", _pointer),
+        ("previous_mps2", _pointer),
+        ("noise", _pointer),
+        ("rib_phases", _pointer),
+    ]
+
+
+class EngineGenerator:
+    """One tier of a model file behind the C interface, which generates batches of segments; close it after use."""
+
+    def __init__(
+        self, engine: EngineLibrary, model: Path, tier: str | None = None, solver: str = "tier", steps: int = 0
+    ) -> None:
+        self._engine = engine
+        self._handle = ctypes.c_void_p()
+        self._model = engine.open_model(model)
+        self.header = engine.header(self._model)
+        self.embeddings = self._read_embeddings()
+        options = options_of(
+            _GeneratorOptions,
+            solver=SOLVERS[solver],
+            runtime=engine.runtime,
+            model=self._model,
+            tier=None if tier is None else tier.encode(),
+            steps=steps,
+            maximum_batch=MAXIMUM_BATCH,
+        )
+        engine.call("haptoflow_generator_create", ctypes.byref(options), ctypes.byref(self._handle))
+
+    def __enter__(self) -> EngineGenerator:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Free the generator; does nothing if it is closed already."""
+        self._engine.call("haptoflow_generator_close", ctypes.byref(self._handle))
+        self._engine.call("haptoflow_model_close", ctypes.byref(self._model))
+
+    def _read_embeddings(self) -> _Floats:
+        count = len(self.header["labels"])
+        rows = np.empty((count, 64), dtype=np.float32)
+        for index in range(count):
+            self._engine.call(
+                "haptoflow_model_embedding", self._model, ctypes.c_uint32(index), rows[index].ctypes.data_as(_pointer)
+            )
+        return rows
+
+    def generate(
+        self,
+        embeddings: _Floats,
+        motions: _Floats,
+        previous_mps2: _Floats,
+        noise: _Floats,
+        rib_phase: _Floats | None = None,
+    ) -> _Floats:
+        """Segments [n, 200] in m/s^2 from embeddings [n, 64], motions [n, 3], previous and noise [n, 200].
+
+        rib_phase: [n, 2], turns along the embedding's wave vectors at each segment's first sample; zeros if None.
+        """
+        phases = np.zeros((len(embeddings), RIB_COUNT), dtype=np.float32) if rib_phase is None else rib_phase
+        given = (embeddings, motions, previous_mps2, noise, phases)
+        arrays = [np.ascontiguousarray(array, dtype=np.float32) for array in given]
+        count = len(arrays[0])
+        pointers = [array.ctypes.data_as(_pointer) for array in arrays]
+        batch = _Batch(ctypes.sizeof(_Batch), count, *pointers)
+        segments = np.empty((count, SEGMENT_SAMPLES), dtype=np.float32)
+        self._engine.call(
+            "haptoflow_generator_generate", self._handle, ctypes.byref(batch), segments.ctypes.data_as(_pointer)
+        )
+        return segments
