@@ -17,9 +17,6 @@ _COMMANDS = {
     "discriminate": _command(
         "check that a classifier trained on recordings recognises the label of what the engine renders", "discriminate"
     ),
-    "learn-figures": _command(
-        "measure materials fitted by `haptoflow learn` to ten seconds of recording", "learn_figures"
-    ),
     "measure-wave-vectors": _command(
         "count ribs found, missed and falsely found in seconds of strokes", "measure_wave_vectors"
     ),

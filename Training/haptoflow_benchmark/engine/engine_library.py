@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.native_library import NativeError, NativeLibrary, options_of
+from haptoflow_training.native_library import NativeError, NativeLibrary, NativeModel, open_runtime, options_of
 from haptoflow_training.waveform import SEGMENT_SAMPLES
 
 RIB_COUNT = 2
@@ -22,23 +22,6 @@ SOLVERS = {"tier": 0, "euler": 1, "midpoint": 2, "heun": 3}
 
 _Floats = NDArray[np.float32]
 _pointer = ctypes.POINTER(ctypes.c_float)
-
-
-class _RuntimeOptions(ctypes.Structure):
-    _fields_ = [
-        ("struct_size", ctypes.c_uint32),
-        ("ort_api_base", ctypes.c_void_p),
-        ("library_path", ctypes.c_char_p),
-    ]
-
-
-class _ModelOptions(ctypes.Structure):
-    _fields_ = [
-        ("struct_size", ctypes.c_uint32),
-        ("bytes", ctypes.c_void_p),
-        ("byte_count", ctypes.c_uint64),
-        ("path", ctypes.c_char_p),
-    ]
 
 
 class _GeneratorOptions(ctypes.Structure):
@@ -70,15 +53,7 @@ class EngineLibrary(NativeLibrary):
 
     def __init__(self, library: Path, onnx_runtime: Path) -> None:
         super().__init__(library)
-        if not onnx_runtime.is_file():
-            raise InputError(f"{onnx_runtime} does not exist: run `npm ci`")
-        self._runtime = ctypes.c_void_p()
-        options = options_of(_RuntimeOptions, library_path=str(onnx_runtime).encode())
-        self.call("haptoflow_runtime_open", ctypes.byref(options), ctypes.byref(self._runtime))
-
-    @property
-    def runtime(self) -> ctypes.c_void_p:
-        return self._runtime
+        self.runtime = open_runtime(self, onnx_runtime)
 
     def call(self, name: str, *arguments: Any) -> None:
         """As the base's; the message begins with the function's name."""
@@ -86,13 +61,6 @@ class EngineLibrary(NativeLibrary):
             super().call(name, *arguments)
         except NativeError as error:
             raise InputError(f"{name}: {error}") from error
-
-    def open_model(self, path: Path) -> ctypes.c_void_p:
-        """A handle, to be closed with haptoflow_model_close."""
-        model = ctypes.c_void_p()
-        options = options_of(_ModelOptions, path=str(path).encode())
-        self.call("haptoflow_model_open", ctypes.byref(options), ctypes.byref(model))
-        return model
 
     def header(self, model: ctypes.c_void_p) -> dict[str, Any]:
         text = ctypes.c_char_p()
@@ -109,14 +77,14 @@ class EngineGenerator:
     ) -> None:
         self._engine = engine
         self._handle = ctypes.c_void_p()
-        self._model = engine.open_model(model)
-        self.header = engine.header(self._model)
+        self._model = NativeModel(engine, model)
+        self.header = engine.header(self._model.handle)
         self.embeddings = self._read_embeddings()
         options = options_of(
             _GeneratorOptions,
             solver=SOLVERS[solver],
             runtime=engine.runtime,
-            model=self._model,
+            model=self._model.handle,
             tier=None if tier is None else tier.encode(),
             steps=steps,
             maximum_batch=MAXIMUM_BATCH,
@@ -134,14 +102,14 @@ class EngineGenerator:
     def close(self) -> None:
         """Free the generator; does nothing if it is closed already."""
         self._engine.call("haptoflow_generator_close", ctypes.byref(self._handle))
-        self._engine.call("haptoflow_model_close", ctypes.byref(self._model))
+        self._model.close()
 
     def _read_embeddings(self) -> _Floats:
         count = len(self.header["labels"])
         rows = np.empty((count, 64), dtype=np.float32)
         for index in range(count):
             self._engine.call(
-                "haptoflow_model_embedding", self._model, ctypes.c_uint32(index), rows[index].ctypes.data_as(_pointer)
+                "haptoflow_model_embedding", self._model.handle, ctypes.c_uint32(index), rows[index].ctypes.data_as(_pointer)
             )
         return rows
 
