@@ -67,9 +67,6 @@ LevelLaw calibratedLevel(const LevelLaw& law, const recordings::PreparedRecordin
             wanted.logLevel(speed, law.table.forceNewtons) - made.logLevel(speed, law.table.forceNewtons);
         result.table.logLevels[i] += std::clamp(shift, -maximumShift, maximumShift);
     }
-    result.table.forceExponent =
-        std::clamp(law.table.forceExponent + wanted.table.forceExponent - made.table.forceExponent,
-                   -model::maximumLevelExponent, model::maximumLevelExponent);
     return result;
 }
 

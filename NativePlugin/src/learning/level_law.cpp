@@ -10,13 +10,13 @@ namespace {
 
 /// Standard deviation of the log speed in a frame above which the tracker's smoothed speed does not match the wave.
 constexpr double maximumUnsteadiness = 0.6;
-constexpr double knotsPerNat = 3.0;
+constexpr double knotsPerNat = 2.2;
 constexpr std::size_t maximumKnots = 16;
 constexpr std::size_t framesPerKnot = 6;
 constexpr double narrowestTable = 0.05;
 /// Standard deviations: of one frame's log level from the law, and of the change of slope over one unit of log speed.
 constexpr double frameSpread = 0.2;
-constexpr double bendSpread = 0.7;
+constexpr double bendSpread = 0.35;
 /// Frames overlap by half.
 constexpr double frameWeight = 0.5 / (frameSpread * frameSpread);
 constexpr int rounds = 40;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 namespace haptoflow::learning {
 namespace {
@@ -16,7 +15,7 @@ constexpr double lowestHz = 15.0;
 constexpr double highestHz = 900.0;
 constexpr double powerFloor = 1e-7;
 constexpr double decibelsPerNat = 8.685889638065037;
-const double envelopeWeight = std::getenv("HF_ENV") ? std::atof(std::getenv("HF_ENV")) : 1.0;  // EXPERIMENT
+constexpr double envelopeWeight = 4.0;
 constexpr double levelWeight = 0.3;
 constexpr double lineWeight = 1.0;
 constexpr double lineFloor = 3e-4;
