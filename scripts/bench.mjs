@@ -38,7 +38,7 @@ function optionsOf(words) {
 /** Makes the model file of the paper's architecture where it is missing or older than its sources. */
 async function makePaperModel() {
   const config = inRepository('Training', 'haptoflow_paper', 'configs', 'paper-codec-size.toml');
-  const program = inRepository('scripts', 'bench', 'paper_model.py');
+  const program = inRepository('Training', 'haptoflow_paper', 'rows', 'paper_model.py');
   const isNew = existsSync(paperModel) && [config, program].every((name) => statSync(name).mtimeMs <= statSync(paperModel).mtimeMs);
   if (isNew) return;
   await setUp(['python']);

@@ -1,10 +1,9 @@
 // demo: builds, renders eight labels and a scene, and makes out/demo/index.html
-import { mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import path from 'node:path';
+import os from 'node:os';
 import { buildNative } from './lib/native_build.mjs';
-import { CommandError, runMain } from './lib/process.mjs';
+import { runMain, runOrFail } from './lib/process.mjs';
 import { inRepository } from './lib/repository.mjs';
-import { setUp } from './lib/setup.mjs';
+import { drawingModules, pythonOrFail, setUp } from './lib/setup.mjs';
 
 const help = `usage: ./run demo
 
@@ -14,33 +13,10 @@ seconds. out/demo/report.json has the figures, out/demo/*.wav the sound.`;
 
 await runMain('demo', async () => {
   const begin = performance.now();
-  const elapsed = () => `${((performance.now() - begin) / 1000).toFixed(1)} s`;
-  await setUp(['build']);
+  await setUp(['build', 'drawings']);
   await buildNative({ targets: ['haptoflow_cli'] });
-
-  // Imported here, since these modules need npm packages that set-up may just have installed.
-  const { plannedRenders, render } = await import('./demo/renders.mjs');
-  const { assembleReport } = await import('./demo/report.mjs');
-  const { readFloatWav } = await import('./demo/wav.mjs');
-  const { demoPage } = await import('./demo/page.mjs');
-
-  const folder = inRepository('out', 'demo');
-  rmSync(folder, { recursive: true, force: true });
-  mkdirSync(folder, { recursive: true });
-  try {
-    const renders = [];
-    for (const planned of plannedRenders()) {
-      const rendered = await render(planned, folder);
-      const { seconds, segments, inference_ms: inference } = rendered.report;
-      console.log(`demo: ${rendered.name}: ${seconds.toFixed(1)} s, ${segments} segments, ${inference.p50.toFixed(2)} ms each (${elapsed()})`);
-      renders.push({ ...rendered, ...readFloatWav(readFileSync(rendered.wavPath), rendered.wavPath) });
-    }
-    const report = assembleReport(renders);
-    writeFileSync(path.join(folder, 'report.json'), `${JSON.stringify(report, null, 2)}\n`);
-    writeFileSync(path.join(folder, 'index.html'), demoPage(report, renders));
-  } catch (error) {
-    if (error instanceof RangeError) throw new CommandError(error.message);
-    throw error;
-  }
-  console.log(`demo: open ${path.join(folder, 'index.html')} (${elapsed()})`);
+  const machine = `${os.cpus()[0]?.model.trim() ?? 'unknown processor'}, ${os.cpus().length} cores`;
+  const env = { PYTHONPATH: inRepository('scripts', 'pack'), PYTHONDONTWRITEBYTECODE: '1', OPENBLAS_NUM_THREADS: '1' };
+  await runOrFail(pythonOrFail(drawingModules), [inRepository('scripts', 'demo', 'demo.py'), machine], { env });
+  console.log(`demo: open ${inRepository('out', 'demo', 'index.html')} (${((performance.now() - begin) / 1000).toFixed(1)} s)`);
 }, { help, takesWords: false });

@@ -4,10 +4,9 @@
 #include "bench/latency_bench.hpp"
 #include "bench/machine.hpp"
 #include "bench/measurements.hpp"
+#include "model/plain_text.hpp"
 
 #include <algorithm>
-#include <iomanip>
-#include <sstream>
 #include <utility>
 
 namespace haptoflow::bench {
@@ -20,16 +19,10 @@ struct Measurement {
     std::function<nlohmann::ordered_json(const Advance&)> run;
 };
 
-std::string hexadecimal(std::uint32_t value) {
-    std::ostringstream stream;
-    stream << std::hex << std::setw(8) << std::setfill('0') << value;
-    return stream.str();
-}
-
 nlohmann::ordered_json identity(const std::filesystem::path& path, const model::ModelFile& model) {
     return {{"name", model.header().name},
             {"file", path.filename().string()},
-            {"crc32", hexadecimal(model.checksum())},
+            {"crc32", model::hexadecimal(model.checksum())},
             {"provenance", model.header().provenance.statement}};
 }
 

@@ -68,9 +68,9 @@ private:
     }
     [[nodiscard]] engine::ContactState blended() const {
         engine::ContactState state = hand_.sliding(1, 0);
-        state.material.count = count_;
+        state.material = {};
         for (std::size_t place = 0; place < count_; ++place) {
-            state.material.entries.at(place) = {hand_.label(place % hand_.labelCount()), 1.0F};
+            state.material.add(hand_.label(place % hand_.labelCount()), 1.0F);
         }
         return state;
     }

@@ -18,7 +18,6 @@ constexpr double minimumSeconds = 1e-4;
 void hold(std::vector<TimedState>& states, const engine::ContactState& state, double begin, double end) {
     for (int update = 0; begin + update * updateSeconds < end - minimumSeconds; ++update) {
         states.push_back({begin + update * updateSeconds, state});
-        states.back().state.timeSeconds = states.back().seconds;
     }
 }
 

@@ -6,7 +6,7 @@
 namespace haptoflow::bench {
 namespace {
 
-/// Calls `visit(seconds, magnitude)` for every sample that plays between two times, in order, until it returns false.
+/// Calls `visit(seconds, magnitude)` for every sample that plays between two times, in order.
 template <typename Visit>
 void visitPlaying(const Recording& recording, double fromSeconds, double toSeconds, Visit visit) {
     for (const PlayedBlock& block : recording.blocks) {
@@ -16,11 +16,8 @@ void visitPlaying(const Recording& recording, double fromSeconds, double toSecon
         }
         for (std::size_t frame = 0; frame < block.frames; ++frame) {
             const double seconds = block.playsAtSeconds + static_cast<double>(frame) / recording.rateHz;
-            if (seconds < fromSeconds || seconds >= toSeconds) {
-                continue;
-            }
-            if (!visit(seconds, std::abs(recording.samples[block.firstFrame + frame]))) {
-                return;
+            if (seconds >= fromSeconds && seconds < toSeconds) {
+                visit(seconds, std::abs(recording.samples[block.firstFrame + frame]));
             }
         }
     }
@@ -30,20 +27,17 @@ void visitPlaying(const Recording& recording, double fromSeconds, double toSecon
 
 float Recording::peak(double fromSeconds, double toSeconds) const {
     float largest = 0.0F;
-    visitPlaying(*this, fromSeconds, toSeconds, [&largest](double, float magnitude) {
-        largest = std::max(largest, magnitude);
-        return true;
-    });
+    visitPlaying(*this, fromSeconds, toSeconds,
+                 [&largest](double, float magnitude) { largest = std::max(largest, magnitude); });
     return largest;
 }
 
 std::optional<double> Recording::first(float magnitude, double fromSeconds, double toSeconds) const {
     std::optional<double> found;
     visitPlaying(*this, fromSeconds, toSeconds, [&](double seconds, float value) {
-        if (value >= magnitude) {
+        if (value >= magnitude && !found) {
             found = seconds;
         }
-        return !found;
     });
     return found;
 }
@@ -54,7 +48,6 @@ std::optional<double> Recording::last(float magnitude, double fromSeconds, doubl
         if (value >= magnitude) {
             found = seconds;
         }
-        return true;
     });
     return found;
 }

@@ -64,8 +64,7 @@ engine::ContactState Hand::sliding(std::uint32_t touch, std::size_t place, doubl
     state.touchCounter = touch;
     state.velocityMps = {static_cast<float>(within(speedMps_, speedShare)), 0.0F};
     state.forceNewtons = static_cast<float>(within(forceNewtons_, 0.3));
-    state.material.entries[0] = {.label = label(place), .weight = 1.0F};
-    state.material.count = 1;
+    state.material.add(label(place), 1.0F);
     return state;
 }
 

@@ -37,9 +37,11 @@ private:
 /// recording shows when the first sample of a new label plays.
 class MarkingGenerator final : public inference::SegmentGenerator {
 public:
-    /// `labels`: the model's labels that are distinguished, each by its place in this list.
+    /// `labels`: the model's labels that are distinguished, each by its place in this list. The model must outlive the
+    /// generator.
     MarkingGenerator(std::unique_ptr<inference::SegmentGenerator> behind, const model::ModelFile& model,
-                     std::span<const std::uint32_t> labels);
+                     std::vector<std::uint32_t> labels)
+        : behind_(std::move(behind)), model_(model), labels_(std::move(labels)) {}
 
     void generate(std::span<const inference::SegmentRequest> requests, std::span<float> segments) override;
     void levels(std::span<const inference::SegmentRequest> requests, std::span<float> levelsMps2) override {
@@ -50,10 +52,9 @@ public:
     [[nodiscard]] static float markMps2(std::size_t place) noexcept { return 2.0F * static_cast<float>(place + 1); }
 
 private:
-    [[nodiscard]] std::size_t placeOf(const std::array<float, inference::embeddingSize>& embedding) const;
-
     std::unique_ptr<inference::SegmentGenerator> behind_;
-    std::vector<std::array<float, inference::embeddingSize>> embeddings_;
+    const model::ModelFile& model_;
+    std::vector<std::uint32_t> labels_;
 };
 
 }  // namespace haptoflow::bench

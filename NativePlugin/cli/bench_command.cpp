@@ -12,7 +12,6 @@
 #include <nlohmann/json.hpp>
 
 #include <array>
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -32,16 +31,6 @@ struct BenchCommandOptions {
     bool json = false;
     bool quiet = false;
 };
-
-void writeReport(OutputFile& output, const nlohmann::ordered_json& report) {
-    std::ofstream file(output.partial());
-    file << report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
-    if (!file.flush()) {
-        throw InputError(output.path().string() + ": could not be written to its end; is the disk full?");
-    }
-    file.close();
-    output.commit();
-}
 
 bench::SubjectFiles filesOf(const BenchCommandOptions& options) {
     if (!options.paperModelPath.empty()) {
@@ -76,13 +65,15 @@ void runBench(const BenchCommandOptions& options) {
         output.emplace("-o", options.outputPath);
     }
     const nlohmann::ordered_json report = measure(options, files);
+    const std::string text = report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
     if (options.json) {
-        std::cout << report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+        std::cout << text;
     } else {
         bench::printTables(std::cout, report);
     }
     if (output) {
-        writeReport(*output, report);
+        writeText(*output, text);
+        output->commit();
     }
 }
 

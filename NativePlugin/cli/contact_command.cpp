@@ -1,13 +1,13 @@
 #include "contact_command.hpp"
 #include "commands.hpp"
 #include "exit_codes.hpp"
+#include "headless/contact_tracker.hpp"
 #include "model_location.hpp"
 #include "option_values.hpp"
 #include "output_file.hpp"
 #include "scene_file.hpp"
 #include "scene_materials.hpp"
 #include "stroke_file.hpp"
-#include "stroke_player.hpp"
 
 #include <algorithm>
 #include <array>
@@ -94,11 +94,12 @@ void runContact(const ContactOptions& options) {
 
 void writeContactStates(std::ostream& output, const headless::Scene& scene, const Stroke& stroke,
                         const std::string& strokeName, const headless::ContactSettings& settings) {
-    StrokePlayer player(scene, stroke, strokeName, settings);
+    headless::ContactTracker tracker(scene, settings);
+    const std::size_t frames = frameCount(stroke, scene.updateRateHz, strokeName);
     output << "t,surface,touching,touch_counter,px,py,pz,nx,ny,nz,penetration_m,vx_mps,vy_mps,approach_mps,force_n,"
               "landing_counter,edge_counter,edge_height_m\n";
-    while (const std::optional<headless::ContactReading> played = player.next()) {
-        const headless::ContactReading& reading = *played;
+    for (std::size_t frame = 0; frame < frames; ++frame) {
+        const headless::ContactReading reading = tracker.update(frameAt(stroke, scene.updateRateHz, frame));
         writeNumber(output, reading.timeSeconds);
         output << ',';
         if (reading.touching) {

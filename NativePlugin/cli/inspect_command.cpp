@@ -9,37 +9,23 @@
 
 #include <algorithm>
 #include <array>
-#include <iomanip>
 #include <iostream>
 #include <memory>
 #include <span>
-#include <sstream>
 #include <string>
 #include <vector>
 
 namespace haptoflow::cli {
 namespace {
 
+using model::hexadecimal;
+using model::shortNumber;
 using Row = std::vector<std::string>;
 
 struct InspectOptions {
     std::string modelPath;
     bool json = false;
 };
-
-template <typename Number>
-std::string inWords(Number number) {
-    std::ostringstream stream;
-    stream.imbue(std::locale::classic());
-    stream << number;
-    return stream.str();
-}
-
-std::string hexadecimal(std::uint32_t value) {
-    std::ostringstream stream;
-    stream << std::hex << std::setw(8) << std::setfill('0') << value;
-    return stream.str();
-}
 
 /// A text of the file, for the terminal.
 std::string orDash(const std::string& text) {
@@ -71,7 +57,7 @@ std::string figures(const std::string& json) {
     std::string text;
     const nlohmann::json measured = nlohmann::json::parse(json);
     for (const auto& [key, value] : measured.items()) {
-        const std::string figure = value.is_number() ? inWords(value.get<double>()) : value.dump();
+        const std::string figure = value.is_number() ? shortNumber(value.get<double>()) : value.dump();
         text += (text.empty() ? "" : ", ") + key + ' ' + figure;
     }
     return text.empty() ? "not measured" : text;
@@ -81,7 +67,7 @@ void printGeneral(std::ostream& stream, const std::string& path, const model::Mo
     const model::ModelHeader& header = file.header();
     const model::Provenance& provenance = header.provenance;
     const auto interval = [](const model::TrainedInterval& range) {
-        return inWords(range.minimum) + " to " + inWords(range.maximum);
+        return shortNumber(range.minimum) + " to " + shortNumber(range.maximum);
     };
     stream << model::printable(header.name) << '\n' << orDash(header.description) << "\n\n";
     printTable(stream, {{"file", model::printable(path)},
@@ -94,7 +80,7 @@ void printGeneral(std::ostream& stream, const std::string& path, const model::Mo
                         {"commit", orDash(provenance.commit) + ", seed " + std::to_string(provenance.seed)},
                         {"trained speed", interval(header.speedMps) + " m/s"},
                         {"trained force", interval(header.forceNewtons) + " N"},
-                        {"peak", inWords(header.peakMps2) + " m/s^2"},
+                        {"peak", shortNumber(header.peakMps2) + " m/s^2"},
                         {"seeds", std::to_string(header.seeds.size())},
                         {"space", model::spaceOf(header) + ": material files of this space work with the model"}});
 }
@@ -104,10 +90,10 @@ void printLabels(std::ostream& stream, const model::ModelHeader& header) {
                            "stiffness N/m", "friction"}};
     for (const model::Label& label : header.labels) {
         rows.push_back({orDash(label.name), orDash(label.category),
-                        inWords(label.speedLevelExponent) + ", " + inWords(label.forceLevelExponent),
-                        inWords(label.frequencyExponent),
-                        label.wavelengthMetres ? inWords(*label.wavelengthMetres * 1000.0) : "-",
-                        inWords(label.stiffnessNewtonsPerMetre), inWords(label.frictionCoefficient)});
+                        shortNumber(label.speedLevelExponent) + ", " + shortNumber(label.forceLevelExponent),
+                        shortNumber(label.frequencyExponent),
+                        label.wavelengthMetres ? shortNumber(*label.wavelengthMetres * 1000.0) : "-",
+                        shortNumber(label.stiffnessNewtonsPerMetre), shortNumber(label.frictionCoefficient)});
     }
     stream << "\nLabels (" << header.labels.size() << ")\n";
     printTable(stream, rows);
@@ -140,7 +126,7 @@ void printJson(std::ostream& stream, const std::string& path, const model::Model
 }
 
 std::string between(const std::array<double, 2>& range) {
-    return inWords(range[0]) + " to " + inWords(range[1]);
+    return shortNumber(range[0]) + " to " + shortNumber(range[1]);
 }
 
 /// A material's wave vectors as text, in cycles per millimetre.
@@ -149,7 +135,7 @@ std::string ribsOf(const model::MaterialFile& material) {
     const auto vectors = std::span(material.embedding).last(4);
     for (std::size_t first = 0; first < vectors.size(); first += 2) {
         if (vectors[first] != 0.0F || vectors[first + 1] != 0.0F) {
-            text += (text.empty() ? "" : "; ") + inWords(vectors[first]) + ", " + inWords(vectors[first + 1]);
+            text += (text.empty() ? "" : "; ") + shortNumber(vectors[first]) + ", " + shortNumber(vectors[first + 1]);
         }
     }
     return text.empty() ? "none" : text + " cycles/mm along the two axes";
@@ -157,12 +143,13 @@ std::string ribsOf(const model::MaterialFile& material) {
 
 std::string levelOf(const model::Label& label) {
     const std::string offset =
-        label.levelOffsetDb != 0.0 ? ", " + inWords(label.levelOffsetDb) + " dB added" : std::string();
+        label.levelOffsetDb != 0.0 ? ", " + shortNumber(label.levelOffsetDb) + " dB added" : std::string();
     if (!label.level) {
         return "the model's" + offset;
     }
     return "its own, at " + std::to_string(label.level->speedsMps.size()) + " speeds from " +
-           inWords(label.level->speedsMps.front()) + " to " + inWords(label.level->speedsMps.back()) + " m/s" + offset;
+           shortNumber(label.level->speedsMps.front()) + " to " + shortNumber(label.level->speedsMps.back()) + " m/s" +
+           offset;
 }
 
 std::string toneOf(const model::Label& label) {
@@ -182,16 +169,16 @@ void printMaterial(std::ostream& stream, const std::string& path, const model::M
                 {"provenance", orDash(provenance.statement)},
                 {"recordings", orDash(provenance.recordings)},
                 {"licence", orDash(provenance.licence)},
-                {"learnt from", inWords(provenance.seconds) + " s"},
+                {"learnt from", shortNumber(provenance.seconds) + " s"},
                 {"created", orDash(provenance.created)},
                 {"speed", between(material.speedMps) + " m/s"},
                 {"force", between(material.forceNewtons) + " N"},
                 {"level", levelOf(label)},
                 {"tone", toneOf(label)},
                 {"wave vectors", ribsOf(material)},
-                {"wavelength", label.wavelengthMetres ? inWords(*label.wavelengthMetres * 1000.0) + " mm" : "-"},
-                {"stiffness", inWords(label.stiffnessNewtonsPerMetre) + " N/m"},
-                {"friction", inWords(label.frictionCoefficient)},
+                {"wavelength", label.wavelengthMetres ? shortNumber(*label.wavelengthMetres * 1000.0) + " mm" : "-"},
+                {"stiffness", shortNumber(label.stiffnessNewtonsPerMetre) + " N/m"},
+                {"friction", shortNumber(label.frictionCoefficient)},
                 {"seeds", std::to_string(material.seeds.size())}});
 }
 

@@ -3,23 +3,16 @@
 #include "dsp/sample_rates.hpp"
 #include "exit_codes.hpp"
 #include "input_file.hpp"
+#include "model/plain_text.hpp"
 #include "recordings/decimal_number.hpp"
 
 #include <charconv>
 #include <optional>
-#include <sstream>
 #include <system_error>
 #include <utility>
 
 namespace haptoflow::cli {
 namespace {
-
-std::string shortText(double value) {
-    std::ostringstream text;
-    text.imbue(std::locale::classic());
-    text << value;
-    return text.str();
-}
 
 std::string expectation(const std::string& kind, const std::string& lowest, const std::string& highest,
                         const std::string& unit) {
@@ -29,13 +22,13 @@ std::string expectation(const std::string& kind, const std::string& lowest, cons
 }  // namespace
 
 CLI::Validator decimalBetween(double lowest, double highest, const std::string& unit) {
-    const std::string expected = expectation("a number", shortText(lowest), shortText(highest), unit);
+    const std::string expected = expectation("a number", model::shortNumber(lowest), model::shortNumber(highest), unit);
     const auto check = [lowest, highest, expected](std::string& text) {
         const std::optional<double> value = recordings::decimalNumber(text);
         return value && *value >= lowest && *value <= highest ? std::string()
                                                               : "expected " + expected + ", found '" + text + "'";
     };
-    return {check, shortText(lowest) + " to " + shortText(highest), expected};
+    return {check, model::shortNumber(lowest) + " to " + model::shortNumber(highest), expected};
 }
 
 CLI::Validator wholeBetween(std::uint64_t lowest, std::uint64_t highest, const std::string& unit) {

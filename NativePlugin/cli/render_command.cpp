@@ -3,6 +3,7 @@
 #include "effects/effect.hpp"
 #include "engine/offline_renderer.hpp"
 #include "exit_codes.hpp"
+#include "headless/contact_tracker.hpp"
 #include "inference/onnx_segment_generator.hpp"
 #include "inference/tier_graphs.hpp"
 #include "messages.hpp"
@@ -18,7 +19,6 @@
 #include "scene_file.hpp"
 #include "scene_materials.hpp"
 #include "stroke_file.hpp"
-#include "stroke_player.hpp"
 #include "wav_file.hpp"
 
 #include <algorithm>
@@ -58,13 +58,6 @@ struct RenderOptions {
     double delayMs = 0.0;
     engine::OfflineSettings engine;
     bool quiet = false;
-};
-
-/// The properties of a surface that its contact states contain.
-struct SurfaceProperties {
-    engine::MaterialBlend blend;
-    float spatialScale = 1.0F;
-    float toneDbPerOctave = 0.0F;
 };
 
 const std::map<std::string, effects::EffectKind>& effectNames() {
@@ -125,35 +118,35 @@ inference::SolverSettings chooseSolver(const model::Tier& tier, const std::strin
     return {.kind = solverNames().at(solver), .steps = *steps};
 }
 
-/// The properties of each surface, in the scene's order.
-std::vector<SurfaceProperties> propertiesOf(const headless::Scene& scene, const SceneMaterials& materials,
-                                            const std::string& scenePath) {
-    std::vector<SurfaceProperties> surfaces;
+/// A state with the material, feature scale and tone of each surface, in the scene's order.
+std::vector<engine::ContactState> propertiesOf(const headless::Scene& scene, const SceneMaterials& materials,
+                                               const std::string& scenePath) {
+    std::vector<engine::ContactState> surfaces;
     for (const headless::SceneSurface& surface : scene.surfaces) {
         if (surface.material.size() > engine::MaterialBlend::capacity) {
             throw InputError(scenePath + ": surface '" + surface.name + "' blends " +
                              std::to_string(surface.material.size()) + " labels; expected at most " +
                              std::to_string(engine::MaterialBlend::capacity));
         }
-        SurfaceProperties properties{.blend = {},
-                                     .spatialScale = static_cast<float>(surface.spatialScale),
-                                     .toneDbPerOctave = static_cast<float>(surface.toneDbPerOctave)};
-        engine::MaterialBlend& blend = properties.blend;
+        engine::ContactState& properties = surfaces.emplace_back();
+        properties.spatialScale = static_cast<float>(surface.spatialScale);
+        properties.toneDbPerOctave = static_cast<float>(surface.toneDbPerOctave);
         for (const auto& [name, weight] : surface.material) {
-            blend.entries.at(blend.count) = {.label = materials.indexOf(name), .weight = static_cast<float>(weight)};
-            ++blend.count;
+            properties.material.add(materials.indexOf(name), static_cast<float>(weight));
         }
-        surfaces.push_back(properties);
     }
     return surfaces;
 }
 
-engine::ContactState stateOf(const headless::ContactReading& reading, std::span<const SurfaceProperties> surfaces,
-                             effects::EffectMask effects) {
-    engine::ContactState state;
-    state.effects = effects;
+engine::TimedContactState stateOf(const headless::ContactReading& reading,
+                                  std::span<const engine::ContactState> surfaces, effects::EffectMask effects) {
+    engine::TimedContactState state;
+    if (reading.surfaceIndex >= 0) {
+        state = {surfaces[static_cast<std::size_t>(reading.surfaceIndex)]};
+    }
     state.timeSeconds = reading.timeSeconds;
-    state.touching = reading.touching;
+    state.effects = effects;
+    state.touching = reading.touching ? 1 : 0;
     state.touchCounter = reading.touchCounter;
     state.velocityMps = {static_cast<float>(reading.tangentialVelocityMps.x),
                          static_cast<float>(reading.tangentialVelocityMps.y)};
@@ -162,13 +155,33 @@ engine::ContactState stateOf(const headless::ContactReading& reading, std::span<
     state.landingCounter = reading.landingCounter;
     state.edgeCounter = reading.edgeCounter;
     state.edgeHeightMetres = static_cast<float>(reading.edgeHeightMetres);
-    if (reading.surfaceIndex >= 0) {
-        const SurfaceProperties& surface = surfaces[static_cast<std::size_t>(reading.surfaceIndex)];
-        state.material = surface.blend;
-        state.spatialScale = surface.spatialScale;
-        state.toneDbPerOctave = surface.toneDbPerOctave;
-    }
     return state;
+}
+
+/// The number of touch-downs when every sample of the stroke is processed in addition to the frames: a tap may begin
+/// and end between two frames.
+std::uint64_t touchesOfEverySample(const headless::Scene& scene, const Stroke& stroke, std::size_t frames,
+                                   const headless::ContactSettings& settings) {
+    headless::ContactTracker tracker(scene, settings);
+    std::uint64_t touches = 0;
+    bool wasTouching = false;
+    const auto look = [&](const headless::TipSample& sample) {
+        const bool isTouching = tracker.update(sample).touching;
+        touches += isTouching && !wasTouching ? 1U : 0U;
+        wasTouching = isTouching;
+    };
+    auto sample = stroke.samples.begin();
+    for (std::size_t frame = 0; frame < frames; ++frame) {
+        const headless::TipSample atFrame = frameAt(stroke, scene.updateRateHz, frame);
+        for (; sample != stroke.samples.end() && sample->timeSeconds < atFrame.timeSeconds; ++sample) {
+            look(*sample);
+        }
+        look(atFrame);
+    }
+    for (; sample != stroke.samples.end(); ++sample) {
+        look(*sample);
+    }
+    return touches;
 }
 
 std::vector<std::string> labelsIn(const headless::Scene& scene) {
@@ -281,8 +294,8 @@ void requireSoundOptions(const RenderOptions& options) {
 }
 
 /// Checks the length first: a WAV file's sizes are 32-bit numbers, and a render can take hours.
-void requireRoom(const headless::Scene& scene, const StrokePlayer& player, const RenderOptions& options) {
-    const double seconds = static_cast<double>(player.frames() - 1) / scene.updateRateHz + options.engine.tailSeconds;
+void requireRoom(const headless::Scene& scene, std::size_t frames, const RenderOptions& options) {
+    const double seconds = static_cast<double>(frames - 1) / scene.updateRateHz + options.engine.tailSeconds;
     const double maximumSeconds = static_cast<double>(maximumWavSamples) / options.engine.outputRateHz;
     if (seconds > maximumSeconds) {
         throw InputError(options.strokePath + ": lasts " + std::to_string(std::llround(seconds)) +
@@ -323,11 +336,12 @@ void runRender(const RenderOptions& options) {
     SceneMaterials materials(model, modelPath, options.scenePath);
     std::ranges::for_each(options.materials, [&materials](const std::string& path) { materials.add(path); });
     materials.require(scene);
-    const std::vector<SurfaceProperties> surfaces = propertiesOf(scene, materials, options.scenePath);
+    const std::vector<engine::ContactState> surfaces = propertiesOf(scene, materials, options.scenePath);
     headless::ContactSettings settings;
     useStiffnessOfMaterials(settings, materials);
-    StrokePlayer player(scene, stroke, options.strokePath, settings);
-    requireRoom(scene, player, options);
+    headless::ContactTracker tracker(scene, settings);
+    const std::size_t frames = frameCount(stroke, scene.updateRateHz, options.strokePath);
+    requireRoom(scene, frames, options);
     engine::OfflineSettings engineSettings = options.engine;
     engineSettings.delaySeconds = 1e-3 * options.delayMs;
     engineSettings.materials = materials.files();
@@ -342,14 +356,19 @@ void runRender(const RenderOptions& options) {
     inference::OnnxSegmentGenerator generator(openRuntime(), model, tier.name, solver, 1);
 
     const ProgressBar bar = progressBar("render", options.quiet);
-    const engine::ContactStateSource next = [&]() -> std::optional<engine::ContactState> {
-        const std::optional<headless::ContactReading> reading = player.next();
-        bar(static_cast<double>(player.played()) / static_cast<double>(player.frames()), {});
-        return reading ? std::optional(stateOf(*reading, surfaces, effects)) : std::nullopt;
+    std::size_t frame = 0;
+    const engine::ContactStateSource next = [&]() -> std::optional<engine::TimedContactState> {
+        if (frame == frames) {
+            return std::nullopt;
+        }
+        const headless::TipSample tip = frameAt(stroke, scene.updateRateHz, frame);
+        ++frame;
+        bar(static_cast<double>(frame) / static_cast<double>(frames), {});
+        return stateOf(tracker.update(tip), surfaces, effects);
     };
     const engine::OfflineFigures figures = engine::renderOffline(model, generator, next, engineSettings, files);
 
-    const std::uint64_t allTouches = touchesOfEverySample(scene, stroke, options.strokePath, settings);
+    const std::uint64_t allTouches = touchesOfEverySample(scene, stroke, frames, settings);
     const std::uint64_t missedTouches = allTouches - std::min(allTouches, figures.touches);
     const std::filesystem::path wav(options.outputPath.empty() ? options.parametricPath : options.outputPath);
     const bool isSolved = tier.kind != model::TierKind::direct;

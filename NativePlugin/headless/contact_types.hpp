@@ -22,7 +22,7 @@ struct TipSample {
     std::optional<glm::dquat> orientation;
 };
 
-/// One contact state with the place of the contact. Every number is finite for every input.
+/// One contact state with its place, as scenes without an engine need it. Every number is finite for every input.
 struct ContactReading {
     double timeSeconds = 0.0;
     bool touching = false;

@@ -3,7 +3,7 @@ import { spawnSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import test from 'node:test';
 import { benchArguments, withMeasuredTables, withModelSha256 } from '../../scripts/bench/measured_tables.mjs';
-import { modelOfPage } from '../../scripts/lib/model_stamp.mjs';
+import { modelOfPage } from './support/model_of_page.mjs';
 import { inRepository } from '../../scripts/lib/repository.mjs';
 
 const page = readFileSync(inRepository('Documentation~', 'benchmarks.md'), 'utf8');

@@ -3,12 +3,15 @@ import assert from 'node:assert/strict';
 import { readFileSync, readdirSync } from 'node:fs';
 import path from 'node:path';
 import test from 'node:test';
-import { PNG } from 'pngjs';
-import { modelLine, modelOfPage, modelOfPicture, sha256Of, shippedModel, stampedPicture } from '../../scripts/lib/model_stamp.mjs';
+import { modelLine, sha256Of, shippedModel } from '../../scripts/lib/model_stamp.mjs';
 import { inRepository } from '../../scripts/lib/repository.mjs';
+import { modelOfPage } from './support/model_of_page.mjs';
 
 const shipped = sha256Of(shippedModel);
 const sha = (digit) => digit.repeat(64);
+
+/** The SHA-256 in a PNG's text chunk; null where it has none. */
+const modelOfPicture = (png) => png.toString('latin1').match(/tEXtModel-SHA-256\0([0-9a-f]{64})/)?.[1] ?? null;
 
 /** Pages with measured figures, and the command that measures them. */
 const pages = {
@@ -52,23 +55,6 @@ for (const file of pictures) {
     assert.equal(modelOfPicture(readFileSync(inRepository(file))), shipped, 'draw it again: Documentation~/benchmarks.md says how');
   });
 }
-
-test('the pictures of the pages and of the samples are checked', () => {
-  for (const name of ['demo.png', 'texture-preview.png', 'accuracy-time.png', 'label-spectra.png', 'StylusTracing.png', 'TextureGallery.png']) {
-    assert.ok(pictures.some((file) => file.endsWith(`/${name}`)), name);
-  }
-});
-
-test('a stamped picture has the same pixels and names its model, with the newest stamp only', () => {
-  const drawn = new PNG({ width: 3, height: 2 });
-  drawn.data.set(Array.from({ length: 24 }, (_, index) => 10 * index));
-  const plain = PNG.sync.write(drawn);
-  assert.equal(modelOfPicture(plain), null);
-  const twice = stampedPicture(stampedPicture(plain, sha('a')), sha('b'));
-  assert.equal(modelOfPicture(twice), sha('b'));
-  assert.equal(twice.length, stampedPicture(plain, sha('b')).length);
-  assert.deepEqual(PNG.sync.read(twice, { checkCRC: true }).data, PNG.sync.read(plain).data);
-});
 
 test('a page names one model in one line, none without such a line, and two are an error', () => {
   assert.equal(modelOfPage(`# Page\n\n${modelLine(sha('c'))}\n`), sha('c'));

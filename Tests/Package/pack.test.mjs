@@ -4,13 +4,11 @@ import { cpSync, existsSync, mkdirSync, mkdtempSync, rmSync, symlinkSync, writeF
 import os from 'node:os';
 import path from 'node:path';
 import test from 'node:test';
-import { gzipSync } from 'node:zlib';
 import { inRepository } from '../../scripts/lib/repository.mjs';
 import { findNatives, foldersFor, kindOfLibrary, platforms, presetsToBuild } from '../../scripts/pack/natives.mjs';
 import { placeInPackage } from '../../scripts/pack/layout.mjs';
 import { stagePackage } from '../../scripts/pack/stage.mjs';
 import { filesOfZip, runtimeBytes, tableOfContents } from '../../scripts/pack/sizes.mjs';
-import { readTarball } from '../../scripts/pack/tarball.mjs';
 import { elfOf } from './support/elf.mjs';
 
 const pack = (...words) => spawnSync(process.execPath, [inRepository('scripts', 'pack.mjs'), ...words], { encoding: 'utf8' });
@@ -210,35 +208,4 @@ test('a staged package has the .meta of a library exactly where it has the libra
     stagePackage(staged, files, []);
     for (const name of ['Plugins', 'Plugins.meta']) assert.ok(!has(name), name);
   });
-});
-
-/** One entry of a tar archive. */
-function entry(name, content, type = '0', prefix = '') {
-  const header = Buffer.alloc(512);
-  header.write(name, 0, 'utf8');
-  header.write(content.length.toString(8).padStart(11, '0'), 124, 'latin1');
-  header.write(type, 156, 'latin1');
-  header.write(prefix, 345, 'utf8');
-  const body = Buffer.alloc(512 * Math.ceil(content.length / 512));
-  content.copy(body);
-  return Buffer.concat([header, body]);
-}
-
-test('the files of an archive are read, long names included', () => {
-  const long = `package/${'n'.repeat(120)}.cs`;
-  const archive = gzipSync(Buffer.concat([
-    entry('package/', Buffer.alloc(0), '5'),
-    entry('a.txt', Buffer.from('first'), '0', 'package/folder'),
-    entry('PaxHeader', Buffer.from(`${long.length + 10} path=${long}\n`), 'x'),
-    entry('package/short', Buffer.alloc(513, 7)),
-    Buffer.alloc(1024),
-  ]));
-  const files = readTarball(archive);
-  assert.deepEqual([...files.keys()], ['package/folder/a.txt', long]);
-  assert.equal(files.get('package/folder/a.txt').toString(), 'first');
-  assert.deepEqual(files.get(long), Buffer.alloc(513, 7));
-});
-
-test('an archive with a link in it is refused', () => {
-  assert.throws(() => readTarball(gzipSync(entry('package/link', Buffer.alloc(0), '2'))), /package\/link: .* "2"/);
 });

@@ -5,10 +5,8 @@ import { existsSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, 
 import os from 'node:os';
 import path from 'node:path';
 import test from 'node:test';
-import { gzipSync } from 'node:zlib';
 import { inRepository } from '../../scripts/lib/repository.mjs';
 import { platforms } from '../../scripts/pack/natives.mjs';
-import { readTarball } from '../../scripts/pack/tarball.mjs';
 import { changesOf } from '../../scripts/release/draft.mjs';
 import { elfOf } from './support/elf.mjs';
 
@@ -24,26 +22,21 @@ function inFolder(act) {
   }
 }
 
-/** A gzipped tar archive of files by name, as npm makes it. */
-function tarball(files) {
-  const blocks = Object.entries(files).flatMap(([name, text]) => {
-    const header = Buffer.alloc(512);
-    header.write(`package/${name}`, 0);
-    header.write('0000644\0', 100);
-    header.write(`${Buffer.byteLength(text).toString(8).padStart(11, '0')}\0`, 124);
-    header.write('0', 156);
-    const content = Buffer.alloc(512 * Math.ceil(Buffer.byteLength(text) / 512));
-    Buffer.from(text).copy(content);
-    return [header, content];
-  });
-  return gzipSync(Buffer.concat([...blocks, Buffer.alloc(1024)]));
-}
+/** A gzipped tar archive of files by name, in the folder in which npm puts them. */
+const tarball = (files) => inFolder((folder) => {
+  for (const [name, content] of Object.entries(files)) {
+    const file = path.join(folder, 'package', name);
+    mkdirSync(path.dirname(file), { recursive: true });
+    writeFileSync(file, content);
+  }
+  return spawnSync('tar', ['-czf', '-', '-C', folder, 'package'], { maxBuffer: 1e8 }).stdout;
+});
 
 const elf = (machine, alignment) => elfOf({ machine, alignment });
 const android = (alignment) => elfOf({ machine: 183, libraries: ['libc.so'], alignment });
 
 test('every script of a release shows its help', () => {
-  for (const name of ['check_pages', 'check_tag', 'check_tarball', 'collect_natives', 'draft', 'unity_project', 'upm_branch']) {
+  for (const name of ['check_tag', 'check_tarball', 'collect_natives', 'draft', 'unity_project', 'upm_branch']) {
     const { status, stdout } = script(name, '--help');
     assert.equal(status, 0, name);
     assert.match(stdout, new RegExp(`^usage: node scripts/release/${name}\\.mjs`), name);
@@ -66,18 +59,6 @@ test('libraries that lie anywhere below a folder go to the build folders of thei
     assert.deepEqual(readFileSync(path.join(to, 'build', 'android-arm64', 'libaudioplugin_haptoflow.so')), android(16384));
     assert.deepEqual(readFileSync(path.join(to, 'build', 'linux-arm64', 'libaudioplugin_haptoflow.so')), elf(183, 65536));
     assert.deepEqual(readFileSync(path.join(to, 'build', 'native', 'libaudioplugin_haptoflow.so')), elf(62, 4096));
-  });
-});
-
-test('an Android library aligned to 4 KiB is refused, one aligned to 16 KiB passes, and one for another processor is named', () => {
-  inFolder((folder) => {
-    const file = path.join(folder, 'library.so');
-    for (const [bytes, status, said] of [[android(4096), 1, /aligned to 4096 bytes, expected 16384/], [android(16384), 0, /aligned to 16384 bytes/], [elf(183, 16384), 1, /is elf-arm64; expected android-arm64/]]) {
-      writeFileSync(file, bytes);
-      const result = script('check_pages', file);
-      assert.equal(result.status, status);
-      assert.match(result.stdout + result.stderr, said);
-    }
   });
 });
 
@@ -126,7 +107,7 @@ test('a draft has both tarballs, the demo\'s page, checksums that agree, and not
     const lines = readFileSync(path.join(draft, 'SHA256SUMS'), 'utf8').trim().split('\n').map((line) => line.split('  '));
     assert.deepEqual(lines.map(([, name]) => name).sort(), archives.sort());
     for (const [sum, name] of lines) assert.equal(sum, createHash('sha256').update(readFileSync(path.join(draft, name))).digest('hex'), name);
-    assert.deepEqual([...readTarball(readFileSync(path.join(draft, 'haptoflow-demo.tgz'))).keys()], ['haptoflow-demo/index.html']);
+    assert.match(spawnSync('tar', ['-tzf', path.join(draft, 'haptoflow-demo.tgz')], { encoding: 'utf8' }).stdout, /^haptoflow-demo\/index\.html$/m);
     const notes = readFileSync(path.join(draft, 'notes.md'), 'utf8');
     for (const text of [...names, 'Package Manager > + > Install package from tarball', '| Windows x86-64 | yes |', '| Linux arm64 | no |', 'Offline engine']) assert.ok(notes.includes(text), text);
     assert.equal(script('draft', draft, '--tarballs', path.join(folder, 'demo')).status, 1, 'without tarballs');

@@ -1,14 +1,14 @@
 import assert from 'node:assert/strict';
 import { readFileSync, readdirSync } from 'node:fs';
 import test from 'node:test';
-import { parseCsv } from '../../scripts/demo/csv.mjs';
-import { labelsOf } from '../../scripts/demo/labels.mjs';
-import { plannedRenders, tracedLabels } from '../../scripts/demo/renders.mjs';
 import { inRepository } from '../../scripts/lib/repository.mjs';
 
 const folder = inRepository('Samples~', 'HeadlessScenes');
 const read = (name) => readFileSync(`${folder}/${name}`, 'utf8');
-const rowsOf = (name) => parseCsv(read(`${name}.stroke.csv`), name, ['t', 'x', 'y', 'z']);
+const rowsOf = (name) => {
+  const [header, ...rows] = read(`${name}.stroke.csv`).trim().split('\n').map((line) => line.split(','));
+  return rows.map((row) => Object.fromEntries(header.map((column, place) => [column, row[place]])));
+};
 
 test('every scene has a stroke, and every stroke the script it was made from', () => {
   const files = readdirSync(folder);
@@ -48,13 +48,5 @@ test('the crossing scene shows a moving object, a curved one and a blend', () =>
   const { surfaces } = JSON.parse(read('crossing.scene.json'));
   assert.ok(surfaces.some((surface) => surface.motion?.keyframes.length > 1));
   assert.ok(surfaces.some((surface) => surface.shape.sphere));
-  assert.ok(surfaces.some((surface) => labelsOf(surface.material).length > 1));
-});
-
-test('the demo renders the crossing, the same plate once for each of eight labels, and the taps with all effects', () => {
-  const [crossing, ...traced] = plannedRenders();
-  assert.equal(traced.pop().effects, 'texture,impact,edge');
-  assert.equal(crossing.name, 'crossing');
-  assert.deepEqual(traced.map(({ scene }) => scene.surfaces.map(({ material }) => material)), tracedLabels.map((label) => [label]));
-  assert.equal(tracedLabels.length, 8);
+  assert.ok(surfaces.some((surface) => typeof surface.material === 'object' && Object.keys(surface.material).length > 1));
 });

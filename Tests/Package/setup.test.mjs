@@ -2,13 +2,13 @@ import assert from 'node:assert/strict';
 import { readFileSync, readdirSync } from 'node:fs';
 import path from 'node:path';
 import test from 'node:test';
-import { missingFromLock, missingPackages, offeredPackages, optionalPurposes, packageOfProgram, packagesByPurpose, selectPackages } from '../../scripts/lib/packages.mjs';
+import { missingFromLock, missingPackages, offeredPackages, optionalPurposes, packagesByPurpose, selectPackages } from '../../scripts/lib/packages.mjs';
 import { cachedVariable } from '../../scripts/lib/native_build.mjs';
 import { inRepository } from '../../scripts/lib/repository.mjs';
 import { runners } from '../../scripts/lib/test_runners.mjs';
 
-test('the demo installs no Python, no PyTorch, no test library and no cross compiler', () => {
-  for (const name of selectPackages(['build'])) assert.doesNotMatch(name, /python|torch|gtest|mingw|aarch64|wine|clang/);
+test('the demo installs no PyTorch, no test library and no cross compiler', () => {
+  for (const name of selectPackages(['build', 'drawings'])) assert.doesNotMatch(name, /torch|gtest|mingw|aarch64|wine|clang/);
 });
 
 test('the packages of several purposes are joined, each package once', () => {
@@ -72,6 +72,36 @@ test('the sentence of each optional purpose names its packages and where to get 
     for (const name of packagesByPurpose[purpose]) assert.ok(sentence.includes(name), `${purpose}: ${name}`);
   }
 });
+
+/** Programs that scripts and tests start, with the package that contains each. `run` installs Node and npm. */
+const packageOfProgram = {
+  cmake: 'cmake',
+  ctest: 'cmake',
+  ninja: 'ninja-build',
+  nm: 'binutils',
+  mono: 'mono-runtime',
+  curl: 'curl',
+  git: 'git',
+  'clang-format': 'clang-format',
+  'clang-tidy': 'clang-tidy',
+  shellcheck: 'shellcheck',
+  'clang-16': 'clang-16',
+  'clang++-16': 'clang-16',
+  'clang-22': 'clang-22',
+  'clang++-22': 'clang-22',
+  python3: 'python3',
+  '/usr/bin/python3': 'python3',
+  wine: 'wine',
+  wine64: 'wine64',
+  'qemu-aarch64': 'qemu-user',
+  debootstrap: 'debootstrap',
+  'x86_64-w64-mingw32-objdump': 'binutils-mingw-w64-x86-64',
+  'x86_64-w64-mingw32-gcc-posix': 'g++-mingw-w64-x86-64-posix',
+  'x86_64-w64-mingw32-g++-posix': 'g++-mingw-w64-x86-64-posix',
+  'x86_64-w64-mingw32-windres': 'binutils-mingw-w64-x86-64',
+  'aarch64-linux-gnu-gcc': 'g++-aarch64-linux-gnu',
+  'aarch64-linux-gnu-g++': 'g++-aarch64-linux-gnu',
+};
 
 /** Text files below a folder of the repository. */
 function filesBelow(folder, pattern) {

@@ -3,7 +3,7 @@ import { spawnSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import test from 'node:test';
 import { withMeasuredPart } from '../../scripts/lib/measured_part.mjs';
-import { modelOfPage } from '../../scripts/lib/model_stamp.mjs';
+import { modelOfPage } from './support/model_of_page.mjs';
 import { inRepository } from '../../scripts/lib/repository.mjs';
 import { soakTable } from '../../scripts/lib/soak_table.mjs';
 

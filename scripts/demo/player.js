@@ -24,12 +24,12 @@
   };
 
   for (const article of document.querySelectorAll('article.render')) {
-    const [audio, button, clock, lanes, playhead, picture] = ['audio', 'button', 'output', '.lanes', '.playhead', '.picture']
+    const [audio, button, clock, lanes, playhead] = ['audio', 'button', 'output', '.lanes', '.playhead']
       .map((selector) => article.querySelector(selector));
-    const seconds = Number(lanes.dataset.seconds);
+    const [seconds, left, width] = ['seconds', 'left', 'width'].map((key) => Number(lanes.dataset[key]));
 
     const show = () => {
-      playhead.style.left = `${picture.offsetLeft + (picture.offsetWidth * audio.currentTime) / seconds}px`;
+      playhead.style.left = `${100 * (left + (width * audio.currentTime) / seconds)}%`;
       clock.textContent = `${audio.currentTime.toFixed(1)} / ${seconds.toFixed(1)} s`;
       if (article === crossing) moveScene(audio.currentTime);
       if (!audio.paused) requestAnimationFrame(show);
@@ -62,8 +62,8 @@
       seek(places[event.key]);
     });
     lanes.addEventListener('click', (event) => {
-      const box = picture.getBoundingClientRect();
-      const share = (event.clientX - box.left) / box.width;
+      const box = lanes.getBoundingClientRect();
+      const share = ((event.clientX - box.left) / box.width - left) / width;
       if (share >= 0 && share <= 1) seek(share * seconds);
     });
   }

@@ -1,10 +1,8 @@
 import { mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { loadAlignment } from '../pack/elf.mjs';
+import { androidPageBytes } from '../pack/rules/plugins.mjs';
 import { CommandError, runOrFail } from './process.mjs';
 import { inRepository } from './repository.mjs';
-
-/** Devices with Android 15 and later may have pages of 16 KiB; they load no library whose segments are aligned to less. */
-export const androidPageBytes = 16384;
 
 /** The linker options for the page size in a link command. */
 export const pageOptions = (command) => [...command.matchAll(/-Wl,-z,max-page-size=\S+/g)].map(([option]) => option);

@@ -11,6 +11,8 @@ export const packagesByPurpose = {
     'python3', 'python3-torch', 'python3-onnx', 'python3-numpy', 'python3-scipy', 'python3-pandas', 'python3-matplotlib',
     'python3-tqdm', 'python3-pytest', 'python3-pytest-xdist', 'python3-openpyxl', 'libopenblas0-pthread',
   ],
+  // What the demo draws its page with.
+  drawings: ['python3-matplotlib', 'python3-scipy'],
   // The compilers for Windows x64 and Linux arm64.
   cross: ['g++-mingw-w64-x86-64-posix', 'binutils-mingw-w64-x86-64', 'g++-aarch64-linux-gnu'],
   // What the tests of those libraries need besides; debootstrap makes the system with an older C library.
@@ -24,36 +26,6 @@ export const packagesByPurpose = {
   // git lists the files that belong to the project.
   files: ['git'],
   lint: ['git', 'clang-format', 'clang-tidy', 'python3', 'shellcheck'],
-};
-
-/** Programs that scripts and tests start, with the package above that contains each. `run` installs Node and npm. */
-export const packageOfProgram = {
-  cmake: 'cmake',
-  ctest: 'cmake',
-  ninja: 'ninja-build',
-  nm: 'binutils',
-  mono: 'mono-runtime',
-  curl: 'curl',
-  git: 'git',
-  'clang-format': 'clang-format',
-  'clang-tidy': 'clang-tidy',
-  shellcheck: 'shellcheck',
-  'clang-16': 'clang-16',
-  'clang++-16': 'clang-16',
-  'clang-22': 'clang-22',
-  'clang++-22': 'clang-22',
-  python3: 'python3',
-  '/usr/bin/python3': 'python3',
-  wine: 'wine',
-  wine64: 'wine64',
-  'qemu-aarch64': 'qemu-user',
-  debootstrap: 'debootstrap',
-  'x86_64-w64-mingw32-objdump': 'binutils-mingw-w64-x86-64',
-  'x86_64-w64-mingw32-gcc-posix': 'g++-mingw-w64-x86-64-posix',
-  'x86_64-w64-mingw32-g++-posix': 'g++-mingw-w64-x86-64-posix',
-  'x86_64-w64-mingw32-windres': 'binutils-mingw-w64-x86-64',
-  'aarch64-linux-gnu-gcc': 'g++-aarch64-linux-gnu',
-  'aarch64-linux-gnu-g++': 'g++-aarch64-linux-gnu',
 };
 
 /**
@@ -105,7 +77,7 @@ export function offeredPackages(wanted, policyOutput) {
  * The entries of a package-lock.json (version 3) that node_modules lacks or has in another version.
  * @param {object} lock parsed lock file
  * @param {(location: string) => string | null} installedVersion version of the package at a location, null where none is
- * @returns {string[]} locations, for example "node_modules/pngjs"
+ * @returns {string[]} locations, for example "node_modules/marked"
  */
 export function missingFromLock(lock, installedVersion) {
   return Object.entries(lock.packages)

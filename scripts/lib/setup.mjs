@@ -101,6 +101,9 @@ function checkForeignSystem(purposes) {
   if (purposes.includes('python') && findPython() === null) {
     wants.push('Python 3.11 with the packages of Training/pyproject.toml (HAPTOFLOW_PYTHON names the interpreter)');
   }
+  if (purposes.includes('drawings') && findPython(drawingModules) === null) {
+    wants.push('Python 3 with numpy, scipy and matplotlib (HAPTOFLOW_PYTHON names the interpreter)');
+  }
   if (wants.length > 0) throw new CommandError(`this system is not Debian; please install:\n  ${wants.join('\n  ')}`, 2);
 }
 
@@ -115,23 +118,26 @@ async function installNodePackages() {
   await runNpmOrFail(['ci']);
 }
 
-const pythonModules = 'import numpy, scipy, torch, onnx, pytest, xdist';
+const trainingModules = 'import numpy, scipy, torch, onnx, pytest, xdist';
+
+/** What the demo draws its page with. */
+export const drawingModules = 'import numpy, scipy, matplotlib';
 
 /**
- * The interpreter for training and its tests: HAPTOFLOW_PYTHON, else the system's own, else the one on PATH.
+ * The interpreter that has modules, by default those of training and its tests: HAPTOFLOW_PYTHON, else the system's own, else the one on PATH.
  * The system's own comes first because another python3 earlier on PATH lacks Debian's packages.
  * @returns {string | null}
  */
-export function findPython() {
+export function findPython(modules = trainingModules) {
   const named = process.env.HAPTOFLOW_PYTHON;
   const candidates = named ? [named] : ['/usr/bin/python3', 'python3', 'python'];
-  return candidates.find((candidate) => succeeds(candidate, ['-c', pythonModules])) ?? null;
+  return candidates.find((candidate) => succeeds(candidate, ['-c', modules])) ?? null;
 }
 
 /** `findPython`, or a CommandError that says what is missing. */
-export function pythonOrFail() {
-  const python = findPython();
+export function pythonOrFail(modules = trainingModules) {
+  const python = findPython(modules);
   if (python) return python;
   const subject = process.env.HAPTOFLOW_PYTHON ? `HAPTOFLOW_PYTHON=${process.env.HAPTOFLOW_PYTHON}` : 'the system\'s Python';
-  throw new CommandError(`${subject} cannot \`${pythonModules}\`: install the packages of Training/pyproject.toml`, 2);
+  throw new CommandError(`${subject} cannot \`${modules}\`: install the packages of Training/pyproject.toml`, 2);
 }

@@ -13,21 +13,14 @@ measured instead, at 1 N, and only printed.
 from __future__ import annotations
 
 import argparse
-import json
-import subprocess
 import tempfile
-import warnings
 from ctypes import byref, c_double, c_float, c_int32, c_uint64, c_void_p
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from native_engine import wave_frames
-from sample_pictures import MODEL, ROOT, save
-from scipy.io import wavfile
+from renders import ENGINE, FULL_SCALE_MPS2, MODEL, ROOT, render, save
 from scipy.signal import butter, sosfiltfilt
 
 from haptoflow_benchmark.engine.engine_library import EngineLibrary, default_engine
@@ -35,7 +28,6 @@ from haptoflow_benchmark.full_scale.measurement import model_labels
 from haptoflow_benchmark.full_scale.recorded_strokes import onto_table, read_recorded_strokes
 from haptoflow_training.model_stamp import model_line, read_measured_page, sha256_of, with_measured_words
 
-ENGINE = ROOT / "build/native/haptoflow"
 PAGE = ROOT / "Documentation~/device-loudness.md"
 ORDINARY = ROOT / "Samples~/HeadlessScenes/tracing.stroke.csv"
 KINDS = ("motor", "parametric", "waveform")
@@ -47,8 +39,6 @@ AUDIO_RATE_HZ = 48000
 # What a device's full amplitude was assumed to be before there was a law; still the default of True Level.
 PROPORTION_MPS2 = 60.0
 DEFAULT_FULL_SCALE_MPS2 = 200.0
-# Far above every texture, so that the limiter changes nothing.
-UNBENT_FULL_SCALE_MPS2 = 1000.0
 SILENT_MPS2 = 1e-3
 LOUDSPEAKER_HZ = 300.0
 MIDDLE_SHARE = 0.35
@@ -56,20 +46,11 @@ MIDDLE_SHARE = 0.35
 STRONGEST_SHARE = 1.0
 
 
-def render(label: str, stroke: Path, rate_hz: int, full_scale: float, *words: str) -> np.ndarray:
+def wave_of(label: str, stroke: Path, rate_hz: int, *words: str, full_scale: float = FULL_SCALE_MPS2) -> np.ndarray:
     """[N], in m/s^2."""
-    with tempfile.TemporaryDirectory() as folder:
-        scene, wav = Path(folder) / "scene.json", Path(folder) / "out.wav"
-        surface = {"name": "plane", "shape": {"plane": {}}, "material": label, "stiffness": 1000}
-        scene.write_text(json.dumps({"surfaces": [surface], "stylus": {"tip_radius": 0.002}}), encoding="utf-8")
-        command = [ENGINE, "render", scene, "--stroke", stroke, "-o", wav, "--rate", rate_hz,
-                   "--full-scale", full_scale, "--quiet", *words]  # fmt: skip
-        done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False)
-        if done.returncode != 0:
-            raise SystemExit(done.stderr)
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", wavfile.WavFileWarning)
-            return wavfile.read(wav)[1].astype(np.float64) * full_scale
+    surface = {"name": "plane", "shape": {"plane": {}}, "material": label, "stiffness": 1000}
+    scene = {"surfaces": [surface], "stylus": {"tip_radius": 0.002}}
+    return render(scene, stroke, "--rate", rate_hz, *words, full_scale_mps2=full_scale).acceleration_mps2
 
 
 def by_frames(values: np.ndarray, seconds: np.ndarray, rate_hz: float, reduce: str) -> np.ndarray:
@@ -215,13 +196,15 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as folder:
         strokes = [ORDINARY] if options.strokes is None else recorded(options.strokes, Path(folder))
         waves = {
-            label: np.concatenate([render(label, each, DEVICE_RATE_HZ, UNBENT_FULL_SCALE_MPS2) for each in strokes])
+            label: np.concatenate([wave_of(label, each, DEVICE_RATE_HZ) for each in strokes])
             for label in labels
         }
         levels = {}
         for label in labels:
             pair = [
-                np.concatenate([render(label, each, AUDIO_RATE_HZ, DEFAULT_FULL_SCALE_MPS2, *words) for each in strokes])
+                np.concatenate([
+                    wave_of(label, each, AUDIO_RATE_HZ, *words, full_scale=DEFAULT_FULL_SCALE_MPS2) for each in strokes
+                ])  # fmt: skip
                 for words in ((), ("--listen",))
             ]
             levels[label] = tuple(decibels_above(wave, hz) for wave in pair for hz in (1.0, LOUDSPEAKER_HZ))

@@ -16,66 +16,39 @@ from __future__ import annotations
 
 import json
 import re
-import subprocess
 import tempfile
-import warnings
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from native_engine import exposure, wave_frames
-from sample_pictures import MODEL, ROOT, save
-from scipy.io import wavfile
+from renders import FULL_SCALE_MPS2, MODEL, ROOT, colour_of, render, render_file, run, save
 from scipy.signal import welch
 
 from haptoflow_benchmark.engine.engine_library import default_engine
 from haptoflow_training.model_stamp import model_line, sha256_of, with_measured_words
 
-ENGINE = ROOT / "build/native/haptoflow"
 IMAGES = ROOT / "Documentation~/images"
 PAGE = ROOT / "Documentation~/effects-and-outputs.md"
 # Statistics of the intensity error, and how each is printed.
 FIGURES = (("mean", "+"), ("mean_magnitude", ""), ("p95", ""))
-# Far above every impact that is drawn, so that the limiter changes nothing.
-FULL_SCALE_MPS2 = 1000.0
 RATE_HZ = 48000
 DEEP_METRES = 0.0005
 # Slower than what counts as a touch-down, 30 mm/s.
 SINKING_MPS = 0.02
-COLOURS = {"rubber": "#5d5566", "wood": "#b9793f", "stone": "#7d8590"}
 
 
-class Folder:
-    """Renders scenes and strokes to vibrations in m/s^2."""
+def wave_of(surfaces: list[dict], stroke: np.ndarray, *words: str) -> np.ndarray:
+    """[N] in m/s^2 at RATE_HZ."""
+    return render({"surfaces": surfaces}, stroke, *words).acceleration_mps2
 
-    def __init__(self, path: Path) -> None:
-        self._path = path
 
-    def render(self, surfaces: list[dict], stroke: np.ndarray, *words: str) -> np.ndarray:
-        """[N] at RATE_HZ."""
-        wav = self._path / "out.wav"
-        self._run(surfaces, stroke, wav, *words)
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", wavfile.WavFileWarning)
-            return wavfile.read(wav)[1].astype(np.float64) * FULL_SCALE_MPS2
-
-    def intensity_errors(self, surfaces: list[dict], stroke: np.ndarray) -> dict[str, dict[str, float]]:
-        """Intensity errors of the frames and of a motor, in dB: see `haptoflow render -o x.json`."""
-        frames = self._path / "out.json"
-        self._run(surfaces, stroke, frames)
+def intensity_errors(surfaces: list[dict], stroke: np.ndarray) -> dict[str, dict[str, float]]:
+    """Intensity errors of the frames and of a motor, in dB: see `haptoflow render -o x.json`."""
+    with tempfile.TemporaryDirectory() as folder:
+        frames = Path(folder) / "out.json"
+        render_file({"surfaces": surfaces}, stroke, frames, "--full-scale", FULL_SCALE_MPS2)
         return json.loads(frames.read_text(encoding="utf-8"))["intensity_error_db"]
-
-    def _run(self, surfaces: list[dict], stroke: np.ndarray, output: Path, *words: str) -> None:
-        scene, table = self._path / "scene.json", self._path / "stroke.csv"
-        scene.write_text(json.dumps({"surfaces": surfaces}), encoding="utf-8")
-        np.savetxt(table, stroke, fmt="%.7f", delimiter=",", header="t,x,y,z,force", comments="")
-        command = [ENGINE, "render", scene, "--stroke", table, "-o", output, "--quiet", "--full-scale", FULL_SCALE_MPS2]
-        done = subprocess.run([*map(str, command), *words], capture_output=True, text=True, check=False)
-        if done.returncode != 0:
-            raise SystemExit(done.stderr)
 
 
 def plane(label: str) -> dict:
@@ -122,16 +95,17 @@ def first_sound(wave: np.ndarray) -> int:
     return int(np.argmax(np.abs(wave) > 1e-6))
 
 
-def impact_picture(folder: Folder) -> plt.Figure:
+def impact_picture() -> plt.Figure:
     figure, (waves, law) = plt.subplots(1, 2, figsize=(10.0, 3.6), layout="constrained")
-    for place, (label, colour) in enumerate(COLOURS.items()):
-        wave = folder.render([plane(label)], drop(0.6), "--effects", "impact")
+    for place, label in enumerate(("rubber", "wood", "stone")):
+        colour = colour_of(label)
+        wave = wave_of([plane(label)], drop(0.6), "--effects", "impact")
         begin = first_sound(wave)
         seconds = np.arange(int(0.06 * RATE_HZ)) / RATE_HZ
         waves.plot(1000.0 * seconds, wave[begin : begin + len(seconds)] - 500.0 * place, color=colour)
         waves.annotate(label, (58.0, 40.0 - 500.0 * place), color=colour, ha="right")
         speeds = np.geomspace(0.01, 2.0, 9)
-        peaks = [np.abs(folder.render([plane(label)], drop(speed), "--effects", "impact")).max() for speed in speeds]
+        peaks = [np.abs(wave_of([plane(label)], drop(speed), "--effects", "impact")).max() for speed in speeds]
         law.loglog(speeds, peaks, "o-", color=colour, label=label, markersize=4)
     waves.set(xlabel="ms after the landing", ylabel="m/s², one below the other", title="A landing at 0.6 m/s")
     waves.set_yticks([0, -500, -1000], ["0", "0", "0"])
@@ -141,7 +115,7 @@ def impact_picture(folder: Folder) -> plt.Figure:
     return figure
 
 
-def edge_picture(folder: Folder) -> plt.Figure:
+def edge_picture() -> plt.Figure:
     figure, (waves, law) = plt.subplots(1, 2, figsize=(10.0, 3.6), layout="constrained")
     pairs = {
         "a step down of 2 mm, wood": ("wood", "wood", 0.002),
@@ -154,7 +128,7 @@ def edge_picture(folder: Folder) -> plt.Figure:
         energies = []
         speeds = [0.02, 0.05, 0.1, 0.2, 0.3, 0.5]
         for speed in speeds:
-            wave = folder.render(scene, slide(speed, height), "--effects", "edge")
+            wave = wave_of(scene, slide(speed, height), "--effects", "edge")
             energies.append(np.sum(wave**2) / RATE_HZ)
             if speed == 0.2:
                 begin = int(0.49 * RATE_HZ)
@@ -169,14 +143,14 @@ def edge_picture(folder: Folder) -> plt.Figure:
     return figure
 
 
-def delay_picture(folder: Folder) -> plt.Figure:
+def delay_picture() -> plt.Figure:
     figure, axes = plt.subplots(figsize=(10.0, 2.6), layout="constrained")
     times = np.arange(0.0, 0.8, 0.002)
     x = 0.2 * np.clip(times - 0.15, 0.0, 0.3)
     height = np.where(times < 0.45, np.maximum(0.6 * (0.1 - times), -DEEP_METRES), 0.01)
     stroke = stroke_of(times, x, height)
     for place, milliseconds in enumerate((0, 100)):
-        wave = folder.render([plane("wood")], stroke, "--effects", "texture,impact", "--delay-ms", str(milliseconds))
+        wave = wave_of([plane("wood")], stroke, "--effects", "texture,impact", "--delay-ms", str(milliseconds))
         axes.plot(np.arange(len(wave)) / RATE_HZ, wave - 150.0 * place, linewidth=0.6, label=f"delay {milliseconds} ms")
     axes.set(xlabel="s", ylabel="m/s², one below the other", title="A landing and a stroke of 0.3 s")
     axes.set_yticks([0, -150], ["0", "0"])
@@ -184,7 +158,7 @@ def delay_picture(folder: Folder) -> plt.Figure:
     return figure
 
 
-def guard_picture(_: Folder) -> plt.Figure:
+def guard_picture() -> plt.Figure:
     figure, (levels, gains) = plt.subplots(2, 1, figsize=(10.0, 4.4), sharex=True, layout="constrained")
     minutes = 40.0
     engine = default_engine(ROOT)
@@ -204,13 +178,13 @@ def guard_picture(_: Folder) -> plt.Figure:
     return figure
 
 
-def features_picture(folder: Folder) -> plt.Figure:
+def features_picture() -> plt.Figure:
     figure, (wave_axes, controller, motor) = plt.subplots(3, 1, figsize=(10.0, 6.0), sharex=True, layout="constrained")
     times = np.arange(0.0, 1.0, 0.002)
     x = 0.2 * np.clip(times - 0.2, 0.0, 0.5)
     height = np.where(times < 0.8, np.maximum(0.6 * (0.1 - times), -DEEP_METRES), 0.01)
     stroke = stroke_of(times, x, height)
-    wave = folder.render([plane("concrete")], stroke, "--effects", "texture,impact")
+    wave = wave_of([plane("concrete")], stroke, "--effects", "texture,impact")
     wave_axes.plot(np.arange(len(wave)) / RATE_HZ, wave, linewidth=0.6, color="#444")
     wave_axes.set(ylabel="m/s²", title="Wanted: a landing and a stroke on concrete")
     engine = default_engine(ROOT)
@@ -230,7 +204,7 @@ def features_picture(folder: Folder) -> plt.Figure:
     return figure
 
 
-def controller_picture(_: Folder) -> plt.Figure:
+def controller_picture() -> plt.Figure:
     figure, axes = plt.subplots(figsize=(10.0, 3.4), layout="constrained")
     for name, rate_hz, colour, title in (("audio", 48000, "#444", "wanted: an audio output at 48 kHz"),
                                          ("controller", 2000, "#3465a4", "sent to a controller at 2 kHz")):
@@ -247,10 +221,10 @@ def controller_picture(_: Folder) -> plt.Figure:
     return figure
 
 
-def label_table(folder: Folder) -> str:
+def label_table() -> str:
     """The losses of each label: the actuator's spectrum, with and without compensation, and the intensity of frames."""
-    shown = subprocess.run([ENGINE, "actuator", "show", "voice-coil", "--labels"], capture_output=True, text=True, check=True)
-    rows = re.findall(r"^  ([a-z ]+?) +([0-9.]+) +([0-9.]+)$", shown.stdout.split("Log-spectral distance")[1], re.MULTILINE)
+    shown = run("actuator", "show", "voice-coil", "--labels")
+    rows = re.findall(r"^  ([a-z ]+?) +([0-9.]+) +([0-9.]+)$", shown.split("Log-spectral distance")[1], re.MULTILINE)
     lines = [
         model_line(sha256_of(MODEL)),
         "",
@@ -258,7 +232,7 @@ def label_table(folder: Folder) -> str:
         "|---|---|---|---|---|",
     ]
     for label, plain, compensated in rows:
-        errors = folder.intensity_errors([plane(label)], accelerating())
+        errors = intensity_errors([plane(label)], accelerating())
         cells = [" / ".join(f"{errors[kind][name]:{sign}.1f}" for name, sign in FIGURES) for kind in errors]
         lines.append(f"| {label} | {float(plain):.1f} | {float(compensated):.1f} | {' | '.join(cells)} |")
     return "\n".join(lines)
@@ -274,14 +248,10 @@ def main() -> None:
         "features-of-the-wave": features_picture,
         "output-controller-waveform": controller_picture,
     }
-    with tempfile.TemporaryDirectory() as folder:
-        table = label_table(Folder(Path(folder)))
-        PAGE.write_text(with_measured_words(PAGE.read_text(encoding="utf-8"), table), encoding="utf-8")
-        print(PAGE.relative_to(ROOT))
-        for name, draw in pictures.items():
-            file = IMAGES / f"{name}.png"
-            save(draw(Folder(Path(folder))), file)
-            print(file.relative_to(ROOT))
+    PAGE.write_text(with_measured_words(PAGE.read_text(encoding="utf-8"), label_table()), encoding="utf-8")
+    print(PAGE.relative_to(ROOT))
+    for name, draw in pictures.items():
+        save(draw(), IMAGES / f"{name}.png")
 
 
 if __name__ == "__main__":

@@ -2,7 +2,7 @@
 
 Run from the repository's root, after `npm run build`:
 
-    /usr/bin/python3 scripts/pack/readme_picture.py [--engine build/native/haptoflow]
+    /usr/bin/python3 scripts/pack/readme_picture.py
 
 Scene and stroke are `crossing` of Samples~/HeadlessScenes, rendered by the command line with the shipped model. Top: the scene
 from above, the stroke solid where the tip touches and dotted where it does not. Below: acceleration in m/s^2 and its
@@ -11,37 +11,20 @@ spectrogram.
 
 from __future__ import annotations
 
-import argparse
 import json
-import tempfile
-from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.patches import Circle, FancyBboxPatch, Rectangle
+from matplotlib.patches import Polygon
 from matplotlib.patheffects import withStroke
-from sample_pictures import COLOURS, ROOT, SAMPLES, Render, draw_spectrogram, render, save
+from renders import ROOT, SAMPLES, Render, colour_of, draw_spectrogram, labels_of, render, save
+from scene_view import outline, rest_of
 
 SCENE = SAMPLES / "HeadlessScenes/crossing.scene.json"
 STROKE = SAMPLES / "HeadlessScenes/crossing.stroke.csv"
 PICTURE = ROOT / "Documentation~/images/stroke.png"
-# Labels that the pictures of the samples do not show.
-OTHER_COLOURS = {"plywood": "#d9b98c", "brick": "#b5533c"}
 INK = "#1c1c1e"
-
-
-def colour_of(label: str) -> str:
-    return COLOURS.get(label) or OTHER_COLOURS[label]
-
-
-def label_of(surface: dict) -> str:
-    """The label of a surface; of a blend, the heaviest."""
-    material = surface["material"]
-    return material if isinstance(material, str) else max(material, key=material.get)
 
 
 def name_of(surface: dict) -> str:
@@ -61,33 +44,18 @@ def free_height(path: np.ndarray, x: float, z: float, reach: float) -> float:
 
 def draw_surface(axes: Axes, surface: dict, path: np.ndarray) -> None:
     """A surface from above, as it lies when the scene starts, with its name clear of the path [n, 2]."""
-    label = label_of(surface)
-    pose = surface["motion"]["keyframes"][0] if "motion" in surface else surface
-    x, _, z = pose["position"]
-    _, turn_y, _, turn_w = pose["rotation"]
-    ((kind, shape),) = surface["shape"].items()
-    if kind == "plane":
-        axes.set_facecolor(colour_of(label) + "55")
+    colour = colour_of(labels_of(surface)[0])
+    if "plane" in surface["shape"]:
+        axes.set_facecolor(colour + "55")
         axes.text(-0.51, -0.22, name_of(surface), ha="left", va="bottom", fontsize=11)
         return
-    if kind == "sphere":
-        patch, half = Circle((x, z), shape["radius"]), shape["radius"]
-    elif kind == "capsule":
-        # This scene's capsule lies along x.
-        length, radius = shape["height"], shape["radius"]
-        patch = FancyBboxPatch((x - length / 2 + radius, z - 0.001), length - 2 * radius, 0.002,
-                               boxstyle=f"round,pad={radius}")
-        half = radius
-    else:
-        width, _, depth = shape["size"]
-        # Unity's frame is left-handed: a positive rotation about y is clockwise from above.
-        degrees = -np.degrees(2.0 * np.arctan2(turn_y, turn_w))
-        patch = Rectangle((x - width / 2, z - depth / 2), width, depth, angle=degrees, rotation_point="center")
-        half = depth / 2
-    patch.set(facecolor=colour_of(label), edgecolor="none", alpha=0.85)
-    axes.add_patch(patch)
-    axes.text(x, free_height(path, x, z, half - 0.015), name_of(surface), ha="center", va="center", fontsize=11, zorder=6,
-              path_effects=[withStroke(linewidth=3.0, foreground="white")])
+    corners = outline(surface, [0, 2])
+    axes.add_patch(Polygon(corners, facecolor=colour, edgecolor="none", alpha=0.85))
+    x, _, z = rest_of(surface)
+    ((_, shape),) = surface["shape"].items()
+    reach = shape["size"][2] / 2 if "size" in shape else np.ptp(corners[:, 1]) / 2
+    axes.text(x, free_height(path, x, z, reach - 0.015), name_of(surface), ha="center", va="center", fontsize=11,
+              zorder=6, path_effects=[withStroke(linewidth=3.0, foreground="white")])
 
 
 def draw_scene(axes: Axes, scene: dict, stroke: np.ndarray, touching: np.ndarray) -> None:
@@ -102,20 +70,14 @@ def draw_scene(axes: Axes, scene: dict, stroke: np.ndarray, touching: np.ndarray
 
 def draw_touches(axes: Axes, scene: dict, felt: Render) -> None:
     """A coloured band for each touch."""
-    labels = {surface["name"]: label_of(surface) for surface in scene["surfaces"]}
-    touched = [row["surface"] if float(row["touching"]) > 0.5 else "" for row in felt.contacts]
-    changes = [0, *(index for index in range(1, len(touched)) if touched[index] != touched[index - 1]), len(touched)]
-    times = [float(row["t"]) for row in felt.contacts] + [felt.seconds]
-    for begin, end in zip(changes, changes[1:], strict=False):
-        if touched[begin]:
-            label = labels[touched[begin]]
-            axes.axvspan(times[begin], times[end], color=colour_of(label), alpha=0.45, linewidth=0.0)
+    labels = {surface["name"]: labels_of(surface)[0] for surface in scene["surfaces"]}
+    for surface, begin, end in felt.touches():
+        axes.axvspan(begin, end, color=colour_of(labels[surface]), alpha=0.45, linewidth=0.0)
 
 
 def draw_wave(axes: Axes, scene: dict, felt: Render) -> None:
     draw_touches(axes, scene, felt)
-    times = np.arange(len(felt.acceleration_mps2)) / felt.rate_hz
-    axes.plot(times, felt.acceleration_mps2, color=INK, linewidth=0.35)
+    axes.plot(felt.times, felt.acceleration_mps2, color=INK, linewidth=0.35)
     reach = 1.1 * float(np.abs(felt.acceleration_mps2).max())
     axes.set(xlim=(0.0, felt.seconds), ylim=(-reach, reach), ylabel="m/s²", xticklabels=[])
 
@@ -123,25 +85,15 @@ def draw_wave(axes: Axes, scene: dict, felt: Render) -> None:
 def draw_picture(felt: Render) -> plt.Figure:
     scene = json.loads(SCENE.read_text(encoding="utf-8"))
     stroke = np.loadtxt(STROKE, delimiter=",", skiprows=1)
-    times = [float(row["t"]) for row in felt.contacts]
-    touching = np.interp(stroke[:, 0], times, [float(row["touching"]) for row in felt.contacts]) > 0.5
     figure, (above, wave, colours) = plt.subplots(
         3, 1, figsize=(9.6, 6.6), height_ratios=(3.7, 1.2, 1.2), layout="constrained"
     )
-    draw_scene(above, scene, stroke, touching)
+    draw_scene(above, scene, stroke, felt.touching(stroke[:, 0]))
     draw_wave(wave, scene, felt)
     draw_spectrogram(colours, felt)
     colours.set(xlim=(0.0, felt.seconds), ylabel="Hz", xlabel="seconds")
     return figure
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--engine", type=Path, default=ROOT / "build/native/haptoflow")
-    engine = parser.parse_args().engine
-    with tempfile.TemporaryDirectory() as folder:
-        save(draw_picture(render(engine, SCENE, STROKE, Path(folder))), PICTURE)
-
-
 if __name__ == "__main__":
-    main()
+    save(draw_picture(render(SCENE, STROKE)), PICTURE)

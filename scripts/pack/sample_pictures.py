@@ -2,7 +2,7 @@
 
 Run from the repository's root, after `npm run build`:
 
-    /usr/bin/python3 scripts/pack/sample_pictures.py [--engine build/native/haptoflow]
+    /usr/bin/python3 scripts/pack/sample_pictures.py
 
 StylusTracing.png: the scene as its camera sees it with a stroke, the vibration in m/s^2, and its spectrogram.
 TextureGallery.png: the wall of tiles, in their colours, with the same stroke of 12 cm, there and back, on each label of
@@ -13,94 +13,20 @@ the weights, the vibration in m/s^2, and its spectrogram.
 
 from __future__ import annotations
 
-import argparse
 import colorsys
-import csv
-import hashlib
-import io
 import json
 import re
-import subprocess
-import tempfile
-import warnings
-from dataclasses import dataclass
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import PolyCollection
 from matplotlib.patheffects import withStroke
-from PIL import Image, PngImagePlugin
-from scipy.io import wavfile
-from scipy.signal import spectrogram
+from renders import MODEL, SAMPLES, Render, colour_of, draw_spectrogram, render, run, save
 from scene_view import Camera, draw_solids, facets
+from scipy.signal import spectrogram
 
-ROOT = Path(__file__).resolve().parents[2]
-SAMPLES = ROOT / "Samples~"
-MODEL = ROOT / "Packages/com.haptoflow.runtime/Runtime/Models/default.haptoflow"
-# Far above every texture, so that the limiter changes nothing.
-FULL_SCALE_MPS2 = 1000.0
-TOP_HZ = 1000.0
-COLOURS = {
-    "wood": "#b9793f", "stone": "#7d8590", "corduroy": "#8f5fa8", "metal mesh": "#5b7fb5",
-    "sandpaper": "#d98e2b", "glass": "#6fb7c4", "rubber": "#5d5566", "jute": "#b59a4c",
-}
-
-
-@dataclass(frozen=True)
-class Render:
-    """A vibration in m/s^2 [N] at `rate_hz`, and the tip's contact: columns of `haptoflow contact`."""
-
-    rate_hz: int
-    acceleration_mps2: np.ndarray
-    contacts: list[dict[str, str]]
-
-    @property
-    def seconds(self) -> float:
-        return len(self.acceleration_mps2) / self.rate_hz
-
-
-def run(engine: Path, *words: object) -> str:
-    return subprocess.run([str(engine), *map(str, words)], check=True, capture_output=True, text=True).stdout
-
-
-def render(engine: Path, scene: Path, stroke: Path, folder: Path) -> Render:
-    wav = folder / "felt.wav"
-    run(engine, "render", scene, "--stroke", stroke, "-o", wav, "--full-scale", FULL_SCALE_MPS2, "--quiet")
-    with warnings.catch_warnings():
-        # SciPy does not know the chunk in which the engine stores its settings.
-        warnings.simplefilter("ignore", wavfile.WavFileWarning)
-        rate_hz, samples = wavfile.read(wav)
-    contacts = list(csv.DictReader(run(engine, "contact", scene, "--stroke", stroke).splitlines()))
-    return Render(rate_hz, FULL_SCALE_MPS2 * samples, contacts)
-
-
-def draw_spectrogram(axes: plt.Axes, felt: Render, top_db: float | None = None, range_db: float = 60.0) -> None:
-    """Decibels up to top_db of power density; without top_db, up to the loudest bin."""
-    window = int(0.064 * felt.rate_hz)
-    frequencies, times, power = spectrogram(
-        felt.acceleration_mps2, felt.rate_hz, nperseg=window, noverlap=window * 7 // 8
-    )
-    shown = frequencies <= TOP_HZ
-    levels = 10.0 * np.log10(power[shown] + 1e-20)
-    top = float(levels.max()) if top_db is None else top_db
-    axes.imshow(
-        levels, origin="lower", aspect="auto", cmap="inferno", vmin=top - range_db, vmax=top,
-        extent=(times[0], times[-1], 0.0, TOP_HZ), interpolation="bilinear",
-    )
-
-
-def save(figure: plt.Figure, file: Path) -> None:
-    """Save with a palette, at a quarter of the size and without visible difference."""
-    pixels = io.BytesIO()
-    figure.savefig(pixels, dpi=100)
-    plt.close(figure)
-    text = PngImagePlugin.PngInfo()
-    text.add_text("Model-SHA-256", hashlib.sha256(MODEL.read_bytes()).hexdigest())
-    Image.open(pixels).convert("RGB").quantize(200).save(file, optimize=True, pnginfo=text)
+NAMED = {"ha": "center", "va": "center", "path_effects": [withStroke(linewidth=3.0, foreground="white")], "zorder": 7}
 
 
 def draw_scene(axes: plt.Axes, scene: dict, felt: Render, stroke: np.ndarray) -> None:
@@ -110,9 +36,8 @@ def draw_scene(axes: plt.Axes, scene: dict, felt: Render, stroke: np.ndarray) ->
     far_first = sorted(objects, key=lambda surface: -facets(surface)[..., 2].mean())
     # The table hides everything below it.
     shown = [(np.maximum(facets(surface), [-np.inf, 0.0, -np.inf]), surface["material"]) for surface in far_first]
-    draw_solids(axes, camera, [(faces, COLOURS[label]) for faces, label in ((facets(table), table["material"]), *shown)])
-    times = [float(row["t"]) for row in felt.contacts]
-    held = np.interp(stroke[:, 0], times, [float(row["touching"]) for row in felt.contacts]) > 0.5
+    draw_solids(axes, camera, [(faces, colour_of(label)) for faces, label in ((facets(table), table["material"]), *shown)])
+    held = felt.touching(stroke[:, 0])
     path = camera.seen(stroke[:, 1:4])
     axes.plot(path[:, 0], path[:, 1], color="#222222", linewidth=0.7, linestyle=":")
     axes.plot(np.where(held, path[:, 0], np.nan), path[:, 1], color="black", linewidth=2.0)
@@ -122,14 +47,9 @@ def draw_scene(axes: plt.Axes, scene: dict, felt: Render, stroke: np.ndarray) ->
         place[2] = corners[:, 2].min() - 0.016
         slides = " (slides)" if "motion" in surface else ""
         right, up, _ = camera.seen(np.array([0.22, 0.0, -0.27]) if surface is table else place)
-        axes.text(
-            right, up, surface["material"] + slides, ha="center", va="center", fontsize=10,
-            path_effects=[withStroke(linewidth=3.0, foreground="white")], zorder=7,
-        )
+        axes.text(right, up, surface["material"] + slides, fontsize=10, **NAMED)
     draw_pen(axes, camera, stroke[np.flatnonzero(held)[-1], 1:4])
-    axes.set_xlim(-0.83, 0.83)
-    axes.set_ylim(-0.43, 0.36)
-    axes.set_aspect("equal")
+    axes.set(xlim=(-0.83, 0.83), ylim=(-0.43, 0.36), aspect="equal")
     axes.axis("off")
 
 
@@ -152,62 +72,46 @@ def draw_pen(axes: plt.Axes, camera: Camera, tip: np.ndarray) -> None:
 
 def draw_touches(axes: plt.Axes, scene: dict, felt: Render) -> None:
     label_of = {surface["name"]: surface["material"] for surface in scene["surfaces"]}
-    times = [float(row["t"]) for row in felt.contacts]
-    begin = 0
-    for index in range(1, len(times) + 1):
-        if index < len(times) and felt.contacts[index]["surface"] == felt.contacts[begin]["surface"]:
-            continue
-        label = label_of.get(felt.contacts[begin]["surface"])
-        if label is not None:
-            end = times[min(index, len(times) - 1)]
-            axes.axvspan(times[begin], end, color=COLOURS[label], alpha=0.3, linewidth=0.0)
-            axes.text((times[begin] + end) / 2.0, 0.97, label, ha="center", va="top", fontsize=8,
-                      transform=axes.get_xaxis_transform())
-        begin = index
+    for surface, begin, end in felt.touches():
+        label = label_of[surface]
+        axes.axvspan(begin, end, color=colour_of(label), alpha=0.3, linewidth=0.0)
+        axes.text((begin + end) / 2.0, 0.97, label, ha="center", va="top", fontsize=8,
+                  transform=axes.get_xaxis_transform())  # fmt: skip
 
 
-def tracing_picture(engine: Path, folder: Path, file: Path) -> None:
+def tracing_picture(file: Path) -> None:
     scene_file = SAMPLES / "StylusTracing/StylusTracing.scene.json"
     stroke_file = SAMPLES / "StylusTracing/StylusTracing.stroke.csv"
-    felt = render(engine, scene_file, stroke_file, folder)
+    felt = render(scene_file, stroke_file)
     scene = json.loads(scene_file.read_text(encoding="utf-8"))
     figure, (above, wave, colours) = plt.subplots(
         3, 1, figsize=(9.6, 8.4), height_ratios=(3.6, 1.2, 1.6), layout="constrained"
     )
     figure.suptitle("The sample's scene, drawn from its scene file: not a screenshot of Unity", fontsize=10)
     draw_scene(above, scene, felt, np.loadtxt(stroke_file, delimiter=",", skiprows=1))
-    times = np.arange(len(felt.acceleration_mps2)) / felt.rate_hz
-    wave.plot(times, felt.acceleration_mps2, color="#1f4e79", linewidth=0.3)
+    wave.plot(felt.times, felt.acceleration_mps2, color="#1f4e79", linewidth=0.3)
     reach = 1.35 * np.abs(felt.acceleration_mps2).max()
-    wave.set_ylim(-reach, reach)
-    wave.set_ylabel("m/s²")
-    wave.set_xticklabels([])
+    wave.set(ylim=(-reach, reach), ylabel="m/s²", xticklabels=[])
     draw_touches(wave, scene, felt)
     draw_spectrogram(colours, felt)
-    colours.set_ylabel("Hz")
-    colours.set_xlabel("seconds")
+    colours.set(ylabel="Hz", xlabel="seconds")
     for axes in (wave, colours):
         axes.set_xlim(0.0, felt.seconds)
     save(figure, file)
 
 
-def there_and_back(seconds: float = 0.7, metres: float = 0.12) -> str:
+def there_and_back(seconds: float = 0.7, metres: float = 0.12) -> np.ndarray:
     """A stroke over a tile, 1 mm deep under a tip of 2 mm: minimum jerk, there and back."""
-    lines = ["t,x,y,z"]
-    for frame in range(int(2 * seconds * 120) + 1):
-        time = frame / 120.0
-        share = time / seconds if time <= seconds else 2.0 - time / seconds
-        way = share**3 * (10.0 - 15.0 * share + 6.0 * share**2)
-        lines.append(f"{time:.6f},{metres * (way - 0.5):.6f},0.001,0")
-    return "\n".join(lines) + "\n"
+    times = np.arange(int(2 * seconds * 120) + 1) / 120.0
+    share = np.where(times <= seconds, times / seconds, 2.0 - times / seconds)
+    way = share**3 * (10.0 - 15.0 * share + 6.0 * share**2)
+    return np.column_stack(np.broadcast_arrays(times, metres * (way - 0.5), 0.001, 0.0))
 
 
-def gallery_picture(engine: Path, folder: Path, file: Path) -> None:
-    header = json.loads(run(engine, "inspect", MODEL, "--json"))["header"]
+def gallery_picture(file: Path) -> None:
+    header = json.loads(run("inspect", MODEL, "--json"))["header"]
     labels = [label["name"] for label in header["labels"]]
-    stroke = folder / "tile.stroke.csv"
-    stroke.write_text(there_and_back(), encoding="utf-8")
-    felt = [tile_render(engine, label, stroke, folder) for label in labels]
+    felt = [tile_render(label) for label in labels]
     reach = np.ceil(max(np.abs(one.acceleration_mps2).max() for one in felt) / 10.0) * 10.0
     top_db = max(10.0 * np.log10(spectrogram(one.acceleration_mps2, one.rate_hz)[2].max()) for one in felt)
     # The same layout as in Wall.cs.
@@ -233,13 +137,10 @@ def gallery_picture(engine: Path, folder: Path, file: Path) -> None:
     save(figure, file)
 
 
-def tile_render(engine: Path, label: str, stroke: Path, folder: Path) -> Render:
-    scene = folder / "tile.scene.json"
+def tile_render(label: str) -> Render:
     shape = {"box": {"size": [0.13, 0.02, 0.09]}}
     tile = {"name": "tile", "shape": shape, "position": [0, -0.01, 0], "material": label}
-    described = {"surfaces": [tile], "stylus": {"tip_radius": 0.002}, "update_rate": 72}
-    scene.write_text(json.dumps(described), encoding="utf-8")
-    return render(engine, scene, stroke, folder)
+    return render({"surfaces": [tile], "stylus": {"tip_radius": 0.002}, "update_rate": 72}, there_and_back())
 
 
 def draw_tile(
@@ -297,13 +198,8 @@ def draw_workshop(axes: plt.Axes) -> None:
     ]  # fmt: skip
     for place, text in names:
         right, up, _ = camera.seen(np.array(place))
-        axes.text(
-            right, up, text, ha="center", va="center", fontsize=9,
-            path_effects=[withStroke(linewidth=3.0, foreground="white")], zorder=7,
-        )
-    axes.set_xlim(-0.83, 0.83)
-    axes.set_ylim(-0.43, 0.36)
-    axes.set_aspect("equal")
+        axes.text(right, up, text, fontsize=9, **NAMED)
+    axes.set(xlim=(-0.83, 0.83), ylim=(-0.43, 0.36), aspect="equal")
     axes.axis("off")
 
 
@@ -340,7 +236,7 @@ def draw_pane(axes: plt.Axes, camera: Camera) -> None:
     axes.add_collection(PolyCollection(cells, facecolors=colours.reshape(-1, 3), edgecolors="face", linewidths=0.4))
 
 
-def workshop_picture(engine: Path, folder: Path, file: Path) -> None:
+def workshop_picture(file: Path) -> None:
     seconds = 1.6
     edges = np.linspace(0.0, GARDEN_SIZE[0], GARDEN_STRIPS + 1)
     strips = [
@@ -351,15 +247,10 @@ def workshop_picture(engine: Path, folder: Path, file: Path) -> None:
         }
         for index, (low, high) in enumerate(zip(edges[:-1], edges[1:], strict=True))
     ]  # fmt: skip
-    scene = folder / "garden.scene.json"
-    described = {"surfaces": strips, "stylus": {"tip_radius": 0.002}, "update_rate": 120}
-    scene.write_text(json.dumps(described), encoding="utf-8")
     times = np.arange(int(seconds * 120) + 1) / 120.0
     places = 0.01 + (GARDEN_SIZE[0] - 0.02) * times / seconds
-    stroke = folder / "garden.stroke.csv"
-    rows = [f"{time:.6f},{place:.6f},0.001,0" for time, place in zip(times, places, strict=True)]
-    stroke.write_text("\n".join(["t,x,y,z", *rows]) + "\n", encoding="utf-8")
-    felt = render(engine, scene, stroke, folder)
+    stroke = np.column_stack(np.broadcast_arrays(times, places, 0.001, 0.0))
+    felt = render({"surfaces": strips, "stylus": {"tip_radius": 0.002}, "update_rate": 120}, stroke)
     figure, (above, shares, wave, colours) = plt.subplots(
         4, 1, figsize=(9.6, 9.0), height_ratios=(3.6, 0.7, 1.1, 1.5), layout="constrained"
     )
@@ -374,8 +265,7 @@ def workshop_picture(engine: Path, folder: Path, file: Path) -> None:
     )
     shares.set(ylabel="weights", ylim=(0.0, 1.0), xticklabels=[])
     shares.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False)
-    heard = np.arange(len(felt.acceleration_mps2)) / felt.rate_hz
-    wave.plot(heard, felt.acceleration_mps2, color="#1f4e79", linewidth=0.3)
+    wave.plot(felt.times, felt.acceleration_mps2, color="#1f4e79", linewidth=0.3)
     wave.set(ylabel="m/s²", xticklabels=[])
     draw_spectrogram(colours, felt)
     colours.set(ylabel="Hz", xlabel="seconds")
@@ -390,15 +280,9 @@ def blend_at(along: float) -> dict[str, float]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--engine", type=Path, default=ROOT / "build/native/haptoflow")
-    engine = parser.parse_args().engine
     pictures = {"StylusTracing": tracing_picture, "TextureGallery": gallery_picture, "Workshop": workshop_picture}
-    with tempfile.TemporaryDirectory() as folder:
-        for sample, draw in pictures.items():
-            file = SAMPLES / sample / f"{sample}.png"
-            draw(engine, Path(folder), file)
-            print(file.relative_to(ROOT))
+    for sample, draw in pictures.items():
+        draw(SAMPLES / sample / f"{sample}.png")
 
 
 if __name__ == "__main__":

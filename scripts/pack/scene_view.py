@@ -8,6 +8,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import to_rgb
+from scipy.spatial import ConvexHull
 from scipy.spatial.transform import Rotation
 
 # Unity's frame: y up, left-handed, a camera looks along its own z. The direction towards the light, as in the samples'
@@ -43,6 +44,17 @@ def facets(surface: dict) -> np.ndarray:
         capsule = shape["capsule"]
         local = _ball(capsule["radius"], capsule["height"] / 2.0 - capsule["radius"])
     return turn.apply(local.reshape(-1, 3)).reshape(-1, 4, 3) + np.array(rest["position"])
+
+
+def rest_of(surface: dict) -> np.ndarray:
+    """Where a drawing shows a surface: its own place, or the first of its motion."""
+    return np.array(surface.get("motion", {}).get("keyframes", [surface])[0]["position"])
+
+
+def outline(surface: dict, plane_of: list[int]) -> np.ndarray:
+    """[n, 2] corners in a view along an axis of the world."""
+    points = facets(surface).reshape(-1, 3)[:, plane_of]
+    return points[ConvexHull(points).vertices]
 
 
 def _box(half: np.ndarray) -> np.ndarray:

@@ -1,14 +1,13 @@
 // Puts together what a release offers: both tarballs, the demo's page, notes and checksums; --help
-import { copyFileSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+import { copyFileSync, cpSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import { createHash } from 'node:crypto';
 import path from 'node:path';
 import { parseArgs } from 'node:util';
-import { CommandError, runMain } from '../lib/process.mjs';
+import { CommandError, runMain, runOrFail } from '../lib/process.mjs';
 import { callerFolder, inRepository } from '../lib/repository.mjs';
 import { dependencyName } from '../pack/dependency.mjs';
 import { packageName } from '../pack/layout.mjs';
 import { platforms, pluginsFolder } from '../pack/natives.mjs';
-import { streamTarball } from '../pack/stream_tarball.mjs';
 import { readTarball } from '../pack/tarball.mjs';
 import { tarballOf } from './tarballs.mjs';
 
@@ -41,7 +40,7 @@ export function changesOf(changelog, version) {
 }
 
 function notesOf({ runtime, tarball, files, version }) {
-  const rows = platforms.map(({ name, place }) => `| ${name} | ${files.has(`package/${pluginsFolder}/${place}`) ? 'yes' : 'no'} |`);
+  const rows = platforms.map(({ name, place }) => `| ${name} | ${files.has(`${pluginsFolder}/${place}`) ? 'yes' : 'no'} |`);
   return `Download both tarballs. In Unity: Window > Package Manager > + > Install package from tarball... (2022.3: Add package
 from tarball...), first \`${runtime}\`, then \`${tarball}\`. \`sha256sum --check SHA256SUMS\` compares what was downloaded.
 \`haptoflow-demo.tgz\` is a page to look at and listen to.
@@ -60,13 +59,16 @@ if (process.argv[1]?.endsWith('draft.mjs')) {
   await runMain('draft', async (words) => {
     const { folder, tarballs, demo } = optionsOf(words);
     const [runtime, tarball] = [dependencyName, packageName].map((name) => tarballOf(name, tarballs));
-    const files = readTarball(readFileSync(path.join(tarballs, tarball)));
-    const { version } = JSON.parse(files.get('package/package.json').toString('utf8'));
+    const files = await readTarball(path.join(tarballs, tarball));
+    const { version } = JSON.parse(files.text('package.json'));
     const notes = notesOf({ runtime, tarball, files, version });
     rmSync(folder, { recursive: true, force: true });
     mkdirSync(folder, { recursive: true });
     for (const name of [runtime, tarball]) copyFileSync(path.join(tarballs, name), path.join(folder, name));
-    await streamTarball(demo, path.join(folder, 'haptoflow-demo.tgz'), 'haptoflow-demo');
+    const unpacked = path.join(folder, 'haptoflow-demo');
+    cpSync(demo, unpacked, { recursive: true });
+    await runOrFail('tar', ['-czf', `${unpacked}.tgz`, '-C', folder, 'haptoflow-demo']);
+    rmSync(unpacked, { recursive: true });
     const sums = readdirSync(folder).sort().map((name) => `${createHash('sha256').update(readFileSync(path.join(folder, name))).digest('hex')}  ${name}\n`);
     writeFileSync(path.join(folder, 'SHA256SUMS'), sums.join(''));
     writeFileSync(path.join(folder, 'notes.md'), notes);

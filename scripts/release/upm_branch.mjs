@@ -41,10 +41,10 @@ async function publish({ tarball, remote, branch, 'dry-run': dryRun }, folder) {
     await git('fetch', '--quiet', '--depth', '1', remote, `refs/heads/${branch}`);
     await git('reset', '--quiet', '--soft', 'FETCH_HEAD');
   }
-  const files = [...readTarball(readFileSync(tarball))].map(([name, bytes]) => [name.replace(/^package\//, ''), bytes]);
-  for (const [name, bytes] of files) {
-    mkdirSync(path.dirname(path.join(folder, name)), { recursive: true });
-    writeFileSync(path.join(folder, name), bytes);
+  const files = await readTarball(tarball);
+  for (const file of files.names) {
+    mkdirSync(path.dirname(path.join(folder, file)), { recursive: true });
+    writeFileSync(path.join(folder, file), files.bytes(file));
   }
   const { name, version } = JSON.parse(readFileSync(path.join(folder, 'package.json'), 'utf8'));
   // A file that a person's own ignore rules name belongs in, too; line ends stay as they are in the tarball.
@@ -53,7 +53,7 @@ async function publish({ tarball, remote, branch, 'dry-run': dryRun }, folder) {
   if (!isSame) await git('commit', '--quiet', '--message', `${name} ${version}`);
   await git('tag', '--force', `${branch}/${version}`);
   if (!dryRun) await git('push', '--quiet', remote, `HEAD:refs/heads/${branch}`, `refs/tags/${branch}/${version}`);
-  console.log(`upm_branch: ${branch} ${isSame ? 'already has' : dryRun ? 'would get' : 'has'} ${name} ${version} (${files.length} files)`);
+  console.log(`upm_branch: ${branch} ${isSame ? 'already has' : dryRun ? 'would get' : 'has'} ${name} ${version} (${files.names.length} files)`);
 }
 
 await runMain('upm_branch', async (words) => {

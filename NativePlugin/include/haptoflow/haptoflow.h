@@ -663,6 +663,8 @@ enum {
 #define HAPTOFLOW_ASKS_FOR_EDGE 0x4u
 #define HAPTOFLOW_ASKS_FOR_NOTHING 0x80000000u
 
+/* What the tip does now. engine::ContactState and the C# ContactState have the same fields in the same order, so that
+ * nothing converts between them. */
 typedef struct haptoflow_contact_state {
     uint32_t struct_size;
     /* 1 while the tip touches a surface, 0 otherwise. */
@@ -1007,9 +1009,6 @@ typedef struct haptoflow_recording_options {
     /* The acceleration in m/s^2, above 0, that a sample of +-1 in a WAV file stands for. It replaces the sidecar's; 0
      * leaves it to the sidecar. */
     double full_scale_mps2;
-    /* Constants for a recording whose files have none; 0 for unknown. */
-    double speed_mps;
-    double force_newtons;
     /* 1 to read the sidecar and the names of the columns only: there are texts, and no samples. */
     uint32_t without_samples;
     /* 1 to refuse a recording whose motion or force is unknown. */
@@ -1064,6 +1063,19 @@ HAPTOFLOW_API haptoflow_status haptoflow_recording_read(const haptoflow_recordin
 /* Fills *info. Errors: INVALID_ARGUMENT. [any-thread] Blocks while another thread opens or closes a handle. */
 HAPTOFLOW_API haptoflow_status haptoflow_recording_get_info(const haptoflow_recording* recording,
                                                             haptoflow_recording_info* info);
+
+/* Combines sample_count * axis_count numbers, as in haptoflow_learning_options, into one axis of 10 to 1000 Hz at 2000
+ * Hz, as learning does. Writes wave_count samples in m/s^2, zeros beyond the end of the recording. Errors:
+ * INVALID_ARGUMENT, OUT_OF_MEMORY. [any-thread] Never blocks; allocates; takes about 10 ms per second of recording. */
+HAPTOFLOW_API haptoflow_status haptoflow_recording_wave(const float* acceleration_mps2, uint64_t sample_count,
+                                                        uint32_t axis_count, double sample_rate_hz, float* wave_mps2,
+                                                        uint64_t wave_count);
+
+/* Resamples a waveform without delay: flat to 95 % of half of the lower rate, -66 dB 5 % above it. Both rates: 1000 to
+ * 192000 Hz. Writes wave_count samples, zeros beyond the end. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY.
+ * [any-thread] Never blocks; allocates; takes about 10 ms per second of waveform at 48 kHz. */
+HAPTOFLOW_API haptoflow_status haptoflow_resample(const float* samples, uint64_t sample_count, double sample_rate_hz,
+                                                  float* wave, uint64_t wave_count, double wave_rate_hz);
 
 /* Closes *recording and sets it to null; a null handle is allowed. Errors: INVALID_ARGUMENT.
  * [any-thread] Blocks while another thread opens or closes a handle. */

@@ -157,7 +157,7 @@ haptoflow_status haptoflow_engine_get_statistics(const haptoflow_engine* engine,
                                                  haptoflow_engine_statistics* statistics) {
     return guarded([&] {
         const auto open = engines().get(engine);
-        const engine::EngineStatistics found = open->engine->statistics();
+        const engine::EngineStatistics& found = open->engine->statistics();
         haptoflow_engine_statistics content{};
         content.tier = static_cast<uint32_t>(found.tier);
         content.voices = static_cast<uint32_t>(found.voices);

@@ -6,56 +6,6 @@
 
 namespace haptoflow::capi {
 
-RuntimeTable& runtimes() {
-    static auto& table = *new RuntimeTable("runtime");
-    return table;
-}
-
-CancellationTable& cancellations() {
-    static auto& table = *new CancellationTable("cancellation");
-    return table;
-}
-
-ModelTable& models() {
-    static auto& table = *new ModelTable("model");
-    return table;
-}
-
-GeneratorTable& generators() {
-    static auto& table = *new GeneratorTable("generator");
-    return table;
-}
-
-EngineTable& engines() {
-    static auto& table = *new EngineTable("engine");
-    return table;
-}
-
-WaveFeaturesTable& waveFeatures() {
-    static auto& table = *new WaveFeaturesTable("wave features");
-    return table;
-}
-
-DeviceWaveTable& deviceWaves() {
-    static auto& table = *new DeviceWaveTable("device wave");
-    return table;
-}
-
-RecordingTable& openRecordings() {
-    static auto& table = *new RecordingTable("recording");
-    return table;
-}
-
-LearningTable& learnings() {
-    static auto& table = *new LearningTable("learning");
-    return table;
-}
-
-MaterialTable& materials() {
-    static auto& table = *new MaterialTable("material");
-    return table;
-}
-
 const model::Tier& tierNamed(const model::ModelFile& model, const char* name) {
     if (name == nullptr) {
         return model.header().tiers[model.header().defaultTier];

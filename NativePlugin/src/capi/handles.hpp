@@ -83,17 +83,44 @@ struct OpenLearning;
 using LearningTable = HandleTable<haptoflow_learning, const OpenLearning>;
 using MaterialTable = HandleTable<haptoflow_material, const model::MaterialFile>;
 
-// The tables are never destroyed, because ONNX Runtime may be unloaded before static objects are destroyed.
-[[nodiscard]] RuntimeTable& runtimes();
-[[nodiscard]] CancellationTable& cancellations();
-[[nodiscard]] ModelTable& models();
-[[nodiscard]] GeneratorTable& generators();
-[[nodiscard]] EngineTable& engines();
-[[nodiscard]] WaveFeaturesTable& waveFeatures();
-[[nodiscard]] DeviceWaveTable& deviceWaves();
-[[nodiscard]] RecordingTable& openRecordings();
-[[nodiscard]] LearningTable& learnings();
-[[nodiscard]] MaterialTable& materials();
+/// The only table of its type. It is never destroyed, because ONNX Runtime may be unloaded before static objects are
+/// destroyed.
+template <typename Table>
+[[nodiscard]] Table& lastingTable(const char* name) {
+    static auto& table = *new Table(name);
+    return table;
+}
+
+[[nodiscard]] inline RuntimeTable& runtimes() {
+    return lastingTable<RuntimeTable>("runtime");
+}
+[[nodiscard]] inline CancellationTable& cancellations() {
+    return lastingTable<CancellationTable>("cancellation");
+}
+[[nodiscard]] inline ModelTable& models() {
+    return lastingTable<ModelTable>("model");
+}
+[[nodiscard]] inline GeneratorTable& generators() {
+    return lastingTable<GeneratorTable>("generator");
+}
+[[nodiscard]] inline EngineTable& engines() {
+    return lastingTable<EngineTable>("engine");
+}
+[[nodiscard]] inline WaveFeaturesTable& waveFeatures() {
+    return lastingTable<WaveFeaturesTable>("wave features");
+}
+[[nodiscard]] inline DeviceWaveTable& deviceWaves() {
+    return lastingTable<DeviceWaveTable>("device wave");
+}
+[[nodiscard]] inline RecordingTable& openRecordings() {
+    return lastingTable<RecordingTable>("recording");
+}
+[[nodiscard]] inline LearningTable& learnings() {
+    return lastingTable<LearningTable>("learning");
+}
+[[nodiscard]] inline MaterialTable& materials() {
+    return lastingTable<MaterialTable>("material");
+}
 
 /// The tier of this name, or the model's default tier if `name` is null. Throws std::invalid_argument for an unknown
 /// name.

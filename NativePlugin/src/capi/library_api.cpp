@@ -21,37 +21,85 @@ struct StructSize {
     uint32_t bytes;
 };
 
-template <typename Struct>
-constexpr StructSize sizeOf(std::string_view name) {
-    return {name, static_cast<uint32_t>(sizeof(Struct))};
-}
+// A struct of haptoflow.h with its name.
+#define HAPTOFLOW_SIZE(type) \
+    { #type, sizeof(type) }
 
 /// Every struct of haptoflow.h; a test compares the names with the header.
-constexpr std::array structSizes{
-    sizeOf<haptoflow_runtime_options>("haptoflow_runtime_options"),
-    sizeOf<haptoflow_model_options>("haptoflow_model_options"),
-    sizeOf<haptoflow_model_info>("haptoflow_model_info"),
-    sizeOf<haptoflow_label_info>("haptoflow_label_info"),
-    sizeOf<haptoflow_tier_info>("haptoflow_tier_info"),
-    sizeOf<haptoflow_material_info>("haptoflow_material_info"),
-    sizeOf<haptoflow_generator_options>("haptoflow_generator_options"),
-    sizeOf<haptoflow_batch>("haptoflow_batch"),
-    sizeOf<haptoflow_engine_options>("haptoflow_engine_options"),
-    sizeOf<haptoflow_tier_times>("haptoflow_tier_times"),
-    sizeOf<haptoflow_engine_statistics>("haptoflow_engine_statistics"),
-    sizeOf<haptoflow_contact_state>("haptoflow_contact_state"),
-    sizeOf<haptoflow_effect_statistics>("haptoflow_effect_statistics"),
-    sizeOf<haptoflow_voice_statistics>("haptoflow_voice_statistics"),
-    sizeOf<haptoflow_signal_statistics>("haptoflow_signal_statistics"),
-    sizeOf<haptoflow_exposure>("haptoflow_exposure"),
-    sizeOf<haptoflow_wave_features_options>("haptoflow_wave_features_options"),
-    sizeOf<haptoflow_wave_frame>("haptoflow_wave_frame"),
-    sizeOf<haptoflow_recording_file>("haptoflow_recording_file"),
-    sizeOf<haptoflow_recording_options>("haptoflow_recording_options"),
-    sizeOf<haptoflow_track>("haptoflow_track"),
-    sizeOf<haptoflow_recording_info>("haptoflow_recording_info"),
-    sizeOf<haptoflow_learning_options>("haptoflow_learning_options"),
+constexpr auto structSizes = std::to_array<StructSize>({
+    HAPTOFLOW_SIZE(haptoflow_runtime_options),
+    HAPTOFLOW_SIZE(haptoflow_model_options),
+    HAPTOFLOW_SIZE(haptoflow_model_info),
+    HAPTOFLOW_SIZE(haptoflow_label_info),
+    HAPTOFLOW_SIZE(haptoflow_tier_info),
+    HAPTOFLOW_SIZE(haptoflow_material_info),
+    HAPTOFLOW_SIZE(haptoflow_generator_options),
+    HAPTOFLOW_SIZE(haptoflow_batch),
+    HAPTOFLOW_SIZE(haptoflow_engine_options),
+    HAPTOFLOW_SIZE(haptoflow_tier_times),
+    HAPTOFLOW_SIZE(haptoflow_engine_statistics),
+    HAPTOFLOW_SIZE(haptoflow_contact_state),
+    HAPTOFLOW_SIZE(haptoflow_effect_statistics),
+    HAPTOFLOW_SIZE(haptoflow_voice_statistics),
+    HAPTOFLOW_SIZE(haptoflow_signal_statistics),
+    HAPTOFLOW_SIZE(haptoflow_exposure),
+    HAPTOFLOW_SIZE(haptoflow_wave_features_options),
+    HAPTOFLOW_SIZE(haptoflow_wave_frame),
+    HAPTOFLOW_SIZE(haptoflow_recording_file),
+    HAPTOFLOW_SIZE(haptoflow_recording_options),
+    HAPTOFLOW_SIZE(haptoflow_track),
+    HAPTOFLOW_SIZE(haptoflow_recording_info),
+    HAPTOFLOW_SIZE(haptoflow_learning_options),
+});
+
+struct NamedNumber {
+    int32_t number;
+    const char* name;
 };
+
+// A constant of haptoflow.h with its name.
+#define HAPTOFLOW_NAMED(constant) \
+    { constant, #constant }
+
+constexpr auto statusNames = std::to_array<NamedNumber>({
+    HAPTOFLOW_NAMED(HAPTOFLOW_OK),
+    HAPTOFLOW_NAMED(HAPTOFLOW_INVALID_ARGUMENT),
+    HAPTOFLOW_NAMED(HAPTOFLOW_OUT_OF_MEMORY),
+    HAPTOFLOW_NAMED(HAPTOFLOW_INTERNAL_ERROR),
+    HAPTOFLOW_NAMED(HAPTOFLOW_BUSY),
+    HAPTOFLOW_NAMED(HAPTOFLOW_MODEL_UNREADABLE),
+    HAPTOFLOW_NAMED(HAPTOFLOW_NOT_A_MODEL),
+    HAPTOFLOW_NAMED(HAPTOFLOW_MODEL_TRUNCATED),
+    HAPTOFLOW_NAMED(HAPTOFLOW_MODEL_TOO_NEW),
+    HAPTOFLOW_NAMED(HAPTOFLOW_MODEL_OVERSIZED),
+    HAPTOFLOW_NAMED(HAPTOFLOW_MODEL_DAMAGED),
+    HAPTOFLOW_NAMED(HAPTOFLOW_MODEL_INCONSISTENT),
+    HAPTOFLOW_NAMED(HAPTOFLOW_MATERIAL_MISMATCH),
+    HAPTOFLOW_NAMED(HAPTOFLOW_MATERIAL_INVALID),
+    HAPTOFLOW_NAMED(HAPTOFLOW_RECORDING_UNUSABLE),
+    HAPTOFLOW_NAMED(HAPTOFLOW_RUNTIME_UNAVAILABLE),
+    HAPTOFLOW_NAMED(HAPTOFLOW_INFERENCE_FAILED),
+    HAPTOFLOW_NAMED(HAPTOFLOW_CANCELLED),
+    HAPTOFLOW_NAMED(HAPTOFLOW_TIER_TOO_SLOW),
+});
+
+constexpr auto silenceNames = std::to_array<NamedNumber>({
+    HAPTOFLOW_NAMED(HAPTOFLOW_SILENCE_NONE),
+    HAPTOFLOW_NAMED(HAPTOFLOW_SILENCE_REST),
+    HAPTOFLOW_NAMED(HAPTOFLOW_SILENCE_STALE),
+    HAPTOFLOW_NAMED(HAPTOFLOW_SILENCE_MUTED),
+    HAPTOFLOW_NAMED(HAPTOFLOW_SILENCE_PAUSED),
+    HAPTOFLOW_NAMED(HAPTOFLOW_SILENCE_PANIC),
+    HAPTOFLOW_NAMED(HAPTOFLOW_SILENCE_RATE),
+    HAPTOFLOW_NAMED(HAPTOFLOW_SILENCE_CLOSING),
+    HAPTOFLOW_NAMED(HAPTOFLOW_SILENCE_WORKER_DEAD),
+    HAPTOFLOW_NAMED(HAPTOFLOW_SILENCE_TURNED_DOWN),
+});
+
+const char* nameIn(std::span<const NamedNumber> names, int32_t number, const char* otherwise) {
+    const auto entry = std::ranges::find(names, number, &NamedNumber::number);
+    return entry == names.end() ? otherwise : entry->name;
+}
 
 }  // namespace
 
@@ -60,75 +108,11 @@ const char* haptoflow_version(void) {
 }
 
 const char* haptoflow_status_name(haptoflow_status status) {
-    switch (status) {
-        case HAPTOFLOW_OK:
-            return "HAPTOFLOW_OK";
-        case HAPTOFLOW_INVALID_ARGUMENT:
-            return "HAPTOFLOW_INVALID_ARGUMENT";
-        case HAPTOFLOW_OUT_OF_MEMORY:
-            return "HAPTOFLOW_OUT_OF_MEMORY";
-        case HAPTOFLOW_INTERNAL_ERROR:
-            return "HAPTOFLOW_INTERNAL_ERROR";
-        case HAPTOFLOW_BUSY:
-            return "HAPTOFLOW_BUSY";
-        case HAPTOFLOW_MODEL_UNREADABLE:
-            return "HAPTOFLOW_MODEL_UNREADABLE";
-        case HAPTOFLOW_NOT_A_MODEL:
-            return "HAPTOFLOW_NOT_A_MODEL";
-        case HAPTOFLOW_MODEL_TRUNCATED:
-            return "HAPTOFLOW_MODEL_TRUNCATED";
-        case HAPTOFLOW_MODEL_TOO_NEW:
-            return "HAPTOFLOW_MODEL_TOO_NEW";
-        case HAPTOFLOW_MODEL_OVERSIZED:
-            return "HAPTOFLOW_MODEL_OVERSIZED";
-        case HAPTOFLOW_MODEL_DAMAGED:
-            return "HAPTOFLOW_MODEL_DAMAGED";
-        case HAPTOFLOW_MODEL_INCONSISTENT:
-            return "HAPTOFLOW_MODEL_INCONSISTENT";
-        case HAPTOFLOW_MATERIAL_MISMATCH:
-            return "HAPTOFLOW_MATERIAL_MISMATCH";
-        case HAPTOFLOW_MATERIAL_INVALID:
-            return "HAPTOFLOW_MATERIAL_INVALID";
-        case HAPTOFLOW_RECORDING_UNUSABLE:
-            return "HAPTOFLOW_RECORDING_UNUSABLE";
-        case HAPTOFLOW_RUNTIME_UNAVAILABLE:
-            return "HAPTOFLOW_RUNTIME_UNAVAILABLE";
-        case HAPTOFLOW_INFERENCE_FAILED:
-            return "HAPTOFLOW_INFERENCE_FAILED";
-        case HAPTOFLOW_CANCELLED:
-            return "HAPTOFLOW_CANCELLED";
-        case HAPTOFLOW_TIER_TOO_SLOW:
-            return "HAPTOFLOW_TIER_TOO_SLOW";
-        default:
-            return "HAPTOFLOW_UNKNOWN_STATUS";
-    }
+    return nameIn(statusNames, status, "HAPTOFLOW_UNKNOWN_STATUS");
 }
 
 const char* haptoflow_silence_name(haptoflow_silence silence) {
-    switch (silence) {
-        case HAPTOFLOW_SILENCE_NONE:
-            return "HAPTOFLOW_SILENCE_NONE";
-        case HAPTOFLOW_SILENCE_REST:
-            return "HAPTOFLOW_SILENCE_REST";
-        case HAPTOFLOW_SILENCE_STALE:
-            return "HAPTOFLOW_SILENCE_STALE";
-        case HAPTOFLOW_SILENCE_MUTED:
-            return "HAPTOFLOW_SILENCE_MUTED";
-        case HAPTOFLOW_SILENCE_PAUSED:
-            return "HAPTOFLOW_SILENCE_PAUSED";
-        case HAPTOFLOW_SILENCE_PANIC:
-            return "HAPTOFLOW_SILENCE_PANIC";
-        case HAPTOFLOW_SILENCE_RATE:
-            return "HAPTOFLOW_SILENCE_RATE";
-        case HAPTOFLOW_SILENCE_CLOSING:
-            return "HAPTOFLOW_SILENCE_CLOSING";
-        case HAPTOFLOW_SILENCE_WORKER_DEAD:
-            return "HAPTOFLOW_SILENCE_WORKER_DEAD";
-        case HAPTOFLOW_SILENCE_TURNED_DOWN:
-            return "HAPTOFLOW_SILENCE_TURNED_DOWN";
-        default:
-            return "HAPTOFLOW_UNKNOWN_SILENCE";
-    }
+    return nameIn(silenceNames, silence, "HAPTOFLOW_UNKNOWN_SILENCE");
 }
 
 const char* haptoflow_last_message(void) {

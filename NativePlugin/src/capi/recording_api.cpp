@@ -1,6 +1,9 @@
 #include "capi/handles.hpp"
+#include "recordings/prepared_recording.hpp"
 #include "recordings/recording_reader.hpp"
+#include "recordings/resampling.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <map>
@@ -27,12 +30,12 @@ namespace {
 constexpr std::size_t mandatoryOptions = offsetof(haptoflow_recording_options, files);
 constexpr double unknownNumber = std::numeric_limits<double>::quiet_NaN();
 
-std::optional<double> positiveOrNone(double value, const char* name) {
+std::optional<double> fullScaleOrNone(double value) {
     if (value == 0.0) {
         return std::nullopt;
     }
     if (!(value > 0.0) || value > std::numeric_limits<float>::max()) {
-        throw std::invalid_argument("options: " + std::string(name) + " is " + std::to_string(value) +
+        throw std::invalid_argument("options: full_scale_mps2 is " + std::to_string(value) +
                                     "; expected above 0, or 0 for unknown");
     }
     return value;
@@ -93,6 +96,13 @@ haptoflow_recording_info infoOf(const OpenRecording& open) {
     return info;
 }
 
+template <typename Number>
+void writeWave(const std::vector<Number>& wave, std::span<float> written) {
+    std::ranges::fill(written, 0.0F);
+    std::ranges::transform(std::span(wave).first(std::min(wave.size(), written.size())), written.begin(),
+                           [](Number value) { return static_cast<float>(value); });
+}
+
 }  // namespace
 
 haptoflow_status haptoflow_recording_read(const haptoflow_recording_options* options, haptoflow_recording** recording) {
@@ -100,10 +110,7 @@ haptoflow_status haptoflow_recording_read(const haptoflow_recording_options* opt
         const auto given = readDescriptor(options, mandatoryOptions, "options");
         (void)require(recording, "recording");
         const std::filesystem::path path = utf8Path(require(given.path, "options: path"));
-        const recordings::RecordingWords words{
-            .speedMps = positiveOrNone(given.speed_mps, "speed_mps"),
-            .forceNewtons = positiveOrNone(given.force_newtons, "force_newtons"),
-            .fullScaleMps2 = positiveOrNone(given.full_scale_mps2, "full_scale_mps2")};
+        const recordings::RecordingWords words{.fullScaleMps2 = fullScaleOrNone(given.full_scale_mps2)};
         const std::unique_ptr<recordings::RecordingFiles> files = filesOf(given);
         auto open = std::make_shared<OpenRecording>();
         if (given.without_samples != 0) {
@@ -125,6 +132,35 @@ haptoflow_status haptoflow_recording_read(const haptoflow_recording_options* opt
 
 haptoflow_status haptoflow_recording_get_info(const haptoflow_recording* recording, haptoflow_recording_info* info) {
     return guarded([&] { writeDescriptor(info, infoOf(*openRecordings().get(recording)), "info"); });
+}
+
+haptoflow_status haptoflow_recording_wave(const float* acceleration_mps2, uint64_t sample_count, uint32_t axis_count,
+                                          double sample_rate_hz, float* wave_mps2, uint64_t wave_count) {
+    return guarded([&] {
+        const std::span acceleration(require(acceleration_mps2, "acceleration_mps2"),
+                                     static_cast<std::size_t>(sample_count) * axis_count);
+        const std::span wave(require(wave_mps2, "wave_mps2"), static_cast<std::size_t>(wave_count));
+        const recordings::Recording recording{
+            .rateHz = sample_rate_hz, .axisCount = axis_count, .accelerationMps2 = acceleration};
+        recordings::checkSizes(recording);
+        writeWave(recordings::prepareRecording(recording).wave, wave);
+    });
+}
+
+haptoflow_status haptoflow_resample(const float* samples, uint64_t sample_count, double sample_rate_hz, float* wave,
+                                    uint64_t wave_count, double wave_rate_hz) {
+    return guarded([&] {
+        const recordings::Channel channel{.first = require(samples, "samples"),
+                                          .count = static_cast<std::size_t>(sample_count)};
+        const std::span written(require(wave, "wave"), static_cast<std::size_t>(wave_count));
+        for (const double rateHz : {sample_rate_hz, wave_rate_hz}) {
+            if (!(rateHz >= recordings::lowestRateHz && rateHz <= recordings::highestRateHz)) {
+                throw std::invalid_argument("a rate is " + recordings::plainNumber(rateHz) +
+                                            " Hz; expected 1000 to 192000 Hz");
+            }
+        }
+        writeWave(recordings::resampled(channel, sample_rate_hz, wave_rate_hz), written);
+    });
 }
 
 haptoflow_status haptoflow_recording_close(haptoflow_recording** recording) {

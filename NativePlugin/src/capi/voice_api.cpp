@@ -3,6 +3,7 @@
 #include "capi/voice_table.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <memory>
@@ -40,23 +41,17 @@ VoiceTable::Use requireVoice(haptoflow_voice voice) {
     return use;
 }
 
+/// engine::ContactState is the C struct after its size, so no field is copied by its name.
 engine::ContactState contactState(const haptoflow_contact_state& given) {
-    engine::ContactState state;
-    state.touching = given.touching != 0;
-    state.touchCounter = given.touch_counter;
-    state.velocityMps = {given.velocity_mps[0], given.velocity_mps[1]};
-    state.forceNewtons = given.force_newtons;
-    state.approachSpeedMps = given.approach_speed_mps;
-    state.effects = given.effects == 0 ? HAPTOFLOW_ASKS_FOR_TEXTURE : given.effects;
-    state.edgeCounter = given.edge_counter;
-    state.edgeHeightMetres = given.edge_height_metres;
-    state.landingCounter = given.landing_counter;
-    state.spatialScale = given.spatial_scale;
-    state.toneDbPerOctave = given.tone_db_per_octave;
-    state.material.count = given.label_count;
-    for (std::size_t i = 0; i < engine::MaterialBlend::capacity; ++i) {
-        state.material.entries[i] = {given.labels[i], given.weights[i]};
-    }
+    struct Sized {
+        std::uint32_t structSize;
+        engine::ContactState state;
+    };
+    static_assert(offsetof(Sized, state.material.weights) == offsetof(haptoflow_contact_state, weights));
+    static_assert(offsetof(Sized, state.forceNewtons) == offsetof(haptoflow_contact_state, force_newtons));
+    static_assert(offsetof(Sized, state.landingCounter) == offsetof(haptoflow_contact_state, landing_counter));
+    engine::ContactState state = std::bit_cast<Sized>(given).state;
+    state.effects = state.effects == 0 ? HAPTOFLOW_ASKS_FOR_TEXTURE : state.effects;
     return state;
 }
 

@@ -2,38 +2,43 @@
 
 #include "effects/effect.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
 namespace haptoflow::engine {
 
-/// A label of the model, or a registered material with an index after the labels, and its weight in a blend.
-struct LabelWeight {
-    std::uint32_t label = 0;
-    float weight = 0.0F;
-};
-
-/// The material of a surface: up to four labels with weights. The weights need not add up to 1; negative ones count as
-/// 0.
+/// The material of a surface: up to four labels of the model, or registered materials with an index after the labels,
+/// each with a weight. The weights need not add up to 1; negative ones count as 0.
 struct MaterialBlend {
     static constexpr std::size_t capacity = 4;
-    std::array<LabelWeight, capacity> entries{};
-    std::size_t count = 0;
+    std::uint32_t count = 0;
+    std::array<std::uint32_t, capacity> labels{};
+    std::array<float, capacity> weights{};
+
+    /// Throws std::out_of_range if the blend is full.
+    void add(std::uint32_t label, float weight) {
+        labels.at(count) = label;
+        weights.at(count) = weight;
+        ++count;
+    }
 };
 
-/// Contact between the stylus tip and a surface, published once per frame.
+/// Contact between the stylus tip and a surface, published once per frame: haptoflow_contact_state after its
+/// struct_size, field by field, so that the C interface converts nothing. haptoflow.h says more of each field.
 struct ContactState {
-    double timeSeconds = 0.0;
-    bool touching = false;
+    /// 1 or 0.
+    std::uint32_t touching = 0;
     /// Increases by 1 at each touch-down, so that a tap shorter than a frame is not lost.
     std::uint32_t touchCounter = 0;
+    MaterialBlend material{};
     /// Tangential velocity along the surface's two axes.
     std::array<float, 2> velocityMps{};
     float forceNewtons = 0.0F;
     /// Speed towards the surface at the newest landing.
     float approachSpeedMps = 0.0F;
-    MaterialBlend material{};
     /// Effects of the surface: texture, impact, edge. Other bits are ignored.
     effects::EffectMask effects = effects::maskOf(effects::EffectKind::texture);
     /// Increases by 1 at each edge that the tip crosses or slides off; the height of the newest edge.
@@ -50,10 +55,42 @@ struct ContactState {
     [[nodiscard]] bool hasEffect(effects::EffectKind kind) const noexcept {
         return (effects & effects::maskOf(kind)) != 0;
     }
+    /// Speed along the surface.
+    [[nodiscard]] float speedMps() const noexcept { return std::hypot(velocityMps[0], velocityMps[1]); }
+    /// Whether the tip touches and moves fast enough for a study's signal: 5 mm/s.
+    [[nodiscard]] bool isMoving() const noexcept { return touching != 0 && speedMps() >= 0.005F; }
 };
 
-/// Makes every field finite and clamps it: speeds to +-20 m/s, force to 0-1,000 N, weights to 0-1, edge height to 0-1
+/// Makes every number finite and clamps it: speeds to +-20 m/s, force to 0-1,000 N, weights to 0-1, edge height to 0-1
 /// m, scale to 0.25-4, tilt to +-12 dB/octave. Returns the number of changed fields.
-std::uint32_t sanitise(ContactState& state) noexcept;
+inline std::uint32_t sanitise(ContactState& state) noexcept {
+    constexpr float maximumMps = 20.0F;
+    std::uint32_t changes = 0;
+    const auto limit = [&changes](float& value, float lowest, float highest, float ifNotFinite = 0.0F) {
+        const float inRange = std::isfinite(value) ? std::clamp(value, lowest, highest) : ifNotFinite;
+        if (inRange != value) {
+            value = inRange;
+            ++changes;
+        }
+    };
+    if (state.material.count > MaterialBlend::capacity) {
+        state.material.count = MaterialBlend::capacity;
+        ++changes;
+    }
+    for (std::size_t i = 0; i < state.material.count; ++i) {
+        limit(state.material.weights[i], 0.0F, 1.0F);
+    }
+    limit(state.velocityMps[0], -maximumMps, maximumMps);
+    limit(state.velocityMps[1], -maximumMps, maximumMps);
+    limit(state.forceNewtons, 0.0F, 1000.0F);
+    limit(state.approachSpeedMps, -maximumMps, maximumMps);
+    limit(state.edgeHeightMetres, 0.0F, 1.0F);
+    if (state.spatialScale == 0.0F) {
+        state.spatialScale = 1.0F;
+    }
+    limit(state.spatialScale, 0.25F, 4.0F, 1.0F);
+    limit(state.toneDbPerOctave, -12.0F, 12.0F);
+    return changes;
+}
 
 }  // namespace haptoflow::engine

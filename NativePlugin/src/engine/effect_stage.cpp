@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <functional>
 #include <utility>
 
@@ -16,13 +15,7 @@ constexpr double edgeDecayFactor = 3.0;
 constexpr double handOverSeconds = 0.01;
 
 void run(effects::Effect& effect, EffectKind kind, std::span<float> samplesMps2, EffectFigures& figures) noexcept {
-    const auto began = std::chrono::steady_clock::now();
-    effect.process(samplesMps2);
-    const auto spent = std::chrono::steady_clock::now() - began;
-    EffectFigures::OfKind& own = figures.of(kind);
-    ++own.runs;
-    own.samples += samplesMps2.size();
-    own.nanoseconds += static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(spent).count());
+    figures[static_cast<std::size_t>(kind)].countRun(samplesMps2.size(), [&] { effect.process(samplesMps2); });
 }
 
 template <typename Visit>
@@ -64,14 +57,6 @@ EffectStage::EffectStage(double outputRateHz)
       signal_(outputRateHz),
       gate_(outputRateHz),
       fadeSamples_(std::max<std::size_t>(1, static_cast<std::size_t>(handOverSeconds * outputRateHz))) {}
-
-void EffectStage::strikeImpact(double speedMps, const effects::ImpactResponse& response) noexcept {
-    impact_.strike(speedMps, response);
-}
-
-void EffectStage::strikeEdge(double speedMps, const effects::ImpactResponse& response) noexcept {
-    edge_.strike(speedMps, response);
-}
 
 void EffectStage::exchange(std::unique_ptr<Processors> fresh) noexcept {
     settleDelay();

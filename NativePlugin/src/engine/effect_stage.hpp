@@ -9,6 +9,8 @@
 #include "effects/strikes.hpp"
 
 #include <array>
+#include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -16,28 +18,36 @@
 
 namespace haptoflow::engine {
 
-/// Counters of a voice's effects. No counter ever decreases.
-struct EffectFigures {
-    struct OfKind {
-        /// Number of times that a stage of this kind was prepared for the voice.
-        std::uint64_t prepared = 0;
-        /// Blocks and samples processed, and the time they took.
-        std::uint64_t runs = 0;
-        std::uint64_t samples = 0;
-        std::uint64_t nanoseconds = 0;
-        /// For impact and edge, the number of blows without rebounds; for a signal, the number of its starts.
-        std::uint64_t events = 0;
-    };
-    std::array<OfKind, effects::effectKinds> kinds{};
-    /// Increases whenever a counter may have increased, so that a reader can skip unchanged figures.
-    std::uint64_t changes = 0;
+/// Increases a counter that only the calling thread writes.
+inline void increase(std::atomic<std::uint64_t>& counter, std::uint64_t by = 1) noexcept {
+    counter.store(counter.load(std::memory_order_relaxed) + by, std::memory_order_relaxed);
+}
 
-    /// The counters of one kind, for the caller to increase.
-    [[nodiscard]] OfKind& of(effects::EffectKind kind) noexcept {
-        ++changes;
-        return kinds[static_cast<std::size_t>(kind)];
+/// Counters of one effect of a voice; none ever decreases. The callback writes, any thread reads.
+struct EffectCounters {
+    /// Number of times that a stage of this kind was prepared for the voice.
+    std::atomic<std::uint64_t> prepared{0};
+    /// Blocks and samples processed, and the time they took.
+    std::atomic<std::uint64_t> runs{0};
+    std::atomic<std::uint64_t> samples{0};
+    std::atomic<std::uint64_t> nanoseconds{0};
+    /// For impact and edge, the number of blows without rebounds; for a signal, the number of its starts.
+    std::atomic<std::uint64_t> events{0};
+
+    /// Calls `process`, which processes a block of this many samples, and counts it.
+    template <typename Process>
+    void countRun(std::size_t blockSamples, Process&& process) noexcept {
+        const auto began = std::chrono::steady_clock::now();
+        process();
+        const std::chrono::nanoseconds spent = std::chrono::steady_clock::now() - began;
+        increase(runs);
+        increase(samples, blockSamples);
+        increase(nanoseconds, static_cast<std::uint64_t>(spent.count()));
     }
 };
+
+/// The counters of a voice's effects, by effects::EffectKind.
+using EffectFigures = std::array<EffectCounters, effects::effectKinds>;
 
 /// Effects that process the whole signal, made together for one output rate. A null pointer means that the voice does
 /// not use the effect.
@@ -64,9 +74,10 @@ public:
     /// Throws std::invalid_argument for a rate outside 8-192 kHz.
     explicit EffectStage(double outputRateHz);
 
-    /// Starts a blow with the next sample.
-    void strikeImpact(double speedMps, const effects::ImpactResponse& response) noexcept;
-    void strikeEdge(double speedMps, const effects::ImpactResponse& response) noexcept;
+    /// Starts a blow, an impact or an edge, with the next sample.
+    void strike(effects::EffectKind kind, double speedMps, const effects::ImpactResponse& response) noexcept {
+        (kind == effects::EffectKind::edge ? edge_ : impact_).strike(speedMps, response);
+    }
     /// See effects::Signal. `close` also ends the signal.
     void setSignal(const effects::SignalSettings& settings) noexcept { signal_.set(settings); }
     void beginSignal() noexcept { signal_.begin(); }

@@ -90,7 +90,7 @@ void LiveEngine::stop() noexcept {
     if (worker_.joinable()) {
         worker_.join();
     }
-    alive_.store(false, std::memory_order_release);
+    figures_.workerAlive.store(false, std::memory_order_release);
 }
 
 std::shared_ptr<LiveVoice> LiveEngine::addVoice(double outputRateHz) {
@@ -103,7 +103,7 @@ std::shared_ptr<LiveVoice> LiveEngine::addVoice(double outputRateHz) {
     settings.outputRateHz = outputRateHz;
     settings.fullScaleMps2 = settings_.fullScaleMps2;
     settings.isRealTime = settings_.hasWorker;
-    auto voice = std::make_shared<LiveVoice>(*library_, alive_, settings);
+    auto voice = std::make_shared<LiveVoice>(*library_, figures_.workerAlive, settings);
     const std::lock_guard lock(voicesMutex_);
     voices_.push_back(voice);
     figures_.voices = voices_.size();
@@ -205,7 +205,7 @@ void LiveEngine::work() noexcept {
         // Out of memory, or the system refused a lock: the voices fall silent because the worker has ended.
         noteFailure(error.what());
     }
-    alive_.store(false, std::memory_order_release);
+    figures_.workerAlive.store(false, std::memory_order_release);
 }
 
 bool LiveEngine::sleep() {
@@ -278,22 +278,6 @@ void LiveEngine::addTier(std::size_t tier, std::unique_ptr<inference::SegmentGen
 bool LiveEngine::hasTier(std::size_t tier) const {
     const std::lock_guard lock(qualityMutex_);
     return tiers_.at(tier) != nullptr;
-}
-
-EngineStatistics LiveEngine::statistics() const noexcept {
-    return {.rounds = figures_.rounds,
-            .segments = figures_.segments,
-            .failedRounds = figures_.failedRounds,
-            .wakes = figures_.wakes,
-            .voices = figures_.voices,
-            .tier = figures_.tier,
-            .measuring = figures_.measuring,
-            .stepsDown = figures_.stepsDown,
-            .stepsUp = figures_.stepsUp,
-            .budgetMs = figures_.budgetMs,
-            .lastRoundMs = figures_.lastRoundMs,
-            .workerAlive = alive_,
-            .priorityRefused = figures_.priorityRefused};
 }
 
 TierTimes LiveEngine::tierTimes(std::size_t tier) const noexcept {

@@ -50,23 +50,23 @@ struct TierTimes {
     double percentile99Ms = 0.0;
 };
 
-/// Statistics of an engine, for display.
+/// Statistics of an engine, for display. The worker writes and any thread reads.
 struct EngineStatistics {
-    std::uint64_t rounds = 0;
-    std::uint64_t segments = 0;
-    std::uint64_t failedRounds = 0;
+    std::atomic<std::uint64_t> rounds{0};
+    std::atomic<std::uint64_t> segments{0};
+    std::atomic<std::uint64_t> failedRounds{0};
     /// Number of times that the worker woke up.
-    std::uint64_t wakes = 0;
-    std::size_t voices = 0;
-    std::size_t tier = 0;
-    bool measuring = false;
-    std::uint64_t stepsDown = 0;
-    std::uint64_t stepsUp = 0;
-    double budgetMs = 0.0;
-    double lastRoundMs = 0.0;
-    bool workerAlive = true;
+    std::atomic<std::uint64_t> wakes{0};
+    std::atomic<std::size_t> voices{0};
+    std::atomic<std::size_t> tier{0};
+    std::atomic<bool> measuring{false};
+    std::atomic<std::uint64_t> stepsDown{0};
+    std::atomic<std::uint64_t> stepsUp{0};
+    std::atomic<double> budgetMs{0.0};
+    std::atomic<double> lastRoundMs{0.0};
+    std::atomic<bool> workerAlive{true};
     /// The system refused the worker a raised priority.
-    bool priorityRefused = false;
+    std::atomic<bool> priorityRefused{false};
 };
 
 /// All voices of one model, and the worker thread that generates their segments. The worker sleeps while nothing is
@@ -112,7 +112,7 @@ public:
     void addTier(std::size_t tier, std::unique_ptr<inference::SegmentGenerator> generator);
     [[nodiscard]] bool hasTier(std::size_t tier) const;
     /// Any thread; wait-free, allocates nothing.
-    [[nodiscard]] EngineStatistics statistics() const noexcept;
+    [[nodiscard]] const EngineStatistics& statistics() const noexcept { return figures_; }
     [[nodiscard]] std::size_t tierCount() const noexcept { return tiers_.size(); }
     /// Any thread; wait-free, allocates nothing.
     [[nodiscard]] TierTimes tierTimes(std::size_t tier) const noexcept;
@@ -123,22 +123,6 @@ public:
     [[nodiscard]] MaterialLibrary& materials() noexcept { return *library_; }
 
 private:
-    /// Statistics that the worker writes and any thread reads.
-    struct Figures {
-        std::atomic<std::uint64_t> rounds{0};
-        std::atomic<std::uint64_t> segments{0};
-        std::atomic<std::uint64_t> failedRounds{0};
-        std::atomic<std::uint64_t> wakes{0};
-        std::atomic<std::size_t> voices{0};
-        std::atomic<std::size_t> tier{0};
-        std::atomic<bool> measuring{false};
-        std::atomic<std::uint64_t> stepsDown{0};
-        std::atomic<std::uint64_t> stepsUp{0};
-        std::atomic<double> budgetMs{0.0};
-        std::atomic<double> lastRoundMs{0.0};
-        std::atomic<bool> priorityRefused{false};
-    };
-
     void work() noexcept;
     /// Returns false when it is time for a measuring run.
     [[nodiscard]] bool sleep();
@@ -165,7 +149,7 @@ private:
 
     mutable std::mutex failureMutex_;
     std::string lastFailure_;
-    Figures figures_;
+    EngineStatistics figures_;
 
     // Used only by the thread that runs rounds: the worker, or the caller of `step`.
     std::vector<std::shared_ptr<LiveVoice>> roundOwners_;
@@ -174,7 +158,6 @@ private:
     QualityControl quality_;
     bool mustPoll_ = false;
 
-    std::atomic<bool> alive_{true};
     std::atomic<bool> stopping_{false};
     WakeSignal signal_;
     std::thread worker_;

@@ -6,48 +6,6 @@
 
 namespace haptoflow::engine {
 
-std::uint32_t sanitise(ContactState& state) noexcept {
-    constexpr float maximumMps = 20.0F;
-    constexpr float maximumNewtons = 1000.0F;
-    constexpr float minimumScale = 0.25F;
-    constexpr float maximumScale = 4.0F;
-    constexpr float maximumTilt = 12.0F;
-    std::uint32_t changes = 0;
-    const auto limit = [&changes](float& value, float lowest, float highest) {
-        const float inRange = std::isfinite(value) ? std::clamp(value, lowest, highest) : 0.0F;
-        if (inRange != value) {
-            value = inRange;
-            ++changes;
-        }
-    };
-    for (float& component : state.velocityMps) {
-        limit(component, -maximumMps, maximumMps);
-    }
-    limit(state.forceNewtons, 0.0F, maximumNewtons);
-    limit(state.approachSpeedMps, -maximumMps, maximumMps);
-    limit(state.edgeHeightMetres, 0.0F, 1.0F);
-    if (state.material.count > MaterialBlend::capacity) {
-        state.material.count = MaterialBlend::capacity;
-        ++changes;
-    }
-    for (std::size_t i = 0; i < state.material.count; ++i) {
-        limit(state.material.entries[i].weight, 0.0F, 1.0F);
-    }
-    if (state.spatialScale == 0.0F) {
-        state.spatialScale = 1.0F;
-    } else if (!std::isfinite(state.spatialScale)) {
-        state.spatialScale = 1.0F;
-        ++changes;
-    }
-    limit(state.spatialScale, minimumScale, maximumScale);
-    limit(state.toneDbPerOctave, -maximumTilt, maximumTilt);
-    if (!std::isfinite(state.timeSeconds)) {
-        state.timeSeconds = 0.0;
-        ++changes;
-    }
-    return changes;
-}
-
 Material resolveMaterial(const Ingredients& ingredients, const WaveVectors& before) noexcept {
     Material material;
     std::array<double, model::embeddingSize> embedding{};

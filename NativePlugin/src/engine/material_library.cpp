@@ -162,19 +162,20 @@ MaterialLibrary::ReadScope::~ReadScope() {
 
 Ingredients MaterialLibrary::ReadScope::ingredients(const MaterialBlend& blend) const noexcept {
     Ingredients found;
-    for (std::size_t i = 0; i < std::min(blend.count, MaterialBlend::capacity); ++i) {
-        const LabelWeight entry = blend.entries[i];
-        const PreparedMaterial* material = library_.find(entry.label);
-        if (material == nullptr || !(entry.weight > 0.0F)) {
+    for (std::size_t i = 0; i < std::min<std::size_t>(blend.count, MaterialBlend::capacity); ++i) {
+        const std::uint32_t label = blend.labels[i];
+        const float weight = blend.weights[i];
+        const PreparedMaterial* material = library_.find(label);
+        if (material == nullptr || !(weight > 0.0F)) {
             continue;
         }
         const auto known = std::span(found.entries).first(found.count);
-        const auto same = std::ranges::find(known, entry.label, &Ingredient::index);
+        const auto same = std::ranges::find(known, label, &Ingredient::index);
         if (same != known.end()) {
-            same->weight += static_cast<double>(entry.weight);
+            same->weight += static_cast<double>(weight);
             continue;
         }
-        found.entries[found.count] = {.material = material, .index = entry.label, .weight = entry.weight};
+        found.entries[found.count] = {.material = material, .index = label, .weight = weight};
         ++found.count;
     }
     if (found.count == 0) {

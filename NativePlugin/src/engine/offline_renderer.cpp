@@ -123,12 +123,16 @@ public:
         std::optional<double> startSeconds;
         double nowSeconds = 0.0;
         ContactState liftedOff;
-        while (std::optional<ContactState> state = next()) {
+        while (std::optional<TimedContactState> state = next()) {
             figures_.sanitised += sanitise(*state);
+            if (!std::isfinite(state->timeSeconds)) {
+                state->timeSeconds = 0.0;
+                ++figures_.sanitised;
+            }
             nowSeconds = std::max(state->timeSeconds, startSeconds ? nowSeconds : state->timeSeconds);
             startSeconds = startSeconds.value_or(nowSeconds);
             renderUntil(nowSeconds - *startSeconds);
-            if (state->touching) {
+            if (state->touching != 0) {
                 touches_.begin(state->touchCounter);
             }
             publish(*state);
@@ -267,14 +271,14 @@ OfflineFigures renderOffline(const model::ModelFile& model, inference::SegmentGe
 }
 
 OfflineRender renderOffline(const model::ModelFile& model, inference::SegmentGenerator& generator,
-                            std::span<const ContactState> states, const OfflineSettings& settings) {
+                            std::span<const TimedContactState> states, const OfflineSettings& settings) {
     OfflineRender render;
     KeepingSink sink(render);
-    const ContactStateSource next = [&states]() -> std::optional<ContactState> {
+    const ContactStateSource next = [&states]() -> std::optional<TimedContactState> {
         if (states.empty()) {
             return std::nullopt;
         }
-        const ContactState state = states.front();
+        const TimedContactState state = states.front();
         states = states.subspan(1);
         return state;
     };

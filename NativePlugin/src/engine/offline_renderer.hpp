@@ -81,8 +81,13 @@ public:
     virtual void waveform(std::span<const float> samplesMps2) = 0;
 };
 
+/// A contact state and when it is published; a live voice takes each state at the time of the call.
+struct TimedContactState : ContactState {
+    double timeSeconds = 0.0;
+};
+
 /// Returns the next contact state, in the order of time; nothing at the end.
-using ContactStateSource = std::function<std::optional<ContactState>()>;
+using ContactStateSource = std::function<std::optional<TimedContactState>()>;
 
 /// Renders contact states without threads, with the same voice, timeline and generator as live. The first state is time
 /// 0 of the output. Memory does not grow with the length. Throws std::invalid_argument for settings out of range,
@@ -100,6 +105,6 @@ struct OfflineRender : OfflineFigures {
 
 /// Renders `states` into memory.
 [[nodiscard]] OfflineRender renderOffline(const model::ModelFile& model, inference::SegmentGenerator& generator,
-                                          std::span<const ContactState> states, const OfflineSettings& settings);
+                                          std::span<const TimedContactState> states, const OfflineSettings& settings);
 
 }  // namespace haptoflow::engine

@@ -31,7 +31,8 @@ bool SegmentPlanner::wake() noexcept {
     if (channels_.playhead.fetch()) {
         learn();
     }
-    const WorkerMessage& contact = channels_.toWorker.current();
+    const WorkerMessage& message = channels_.toWorker.current();
+    const PublishedContact& contact = message.contact;
     const Playhead& playhead = channels_.playhead.current();
     if (!contact.sliding) {
         skipUntil(contact.slides);
@@ -49,7 +50,7 @@ bool SegmentPlanner::wake() noexcept {
         return false;
     }
     restorePast();
-    const std::int64_t lead = leadSamples(playhead.blockAdvance, contact.readingRate);
+    const std::int64_t lead = leadSamples(playhead.blockAdvance, contact.ranged.readingRate);
     const std::int64_t start = std::min(head + lead, std::max(mirror_.coveredUntil(), head));
     if (!isNewStream && !replaces && start < lastStart_ + settings_.minimumHopSamples) {
         return false;
@@ -68,11 +69,11 @@ bool SegmentPlanner::wake() noexcept {
     lastHead_ = head;
     lastStart_ = start;
     channels_.counters.leadSamples.store(static_cast<std::uint32_t>(lead), std::memory_order_relaxed);
-    request_.embedding = contact.embedding;
-    request_.motion = contact.motion;
-    request_.levelMps2 = contact.level.levelMps2;
-    request_.levelMotion = contact.level.motion;
-    request_.levelGain = contact.level.gain;
+    request_.embedding = message.embedding;
+    request_.motion = contact.ranged.motion;
+    request_.levelMps2 = message.level.levelMps2;
+    request_.levelMotion = message.level.motion;
+    request_.levelGain = message.level.gain;
     prepare(start);
     return true;
 }
@@ -102,7 +103,7 @@ bool SegmentPlanner::mustPoll() noexcept {
 bool SegmentPlanner::awaitsCallback() const noexcept {
     // Every reason for which `wake` did not generate ends when the callback runs: an onset that has not been played
     // yet, a clock that stands still, a hop that would be too short, a full queue.
-    const WorkerMessage& contact = channels_.toWorker.current();
+    const PublishedContact& contact = channels_.toWorker.current().contact;
     return contact.sliding && contact.slides != settledSlides_;
 }
 
@@ -150,7 +151,7 @@ void SegmentPlanner::prepare(std::int64_t start) noexcept {
 bool SegmentPlanner::deliver(std::span<float, inference::segmentSamples> segmentMps2) noexcept {
     balance_.level(segmentMps2, request_.levelMps2.value_or(0.0F));
     channels_.counters.inferences.fetch_add(1, std::memory_order_relaxed);
-    const WorkerMessage& contact = channels_.toWorker.current();
+    const PublishedContact& contact = channels_.toWorker.current().contact;
     const Playhead& playhead = channels_.playhead.current();
     ++sequence_;
     Sent& sent = sent_[sequence_ % sent_.size()];
@@ -159,7 +160,7 @@ bool SegmentPlanner::deliver(std::span<float, inference::segmentSamples> segment
     sent.segment.start = plannedStart_;
     std::ranges::copy(segmentMps2, sent.segment.samplesMps2.begin());
     sent.plannedHead = playhead.timeline.head;
-    sent.readingRate = contact.readingRate;
+    sent.readingRate = contact.ranged.readingRate;
     sent.observed = false;
     if (!channels_.segments.push(sent.segment)) {
         --sequence_;
@@ -171,8 +172,8 @@ bool SegmentPlanner::deliver(std::span<float, inference::segmentSamples> segment
                                 static_cast<double>(request_.motion[1])));
 
     const std::int64_t head = playhead.timeline.head;
-    const auto lead = static_cast<double>(leadSamples(playhead.blockAdvance, contact.readingRate));
-    const double needed = static_cast<double>(hop_) + lead + reserveSamples * contact.readingRate;
+    const auto lead = static_cast<double>(leadSamples(playhead.blockAdvance, contact.ranged.readingRate));
+    const double needed = static_cast<double>(hop_) + lead + reserveSamples * contact.ranged.readingRate;
     const std::int64_t next = plannedStart_ + segmentLength;
     const std::int64_t furthest = static_cast<std::int64_t>(TimelineView::aheadSamples) - segmentLength;
     if (static_cast<double>(next - head) >= needed || next - head > furthest || channels_.segments.room() < 2) {

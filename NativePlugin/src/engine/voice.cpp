@@ -1,15 +1,15 @@
 #include "engine/voice.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 namespace haptoflow::engine {
 
-Voice::Voice(double outputRateHz, float fullScaleMps2)
+Voice::Voice(double outputRateHz, float fullScaleMps2, EffectFigures& figures)
     : output_(std::make_unique<OutputStage>(outputRateHz)),
       level_(inference::waveformRateHz),
-      limiter_(fullScaleMps2) {}
+      limiter_(fullScaleMps2),
+      figures_(figures) {}
 
 std::unique_ptr<OutputStage> Voice::exchangeOutput(std::unique_ptr<OutputStage> output) noexcept {
     output->strength.reset(output_->strength.target());
@@ -35,14 +35,9 @@ void Voice::stop() noexcept {
     output_->effects.close();
 }
 
-void Voice::strikeImpact(double speedMps, const effects::ImpactResponse& response) noexcept {
-    noteEvent(effects::EffectKind::impact);
-    output_->effects.strikeImpact(speedMps, response);
-}
-
-void Voice::strikeEdge(double speedMps, const effects::ImpactResponse& response) noexcept {
-    noteEvent(effects::EffectKind::edge);
-    output_->effects.strikeEdge(speedMps, response);
+void Voice::strike(effects::EffectKind kind, double speedMps, const effects::ImpactResponse& response) noexcept {
+    noteEvent(kind);
+    output_->effects.strike(kind, speedMps, response);
 }
 
 void Voice::beginSignal() noexcept {
@@ -51,14 +46,13 @@ void Voice::beginSignal() noexcept {
 }
 
 void Voice::noteEvent(effects::EffectKind kind) noexcept {
-    EffectFigures::OfKind& figures = figures_.of(kind);
-    figures.prepared = 1;
-    ++figures.events;
+    of(kind).prepared.store(1, std::memory_order_relaxed);
+    increase(of(kind).events);
 }
 
 void Voice::exchangeProcessors(std::unique_ptr<Processors> fresh) noexcept {
     const auto note = [this](const effects::Effect* effect, effects::EffectKind kind) {
-        figures_.of(kind).prepared += effect == nullptr ? 0 : 1;
+        increase(of(kind).prepared, effect == nullptr ? 0 : 1);
     };
     note(fresh->delay.get(), effects::EffectKind::delay);
     note(fresh->compensation.get(), effects::EffectKind::compensation);
@@ -122,7 +116,7 @@ void Voice::setTone(const dsp::ToneKernel* kernel) noexcept {
         tone_.setTone(kernel, std::span(past).last<dsp::ToneFilter::memorySamples>());
     }
     if (tone_.isActive() && !isRunning) {
-        ++figures_.of(effects::EffectKind::tone).prepared;
+        increase(of(effects::EffectKind::tone).prepared);
     }
 }
 
@@ -130,14 +124,7 @@ void Voice::applyTone(std::span<float> samplesMps2) noexcept {
     if (!tone_.isActive() || samplesMps2.empty()) {
         return;
     }
-    const auto began = std::chrono::steady_clock::now();
-    tone_.process(samplesMps2);
-    const auto spent = std::chrono::steady_clock::now() - began;
-    EffectFigures::OfKind& figures = figures_.of(effects::EffectKind::tone);
-    ++figures.runs;
-    figures.samples += samplesMps2.size();
-    figures.nanoseconds +=
-        static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(spent).count());
+    of(effects::EffectKind::tone).countRun(samplesMps2.size(), [&] { tone_.process(samplesMps2); });
 }
 
 void Voice::readWaveform(std::span<float> out) noexcept {

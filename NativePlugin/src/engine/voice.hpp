@@ -35,8 +35,9 @@ public:
 /// and wait for nothing.
 class Voice {
 public:
-    /// Throws std::invalid_argument for a rate outside 8-192 kHz or a full scale that is not above 0.
-    Voice(double outputRateHz, float fullScaleMps2);
+    /// Counts its effects in `figures`, which must outlive it. Throws std::invalid_argument for a rate outside 8-192
+    /// kHz or a full scale that is not above 0.
+    Voice(double outputRateHz, float fullScaleMps2, EffectFigures& figures);
 
     /// Touch-down, or sliding resumed: the second half of the seed sounds from the next sample on, the first half
     /// becomes its past.
@@ -49,15 +50,13 @@ public:
     void stop() noexcept;
     /// Lets effects sound. Does nothing if they already may.
     void allowEffects() noexcept { output_->effects.open(); }
-    /// Start a blow with the next sample. Call `allowEffects` before.
-    void strikeImpact(double speedMps, const effects::ImpactResponse& response) noexcept;
-    void strikeEdge(double speedMps, const effects::ImpactResponse& response) noexcept;
+    /// Starts a blow, an impact or an edge, with the next sample. Call `allowEffects` before.
+    void strike(effects::EffectKind kind, double speedMps, const effects::ImpactResponse& response) noexcept;
     /// Starts the signal set by `effects().setSignal` with the next sample. Call `allowEffects` before.
     void beginSignal() noexcept;
     [[nodiscard]] EffectStage& effects() noexcept { return output_->effects; }
     /// See EffectStage::exchange.
     void exchangeProcessors(std::unique_ptr<Processors> fresh) noexcept;
-    [[nodiscard]] const EffectFigures& effectFigures() const noexcept { return figures_; }
     /// Renders a block of any length that fades linearly to silence at its end, and drops the committed waveform.
     void renderStop(std::span<float> out) noexcept;
     /// Sets the range law's gain and reading rate; both change smoothly.
@@ -90,6 +89,9 @@ public:
 private:
     static constexpr std::size_t blockSamples = EffectStage::blockSamples;
 
+    [[nodiscard]] EffectCounters& of(effects::EffectKind kind) noexcept {
+        return figures_[static_cast<std::size_t>(kind)];
+    }
     void noteEvent(effects::EffectKind kind) noexcept;
     [[nodiscard]] bool isTextureSilent() const noexcept { return output_->gate.isClosed(); }
     void produce(std::span<float> out) noexcept;
@@ -104,7 +106,7 @@ private:
     dsp::RateWarp warp_;
     dsp::SoftLimiter limiter_;
     double readingRate_ = 1.0;
-    EffectFigures figures_;
+    EffectFigures& figures_;
     WaveformSink* sink_ = nullptr;
 };
 

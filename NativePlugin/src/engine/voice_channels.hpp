@@ -1,10 +1,7 @@
 #pragma once
 
-#include "dsp/tone_cepstrum.hpp"
 #include "effects/signal.hpp"
-#include "engine/blend_balance.hpp"
-#include "engine/blow_list.hpp"
-#include "engine/level_request.hpp"
+#include "engine/contact_messages.hpp"
 #include "engine/mailbox.hpp"
 #include "engine/output_stage.hpp"
 #include "engine/processor_settings.hpp"
@@ -12,7 +9,6 @@
 #include "engine/segment_queue.hpp"
 #include "engine/silence.hpp"
 #include "engine/waveform_timeline.hpp"
-#include "inference/segment_generator.hpp"
 
 #include <array>
 #include <atomic>
@@ -24,51 +20,11 @@
 
 namespace haptoflow::engine {
 
-/// A contact, for the callback.
-struct AudioMessage {
-    /// Increases by 1 at each onset: touch-down, or sliding resumed.
-    std::uint32_t onset = 0;
-    /// ContactFollower::touches. A panic silences a whole touch, including sliding that resumes in it.
-    std::uint64_t touch = 0;
-    bool sliding = false;
-    float levelGain = 1.0F;
-    double readingRate = 1.0;
-    /// The seed in m/s^2 for the newest sliding state. Every message contains it, so that an onset is not lost if its
-    /// message is replaced, and a touch resumes with the seed of the state with which it resumes.
-    std::array<float, WaveformTimeline::seedSamples> seedMps2{};
-    SeedRibs seedRibs{};
-    /// Number of states published so far, this one included.
-    std::uint64_t updates = 0;
-    /// The blows that the callback had not taken when the message was written, so that no blow is lost if its message
-    /// is replaced.
-    BlowList blows;
-    bool hasTone = false;
-    dsp::ToneKernel tone{};
-    /// Whether the tip touches and moves fast enough for a signal, and the time of the last change
-    /// (VoiceChannels::clock).
-    bool isMoving = false;
-    double movingSinceSeconds = 0.0;
-};
-
-/// A contact, for the worker.
-struct WorkerMessage {
-    std::uint32_t onset = 0;
-    bool sliding = false;
-    /// Number of sliding states so far, this one included, so that each is generated for once.
-    std::uint64_t slides = 0;
-    std::array<float, inference::embeddingSize> embedding{};
-    /// vx, vy in m/s and force in N, inside the trained range.
-    std::array<float, 3> motion{};
-    double readingRate = 1.0;
-    LevelRequest level;
-    BlendParts blend;
-};
-
 /// State of a voice's playback at the end of a block, written by the callback.
 struct Playhead {
     /// Number of streams (onsets and resumptions) played so far.
     std::uint64_t stream = 0;
-    /// AudioMessage::onset of the present stream.
+    /// PublishedContact::onset of the present stream.
     std::uint32_t onset = 0;
     /// Head at the beginning of the stream, and the rib phase of its seed.
     std::int64_t streamStart = 0;
@@ -107,15 +63,6 @@ struct VoiceControls {
     std::atomic<double> actuatorGain{1.0};
 };
 
-/// EffectFigures::OfKind as atomics, for any thread to read.
-struct EffectCounters {
-    std::atomic<std::uint64_t> prepared{0};
-    std::atomic<std::uint64_t> runs{0};
-    std::atomic<std::uint64_t> samples{0};
-    std::atomic<std::uint64_t> nanoseconds{0};
-    std::atomic<std::uint64_t> events{0};
-};
-
 /// Number of times that a contact state switched a signal on (or off), and the time from that state to the output frame
 /// at which the change begins. Written by the callback; any thread reads.
 struct SignalTransitions {
@@ -129,7 +76,7 @@ struct SignalTransitions {
 /// Counters of a voice; none ever decreases. Any thread reads.
 struct VoiceCounters {
     /// By effects::EffectKind, without the texture, which the other counters describe.
-    std::array<EffectCounters, effects::effectKinds> effects{};
+    EffectFigures effects{};
     SignalTransitions signalStarts;
     SignalTransitions signalStops;
     /// Effects of the newest contact state and processors of the voice.

@@ -17,7 +17,7 @@ void count(std::atomic<std::uint64_t>& counter, std::uint64_t by = 1) noexcept {
 
 VoiceRenderer::VoiceRenderer(VoiceChannels& channels, const std::atomic<bool>& workerAlive, double outputRateHz,
                              float fullScaleMps2)
-    : channels_(channels), workerAlive_(workerAlive), voice_(outputRateHz, fullScaleMps2) {}
+    : channels_(channels), workerAlive_(workerAlive), voice_(outputRateHz, fullScaleMps2, channels.counters.effects) {}
 
 void VoiceRenderer::render(std::span<float> out, double rateHz) noexcept {
     const dsp::ScopedFlushDenormals flush;
@@ -81,11 +81,16 @@ void VoiceRenderer::readContact() noexcept {
     if (channels_.toAudio.fetch()) {
         hasContact_ = true;
         contactAgeFrames_ = 0;
-        const AudioMessage& contact = channels_.toAudio.current();
-        updates_ = contact.updates;
-        voice_.setRangeLaw(contact.levelGain, contact.readingRate);
-        voice_.setTone(contact.hasTone ? &contact.tone : nullptr);
+        updates_ = contact().updates;
+        applyContact();
     }
+}
+
+void VoiceRenderer::applyContact() noexcept {
+    const AudioMessage& message = channels_.toAudio.current();
+    const RangedMotion& ranged = message.contact.ranged;
+    voice_.setRangeLaw(static_cast<float>(ranged.levelGain), ranged.readingRate);
+    voice_.setTone(message.tone ? &*message.tone : nullptr);
 }
 
 void VoiceRenderer::readControls() noexcept {
@@ -128,14 +133,13 @@ std::size_t VoiceRenderer::framesUntilStale(std::size_t frames) const noexcept {
 }
 
 SoundConditions VoiceRenderer::conditions(double rateHz) const noexcept {
-    const AudioMessage& contact = channels_.toAudio.current();
     const VoiceControls& controls = channels_.controls;
-    const bool hasTexture = contact.sliding || contact.onset != playedOnset_ || tapFramesLeft_ > 0;
-    return {.isTouched = signal_.isSet() ? contact.isMoving : hasTexture,
+    const bool hasTexture = contact().sliding || contact().onset != playedOnset_ || tapFramesLeft_ > 0;
+    return {.isTouched = signal_.isSet() ? contact().state.isMoving() : hasTexture,
             .isStale = framesUntilStale(1) == 0,
             .isMuted = controls.muted.load(std::memory_order_relaxed),
             .isPaused = controls.paused.load(std::memory_order_relaxed),
-            .isPanicked = contact.touch <= silencedTouch_,
+            .isPanicked = contact().touch <= silencedTouch_,
             .isRateServed = rateHz == voice_.outputRateHz(),
             .isClosing = controls.closing.load(std::memory_order_relaxed),
             .isWorkerAlive = workerAlive_.load(std::memory_order_acquire)};
@@ -155,17 +159,16 @@ void VoiceRenderer::decide(double rateHz) noexcept {
     if (silence == Silence::none && signal_.isSet()) {
         silence = Silence::rest;
     }
-    const AudioMessage& contact = channels_.toAudio.current();
     if (silence == Silence::none) {
-        if (!isSounding() || contact.onset != playedOnset_) {
+        if (!isSounding() || contact().onset != playedOnset_) {
             begin();
         }
         return;
     }
     fallSilent(silence);
     // A touch that began and ended during a silence is not played later, unless the voice only waits for a rate.
-    if (!contact.sliding && (silence != Silence::rate || !isPreparable)) {
-        playedOnset_ = contact.onset;
+    if (!contact().sliding && (silence != Silence::rate || !isPreparable)) {
+        playedOnset_ = contact().onset;
     }
 }
 
@@ -184,20 +187,19 @@ void VoiceRenderer::fallSilent(Silence reason) noexcept {
 }
 
 void VoiceRenderer::begin() noexcept {
-    const AudioMessage& contact = channels_.toAudio.current();
-    count(contact.onset != playedOnset_ ? channels_.counters.onsets : channels_.counters.resumptions);
+    const OnsetSeed& seed = channels_.toAudio.current().seed;
+    count(contact().onset != playedOnset_ ? channels_.counters.onsets : channels_.counters.resumptions);
     ++stream_;
     streamStart_ = voice_.timeline().head();
-    seedRibs_ = contact.seedRibs;
-    playedOnset_ = contact.onset;
+    seedRibs_ = seed.ribs;
+    playedOnset_ = contact().onset;
     silence_ = Silence::none;
-    tapFramesLeft_ = contact.sliding ? 0 : static_cast<std::uint64_t>(tapSeconds * voice_.outputRateHz());
-    if (!contact.sliding) {
+    tapFramesLeft_ = contact().sliding ? 0 : static_cast<std::uint64_t>(tapSeconds * voice_.outputRateHz());
+    if (!contact().sliding) {
         count(channels_.counters.taps);
     }
-    voice_.setRangeLaw(contact.levelGain, contact.readingRate);
-    voice_.setTone(contact.hasTone ? &contact.tone : nullptr);
-    voice_.onset(contact.seedMps2);
+    applyContact();
+    voice_.onset(seed.samplesMps2);
 }
 
 void VoiceRenderer::takeBlows(std::size_t frames) noexcept {
@@ -271,13 +273,8 @@ void VoiceRenderer::schedule(const Blow& blow, std::size_t frames) noexcept {
 }
 
 void VoiceRenderer::strike(const Blow& blow) noexcept {
-    if (blow.touch <= silencedTouch_) {
-        return;
-    }
-    if (blow.kind == effects::EffectKind::edge) {
-        voice_.strikeEdge(static_cast<double>(blow.speedMps), blow.response);
-    } else {
-        voice_.strikeImpact(static_cast<double>(blow.speedMps), blow.response);
+    if (blow.touch > silencedTouch_) {
+        voice_.strike(blow.kind, static_cast<double>(blow.speedMps), blow.response);
     }
 }
 
@@ -295,7 +292,7 @@ void VoiceRenderer::renderWithBlows(std::span<float> out) noexcept {
 }
 
 void VoiceRenderer::readSignal() noexcept {
-    const bool isMoving = channels_.toAudio.current().isMoving;
+    const bool isMoving = contact().state.isMoving();
     const bool hasChanged = std::exchange(wasMoving_, isMoving) != isMoving;
     // A silence also ends the signal, which restarts afterwards.
     if (silence_ != Silence::none && silence_ != Silence::rest) {
@@ -417,28 +414,11 @@ void VoiceRenderer::sound(std::span<float> out) noexcept {
         renderWithBlows(out.first(before));
         out = out.subspan(before);
         tapFramesLeft_ -= before;
-        if (tapFramesLeft_ == 0 && !channels_.toAudio.current().sliding) {
+        if (tapFramesLeft_ == 0 && !contact().sliding) {
             fallSilent(Silence::rest);
         }
     }
     renderWithBlows(out);
-}
-
-void VoiceRenderer::reportEffects() noexcept {
-    // Skip unchanged figures, because thirty stores in every block take measurable time.
-    if (voice_.effectFigures().changes == reportedEffectChanges_) {
-        return;
-    }
-    reportedEffectChanges_ = voice_.effectFigures().changes;
-    for (std::size_t kind = 0; kind < effects::effectKinds; ++kind) {
-        const EffectFigures::OfKind& figures = voice_.effectFigures().kinds[kind];
-        EffectCounters& counters = channels_.counters.effects[kind];
-        counters.prepared.store(figures.prepared, std::memory_order_relaxed);
-        counters.runs.store(figures.runs, std::memory_order_relaxed);
-        counters.samples.store(figures.samples, std::memory_order_relaxed);
-        counters.nanoseconds.store(figures.nanoseconds, std::memory_order_relaxed);
-        counters.events.store(figures.events, std::memory_order_relaxed);
-    }
 }
 
 void VoiceRenderer::reportExposure() noexcept {
@@ -463,7 +443,6 @@ void VoiceRenderer::report(std::uint64_t uncoveredBefore, bool sounded) noexcept
     }
     counters.nonFiniteSamples.store(voice_.limiter().nonFiniteCount(), std::memory_order_relaxed);
     counters.limitedSamples.store(voice_.limiter().limitedCount(), std::memory_order_relaxed);
-    reportEffects();
     reportExposure();
 
     const bool running = isSounding();

@@ -41,7 +41,9 @@ public:
 
 private:
     [[nodiscard]] bool isSounding() const noexcept { return silence_ == Silence::none; }
+    [[nodiscard]] const PublishedContact& contact() const noexcept { return channels_.toAudio.current().contact; }
     void readContact() noexcept;
+    void applyContact() noexcept;
     void readControls() noexcept;
     void readPanic() noexcept;
     void noteRate(double rateHz) noexcept;
@@ -58,7 +60,6 @@ private:
     void readSignal() noexcept;
     void noteSignalTransition(SignalTransitions& turns) noexcept;
     void takeProcessors() noexcept;
-    void reportEffects() noexcept;
     void reportExposure() noexcept;
     void fallSilent(Silence reason) noexcept;
     void takeSegments() noexcept;
@@ -80,7 +81,7 @@ private:
     std::uint32_t playedOnset_ = 0;
     std::uint64_t tapFramesLeft_ = 0;
 
-    // Last value of Blow::number, and the values of AudioMessage::updates before this block's message and in it.
+    // Last value of Blow::number, and the values of PublishedContact::updates before this block's message and in it.
     std::uint64_t takenBlow_ = 0;
     std::uint64_t updatesBefore_ = 0;
     std::uint64_t updates_ = 0;
@@ -103,7 +104,7 @@ private:
     double waitedSeconds_ = 0.0;
 
     effects::SignalSettings signal_;
-    // AudioMessage::isMoving at the last block.
+    // ContactState::isMoving at the last block.
     bool wasMoving_ = false;
 
     bool hasContact_ = false;
@@ -121,7 +122,6 @@ private:
     int blocksNoted_ = 0;
     bool reportedRunning_ = false;
     bool reportedGuard_ = false;
-    std::uint64_t reportedEffectChanges_ = 0;
 };
 
 }  // namespace haptoflow::engine

@@ -28,7 +28,7 @@ struct SolverSettings {
     int steps = 2;
 };
 
-/// The inputs of one segment. The caller owns what the spans view; `generate` reads it only while it runs.
+/// What a network needs, with or without a contact state. The caller owns what the spans view while `generate` runs.
 struct SegmentRequest {
     std::array<float, embeddingSize> embedding{};
     /// vx, vy in m/s along the surface's tangent axes and force in N, clamped to the trained range.

@@ -7,19 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace haptoflow::model {
-namespace {
-
-std::string inWords(double value) {
-    std::ostringstream stream;
-    stream.imbue(std::locale::classic());
-    stream << value;
-    return stream.str();
-}
-
-}  // namespace
 
 HeaderNode::HeaderNode(const nlohmann::json& value, std::string path, const char* document)
     : value_(&value), path_(std::move(path)), document_(document) {}
@@ -100,7 +89,7 @@ std::vector<double> HeaderNode::risingNumbers(std::size_t minimumCount, std::siz
 double HeaderNode::number(double minimum, double maximum) const {
     const double value = value_->is_number() ? value_->get<double>() : std::nan("");
     if (!(value >= minimum && value <= maximum)) {
-        refuse("a number from " + inWords(minimum) + " to " + inWords(maximum));
+        refuse("a number from " + shortNumber(minimum) + " to " + shortNumber(maximum));
     }
     return value;
 }

@@ -7,6 +7,7 @@
 #include "model/header_node.hpp"
 #include "model/model_blobs.hpp"
 #include "model/name_index.hpp"
+#include "model/plain_text.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -81,15 +82,6 @@ const Blob& requireMatrix(const HeaderNode& node, const std::string& name, const
         node.refuse("a blob \"" + name + "\" of type \"float32\" and shape [rows, " + std::to_string(columns) + ']');
     }
     return *blob;
-}
-
-std::string hexadecimal(std::uint32_t value) {
-    constexpr std::string_view digits = "0123456789abcdef";
-    std::string text;
-    for (int shift = 28; shift >= 0; shift -= 4) {
-        text += digits[(value >> static_cast<unsigned>(shift)) & 0xFU];
-    }
-    return text;
 }
 
 }  // namespace

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iomanip>
+#include <locale>
+#include <sstream>
 
 namespace haptoflow::model {
 namespace {
@@ -92,6 +95,20 @@ std::string_view shortened(std::string_view text, std::size_t bytes) noexcept {
         --bytes;
     }
     return text.substr(0, bytes);
+}
+
+std::string shortNumber(double value) {
+    std::ostringstream stream;
+    stream.imbue(std::locale::classic());
+    stream << value;
+    return stream.str();
+}
+
+std::string hexadecimal(std::uint32_t value) {
+    std::ostringstream stream;
+    stream.imbue(std::locale::classic());
+    stream << std::hex << std::setw(8) << std::setfill('0') << value;
+    return stream.str();
 }
 
 }  // namespace haptoflow::model

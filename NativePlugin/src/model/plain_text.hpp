@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -17,5 +18,11 @@ namespace haptoflow::model {
 
 /// At most `bytes` bytes from the text's beginning, without a part of a character at the end.
 [[nodiscard]] std::string_view shortened(std::string_view text, std::size_t bytes) noexcept;
+
+/// A number with six significant digits at most and a decimal point, in every locale: "0.0823", "12.5", "1e-06".
+[[nodiscard]] std::string shortNumber(double value);
+
+/// Eight digits: "00c0ffee".
+[[nodiscard]] std::string hexadecimal(std::uint32_t value);
 
 }  // namespace haptoflow::model

@@ -37,7 +37,7 @@ Channel channelOf(const Recording& recording, std::size_t axis, std::size_t samp
 std::vector<float> oneAxis(const Recording& recording, std::size_t samples) {
     std::array<std::vector<double>, 3> axes;
     for (std::size_t axis = 0; axis < recording.axisCount; ++axis) {
-        axes[axis] = bandPassed(resampledTo2kHz(channelOf(recording, axis, samples), recording.rateHz));
+        axes[axis] = bandPassed(resampled(channelOf(recording, axis, samples), recording.rateHz, dsp::waveformRateHz));
     }
     const std::vector<double> wave = recording.axisCount == 3 ? combineAxes(axes) : std::move(axes[0]);
     std::vector<float> result(wave.size());

@@ -21,24 +21,6 @@ void require(bool holds, const std::string& message) {
     }
 }
 
-void checkSizes(const Recording& recording) {
-    require(recording.axisCount == 1 || recording.axisCount == 3,
-            "the recording has " + std::to_string(recording.axisCount) + " axes; expected 1 or 3");
-    require(recording.rateHz >= lowestRateHz && recording.rateHz <= highestRateHz,
-            "the recording's rate is " + plainNumber(recording.rateHz) + " Hz; expected 1000 to 192000 Hz");
-    const std::size_t count = recording.sampleCount();
-    require(count * recording.axisCount == recording.accelerationMps2.size(),
-            "the acceleration does not have the same number of samples for each axis");
-    require(recording.velocityMps.empty() || recording.velocityMps.size() == 2 * count,
-            "the velocity does not have two numbers for each sample of the acceleration");
-    require(recording.forceNewtons.empty() || recording.forceNewtons.size() == count,
-            "the force does not have one number for each sample of the acceleration");
-    require(std::isfinite(recording.constantVelocityMps[0]) && std::isfinite(recording.constantVelocityMps[1]),
-            "the constant velocity is not finite");
-    require(std::isfinite(recording.constantForceNewtons) && recording.constantForceNewtons >= 0.0,
-            "the constant force is " + plainNumber(recording.constantForceNewtons) + " N; expected 0 or more");
-}
-
 /// A longer run of samples that are not finite, with others before and after it, is a pause and not damage.
 constexpr double minimumPauseSeconds = 0.25;
 
@@ -121,6 +103,24 @@ std::string plainNumber(double value) {
     }
     text << value;
     return text.str();
+}
+
+void checkSizes(const Recording& recording) {
+    require(recording.axisCount == 1 || recording.axisCount == 3,
+            "the recording has " + std::to_string(recording.axisCount) + " axes; expected 1 or 3");
+    require(recording.rateHz >= lowestRateHz && recording.rateHz <= highestRateHz,
+            "the recording's rate is " + plainNumber(recording.rateHz) + " Hz; expected 1000 to 192000 Hz");
+    const std::size_t count = recording.sampleCount();
+    require(count * recording.axisCount == recording.accelerationMps2.size(),
+            "the acceleration does not have the same number of samples for each axis");
+    require(recording.velocityMps.empty() || recording.velocityMps.size() == 2 * count,
+            "the velocity does not have two numbers for each sample of the acceleration");
+    require(recording.forceNewtons.empty() || recording.forceNewtons.size() == count,
+            "the force does not have one number for each sample of the acceleration");
+    require(std::isfinite(recording.constantVelocityMps[0]) && std::isfinite(recording.constantVelocityMps[1]),
+            "the constant velocity is not finite");
+    require(std::isfinite(recording.constantForceNewtons) && recording.constantForceNewtons >= 0.0,
+            "the constant force is " + plainNumber(recording.constantForceNewtons) + " N; expected 0 or more");
 }
 
 void checkRecording(const Recording& recording) {

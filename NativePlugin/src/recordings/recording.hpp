@@ -49,8 +49,10 @@ inline constexpr double maximumClippedShare = 0.02;
 /// begins with the axis; every `stride`th is its.
 [[nodiscard]] double clippedShare(std::span<const float> values, std::size_t stride);
 
-/// Throws std::invalid_argument if the sizes of the spans do not match or a number is out of range, and
-/// RecordingUnusable if the samples are too short, silent, clipped or not finite.
+/// Throws std::invalid_argument if the sizes of the spans do not match or a number is out of range.
+void checkSizes(const Recording& recording);
+
+/// Throws as checkSizes does, and RecordingUnusable if the samples are too short, silent, clipped or not finite.
 void checkRecording(const Recording& recording);
 
 /// A number for messages: three significant digits with a decimal point, in every locale: "0.0823", "12.5", "1200".

@@ -36,9 +36,9 @@ double eighthPower(double value) {
 
 }  // namespace
 
-std::vector<double> resampledTo2kHz(const Channel& channel, double rateHz) {
+std::vector<double> resampled(const Channel& channel, double fromHz, double toHz) {
     const std::vector<double> table = sincTable();
-    const double step = rateHz / dsp::waveformRateHz;
+    const double step = fromHz / toHz;
     const double zerosPerInput = std::min(1.0, 1.0 / step);
     const double reach = halfLengthInZeros / zerosPerInput;
     const auto inputs = static_cast<std::ptrdiff_t>(channel.count);

@@ -15,11 +15,6 @@ namespace HaptoFlow.PreviewTests
         // The pictures show measured milliseconds: run these tests on an idle machine with
         //   dotnet test Tests/Dotnet/HaptoFlow.PreviewTests --filter TestCategory=DocumentationPicture
         [Test, Explicit, Category("DocumentationPicture")]
-        public void TheWindowIsDrawnForTheDocumentation() =>
-            Draw("texture-preview.png", StrokePreset.Spiral, new StrokeSettings(0.12, 1.5, 30.0, 2.4), 1.3,
-                new[] { new LabelMix("corduroy"), new LabelMix("wood", "sandpaper", 0.3f) }, _ => { });
-
-        [Test, Explicit, Category("DocumentationPicture")]
         [TestCase("output-controller.png", nameof(PreviewDevice.Controller))]
         [TestCase("output-motor.png", nameof(PreviewDevice.Motor))]
         public void TheOutputOfADeviceIsDrawnForTheDocumentation(string file, string device) =>
@@ -73,9 +68,9 @@ namespace HaptoFlow.PreviewTests
         private static void Save(SkiaCanvas picture, string path)
         {
             picture.Save(path);
-            var command = new ProcessStartInfo("node")
+            var command = new ProcessStartInfo("/usr/bin/python3")
             {
-                ArgumentList = { RepositoryFiles.In("scripts", "pack", "stamp_picture.mjs"), path },
+                ArgumentList = { RepositoryFiles.In("scripts", "pack", "renders.py"), path },
                 UseShellExecute = false,
             };
             using Process stamp = Process.Start(command)!;

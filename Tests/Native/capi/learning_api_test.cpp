@@ -6,6 +6,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -163,6 +167,35 @@ TEST_F(LearningApiTest, ArgumentsOutOfRangeAreRefusedByName) {
     EXPECT_EQ(haptoflow_learning_material(nullptr, &json), HAPTOFLOW_INVALID_ARGUMENT);
     EXPECT_EQ(haptoflow_learning_report(nullptr, &json), HAPTOFLOW_INVALID_ARGUMENT);
     EXPECT_EQ(haptoflow_learning_close(nullptr), HAPTOFLOW_INVALID_ARGUMENT);
+}
+
+TEST(RecordingWaveTest, AToneOnOneOfThreeAxesKeepsItsWaveWithoutGravity) {
+    constexpr double inputHz = 4000.0;
+    constexpr double waveHz = 2000.0;
+    constexpr std::size_t samples = 4000;
+    const auto tone = [](double seconds) { return 3.0 * std::sin(2.0 * std::numbers::pi * 150.0 * seconds); };
+    std::vector<float> recorded(3 * samples, 0.0F);
+    for (std::size_t i = 0; i < samples; ++i) {
+        recorded[3 * i + 1] = static_cast<float>(tone(static_cast<double>(i) / inputHz));
+        recorded[3 * i + 2] = 9.81F;
+    }
+    std::vector<float> wave(2100, 1.0F);
+    ASSERT_EQ(haptoflow_recording_wave(recorded.data(), samples, 3, inputHz, wave.data(), wave.size()), HAPTOFLOW_OK)
+        << message();
+    for (std::size_t i = 500; i < 1500; i += 7) {
+        EXPECT_NEAR(wave[i], tone(static_cast<double>(i) / waveHz), 0.05) << i;
+    }
+    EXPECT_EQ(wave.back(), 0.0F) << "beyond the recording's end";
+}
+
+TEST(RecordingWaveTest, AnotherNumberOfAxesAndUnknownRatesAreRefusedByName) {
+    std::array<float, 8> numbers{};
+    EXPECT_EQ(haptoflow_recording_wave(numbers.data(), 2, 2, 2000.0, numbers.data(), 8), HAPTOFLOW_INVALID_ARGUMENT);
+    EXPECT_THAT(message(), ::testing::HasSubstr("2 axes"));
+    EXPECT_EQ(haptoflow_recording_wave(numbers.data(), 2, 1, 999.0, numbers.data(), 8), HAPTOFLOW_INVALID_ARGUMENT);
+    EXPECT_THAT(message(), ::testing::HasSubstr("rate is 999 Hz"));
+    EXPECT_EQ(haptoflow_resample(numbers.data(), 2, 2000.0, numbers.data(), 8, 1e9), HAPTOFLOW_INVALID_ARGUMENT);
+    EXPECT_THAT(message(), ::testing::HasSubstr("expected 1000 to 192000 Hz"));
 }
 
 }  // namespace

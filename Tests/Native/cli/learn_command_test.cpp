@@ -404,7 +404,7 @@ std::vector<double> bandsOf(const std::vector<float>& wave) {
 /// The wave at 2 kHz without its first and last 0.3 s.
 std::vector<float> middleAt2kHz(const std::vector<float>& wave, double waveRateHz) {
     const std::vector<double> all = recordings::bandPassed(
-        recordings::resampledTo2kHz({.first = wave.data(), .stride = 1, .count = wave.size()}, waveRateHz));
+        recordings::resampled({.first = wave.data(), .stride = 1, .count = wave.size()}, waveRateHz, 2000.0));
     return {all.begin() + 600, all.end() - 600};
 }
 

@@ -47,16 +47,15 @@ protected:
     static std::vector<float> rendered(const model::ModelFile& model, std::uint32_t first, std::uint32_t second) {
         inference::OnnxSegmentGenerator generator(inference::Runtime::open(HAPTOFLOW_TEST_ONNXRUNTIME), model, "draft",
                                                   {inference::SolverKind::euler, 1}, 4);
-        std::vector<ContactState> states;
+        std::vector<TimedContactState> states;
         for (int update = 0; update < 72; ++update) {
-            ContactState state;
+            TimedContactState state;
             state.timeSeconds = update / 72.0;
             state.touching = true;
             state.touchCounter = 1;
             state.velocityMps = {0.1F, 0.05F};
             state.forceNewtons = 1.0F;
-            state.material.entries[0] = {update < 36 ? first : second, 1.0F};
-            state.material.count = 1;
+            state.material.add(update < 36 ? first : second, 1.0F);
             states.push_back(state);
         }
         return renderOffline(model, generator, states, {}).samples;

@@ -38,7 +38,8 @@ SmallLibrary ruledLibrary() {
 
 class BlendRibsTest : public ::testing::Test {
 protected:
-    [[nodiscard]] WaveVectors ribsOf(std::initializer_list<LabelWeight> entries, const WaveVectors& before = {}) const {
+    [[nodiscard]] WaveVectors ribsOf(std::initializer_list<testing::LabelWeight> entries,
+                                     const WaveVectors& before = {}) const {
         return assignRibs(small_.ingredients(entries), before);
     }
 

@@ -20,36 +20,36 @@ namespace {
 
 class BlendSoundTest : public ::testing::Test {
 protected:
-    [[nodiscard]] LabelWeight part(const std::string& label, float weight) const {
+    [[nodiscard]] testing::LabelWeight part(const std::string& label, float weight) const {
         return {static_cast<std::uint32_t>(std::ranges::find(model_.header().labels, label, &model::Label::name) -
                                            model_.header().labels.begin()),
                 weight};
     }
 
     /// The waveform played while a tip slides over a blend, without the touch-down.
-    std::vector<float> played(const std::vector<LabelWeight>& blend, std::array<float, 2> velocityMps, double seconds) {
-        std::vector<ContactState> states;
+    std::vector<float> played(const std::vector<testing::LabelWeight>& blend, std::array<float, 2> velocityMps,
+                              double seconds) {
+        std::vector<TimedContactState> states;
         for (int update = 0; update < static_cast<int>(seconds * 72.0); ++update) {
             states.push_back(stateOf(update, velocityMps, blend));
         }
         return render(states);
     }
-    std::vector<float> render(const std::vector<ContactState>& states) {
+    std::vector<float> render(const std::vector<TimedContactState>& states) {
         std::vector<float> wave =
             renderOffline(model_, generator_, states, {.fullScaleMps2 = 1e5F, .tailSeconds = 0.0}).waveformMps2;
         wave.erase(wave.begin(), wave.begin() + 400);
         return wave;
     }
-    static ContactState stateOf(int update, std::array<float, 2> velocityMps, const std::vector<LabelWeight>& blend) {
-        ContactState state;
+    static TimedContactState stateOf(int update, std::array<float, 2> velocityMps,
+                                     const std::vector<testing::LabelWeight>& blend) {
+        TimedContactState state;
         state.timeSeconds = update / 72.0;
         state.touching = true;
         state.touchCounter = 1;
         state.velocityMps = velocityMps;
         state.forceNewtons = 1.0F;
-        for (const LabelWeight& each : blend) {
-            state.material.entries.at(state.material.count++) = each;
-        }
+        state.material = testing::blendOf(blend);
         return state;
     }
 
@@ -121,10 +121,10 @@ TEST_F(BlendSoundTest, ABlendOfTwoRuledLabelsHasBothPitches) {
 
 TEST_F(BlendSoundTest, ASweepFromWoodToCorduroyDoesNotClick) {
     const std::array<float, 2> velocity{0.15F, 0.0F};
-    std::vector<ContactState> states;
+    std::vector<TimedContactState> states;
     for (int update = 0; update <= 288; ++update) {
         const float share = static_cast<float>(update) / 288.0F;
-        std::vector<LabelWeight> blend;
+        std::vector<testing::LabelWeight> blend;
         if (share < 1.0F) {
             blend.push_back(part("wood", 1.0F - share));
         }

@@ -368,10 +368,9 @@ class BlowLoudnessTest : public BlowsTest, public ::testing::WithParamInterface<
 
 TEST_P(BlowLoudnessTest, DoesNotDependOnTheBlockLengthNorOnRenderingLiveOrOffline) {
     const auto& [scene, rateHz] = GetParam();
-    std::vector<ContactState> states;
+    std::vector<TimedContactState> states;
     for (int state = 0; state < 2500; ++state) {
-        states.push_back(scene.hand(0.001 * state));
-        states.back().timeSeconds = 0.001 * state;
+        states.push_back({scene.hand(0.001 * state), 0.001 * state});
     }
     OfflineSettings settings;
     settings.outputRateHz = rateHz;

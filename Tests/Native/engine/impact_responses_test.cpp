@@ -43,7 +43,7 @@ TEST(ImpactResponsesTest, ABlendsResponseLiesBetweenItsLabelsAndUnknownLabelsAre
     builder.header["labels"][0]["stiffness_newtons_per_metre"] = 400.0;
     builder.header["labels"][1]["stiffness_newtons_per_metre"] = 6400.0;
     const testing::SmallLibrary small(model::ModelFile::parse(builder.build()));
-    const auto frequencyOf = [&small](std::initializer_list<LabelWeight> entries) {
+    const auto frequencyOf = [&small](std::initializer_list<testing::LabelWeight> entries) {
         return impactResponse(small.ingredients(entries)).modes[0].frequencyHz;
     };
     EXPECT_FLOAT_EQ(frequencyOf({{0, 1.0F}, {1, 0.0F}}), 100.0F);

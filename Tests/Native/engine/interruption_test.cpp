@@ -57,7 +57,7 @@ std::ostream& operator<<(std::ostream& stream, const Motion& motion) {
 
 ContactState moving(float speedMps, float forceNewtons, std::uint32_t label = 0) {
     ContactState state = testing::sliding(speedMps, forceNewtons);
-    state.material.entries[0].label = label;
+    state.material.labels[0] = label;
     return state;
 }
 

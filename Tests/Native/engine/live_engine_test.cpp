@@ -185,7 +185,7 @@ TEST_F(LiveEngineTest, AutomaticQualityMeasuresEveryTierAtRestAndThenDecides) {
     for (int i = 0; i < 10000 && engine->statistics().measuring; ++i) {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
-    const EngineStatistics statistics = engine->statistics();
+    const EngineStatistics& statistics = engine->statistics();
     EXPECT_FALSE(statistics.measuring);
     EXPECT_EQ(statistics.tier, 2U);
     for (std::size_t index = 0; index < engine->tierCount(); ++index) {

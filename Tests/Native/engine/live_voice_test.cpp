@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <numbers>
 #include <random>
 #include <vector>
@@ -30,6 +33,23 @@ protected:
 
 std::span<const float> from(const SimulatedDevice& device, std::size_t frame) {
     return std::span<const float>(device.output).subspan(frame);
+}
+
+TEST_F(LiveVoiceTest, EveryFieldOfAContactStateReachesTheCallbackAndTheWorker) {
+    // Every field has four bytes; a value of its own for each, also for those that are added later.
+    std::array<float, sizeof(ContactState) / sizeof(float)> numbers{};
+    for (std::size_t place = 0; place < numbers.size(); ++place) {
+        numbers[place] = 0.3F + 0.01F * static_cast<float>(place);
+    }
+    auto state = std::bit_cast<ContactState>(numbers);
+    (void)sanitise(state);
+    SimulatedDevice device(model_, tone_);
+    device.voice().publisher.publish(std::bit_cast<ContactState>(numbers));
+    VoiceChannels& channels = device.voice().channels;
+    ASSERT_TRUE(channels.toAudio.fetch());
+    ASSERT_TRUE(channels.toWorker.fetch());
+    EXPECT_EQ(std::memcmp(&channels.toAudio.current().contact.state, &state, sizeof(state)), 0);
+    EXPECT_EQ(std::memcmp(&channels.toWorker.current().contact.state, &state, sizeof(state)), 0);
 }
 
 TEST_F(LiveVoiceTest, TheSeedSoundsInTheFirstBlockAfterTouchDown) {

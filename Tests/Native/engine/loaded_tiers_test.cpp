@@ -57,7 +57,7 @@ TEST_F(LoadedTiersTest, ASingleLoadedTierKeepsItsIndexInTheModel) {
         const auto voice = engine.addVoice(48000.0);
         update(engine, *voice);
         EXPECT_EQ(generatedBy(index), 1);
-        const EngineStatistics statistics = engine.statistics();
+        const EngineStatistics& statistics = engine.statistics();
         EXPECT_EQ(statistics.tier, index);
         ASSERT_EQ(engine.tierCount(), tierCount);
         for (std::size_t other = 0; other < tierCount; ++other) {

@@ -96,11 +96,10 @@ TEST_F(LongRunTest, AVoiceAfterALongTouchSoundsLikeANewVoice) {
 
 TEST_F(LongRunTest, AStrokeRenderedOfflineADayLaterGivesTheSameBits) {
     const auto renderFrom = [this](double startSeconds) {
-        std::vector<ContactState> states;
+        std::vector<TimedContactState> states;
         for (int update = 0; update < 144; ++update) {
-            ContactState state = testing::sliding(0.1F + 0.001F * static_cast<float>(update));
-            state.timeSeconds = startSeconds + update / 72.0;
-            states.push_back(state);
+            states.push_back(
+                {testing::sliding(0.1F + 0.001F * static_cast<float>(update)), startSeconds + update / 72.0});
         }
         FakeGenerator noise(testing::whiteNoise);
         return renderOffline(model_, noise, states, {}).samples;

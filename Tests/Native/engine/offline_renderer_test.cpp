@@ -35,17 +35,16 @@ void continueTone(const inference::SegmentRequest& request, std::span<float> seg
     }
 }
 
-std::vector<ContactState> slide(double seconds, double updatesHz = 72.0) {
-    std::vector<ContactState> states;
+std::vector<TimedContactState> slide(double seconds, double updatesHz = 72.0) {
+    std::vector<TimedContactState> states;
     for (double t = 0.0; t < seconds; t += 1.0 / updatesHz) {
-        ContactState state;
+        TimedContactState state;
         state.timeSeconds = t;
         state.touching = true;
         state.touchCounter = 1;
         state.velocityMps = {0.1F, 0.0F};
         state.forceNewtons = 1.0F;
-        state.material.entries[0] = {.label = 0, .weight = 1.0F};
-        state.material.count = 1;
+        state.material.add(0, 1.0F);
         states.push_back(state);
     }
     return states;
@@ -54,7 +53,7 @@ std::vector<ContactState> slide(double seconds, double updatesHz = 72.0) {
 TEST(OfflineRendererTest, TheSamplesDependOnlyOnStatesAndSeed) {
     const model::ModelFile model = testing::smallModel();
     FakeGenerator generator(whiteNoise);
-    const std::vector<ContactState> states = slide(0.5);
+    const std::vector<TimedContactState> states = slide(0.5);
     const OfflineRender first = renderOffline(model, generator, states, {.seed = 7});
     const OfflineRender second = renderOffline(model, generator, states, {.seed = 7});
     const OfflineRender other = renderOffline(model, generator, states, {.seed = 8});
@@ -83,11 +82,11 @@ public:
 TEST(OfflineRendererTest, AStreamedRenderArrivesPerUpdateAndHasTheSameStatistics) {
     const model::ModelFile model = testing::smallModel();
     FakeGenerator generator(whiteNoise);
-    const std::vector<ContactState> states = slide(5.0);
+    const std::vector<TimedContactState> states = slide(5.0);
     const OfflineRender whole = renderOffline(model, generator, states, {});
     CountingSink sink;
     std::size_t next = 0;
-    const ContactStateSource source = [&]() -> std::optional<ContactState> {
+    const ContactStateSource source = [&]() -> std::optional<TimedContactState> {
         return next < states.size() ? std::optional(states[next++]) : std::nullopt;
     };
     const OfflineFigures streamed = renderOffline(model, generator, source, {}, sink);
@@ -105,7 +104,7 @@ TEST(OfflineRendererTest, AStreamedRenderArrivesPerUpdateAndHasTheSameStatistics
 TEST(OfflineRendererTest, TouchesWithoutASoundAreCounted) {
     const model::ModelFile model = testing::smallModel();
     FakeGenerator generator(whiteNoise);
-    std::vector<ContactState> states = slide(0.99);
+    std::vector<TimedContactState> states = slide(0.99);
     for (std::size_t i = 0; i < states.size(); ++i) {
         // Three touches of 20 states with gaps of 4 states; the tip rests in the second touch.
         const std::size_t touch = i / 24;
@@ -136,7 +135,7 @@ TEST(OfflineRendererTest, EverySegmentContinuesTheCommittedSamples) {
 TEST(OfflineRendererTest, WithoutTouchNothingIsGeneratedAndTheOutputIsZero) {
     const model::ModelFile model = testing::smallModel();
     FakeGenerator generator(whiteNoise);
-    std::vector<ContactState> states = slide(1.0);
+    std::vector<TimedContactState> states = slide(1.0);
     for (ContactState& state : states) {
         state.touching = false;
         state.touchCounter = 0;
@@ -150,7 +149,7 @@ TEST(OfflineRendererTest, WithoutTouchNothingIsGeneratedAndTheOutputIsZero) {
 TEST(OfflineRendererTest, ATipAtRestOnTheSurfaceNeedsNoInference) {
     const model::ModelFile model = testing::smallModel();
     FakeGenerator generator(whiteNoise);
-    std::vector<ContactState> states = slide(1.0);
+    std::vector<TimedContactState> states = slide(1.0);
     for (ContactState& state : states) {
         state.velocityMps = {0.0F, 0.0F};
     }
@@ -177,7 +176,7 @@ TEST(OfflineRendererTest, AfterAFailedRunTheOutputFadesAndTheFailureIsCounted) {
 TEST(OfflineRendererTest, MissingUpdatesSilenceTheVoiceUntilSlidingResumes) {
     const model::ModelFile model = testing::smallModel();
     FakeGenerator generator(continueTone);
-    std::vector<ContactState> states = slide(1.0);
+    std::vector<TimedContactState> states = slide(1.0);
     for (std::size_t i = 36; i < states.size(); ++i) {
         states[i].timeSeconds += 0.5;
     }
@@ -195,12 +194,13 @@ TEST(OfflineRendererTest, MissingUpdatesSilenceTheVoiceUntilSlidingResumes) {
 TEST(OfflineRendererTest, InvalidStatesAreSanitisedAndCountedAndTheOutputIsFinite) {
     const model::ModelFile model = testing::smallModel();
     FakeGenerator generator(whiteNoise);
-    std::vector<ContactState> states = slide(1.0);
+    std::vector<TimedContactState> states = slide(1.0);
     for (std::size_t i = 5; i < states.size(); i += 3) {
         states[i].velocityMps[0] = std::numeric_limits<float>::quiet_NaN();
         states[i].forceNewtons = std::numeric_limits<float>::infinity();
-        states[i].material.entries[0].weight = -std::numeric_limits<float>::infinity();
+        states[i].material.weights[0] = -std::numeric_limits<float>::infinity();
     }
+    states[8].timeSeconds = std::numeric_limits<double>::quiet_NaN();
     const OfflineRender render = renderOffline(model, generator, states, {});
     EXPECT_GT(render.sanitised, 60U);
     EXPECT_TRUE(std::ranges::all_of(render.samples, [](float sample) { return std::abs(sample) < 1.0F; }));
@@ -211,7 +211,7 @@ class UpdateRateTest : public ::testing::TestWithParam<double> {};
 TEST_P(UpdateRateTest, EveryUpdateOfASlideGivesOneSegmentAndNoUnderrun) {
     const model::ModelFile model = testing::smallModel();
     FakeGenerator generator(continueTone);
-    const std::vector<ContactState> states = slide(1.0, GetParam());
+    const std::vector<TimedContactState> states = slide(1.0, GetParam());
     const OfflineRender render = renderOffline(model, generator, states, {});
     EXPECT_EQ(generator.generated, static_cast<int>(states.size()));
     EXPECT_EQ(render.underruns, 0U);
@@ -228,9 +228,9 @@ TEST(OfflineRendererTest, ANewLabelIsAudibleAfterTheLead) {
         const bool mesh = request.embedding[3] == model.embedding(1)[3];
         std::ranges::fill(segment, mesh ? 1.0F : 0.0F);
     };
-    std::vector<ContactState> states = slide(1.0);
+    std::vector<TimedContactState> states = slide(1.0);
     for (std::size_t i = 36; i < states.size(); ++i) {
-        states[i].material.entries[0].label = 1;
+        states[i].material.labels[0] = 1;
     }
     for (const double leadMs : {2.0, 8.0, 20.0}) {
         FakeGenerator generator(answer);
@@ -249,7 +249,7 @@ TEST(OfflineRendererTest, ANewLabelIsAudibleAfterTheLead) {
 TEST(OfflineRendererTest, SettingsOutOfRangeAreRejected) {
     const model::ModelFile model = testing::smallModel();
     FakeGenerator generator(whiteNoise);
-    const std::vector<ContactState> states = slide(0.1);
+    const std::vector<TimedContactState> states = slide(0.1);
     EXPECT_THROW((void)renderOffline(model, generator, states, {.leadMs = -1.0}), std::invalid_argument);
     EXPECT_THROW((void)renderOffline(model, generator, states, {.outputRateHz = 4000.0}), std::invalid_argument);
     EXPECT_THROW((void)renderOffline(model, generator, states, {.fullScaleMps2 = 0.0F}), std::invalid_argument);

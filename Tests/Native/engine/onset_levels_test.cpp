@@ -83,7 +83,8 @@ protected:
     model::ModelFile model_ = testing::smallModel();
     PowerLaw graph_;
     /// The level of a blend at a motion.
-    [[nodiscard]] float levelOf(std::initializer_list<LabelWeight> entries, const std::array<float, 3>& motion) const {
+    [[nodiscard]] float levelOf(std::initializer_list<testing::LabelWeight> entries,
+                                const std::array<float, 3>& motion) const {
         return MaterialLibrary::ReadScope(library_).ingredients(testing::blendOf(entries)).levelMps2(motion);
     }
     MaterialLibrary library_{model_, graph_};

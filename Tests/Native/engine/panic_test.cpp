@@ -15,7 +15,7 @@ using testing::SimulatedDevice;
 ContactState touch(std::uint32_t number, std::uint32_t label = 0) {
     ContactState state = testing::sliding();
     state.touchCounter = number;
-    state.material.entries[0].label = label;
+    state.material.labels[0] = label;
     return state;
 }
 

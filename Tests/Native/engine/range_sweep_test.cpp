@@ -23,8 +23,7 @@ protected:
     /// Level in decibels, including the range law's gain, for each motion of a sweep over a label.
     std::vector<double> levels(std::size_t label, const std::vector<std::array<float, 3>>& motions) {
         MaterialBlend blend;
-        blend.entries[0] = {.label = static_cast<std::uint32_t>(label), .weight = 1.0F};
-        blend.count = 1;
+        blend.add(static_cast<std::uint32_t>(label), 1.0F);
         const Material material = resolveMaterial(MaterialLibrary::ReadScope(library_).ingredients(blend));
         std::vector<inference::SegmentRequest> requests;
         std::vector<double> result;

@@ -1,6 +1,7 @@
 #include "engine/live_engine.hpp"
 #include "engine/offline_renderer.hpp"
 #include "simulated_device.hpp"
+#include "small_library.hpp"
 #include "test_model.hpp"
 
 #include <gtest/gtest.h>
@@ -86,7 +87,7 @@ model::ModelFile ribModel() {
 
 ContactState onLabel(std::uint32_t label, float speedMps = static_cast<float>(seedSpeedMps)) {
     ContactState state = testing::sliding(speedMps);
-    state.material.entries[0].label = label;
+    state.material.labels[0] = label;
     return state;
 }
 
@@ -275,9 +276,7 @@ TEST_F(RibPhaseTest, ALabelChangeWithinATouchMakesNoPhaseJump) {
         ContactState state = onLabel(t < 0.5 || t > 2.5 ? 0 : 1);
         if (t > 1.0 && t < 2.0) {
             const auto share = static_cast<float>(t - 1.0);
-            state.material.entries[0] = {.label = 0, .weight = share};
-            state.material.entries[1] = {.label = 1, .weight = 1.0F - share};
-            state.material.count = 2;
+            state.material = testing::blendOf({{0, share}, {1, 1.0F - share}});
         }
         return state;
     });
@@ -290,9 +289,7 @@ TEST_F(RibPhaseTest, ABlendKeepsThePitchOfItsHeaviestMaterial) {
     SimulatedDevice device(model_, generator_);
     device.run(1.5, [](double) {
         ContactState state = onLabel(0);
-        state.material.entries[0].weight = 0.25F;
-        state.material.entries[1] = {.label = 1, .weight = 0.75F};
-        state.material.count = 2;
+        state.material = testing::blendOf({{0, 0.25F}, {1, 0.75F}});
         return state;
     });
     const auto first = static_cast<std::size_t>(device.waveform.seams.front());
@@ -373,11 +370,10 @@ TEST_F(RibPhaseTest, SeedsWithoutAPhaseBeginAtZero) {
 
 TEST_F(RibPhaseTest, LiveVoiceAndOfflineRendererHaveTheSameRibPhases) {
     const auto hand = [](double t) {
-        ContactState state = onLabel(0, 0.1F + 0.06F * static_cast<float>(std::sin(2.0 * std::numbers::pi * t)));
-        state.timeSeconds = t;
-        return state;
+        return TimedContactState{onLabel(0, 0.1F + 0.06F * static_cast<float>(std::sin(2.0 * std::numbers::pi * t))),
+                                 t};
     };
-    std::vector<ContactState> states;
+    std::vector<TimedContactState> states;
     for (int update = 0; update < 144; ++update) {
         states.push_back(hand(update / 72.0));
     }

@@ -91,7 +91,7 @@ TEST_F(SignalVoiceTest, ASignalReplacesTextureImpactEdgeAndToneWithoutInference)
         state.edgeCounter = touch;
         state.edgeHeightMetres = 0.01F;
         state.landingCounter = touch / 2;
-        state.material.entries[0].label = touch % 2;
+        state.material.labels[0] = touch % 2;
         play(0.1, state);
         EXPECT_TRUE(isTone(played(0.02), 200.0, 6.0 / fullScaleMps2));
         play(0.05, lifted(touch));

@@ -134,7 +134,7 @@ TEST_F(SilenceTest, AnyCombinationOfControlsIsBoundedAndSilentIfAReasonHolds) {
         number += (mixture & 32U) != 0 ? 1 : 0;
         ContactState state = testing::sliding((mixture & 32U) != 0 ? -19.0F : 0.1F, 2.0F);
         state.touchCounter = number;
-        state.material.entries[0].label = mixture % 2;
+        state.material.labels[0] = mixture % 2;
         device.publish(state);
         device.run(0.06, [&state](double) { return state; });
         const auto last = std::span<const float>(device.output).last(480);

@@ -175,8 +175,7 @@ inline ContactState sliding(float speedMps = 0.1F, float forceNewtons = 1.0F) {
     state.touchCounter = 1;
     state.velocityMps = {speedMps, 0.0F};
     state.forceNewtons = forceNewtons;
-    state.material.entries[0] = {.label = 0, .weight = 1.0F};
-    state.material.count = 1;
+    state.material.add(0, 1.0F);
     return state;
 }
 

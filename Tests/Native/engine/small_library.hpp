@@ -4,15 +4,22 @@
 #include "fake_generators.hpp"
 #include "test_model.hpp"
 
+#include <cstdint>
 #include <initializer_list>
 #include <utility>
+#include <vector>
 
 namespace haptoflow::engine::testing {
 
-inline MaterialBlend blendOf(std::initializer_list<LabelWeight> entries) {
+struct LabelWeight {
+    std::uint32_t label = 0;
+    float weight = 0.0F;
+};
+
+inline MaterialBlend blendOf(const std::vector<LabelWeight>& entries) {
     MaterialBlend blend;
     for (const LabelWeight entry : entries) {
-        blend.entries.at(blend.count++) = entry;
+        blend.add(entry.label, entry.weight);
     }
     return blend;
 }

@@ -59,7 +59,7 @@ protected:
     }
     static ContactState on(std::uint32_t label) {
         ContactState state = sliding();
-        state.material.entries[0].label = label;
+        state.material.labels[0] = label;
         return state;
     }
 
@@ -130,7 +130,7 @@ TEST_F(ToneVoiceTest, ANewTouchDoesNotUseTheToneOfTheTouchBefore) {
     ASSERT_EQ(registered(twice, 12.0), first);
     const auto touch = [first](std::uint32_t counter, std::uint32_t label) {
         ContactState state = on(label);
-        state.material.entries[0].label = label == 99 ? first : label;
+        state.material.labels[0] = label == 99 ? first : label;
         state.touchCounter = counter;
         return state;
     };

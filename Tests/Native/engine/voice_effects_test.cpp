@@ -94,7 +94,7 @@ TEST_F(VoiceEffectsTest, EffectsThatASurfaceLacksNeverRun) {
         ContactState state = testing::sliding(0.2F);
         state.approachSpeedMps = 0.5F;
         state.touchCounter = static_cast<std::uint32_t>(update++ / 10 + 1);
-        state.material.entries[0].label = static_cast<std::uint32_t>(update % 2);
+        state.material.labels[0] = static_cast<std::uint32_t>(update % 2);
         return state;
     });
     for (const EffectCounters& counters : device.counters().effects) {
@@ -224,7 +224,7 @@ TEST_F(VoiceEffectsTest, ARateChangeFadesAnImpactAndTheNextOneSounds) {
 ContactState crossing(double seconds, float speedMps, EffectMask mask) {
     ContactState state = testing::sliding(speedMps);
     state.effects = mask;
-    state.material.entries[0].label = static_cast<int>(std::floor(seconds / 0.1)) % 2 == 0 ? 0U : 1U;
+    state.material.labels[0] = static_cast<int>(std::floor(seconds / 0.1)) % 2 == 0 ? 0U : 1U;
     return state;
 }
 
@@ -401,7 +401,7 @@ TEST_F(VoiceEffectsTest, TenMinutesOfBlowsAndInterruptionsStayBoundedAndEndInSil
             state.touchCounter = touch;
             state.effects = (draw >> 8) % 8;
             state.approachSpeedMps = static_cast<float>((draw >> 12) % 300) * 0.01F;
-            state.material.entries[0].label = (draw >> 20) % 3;
+            state.material.labels[0] = (draw >> 20) % 3;
             state.edgeCounter = edges;
             state.edgeHeightMetres = static_cast<float>((draw >> 22) % 100) * 0.001F;
             device.controls().muted = draw % 97 == 0;

@@ -13,6 +13,7 @@
 namespace haptoflow::engine {
 namespace {
 
+EffectFigures unreadFigures;
 constexpr double playedRateHz = 48000.0;
 
 /// A seed of 120 Hz at a level, with phase zero at its middle, where it starts to sound.
@@ -32,7 +33,7 @@ std::vector<float> renderSamples(Voice& voice, std::size_t count) {
 }
 
 TEST(VoiceTest, WithoutTouchTheVoiceWritesZerosAndItsClockStandsStill) {
-    Voice voice(playedRateHz, 60.0F);
+    Voice voice(playedRateHz, 60.0F, unreadFigures);
     const std::int64_t head = voice.timeline().head();
     const std::vector<float> output = renderSamples(voice, 4800);
     EXPECT_TRUE(std::ranges::all_of(output, [](float sample) { return sample == 0.0F; }));
@@ -41,7 +42,7 @@ TEST(VoiceTest, WithoutTouchTheVoiceWritesZerosAndItsClockStandsStill) {
 }
 
 TEST(VoiceTest, TheSeedSoundsAtOnceWithAConstantDelay) {
-    Voice voice(playedRateHz, 60.0F);
+    Voice voice(playedRateHz, 60.0F, unreadFigures);
     voice.onset(toneSeed(6.0F));
     const std::vector<float> output = renderSamples(voice, 1440);
     // After the ramp of 2 ms, the output is the seed with a delay below a millisecond.
@@ -67,7 +68,7 @@ TEST(VoiceTest, TheSeedSoundsAtOnceWithAConstantDelay) {
 }
 
 TEST(VoiceTest, AReleasedVoiceIsSilentWithinFiveMillisecondsWithoutAClick) {
-    Voice voice(playedRateHz, 60.0F);
+    Voice voice(playedRateHz, 60.0F, unreadFigures);
     voice.onset(toneSeed(6.0F));
     std::vector<float> output = renderSamples(voice, 2000);
     const float ordinaryStep = testing::largestStep(output);
@@ -80,7 +81,7 @@ TEST(VoiceTest, AReleasedVoiceIsSilentWithinFiveMillisecondsWithoutAClick) {
 }
 
 TEST(VoiceTest, ATouchDuringAFadeStartsWithoutAStep) {
-    Voice voice(playedRateHz, 60.0F);
+    Voice voice(playedRateHz, 60.0F, unreadFigures);
     voice.onset(toneSeed(6.0F));
     std::vector<float> output = renderSamples(voice, 1777);
     const float ordinaryStep = testing::largestStep(output);
@@ -97,8 +98,8 @@ TEST(VoiceTest, ATouchDuringAFadeStartsWithoutAStep) {
 }
 
 TEST(VoiceTest, TheOutputDoesNotDependOnTheBlockLength) {
-    Voice whole(playedRateHz, 60.0F);
-    Voice pieces(playedRateHz, 60.0F);
+    Voice whole(playedRateHz, 60.0F, unreadFigures);
+    Voice pieces(playedRateHz, 60.0F, unreadFigures);
     whole.onset(toneSeed(3.0F));
     pieces.onset(toneSeed(3.0F));
     const std::vector<float> expected = renderSamples(whole, 4096);
@@ -112,7 +113,7 @@ TEST(VoiceTest, TheOutputDoesNotDependOnTheBlockLength) {
 }
 
 TEST(VoiceTest, ANonFiniteSeedGivesSilenceAndIsCounted) {
-    Voice voice(playedRateHz, 60.0F);
+    Voice voice(playedRateHz, 60.0F, unreadFigures);
     std::array<float, 400> seed = toneSeed(6.0F);
     seed[300] = std::nanf("");
     voice.onset(seed);
@@ -127,7 +128,7 @@ TEST(VoiceTest, ANonFiniteSeedGivesSilenceAndIsCounted) {
 
 TEST(VoiceTest, InsideTheRangeTheFiltersDelayByAtMostOneAndAHalfMilliseconds) {
     // A step in the waveform at a known sample. The delay is the time until half of the step has been output.
-    Voice voice(playedRateHz, 60.0F);
+    Voice voice(playedRateHz, 60.0F, unreadFigures);
     voice.onset(std::array<float, 400>{});
     std::vector<float> output = renderSamples(voice, 480);
     const std::int64_t step = voice.timeline().head() + 10;
@@ -144,7 +145,7 @@ TEST(VoiceTest, InsideTheRangeTheFiltersDelayByAtMostOneAndAHalfMilliseconds) {
 }
 
 TEST(VoiceTest, AHigherReadingRateRaisesTheFrequency) {
-    Voice voice(playedRateHz, 60.0F);
+    Voice voice(playedRateHz, 60.0F, unreadFigures);
     voice.setRangeLaw(1.0, 2.0);
     voice.onset(toneSeed(6.0F));
     voice.setRangeLaw(1.0, 2.0);

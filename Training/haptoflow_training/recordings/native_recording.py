@@ -28,8 +28,6 @@ class _Options(ctypes.Structure):
         ("path", ctypes.c_char_p),
         ("files", ctypes.POINTER(_File)),
         ("full_scale_mps2", ctypes.c_double),
-        ("speed_mps", ctypes.c_double),
-        ("force_newtons", ctypes.c_double),
         ("without_samples", ctypes.c_uint32),
         ("needs_motion_and_force", ctypes.c_uint32),
     ]

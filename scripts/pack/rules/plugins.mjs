@@ -1,4 +1,8 @@
+import { loadAlignment } from '../elf.mjs';
 import { kindOfLibrary, platforms, pluginsFolder } from '../natives.mjs';
+
+/** Devices with Android 15 and later may have pages of 16 KiB; they load no library whose segments are aligned to less. */
+export const androidPageBytes = 16384;
 
 /** The import settings with which Unity loads each platform's library on that platform only. */
 const settings = {
@@ -27,6 +31,8 @@ export function checkPlugins(files) {
     }
     const kind = kindOfLibrary(files.bytes(name));
     if (kind !== platform.kind) complaints.push(`${name}: is ${kind ?? 'no library'}; expected ${platform.kind}`);
+    const alignment = kind === 'android-arm64' ? loadAlignment(files.bytes(name)) : androidPageBytes;
+    if (alignment < androidPageBytes) complaints.push(`${name}: segments are aligned to ${alignment} bytes, expected ${androidPageBytes}: link with -z max-page-size=${androidPageBytes}`);
     if (files.has(`${name}.meta`)) complaints.push(...checkPluginMeta(`${name}.meta`, files.text(`${name}.meta`), settings[platform.name]));
   }
   return complaints;

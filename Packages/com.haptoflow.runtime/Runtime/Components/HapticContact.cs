@@ -3,7 +3,8 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>A touch of a stylus, in world space: metres, m/s, newtons.</summary>
+    /// <summary>A touch of a stylus, in world space: metres, m/s, newtons. What a handler gets: Unity's types, and
+    /// surface and material, instead of the model's reading.</summary>
     public readonly struct HapticContact
     {
         private readonly MappedCollider? byRules;
@@ -22,11 +23,11 @@ namespace HaptoFlow
             PenetrationMetres = (float)reading.PenetrationMetres;
             FirstAxis = reading.FirstAxis.ToVector();
             SecondAxis = reading.SecondAxis.ToVector();
-            FirstVelocityMps = (float)reading.FirstVelocityMps;
-            SecondVelocityMps = (float)reading.SecondVelocityMps;
-            ForceNewtons = (float)reading.ForceNewtons;
-            ApproachSpeedMps = (float)reading.ApproachSpeedMps;
-            TouchCounter = reading.TouchCounter;
+            FirstVelocityMps = reading.State.FirstVelocityMps;
+            SecondVelocityMps = reading.State.SecondVelocityMps;
+            ForceNewtons = reading.State.ForceNewtons;
+            ApproachSpeedMps = reading.State.ApproachSpeedMps;
+            TouchCounter = reading.State.TouchCounter;
         }
 
         /// <summary>The touched surface; null where the collider has none and a <see cref="HapticMaterialMap"/> assigns

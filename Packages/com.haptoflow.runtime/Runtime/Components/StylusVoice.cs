@@ -63,35 +63,26 @@ namespace HaptoFlow
             in ContactReading reading, in ResolvedMaterial felt, HapticSession session, IVoiceTarget? wanted)
         {
             leaving.Update();
-            bool isReady = MakeReady(session, wanted, reading);
-            newestTouch = reading.TouchCounter;
+            bool isReady = MakeReady(session, wanted, reading.State);
+            newestTouch = reading.State.TouchCounter;
             if (!isReady)
             {
                 return;
             }
-            bool isMissed = missedLanding == (reading.TouchCounter, reading.LandingCounter);
-            var state = new ContactState
-            {
-                TouchCounter = reading.TouchCounter,
-                FirstVelocityMps = (float)reading.FirstVelocityMps,
-                SecondVelocityMps = (float)reading.SecondVelocityMps,
-                ForceNewtons = (float)reading.ForceNewtons,
-                ApproachSpeedMps = isMissed ? 0f : (float)reading.ApproachSpeedMps,
-                LandingCounter = reading.LandingCounter,
-                EdgeCounter = reading.EdgeCounter,
-                EdgeHeightMetres = (float)reading.EdgeHeightMetres,
-            };
+            ContactState state = reading.State;
+            bool isMissed = missedLanding == (state.TouchCounter, state.LandingCounter);
+            state.ApproachSpeedMps = isMissed ? 0f : state.ApproachSpeedMps;
             // A material without a label that the model knows is silent, rather than played as another.
-            if (felt.Labels.Count > 0)
+            state.Touching = felt.Labels.Count > 0;
+            if (state.Touching)
             {
-                state.Touching = true;
                 state.Material = felt.Labels;
                 state.Effects = felt.Effects;
                 state.SpatialScale = felt.FeatureScale;
                 state.ToneDbPerOctave = felt.ToneDbPerOctave;
                 SetStrength(felt.Strength * stylus.Strength * output!.Strength);
             }
-            bool moves = motion.Update(reading.TimeSeconds, reading.Touching, reading.PointMetres);
+            bool moves = motion.Update(reading.TimeSeconds, reading.State.Touching, reading.PointMetres);
             if (output!.PlaysSignal)
             {
                 state.FirstVelocityMps = moves ? (float)motion.SpeedMps : 0f;
@@ -123,7 +114,7 @@ namespace HaptoFlow
             }
         }
 
-        private bool MakeReady(HapticSession session, IVoiceTarget? wanted, in ContactReading reading)
+        private bool MakeReady(HapticSession session, IVoiceTarget? wanted, in ContactState tip)
         {
             if (session.Engine == null)
             {
@@ -152,8 +143,8 @@ namespace HaptoFlow
             {
                 return false;
             }
-            bool isUnderWay = reading.Touching && (newestTouch ?? reading.TouchCounter) == reading.TouchCounter;
-            missedLanding = isUnderWay ? (reading.TouchCounter, reading.LandingCounter) : ((uint, uint)?)null;
+            bool isUnderWay = tip.Touching && (newestTouch ?? tip.TouchCounter) == tip.TouchCounter;
+            missedLanding = isUnderWay ? (tip.TouchCounter, tip.LandingCounter) : ((uint, uint)?)null;
             return true;
         }
 

@@ -1,6 +1,6 @@
 #nullable enable
 using System;
-using System.Buffers.Binary;
+using System.IO;
 using System.Text;
 
 namespace HaptoFlow.Preview
@@ -18,55 +18,29 @@ namespace HaptoFlow.Preview
         public static byte[] Bytes(ReadOnlySpan<float> samples, int rateHz)
         {
             int dataBytes = checked(samples.Length * sizeof(float));
-            var file = new byte[checked(HeaderBytes + dataBytes)];
-            var writer = new Writer(file);
-            writer.Tag("RIFF");
-            writer.Number(file.Length - 8);
-            writer.Tag("WAVE");
-            writer.Tag("fmt ");
-            writer.Number(18);
-            writer.Short(FloatFormat);
-            writer.Short(1);
-            writer.Number(rateHz);
-            writer.Number(rateHz * sizeof(float));
-            writer.Short(sizeof(float));
-            writer.Short(8 * sizeof(float));
-            writer.Short(0);
-            writer.Tag("fact");
-            writer.Number(4);
-            writer.Number(samples.Length);
-            writer.Tag("data");
-            writer.Number(dataBytes);
+            var file = new MemoryStream(checked(HeaderBytes + dataBytes));
+            using var writer = new BinaryWriter(file, Encoding.ASCII);
+            writer.Write("RIFF".ToCharArray());
+            writer.Write(HeaderBytes + dataBytes - 8);
+            writer.Write("WAVEfmt ".ToCharArray());
+            writer.Write(18);
+            writer.Write(FloatFormat);
+            writer.Write((short)1);
+            writer.Write(rateHz);
+            writer.Write(rateHz * sizeof(float));
+            writer.Write((short)sizeof(float));
+            writer.Write((short)(8 * sizeof(float)));
+            writer.Write((short)0);
+            writer.Write("fact".ToCharArray());
+            writer.Write(4);
+            writer.Write(samples.Length);
+            writer.Write("data".ToCharArray());
+            writer.Write(dataBytes);
             foreach (float sample in samples)
             {
-                writer.Number(BitConverter.SingleToInt32Bits(sample));
+                writer.Write(sample);
             }
-            return file;
-        }
-
-        private ref struct Writer
-        {
-            private Span<byte> rest;
-
-            public Writer(Span<byte> file) => rest = file;
-
-            public void Tag(string fourLetters)
-            {
-                Encoding.ASCII.GetBytes(fourLetters, rest);
-                rest = rest.Slice(4);
-            }
-
-            public void Number(int value)
-            {
-                BinaryPrimitives.WriteInt32LittleEndian(rest, value);
-                rest = rest.Slice(4);
-            }
-
-            public void Short(short value)
-            {
-                BinaryPrimitives.WriteInt16LittleEndian(rest, value);
-                rest = rest.Slice(2);
-            }
+            return file.ToArray();
         }
     }
 }

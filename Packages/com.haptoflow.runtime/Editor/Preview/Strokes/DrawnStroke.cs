@@ -81,7 +81,7 @@ namespace HaptoFlow.Preview
             return new Stroke(seconds => At(drawn, seconds - PresetStrokes.LeadSeconds), duration, false);
         }
 
-        private static PathPoint At(IReadOnlyList<DrawnPoint> drawn, double seconds)
+        private static StrokeState At(IReadOnlyList<DrawnPoint> drawn, double seconds)
         {
             (int first, int end) = TouchAt(drawn, seconds);
             if (end - first < 2)
@@ -94,7 +94,7 @@ namespace HaptoFlow.Preview
             DrawnPoint after = Between(drawn, first, end, to);
             DrawnPoint now = Between(drawn, first, end, seconds);
             double window = Math.Max(1e-3, to - from);
-            return new PathPoint
+            return new StrokeState
             {
                 XMetres = now.XMetres,
                 YMetres = now.YMetres,

@@ -26,7 +26,7 @@ namespace HaptoFlow.Preview
         /// <exception cref="ArgumentException">The preset is <see cref="StrokePreset.Drawn"/>.</exception>
         public static Stroke Make(StrokePreset preset, StrokeSettings settings)
         {
-            Func<double, PathPoint> motion = preset switch
+            Func<double, StrokeState> motion = preset switch
             {
                 StrokePreset.Slide => seconds => Along(settings, settings.SpeedMps * seconds, settings.SpeedMps),
                 StrokePreset.BackAndForth => BackAndForth(settings),
@@ -43,10 +43,10 @@ namespace HaptoFlow.Preview
 
         /// <summary>A point of a straight stroke.</summary>
         /// <param name="metres">Distance from its start.</param>
-        internal static PathPoint Along(in StrokeSettings settings, double metres, double speedMps)
+        internal static StrokeState Along(in StrokeSettings settings, double metres, double speedMps)
         {
             (double x, double y) = Unit(settings.DirectionDegrees);
-            return new PathPoint
+            return new StrokeState
             {
                 XMetres = CentreX + x * (metres - Room(x, y)),
                 YMetres = CentreY + y * (metres - Room(x, y)),
@@ -69,11 +69,11 @@ namespace HaptoFlow.Preview
 
         /// <summary>Adds touch-down and lift-off, during which the force ramps for 20 ms, and time without contact
         /// before and after.</summary>
-        private static Func<double, PathPoint> Touching(Func<double, PathPoint> motion, StrokeSettings settings) =>
+        private static Func<double, StrokeState> Touching(Func<double, StrokeState> motion, StrokeSettings settings) =>
             seconds =>
             {
                 double since = seconds - LeadSeconds;
-                PathPoint point = motion(Math.Max(0.0, Math.Min(settings.ContactSeconds, since)));
+                StrokeState point = motion(Math.Max(0.0, Math.Min(settings.ContactSeconds, since)));
                 point.Touching &= since >= 0.0 && since < settings.ContactSeconds;
                 double landing = Math.Min(since, settings.ContactSeconds - since) / LandingSeconds;
                 point.ForceNewtons *= Math.Max(0.25, Math.Min(1.0, landing));
@@ -82,7 +82,7 @@ namespace HaptoFlow.Preview
             };
 
         /// <summary>x = a sin(w t) with a w = speed, where a is small enough for two periods.</summary>
-        private static Func<double, PathPoint> BackAndForth(StrokeSettings settings)
+        private static Func<double, StrokeState> BackAndForth(StrokeSettings settings)
         {
             (double x, double y) = Unit(settings.DirectionDegrees);
             double reach = Math.Min(Room(x, y), settings.SpeedMps * settings.ContactSeconds / (4.0 * Math.PI));
@@ -91,30 +91,30 @@ namespace HaptoFlow.Preview
                 settings.SpeedMps * Math.Cos(radiansPerSecond * seconds));
         }
 
-        private static Func<double, PathPoint> Accelerating(StrokeSettings settings)
+        private static Func<double, StrokeState> Accelerating(StrokeSettings settings)
         {
             double acceleration = settings.SpeedMps / settings.ContactSeconds;
             return seconds => Along(settings, 0.5 * acceleration * seconds * seconds, acceleration * seconds);
         }
 
-        private static Func<double, PathPoint> Pressing(StrokeSettings settings) => seconds =>
+        private static Func<double, StrokeState> Pressing(StrokeSettings settings) => seconds =>
         {
-            PathPoint point = Along(settings, settings.SpeedMps * seconds, settings.SpeedMps);
+            StrokeState point = Along(settings, settings.SpeedMps * seconds, settings.SpeedMps);
             point.ForceNewtons *= seconds / settings.ContactSeconds;
             return point;
         };
 
-        private static Func<double, PathPoint> Rims(StrokeSettings settings) => seconds =>
+        private static Func<double, StrokeState> Rims(StrokeSettings settings) => seconds =>
         {
-            PathPoint point = Along(settings, settings.SpeedMps * seconds, settings.SpeedMps);
+            StrokeState point = Along(settings, settings.SpeedMps * seconds, settings.SpeedMps);
             point.EdgeCounter = (uint)(seconds / RimPeriodSeconds);
             return point;
         };
 
         /// <summary>The force is half a sine of 80 ms, every 320 ms.</summary>
-        private static Func<double, PathPoint> Taps(StrokeSettings settings) => seconds =>
+        private static Func<double, StrokeState> Taps(StrokeSettings settings) => seconds =>
         {
-            PathPoint point = Along(settings, settings.SpeedMps * seconds, settings.SpeedMps);
+            StrokeState point = Along(settings, settings.SpeedMps * seconds, settings.SpeedMps);
             double since = seconds % TapPeriodSeconds;
             point.Touching = since < TapSeconds;
             point.ForceNewtons *= Math.Max(0.05, Math.Sin(Math.PI * Math.Min(1.0, since / TapSeconds)));

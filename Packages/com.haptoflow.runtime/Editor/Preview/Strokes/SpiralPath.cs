@@ -25,13 +25,13 @@ namespace HaptoFlow.Preview
             direction = settings.DirectionDegrees * Math.PI / 180.0;
         }
 
-        public PathPoint At(double seconds)
+        public StrokeState At(double seconds)
         {
             double radians = Turned(Length(innerRadians) + settings.SpeedMps * seconds);
             double radius = metresPerRadian * radians;
             double angle = direction + radians - innerRadians;
             double scale = settings.SpeedMps / Math.Sqrt(1.0 + radians * radians);
-            return new PathPoint
+            return new StrokeState
             {
                 XMetres = 0.5 * Stroke.PatchWidthMetres + radius * Math.Cos(angle),
                 YMetres = 0.5 * Stroke.PatchHeightMetres + radius * Math.Sin(angle),

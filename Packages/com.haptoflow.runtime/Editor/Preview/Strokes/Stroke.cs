@@ -20,7 +20,7 @@ namespace HaptoFlow.Preview
         /// <param name="path">Gives the point at a time in seconds; called once for each update, in order.</param>
         /// <param name="durationSeconds">Includes the time without contact at the end.</param>
         /// <param name="wraps">True if a path that leaves the patch enters again at the opposite edge.</param>
-        public Stroke(Func<double, PathPoint> path, double durationSeconds, bool wraps)
+        public Stroke(Func<double, StrokeState> path, double durationSeconds, bool wraps)
         {
             int count = Math.Max(1, (int)Math.Ceiling(durationSeconds * UpdateRateHz - 1e-9));
             states = new StrokeState[count];
@@ -31,7 +31,7 @@ namespace HaptoFlow.Preview
             for (int index = 0; index < count; ++index)
             {
                 double seconds = index / UpdateRateHz;
-                PathPoint point = path(seconds);
+                StrokeState point = path(seconds);
                 touches += point.Touching && !touched ? 1u : 0u;
                 (double Column, double Row) now = (0.0, 0.0);
                 if (wraps)
@@ -40,8 +40,10 @@ namespace HaptoFlow.Preview
                     point.XMetres -= now.Column * PatchWidthMetres;
                     point.YMetres -= now.Row * PatchHeightMetres;
                 }
-                bool continues = point.Touching && touched && now == field;
-                states[index] = new StrokeState(seconds, point, touches, continues);
+                point.TimeSeconds = seconds;
+                point.TouchCounter = touches;
+                point.Continues = point.Touching && touched && now == field;
+                states[index] = point;
                 touched = point.Touching;
                 field = now;
             }

@@ -2,6 +2,7 @@
 using System;
 using HaptoFlow.Outputs;
 using HaptoFlow.Preview;
+using HaptoFlow.Recordings;
 
 namespace HaptoFlow.Editor
 {
@@ -12,9 +13,10 @@ namespace HaptoFlow.Editor
         private const int ToleratedSamples = PreviewSound.RateHz / 20;
         private const int Step = (int)(PreviewSound.RateHz / WaveHistory.RateHz);
 
-        private static readonly float[] Kernel = SincResampler.Kernel(Step);
-
         private PreviewSound? sound;
+
+        // At the queue's rate; made when a device first asks for it.
+        private float[]? wave;
         private bool loops;
 
         /// <summary>Position in the sound at its own rate.</summary>
@@ -28,6 +30,7 @@ namespace HaptoFlow.Editor
         public void Play(PreviewSound next, int startSample, bool repeats)
         {
             sound = next.Samples.Length > 0 ? next : null;
+            wave = null;
             loops = repeats;
             PositionSamples = startSample < next.Samples.Length ? startSample : 0;
         }
@@ -58,27 +61,21 @@ namespace HaptoFlow.Editor
         {
             for (int index = 0; index < samples.Length; ++index)
             {
-                samples[index] = sound != null ? Next(sound.Samples) : 0f;
+                samples[index] = sound != null ? Next(sound) : 0f;
             }
         }
 
-        private float Next(float[] wave)
+        private float Next(PreviewSound playing)
         {
-            float sum = 0f;
-            int first = PositionSamples - Kernel.Length / 2;
-            int from = Math.Max(0, -first);
-            int to = Math.Min(Kernel.Length, wave.Length - first);
-            for (int tap = from; tap < to; ++tap)
-            {
-                sum += Kernel[tap] * wave[first + tap];
-            }
+            wave ??= RecordingWave.Resampled(playing.Samples, PreviewSound.RateHz, WaveHistory.RateHz);
+            float sample = wave[Math.Min(PositionSamples / Step, wave.Length - 1)];
             PositionSamples += Step;
-            if (PositionSamples >= wave.Length)
+            if (PositionSamples >= playing.Samples.Length)
             {
-                PositionSamples = loops ? PositionSamples - wave.Length : 0;
+                PositionSamples = loops ? PositionSamples - playing.Samples.Length : 0;
                 sound = loops ? sound : null;
             }
-            return sum;
+            return sample;
         }
     }
 }

@@ -3,14 +3,16 @@ using HaptoFlow.Numerics;
 
 namespace HaptoFlow.Contact
 {
-    /// <summary>The result of the contact model for one frame. Every number is finite, whatever the input.</summary>
+    /// <summary>The result of the contact model for one frame: the state for the engine, and the place of the contact
+    /// for the scene, in double precision. Every number is finite, whatever the input.</summary>
     internal struct ContactReading
     {
-        public double TimeSeconds;
-        public bool Touching;
+        /// <summary>What the tip does, without the material, which the scene knows. Velocities are along
+        /// <see cref="FirstAxis"/> and <see cref="SecondAxis"/>; sliding from one surface to another without lifting is
+        /// one touch.</summary>
+        public ContactState State;
 
-        /// <summary>Number of touch-downs; sliding from one surface to another without lifting is one touch.</summary>
-        public uint TouchCounter;
+        public double TimeSeconds;
 
         /// <summary>The touched surface; null without touch.</summary>
         public ContactBody? Surface;
@@ -24,32 +26,11 @@ namespace HaptoFlow.Contact
         /// <summary>Penetration depth: tip radius minus signed distance, not below 0.</summary>
         public double PenetrationMetres;
 
-        /// <summary>Velocity of the tip relative to the surface along <see cref="FirstAxis"/>, in m/s.</summary>
-        public double FirstVelocityMps;
-
-        /// <summary>Velocity of the tip relative to the surface along <see cref="SecondAxis"/>, in m/s.</summary>
-        public double SecondVelocityMps;
-
         /// <summary>The first tangent axis in world space; zero without touch.</summary>
         public Double3 FirstAxis;
 
         /// <summary>The second tangent axis in world space; zero without touch.</summary>
         public Double3 SecondAxis;
-
-        /// <summary>Speed into the surface at the last landing of this touch, not below 0; 0 without touch.</summary>
-        public double ApproachSpeedMps;
-
-        public double ForceNewtons;
-
-        /// <summary>Number of landings within touches: on another surface, or on another face of the same
-        /// one.</summary>
-        public uint LandingCounter;
-
-        /// <summary>Number of edges: rims that the tip crossed or slid off, and steps between surfaces.</summary>
-        public uint EdgeCounter;
-
-        /// <summary>Height of the last edge; 0 before the first.</summary>
-        public double EdgeHeightMetres;
     }
 
     /// <summary>Corrections to the tip's samples. Counts since construction.</summary>

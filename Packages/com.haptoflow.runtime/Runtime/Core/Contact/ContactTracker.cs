@@ -387,17 +387,17 @@ namespace HaptoFlow.Contact
             CountTransition(contact, velocity);
 
             ContactReading reading = Idle();
-            reading.Touching = true;
+            reading.State.Touching = true;
             reading.Surface = surface;
             reading.PointMetres = contact.Pose.PointToWorld(contact.Local.PointMetres);
             reading.Normal = normal;
             reading.PenetrationMetres = Math.Max(0.0, PenetrationOf(contact));
             reading.FirstAxis = contact.Pose.DirectionToWorld(surface.Frame.First);
             reading.SecondAxis = contact.Pose.DirectionToWorld(surface.Frame.Second);
-            reading.FirstVelocityMps = Double3.Dot(velocity, reading.FirstAxis);
-            reading.SecondVelocityMps = Double3.Dot(velocity, reading.SecondAxis);
-            reading.ApproachSpeedMps = approachSpeedMps;
-            reading.ForceNewtons = ForceOf(surface, reading.PenetrationMetres);
+            reading.State.FirstVelocityMps = (float)Double3.Dot(velocity, reading.FirstAxis);
+            reading.State.SecondVelocityMps = (float)Double3.Dot(velocity, reading.SecondAxis);
+            reading.State.ApproachSpeedMps = (float)approachSpeedMps;
+            reading.State.ForceNewtons = (float)ForceOf(surface, reading.PenetrationMetres);
             return reading;
         }
 
@@ -419,10 +419,13 @@ namespace HaptoFlow.Contact
             return new ContactReading
             {
                 TimeSeconds = nowSeconds,
-                TouchCounter = touchCounter,
-                LandingCounter = landingCounter,
-                EdgeCounter = edgeCounter,
-                EdgeHeightMetres = edgeHeightMetres,
+                State = new ContactState
+                {
+                    TouchCounter = touchCounter,
+                    LandingCounter = landingCounter,
+                    EdgeCounter = edgeCounter,
+                    EdgeHeightMetres = (float)edgeHeightMetres,
+                },
                 PointMetres = TipMetres,
                 Normal = Double3.Up,
             };

@@ -1,6 +1,7 @@
 #nullable enable
 using System;
 using System.Collections.Generic;
+using System.IO;
 using System.Linq;
 using System.Numerics;
 using Newtonsoft.Json;
@@ -13,6 +14,9 @@ namespace HaptoFlow.Model
     /// that use HaptoFlow need no reference to it.</summary>
     public sealed class JsonValue
     {
+        // Deepest nesting of arrays and objects.
+        private const int MaximumDepth = 32;
+
         // A double holds every whole number up to here exactly.
         private const double MaximumExactInteger = 9007199254740992.0;
 
@@ -35,25 +39,36 @@ namespace HaptoFlow.Model
         internal IReadOnlyList<JsonValue>? Elements =>
             (token as JArray)?.Select(element => new JsonValue(element)).ToArray();
 
-        /// <summary>Null where the value is not a number.</summary>
+        /// <summary>Null where the value is not a number that a double can hold.</summary>
         internal double? Number => (token as JValue)?.Value switch
         {
-            double real => real,
+            double real when Math.Abs(real) <= double.MaxValue => real,
             long whole => whole,
-            BigInteger whole => (double)whole,
+            BigInteger whole when BigInteger.Abs(whole) <= new BigInteger(double.MaxValue) => (double)whole,
             _ => (double?)null,
         };
 
         /// <summary>Null where the value is neither true nor false.</summary>
         internal bool? Truth => (token as JValue)?.Value as bool?;
 
-        /// <summary>Parses strict JSON (RFC 8259), nested 32 levels deep at most, no key twice in an object.</summary>
+        /// <summary>Parses a JSON document, nested 32 levels deep at most, no key twice in an object.</summary>
         /// <exception cref="FormatException">The text is not valid; the message names line and position.</exception>
         public static JsonValue Parse(string text)
         {
+            using var reader = new JsonTextReader(new StringReader(text))
+            {
+                DateParseHandling = DateParseHandling.None,
+                MaxDepth = MaximumDepth,
+            };
             try
             {
-                return new JsonValue(StrictJsonReader.Document(text));
+                JToken document = JToken.Load(reader, new JsonLoadSettings
+                {
+                    DuplicatePropertyNameHandling = DuplicatePropertyNameHandling.Error,
+                });
+                // Throws where there is text after the document.
+                reader.Read();
+                return new JsonValue(document);
             }
             catch (JsonException error)
             {

@@ -1,12 +1,17 @@
 #nullable enable
+using System.Runtime.InteropServices;
+using HaptoFlow.Native;
 
 namespace HaptoFlow
 {
     /// <summary>State of a stylus tip at one moment: the input of the engine.</summary>
+    /// <remarks>It is the haptoflow_contact_state of haptoflow.h, field by field and blittable, so that publishing
+    /// converts nothing.</remarks>
+    [Preserve, StructLayout(LayoutKind.Sequential)]
     public struct ContactState
     {
-        /// <summary>True while the tip touches a surface.</summary>
-        public bool Touching;
+        internal uint StructSize;
+        private uint touching;
 
         /// <summary>Number of touch-downs, so that a touch between two states is not lost. Where <see cref="Touching"/>
         /// returns with the same number above 0, the touch was only interrupted and has no second impact. 0 throughout
@@ -51,5 +56,12 @@ namespace HaptoFlow
         /// <summary>Tilt of the spectrum about 150 Hz, -12 to 12 dB per octave, in addition to the material's own tone;
         /// positive is brighter, 0 is none.</summary>
         public float ToneDbPerOctave;
+
+        /// <summary>True while the tip touches a surface.</summary>
+        public bool Touching
+        {
+            readonly get => touching != 0;
+            set => touching = value ? 1u : 0u;
+        }
     }
 }

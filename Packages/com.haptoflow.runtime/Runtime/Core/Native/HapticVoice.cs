@@ -37,29 +37,9 @@ namespace HaptoFlow
         /// <exception cref="HaptoFlowException">The voice is closed.</exception>
         public bool Publish(in ContactState state)
         {
-            var native = new NativeContactState
-            {
-                StructSize = (uint)sizeof(NativeContactState),
-                Touching = state.Touching ? 1u : 0u,
-                TouchCounter = state.TouchCounter,
-                LabelCount = (uint)state.Material.Count,
-                ForceNewtons = state.ForceNewtons,
-                ApproachSpeedMps = state.ApproachSpeedMps,
-                Effects = (uint)state.Effects,
-                EdgeCounter = state.EdgeCounter,
-                EdgeHeightMetres = state.EdgeHeightMetres,
-                LandingCounter = state.LandingCounter,
-                SpatialScale = state.SpatialScale,
-                ToneDbPerOctave = state.ToneDbPerOctave,
-            };
-            for (int index = 0; index < state.Material.Count; ++index)
-            {
-                native.Labels[index] = unchecked((uint)state.Material.Label(index));
-                native.Weights[index] = state.Material.Weight(index);
-            }
-            native.VelocityMps[0] = state.FirstVelocityMps;
-            native.VelocityMps[1] = state.SecondVelocityMps;
-            int status = NativeMethods.VoicePublish(Id, &native);
+            ContactState sized = state;
+            sized.StructSize = (uint)sizeof(ContactState);
+            int status = NativeMethods.VoicePublish(Id, &sized);
             if (status == (int)HaptoFlowStatus.Busy)
             {
                 return false;

@@ -1,14 +1,19 @@
 #nullable enable
 using System;
+using System.Runtime.InteropServices;
+using HaptoFlow.Native;
 
 namespace HaptoFlow
 {
-    /// <summary>Labels with their weights: one material, or a blend of up to four.</summary>
+    /// <summary>Labels with their weights: one material, or a blend of up to four. A part of the blittable
+    /// <see cref="ContactState"/>.</summary>
+    [Preserve, StructLayout(LayoutKind.Sequential)]
     public struct LabelBlend : IEquatable<LabelBlend>
     {
         /// <summary>Maximum number of labels in a blend.</summary>
         public const int Maximum = 4;
 
+        private int count;
         private int label0;
         private int label1;
         private int label2;
@@ -46,14 +51,14 @@ namespace HaptoFlow
 
         /// <summary>Number of labels, 0 to <see cref="Maximum"/>. The engine replaces an empty blend by the model's
         /// first label.</summary>
-        public int Count { get; private set; }
+        public readonly int Count => count;
 
         /// <param name="label">Index into the model's labels.</param>
         /// <param name="weight">0 to 1; weights need not sum to 1.</param>
         /// <exception cref="InvalidOperationException">The blend is full.</exception>
         public void Add(int label, float weight)
         {
-            switch (Count)
+            switch (count)
             {
                 case 0:
                     label0 = label;
@@ -74,7 +79,7 @@ namespace HaptoFlow
                 default:
                     throw new InvalidOperationException("a blend has at most 4 labels");
             }
-            ++Count;
+            ++count;
         }
 
         /// <summary>Index of a label, for entries 0 to <see cref="Count"/> - 1.</summary>

@@ -28,7 +28,7 @@ namespace HaptoFlow.Native
             ["haptoflow_engine_options"] = sizeof(EngineOptions),
             ["haptoflow_tier_times"] = sizeof(TierTimes),
             ["haptoflow_engine_statistics"] = sizeof(EngineStatistics),
-            ["haptoflow_contact_state"] = sizeof(NativeContactState),
+            ["haptoflow_contact_state"] = sizeof(ContactState),
             ["haptoflow_effect_statistics"] = sizeof(EffectStatistics),
             ["haptoflow_voice_statistics"] = sizeof(VoiceStatistics),
             ["haptoflow_signal_statistics"] = sizeof(SignalStatistics),

@@ -148,7 +148,7 @@ namespace HaptoFlow.Native
         public static extern int VoiceDestroy(ulong* voice);
 
         [DllImport(Library, EntryPoint = "haptoflow_voice_publish")]
-        public static extern int VoicePublish(ulong voice, NativeContactState* state);
+        public static extern int VoicePublish(ulong voice, ContactState* state);
 
         [DllImport(Library, EntryPoint = "haptoflow_voice_render")]
         public static extern int VoiceRender(
@@ -241,6 +241,14 @@ namespace HaptoFlow.Native
 
         [DllImport(Library, EntryPoint = "haptoflow_recording_get_info")]
         public static extern int RecordingGetInfo(IntPtr recording, NativeRecordingInfo* info);
+
+        [DllImport(Library, EntryPoint = "haptoflow_recording_wave")]
+        public static extern int RecordingWave(float* accelerationMps2, ulong sampleCount, uint axisCount,
+            double sampleRateHz, float* waveMps2, ulong waveCount);
+
+        [DllImport(Library, EntryPoint = "haptoflow_resample")]
+        public static extern int Resample(float* samples, ulong sampleCount, double sampleRateHz, float* wave,
+            ulong waveCount, double waveRateHz);
 
         [DllImport(Library, EntryPoint = "haptoflow_recording_close")]
         public static extern int RecordingClose(IntPtr* recording);

@@ -138,26 +138,6 @@ namespace HaptoFlow.Native
     }
 
     [Preserve, StructLayout(LayoutKind.Sequential)]
-    internal unsafe struct NativeContactState
-    {
-        public uint StructSize;
-        public uint Touching;
-        public uint TouchCounter;
-        public uint LabelCount;
-        public fixed uint Labels[LabelBlend.Maximum];
-        public fixed float Weights[LabelBlend.Maximum];
-        public fixed float VelocityMps[2];
-        public float ForceNewtons;
-        public float ApproachSpeedMps;
-        public uint Effects;
-        public uint EdgeCounter;
-        public float EdgeHeightMetres;
-        public uint LandingCounter;
-        public float SpatialScale;
-        public float ToneDbPerOctave;
-    }
-
-    [Preserve, StructLayout(LayoutKind.Sequential)]
     internal struct WaveFeaturesOptions
     {
         public uint StructSize;
@@ -197,8 +177,6 @@ namespace HaptoFlow.Native
         public IntPtr Path;
         public NativeRecordingFile* Files;
         public double FullScaleMps2;
-        public double SpeedMps;
-        public double ForceNewtons;
         public uint WithoutSamples;
         public uint NeedsMotionAndForce;
     }

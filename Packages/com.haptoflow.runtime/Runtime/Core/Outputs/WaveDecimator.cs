@@ -5,7 +5,8 @@ namespace HaptoFlow.Outputs
 {
     /// <summary>Resamples a wave to a device's rate at any position between samples: a linear-phase low-pass
     /// (Kaiser-windowed sinc) that passes frequencies below 0.4 of that rate and suppresses aliases. Written here
-    /// because neither .NET nor Unity resamples blocks on the main thread.</summary>
+    /// because a device's clock, not a fixed rate, says where each block is read; the native library's resamplers have a
+    /// fixed rate.</summary>
     internal sealed class WaveDecimator
     {
         // Half width in device samples for 60 dB of attenuation with a transition from 0.4 to 0.6 of the device's rate.

@@ -3,7 +3,7 @@
 The sizes are those of Training/haptoflow_paper/configs/paper-codec-size.toml: EnCodec at 24 kHz and a U-Net of 128 and 256
 channels. The values of weights do not affect the time, so nothing is trained and no recording is read.
 
-PYTHONPATH=Training python3 scripts/bench/paper_model.py CONFIG.toml OUT.haptoflow
+PYTHONPATH=Training python3 Training/haptoflow_paper/rows/paper_model.py CONFIG.toml OUT.haptoflow
 """
 
 from __future__ import annotations

@@ -1,4 +1,3 @@
-const formatPcm = 1;
 const formatFloat = 3;
 
 /**
@@ -31,38 +30,4 @@ export function readFloatWav(bytes, name) {
     offset = begin + size + (size % 2);
   }
   throw new RangeError(`${name}: has no "data" chunk`);
-}
-
-/** One channel of 16-bit WAV; samples times `gain` beyond +-1 are clipped. */
-export function writePcm16Wav(samples, rateHz, gain) {
-  const bytes = Buffer.alloc(44 + 2 * samples.length);
-  bytes.write('RIFF', 0, 'latin1');
-  bytes.writeUInt32LE(36 + 2 * samples.length, 4);
-  bytes.write('WAVEfmt ', 8, 'latin1');
-  bytes.writeUInt32LE(16, 16);
-  bytes.writeUInt16LE(formatPcm, 20);
-  bytes.writeUInt16LE(1, 22);
-  bytes.writeUInt32LE(rateHz, 24);
-  bytes.writeUInt32LE(2 * rateHz, 28);
-  bytes.writeUInt16LE(2, 32);
-  bytes.writeUInt16LE(16, 34);
-  bytes.write('data', 36, 'latin1');
-  bytes.writeUInt32LE(2 * samples.length, 40);
-  samples.forEach((sample, index) => {
-    bytes.writeInt16LE(Math.round(32767 * Math.max(-1, Math.min(1, sample * gain))), 44 + 2 * index);
-  });
-  return bytes;
-}
-
-/** Largest absolute sample; 0 for none. */
-export function peakOf(samples) {
-  let peak = 0;
-  for (const sample of samples) peak = Math.max(peak, Math.abs(sample));
-  return peak;
-}
-
-/** The gain at which the loudest of several signals peaks at -1 dBFS; 1 where all are silent. */
-export function commonGain(signals) {
-  const loudest = Math.max(0, ...signals.map(peakOf));
-  return loudest > 0 ? 10 ** (-1 / 20) / loudest : 1;
 }

@@ -1,0 +1,66 @@
+#pragma once
+
+#include "dsp/tone_cepstrum.hpp"
+#include "engine/blend_balance.hpp"
+#include "engine/blow_list.hpp"
+#include "engine/contact_state.hpp"
+#include "engine/level_request.hpp"
+#include "engine/range_law.hpp"
+#include "engine/rib_phase.hpp"
+#include "engine/waveform_timeline.hpp"
+#include "inference/segment_generator.hpp"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+namespace haptoflow::engine {
+
+/// A published contact, as the callback and the worker both receive it: the whole state, so that a new field of it is
+/// there for both, and what the publisher concluded from it.
+struct PublishedContact {
+    /// Sanitised; without effects while a signal replaces them.
+    ContactState state;
+    /// Increases by 1 at each onset: touch-down, or sliding resumed.
+    std::uint32_t onset = 0;
+    /// ContactFollower::touches. A panic silences a whole touch, including sliding that resumes in it.
+    std::uint64_t touch = 0;
+    bool sliding = false;
+    /// Number of states published so far, this one included, and of those that slide.
+    std::uint64_t updates = 0;
+    std::uint64_t slides = 0;
+    RangedMotion ranged;
+};
+
+/// A seed, ready to be played.
+struct OnsetSeed {
+    std::array<float, WaveformTimeline::seedSamples> samplesMps2{};
+    SeedRibs ribs{};
+};
+
+/// A contact for the callback, with what it plays without the worker. It exists beside PublishedContact because the
+/// callback must not look up materials.
+struct AudioMessage {
+    PublishedContact contact;
+    /// The seed for the newest sliding state. Every message contains it, so that an onset is not lost if its message is
+    /// replaced, and a touch resumes with the seed of the state with which it resumes.
+    OnsetSeed seed;
+    /// The blows that the callback had not taken when the message was written, so that no blow is lost if its message
+    /// is replaced.
+    BlowList blows;
+    std::optional<dsp::ToneKernel> tone;
+    /// Time of the last change of ContactState::isMoving (VoiceChannels::clock).
+    double movingSinceSeconds = 0.0;
+};
+
+/// A contact for the worker, with the inputs of the network that follow from the materials. It exists beside
+/// PublishedContact because a material may be replaced while the worker runs; an inference::SegmentRequest adds the
+/// past and the noise, which only the worker knows.
+struct WorkerMessage {
+    PublishedContact contact;
+    std::array<float, inference::embeddingSize> embedding{};
+    LevelRequest level;
+    BlendParts blend;
+};
+
+}  // namespace haptoflow::engine
