@@ -7,7 +7,6 @@
 #include "learning/embedding_search.hpp"
 #include "learning/frequency_exponent.hpp"
 #include "learning/label_comparison.hpp"
-#include "learning/level_calibration.hpp"
 #include "learning/material_frame.hpp"
 #include "learning/material_text.hpp"
 #include "learning/seed_ribs.hpp"
@@ -49,8 +48,7 @@ public:
 
     LearntMaterial learn() {
         describe();
-        prior_ = exponentPrior(model_.header());
-        level_ = fitLevelLaw(recording_, sliding_, prior_);
+        level_ = fitLevelLaw(recording_, sliding_, exponentPrior(model_.header()));
         if (const auto warning = levelWarning(level_, sliding_, model_, generator_)) {
             report_.warnings.push_back(*warning);
         }
@@ -210,12 +208,13 @@ private:
     }
 
     ToneFit fitTones(TextureFit& fit, const Embedding& embedding) {
-        const Resynthesis resynthesis = fit.resynthesis(embedding);
-        const std::vector<TextureFigures>& generated = resynthesis.figures;
+        const std::vector<TextureFigures> generated = fit.resynthesis(embedding);
         ToneFit tone = fitTone(fit.bins(), fit.recorded(), generated, recording_.bandwidthHz);
-        level_ = calibratedLevel(level_, recording_, sliding_, resynthesis.stretches, tone.tone, prior_);
         if (tone.tone.speedsMps.empty()) {
             return tone;
+        }
+        for (std::size_t i = 0; i < level_.table.speedsMps.size(); ++i) {
+            level_.table.logLevels[i] += tone.logLevel(level_.table.speedsMps[i]);
         }
         report_.spectralDistanceDb = spectralDistanceDb(fit.bins(), fit.recorded(), generated, tone);
         for (std::size_t bin = 0; bin < fit.bins().count(); ++bin) {
@@ -228,10 +227,9 @@ private:
         for (const OtherTier& other : otherTiers_) {
             ClosedLoop loop(*other.generator, model_.header(), recording_, unitWave_);
             TextureFit otherFit = fitOf(loop);
-            report_.otherTiers.push_back(
-                {.tier = other.name,
-                 .spectralDistanceDb =
-                     spectralDistanceDb(fit.bins(), fit.recorded(), otherFit.resynthesis(embedding).figures, tone)});
+            report_.otherTiers.push_back({.tier = other.name,
+                                          .spectralDistanceDb = spectralDistanceDb(
+                                              fit.bins(), fit.recorded(), otherFit.resynthesis(embedding), tone)});
         }
         return tone;
     }
@@ -243,7 +241,6 @@ private:
     double began_;
     recordings::PreparedRecording recording_;
     Sliding sliding_;
-    ExponentPrior prior_;
     LevelLaw level_;
     std::vector<float> unitWave_;
     std::array<float, 2 * inference::ribCount> waveVectors_{};

@@ -8,250 +8,245 @@
 namespace haptoflow::learning {
 namespace {
 
-/// Standard deviation of the log speed in a frame above which the tracker's smoothed speed does not match the wave.
-constexpr double maximumUnsteadiness = 0.6;
-constexpr double knotsPerNat = 2.2;
-constexpr std::size_t maximumKnots = 16;
-constexpr std::size_t framesPerKnot = 6;
-constexpr double narrowestTable = 0.05;
-/// Standard deviations: of one frame's log level from the law, and of the change of slope over one unit of log speed.
-constexpr double frameSpread = 0.2;
-constexpr double bendSpread = 0.35;
-/// Frames overlap by half.
-constexpr double frameWeight = 0.5 / (frameSpread * frameSpread);
-constexpr int rounds = 40;
-constexpr std::size_t fewestFrames = 10;
+constexpr std::size_t frameSamples = 100;
+constexpr std::size_t frameHop = 50;
+/// Standard deviations: of one frame's log RMS from the law, and of a slope between knots from the common one.
+constexpr double frameSpread = 0.35;
+constexpr double slopeSpread = 0.9;
+constexpr double framesPerKnot = 14.0;
+constexpr double knotDistance = 0.22;
+constexpr std::size_t maximumKnots = 14;
+constexpr int newtonRounds = 30;
+constexpr std::size_t steadyMargin = 80;
+constexpr double maximumChange = 2.0;
+constexpr double minimumSteadyShare = 0.25;
 
-double unsteadiness(std::span<const std::array<float, 3>> motion) {
-    constexpr double restMps = 0.002;
-    double sum = 0.0;
-    double squares = 0.0;
-    for (const auto& each : motion) {
-        const double value = std::log(std::hypot(each[0], each[1]) + restMps);
-        sum += value;
-        squares += value * value;
+struct Frame {
+    double logSpeed = 0.0;
+    double logForce = 0.0;
+    double power = 0.0;
+};
+
+/// True if the speed changes slowly. While it changes fast, the tracker's smoothed speed does not match the wave.
+bool isSteady(const recordings::PreparedRecording& recording, std::size_t start) {
+    double lowest = recording.speedMps(start);
+    double highest = lowest;
+    const std::size_t first = start > steadyMargin ? start - steadyMargin : 0;
+    const std::size_t end = std::min(start + frameSamples + steadyMargin, recording.motion.size());
+    for (std::size_t i = first; i < end; i += 4) {
+        const double speed = recording.speedMps(i);
+        lowest = std::min(lowest, speed);
+        highest = std::max(highest, speed);
     }
-    const double mean = sum / static_cast<double>(motion.size());
-    return std::sqrt(std::max(squares / static_cast<double>(motion.size()) - mean * mean, 0.0));
+    return highest <= maximumChange * lowest;
 }
 
-std::vector<LevelFrame> framesOf(const recordings::PreparedRecording& recording, const Sliding& sliding,
-                                 std::size_t length) {
-    std::vector<LevelFrame> all;
-    std::vector<LevelFrame> steady;
-    for (std::size_t start = 0; start + length <= recording.wave.size(); start += length / 2) {
-        if (sliding.holds(start, length)) {
-            const auto motion = std::span(recording.motion).subspan(start, length);
-            all.push_back(levelFrame(std::span(recording.wave).subspan(start, length), motion));
-            if (unsteadiness(motion) < maximumUnsteadiness) {
-                steady.push_back(all.back());
-            }
+std::vector<Frame> framesOf(const recordings::PreparedRecording& recording, const Sliding& sliding) {
+    std::vector<Frame> frames;
+    std::vector<Frame> steady;
+    for (std::size_t start = 0; start + frameSamples <= recording.wave.size(); start += frameHop) {
+        if (!sliding.holds(start, frameSamples)) {
+            continue;
+        }
+        Frame frame;
+        double squaredSpeed = 0.0;
+        for (std::size_t i = start; i < start + frameSamples; ++i) {
+            const double value = recording.wave[i];
+            const double speed = recording.speedMps(i) + model::LevelTable::restMps;
+            frame.power += value * value / static_cast<double>(frameSamples);
+            squaredSpeed += speed * speed / static_cast<double>(frameSamples);
+            frame.logForce += std::log(std::max(static_cast<double>(recording.motion[i][2]),
+                                                model::LevelTable::minimumForceNewtons)) /
+                              static_cast<double>(frameSamples);
+        }
+        // Levels grow about in proportion to the speed, so that a frame's mean power corresponds to the mean square of
+        // its speed.
+        frame.logSpeed = 0.5 * std::log(squaredSpeed);
+        // Avoids the logarithm of digital silence: the limit is a hundredth of the detection threshold.
+        frame.power = std::max(frame.power, 1e-10);
+        frames.push_back(frame);
+        if (isSteady(recording, start)) {
+            steady.push_back(frame);
         }
     }
-    return steady.size() >= fewestFrames ? steady : all;
+    return static_cast<double>(steady.size()) >= minimumSteadyShare * static_cast<double>(frames.size()) ? steady
+                                                                                                         : frames;
 }
 
-double quantile(const std::vector<double>& sorted, double share) {
-    const double place = share * static_cast<double>(sorted.size() - 1);
-    const auto below = static_cast<std::size_t>(place);
-    const std::size_t above = std::min(below + 1, sorted.size() - 1);
-    return sorted[below] + (place - static_cast<double>(below)) * (sorted[above] - sorted[below]);
-}
-
-/// Log speeds of the knots, evenly spaced over the recorded speeds.
-std::vector<double> knotsOf(std::span<const LevelFrame> frames) {
+/// Log speeds of the knots: evenly spaced quantiles with a minimum distance that the frames can resolve.
+std::vector<double> knotsOf(const std::vector<Frame>& frames) {
     std::vector<double> sorted(frames.size());
-    std::ranges::transform(frames, sorted.begin(), &LevelFrame::logSpeed);
+    std::ranges::transform(frames, sorted.begin(), [](const Frame& frame) { return frame.logSpeed; });
     std::ranges::sort(sorted);
-    const double first = quantile(sorted, 0.02);
-    const double last = quantile(sorted, 0.98);
-    const auto wanted = static_cast<std::size_t>(1 + std::lround(knotsPerNat * (last - first)));
-    const std::size_t count = std::min({wanted, maximumKnots, std::max<std::size_t>(1, frames.size() / framesPerKnot)});
-    if (count == 1 || last - first < narrowestTable) {
-        return {quantile(sorted, 0.5)};
+    const auto quantile = [&](double share) {
+        return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+    };
+    const double first = quantile(0.03);
+    const double last = quantile(0.97);
+    if (last - first < knotDistance) {
+        return {quantile(0.5)};
     }
-    std::vector<double> knots(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        knots[i] = first + (last - first) * static_cast<double>(i) / static_cast<double>(count - 1);
+    const auto count = std::clamp<std::size_t>(
+        1 + static_cast<std::size_t>(static_cast<double>(frames.size()) / framesPerKnot), 2, maximumKnots);
+    std::vector<double> knots{first};
+    for (std::size_t i = 1; i + 1 < count; ++i) {
+        const double knot = quantile(0.03 + 0.94 * static_cast<double>(i) / static_cast<double>(count - 1));
+        if (knot - knots.back() >= knotDistance && last - knot >= knotDistance) {
+            knots.push_back(knot);
+        }
     }
+    knots.push_back(last);
     return knots;
 }
 
-/// A sum of unknowns, each with a factor.
-struct Row {
-    std::array<std::size_t, 3> index{};
-    std::array<double, 3> factor{};
-    std::size_t count = 0;
+/// The unknowns: the log level at each knot, then the common slope, then the force exponent.
+class Fit {
+public:
+    Fit(const std::vector<Frame>& frames, std::vector<double> knots, double logForce, const ExponentPrior& prior)
+        : frames_(frames), knots_(std::move(knots)), logForce_(logForce), prior_(prior) {}
 
-    void add(std::size_t at, double value) {
-        index[count] = at;
-        factor[count] = value;
-        ++count;
-    }
-
-    [[nodiscard]] double of(const std::vector<double>& unknown) const {
-        double sum = 0.0;
-        for (std::size_t i = 0; i < count; ++i) {
-            sum += factor[i] * unknown[index[i]];
+    std::vector<double> solve() {
+        double mean = 0.0;
+        for (const Frame& frame : frames_) {
+            mean += 0.5 * std::log(frame.power) / static_cast<double>(frames_.size());
         }
-        return sum;
+        std::vector<double> unknown(knots_.size() + 2, mean);
+        unknown[slope()] = prior_.speedMean;
+        unknown[force()] = prior_.forceMean;
+        for (int round = 0; round < newtonRounds; ++round) {
+            step(unknown);
+        }
+        return unknown;
     }
-};
 
-struct NormalEquations {
-    explicit NormalEquations(std::size_t unknowns) : matrix(unknowns), right(unknowns) {}
+private:
+    [[nodiscard]] std::size_t slope() const { return knots_.size(); }
+    [[nodiscard]] std::size_t force() const { return knots_.size() + 1; }
 
-    void add(const Row& row, double wanted, double weight) {
+    struct Row {
+        std::array<std::size_t, 4> index{};
+        std::array<double, 4> factor{};
+        std::size_t count = 0;
+
+        void add(std::size_t at, double value) {
+            index[count] = at;
+            factor[count] = value;
+            ++count;
+        }
+    };
+
+    [[nodiscard]] Row rowOf(const Frame& frame) const {
+        Row row;
+        const std::size_t last = knots_.size() - 1;
+        if (frame.logSpeed <= knots_.front() || last == 0) {
+            row.add(0, 1.0);
+            row.add(slope(), frame.logSpeed - knots_.front());
+        } else if (frame.logSpeed >= knots_.back()) {
+            row.add(last, 1.0);
+            row.add(slope(), frame.logSpeed - knots_.back());
+        } else {
+            const auto above =
+                static_cast<std::size_t>(std::ranges::upper_bound(knots_, frame.logSpeed) - knots_.begin());
+            const double share = (frame.logSpeed - knots_[above - 1]) / (knots_[above] - knots_[above - 1]);
+            row.add(above - 1, 1.0 - share);
+            row.add(above, share);
+        }
+        row.add(force(), frame.logForce - logForce_);
+        return row;
+    }
+
+    static void accumulate(SymmetricMatrix& normal, std::vector<double>& right, const Row& row, double residual,
+                           double weight) {
         for (std::size_t i = 0; i < row.count; ++i) {
-            right[row.index[i]] += weight * row.factor[i] * wanted;
+            right[row.index[i]] += weight * row.factor[i] * residual;
             for (std::size_t j = 0; j < row.count; ++j) {
-                matrix.at(row.index[i], row.index[j]) += weight * row.factor[i] * row.factor[j];
+                normal.at(row.index[i], row.index[j]) += weight * row.factor[i] * row.factor[j];
             }
         }
     }
 
-    SymmetricMatrix matrix;
-    std::vector<double> right;
+    /// One step of Fisher scoring for s + power exp(-2 s) / 2, whose derivative is 1 - power exp(-2 s) and whose
+    /// expected second derivative is 2. Frames overlap by half.
+    void step(std::vector<double>& unknown) const {
+        SymmetricMatrix normal(unknown.size());
+        std::vector<double> right(unknown.size());
+        constexpr double largestStep = 1.0;
+        constexpr double frameWeight = 0.5 / (frameSpread * frameSpread);
+        for (const Frame& frame : frames_) {
+            const Row row = rowOf(frame);
+            double law = 0.0;
+            for (std::size_t i = 0; i < row.count; ++i) {
+                law += row.factor[i] * unknown[row.index[i]];
+            }
+            const double excess = frame.power * std::exp(-2.0 * law) - 1.0;
+            accumulate(normal, right, row, std::clamp(0.5 * excess, -largestStep, largestStep), frameWeight);
+        }
+        for (std::size_t i = 1; i < knots_.size(); ++i) {
+            const double distance = knots_[i] - knots_[i - 1];
+            Row row;
+            row.add(i, 1.0);
+            row.add(i - 1, -1.0);
+            row.add(slope(), -distance);
+            const double residual = -(unknown[i] - unknown[i - 1] - distance * unknown[slope()]);
+            // The slope may change as much within one wide interval as within several narrow ones.
+            accumulate(normal, right, row, residual, 1.0 / (slopeSpread * slopeSpread * distance * knotDistance));
+        }
+        const auto towards = [&](std::size_t index, double mean, double spread) {
+            Row row;
+            row.add(index, 1.0);
+            accumulate(normal, right, row, mean - unknown[index], 1.0 / (spread * spread));
+        };
+        towards(slope(), prior_.speedMean, prior_.speedSpread);
+        towards(force(), prior_.forceMean, prior_.forceSpread);
+        const std::vector<double> change = solvePositive(std::move(normal), std::move(right));
+        for (std::size_t i = 0; i < unknown.size(); ++i) {
+            unknown[i] += std::clamp(change[i], -2.0, 2.0);
+        }
+    }
+
+    const std::vector<Frame>& frames_;
+    std::vector<double> knots_;
+    double logForce_;
+    ExponentPrior prior_;
 };
 
-/// The log level at a speed as a sum of the knots' levels, constant beyond the ends.
-Row levelAt(const std::vector<double>& knots, double logSpeed) {
-    Row row;
-    const double inside = std::clamp(logSpeed, knots.front(), knots.back());
-    const auto above = static_cast<std::size_t>(std::ranges::upper_bound(knots, inside) - knots.begin());
-    if (above == 0 || above == knots.size()) {
-        row.add(above == 0 ? 0 : knots.size() - 1, 1.0);
-        return row;
+/// The slope from one end of the table to the other, weighted against the prior by the table's width.
+double overallSlope(const std::vector<double>& knots, const std::vector<double>& logLevels,
+                    const ExponentPrior& prior) {
+    constexpr double endSpread = 0.15;
+    const double width = knots.back() - knots.front();
+    if (width <= 0.0) {
+        return prior.speedMean;
     }
-    const double share = (inside - knots[above - 1]) / (knots[above] - knots[above - 1]);
-    row.add(above - 1, 1.0 - share);
-    row.add(above, share);
-    return row;
-}
-
-/// Slopes about the prior's, changes of slope about zero, the exponent of the force about the prior's.
-void addPrior(NormalEquations& equations, const std::vector<double>& knots, const ExponentPrior& prior) {
-    const auto precision = [](double spread) { return 1.0 / (spread * spread); };
-    for (std::size_t i = 1; i < knots.size(); ++i) {
-        const double step = knots[i] - knots[i - 1];
-        Row slope;
-        slope.add(i - 1, -1.0 / step);
-        slope.add(i, 1.0 / step);
-        equations.add(slope, prior.speedMean, precision(3.0 * prior.speedSpread));
-        if (i + 1 < knots.size()) {
-            const double next = knots[i + 1] - knots[i];
-            Row bend;
-            bend.add(i - 1, 1.0 / step);
-            bend.add(i, -1.0 / step - 1.0 / next);
-            bend.add(i + 1, 1.0 / next);
-            equations.add(bend, 0.0, precision(bendSpread * std::sqrt(2.0 * step)));
-        }
-    }
-    Row force;
-    force.add(knots.size(), 1.0);
-    equations.add(force, prior.forceMean, precision(prior.forceSpread));
-}
-
-/// Fisher scoring of the log levels at the knots and, last, the exponent of the force.
-std::vector<double> solve(std::span<const LevelFrame> frames, const std::vector<double>& knots, double logForce,
-                          const ExponentPrior& prior) {
-    std::vector<Row> rows;
-    double mean = 0.0;
-    for (const LevelFrame& frame : frames) {
-        rows.push_back(levelAt(knots, frame.logSpeed));
-        rows.back().add(knots.size(), frame.logForce - logForce);
-        mean += 0.5 * std::log(frame.power) / static_cast<double>(frames.size());
-    }
-    std::vector<double> unknown(knots.size() + 1, mean);
-    unknown.back() = prior.forceMean;
-    for (int round = 0; round < rounds; ++round) {
-        NormalEquations equations(unknown.size());
-        addPrior(equations, knots, prior);
-        for (std::size_t i = 0; i < rows.size(); ++i) {
-            const double law = rows[i].of(unknown);
-            // Limited, so that a single impact cannot destabilise the first rounds.
-            const double step = std::clamp(0.5 * (frames[i].power * std::exp(-2.0 * law) - 1.0), -1.0, 2.0);
-            equations.add(rows[i], law + step, frameWeight);
-        }
-        unknown = solvePositive(std::move(equations.matrix), std::move(equations.right));
-    }
-    return unknown;
-}
-
-/// The slope over the faster half of the frames, from which the law is continued; the prior's where data are scarce.
-double slopeBeyond(std::span<const LevelFrame> frames, const std::vector<double>& knots,
-                   const std::vector<double>& unknown, const ExponentPrior& prior) {
-    std::vector<double> sorted(frames.size());
-    std::ranges::transform(frames, sorted.begin(), &LevelFrame::logSpeed);
-    std::ranges::sort(sorted);
-    const double median = quantile(sorted, 0.5);
-    const auto faster = static_cast<std::size_t>(std::ranges::lower_bound(sorted, median) - sorted.begin());
-    const auto count = static_cast<double>(sorted.size() - faster);
-    double meanSpeed = 0.0;
-    for (std::size_t i = faster; i < sorted.size(); ++i) {
-        meanSpeed += sorted[i] / count;
-    }
-    double squares = 0.0;
-    double products = 0.0;
-    for (std::size_t i = faster; i < sorted.size(); ++i) {
-        squares += (sorted[i] - meanSpeed) * (sorted[i] - meanSpeed);
-        products += (sorted[i] - meanSpeed) * levelAt(knots, sorted[i]).of(unknown);
-    }
-    const double certainty = frameWeight * squares;
-    const double priorCertainty = 1.0 / (prior.speedSpread * prior.speedSpread);
-    const double slope = products / std::max(squares, 1e-9);
-    return std::clamp((certainty * slope + priorCertainty * prior.speedMean) / (certainty + priorCertainty), 0.0, 2.0);
+    const double slope = (logLevels[knots.size() - 1] - logLevels[0]) / width;
+    const double trust = width * width / (endSpread * endSpread);
+    const double priorTrust = 1.0 / (prior.speedSpread * prior.speedSpread);
+    return (trust * slope + priorTrust * prior.speedMean) / (trust + priorTrust);
 }
 
 }  // namespace
 
-LevelFrame levelFrame(std::span<const float> wave, std::span<const std::array<float, 3>> motion) {
-    const auto count = static_cast<double>(wave.size());
-    double speed = 0.0;
-    double force = 0.0;
-    double power = 0.0;
-    for (std::size_t i = 0; i < wave.size(); ++i) {
-        speed += std::hypot(motion[i][0], motion[i][1]) / count;
-        force += motion[i][2] / count;
-        power += static_cast<double>(wave[i]) * wave[i] / count;
-    }
-    // Avoids the logarithm of digital silence: the limit is a hundredth of the detection threshold.
-    constexpr double silentPower = 1e-10;
-    return {.logSpeed = std::log(speed + model::LevelTable::restMps),
-            .logForce = std::log(std::max(force, model::LevelTable::minimumForceNewtons)),
-            .power = std::max(power, silentPower)};
-}
-
-LevelLaw fitLevelLaw(std::span<const LevelFrame> frames, const ExponentPrior& prior) {
-    double logForce = 0.0;
-    for (const LevelFrame& frame : frames) {
-        logForce += frame.logForce / static_cast<double>(frames.size());
-    }
-    const std::vector<double> knots = knotsOf(frames);
-    const std::vector<double> unknown = solve(frames, knots, logForce, prior);
-    LevelLaw law;
-    law.table.forceNewtons = std::exp(logForce);
-    law.table.forceExponent = std::clamp(unknown.back(), -model::maximumLevelExponent, model::maximumLevelExponent);
-    law.speedExponent = slopeBeyond(frames, knots, unknown, prior);
-    for (std::size_t i = 0; i < knots.size(); ++i) {
-        law.table.speedsMps.push_back(std::max(std::exp(knots[i]) - model::LevelTable::restMps, 0.0));
-        law.table.logLevels.push_back(unknown[i]);
-    }
-    return law;
-}
-
 LevelLaw fitLevelLaw(const recordings::PreparedRecording& recording, const Sliding& sliding,
                      const ExponentPrior& prior) {
-    std::vector<LevelFrame> frames = framesOf(recording, sliding, levelFrameSamples);
-    if (frames.size() < fewestFrames) {
-        frames = framesOf(recording, sliding, levelFrameSamples / 2);
-    }
-    if (frames.size() < fewestFrames) {
+    const std::vector<Frame> frames = framesOf(recording, sliding);
+    if (frames.size() < 10) {
         throw recordings::RecordingUnusable(
             "the strokes are too short: hardly any slides for 50 ms at a stretch; record longer "
             "strokes");
     }
-    return fitLevelLaw(frames, prior);
+    LevelLaw law;
+    law.table.forceNewtons = std::clamp(sliding.forceNewtons[1], 0.01, 100.0);
+    const std::vector<double> knots = knotsOf(frames);
+    std::vector<double> unknown = Fit(frames, knots, std::log(law.table.forceNewtons), prior).solve();
+    law.table.forceExponent =
+        std::clamp(unknown[knots.size() + 1], -model::maximumLevelExponent, model::maximumLevelExponent);
+    law.speedExponent =
+        std::clamp(overallSlope(knots, unknown, prior), -model::maximumLevelExponent, model::maximumLevelExponent);
+    for (std::size_t i = 0; i < knots.size(); ++i) {
+        law.table.speedsMps.push_back(std::exp(knots[i]) - model::LevelTable::restMps);
+        law.table.logLevels.push_back(unknown[i]);
+    }
+    return law;
 }
 
 }  // namespace haptoflow::learning

@@ -4,10 +4,6 @@
 #include "model/material_tables.hpp"
 #include "recordings/prepared_recording.hpp"
 
-#include <array>
-#include <span>
-#include <vector>
-
 namespace haptoflow::learning {
 
 /// The level of a material as a function of speed and force.
@@ -30,26 +26,9 @@ struct ExponentPrior {
     double forceSpread = 0.18;
 };
 
-/// A tenth of a second of sliding.
-struct LevelFrame {
-    /// Logarithms of the mean speed plus LevelTable::restMps, in m/s, and of the mean force in N.
-    double logSpeed = 0.0;
-    double logForce = 0.0;
-    /// Mean square in m^2/s^4.
-    double power = 0.0;
-};
-
-inline constexpr std::size_t levelFrameSamples = 200;
-
-/// The frame of one wave in m/s^2 and the motion (vx, vy, force) of its samples.
-[[nodiscard]] LevelFrame levelFrame(std::span<const float> wave, std::span<const std::array<float, 3>> motion);
-
-/// Fits the law to the power of frames that overlap by half, by maximum likelihood with a Gamma distribution, which
-/// matches the recorded power even where single impacts make its logarithms uneven. The level is a curve over log
-/// speed; its slope and the exponent of the force are drawn towards the prior. Needs one frame.
-[[nodiscard]] LevelLaw fitLevelLaw(std::span<const LevelFrame> frames, const ExponentPrior& prior);
-
-/// The same for a recording's steady frames. Throws recordings::RecordingUnusable if it hardly has any.
+/// Fits the law to the power of frames of 50 ms by maximum likelihood, with chi-squared distributed power. The slope
+/// between knots may differ from the common one where the frames require it. With few speeds the exponents come from
+/// the prior.
 [[nodiscard]] LevelLaw fitLevelLaw(const recordings::PreparedRecording& recording, const Sliding& sliding,
                                    const ExponentPrior& prior);
 

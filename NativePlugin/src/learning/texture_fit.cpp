@@ -15,7 +15,7 @@ constexpr double lowestHz = 15.0;
 constexpr double highestHz = 900.0;
 constexpr double powerFloor = 1e-7;
 constexpr double decibelsPerNat = 8.685889638065037;
-constexpr double envelopeWeight = 4.0;
+constexpr double envelopeWeight = 1.0;
 constexpr double levelWeight = 0.3;
 constexpr double lineWeight = 1.0;
 constexpr double lineFloor = 3e-4;
@@ -135,7 +135,7 @@ TextureFit::TextureFit(ClosedLoop& loop, const recordings::PreparedRecording& re
     TextureMeter meter(bins_.count());
     measure(meter, unitWave, 0, frameHop);
     recorded_ = meter.figures();
-    starts_ = startsByBin(warmSamples, chainSamples);
+    starts_ = startsByBin(chainSamples);
     const bool hasStart =
         std::ranges::any_of(starts_, [](const std::vector<std::size_t>& starts) { return !starts.empty(); });
     if (!hasStart) {
@@ -160,7 +160,7 @@ void TextureFit::measure(TextureMeter& meter, std::span<const float> wave, std::
     }
 }
 
-std::vector<std::vector<std::size_t>> TextureFit::startsByBin(std::size_t warm, std::size_t samples) const {
+std::vector<std::vector<std::size_t>> TextureFit::startsByBin(std::size_t samples) const {
     constexpr std::size_t step = 50;
     constexpr double minimumSliding = 0.8;
     std::vector<std::vector<std::size_t>> starts(bins_.count());
@@ -168,9 +168,9 @@ std::vector<std::vector<std::size_t>> TextureFit::startsByBin(std::size_t warm, 
     for (std::size_t i = 0; i < recording_.isUsable.size(); ++i) {
         usableBefore[i + 1] = usableBefore[i] + recording_.isUsable[i];
     }
-    const std::size_t whole = pastSamples + warm + samples;
+    const std::size_t whole = pastSamples + warmSamples + samples;
     for (std::size_t first = 0; first + whole < recording_.isUsable.size(); first += step) {
-        const std::size_t counted = first + pastSamples + warm;
+        const std::size_t counted = first + pastSamples + warmSamples;
         const std::uint32_t sliding = sliding_.before[counted + samples] - sliding_.before[counted];
         if (usableBefore[first + whole] - usableBefore[first] == whole &&
             sliding >= minimumSliding * static_cast<double>(samples)) {
@@ -222,44 +222,36 @@ std::vector<double> TextureFit::distances(std::span<const Embedding> embeddings,
     return result;
 }
 
-Resynthesis TextureFit::resynthesis(const Embedding& embedding) {
+std::vector<TextureFigures> TextureFit::resynthesis(const Embedding& embedding) {
     constexpr std::size_t hopAt72Hz = 28;
     constexpr std::size_t maximumChains = 96;
     constexpr std::size_t defaultChains = 60;
-    // The loop's level settles within a few hundred samples, where the recording has stretches that are long enough.
-    LoopSettings settings{
-        .hopSamples = hopAt72Hz, .warmSamples = 400, .samples = 1000, .seed = seed_, .round = 1'000'000};
-    std::vector<std::vector<std::size_t>> all = startsByBin(settings.warmSamples, settings.samples);
-    if (std::ranges::any_of(all, [](const auto& starts) { return starts.empty(); })) {
-        settings.warmSamples = warmSamples;
-        settings.samples = chainSamples;
-        all = starts_;
-    }
     std::size_t available = 0;
-    for (const auto& starts : all) {
+    for (const auto& starts : starts_) {
         available += starts.size();
     }
     const std::size_t count = std::min(maximumChains, std::max(defaultChains, available / 20));
     std::vector<Chain> chains;
     for (std::size_t k = 0; k < count; ++k) {
-        const auto& starts = all[k % all.size()];
+        const auto& starts = starts_[k % starts_.size()];
         if (!starts.empty()) {
-            const std::size_t place = k / all.size();
-            const std::size_t places = (count + all.size() - 1) / all.size();
+            const std::size_t place = k / starts_.size();
+            const std::size_t places = (count + starts_.size() - 1) / starts_.size();
             chains.push_back({0, starts[place * starts.size() / places], static_cast<std::uint32_t>(k)});
         }
     }
-    const std::vector<float> waves = loop_.run(std::span(&embedding, 1), chains, settings);
+    const std::vector<float> waves = loop_.run(std::span(&embedding, 1), chains,
+                                               {.hopSamples = hopAt72Hz,
+                                                .warmSamples = warmSamples,
+                                                .samples = chainSamples,
+                                                .seed = seed_,
+                                                .round = 1'000'000});
     TextureMeter meter(bins_.count());
-    Resynthesis result;
     for (std::size_t k = 0; k < chains.size(); ++k) {
-        const std::span<const float> wave = std::span(waves).subspan(k * settings.samples, settings.samples);
-        const std::size_t start = chains[k].start + settings.warmSamples;
-        measure(meter, wave, start, frameHop);
-        result.stretches.push_back({.start = start, .wave = {wave.begin(), wave.end()}});
+        measure(meter, std::span(waves).subspan(k * chainSamples, chainSamples), chains[k].start + warmSamples,
+                frameHop);
     }
-    result.figures = meter.figures();
-    return result;
+    return meter.figures();
 }
 
 }  // namespace haptoflow::learning

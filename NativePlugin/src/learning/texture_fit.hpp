@@ -16,17 +16,6 @@ namespace haptoflow::learning {
 [[nodiscard]] double textureDistance(std::span<const TextureFigures> recorded,
                                      std::span<const TextureFigures> generated, double bandwidthHz);
 
-/// A wave of unit level that the closed loop generated for the recording's samples from `start` on.
-struct LoopStretch {
-    std::size_t start = 0;
-    std::vector<float> wave;
-};
-
-struct Resynthesis {
-    std::vector<LoopStretch> stretches;
-    std::vector<TextureFigures> figures;
-};
-
 /// Compares embeddings by the waves that the network generates along the recording's own motion.
 class TextureFit {
 public:
@@ -44,11 +33,12 @@ public:
     [[nodiscard]] std::vector<double> distances(std::span<const Embedding> embeddings, std::size_t chains,
                                                 std::uint64_t round);
 
-    /// The waves generated for an embedding along the whole recording, at 72 updates per second, and their statistics.
-    [[nodiscard]] Resynthesis resynthesis(const Embedding& embedding);
+    /// Statistics of the waves generated for an embedding along the whole recording, several times, at 72 updates per
+    /// second.
+    [[nodiscard]] std::vector<TextureFigures> resynthesis(const Embedding& embedding);
 
 private:
-    [[nodiscard]] std::vector<std::vector<std::size_t>> startsByBin(std::size_t warm, std::size_t samples) const;
+    [[nodiscard]] std::vector<std::vector<std::size_t>> startsByBin(std::size_t samples) const;
     void measure(TextureMeter& meter, std::span<const float> wave, std::size_t start, std::size_t hop) const;
 
     ClosedLoop& loop_;
