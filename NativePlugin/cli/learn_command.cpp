@@ -2,8 +2,6 @@
 #include "commands.hpp"
 #include "decimal_text.hpp"
 #include "exit_codes.hpp"
-#include "inference/onnx_segment_generator.hpp"
-#include "inference/tier_graphs.hpp"
 #include "learning/learner.hpp"
 #include "material_output.hpp"
 #include "messages.hpp"
@@ -33,7 +31,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t batchOfFit = 64;
+/// Another tier whose spectra are further off than the fitted tier's by this much is mentioned.
+constexpr double noticeableDb = 0.3;
 
 struct LearnOptions {
     std::string recordingPath;
@@ -101,9 +100,10 @@ std::string inMillimetres(double mps) {
 void tell(const learning::LearningReport& report, const std::string& name, const fs::path& output) {
     std::cout << "Learnt " << name << " from " << fixedDecimals(report.slidingSeconds, 1) << " s of sliding in "
               << fixedDecimals(report.seconds, 1) << " s: " << model::printable(output.string()) << '\n'
-              << "  nearest label      " << report.nearestLabel << " (" << fixedDecimals(report.nearestDistanceDb, 1)
+              << "  start label        " << report.startLabel << " (" << fixedDecimals(report.startDistanceDb, 1)
               << " dB away, " << fixedDecimals(report.fittedDistanceDb, 1) << " dB after the fit, "
               << fixedDecimals(report.spectralDistanceDb, 1) << " dB between the mean spectra behind the tone)\n"
+              << "  nearest label      " << report.nearestLabel << '\n'
               << "  level error        " << fixedDecimals(report.levelErrorDb, 2) << " dB at most over the speeds\n"
               << "  speed              " << inMillimetres(report.speedMps[0]) << " to "
               << inMillimetres(report.speedMps[1]) << " mm/s, level as speed^" << fixedDecimals(report.speedExponent, 2)
@@ -116,7 +116,7 @@ void tell(const learning::LearningReport& report, const std::string& name, const
         std::cout << "none found";
     }
     for (std::size_t i = 0; i < report.waveVectors.size(); ++i) {
-        const learning::LearntWaveVector& each = report.waveVectors[i];
+        const learning::WaveVector& each = report.waveVectors[i];
         std::cout << (i > 0 ? ", " : "every ") << fixedDecimals(1.0 / std::hypot(each.x, each.y), 2) << " mm";
     }
     if (!report.waveVectors.empty()) {
@@ -124,6 +124,12 @@ void tell(const learning::LearningReport& report, const std::string& name, const
                   << " degrees from the recording's";
     }
     std::cout << '\n' << "  seeds              " << report.seeds << '\n';
+    for (const learning::TierDistance& each : report.otherTiers) {
+        if (each.spectralDistanceDb > report.spectralDistanceDb + noticeableDb) {
+            std::cout << "  tier " << each.tier << " is further off: " << fixedDecimals(each.spectralDistanceDb, 1)
+                      << " dB between the mean spectra; the tone was fitted for another tier\n";
+        }
+    }
     std::ranges::for_each(report.warnings, note);
 }
 
@@ -182,10 +188,9 @@ void runLearn(const LearnOptions& options) {
     if (!options.reportPath.empty()) {
         report.emplace("--report", options.reportPath);
     }
-    inference::OnnxSegmentGenerator generator(openRuntime(), model, tier.name, inference::defaultSolver(tier),
-                                              batchOfFit);
     try {
-        const learning::LearntMaterial learnt = learning::learnMaterial(recording.view(), model, generator, settings);
+        const learning::LearntMaterial learnt =
+            learning::learnMaterial(recording.view(), model, tier, openRuntime(), settings);
         writeMaterial(output, learnt.materialJson, model.header());
         if (report) {
             writeText(*report, learning::reportJson(learnt.report));
@@ -216,7 +221,7 @@ void addLearnCommand(CLI::App& app, CommandOutcome& outcome) {
     command->add_option("--model", options->modelPath, "Model file (default: the one shipped)")->type_name("FILE");
     command->add_option("--name", options->name,
                         "The material's name (default: the sidecar's label, or the recording's file name)");
-    command->add_option("--category", options->category, "For example wood (default: the nearest label's)");
+    command->add_option("--category", options->category, "For example wood (default: the start label's)");
     command->add_option("--speed-mps", options->words.speedMps, "Speed in m/s, for a recording without motion")
         ->check(decimalBetween(0.001, 10.0, "m/s"));
     command->add_option("--force-newtons", options->words.forceNewtons, "Force in N, for a recording without force")
@@ -248,7 +253,7 @@ void addLearnCommand(CLI::App& app, CommandOutcome& outcome) {
         "\"force_newtons\": 1.0, \"label\": \"doormat\", \"licence\": \"CC BY 4.0\"}.\n"
         "Record strokes at slow and fast speeds, in all directions of interest: properties that the recording does "
         "not\n"
-        "show are taken from the nearest label of the model.");
+        "show are taken from the label that renders most like it.");
     command->callback([options, &outcome] {
         runLearn(*options);
         outcome.exitCode = exitDone;

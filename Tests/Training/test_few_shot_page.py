@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from own_samples import csv_one_axis, stroke
-from test_few_shot_study import cell, stored
+from test_few_shot_study import stored
 
 from haptoflow_benchmark import cli as benchmark
 from haptoflow_paper import cli as paper
@@ -41,11 +41,10 @@ def test_every_command_of_the_page_runs_and_writes_what_it_names(
     work = tmp_path / "work"
     work.mkdir()
     (work / "unseen-01.json").write_text(json.dumps(stored("unseen-01", False)), encoding="utf-8")
-    (work / "unseen-01.engine.json").write_text(json.dumps([cell(1.0)]), encoding="utf-8")
     ran = set()
     for program, *words in commands():
         quick = {
-            "add-material": ["--steps", "2"],
+            "add-material": ["--seconds-limit", "1"],
             "sliders": [],
             "measure-wave-vectors": ["--every", "60"],
             # The slow cells are stored already.
@@ -58,4 +57,4 @@ def test_every_command_of_the_page_runs_and_writes_what_it_names(
                 assert (tmp_path / named).stat().st_size > 0
     assert ran == {"add-material", "sliders", "few-shot", "measure-wave-vectors"}
     assert (tmp_path / "doormat.haptomaterial").exists()
-    assert "fit, in the engine" in (tmp_path / "few-shot.json").read_text(encoding="utf-8")
+    assert "learn 10" in (tmp_path / "few-shot.json").read_text(encoding="utf-8")

@@ -27,7 +27,8 @@ def test_a_recording_has_its_one_right_answer(answer: dict[str, Any]) -> None:
         assert answer["refused"].replace("FILE", str(path), 1) in str(raised.value)
         return
     recording = read_native(path)
-    assert recording.rate_hz == pytest.approx(answer["rate_hz"], rel=answer.get("rate_tolerance", 1e-6))
+    assert recording.even is not None
+    assert recording.even.rate_hz == pytest.approx(answer["rate_hz"], rel=answer.get("rate_tolerance", 1e-6))
     assert recording.acceleration is not None
     values = recording.acceleration.values
     assert values.shape[1] == answer["axes"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import struct
 import zlib
 from pathlib import Path
@@ -10,8 +11,17 @@ import numpy as np
 import pytest
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.export.model_file import ModelFile, encode_model_file, read_model_file, write_model_file
+from haptoflow_training.export.model_file import (
+    ModelFile,
+    encode_model_file,
+    model_space,
+    read_model_file,
+    write_model_file,
+)
 
+ROOT = Path(__file__).parents[2]
+GOLDEN = ROOT / "Tests" / "Golden"
+DEFAULT = ROOT / "Packages" / "com.haptoflow.runtime" / "Runtime" / "Models" / "default.haptoflow"
 MODEL = ModelFile(
     header={"name": "tést", "labels": [{"name": "wood"}]},
     tensors={"embedding": np.arange(128, dtype=np.float32).reshape(2, 64), "seeds": np.ones((1, 400), np.float32)},
@@ -77,3 +87,16 @@ def test_a_folder_that_cannot_be_written_is_named(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="model.haptoflow"):
         write_model_file(blocked, MODEL)
     assert list(tmp_path.iterdir()) == [blocked]
+
+
+def test_the_space_follows_the_networks_and_neither_labels_nor_embedding() -> None:
+    spaces = json.loads((GOLDEN / "material" / "expected.json").read_text(encoding="utf-8"))["spaces"]
+    model = read_model_file(GOLDEN / "model" / "tiny.haptoflow")
+    assert model_space(model) == spaces["tiny"]
+    assert model_space(read_model_file(DEFAULT)) == spaces["default"]
+    model.header["labels"].pop()
+    model.tensors["embedding"] = model.tensors["embedding"] * 2.0
+    assert model_space(model) == spaces["tiny"]
+    name = model.header["tiers"][1]["field"]
+    model.graphs[name] = model.graphs[name] + b"\0"
+    assert model_space(model) != spaces["tiny"]

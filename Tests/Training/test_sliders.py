@@ -8,23 +8,20 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from haptoflow_benchmark.engine.engine_library import default_engine
 from haptoflow_benchmark.metrics.temporal_metrics import rib_modulation_depth
 from haptoflow_benchmark.metrics.waveform_metrics import power_spectrum
+from haptoflow_paper.rows.engine_generator import EngineGenerator
 from haptoflow_training.cli import main
-from haptoflow_training.export.material_file import model_space
-from haptoflow_training.export.material_sound import LevelTable
-from haptoflow_training.export.model_file import ModelFile, read_model_file
-from haptoflow_training.fewshot.level_law import LevelLaw
+from haptoflow_training.closed_loop.render import UPDATE_RATE_HZ, run_closed_loop
+from haptoflow_training.export.model_file import ModelFile, model_space, read_model_file
 from haptoflow_training.fewshot.sliders import Sliders, find_sliders
-from haptoflow_training.fewshot.voice import Voice, render
-from haptoflow_training.models.file_model import FileModel
 from haptoflow_training.recordings.synthetic import load_materials
 
 ROOT = Path(__file__).parents[2]
 DEFAULT = ROOT / "Packages" / "com.haptoflow.runtime" / "Runtime" / "Models" / "default.haptoflow"
 SHIPPED = ROOT / "Packages" / "com.haptoflow.runtime" / "Editor" / "Sliders" / "default.sliders.json"
 TINY = ROOT / "Tests" / "Golden" / "model" / "tiny.haptoflow"
-FLAT = LevelLaw(LevelTable((0.1,), (0.0,), 1.0, 0.0), 0.0)
 
 
 @pytest.fixture(scope="module")
@@ -42,15 +39,18 @@ def learnt(file: ModelFile, label: str) -> np.ndarray:
     return file.tensors["embedding"][names.index(label)]
 
 
-def voices(file: ModelFile, sliders: Sliders, label: str, name: str, values: tuple[float, ...]) -> list[Voice]:
+def slid(file: ModelFile, sliders: Sliders, label: str, name: str, values: tuple[float, ...]) -> list[np.ndarray]:
     base = learnt(file, label)
-    slid = [np.concatenate([sliders.slid(base[:60], {name: value}), base[60:]]) for value in values]
-    return [Voice(each.astype(np.float32), FLAT) for each in slid]
+    return [np.concatenate([sliders.slid(base[:60], {name: value}), base[60:]]) for value in values]
 
 
-def rendered(file: ModelFile, asked: list[Voice], velocity: tuple[float, float]) -> np.ndarray:
-    motion = np.tile(np.array([*velocity, 1.0], dtype=np.float32), (len(asked), 4400, 1))
-    return render(FileModel(file).tier(), asked, motion, 3).waves[:, 400:]
+def rendered(embeddings: list[np.ndarray], velocity: tuple[float, float]) -> np.ndarray:
+    motion = np.tile(np.array([*velocity, 1.0], dtype=np.float32), (len(embeddings), 4400, 1))
+    with EngineGenerator(default_engine(ROOT), DEFAULT) as source:
+        run = run_closed_loop(
+            source, np.stack(embeddings).astype(np.float32), motion, update_rate_hz=UPDATE_RATE_HZ, seed=3
+        )
+    return run.waves[:, 400:]
 
 
 def centroid_hz(wave: np.ndarray) -> float:
@@ -62,8 +62,8 @@ def centroid_hz(wave: np.ndarray) -> float:
 def test_coarseness_lowers_the_pitch_step_by_step_and_hardness_raises_it(file: ModelFile, sliders: Sliders) -> None:
     values, labels = (-1.0, -0.5, 0.0, 0.5, 1.0), ("wood", "stone", "paper", "rubber")
     for name, sign in (("coarseness", -1.0), ("hardness", 1.0)):
-        asked = [voice for label in labels for voice in voices(file, sliders, label, name, values)]
-        waves = rendered(file, asked, (0.08, 0.03))
+        asked = [each for label in labels for each in slid(file, sliders, label, name, values)]
+        waves = rendered(asked, (0.08, 0.03))
         pitch = np.log([centroid_hz(wave) for wave in waves]).reshape(len(labels), len(values)).mean(axis=0)
         assert (sign * np.diff(pitch) > 0.0).all(), (name, np.exp(pitch))
         assert sign * (pitch[-1] - pitch[0]) > 0.25
@@ -72,8 +72,8 @@ def test_coarseness_lowers_the_pitch_step_by_step_and_hardness_raises_it(file: M
 def test_regularity_makes_ribs_stand_out(file: ModelFile, sliders: Sliders) -> None:
     depths = []
     for label, rate in (("jute", 40.0), ("corduroy", 32.0)):
-        asked = voices(file, sliders, label, "regularity", (-1.0, 1.0))
-        depths.append([rib_modulation_depth(wave, rate) for wave in rendered(file, asked, (0.08, 0.0))])
+        asked = slid(file, sliders, label, "regularity", (-1.0, 1.0))
+        depths.append([rib_modulation_depth(wave, rate) for wave in rendered(asked, (0.08, 0.0))])
     irregular, regular = np.mean(depths, axis=0)
     assert regular > irregular
 

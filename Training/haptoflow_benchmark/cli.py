@@ -10,7 +10,6 @@ from haptoflow_training.cli import run_program
 _COMMANDS = {
     "evaluate": "compare a model with recordings of your own: level and spectrum of each label",
     "discriminate": "check that a classifier trained on recordings recognises the label of what the engine renders",
-    "learn-figures": "measure materials fitted by `haptoflow learn` to ten seconds of recording",
     "measure-wave-vectors": "count ribs found, missed and falsely found in seconds of strokes",
     "measure-full-scale": "measure which acceleration should be full scale, from recorded strokes on every label",
 }

@@ -60,9 +60,6 @@ def run_program(
         if key == chosen:
             package = "haptoflow-training" if key in borrowed else name
             module = importlib.import_module(f"{package}.commands.{key}".replace("-", "_"))
-            if hasattr(module, "register"):
-                module.register(subparsers, summary)
-                continue
             layout = argparse.RawDescriptionHelpFormatter
             subparser = subparsers.add_parser(key, help=summary, formatter_class=layout)
             module.add_options(subparser)

@@ -11,9 +11,13 @@ from typing import Any
 
 from haptoflow_training.errors import InputError
 
-LIBRARY_VARIABLE = "HAPTOFLOW_LIBRARY"
+LIBRARY_VARIABLE, RUNTIME_VARIABLE = "HAPTOFLOW_LIBRARY", "HAPTOFLOW_ONNXRUNTIME"
 _NAMES = {"win32": "audioplugin_haptoflow.dll", "darwin": "libaudioplugin_haptoflow.dylib"}
-_BUILT = Path(__file__).resolve().parents[2] / "build" / "native"
+_ROOT = Path(__file__).resolve().parents[2]
+_BUILT = _ROOT / "build" / "native"
+_RUNTIME = _ROOT / "node_modules" / "com.github.asus4.onnxruntime" / "Plugins" / {
+    "win32": "Windows/x64/onnxruntime.dll", "darwin": "macOS/arm64/libonnxruntime.dylib",
+}.get(sys.platform, "Linux/x64/libonnxruntime.so")  # fmt: skip
 
 
 class NativeError(InputError):
@@ -41,6 +45,61 @@ class NativeLibrary:
 def options_of(structure: type[ctypes.Structure], **values: Any) -> Any:
     """A structure of the C interface with its size field set."""
     return structure(struct_size=ctypes.sizeof(structure), **values)
+
+
+class _RuntimeOptions(ctypes.Structure):
+    _fields_ = [
+        ("struct_size", ctypes.c_uint32),
+        ("ort_api_base", ctypes.c_void_p),
+        ("library_path", ctypes.c_char_p),
+    ]
+
+
+class _ModelOptions(ctypes.Structure):
+    _fields_ = [
+        ("struct_size", ctypes.c_uint32),
+        ("bytes", ctypes.c_void_p),
+        ("byte_count", ctypes.c_uint64),
+        ("path", ctypes.c_char_p),
+    ]
+
+
+class NativeModel:
+    """A model file opened by the library. Use it in a `with` statement, or close it."""
+
+    def __init__(self, library: NativeLibrary, path: Path) -> None:
+        self._library = library
+        self.handle = ctypes.c_void_p()
+        options = options_of(_ModelOptions, path=str(path).encode())
+        library.call("haptoflow_model_open", ctypes.byref(options), ctypes.byref(self.handle))
+
+    def __enter__(self) -> NativeModel:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Free the model; does nothing if it is closed already."""
+        self._library.call("haptoflow_model_close", ctypes.byref(self.handle))
+
+
+def open_runtime(library: NativeLibrary, onnx_runtime: Path) -> ctypes.c_void_p:
+    """A handle of ONNX Runtime, which lives until the process ends."""
+    if not onnx_runtime.is_file():
+        raise InputError(f"{onnx_runtime} does not exist: run `npm ci`, or set {RUNTIME_VARIABLE} to ONNX Runtime's library")
+    runtime = ctypes.c_void_p()
+    options = options_of(_RuntimeOptions, library_path=str(onnx_runtime).encode())
+    library.call("haptoflow_runtime_open", ctypes.byref(options), ctypes.byref(runtime))
+    return runtime
+
+
+@lru_cache(maxsize=1)
+def native_runtime() -> ctypes.c_void_p:
+    """ONNX Runtime as `npm ci` installs it, or the one that HAPTOFLOW_ONNXRUNTIME names. InputError with the remedy if it
+    is missing."""
+    named = os.environ.get(RUNTIME_VARIABLE)
+    return open_runtime(native_library(), Path(named) if named else _RUNTIME)
 
 
 @lru_cache(maxsize=1)

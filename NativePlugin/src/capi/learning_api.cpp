@@ -1,6 +1,6 @@
 #include "capi/handles.hpp"
-#include "inference/tier_graphs.hpp"
 #include "learning/learner.hpp"
+#include "learning/wave_vectors.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -8,6 +8,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 using namespace haptoflow;
 using namespace haptoflow::capi;
@@ -24,11 +25,18 @@ struct OpenLearning {
 namespace {
 
 constexpr std::size_t mandatoryOptions = offsetof(haptoflow_learning_options, seed);
-constexpr std::size_t batchOfFit = 64;
 constexpr double maximumLimitSeconds = 3600.0;
 
 std::string textOrNone(const char* text) {
     return text != nullptr ? text : "";
+}
+
+std::size_t countOf(uint64_t given, const char* what) {
+    constexpr uint64_t maximumSamples = std::numeric_limits<std::size_t>::max() / (3 * sizeof(float));
+    if (given > maximumSamples) {
+        throw std::invalid_argument(std::string(what) + " is " + std::to_string(given));
+    }
+    return static_cast<std::size_t>(given);
 }
 
 recordings::Recording recordingOf(const haptoflow_learning_options& given) {
@@ -36,11 +44,7 @@ recordings::Recording recordingOf(const haptoflow_learning_options& given) {
     if (given.axis_count != 1 && given.axis_count != 3) {
         throw std::invalid_argument("options: axis_count is " + std::to_string(given.axis_count) + "; expected 1 or 3");
     }
-    constexpr uint64_t maximumSamples = std::numeric_limits<std::size_t>::max() / (3 * sizeof(float));
-    if (given.sample_count > maximumSamples) {
-        throw std::invalid_argument("options: sample_count is " + std::to_string(given.sample_count));
-    }
-    const auto count = static_cast<std::size_t>(given.sample_count);
+    const std::size_t count = countOf(given.sample_count, "options: sample_count");
     const auto numbers = [](const float* values, std::size_t size) {
         return values != nullptr ? std::span(values, size) : std::span<const float>();
     };
@@ -60,6 +64,7 @@ learning::LearningSettings settingsOf(const haptoflow_learning_options& given,
     settings.category = textOrNone(given.category);
     settings.description = textOrNone(given.description);
     settings.licence = textOrNone(given.licence);
+    settings.recordings = textOrNone(given.recordings);
     settings.seed = given.seed;
     if (given.seconds_limit != 0.0) {
         if (!(given.seconds_limit > 0.0 && given.seconds_limit <= maximumLimitSeconds)) {
@@ -94,9 +99,8 @@ haptoflow_status haptoflow_learn_material(const haptoflow_learning_options* opti
         const learning::LearningSettings settings = settingsOf(given, limits.cancellation.get());
         learning::checkSettings(settings);
         recordings::checkRecording(recording);
-        inference::OnnxSegmentGenerator generator(runtime, open->model, tier.name, inference::defaultSolver(tier),
-                                                  batchOfFit, limits);
-        learning::LearntMaterial learnt = learning::learnMaterial(recording, open->model, generator, settings);
+        learning::LearntMaterial learnt =
+            learning::learnMaterial(recording, open->model, tier, runtime, settings, limits);
         *learning = learnings().open(std::make_shared<const OpenLearning>(
             OpenLearning{std::move(learnt.materialJson), learning::reportJson(learnt.report)}));
     });
@@ -112,4 +116,22 @@ haptoflow_status haptoflow_learning_report(const haptoflow_learning* learning, c
 
 haptoflow_status haptoflow_learning_close(haptoflow_learning** learning) {
     return guarded([&] { closeHandle(learnings(), learning, "learning"); });
+}
+
+haptoflow_status haptoflow_find_wave_vectors(const float* vibration_mps2, const float* velocity_mps,
+                                             uint64_t sample_count, double wave_vectors[4]) {
+    return guarded([&] {
+        (void)require(vibration_mps2, "vibration_mps2");
+        (void)require(velocity_mps, "velocity_mps");
+        const std::span<double, 2 * inference::ribCount> result(require(wave_vectors, "wave_vectors"),
+                                                                2 * inference::ribCount);
+        const std::size_t count = countOf(sample_count, "sample_count");
+        const std::vector<learning::WaveVector> found =
+            learning::findWaveVectors({vibration_mps2, count}, {velocity_mps, 2 * count});
+        std::ranges::fill(result, 0.0);
+        for (std::size_t rib = 0; rib < found.size(); ++rib) {
+            result[2 * rib] = found[rib].x;
+            result[2 * rib + 1] = found[rib].y;
+        }
+    });
 }

@@ -11,7 +11,7 @@ namespace haptoflow::learning {
 
 /// Rotation of a material's frame relative to its recording. A surface may be recorded at any angle, but a ruled
 /// material's first axis is perpendicular to its most distinct ribs, as in the labels that the networks were trained
-/// on. Without ribs the frame is that of the recording. Training does the same (fewshot/stroke_recording.py).
+/// on. Without ribs the frame is that of the recording.
 struct MaterialFrame {
     /// Angle from the recording's first axis to the material's.
     double turnRadians = 0.0;

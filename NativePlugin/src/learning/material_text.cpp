@@ -1,28 +1,13 @@
 #include "learning/material_text.hpp"
 
-#include <nlohmann/json.hpp>
+#include "learning/rounded_numbers.hpp"
 
-#include <cmath>
 #include <utility>
 
 namespace haptoflow::learning {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// Rounds to the significant digits, which makes files smaller and equal on platforms whose last bits differ.
-double rounded(double value, double perUnit) {
-    return std::round(value * perUnit) / perUnit + 0.0;
-}
-
-template <typename Range>
-Json roundedNumbers(const Range& values, double perUnit) {
-    Json result = Json::array();
-    for (const auto value : values) {
-        result.push_back(rounded(static_cast<double>(value), perUnit));
-    }
-    return result;
-}
 
 Json impactJson(const model::Impact& impact) {
     Json modes = Json::array();
@@ -70,9 +55,9 @@ std::string materialText(const model::ModelFile& model, const MaterialContent& c
     json["version"] = 1;
     json["space"] = model::spaceOf(model.header());
     json["name"] = settings.name;
-    json["category"] = settings.category.empty() ? content.nearest.category : settings.category;
+    json["category"] = settings.category.empty() ? content.start.category : settings.category;
     json["description"] = settings.description;
-    json["provenance"] = {{"statement", "learnt from a recording, beginning at the label " + content.nearest.name},
+    json["provenance"] = {{"statement", "learnt from a recording, beginning at the label " + content.start.name},
                           {"recordings", settings.recordings},
                           {"licence", settings.licence.empty() ? "unknown" : settings.licence},
                           {"seconds", rounded(report.slidingSeconds, 1e2)},
@@ -86,10 +71,10 @@ std::string materialText(const model::ModelFile& model, const MaterialContent& c
     json["periodic"] = content.wavelengthMetres.has_value();
     json["wavelength_metres"] =
         content.wavelengthMetres ? Json(rounded(*content.wavelengthMetres, 1e8)) : Json(nullptr);
-    json["stiffness_newtons_per_metre"] = content.nearest.stiffnessNewtonsPerMetre;
-    json["friction_coefficient"] = content.nearest.frictionCoefficient;
-    if (content.nearest.impact) {
-        json["impact"] = impactJson(*content.nearest.impact);
+    json["stiffness_newtons_per_metre"] = content.start.stiffnessNewtonsPerMetre;
+    json["friction_coefficient"] = content.start.frictionCoefficient;
+    if (content.start.impact) {
+        json["impact"] = impactJson(*content.start.impact);
     }
     json["level"] = {{"speeds_mps", roundedNumbers(content.level.table.speedsMps, 1e6)},
                      {"log_levels", roundedNumbers(content.level.table.logLevels, 1e5)},
@@ -100,33 +85,6 @@ std::string materialText(const model::ModelFile& model, const MaterialContent& c
     }
     json["seeds"] = seedsJson(content.seeds);
     return json.dump() + "\n";
-}
-
-std::string reportJson(const LearningReport& report) {
-    Json vectors = Json::array();
-    for (const LearntWaveVector& each : report.waveVectors) {
-        vectors.push_back({{"x_cycles_per_mm", rounded(each.x, 1e5)}, {"y_cycles_per_mm", rounded(each.y, 1e5)}});
-    }
-    const Json json{{"nearest_label", report.nearestLabel},
-                    {"nearest_distance_db", rounded(report.nearestDistanceDb, 1e3)},
-                    {"fitted_distance_db", rounded(report.fittedDistanceDb, 1e3)},
-                    {"spectral_distance_db", rounded(report.spectralDistanceDb, 1e3)},
-                    {"level_error_db", rounded(report.levelErrorDb, 1e3)},
-                    {"sliding_seconds", rounded(report.slidingSeconds, 1e2)},
-                    {"speed_mps", roundedNumbers(report.speedMps, 1e5)},
-                    {"force_newtons", roundedNumbers(report.forceNewtons, 1e4)},
-                    {"level_exponents",
-                     {{"speed", rounded(report.speedExponent, 1e4)}, {"force", rounded(report.forceExponent, 1e4)}}},
-                    {"wave_vectors", vectors},
-                    {"turn_degrees", rounded(report.turnDegrees, 1e3)},
-                    {"seeds", report.seeds},
-                    {"tone_speeds", report.toneSpeeds},
-                    {"segments", report.segments},
-                    {"generations", report.generations},
-                    {"seconds", rounded(report.seconds, 1e2)},
-                    {"stopped_early", report.stoppedEarly},
-                    {"warnings", report.warnings}};
-    return json.dump(2) + "\n";
 }
 
 }  // namespace haptoflow::learning

@@ -1,7 +1,8 @@
 #pragma once
 
 #include "learning/closed_loop.hpp"
-#include "learning/learner.hpp"
+#include "learning/learning_report.hpp"
+#include "learning/learning_settings.hpp"
 #include "learning/level_law.hpp"
 #include "learning/seed_choice.hpp"
 #include "learning/tone_fit.hpp"
@@ -17,8 +18,8 @@ namespace haptoflow::learning {
 struct MaterialContent {
     const LearningSettings& settings;
     const LearningReport& report;
-    /// Source of the properties that the recording does not show.
-    const model::Label& nearest;
+    /// The label at which the search began: source of the properties that the recording does not show.
+    const model::Label& start;
     const Embedding& embedding;
     const LevelLaw& level;
     const model::ToneTable& tone;

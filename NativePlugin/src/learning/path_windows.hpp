@@ -26,7 +26,7 @@ struct PathWindow {
 };
 
 /// At most 200 windows, half overlapping, evenly chosen from all. No window contains an unusable sample: each usable
-/// stretch is treated as a separate recording. Training does the same (preprocessing/path_windows.py).
+/// stretch is treated as a separate recording.
 [[nodiscard]] std::vector<PathWindow> pathWindows(const recordings::PreparedRecording& recording,
                                                   const Sliding& sliding);
 

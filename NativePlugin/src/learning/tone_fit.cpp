@@ -140,4 +140,48 @@ ToneFit fitTone(const SpeedBins& bins, std::span<const TextureFigures> recorded,
     return fit;
 }
 
+double ToneFit::logLevel(double speedMps) const {
+    const std::vector<double>& speeds = tone.speedsMps;
+    if (speedMps <= speeds.front()) {
+        return logLevels.front();
+    }
+    if (speedMps >= speeds.back()) {
+        return logLevels.back();
+    }
+    const auto above = static_cast<std::size_t>(std::ranges::upper_bound(speeds, speedMps) - speeds.begin());
+    const double share = std::log(speedMps / speeds[above - 1]) / std::log(speeds[above] / speeds[above - 1]);
+    return logLevels[above - 1] + share * (logLevels[above] - logLevels[above - 1]);
+}
+
+double spectralDistanceDb(const SpeedBins& bins, std::span<const TextureFigures> recorded,
+                          std::span<const TextureFigures> generated, const ToneFit& fit) {
+    constexpr double lowestComparedHz = 20.0;
+    constexpr double highestComparedHz = 450.0;
+    constexpr double decibelsPerNat = 8.685889638065037;
+    double total = 0.0;
+    double weights = 0.0;
+    for (std::size_t bin = 0; bin < bins.count(); ++bin) {
+        if (recorded[bin].frames <= 0.0 || generated[bin].frames <= 0.0) {
+            continue;
+        }
+        const double speed = bins.centresMps[bin];
+        const double gainDb = decibelsPerNat * fit.logLevel(speed);
+        double squares = 0.0;
+        double count = 0.0;
+        for (std::size_t i = 1; i < spectrumBins; ++i) {
+            const double hertz = static_cast<double>(i) * hertzPerBin;
+            if (hertz >= lowestComparedHz && hertz <= highestComparedHz) {
+                const double made =
+                    10.0 * std::log10(generated[bin].power[i] + 1e-12) + fit.tone.gainDb(speed, hertz) + gainDb;
+                const double difference = made - 10.0 * std::log10(recorded[bin].power[i] + 1e-12);
+                squares += difference * difference;
+                count += 1.0;
+            }
+        }
+        total += recorded[bin].frames * std::sqrt(squares / count);
+        weights += recorded[bin].frames;
+    }
+    return weights > 0.0 ? total / weights : 0.0;
+}
+
 }  // namespace haptoflow::learning

@@ -328,4 +328,20 @@ std::vector<WaveVector> findWaveVectors(const recordings::PreparedRecording& rec
     return result;
 }
 
+std::vector<WaveVector> findWaveVectors(std::span<const float> wave, std::span<const float> velocitiesMps) {
+    recordings::PreparedRecording recording;
+    recording.wave.assign(wave.begin(), wave.end());
+    Sliding sliding;
+    sliding.before.push_back(0);
+    for (std::size_t i = 0; i < wave.size(); ++i) {
+        recording.motion.push_back({velocitiesMps[2 * i], velocitiesMps[2 * i + 1], 0.0F});
+        const bool isUsable = std::isfinite(wave[i]) && std::isfinite(recording.speedMps(i));
+        const bool isSliding = isUsable && recording.speedMps(i) >= minimumSlidingMps;
+        recording.isUsable.push_back(isUsable ? 1 : 0);
+        sliding.isSliding.push_back(isSliding ? 1 : 0);
+        sliding.before.push_back(sliding.before.back() + (isSliding ? 1U : 0U));
+    }
+    return findWaveVectors(recording, sliding);
+}
+
 }  // namespace haptoflow::learning

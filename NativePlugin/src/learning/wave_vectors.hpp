@@ -3,6 +3,7 @@
 #include "learning/sliding.hpp"
 #include "recordings/prepared_recording.hpp"
 
+#include <span>
 #include <vector>
 
 namespace haptoflow::learning {
@@ -19,9 +20,13 @@ struct WaveVector {
 ///
 /// A ruled surface with wave vector k sounds at |k . v|: as a function of the position x on the surface, it is a line
 /// at exp(2 pi i k . x), independent of speed and direction. The evidence for a line at k is the mean of the windows'
-/// spectra there divided by that of its neighbours; the evidence for ribs combines their first six harmonics. Training
-/// does the same (preprocessing/wave_vectors.py).
+/// spectra there divided by that of its neighbours; the evidence for ribs combines their first six harmonics.
 [[nodiscard]] std::vector<WaveVector> findWaveVectors(const recordings::PreparedRecording& recording,
                                                       const Sliding& sliding);
+
+/// The same for a wave at 2 kHz, in which a sample that is not finite separates recordings, with vx and vy in m/s for
+/// each sample. Training calls it through the C interface.
+[[nodiscard]] std::vector<WaveVector> findWaveVectors(std::span<const float> wave,
+                                                      std::span<const float> velocitiesMps);
 
 }  // namespace haptoflow::learning

@@ -40,7 +40,7 @@ inline constexpr double maximumHandSpeedMps = 10.0;
 /// Later samples are ignored.
 inline constexpr double maximumSeconds = 300.0;
 /// Recordings with less sliding are refused.
-inline constexpr double minimumSlidingSeconds = 3.0;
+inline constexpr double minimumSlidingSeconds = 2.0;
 
 /// A larger share of clipped samples has another spectrum.
 inline constexpr double maximumClippedShare = 0.02;

@@ -6,29 +6,80 @@ Run from the repository root: PYTHONPATH=Training python3 Tests/Golden/material/
 from __future__ import annotations
 
 import json
+import math
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
-from haptoflow_training.export.material_file import (
-    Material,
-    MaterialProvenance,
-    MaterialSeed,
-    model_space,
-    write_material,
-)
-from haptoflow_training.export.material_sound import LevelTable, ToneTable
-from haptoflow_training.export.model_file import ModelFile, read_model_file
+from haptoflow_training.export.level_table import LevelTable
+from haptoflow_training.export.model_file import ModelFile, model_space, read_model_file
+
+KERNEL_SAMPLES, RESPONSE_SAMPLES, RATE_HZ = 64, 256, 2000.0
+_Doubles = NDArray[np.float64]
 
 HERE = Path(__file__).parent
 TINY = HERE.parent / "model" / "tiny.haptoflow"
 DEFAULT = HERE.parents[2] / "Packages" / "com.haptoflow.runtime" / "Runtime" / "Models" / "default.haptoflow"
 SPEEDS_MPS = (0.0, 0.005, 0.02, 0.03, 0.06, 0.1, 0.16, 0.3, 1.0)
 FORCES_NEWTONS = (0.0, 0.02, 0.5, 1.0, 2.5)
-PROVENANCE = MaterialProvenance("made up for the tests", "none", "MIT", 12.5, "2026-11-23")
+PROVENANCE = {"statement": "made up for the tests", "recordings": "none", "licence": "MIT", "seconds": 12.5,
+              "created": "2026-11-23"}  # fmt: skip
+NO_PROVENANCE = {"statement": "", "recordings": "", "licence": "unknown", "seconds": 0.0, "created": ""}
 
-LEVEL = LevelTable((0.02, 0.06, 0.08, 0.2), (-0.9, -0.2, 1.4, 1.9), 1.2, 0.35)
+
+@dataclass(frozen=True)
+class ToneTable:
+    """Gains in dB: `gains_db` has a row for each of the ascending `speeds_mps`, with a value for each of the
+    ascending `frequencies_hz`."""
+
+    speeds_mps: tuple[float, ...]
+    frequencies_hz: tuple[float, ...]
+    gains_db: tuple[tuple[float, ...], ...]
+
+    def gain_db(self, speed_mps: float, frequency_hz: ArrayLike) -> _Doubles:
+        """Gains at one speed (m/s) and any frequencies (Hz): linear in log speed and log frequency, constant beyond
+        the ends."""
+        rows = np.asarray(self.gains_db)
+        known = np.log(self.speeds_mps)
+        place = float(np.clip(math.log(max(speed_mps, 1e-9)), known[0], known[-1]))
+        row = np.array([np.interp(place, known, column) for column in rows.T])
+        low, high = self.frequencies_hz[0], self.frequencies_hz[-1]
+        wanted = np.log(np.clip(np.asarray(frequency_hz, dtype=np.float64), low, high))
+        return np.asarray(np.interp(wanted, np.log(self.frequencies_hz), row))
+
+    def kernel(self, speed_mps: float) -> _Doubles:
+        """[64]: the minimum-phase filter at 2 kHz that is applied at this speed."""
+        frequency = np.arange(RESPONSE_SAMPLES // 2 + 1) * (RATE_HZ / RESPONSE_SAMPLES)
+        return minimum_phase(self.gain_db(speed_mps, frequency))
+
+    def to_json(self) -> dict[str, Any]:
+        return {
+            "speeds_mps": list(self.speeds_mps),
+            "frequencies_hz": list(self.frequencies_hz),
+            "gains_db": [list(row) for row in self.gains_db],
+        }
+
+
+def minimum_phase(gain_db: _Doubles) -> _Doubles:
+    """The first 64 samples of the minimum-phase impulse response whose gains in dB at 129 frequencies from 0 to 1000 Hz
+    are given.
+
+    Computed by the real cepstrum: folding its negative times onto the positive ones keeps the magnitude and makes the
+    phase minimal. (SciPy's `minimum_phase` takes a filter, not a magnitude response, before version 1.14.)
+    """
+    logarithm = np.asarray(gain_db, dtype=np.float64) * (math.log(10.0) / 20.0)
+    cepstrum = np.fft.irfft(logarithm, RESPONSE_SAMPLES)
+    half = RESPONSE_SAMPLES // 2
+    cepstrum[1:half] *= 2.0
+    cepstrum[half + 1 :] = 0.0
+    response = np.fft.irfft(np.exp(np.fft.rfft(cepstrum)), RESPONSE_SAMPLES)
+    return np.asarray(response[:KERNEL_SAMPLES])
+
+
+LEVEL = (0.02, 0.06, 0.08, 0.2), (-0.9, -0.2, 1.4, 1.9), 1.2, 0.35
 TONE = ToneTable(
     (0.03, 0.1, 0.3),
     (20.0, 63.0, 125.0, 250.0, 500.0, 900.0),
@@ -40,16 +91,51 @@ TONE = ToneTable(
 )
 
 
-def seed(velocity_mps: tuple[float, float], force_newtons: float, number: int, ribs: bool) -> MaterialSeed:
+def seed(velocity_mps: list[float], force_newtons: float, number: int, ribs: bool) -> dict[str, Any]:
     """Three sines and a little noise, so that a reader which mixes seeds up is found out."""
-    time = np.arange(400) / 2000.0
+    time = np.arange(400) / RATE_HZ
     wave = sum(np.sin(2.0 * np.pi * hertz * time + number) for hertz in (40.0 + 20.0 * number, 150.0, 310.0))
     wave = wave + 0.2 * np.random.default_rng(number).standard_normal(400)
     samples = (wave / np.sqrt(np.square(wave).mean())).astype(np.float32)
-    return MaterialSeed(velocity_mps, force_newtons, samples, (0.25, 0.0) if ribs else None)
+    return {
+        "velocity_mps": velocity_mps,
+        "force_newtons": force_newtons,
+        **({"rib_phase": [0.25, 0.0]} if ribs else {}),
+        "samples": [round(float(value), 4) for value in samples],
+    }
 
 
-def materials(tiny: ModelFile, default: ModelFile) -> dict[str, Material]:
+def material(
+    model: ModelFile, name: str, embedding: NDArray[np.float32], speeds: list[float], forces: list[float], **keys: Any
+) -> dict[str, Any]:
+    """A material file's content; `keys` beyond the mandatory ones are written as given, in the order of a label's."""
+    periodic = keys.get("wavelength_metres") is not None
+    label = {
+        "name": name,
+        "category": "test",
+        "frequency_exponent": 0.0,
+        "periodic": periodic,
+        "wavelength_metres": None,
+        "stiffness_newtons_per_metre": 1000.0,
+        "friction_coefficient": 0.3,
+    }
+    order = ("name", "category", "level_exponents", "frequency_exponent", "periodic", "wavelength_metres",
+             "stiffness_newtons_per_metre", "friction_coefficient", "impact", "level", "tone", "level_offset_db")  # fmt: skip
+    label |= {key: value for key, value in keys.items() if key in order}
+    return {
+        "format": "haptoflow-material",
+        "version": 1,
+        "space": model_space(model),
+        "description": keys.get("description", ""),
+        "provenance": keys.get("provenance", NO_PROVENANCE),
+        "embedding": [float(value) for value in embedding],
+        "range": {"speed_mps": speeds, "force_newtons": forces},
+        **{key: label[key] for key in order if key in label},
+        "seeds": keys.get("seeds", []),
+    }
+
+
+def materials(tiny: ModelFile, default: ModelFile) -> dict[str, dict[str, Any]]:
     """plain-twin says no more than the label `plain` of the tiny model; ribbed says everything that can be said; denim
     is for the default model, between its cotton and its jute."""
     ribbed = tiny.tensors["embedding"][0] + np.float32(0.125)
@@ -58,55 +144,50 @@ def materials(tiny: ModelFile, default: ModelFile) -> dict[str, Material]:
     cotton, jute = (default.tensors["embedding"][names.index(name)] for name in ("cotton", "jute"))
     denim = (0.6 * cotton + 0.4 * jute).astype(np.float32)
     denim[-4:] = 0.0
-    wide = {"speed_range_mps": (0.0, 0.5), "force_range_newtons": (0.0, 5.0)}
+    tables = {"level": LevelTable(*LEVEL, 0.0).to_json(), "tone": TONE.to_json()}
     return {
-        "plain-twin": Material(
-            model_space(tiny), "plain twin", tiny.tensors["embedding"][0].copy(), **wide, category="test",
-            speed_exponent=0.5, force_exponent=0.25, frequency_exponent=0.5, stiffness_newtons_per_metre=600.0,
+        "plain-twin": material(
+            tiny, "plain twin", tiny.tensors["embedding"][0], [0.0, 0.5], [0.0, 5.0],
+            level_exponents={"speed": 0.5, "force": 0.25}, frequency_exponent=0.5, stiffness_newtons_per_metre=600.0,
         ),
-        "ribbed": Material(
-            model_space(tiny), "ribbed", ribbed, (0.02, 0.2), (0.3, 2.0), category="test",
+        "ribbed": material(
+            tiny, "ribbed", ribbed, [0.02, 0.2], [0.3, 2.0],
             description="A material of the tests, with every key.", provenance=PROVENANCE,
-            speed_exponent=0.8, force_exponent=0.3, frequency_exponent=1.0, wavelength_metres=0.00125,
+            level_exponents={"speed": 0.8, "force": 0.3}, frequency_exponent=1.0, wavelength_metres=0.00125,
             stiffness_newtons_per_metre=450.0, friction_coefficient=0.55,
             impact={"modes": [{"frequency_hz": 120.0, "decay_per_second": 90.0, "gain_per_second": 80.0}],
                     "restitution": 0.1},
-            level=LEVEL, tone=TONE, level_offset_db=-1.5,
-            seeds=(seed((0.05, 0.0), 1.0, 1, True), seed((0.0, 0.15), 1.5, 2, True)),
+            **tables, level_offset_db=-1.5,
+            seeds=[seed([0.05, 0.0], 1.0, 1, True), seed([0.0, 0.15], 1.5, 2, True)],
         ),
-        "denim": Material(
-            model_space(default), "denim", denim, (0.02, 0.18), (0.4, 2.0), category="cloth",
-            provenance=PROVENANCE, speed_exponent=0.9, force_exponent=0.2, frequency_exponent=0.2,
-            friction_coefficient=0.5, level=LEVEL, tone=TONE, seeds=(seed((0.08, 0.0), 1.0, 3, False),),
+        "denim": material(
+            default, "denim", denim, [0.02, 0.18], [0.4, 2.0], category="cloth", provenance=PROVENANCE,
+            level_exponents={"speed": 0.9, "force": 0.2}, frequency_exponent=0.2, friction_coefficient=0.5,
+            **tables, seeds=[seed([0.08, 0.0], 1.0, 3, False)],
         ),
-    }
+    }  # fmt: skip
 
 
-def expected(material: Material) -> dict[str, Any]:
+def expected(content: dict[str, Any]) -> dict[str, Any]:
     """Levels (natural logarithm of the RMS in m/s^2, `level_offset_db` included) where the material has its own, and
     the kernels of its tone."""
-    answer: dict[str, Any] = {"name": material.name, "space": material.space}
-    if material.level is not None:
-        offset = material.level_offset_db * np.log(10.0) / 20.0
+    answer: dict[str, Any] = {"name": content["name"], "space": content["space"]}
+    if "level" in content:
+        level = LevelTable(*LEVEL, content["level_exponents"]["speed"])
+        offset = content.get("level_offset_db", 0.0) * np.log(10.0) / 20.0
         answer["levels"] = [
-            {
-                "speed_mps": speed,
-                "force_newtons": force,
-                "log_level": float(material.level.log_level(speed, force, material.speed_exponent) + offset),
-            }
+            {"speed_mps": speed, "force_newtons": force, "log_level": float(level.log_level(speed, force) + offset)}
             for speed in SPEEDS_MPS
             for force in FORCES_NEWTONS
         ]
-    if material.tone is not None:
-        speeds = sorted({*SPEEDS_MPS, *material.tone.speeds_mps})
+    if "tone" in content:
         answer["kernels"] = [
             {
                 "speed_mps": speed,
-                "at_table_speed": not material.tone.speeds_mps[0] < speed < material.tone.speeds_mps[-1]
-                or speed in material.tone.speeds_mps,
-                "taps": [float(value) for value in material.tone.kernel(speed)],
+                "at_table_speed": not TONE.speeds_mps[0] < speed < TONE.speeds_mps[-1] or speed in TONE.speeds_mps,
+                "taps": [float(value) for value in TONE.kernel(speed)],
             }
-            for speed in speeds
+            for speed in sorted({*SPEEDS_MPS, *TONE.speeds_mps})
         ]
     return answer
 
@@ -159,11 +240,12 @@ INVALID = [
 def main() -> None:
     tiny, default = read_model_file(TINY), read_model_file(DEFAULT)
     made = materials(tiny, default)
-    for name, material in made.items():
-        write_material(HERE / f"{name}.haptomaterial", material)
+    for name, content in made.items():
+        text = json.dumps(content, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
+        (HERE / f"{name}.haptomaterial").write_text(text, encoding="utf-8")
     answers = {
         "spaces": {"tiny": model_space(tiny), "default": model_space(default)},
-        "materials": {name: expected(material) for name, material in made.items()},
+        "materials": {name: expected(content) for name, content in made.items()},
     }
     (HERE / "expected.json").write_text(json.dumps(answers, indent=1) + "\n", encoding="utf-8")
     cases = {"of": "ribbed.haptomaterial", "cases": INVALID}

@@ -156,6 +156,7 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
     haptoflow_material* material = nullptr;
     ASSERT_EQ(haptoflow_material_read(learnt, std::strlen(learnt), &material), HAPTOFLOW_OK) << message();
     haptoflow_wave_frame frame{};
+    std::array<double, 4> waveVectors{};
     haptoflow_voice noVoice = 0;
     uint32_t count = 0;
     const char* text = nullptr;
@@ -303,6 +304,10 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
         {"haptoflow_learn_material",
          {[&] { return haptoflow_learn_material(nullptr, &noLearning); },
           [&] { return haptoflow_learn_material(&learningOptions, nullptr); }}},
+        {"haptoflow_find_wave_vectors",
+         {[&] { return haptoflow_find_wave_vectors(nullptr, numbers.data(), 1, waveVectors.data()); },
+          [&] { return haptoflow_find_wave_vectors(numbers.data(), nullptr, 1, waveVectors.data()); },
+          [&] { return haptoflow_find_wave_vectors(numbers.data(), numbers.data(), 1, nullptr); }}},
         {"haptoflow_recording_read",
          {[&] { return haptoflow_recording_read(nullptr, &noRecording); },
           [&] { return haptoflow_recording_read(&recordingOptions, nullptr); }}},

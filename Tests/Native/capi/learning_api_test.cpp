@@ -71,6 +71,8 @@ TEST_F(LearningApiTest, ALearntMaterialIsRegisteredBesideTheModelsLabels) {
     ASSERT_EQ(haptoflow_learning_report(learning_, &report), HAPTOFLOW_OK) << message();
     const nlohmann::json figures = nlohmann::json::parse(report);
     EXPECT_TRUE(figures.contains("nearest_label"));
+    EXPECT_TRUE(figures.contains("start_label"));
+    EXPECT_EQ(figures.at("other_tiers").size(), 1U);
     EXPECT_GT(figures["segments"].get<int>(), 1000);
     EXPECT_FALSE(figures["stopped_early"].get<bool>());
 }

@@ -217,8 +217,8 @@ TEST_F(LearnCommandTest, ErrorsNameTheFileTheColumnOrKeyAndARemedy) {
     write("k.csv", csv_);
     write("k.json", R"({"speeds": 3})");
     expectRefused("k.csv", "k.json: unknown key 'speeds'; expected keys of label,");
-    write("l.csv", csvOf(MadeRecording({}, {.seconds = 2.0})));
-    expectRefused("l.csv", "l.csv: the recording lasts 2 s; record 10 s or more of sliding");
+    write("l.csv", csvOf(MadeRecording({}, {.seconds = 1.5})));
+    expectRefused("l.csv", "l.csv: the recording lasts 1.5 s; record 10 s or more of sliding");
     writeWav("m.wav", made_, 50.0F);
     expectRefused("m.wav", "m.json: no key 'full_scale_mps2' for m.wav");
     write("n.wav", "no sound");

@@ -114,7 +114,7 @@ TEST_F(LearnerTest, TheFitImprovesOnTheNearestLabelAndTheToneOnTheFit) {
     LearningSettings settings = brief();
     settings.segmentBudget = 14'000;
     const LearningReport report = learn(made.view(), settings).report;
-    EXPECT_LT(report.fittedDistanceDb, report.nearestDistanceDb);
+    EXPECT_LT(report.fittedDistanceDb, report.startDistanceDb);
     EXPECT_LT(report.spectralDistanceDb, 1.8);
     EXPECT_LT(report.levelErrorDb, 1.0);
     EXPECT_GT(report.generations, 5U);

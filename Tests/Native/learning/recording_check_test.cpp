@@ -33,10 +33,10 @@ TEST(RecordingCheckTest, AUsableRecordingIsAccepted) {
     EXPECT_NO_THROW(prepareAndFind(made.view()));
 }
 
-TEST(RecordingCheckTest, TwoSecondsAreTooShort) {
-    const MadeRecording made({}, {.seconds = 2.0});
+TEST(RecordingCheckTest, ASecondAndAHalfIsTooShort) {
+    const MadeRecording made({}, {.seconds = 1.5});
     EXPECT_THAT([&] { prepareAndFind(made.view()); },
-                ThrowsMessage<recordings::RecordingUnusable>(HasSubstr("lasts 2 s; record 10 s or more of sliding")));
+                ThrowsMessage<recordings::RecordingUnusable>(HasSubstr("lasts 1.5 s; record 10 s or more of sliding")));
 }
 
 TEST(RecordingCheckTest, ASensorThatNeverChangesIsSilent) {

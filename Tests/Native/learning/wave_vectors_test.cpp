@@ -31,7 +31,7 @@ std::vector<WaveVector> vectorsOf(const MadeRecording& made) {
     return vectorsOf(recordings::prepareRecording(made.view()));
 }
 
-/// A recording and the result of the Python estimator for it.
+/// A recording and the vectors that its file states.
 struct GoldenCase {
     recordings::PreparedRecording recording;
     std::vector<WaveVector> vectors;
@@ -66,7 +66,7 @@ void expectWithin(const std::vector<WaveVector>& found, const std::vector<WaveVe
     }
 }
 
-TEST(WaveVectorsTest, TheVectorsOfTheGoldenRecordingsEqualThoseOfThePythonEstimatorWithinTwoPerMille) {
+TEST(WaveVectorsTest, TheVectorsOfTheGoldenRecordingsEqualThoseOfTheirFilesWithinTwoPerMille) {
     for (const auto& [name, count] : {std::pair{"corduroy", 1U}, {"jute", 2U}, {"sandpaper", 0U}}) {
         SCOPED_TRACE(name);
         const GoldenCase golden = readCase(name);

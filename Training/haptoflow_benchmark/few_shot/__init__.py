@@ -1,1 +1,1 @@
-"""Materials fitted to seconds of recording: cases, figures, an autoregressive model beside them."""
+"""Held-out materials of the synthetic recorder: recordings of seconds, and how often their ribs are found."""

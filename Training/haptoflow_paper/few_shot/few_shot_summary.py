@@ -24,7 +24,6 @@ _SUMMARIES = {
     "modulation_error_db": ("modulation_error_db", np.mean),
     "rib_fundamental_error_percent": ("rib_fundamental_error_percent", np.median),
     "rib_modulation_error_db": ("rib_modulation_error_db", lambda values: np.mean(np.abs(values))),
-    "seam_jump": ("seam_jump", np.median),
 }
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from haptoflow_benchmark.engine.engine_library import EngineLibrary
-from haptoflow_training.native_library import options_of
+from haptoflow_training.native_library import NativeModel, options_of
 from haptoflow_training.waveform import SEGMENT_SAMPLES
 
 RIB_COUNT = 2
@@ -53,14 +53,14 @@ class EngineGenerator:
     ) -> None:
         self._engine = engine
         self._handle = ctypes.c_void_p()
-        self._model = engine.open_model(model)
-        self.header = engine.header(self._model)
+        self._model = NativeModel(engine, model)
+        self.header = engine.header(self._model.handle)
         self.embeddings = self._read_embeddings()
         options = options_of(
             _GeneratorOptions,
             solver=SOLVERS[solver],
             runtime=engine.runtime,
-            model=self._model,
+            model=self._model.handle,
             tier=None if tier is None else tier.encode(),
             steps=steps,
             maximum_batch=MAXIMUM_BATCH,
@@ -78,14 +78,14 @@ class EngineGenerator:
     def close(self) -> None:
         """Free the generator; does nothing if it is closed already."""
         self._engine.call("haptoflow_generator_close", ctypes.byref(self._handle))
-        self._engine.call("haptoflow_model_close", ctypes.byref(self._model))
+        self._model.close()
 
     def _read_embeddings(self) -> _Floats:
         count = len(self.header["labels"])
         rows = np.empty((count, 64), dtype=np.float32)
         for index in range(count):
             self._engine.call(
-                "haptoflow_model_embedding", self._model, ctypes.c_uint32(index), rows[index].ctypes.data_as(_pointer)
+                "haptoflow_model_embedding", self._model.handle, ctypes.c_uint32(index), rows[index].ctypes.data_as(_pointer)
             )
         return rows
 

@@ -4,35 +4,32 @@ further label."""
 from __future__ import annotations
 
 import argparse
+import json
 import math
 import re
 from collections.abc import Sequence
-from datetime import date
 from pathlib import Path
+from typing import Any
 
-import torch
 from tqdm import tqdm
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.export.material_file import (
-    SUFFIX,
-    UNKNOWN_LICENCE,
-    Material,
-    MaterialProvenance,
-    write_material,
-)
 from haptoflow_training.export.model_file import read_model_file, write_model_file
-from haptoflow_training.fewshot.add_label import with_label
-from haptoflow_training.fewshot.embedding_fit import FitOptions
-from haptoflow_training.fewshot.material_fit import (
-    RECOMMENDED_SECONDS,
-    FittedMaterial,
-    as_material,
-    fit_material,
-    steps_of,
+from haptoflow_training.fewshot.add_label import require_new_name, with_label
+from haptoflow_training.fewshot.learning import (
+    DEFAULT_SECONDS_LIMIT,
+    MaterialWords,
+    joined,
+    learn_material,
 )
-from haptoflow_training.models.file_model import FileModel
+from haptoflow_training.recordings.dataset import UNKNOWN
 from haptoflow_training.recordings.material_recording import MaterialRecording, read_material_recordings
+from haptoflow_training.recordings.own_files import read_own
+from haptoflow_training.whole_file import check_writable, write_whole
+
+SUFFIX = ".haptomaterial"
+# Another tier whose spectra are further off than the default tier's by this much is mentioned.
+_NOTICEABLE_DB = 0.3
 
 _EXAMPLES = """examples:
   haptoflow-training add-material --model default.haptoflow --recording doormat.csv
@@ -43,19 +40,17 @@ _EXAMPLES = """examples:
       ribs 1.25 mm apart, across the recording's first axis
 
 At least 10 s are recommended: slow and fast slides, 20 to 200 mm/s, light and firm. Ribs are estimated; a ruled
-material's first axis is put across its clearest ribs. Takes about half a minute of one core.
+material's first axis is put across its clearest ribs. Takes about eight seconds of one core. `haptoflow learn` does the
+same for one recording.
 """
 
 
-def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], summary: str) -> None:
-    parser = subparsers.add_parser(
-        "add-material",
-        help=summary,
-        description="Fit the embedding, level, tone and seeds of one material to its recordings. The networks of the "
-        "model and all of its labels stay as they are.",
-        epilog=_EXAMPLES,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+def add_options(parser: argparse.ArgumentParser) -> None:
+    parser.description = (
+        "Fit the embedding, level, tone and seeds of one material to its recordings. The networks of the model and all of "
+        "its labels stay as they are."
     )
+    parser.epilog = _EXAMPLES
     parser.add_argument("--model", required=True, type=Path, help=".haptoflow file")
     parser.add_argument(
         "--recording", required=True, nargs="+", type=Path, metavar="FILE",
@@ -67,50 +62,50 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser], su
         help=f"NAME{SUFFIX} (default, from --name or the first file's name) writes a material file, NAME.haptoflow a "
         "model file",
     )  # fmt: skip
-    parser.add_argument("--category", default="", help="for example cloth (default: the nearest label's)")
+    parser.add_argument("--category", default="", help="for example cloth (default: the start label's)")
     parser.add_argument("--description", default="", help="one or two sentences")
     parser.add_argument(
         "--wave-vector", nargs=2, type=float, action="append", metavar=("X", "Y"),
         help="ribs in cycles per millimetre along the recording's axes, at most twice (default: estimated); 0 0: none",
     )  # fmt: skip
     parser.add_argument("--seed", type=int, default=1, help="the same seed gives the same material (default 1)")
-    parser.add_argument("--steps", type=int, default=FitOptions.steps, help=f"of the fit (default {FitOptions.steps})")
-    parser.set_defaults(run=_run)
+    parser.add_argument(
+        "--seconds-limit", type=float, default=DEFAULT_SECONDS_LIMIT,
+        help=f"stop fitting after this many seconds (default {DEFAULT_SECONDS_LIMIT:g}); a fit that is not stopped gives "
+        "the same result on every run",
+    )  # fmt: skip
 
 
-def _run(options: argparse.Namespace) -> int:
-    if options.steps < 1:
-        raise InputError(f"--steps {options.steps}: expected 1 or more")
-    recordings = read_material_recordings(options.recording)
-    name = _name(options, recordings)
+def run(options: argparse.Namespace) -> int:
     out = _default_out(options) if options.out is None else options.out
     if out.suffix not in (SUFFIX, ".haptoflow"):
         raise InputError(f"{out}: expected a name that ends in {SUFFIX} or .haptoflow")
-    model = FileModel(read_model_file(options.model))
-    fit_options = FitOptions(steps=options.steps)
-    torch.set_num_threads(1)
-    with tqdm(total=steps_of(model, fit_options), desc=name, unit="step", disable=None) as progress:
-        fitted = fit_material(
-            model,
-            recordings,
+    if not 0.0 < options.seconds_limit <= 3600.0:
+        raise InputError(f"--seconds-limit {options.seconds_limit:g}: expected above 0 to 3600")
+    wave_vectors = _wave_vectors(options.wave_vector)
+    recordings = read_material_recordings(options.recording)
+    name = _name(options, recordings)
+    model = read_model_file(options.model)
+    if out.suffix != SUFFIX:
+        require_new_name(model, name)
+    check_writable(out)
+    # One file is learnt as `haptoflow learn` does it, byte for byte; several are joined as training prepares them.
+    only = options.recording[0] if len(options.recording) == 1 and options.recording[0].is_file() else None
+    with tqdm(total=100, desc=name, unit="%", disable=None) as progress:
+        learnt = learn_material(
+            options.model,
+            joined(recordings) if only is None else read_own(only),
+            MaterialWords(name, options.category, options.description, *_origin(options.recording, recordings)),
             seed=options.seed,
-            wave_vectors_per_mm=_wave_vectors(options.wave_vector),
-            options=fit_options,
-            advance=lambda: progress.update(1) and None,
+            seconds_limit=options.seconds_limit,
+            wave_vectors_per_mm=wave_vectors,
+            progress=lambda share, _: progress.update(round(100.0 * share) - progress.n) and None,
         )
-    material = as_material(
-        model,
-        fitted,
-        name=name,
-        category=options.category,
-        description=options.description,
-        provenance=_provenance(recordings, fitted),
-    )
     if out.suffix == SUFFIX:
-        write_material(out, material)
+        write_whole(out, learnt.text.encode())
     else:
-        write_model_file(out, with_label(model.file, material))
-    _report(out, model, material, fitted)
+        write_model_file(out, with_label(model, json.loads(learnt.text)))
+    _report(out, name, learnt.report)
     return 0
 
 
@@ -118,14 +113,14 @@ def _name(options: argparse.Namespace, recordings: Sequence[MaterialRecording]) 
     if options.name is not None:
         if not options.name.strip():
             raise InputError("--name is empty; expected a name such as doormat")
-        return str(options.name.strip())
+        return str(options.name.strip().lower())
     labels = sorted({recording.label for recording in recordings if recording.label})
     if len(labels) > 1:
         raise InputError(
             f"the recordings are of {len(labels)} labels ({', '.join(labels)}); a material is fitted to one: give its "
             "files alone, or --name if they are the same material"
         )
-    return labels[0] if labels else options.recording[0].stem
+    return (labels[0] if labels else options.recording[0].stem).lower()
 
 
 def _default_out(options: argparse.Namespace) -> Path:
@@ -148,36 +143,32 @@ def _wave_vectors(given: list[list[float]] | None) -> tuple[tuple[float, float],
     return tuple((x, y) for x, y in given if (x, y) != (0.0, 0.0))
 
 
-def _provenance(recordings: Sequence[MaterialRecording], fitted: FittedMaterial) -> MaterialProvenance:
-    licences = sorted({recording.licence or UNKNOWN_LICENCE for recording in recordings})
-    sources = sorted({recording.source for recording in recordings if recording.source not in ("", "unknown")})
-    return MaterialProvenance(
-        statement="fitted to a recording by haptoflow-training add-material",
-        recordings="; ".join(sources) or ", ".join(sorted({recording.name for recording in recordings})),
-        licence="; ".join(licences),
-        seconds=round(fitted.seconds, 2),
-        created=date.today().isoformat(),
+def _origin(paths: Sequence[Path], recordings: Sequence[MaterialRecording]) -> tuple[str, str]:
+    """Licence and provenance of the recordings."""
+    licences = sorted({recording.licence for recording in recordings})
+    sources = sorted({recording.source for recording in recordings if recording.source not in ("", UNKNOWN)})
+    names = [path.name for path in paths]
+    return "; ".join(licences), ", ".join([*names, *sources])
+
+
+def _report(out: Path, name: str, report: dict[str, Any]) -> None:
+    slow, fast = (1000.0 * speed for speed in report["speed_mps"])
+    light, firm = report["force_newtons"]
+    exponents = report["level_exponents"]
+    print(f"{out}: '{name}' from {report['sliding_seconds']:.1f} s of sliding, nearest label {report['nearest_label']}")
+    print(
+        f"  recorded {slow:.0f}-{fast:.0f} mm/s, {light:.2f}-{firm:.2f} N; level grows as "
+        f"speed^{exponents['speed']:.2f} force^{exponents['force']:.2f}"
     )
-
-
-def _report(out: Path, model: FileModel, material: Material, fitted: FittedMaterial) -> None:
-    nearest = model.labels[fitted.fit.nearest]["name"]
-    print(f"{out}: '{material.name}' from {fitted.seconds:.1f} s, nearest label {nearest}")
-    slow, fast = (1000.0 * speed for speed in material.speed_range_mps)
-    light, firm = material.force_range_newtons
-    law = f"speed^{material.speed_exponent:.2f} force^{material.force_exponent:.2f}"
-    print(f"  recorded {slow:.0f}-{fast:.0f} mm/s, {light:.2f}-{firm:.2f} N; level grows as {law}")
-    if fitted.frame.is_ruled:
-        numbers = fitted.frame.wave_numbers.reshape(2, 2)
-        found = ", ".join(f"{1.0 / float((row[0] ** 2 + row[1] ** 2) ** 0.5):.2f} mm" for row in numbers if row.any())
-        turn = math.degrees(fitted.frame.turn_radians)
-        where = f"{turn:.0f} degrees from the recording's"
+    ribs = [math.hypot(each["x_cycles_per_mm"], each["y_cycles_per_mm"]) for each in report["wave_vectors"]]
+    if ribs:
+        found = ", ".join(f"{1.0 / length:.2f} mm" for length in ribs)
+        where = f"{report['turn_degrees']:.0f} degrees from the recording's"
         print(f"  ribs every {found}; the material's first axis lies across them, {where}")
-    distances = ", ".join(f"{name} {distance:.1f} dB" for name, distance in fitted.distances_db.items())
-    print(f"  distance of the spectra on the recording: {distances}")
-    for tier in fitted.far_tiers:
-        fitted_for = next(iter(fitted.distances_db))
-        print(f"  tier {tier} is further off by more than 0.3 dB: the tone was fitted for {fitted_for}")
-    # Recordings are trimmed at both ends, so a little less than the recommended time is accepted.
-    if fitted.seconds < RECOMMENDED_SECONDS - 1.0:
-        print(f"  {fitted.seconds:.1f} s is little; {RECOMMENDED_SECONDS:g} s of slow and fast slides are recommended")
+    distance = report["spectral_distance_db"]
+    print(f"  distance of the spectra on the recording: {distance:.1f} dB")
+    for other in report["other_tiers"]:
+        if other["spectral_distance_db"] > distance + _NOTICEABLE_DB:
+            print(f"  tier {other['tier']} is further off: {other['spectral_distance_db']:.1f} dB")
+    for warning in report["warnings"]:
+        print(f"  {warning}")

@@ -14,12 +14,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from haptoflow_training.export import material_sound
-from haptoflow_training.models.conditioning import REST_SPEED_MPS
+from haptoflow_training.models.conditioning import REST_FORCE_NEWTONS, REST_SPEED_MPS
 
 _Doubles = NDArray[np.float64]
 
 BINS_PER_OCTAVE = 6.0
+MAXIMUM_SPEEDS = 16
 _CLOSE_ENOUGH = 0.25 * math.log(10.0) / 20.0
 
 
@@ -36,8 +36,13 @@ class LevelTable:
 
     def log_level(self, speed_mps: ArrayLike, force_newtons: ArrayLike) -> _Doubles:
         """The natural log level at any speed (m/s, 0 or more) and force (N)."""
-        table = material_sound.LevelTable(self.speeds_mps, self.log_levels, self.force_newtons, self.force_exponent)
-        return table.log_level(speed_mps, force_newtons, self.speed_exponent)
+        place = np.log(np.asarray(speed_mps, dtype=np.float64) + REST_SPEED_MPS)
+        knots = np.log(np.asarray(self.speeds_mps) + REST_SPEED_MPS)
+        beyond = place - np.clip(place, knots[0], knots[-1])
+        force = np.maximum(np.asarray(force_newtons, dtype=np.float64), REST_FORCE_NEWTONS)
+        inside = np.interp(place, knots, np.asarray(self.log_levels))
+        pressed = self.force_exponent * np.log(force / self.force_newtons)
+        return np.asarray(inside + self.speed_exponent * beyond + pressed)
 
     def to_json(self) -> dict[str, Any]:
         return {
@@ -75,7 +80,7 @@ def table_through(
     decibel, at most 16."""
     place = np.log(speeds_mps + REST_SPEED_MPS)
     kept = sorted({0, len(place) - 1})
-    while len(kept) < min(material_sound.MAXIMUM_LEVEL_SPEEDS, len(place)):
+    while len(kept) < min(MAXIMUM_SPEEDS, len(place)):
         misses = np.abs(np.interp(place, place[kept], log_levels[kept]) - log_levels)
         worst = int(misses.argmax())
         if misses[worst] < _CLOSE_ENOUGH:

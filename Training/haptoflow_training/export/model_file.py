@@ -113,3 +113,12 @@ def read_model_file(path: Path) -> ModelFile:
         else:
             tensors[entry["name"]] = np.frombuffer(blob, dtype="<f4").reshape(entry["shape"])
     return ModelFile({key: value for key, value in header.items() if key != "blobs"}, tensors, graphs)
+
+
+def model_space(model: ModelFile) -> str:
+    """Eight hex digits that identify the networks an embedding belongs to: the CRC-32 over each tier's name and the
+    CRC-32 of its field graph, in the file's order."""
+    text = "".join(
+        f"{tier['name']}:{zlib.crc32(model.graphs[tier['field']]):08x};" for tier in model.header["tiers"]
+    )
+    return f"{zlib.crc32(text.encode('ascii')):08x}"

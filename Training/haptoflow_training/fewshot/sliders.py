@@ -19,8 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.export.material_file import model_space
-from haptoflow_training.export.model_file import ModelFile
+from haptoflow_training.export.model_file import ModelFile, model_space
 from haptoflow_training.models.label_embedding import WAVE_NUMBERS
 from haptoflow_training.recordings.synthetic.materials import Material
 from haptoflow_training.whole_file import write_whole

@@ -6,6 +6,7 @@ import ctypes
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -74,12 +75,23 @@ class Track:
 
 
 @dataclass(frozen=True)
+class EvenRecording:
+    """Samples at one rate. acceleration_mps2: [n, 1 or 3], not finite in a gap. velocity_mps: [n, 2], force_newtons: [n];
+    None where the recording has a constant."""
+
+    rate_hz: float
+    acceleration_mps2: NDArray[np.float32]
+    velocity_mps: NDArray[np.float32] | None
+    force_newtons: NDArray[np.float32] | None
+
+
+@dataclass(frozen=True)
 class NativeRecording:
     """A recording as the library reads it (haptoflow_recording_info in haptoflow.h).
 
-    rate_hz: of the even form, in which the library learns. acceleration: m/s^2; None if only described. motion:
-    velocities in m/s, or positions in m if has_positions. velocity_mps, force_newtons: constants. notes: one sentence
-    each.
+    even: the form in which the library learns; None if only described. acceleration: m/s^2; None if only described.
+    motion: velocities in m/s, or positions in m if has_positions. velocity_mps, force_newtons: constants. notes: one
+    sentence each.
     """
 
     label: str
@@ -87,7 +99,7 @@ class NativeRecording:
     source: str
     motion_path: Path | None
     notes: tuple[str, ...]
-    rate_hz: float
+    even: EvenRecording | None
     acceleration: Track | None
     motion: Track | None
     has_positions: bool
@@ -141,6 +153,22 @@ def _track(track: _Track) -> Track | None:
     return Track(seconds, np.ctypeslib.as_array(track.values, (track.count, track.width)).copy())
 
 
+def _even(info: _Info) -> EvenRecording | None:
+    if not info.acceleration_mps2:
+        return None
+    count = info.sample_count
+
+    def values(pointer: Any, *shape: int) -> NDArray[np.float32]:
+        return np.asarray(np.ctypeslib.as_array(pointer, shape).copy())
+
+    return EvenRecording(
+        info.sample_rate_hz,
+        values(info.acceleration_mps2, count, info.axis_count),
+        values(info.velocity_mps, count, 2) if info.velocity_mps else None,
+        values(info.force_newtons, count) if info.force_newtons else None,
+    )
+
+
 def _copied(info: _Info) -> NativeRecording:
     velocity = (info.constant_velocity_mps[0], info.constant_velocity_mps[1])
     motion_path = info.motion_path.decode()
@@ -150,7 +178,7 @@ def _copied(info: _Info) -> NativeRecording:
         source=info.source.decode(),
         motion_path=Path(motion_path) if motion_path else None,
         notes=tuple(info.notes.decode().splitlines()),
-        rate_hz=info.sample_rate_hz,
+        even=_even(info),
         acceleration=_track(info.acceleration),
         motion=_track(info.motion),
         has_positions=bool(info.motion_is_position),

@@ -53,7 +53,12 @@ class OwnRecordingFile:
     def load(self) -> Recording:
         """Read the recording. DatasetFileError (an InputError) names file, column or key, what was found and what is
         expected."""
-        return _recording(_read(self.path, samples=True), self.identity, self.label)
+        return _recording(read_own(self.path), self.identity, self.label)
+
+
+def read_own(path: Path) -> NativeRecording:
+    """The recording as the library reads it; DatasetFileError as of `OwnRecordingFile.load`."""
+    return _read(path, samples=True)
 
 
 def described_file(path: Path, name: str) -> OwnRecordingFile:

@@ -256,6 +256,10 @@ namespace HaptoFlow.Native
         [DllImport(Library, EntryPoint = "haptoflow_learn_material")]
         public static extern int LearnMaterial(NativeLearningOptions* options, IntPtr* learning);
 
+        [DllImport(Library, EntryPoint = "haptoflow_find_wave_vectors")]
+        public static extern int FindWaveVectors(float* vibrationMps2, float* velocityMps, ulong sampleCount,
+            double* waveVectors);
+
         [DllImport(Library, EntryPoint = "haptoflow_learning_material")]
         public static extern int LearningMaterial(IntPtr learning, IntPtr* json);
 

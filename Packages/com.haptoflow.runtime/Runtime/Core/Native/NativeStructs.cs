@@ -239,5 +239,6 @@ namespace HaptoFlow.Native
         public IntPtr ProgressContext;
         public IntPtr Cancellation;
         public float* WaveVectors;
+        public IntPtr Recordings;
     }
 }

@@ -1,4 +1,4 @@
-"""Fits the level of a material to its recording: a table over speed and a force exponent.
+"""The level of the rivals, fitted to the same recording: a table over speed and a force exponent.
 
 A penalised generalised linear model of the mean square (Gamma distribution, logarithmic link). Unlike least squares of
 the log level, it matches the recorded power even where single impacts make the logarithms uneven.
@@ -12,10 +12,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from haptoflow_paper.few_shot.recording_windows import Windows
 from haptoflow_training.errors import InputError
-from haptoflow_training.export.material_sound import MAXIMUM_LEVEL_SPEEDS, LevelTable
-from haptoflow_training.fewshot.label_prior import LabelPrior
-from haptoflow_training.fewshot.stroke_recording import Windows
+from haptoflow_training.export.level_table import MAXIMUM_SPEEDS, LevelTable
+from haptoflow_training.export.model_file import ModelFile
 from haptoflow_training.models.conditioning import REST_FORCE_NEWTONS, REST_SPEED_MPS
 from haptoflow_training.models.level_model import LEVEL_FLOOR_MPS2
 
@@ -29,32 +29,31 @@ _WINDOW_SPREAD, _BEND_SPREAD = 0.2, 0.35
 _ROUNDS = 25
 
 
+_MINIMUM_LABELS = 4
+# With few labels the spread of the exponents is unknown; these values are those of the published textures.
+_FORCE_EXPONENT, _SPEED_EXPONENT = (0.25, 0.2), (0.95, 0.25)
+_MINIMUM_SPREAD = 0.1
+
+
 @dataclass(frozen=True)
-class LevelLaw:
-    """table: the level at any motion. speed_exponent: of its continuation beyond the recorded speeds."""
+class LabelPrior:
+    """Exponents of the labels' levels: mean and standard deviation."""
 
-    table: LevelTable
-    speed_exponent: float
+    force_exponent: tuple[float, float]
+    speed_exponent: tuple[float, float]
 
-    @property
-    def force_exponent(self) -> float:
-        return self.table.force_exponent
+    @classmethod
+    def of(cls, model: ModelFile) -> LabelPrior:
+        def spread_of(key: str, known: tuple[float, float]) -> tuple[float, float]:
+            values = [label["level_exponents"][key] for label in model.header["labels"]]
+            if len(values) < _MINIMUM_LABELS:
+                return known
+            return float(np.mean(values)), max(_MINIMUM_SPREAD, float(np.std(values)))
 
-    def log_level(self, motion: NDArray[np.floating]) -> _Doubles:
-        """The natural log level for motion [..., 3]."""
-        speed = np.hypot(motion[..., 0], motion[..., 1])
-        return self.table.log_level(speed, motion[..., 2], self.speed_exponent)
-
-    def shifted(self, speeds_mps: _Doubles, shift: _Doubles) -> LevelLaw:
-        """The law with `shift` [n], given at ascending speeds, added to its log levels."""
-        places = np.log(np.asarray(self.table.speeds_mps) + REST_SPEED_MPS)
-        added = np.interp(places, np.log(speeds_mps + REST_SPEED_MPS), shift)
-        levels = tuple(round(float(value), 4) for value in np.asarray(self.table.log_levels) + added)
-        table = LevelTable(self.table.speeds_mps, levels, self.table.force_newtons, self.table.force_exponent)
-        return LevelLaw(table, self.speed_exponent)
+        return cls(spread_of("force", _FORCE_EXPONENT), spread_of("speed", _SPEED_EXPONENT))
 
 
-def fit_level(windows: Windows, prior: LabelPrior) -> LevelLaw:
+def fit_level(windows: Windows, prior: LabelPrior) -> LevelTable:
     """Fit the law to windows of about 100 ms that overlap by half. InputError if no window moves."""
     speed, force = windows.speed_mps.astype(np.float64), windows.force_newtons.astype(np.float64)
     moving = (speed > MINIMUM_SPEED_MPS) & (windows.unsteadiness < 0.6)
@@ -90,13 +89,15 @@ def fit_level(windows: Windows, prior: LabelPrior) -> LevelLaw:
             break
     levels, exponent = found[:-1], float(np.clip(found[-1], -4.0, 4.0))
     speeds = tuple(round(math.exp(knot) - REST_SPEED_MPS, 5) for knot in knots)
-    table = LevelTable(speeds, tuple(round(float(level), 4) for level in levels), round(middle, 4), round(exponent, 4))
-    return LevelLaw(table, round(_slope(place, design @ found - exponent * pressed, prior), 4))
+    slope = round(_slope(place, design @ found - exponent * pressed, prior), 4)
+    return LevelTable(
+        speeds, tuple(round(float(level), 4) for level in levels), round(middle, 4), round(exponent, 4), slope
+    )
 
 
 def _knots(place: _Doubles) -> _Doubles:
     low, high = np.quantile(place, [0.02, 0.98])
-    count = int(np.clip(1 + round(_KNOTS_PER_E_FOLD * (high - low)), 1, MAXIMUM_LEVEL_SPEEDS))
+    count = int(np.clip(1 + round(_KNOTS_PER_E_FOLD * (high - low)), 1, MAXIMUM_SPEEDS))
     count = min(count, max(1, len(place) // 6))
     if count == 1 or high - low < 0.05:
         return np.array([float(np.median(place))])

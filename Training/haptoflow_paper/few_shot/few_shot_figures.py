@@ -15,9 +15,7 @@ _LINES_HZ = (20.0, 800.0)
 _MINIMUM_DEPTH = 0.1
 
 
-def condition_figures(
-    condition: FewShotCondition, wave: NDArray[np.floating], hop_starts: NDArray[np.int64] | None
-) -> dict[str, float]:
+def condition_figures(condition: FewShotCondition, wave: NDArray[np.floating]) -> dict[str, float]:
     """The figures of one condition; those that do not apply to it are left out."""
     made, recorded = wave[SETTLING_SAMPLES:], condition.recorded[SETTLING_SAMPLES:]
     crest = [temporal.crest_factor(each) for each in (made, recorded)]
@@ -29,8 +27,6 @@ def condition_figures(
         "crest_log_ratio": temporal.log_ratio(*crest),
         "modulation_error_db": temporal.modulation_error_db(made, recorded),
     }
-    if hop_starts is not None:
-        cell["seam_jump"] = metrics.hop_jump_ratio(made, hop_starts - SETTLING_SAMPLES)
     for rate in condition.rib_rates_hz[:1]:
         if _LINES_HZ[0] < rate < _LINES_HZ[1]:
             pitch = [metrics.fundamental_hz(each, rate) for each in (made, recorded)]

@@ -16,8 +16,10 @@ from numpy.typing import NDArray
 from scipy.linalg import solve_toeplitz
 from scipy.signal import lfilter
 
-from haptoflow_training.fewshot.level_law import MINIMUM_SPEED_MPS, LevelLaw
-from haptoflow_training.fewshot.stroke_recording import StrokeRecording, windows_of
+from haptoflow_paper.few_shot.level_law import MINIMUM_SPEED_MPS
+from haptoflow_paper.few_shot.recording_windows import windows_of
+from haptoflow_training.export.level_table import LevelTable
+from haptoflow_training.recordings.material_recording import MaterialRecording
 
 ORDER = 20
 _WINDOW_SAMPLES, _HOP_SAMPLES = 400, 200
@@ -34,7 +36,7 @@ class AutoregressiveMaterial:
     """filters: (upper border of the bin in m/s, a_1..a_20, RMS of the drive for a wave of RMS 1), borders ascending."""
 
     filters: tuple[tuple[float, _Doubles, float], ...]
-    level: LevelLaw
+    level: LevelTable
 
     def render(self, motion: NDArray[np.floating], seed: int) -> NDArray[np.float32]:
         """Render one motion [n, 3] whose speed stays in one bin, in m/s^2."""
@@ -43,11 +45,11 @@ class AutoregressiveMaterial:
         settling = 2000
         noise = np.random.default_rng(seed).standard_normal(len(motion) + settling)
         wave = lfilter([drive], np.concatenate([[1.0], predictor]), noise)[settling:]
-        return np.asarray(wave * np.exp(self.level.log_level(motion)), dtype=np.float32)
+        return np.asarray(wave * np.exp(log_levels(self.level, motion)), dtype=np.float32)
 
 
 def fit_autoregressive(
-    recordings: Sequence[StrokeRecording], level: LevelLaw, bins: int
+    recordings: Sequence[MaterialRecording], level: LevelTable, bins: int
 ) -> AutoregressiveMaterial:
     """Fit the filters. Bins hold equally many windows; a bin with too few uses its neighbour's filter."""
     windows = windows_of(recordings, _WINDOW_SAMPLES, _HOP_SAMPLES)
@@ -56,7 +58,7 @@ def fit_autoregressive(
     if sliding.sum() < bins * _MINIMUM_WINDOWS:
         sliding = windows.speed_mps > MINIMUM_SPEED_MPS
     windows = windows.chosen(sliding)
-    unit = windows.waves / np.exp(level.log_level(windows.motion))
+    unit = windows.waves / np.exp(log_levels(level, windows.motion))
     bins = max(1, min(bins, len(windows) // _MINIMUM_WINDOWS))
     order = np.argsort(windows.speed_mps)
     parts = np.array_split(order, bins)
@@ -68,6 +70,11 @@ def fit_autoregressive(
         )
         filters.append((border, *_levinson(unit[part])))
     return AutoregressiveMaterial(tuple(filters), level)
+
+
+def log_levels(level: LevelTable, motion: NDArray[np.floating]) -> _Doubles:
+    """The natural log level for motion [..., 3]."""
+    return level.log_level(np.hypot(motion[..., 0], motion[..., 1]), motion[..., 2])
 
 
 def _levinson(waves: _Doubles) -> tuple[_Doubles, float]:

@@ -1,0 +1,93 @@
+#include "learning/embedding_search.hpp"
+
+#include "learning/evolution_strategy.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+namespace haptoflow::learning {
+namespace {
+
+constexpr std::size_t population = 12;
+constexpr double firstStep = 0.45;
+/// Weight that draws coordinates to the labels' mean, in dB^2 per squared standard deviation.
+constexpr double shrinkage = 0.06;
+/// Segments of one chain of the fit; see TextureFit::distances.
+constexpr std::uint64_t segmentsPerChain = 8;
+
+}  // namespace
+
+std::size_t startLabel(TextureFit& fit, const EmbeddingSpace& space, const std::vector<model::Label>& labels,
+                       const SearchSettings& settings) {
+    constexpr std::size_t labelsAtOnce = 32;
+    const auto share = static_cast<std::uint64_t>(0.15 * static_cast<double>(settings.segmentBudget));
+    const std::size_t chains =
+        std::clamp<std::size_t>(share / (labels.size() * segmentsPerChain), 4, 4 * fit.bins().count());
+    std::vector<double> distances;
+    for (std::size_t first = 0; first < labels.size(); first += labelsAtOnce) {
+        std::vector<Embedding> embeddings;
+        for (std::size_t label = first; label < std::min(labels.size(), first + labelsAtOnce); ++label) {
+            embeddings.push_back(space.ofLabel(label));
+        }
+        settings.progress(static_cast<double>(first) / static_cast<double>(labels.size()));
+        if (first > 0 && settings.isOver()) {
+            break;
+        }
+        const std::vector<double> part = fit.distances(embeddings, chains, 0);
+        distances.insert(distances.end(), part.begin(), part.end());
+    }
+    std::vector<std::size_t> eligible;
+    for (std::size_t label = 0; label < distances.size(); ++label) {
+        if (!settings.needsRibs || labels[label].wavelengthMetres) {
+            eligible.push_back(label);
+        }
+    }
+    if (eligible.empty()) {
+        eligible.resize(distances.size());
+        std::iota(eligible.begin(), eligible.end(), std::size_t{0});
+    }
+    return *std::ranges::min_element(eligible, {}, [&](std::size_t label) { return distances[label]; });
+}
+
+FittedEmbedding fitEmbedding(TextureFit& fit, const EmbeddingSpace& space, const Embedding& start,
+                             const SearchSettings& settings) {
+    const std::size_t chains = std::max<std::size_t>(12, 3 * fit.bins().count());
+    const std::uint64_t generations = settings.segmentBudget / (population * chains * segmentsPerChain);
+    FittedEmbedding result;
+    Embedding fitted = start;
+    if (space.axisCount() > 0 && generations > 0) {
+        EvolutionStrategy strategy(space.coordinatesOf(start), firstStep, population, settings.seed + 1);
+        for (std::uint64_t generation = 0; generation < generations; ++generation) {
+            settings.progress(static_cast<double>(generation) / static_cast<double>(generations));
+            if (settings.isOver()) {
+                break;
+            }
+            const std::vector<std::vector<double>>& points = strategy.ask();
+            std::vector<Embedding> embeddings;
+            embeddings.reserve(points.size());
+            for (const std::vector<double>& point : points) {
+                embeddings.push_back(space.at(start, point));
+            }
+            std::vector<double> scores = fit.distances(embeddings, chains, generation + 1);
+            for (std::size_t k = 0; k < scores.size(); ++k) {
+                for (const double coordinate : points[k]) {
+                    scores[k] += shrinkage * coordinate * coordinate;
+                }
+            }
+            strategy.tell(scores);
+            ++result.generations;
+        }
+        fitted = space.at(start, strategy.mean());
+    }
+    const std::size_t manyChains = 6 * fit.bins().count();
+    const std::array<Embedding, 2> both{start, fitted};
+    const std::vector<double> distances = fit.distances(both, manyChains, 1'000'000 / manyChains);
+    result.embedding = distances[1] < distances[0] ? fitted : start;
+    result.startDistanceDb = std::sqrt(distances[0]);
+    result.distanceDb = std::sqrt(std::min(distances[0], distances[1]));
+    return result;
+}
+
+}  // namespace haptoflow::learning

@@ -1,0 +1,83 @@
+#include "learning/label_comparison.hpp"
+
+#include "recordings/recording.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace haptoflow::learning {
+namespace {
+
+/// A level this far from those of all labels is probably in another unit.
+constexpr double suspiciousLevelDb = 30.0;
+constexpr double decibelsPerNat = 8.685889638065037;
+
+struct Spread {
+    double mean = 0.0;
+    double deviation = 0.0;
+};
+
+Spread spreadOf(const std::vector<model::Label>& labels, double model::Label::*exponent) {
+    const auto count = static_cast<double>(labels.size());
+    double mean = 0.0;
+    for (const model::Label& label : labels) {
+        mean += label.*exponent / count;
+    }
+    double squares = 0.0;
+    for (const model::Label& label : labels) {
+        squares += (label.*exponent - mean) * (label.*exponent - mean);
+    }
+    return {.mean = mean, .deviation = std::clamp(std::sqrt(squares / count), 0.05, 0.5)};
+}
+
+}  // namespace
+
+ExponentPrior exponentPrior(const model::ModelHeader& model) {
+    if (model.labels.size() < 3) {
+        return {};
+    }
+    const Spread speed = spreadOf(model.labels, &model::Label::speedLevelExponent);
+    const Spread force = spreadOf(model.labels, &model::Label::forceLevelExponent);
+    return {.speedMean = speed.mean,
+            .speedSpread = speed.deviation,
+            .forceMean = force.mean,
+            .forceSpread = force.deviation};
+}
+
+std::optional<std::string> levelWarning(const LevelLaw& level, const Sliding& sliding, const model::ModelFile& model,
+                                        inference::SegmentGenerator& generator) {
+    using recordings::plainNumber;
+    const model::ModelHeader& header = model.header();
+    const std::array<float, inference::segmentSamples> silence{};
+    const double speed = std::min(sliding.speedMps[1], header.speedMps.maximum);
+    const double force = std::clamp(sliding.forceNewtons[1], header.forceNewtons.minimum, header.forceNewtons.maximum);
+    std::vector<inference::SegmentRequest> requests;
+    for (std::size_t label = 0; label < header.labels.size(); ++label) {
+        inference::SegmentRequest request{.motion = {static_cast<float>(speed), 0.0F, static_cast<float>(force)},
+                                          .previous = silence,
+                                          .noise = silence};
+        std::ranges::copy(model.embedding(label), request.embedding.begin());
+        requests.push_back(request);
+    }
+    std::vector<float> levels(requests.size());
+    generator.levels(requests, levels);
+    const auto [quietest, loudest] = std::ranges::minmax(levels);
+    const double own = std::exp(level.logLevel(speed, force));
+    const double belowDb = decibelsPerNat * std::log(quietest / own);
+    const double aboveDb = decibelsPerNat * std::log(own / loudest);
+    if (belowDb <= suspiciousLevelDb && aboveDb <= suspiciousLevelDb) {
+        return std::nullopt;
+    }
+    std::string warning = "the level, " + plainNumber(own) + " m/s^2 RMS at " + plainNumber(1000.0 * speed) +
+                          " mm/s, is " + plainNumber(std::max(belowDb, aboveDb)) + " dB " +
+                          (belowDb > 0.0 ? "below" : "above") + " every label of the model (" + plainNumber(quietest) +
+                          " to " + plainNumber(loudest) + " m/s^2); check the unit or full scale of the acceleration";
+    if (belowDb > 2.0 * suspiciousLevelDb || aboveDb > 2.0 * suspiciousLevelDb) {
+        throw recordings::RecordingUnusable(warning);
+    }
+    return warning;
+}
+
+}  // namespace haptoflow::learning

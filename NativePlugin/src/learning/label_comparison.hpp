@@ -1,0 +1,23 @@
+#pragma once
+
+#include "inference/segment_generator.hpp"
+#include "learning/level_law.hpp"
+#include "learning/sliding.hpp"
+#include "model/model_file.hpp"
+
+#include <optional>
+#include <string>
+
+namespace haptoflow::learning {
+
+/// Mean and standard deviation of the labels' exponents; the defaults if the model has fewer than three labels.
+[[nodiscard]] ExponentPrior exponentPrior(const model::ModelHeader& model);
+
+/// Compares the level at the recording's median speed and force with those of the model's labels, because a unit that
+/// is wrong by a factor of ten or a thousand shows only there. Returns a warning, or nothing if the level is plausible.
+/// Throws recordings::RecordingUnusable if no material can have it.
+[[nodiscard]] std::optional<std::string> levelWarning(const LevelLaw& level, const Sliding& sliding,
+                                                      const model::ModelFile& model,
+                                                      inference::SegmentGenerator& generator);
+
+}  // namespace haptoflow::learning

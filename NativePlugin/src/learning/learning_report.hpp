@@ -1,0 +1,56 @@
+#pragma once
+
+#include "learning/wave_vectors.hpp"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace haptoflow::learning {
+
+struct TierDistance {
+    std::string tier;
+    double spectralDistanceDb = 0.0;
+};
+
+/// Results of learning.
+struct LearningReport {
+    /// The label whose render along the recording's own motion is nearest to it. The search begins there, and what a
+    /// recording of sliding does not show is copied from it.
+    std::string startLabel;
+    /// The label whose embedding is nearest to the learnt one; see ModelFile::nearestLabel.
+    std::string nearestLabel;
+    /// Distance between the closed loop and the recording, before the tone, in dB; see textureDistance.
+    double startDistanceDb = 0.0;
+    double fittedDistanceDb = 0.0;
+    /// Distance after the tone: root mean square difference of the mean spectra, 20-450 Hz, over the speeds.
+    double spectralDistanceDb = 0.0;
+    /// The same for each other tier of the model with this material, for which the tone was not fitted.
+    std::vector<TierDistance> otherTiers;
+    /// Maximum error of the level over the speeds.
+    double levelErrorDb = 0.0;
+    /// Duration of the sliding that was used.
+    double slidingSeconds = 0.0;
+    std::array<double, 2> speedMps{};
+    std::array<double, 2> forceNewtons{};
+    double speedExponent = 0.0;
+    double forceExponent = 0.0;
+    /// In the material's frame; the first is parallel to its first axis.
+    std::vector<WaveVector> waveVectors;
+    /// Angle from the recording's first axis to the material's; 0 without ribs.
+    double turnDegrees = 0.0;
+    std::size_t seeds = 0;
+    std::size_t toneSpeeds = 0;
+    std::uint64_t segments = 0;
+    std::uint64_t generations = 0;
+    /// Processor time of the calling thread.
+    double seconds = 0.0;
+    bool stoppedEarly = false;
+    std::vector<std::string> warnings;
+};
+
+/// The report as JSON, ending in a line feed.
+[[nodiscard]] std::string reportJson(const LearningReport& report);
+
+}  // namespace haptoflow::learning
