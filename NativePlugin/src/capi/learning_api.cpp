@@ -119,7 +119,7 @@ haptoflow_status haptoflow_learning_close(haptoflow_learning** learning) {
 }
 
 haptoflow_status haptoflow_find_wave_vectors(const float* vibration_mps2, const float* velocity_mps,
-                                             uint64_t sample_count, double wave_vectors[4]) {
+                                             uint64_t sample_count, double* wave_vectors) {
     return guarded([&] {
         (void)require(vibration_mps2, "vibration_mps2");
         (void)require(velocity_mps, "velocity_mps");
