@@ -27,11 +27,12 @@ namespace HaptoFlow.RepositoryTests
         [TestCase("-1e999")]
         [TestCase("NaN")]
         [TestCase("Infinity")]
-        public void ANumberThatADoubleCannotHoldIsNoNumber(string number)
+        public void ANumberThatADoubleCannotHoldIsRefused(string number)
         {
-            JsonValue value = JsonValue.Parse("[" + number + ", 1" + new string('0', 310) + "]");
+            // Mono refuses the text as a whole, .NET the number.
+            Assert.That(() => JsonValue.Parse("[" + number + "]")[0].AsNumber(), Throws.TypeOf<FormatException>());
+            JsonValue value = JsonValue.Parse("[1" + new string('0', 310) + "]");
             Assert.That(() => value[0].AsNumber(), Throws.TypeOf<FormatException>());
-            Assert.That(() => value[1].AsNumber(), Throws.TypeOf<FormatException>());
         }
 
         [Test]
