@@ -28,7 +28,7 @@ namespace HaptoFlow.Editor
             "Acceleration of a sample of 1 in the WAV file. Used if no sidecar file states it. 0: unknown.");
         private static readonly GUIContent Name = new GUIContent("Name", "Name of the material.");
         private static readonly GUIContent Category =
-            new GUIContent("Category", "For example cloth or wood. Empty: the category of the nearest label.");
+            new GUIContent("Category", "For example cloth or wood. Empty: the category of the start label.");
         private static readonly GUIContent Licence = new GUIContent("Licence",
             "Licence of the recording, stored in the material. Empty: unknown.");
         private static readonly GUIContent Description =
