@@ -58,9 +58,9 @@ public:
         const EmbeddingSpace space(model_, waveVectors_);
         ClosedLoop loop(generator_, model_.header(), recording_, unitWave_);
         TextureFit fit = fitOf(loop);
-        say(0.1, "nearest label");
+        say(0.1, "start label");
         const auto& labels = model_.header().labels;
-        const std::size_t start = startLabel(fit, space, labels, search(0.1, 0.1, "nearest label", labelShare));
+        const std::size_t start = startLabel(fit, space, labels, search(0.1, 0.1, "start label", labelShare));
         report_.startLabel = labels[start].name;
         const FittedEmbedding fitted =
             fitEmbedding(fit, space, space.ofLabel(start), search(0.2, 0.7, "embedding", fitShare));
