@@ -31,9 +31,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Another tier whose spectra are further off than the fitted tier's by this much is mentioned.
-constexpr double noticeableDb = 0.3;
-
 struct LearnOptions {
     std::string recordingPath;
     std::string outputPath;
@@ -125,7 +122,7 @@ void tell(const learning::LearningReport& report, const std::string& name, const
     }
     std::cout << '\n' << "  seeds              " << report.seeds << '\n';
     for (const learning::TierDistance& each : report.otherTiers) {
-        if (each.spectralDistanceDb > report.spectralDistanceDb + noticeableDb) {
+        if (each.isFurtherOff) {
             std::cout << "  tier " << each.tier << " is further off: " << fixedDecimals(each.spectralDistanceDb, 1)
                       << " dB between the mean spectra; the tone was fitted for another tier\n";
         }

@@ -22,7 +22,7 @@ from own_samples import (
 from scipy.io import wavfile
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.recordings.material_recording import MaterialRecording, read_material_recordings
+from haptoflow_training.recordings.material_recording import MaterialRecording, material_files, read_material_recordings
 from haptoflow_training.recordings.own_dataset import open_own_dataset
 
 MADE = stroke(4.0)
@@ -34,7 +34,7 @@ def mean_speed(recording: MaterialRecording) -> float:
 
 
 def read(path: Path) -> MaterialRecording:
-    (recording,) = read_material_recordings([path])
+    (recording,) = read_material_recordings(material_files([path]))
     return recording
 
 
@@ -255,9 +255,9 @@ def test_a_file_of_another_kind_and_an_empty_folder_are_named(tmp_path: Path) ->
         read(tmp_path / "a.wav")
     (tmp_path / "empty").mkdir()
     with pytest.raises(InputError, match=r"empty: no recording in it; expected files that end with \.csv"):
-        read_material_recordings([tmp_path / "empty"])
+        material_files([tmp_path / "empty"])
     with pytest.raises(InputError, match="does not exist"):
-        read_material_recordings([tmp_path / "gone"])
+        material_files([tmp_path / "gone"])
 
 
 def test_parquet_is_read_where_pandas_has_an_engine_and_refused_with_the_remedy_elsewhere(tmp_path: Path) -> None:

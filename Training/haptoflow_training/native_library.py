@@ -13,11 +13,8 @@ from haptoflow_training.errors import InputError
 
 LIBRARY_VARIABLE, RUNTIME_VARIABLE = "HAPTOFLOW_LIBRARY", "HAPTOFLOW_ONNXRUNTIME"
 _NAMES = {"win32": "audioplugin_haptoflow.dll", "darwin": "libaudioplugin_haptoflow.dylib"}
+_RUNTIME_NAMES = {"win32": "Windows/x64/onnxruntime.dll", "darwin": "macOS/arm64/libonnxruntime.dylib"}
 _ROOT = Path(__file__).resolve().parents[2]
-_BUILT = _ROOT / "build" / "native"
-_RUNTIME = _ROOT / "node_modules" / "com.github.asus4.onnxruntime" / "Plugins" / {
-    "win32": "Windows/x64/onnxruntime.dll", "darwin": "macOS/arm64/libonnxruntime.dylib",
-}.get(sys.platform, "Linux/x64/libonnxruntime.so")  # fmt: skip
 
 
 class NativeError(InputError):
@@ -84,10 +81,22 @@ class NativeModel:
         self._library.call("haptoflow_model_close", ctypes.byref(self.handle))
 
 
+def built_library(root: Path) -> Path:
+    """Where `npm run build` puts the library of the repository at `root`."""
+    return root / "build" / "native" / _NAMES.get(sys.platform, "libaudioplugin_haptoflow.so")
+
+
+def installed_runtime(root: Path) -> Path:
+    """Where `npm ci` puts ONNX Runtime in the repository at `root`."""
+    plugins = root / "node_modules" / "com.github.asus4.onnxruntime" / "Plugins"
+    return plugins / _RUNTIME_NAMES.get(sys.platform, "Linux/x64/libonnxruntime.so")
+
+
 def open_runtime(library: NativeLibrary, onnx_runtime: Path) -> ctypes.c_void_p:
     """A handle of ONNX Runtime, which lives until the process ends."""
     if not onnx_runtime.is_file():
-        raise InputError(f"{onnx_runtime} does not exist: run `npm ci`, or set {RUNTIME_VARIABLE} to ONNX Runtime's library")
+        remedy = f"run `npm ci`, or set {RUNTIME_VARIABLE} to ONNX Runtime's library"
+        raise InputError(f"{onnx_runtime} does not exist: {remedy}")
     runtime = ctypes.c_void_p()
     options = options_of(_RuntimeOptions, library_path=str(onnx_runtime).encode())
     library.call("haptoflow_runtime_open", ctypes.byref(options), ctypes.byref(runtime))
@@ -99,7 +108,7 @@ def native_runtime() -> ctypes.c_void_p:
     """ONNX Runtime as `npm ci` installs it, or the one that HAPTOFLOW_ONNXRUNTIME names. InputError with the remedy if it
     is missing."""
     named = os.environ.get(RUNTIME_VARIABLE)
-    return open_runtime(native_library(), Path(named) if named else _RUNTIME)
+    return open_runtime(native_library(), Path(named) if named else installed_runtime(_ROOT))
 
 
 @lru_cache(maxsize=1)
@@ -107,4 +116,4 @@ def native_library() -> NativeLibrary:
     """The library that `npm run build` makes, or the one that HAPTOFLOW_LIBRARY names. InputError with the remedy if it
     is missing."""
     named = os.environ.get(LIBRARY_VARIABLE)
-    return NativeLibrary(Path(named) if named else _BUILT / _NAMES.get(sys.platform, "libaudioplugin_haptoflow.so"))
+    return NativeLibrary(Path(named) if named else built_library(_ROOT))

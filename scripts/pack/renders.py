@@ -1,4 +1,5 @@
-"""Renders of the command line, and what their pictures share: the labels' colours, spectrograms, the model's stamp."""
+"""Renders sounds with the command line for the pages' pictures, and holds what these pictures have in common: colours of
+labels, spectrograms, the stamp of the model."""
 
 from __future__ import annotations
 

@@ -1148,22 +1148,23 @@ HAPTOFLOW_API haptoflow_status haptoflow_learning_material(const haptoflow_learn
 
 /* Sets *json to a JSON object with the results: start_label (whose render is nearest to the recording: the search began
  * there), start_distance_db, nearest_label (of haptoflow_model_nearest_label for the learnt embedding),
- * fitted_distance_db, spectral_distance_db, other_tiers (the same distance on the model's other tiers), level_error_db,
- * sliding_seconds, speed_mps, force_newtons, level_exponents, wave_vectors, turn_degrees (from the recording's first
- * axis to the material's first axis, which is perpendicular to its most distinct ribs), seeds, segments, seconds,
- * stopped_early, warnings and more. It is valid until the learning is closed. Errors: INVALID_ARGUMENT.
- * [any-thread] Blocks while another thread opens or closes a handle. */
+ * fitted_distance_db, spectral_distance_db, other_tiers (the same distance on each other tier, and whether it is
+ * further_off), level_error_db, sliding_seconds, speed_mps, force_newtons, level_exponents, wave_vectors, turn_degrees
+ * (from the recording's first axis to the material's first axis, which is perpendicular to its most distinct ribs),
+ * seeds, segments, seconds, stopped_early, warnings and more. It is valid until the learning is closed. Errors:
+ * INVALID_ARGUMENT. [any-thread] Blocks while another thread opens or closes a handle. */
 HAPTOFLOW_API haptoflow_status haptoflow_learning_report(const haptoflow_learning* learning, const char** json);
 
 /* Closes *learning and sets it to null; a null handle is allowed. Errors: INVALID_ARGUMENT.
  * [any-thread] Blocks while another thread opens or closes a handle. */
 HAPTOFLOW_API haptoflow_status haptoflow_learning_close(haptoflow_learning** learning);
 
-/* Finds the wave vectors of ribs or threads in a wave of one axis at 2 kHz: spectral lines whose frequency follows the
- * speed, by direction. vibration_mps2: sample_count numbers; one that is not finite separates recordings. velocity_mps:
- * vx and vy for each sample. Writes four numbers, k1x, k1y, k2x, k2y, to wave_vectors, in cycles per millimetre along
- * the axes of the velocity, the most distinct vector first, zeros for none. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY.
- * [loader-thread] Computes for about a second per minute of recording; allocates. */
+/* Finds the wave vectors of ribs or threads in a wave of one axis at 2 kHz. Ribs are lines of the spectrum whose
+ * frequency grows with the speed across them. vibration_mps2: sample_count numbers; a number that is not finite
+ * separates two recordings. velocity_mps: vx and vy for each sample. Writes four numbers, k1x, k1y, k2x, k2y, to
+ * wave_vectors, in cycles per millimetre along the axes of the velocity, the most distinct vector first, zeros for
+ * none. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. [loader-thread] Computes for about a second per minute of recording;
+ * allocates. */
 HAPTOFLOW_API haptoflow_status haptoflow_find_wave_vectors(const float* vibration_mps2, const float* velocity_mps,
                                                            uint64_t sample_count, double* wave_vectors);
 

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstring>
 #include <filesystem>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -35,6 +36,15 @@ template <typename Type>
         throw std::invalid_argument(std::string(name) + " is null");
     }
     return pointer;
+}
+
+/// A number of samples of up to three axes. Throws std::invalid_argument that names it if no memory could hold them.
+[[nodiscard]] inline std::size_t countOf(uint64_t given, const char* name) {
+    constexpr uint64_t maximumSamples = std::numeric_limits<std::size_t>::max() / (3 * sizeof(float));
+    if (given > maximumSamples) {
+        throw std::invalid_argument(std::string(name) + " is " + std::to_string(given));
+    }
+    return static_cast<std::size_t>(given);
 }
 
 /// No descriptor will be larger; a larger struct_size is uninitialised memory.

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -29,14 +28,6 @@ constexpr double maximumLimitSeconds = 3600.0;
 
 std::string textOrNone(const char* text) {
     return text != nullptr ? text : "";
-}
-
-std::size_t countOf(uint64_t given, const char* what) {
-    constexpr uint64_t maximumSamples = std::numeric_limits<std::size_t>::max() / (3 * sizeof(float));
-    if (given > maximumSamples) {
-        throw std::invalid_argument(std::string(what) + " is " + std::to_string(given));
-    }
-    return static_cast<std::size_t>(given);
 }
 
 recordings::Recording recordingOf(const haptoflow_learning_options& given) {

@@ -138,8 +138,8 @@ haptoflow_status haptoflow_recording_wave(const float* acceleration_mps2, uint64
                                           double sample_rate_hz, float* wave_mps2, uint64_t wave_count) {
     return guarded([&] {
         const std::span acceleration(require(acceleration_mps2, "acceleration_mps2"),
-                                     static_cast<std::size_t>(sample_count) * axis_count);
-        const std::span wave(require(wave_mps2, "wave_mps2"), static_cast<std::size_t>(wave_count));
+                                     countOf(sample_count, "sample_count") * axis_count);
+        const std::span wave(require(wave_mps2, "wave_mps2"), countOf(wave_count, "wave_count"));
         const recordings::Recording recording{
             .rateHz = sample_rate_hz, .axisCount = axis_count, .accelerationMps2 = acceleration};
         recordings::checkSizes(recording);
@@ -151,8 +151,8 @@ haptoflow_status haptoflow_resample(const float* samples, uint64_t sample_count,
                                     uint64_t wave_count, double wave_rate_hz) {
     return guarded([&] {
         const recordings::Channel channel{.first = require(samples, "samples"),
-                                          .count = static_cast<std::size_t>(sample_count)};
-        const std::span written(require(wave, "wave"), static_cast<std::size_t>(wave_count));
+                                          .count = countOf(sample_count, "sample_count")};
+        const std::span written(require(wave, "wave"), countOf(wave_count, "wave_count"));
         for (const double rateHz : {sample_rate_hz, wave_rate_hz}) {
             if (!(rateHz >= recordings::lowestRateHz && rateHz <= recordings::highestRateHz)) {
                 throw std::invalid_argument("a rate is " + recordings::plainNumber(rateHz) +

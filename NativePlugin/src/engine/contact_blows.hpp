@@ -49,8 +49,8 @@ private:
     PublishedContact last_;
     ContactState touched_;
     std::uint32_t touchedLabel_ = 0;
-    // Speeds of the newest states of this touch. The largest is used for edges: on a rounded rim, the surface normal
-    // points along the motion for a few states, so that the speed along the surface is near 0.
+    // Speeds of the newest states of this touch. An edge is struck at the largest of them, because on a rounded rim the
+    // surface normal points along the motion for a few states, and the speed along the surface is near 0.
     std::array<double, 4> newestSpeedsMps_{};
 };
 

@@ -16,8 +16,8 @@
 
 namespace haptoflow::engine {
 
-/// A published contact, as the callback and the worker both receive it: the whole state, so that a new field of it is
-/// there for both, and what the publisher concluded from it.
+/// A published contact. The callback and the worker both receive all of it, so that a field added to the state reaches
+/// both: the state itself, and the values that the publisher derived from it.
 struct PublishedContact {
     /// Sanitised; without effects while a signal replaces them.
     ContactState state;
@@ -38,8 +38,8 @@ struct OnsetSeed {
     SeedRibs ribs{};
 };
 
-/// A contact for the callback, with what it plays without the worker. It exists beside PublishedContact because the
-/// callback must not look up materials.
+/// A contact for the callback, with the seed, the blows and the tone, which the callback plays without the worker. The
+/// publisher prepares these, because looking up a material may wait and the callback must not.
 struct AudioMessage {
     PublishedContact contact;
     /// The seed for the newest sliding state. Every message contains it, so that an onset is not lost if its message is

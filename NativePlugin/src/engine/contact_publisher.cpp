@@ -15,7 +15,8 @@ using effects::EffectKind;
 constexpr effects::EffectMask surfaceEffects =
     effects::maskOf(EffectKind::texture) | effects::maskOf(EffectKind::impact) | effects::maskOf(EffectKind::edge);
 
-/// The seed for a motion, at the level of that motion; silence if the heaviest material has none.
+/// The heaviest material's seed that is nearest to a motion, scaled to the level of that motion; silence if the
+/// material has no seed.
 OnsetSeed seedFor(const Ingredients& ingredients, const Material& material, const RangedMotion& ranged) noexcept {
     OnsetSeed onset;
     const Seed* seed = retrieveSeed(ingredients.heaviest().material->seeds, ranged.motion);

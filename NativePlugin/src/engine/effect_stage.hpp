@@ -46,7 +46,7 @@ struct EffectCounters {
     }
 };
 
-/// The counters of a voice's effects, by effects::EffectKind.
+/// The counters of a voice, one for each effects::EffectKind, which is the index.
 using EffectFigures = std::array<EffectCounters, effects::effectKinds>;
 
 /// Effects that process the whole signal, made together for one output rate. A null pointer means that the voice does

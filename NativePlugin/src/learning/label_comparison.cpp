@@ -1,5 +1,6 @@
 #include "learning/label_comparison.hpp"
 
+#include "learning/texture_figures.hpp"
 #include "recordings/recording.hpp"
 
 #include <algorithm>
@@ -12,7 +13,6 @@ namespace {
 
 /// A level this far from those of all labels is probably in another unit.
 constexpr double suspiciousLevelDb = 30.0;
-constexpr double decibelsPerNat = 8.685889638065037;
 
 struct Spread {
     double mean = 0.0;

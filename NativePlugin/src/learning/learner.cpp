@@ -28,6 +28,7 @@ constexpr double degreesPerRadian = 57.29577951308232;
 /// Shares of the time limit at which the search among the labels and the fit end.
 constexpr double labelShare = 0.4;
 constexpr double fitShare = 0.9;
+constexpr double noticeableDb = 0.3;
 
 class Learner {
 public:
@@ -227,9 +228,11 @@ private:
         for (const OtherTier& other : otherTiers_) {
             ClosedLoop loop(*other.generator, model_.header(), recording_, unitWave_);
             TextureFit otherFit = fitOf(loop);
+            const double distanceDb =
+                spectralDistanceDb(fit.bins(), fit.recorded(), otherFit.resynthesis(embedding), tone);
             report_.otherTiers.push_back({.tier = other.name,
-                                          .spectralDistanceDb = spectralDistanceDb(
-                                              fit.bins(), fit.recorded(), otherFit.resynthesis(embedding), tone)});
+                                          .spectralDistanceDb = distanceDb,
+                                          .isFurtherOff = distanceDb > report_.spectralDistanceDb + noticeableDb});
         }
         return tone;
     }

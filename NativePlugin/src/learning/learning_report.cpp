@@ -13,7 +13,9 @@ std::string reportJson(const LearningReport& report) {
     }
     Json tiers = Json::array();
     for (const TierDistance& each : report.otherTiers) {
-        tiers.push_back({{"tier", each.tier}, {"spectral_distance_db", rounded(each.spectralDistanceDb, 1e3)}});
+        tiers.push_back({{"tier", each.tier},
+                         {"spectral_distance_db", rounded(each.spectralDistanceDb, 1e3)},
+                         {"further_off", each.isFurtherOff}});
     }
     const Json json{{"start_label", report.startLabel},
                     {"start_distance_db", rounded(report.startDistanceDb, 1e3)},

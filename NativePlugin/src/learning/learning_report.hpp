@@ -12,6 +12,8 @@ namespace haptoflow::learning {
 struct TierDistance {
     std::string tier;
     double spectralDistanceDb = 0.0;
+    /// True if it is larger than that of the fitted tier by more than 0.3 dB, so that a user should know.
+    bool isFurtherOff = false;
 };
 
 /// Results of learning.

@@ -18,15 +18,13 @@ inline constexpr double defaultSecondsLimit = 20.0;
 struct LearningSettings {
     /// Lower case like a label's, 1 to 128 bytes.
     std::string name;
-    /// Empty for that of the nearest label.
+    /// Empty for that of the start label; see LearningReport.
     std::string category;
     std::string description;
     /// Empty for "unknown".
     std::string licence;
     /// Description of the recordings, for the provenance.
     std::string recordings;
-    /// YYYY-MM-DD, or empty.
-    std::string created;
     std::uint64_t seed = 1;
     /// Limit of the calling thread's processor time in seconds. The fit ends there with its best result, which then
     /// depends on the machine's speed.

@@ -61,7 +61,7 @@ std::string materialText(const model::ModelFile& model, const MaterialContent& c
                           {"recordings", settings.recordings},
                           {"licence", settings.licence.empty() ? "unknown" : settings.licence},
                           {"seconds", rounded(report.slidingSeconds, 1e2)},
-                          {"created", settings.created}};
+                          {"created", ""}};
     json["embedding"] = roundedNumbers(content.embedding, 1e6);
     json["range"] = {{"speed_mps", roundedNumbers(report.speedMps, 1e5)},
                      {"force_newtons", roundedNumbers(report.forceNewtons, 1e4)}};

@@ -23,6 +23,8 @@ struct SpeedBins {
     [[nodiscard]] static SpeedBins divide(std::vector<double> speedsMps, std::size_t most);
 };
 
+/// Decibels per unit of the natural logarithm of an amplitude.
+inline constexpr double decibelsPerNat = 8.685889638065037;
 inline constexpr std::size_t spectrumSamples = 256;
 inline constexpr std::size_t spectrumBins = spectrumSamples / 2 + 1;
 inline constexpr double hertzPerBin = inference::waveformRateHz / static_cast<double>(spectrumSamples);

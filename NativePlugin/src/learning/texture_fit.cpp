@@ -14,7 +14,6 @@ constexpr std::size_t frameHop = 64;
 constexpr double lowestHz = 15.0;
 constexpr double highestHz = 900.0;
 constexpr double powerFloor = 1e-7;
-constexpr double decibelsPerNat = 8.685889638065037;
 constexpr double envelopeWeight = 1.0;
 constexpr double levelWeight = 0.3;
 constexpr double lineWeight = 1.0;

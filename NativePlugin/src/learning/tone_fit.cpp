@@ -157,7 +157,6 @@ double spectralDistanceDb(const SpeedBins& bins, std::span<const TextureFigures>
                           std::span<const TextureFigures> generated, const ToneFit& fit) {
     constexpr double lowestComparedHz = 20.0;
     constexpr double highestComparedHz = 450.0;
-    constexpr double decibelsPerNat = 8.685889638065037;
     double total = 0.0;
     double weights = 0.0;
     for (std::size_t bin = 0; bin < bins.count(); ++bin) {

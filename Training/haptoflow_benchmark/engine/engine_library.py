@@ -9,7 +9,13 @@ from pathlib import Path
 from typing import Any
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.native_library import NativeError, NativeLibrary, open_runtime
+from haptoflow_training.native_library import (
+    NativeError,
+    NativeLibrary,
+    built_library,
+    installed_runtime,
+    open_runtime,
+)
 
 
 class EngineLibrary(NativeLibrary):
@@ -37,5 +43,4 @@ def default_engine(root: Path) -> EngineLibrary:
     """The library that `npm run build` makes in the repository at `root`, with the ONNX Runtime from npm."""
     if sys.platform != "linux":
         raise InputError("evaluation runs the Linux library only; on Windows or macOS use a Linux machine or container")
-    runtime = root / "node_modules" / "com.github.asus4.onnxruntime" / "Plugins" / "Linux" / "x64" / "libonnxruntime.so"
-    return EngineLibrary(root / "build" / "native" / "libaudioplugin_haptoflow.so", runtime)
+    return EngineLibrary(built_library(root), installed_runtime(root))

@@ -46,7 +46,7 @@ class _Batch(ctypes.Structure):
 
 
 class EngineGenerator:
-    """One tier of a model file behind the C interface, which generates batches of segments; close it after use."""
+    """Generates batches of segments with one tier of a model file, through the C interface; close it after use."""
 
     def __init__(
         self, engine: EngineLibrary, model: Path, tier: str | None = None, solver: str = "tier", steps: int = 0
@@ -84,9 +84,8 @@ class EngineGenerator:
         count = len(self.header["labels"])
         rows = np.empty((count, 64), dtype=np.float32)
         for index in range(count):
-            self._engine.call(
-                "haptoflow_model_embedding", self._model.handle, ctypes.c_uint32(index), rows[index].ctypes.data_as(_pointer)
-            )
+            row = rows[index].ctypes.data_as(_pointer)
+            self._engine.call("haptoflow_model_embedding", self._model.handle, ctypes.c_uint32(index), row)
         return rows
 
     def generate(

@@ -23,13 +23,12 @@ from haptoflow_training.fewshot.learning import (
     learn_material,
 )
 from haptoflow_training.recordings.dataset import UNKNOWN
-from haptoflow_training.recordings.material_recording import MaterialRecording, read_material_recordings
+from haptoflow_training.recordings.material_recording import material_files, read_material_recordings
+from haptoflow_training.recordings.open_recordings import RecordingFile
 from haptoflow_training.recordings.own_files import read_own
 from haptoflow_training.whole_file import check_writable, write_whole
 
 SUFFIX = ".haptomaterial"
-# Another tier whose spectra are further off than the default tier's by this much is mentioned.
-_NOTICEABLE_DB = 0.3
 
 _EXAMPLES = """examples:
   haptoflow-training add-material --model default.haptoflow --recording doormat.csv
@@ -83,19 +82,21 @@ def run(options: argparse.Namespace) -> int:
     if not 0.0 < options.seconds_limit <= 3600.0:
         raise InputError(f"--seconds-limit {options.seconds_limit:g}: expected above 0 to 3600")
     wave_vectors = _wave_vectors(options.wave_vector)
-    recordings = read_material_recordings(options.recording)
-    name = _name(options, recordings)
+    files = material_files(options.recording)
+    name = _name(options, files)
     model = read_model_file(options.model)
     if out.suffix != SUFFIX:
         require_new_name(model, name)
     check_writable(out)
     # One file is learnt as `haptoflow learn` does it, byte for byte; several are joined as training prepares them.
-    only = options.recording[0] if len(options.recording) == 1 and options.recording[0].is_file() else None
+    is_one_file = len(options.recording) == 1 and options.recording[0].is_file()
+    recording = read_own(options.recording[0]).even if is_one_file else joined(read_material_recordings(files))
+    assert recording is not None
     with tqdm(total=100, desc=name, unit="%", disable=None) as progress:
         learnt = learn_material(
             options.model,
-            joined(recordings) if only is None else read_own(only),
-            MaterialWords(name, options.category, options.description, *_origin(options.recording, recordings)),
+            recording,
+            MaterialWords(name, options.category, options.description, *_origin(options.recording, files)),
             seed=options.seed,
             seconds_limit=options.seconds_limit,
             wave_vectors_per_mm=wave_vectors,
@@ -109,12 +110,12 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
-def _name(options: argparse.Namespace, recordings: Sequence[MaterialRecording]) -> str:
+def _name(options: argparse.Namespace, files: Sequence[RecordingFile]) -> str:
     if options.name is not None:
         if not options.name.strip():
             raise InputError("--name is empty; expected a name such as doormat")
         return str(options.name.strip().lower())
-    labels = sorted({recording.label for recording in recordings if recording.label})
+    labels = sorted({file.label for file in files if file.label})
     if len(labels) > 1:
         raise InputError(
             f"the recordings are of {len(labels)} labels ({', '.join(labels)}); a material is fitted to one: give its "
@@ -143,10 +144,10 @@ def _wave_vectors(given: list[list[float]] | None) -> tuple[tuple[float, float],
     return tuple((x, y) for x, y in given if (x, y) != (0.0, 0.0))
 
 
-def _origin(paths: Sequence[Path], recordings: Sequence[MaterialRecording]) -> tuple[str, str]:
+def _origin(paths: Sequence[Path], files: Sequence[RecordingFile]) -> tuple[str, str]:
     """Licence and provenance of the recordings."""
-    licences = sorted({recording.licence for recording in recordings})
-    sources = sorted({recording.source for recording in recordings if recording.source not in ("", UNKNOWN)})
+    licences = sorted({file.licence for file in files})
+    sources = sorted({file.source for file in files if file.source not in ("", UNKNOWN)})
     names = [path.name for path in paths]
     return "; ".join(licences), ", ".join([*names, *sources])
 
@@ -165,10 +166,9 @@ def _report(out: Path, name: str, report: dict[str, Any]) -> None:
         found = ", ".join(f"{1.0 / length:.2f} mm" for length in ribs)
         where = f"{report['turn_degrees']:.0f} degrees from the recording's"
         print(f"  ribs every {found}; the material's first axis lies across them, {where}")
-    distance = report["spectral_distance_db"]
-    print(f"  distance of the spectra on the recording: {distance:.1f} dB")
+    print(f"  distance of the spectra on the recording: {report['spectral_distance_db']:.1f} dB")
     for other in report["other_tiers"]:
-        if other["spectral_distance_db"] > distance + _NOTICEABLE_DB:
+        if other["further_off"]:
             print(f"  tier {other['tier']} is further off: {other['spectral_distance_db']:.1f} dB")
     for warning in report["warnings"]:
         print(f"  {warning}")

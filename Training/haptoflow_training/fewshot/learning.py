@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from haptoflow_training.native_library import NativeModel, native_library, native_runtime, options_of
 from haptoflow_training.recordings.material_recording import MaterialRecording
-from haptoflow_training.recordings.native_recording import EvenRecording, NativeRecording
+from haptoflow_training.recordings.native_recording import EvenRecording
 from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 DEFAULT_SECONDS_LIMIT = 20.0
@@ -54,7 +54,7 @@ class _Options(ctypes.Structure):
 
 @dataclass(frozen=True)
 class MaterialWords:
-    """Texts of the material file. name: lower case, as labels have. recordings: for the provenance."""
+    """Texts of the material file. name: lower case, as a label's is. recordings: what the provenance calls them."""
 
     name: str
     category: str = ""
@@ -89,7 +89,7 @@ def joined(recordings: Sequence[MaterialRecording]) -> EvenRecording:
 
 def learn_material(
     model: Path,
-    recording: EvenRecording | NativeRecording,
+    recording: EvenRecording,
     words: MaterialWords,
     *,
     seed: int = 1,
@@ -103,9 +103,6 @@ def learn_material(
     None finds them, an empty sequence means that there are none. progress: receives the completed share and the step.
     """
     library = native_library()
-    even = recording.even if isinstance(recording, NativeRecording) else recording
-    assert even is not None
-    constants = recording if isinstance(recording, NativeRecording) else None
     kept: list[NDArray[np.float32]] = []
 
     def pointer(values: NDArray[np.floating] | None) -> Any:
@@ -121,27 +118,26 @@ def learn_material(
     with NativeModel(library, model) as opened:
         options = options_of(
             _Options,
-            axis_count=even.acceleration_mps2.shape[1],
+            axis_count=recording.acceleration_mps2.shape[1],
             runtime=native_runtime(),
             model=opened.handle,
             name=words.name.encode(),
             category=words.category.encode(),
             description=words.description.encode(),
             licence=words.licence.encode(),
-            acceleration_mps2=pointer(even.acceleration_mps2),
-            sample_count=len(even.acceleration_mps2),
-            sample_rate_hz=even.rate_hz,
-            velocity_mps=pointer(even.velocity_mps),
-            force_newtons=pointer(even.force_newtons),
+            acceleration_mps2=pointer(recording.acceleration_mps2),
+            sample_count=len(recording.acceleration_mps2),
+            sample_rate_hz=recording.rate_hz,
+            velocity_mps=pointer(recording.velocity_mps),
+            constant_velocity_mps=(ctypes.c_double * 2)(*recording.constant_velocity_mps),
+            force_newtons=pointer(recording.force_newtons),
+            constant_force_newtons=recording.constant_force_newtons,
             seed=seed,
             seconds_limit=seconds_limit,
             progress=_Progress(lambda _, share, doing: progress(share, doing.decode())),
             wave_vectors=pointer(numbers),
             recordings=words.recordings.encode(),
         )
-        if constants is not None:
-            options.constant_velocity_mps[:] = constants.velocity_mps or (0.0, 0.0)
-            options.constant_force_newtons = constants.force_newtons or 0.0
         learning = ctypes.c_void_p()
         library.call("haptoflow_learn_material", ctypes.byref(options), ctypes.byref(learning))
         try:

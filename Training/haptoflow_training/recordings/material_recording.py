@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from haptoflow_training.errors import InputError
 from haptoflow_training.preprocessing.pipeline import preprocess_parts
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
-from haptoflow_training.recordings.open_recordings import open_recordings
+from haptoflow_training.recordings.open_recordings import RecordingFile, open_recordings
 
 
 @dataclass(frozen=True)
@@ -36,27 +36,34 @@ class MaterialRecording:
         return len(self.vibration_mps2) / 2000.0
 
 
-def read_material_recordings(paths: Sequence[Path | str]) -> list[MaterialRecording]:
-    """Every recording in files and folders (own files, or the published data set's layout).
+def material_files(paths: Sequence[Path | str]) -> list[RecordingFile]:
+    """Every recording in files and folders (own files, or the published data set's layout), described and not yet read.
 
     InputError if one cannot be used, naming file, column or key, what was found and what is expected; and if there is
     none.
     """
-    settings = PreprocessingSettings()
-    recordings: list[MaterialRecording] = []
+    files: list[RecordingFile] = []
     for path in paths:
         dataset = open_recordings(path)
         for problem in dataset.problems:
             raise InputError(str(problem))
-        for entry in (*dataset.recordings, *dataset.unlabelled):
-            for number, part in enumerate(preprocess_parts(entry.load(), settings)):
-                name = entry.identity.name if number == 0 else f"{entry.identity.name} part {number + 1}"
-                recordings.append(
-                    MaterialRecording(
-                        name, entry.label, part.waveform_mps2, part.motion[:, :2].copy(), part.motion[:, 2].copy(),
-                        entry.licence, entry.source,
-                    )  # fmt: skip
-                )
-    if not recordings:
+        files += (*dataset.recordings, *dataset.unlabelled)
+    if not files:
         raise InputError(f"{', '.join(map(str, paths))}: no recording; expected .csv, .parquet or .wav files")
+    return files
+
+
+def read_material_recordings(files: Sequence[RecordingFile]) -> list[MaterialRecording]:
+    """The samples of recordings, prepared as for training; InputError as of `material_files`."""
+    settings = PreprocessingSettings()
+    recordings: list[MaterialRecording] = []
+    for entry in files:
+        for number, part in enumerate(preprocess_parts(entry.load(), settings)):
+            name = entry.identity.name if number == 0 else f"{entry.identity.name} part {number + 1}"
+            recordings.append(
+                MaterialRecording(
+                    name, entry.label, part.waveform_mps2, part.motion[:, :2].copy(), part.motion[:, 2].copy(),
+                    entry.licence, entry.source,
+                )  # fmt: skip
+            )
     return recordings

@@ -77,12 +77,14 @@ class Track:
 @dataclass(frozen=True)
 class EvenRecording:
     """Samples at one rate. acceleration_mps2: [n, 1 or 3], not finite in a gap. velocity_mps: [n, 2], force_newtons: [n];
-    None where the recording has a constant."""
+    None where the constant holds for every sample."""
 
     rate_hz: float
     acceleration_mps2: NDArray[np.float32]
     velocity_mps: NDArray[np.float32] | None
     force_newtons: NDArray[np.float32] | None
+    constant_velocity_mps: tuple[float, float] = (0.0, 0.0)
+    constant_force_newtons: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -153,7 +155,7 @@ def _track(track: _Track) -> Track | None:
     return Track(seconds, np.ctypeslib.as_array(track.values, (track.count, track.width)).copy())
 
 
-def _even(info: _Info) -> EvenRecording | None:
+def _even(info: _Info, velocity: tuple[float, float] | None, force: float | None) -> EvenRecording | None:
     if not info.acceleration_mps2:
         return None
     count = info.sample_count
@@ -166,11 +168,15 @@ def _even(info: _Info) -> EvenRecording | None:
         values(info.acceleration_mps2, count, info.axis_count),
         values(info.velocity_mps, count, 2) if info.velocity_mps else None,
         values(info.force_newtons, count) if info.force_newtons else None,
+        constant_velocity_mps=velocity or (0.0, 0.0),
+        constant_force_newtons=force or 0.0,
     )
 
 
 def _copied(info: _Info) -> NativeRecording:
-    velocity = (info.constant_velocity_mps[0], info.constant_velocity_mps[1])
+    x, y = info.constant_velocity_mps[:]
+    velocity = None if np.isnan(x) else (x, y)
+    force = None if np.isnan(info.constant_force_newtons) else info.constant_force_newtons
     motion_path = info.motion_path.decode()
     return NativeRecording(
         label=info.label.decode(),
@@ -178,11 +184,11 @@ def _copied(info: _Info) -> NativeRecording:
         source=info.source.decode(),
         motion_path=Path(motion_path) if motion_path else None,
         notes=tuple(info.notes.decode().splitlines()),
-        even=_even(info),
+        even=_even(info, velocity, force),
         acceleration=_track(info.acceleration),
         motion=_track(info.motion),
         has_positions=bool(info.motion_is_position),
         force=_track(info.force),
-        velocity_mps=None if np.isnan(velocity[0]) else velocity,
-        force_newtons=None if np.isnan(info.constant_force_newtons) else info.constant_force_newtons,
+        velocity_mps=velocity,
+        force_newtons=force,
     )

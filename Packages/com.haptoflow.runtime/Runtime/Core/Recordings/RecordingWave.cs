@@ -10,7 +10,8 @@ namespace HaptoFlow.Recordings
         /// <summary>Sample rate in Hz.</summary>
         public const double RateHz = 2000.0;
 
-        /// <summary>The first seconds of a recording as one axis of 10 to 1000 Hz, in m/s^2; gaps are silent.</summary>
+        /// <summary>The beginning of a recording in the form that is learnt: one axis, 10 to 1000 Hz, in m/s^2. Gaps are
+        /// silent.</summary>
         public static float[] Of(Recording recording, double maximumSeconds)
         {
             int count = Math.Min(recording.SampleCount, (int)(maximumSeconds * recording.SampleRateHz));
