@@ -131,11 +131,16 @@ std::vector<engine::ContactState> propertiesOf(const headless::Scene& scene, con
         engine::ContactState& properties = surfaces.emplace_back();
         properties.spatialScale = static_cast<float>(surface.spatialScale);
         properties.toneDbPerOctave = static_cast<float>(surface.toneDbPerOctave);
+        properties.surfaceSeed = surface.seed;
         for (const auto& [name, weight] : surface.material) {
             properties.material.add(materials.indexOf(name), static_cast<float>(weight));
         }
     }
     return surfaces;
+}
+
+std::array<float, 3> toFloats(const glm::dvec3& vector) {
+    return {static_cast<float>(vector.x), static_cast<float>(vector.y), static_cast<float>(vector.z)};
 }
 
 engine::TimedContactState stateOf(const headless::ContactReading& reading,
@@ -155,6 +160,10 @@ engine::TimedContactState stateOf(const headless::ContactReading& reading,
     state.landingCounter = reading.landingCounter;
     state.edgeCounter = reading.edgeCounter;
     state.edgeHeightMetres = static_cast<float>(reading.edgeHeightMetres);
+    state.hasPlace = state.touching;
+    state.placeMetres = toFloats(reading.placeMetres);
+    state.firstAxis = toFloats(reading.firstAxis);
+    state.secondAxis = toFloats(reading.secondAxis);
     return state;
 }
 

@@ -259,9 +259,18 @@ std::vector<std::pair<std::string, double>> readMaterial(const Node& node) {
     return material;
 }
 
+/// FNV-1a, 32 bits.
+std::uint32_t hashOf(std::string_view text) {
+    std::uint32_t hash = 2166136261U;
+    for (const char character : text) {
+        hash = (hash ^ static_cast<std::uint8_t>(character)) * 16777619U;
+    }
+    return hash;
+}
+
 headless::SceneSurface readSurface(const Node& node) {
     node.requireObject({"name", "shape", "position", "rotation", "motion", "material", "stiffness", "grain",
-                        "spatial_scale", "tone_db_per_octave"});
+                        "spatial_scale", "tone_db_per_octave", "seed"});
     headless::SceneSurface surface;
     surface.name = node.at("name").text("a name");
     surface.shape = readShape(node.at("shape"));
@@ -282,6 +291,11 @@ headless::SceneSurface readSurface(const Node& node) {
     }
     if (node.has("tone_db_per_octave")) {
         surface.toneDbPerOctave = node.at("tone_db_per_octave").number(-12.0, 12.0, "dB from -12 to 12");
+    }
+    surface.seed = hashOf(surface.name);
+    if (node.has("seed")) {
+        surface.seed =
+            static_cast<std::uint32_t>(node.at("seed").number(0.0, 4294967295.0, "a number from 0 to 4294967295"));
     }
     if (node.has("grain")) {
         surface.grain = node.at("grain").vector("a direction [x, y, z] in the object's own axes");

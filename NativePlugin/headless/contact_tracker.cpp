@@ -328,6 +328,9 @@ ContactReading ContactTracker::describe(const Candidate& contact, bool touchDown
     reading.tangentialVelocityMps = {glm::dot(velocity, contact.pose.directionToWorld(axes.first)),
                                      glm::dot(velocity, contact.pose.directionToWorld(axes.second))};
     reading.approachSpeedMps = approachSpeedMps_;
+    reading.placeMetres = contact.local.pointMetres;
+    reading.firstAxis = axes.first;
+    reading.secondAxis = axes.second;
     const double spring = stiffnessNewtonsPerMetre_[contact.surface] * reading.penetrationMetres;
     const bool measured = sample.forceNewtons && std::isfinite(*sample.forceNewtons);
     reading.forceNewtons = std::clamp(measured ? *sample.forceNewtons : spring, 0.0, settings_.maximumForceNewtons);

@@ -47,6 +47,10 @@ struct ContactReading {
     std::uint32_t edgeCounter = 0;
     /// Height of the newest edge; 0 before the first.
     double edgeHeightMetres = 0.0;
+    /// The contact point and the two tangent axes in the surface's local frame; zero without touch.
+    glm::dvec3 placeMetres{0.0};
+    glm::dvec3 firstAxis{0.0};
+    glm::dvec3 secondAxis{0.0};
 };
 
 /// Settings of the velocity estimate from tracked positions. See TipHistory.

@@ -4,6 +4,7 @@
 #include "headless/pose.hpp"
 #include "headless/shape.hpp"
 
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <string>
@@ -27,6 +28,8 @@ struct SceneSurface {
     /// Size of the surface's features relative to the material's, and tilt of its spectrum in dB per octave.
     double spatialScale = 1.0;
     double toneDbPerOctave = 0.0;
+    /// Names the surface: another number has another field of asperities.
+    std::uint32_t seed = 0;
 
     [[nodiscard]] Pose poseAt(double timeSeconds) const noexcept {
         return motion ? motion->poseAt(timeSeconds) : sanitised(pose);

@@ -703,6 +703,17 @@ typedef struct haptoflow_contact_state {
     /* Tilt of the spectrum about 150 Hz, -12 to 12 dB per octave: brighter above 0, darker below; 0 for none. It is
      * added to the material's own tone. */
     float tone_db_per_octave;
+    /* 1 if the four fields below say where the tip is; 0 if that is unknown: the voice then adds up velocity_mps from
+     * the touch-down on, and a place that is left and found again feels the same within that touch only. */
+    uint32_t has_place;
+    /* Names the surface: the same place of the same surface feels the same in every touch and every session, and
+     * surfaces with different numbers differ. */
+    uint32_t surface_seed;
+    /* The contact point in a frame that moves and turns with the surface, in metres. */
+    float place_metres[3];
+    /* The two axes of velocity_mps in that frame, of length 1. */
+    float first_axis[3];
+    float second_axis[3];
 } haptoflow_contact_state;
 
 /* The work of one effect for a voice. All values are 0 for an effect that was never requested. */

@@ -30,6 +30,8 @@ struct PublishedContact {
     std::uint64_t updates = 0;
     std::uint64_t slides = 0;
     RangedMotion ranged;
+    /// VoiceChannels::clock when it was published.
+    double publishedSeconds = 0.0;
 };
 
 /// A seed, ready to be played.

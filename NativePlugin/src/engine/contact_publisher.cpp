@@ -43,7 +43,7 @@ ContactAction ContactPublisher::publish(ContactState state) noexcept {
     counters.sanitised.fetch_add(sanitise(state), std::memory_order_relaxed);
     counters.updates.fetch_add(1, std::memory_order_relaxed);
     if (state.isMoving() != contact_.state.isMoving()) {
-        movingSinceSeconds_ = channels_.clock();
+        movingSinceSeconds_ = contact_.publishedSeconds;
     }
     const bool hasSignal = channels_.controls.signal.load(std::memory_order_relaxed).isSet();
     if (hasSignal) {
@@ -60,6 +60,7 @@ ContactAction ContactPublisher::publish(ContactState state) noexcept {
         ribs_ = waveVectorsOf(material.embedding);
     }
     contact_.state = state;
+    contact_.publishedSeconds = channels_.clock();
     contact_.onset += action == ContactAction::onset || action == ContactAction::tap ? 1 : 0;
     contact_.touch = follower_.touches();
     contact_.sliding = follower_.sliding();

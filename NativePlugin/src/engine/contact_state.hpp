@@ -51,6 +51,14 @@ struct ContactState {
     float spatialScale = 1.0F;
     /// Tilt of the spectrum about 150 Hz: above 0 brighter, below 0 darker.
     float toneDbPerOctave = 0.0F;
+    /// 1 if the place is known.
+    std::uint32_t hasPlace = 0;
+    /// Names the surface, in this and every other session.
+    std::uint32_t surfaceSeed = 0;
+    /// The contact point and the axes of the velocity in a frame that moves and turns with the surface.
+    std::array<float, 3> placeMetres{};
+    std::array<float, 3> firstAxis{};
+    std::array<float, 3> secondAxis{};
 
     [[nodiscard]] bool hasEffect(effects::EffectKind kind) const noexcept {
         return (effects & effects::maskOf(kind)) != 0;
@@ -61,8 +69,18 @@ struct ContactState {
     [[nodiscard]] bool isMoving() const noexcept { return touching != 0 && speedMps() >= 0.005F; }
 };
 
+/// Whether the place is within 10 km of the surface's origin and both axes have length 1, to a tenth.
+[[nodiscard]] inline bool hasUsablePlace(const ContactState& state) noexcept {
+    const auto isUnit = [](const std::array<float, 3>& axis) {
+        return std::abs(std::hypot(axis[0], axis[1], axis[2]) - 1.0F) <= 0.1F;
+    };
+    return std::ranges::all_of(state.placeMetres, [](float each) { return std::abs(each) <= 1e4F; }) &&
+           isUnit(state.firstAxis) && isUnit(state.secondAxis);
+}
+
 /// Makes every number finite and clamps it: speeds to +-20 m/s, force to 0-1,000 N, weights to 0-1, edge height to 0-1
-/// m, scale to 0.25-4, tilt to +-12 dB/octave. Returns the number of changed fields.
+/// m, scale to 0.25-4, tilt to +-12 dB/octave. A place or axes of no use make the place unknown. Returns the number of
+/// changed fields.
 inline std::uint32_t sanitise(ContactState& state) noexcept {
     constexpr float maximumMps = 20.0F;
     std::uint32_t changes = 0;
@@ -90,6 +108,15 @@ inline std::uint32_t sanitise(ContactState& state) noexcept {
     }
     limit(state.spatialScale, 0.25F, 4.0F, 1.0F);
     limit(state.toneDbPerOctave, -12.0F, 12.0F);
+    if (state.hasPlace != 0 && !hasUsablePlace(state)) {
+        state.hasPlace = 0;
+        ++changes;
+    }
+    if (state.hasPlace == 0) {
+        state.placeMetres = {};
+        state.firstAxis = {};
+        state.secondAxis = {};
+    }
     return changes;
 }
 

@@ -7,6 +7,7 @@
 namespace haptoflow::engine {
 namespace {
 
+constexpr double largestCorrectionTurns = 0.1;
 constexpr double millimetresPerMetre = 1000.0;
 
 /// The slot of `vectors` that holds `vector`; if several do, preferably `preferred`. Empty if none does.
@@ -82,24 +83,38 @@ RibTurns ribTurnsPerSample(std::span<const float, inference::embeddingSize> embe
     return turns;
 }
 
+std::array<float, inference::ribCount> toNetwork(const RibTurns& phases) noexcept {
+    std::array<float, inference::ribCount> rounded{};
+    std::ranges::transform(phases, rounded.begin(), [](double each) {
+        const auto phase = static_cast<float>(each);
+        return phase < 1.0F ? phase : 0.0F;
+    });
+    return rounded;
+}
+
 void RibTrack::begin(std::int64_t start, const SeedRibs& seed) noexcept {
     pieces_[0] = {.start = start, .phase = seed.phase, .turnsPerSample = seed.turnsPerSample, .vectors = seed.vectors};
     count_ = 1;
 }
 
-std::array<float, inference::ribCount> RibTrack::at(std::int64_t sample, const WaveVectors& vectors) const noexcept {
-    const RibTurns turns = turnsAt(sample, vectors);
-    std::array<float, inference::ribCount> phase{};
-    std::ranges::transform(turns, phase.begin(), [](double each) {
-        const auto rounded = static_cast<float>(each);
-        return rounded < 1.0F ? rounded : 0.0F;
-    });
-    return phase;
+RibTurns RibTrack::at(std::int64_t sample, const WaveVectors& vectors,
+                      const std::array<double, 2>& placeMetres) const noexcept {
+    const bool isFirst = count_ == 1;
+    RibTurns turns = at(sample, vectors);
+    for (std::size_t rib = 0; rib < turns.size(); ++rib) {
+        const double wanted = (static_cast<double>(vectors[rib].x) * placeMetres[0] +
+                               static_cast<double>(vectors[rib].y) * placeMetres[1]) *
+                              millimetresPerMetre;
+        const double missing = wanted - turns[rib] - std::round(wanted - turns[rib]);
+        turns[rib] += isFirst ? missing : std::clamp(0.5 * missing, -largestCorrectionTurns, largestCorrectionTurns);
+        turns[rib] -= std::floor(turns[rib]);
+    }
+    return turns;
 }
 
-void RibTrack::add(std::int64_t start, const WaveVectors& vectors, const RibTurns& turnsPerSample) noexcept {
-    const Piece piece{
-        .start = start, .phase = turnsAt(start, vectors), .turnsPerSample = turnsPerSample, .vectors = vectors};
+void RibTrack::add(std::int64_t start, const WaveVectors& vectors, const RibTurns& phase,
+                   const RibTurns& turnsPerSample) noexcept {
+    const Piece piece{.start = start, .phase = phase, .turnsPerSample = turnsPerSample, .vectors = vectors};
     while (count_ > 0 && pieces_[count_ - 1].start >= start) {
         --count_;
     }
@@ -111,7 +126,7 @@ void RibTrack::add(std::int64_t start, const WaveVectors& vectors, const RibTurn
     ++count_;
 }
 
-RibTurns RibTrack::turnsAt(std::int64_t sample, const WaveVectors& vectors) const noexcept {
+RibTurns RibTrack::at(std::int64_t sample, const WaveVectors& vectors) const noexcept {
     std::size_t newest = count_ - 1;
     while (newest > 0 && pieces_[newest].start > sample) {
         --newest;

@@ -35,6 +35,9 @@ void setWaveVectors(std::span<float, inference::embeddingSize> embedding, const 
 [[nodiscard]] RibTurns ribTurnsPerSample(std::span<const float, inference::embeddingSize> embedding, double vxMps,
                                          double vyMps) noexcept;
 
+/// Phases as the network takes them: below 1 after rounding, too.
+[[nodiscard]] std::array<float, inference::ribCount> toNetwork(const RibTurns& phases) noexcept;
+
 /// Rib phase of a seed at its first audible sample, and its advance per sample.
 struct SeedRibs {
     RibTurns phase{};
@@ -49,11 +52,15 @@ public:
     /// Begins a stream with a seed at the sample `start`.
     void begin(std::int64_t start, const SeedRibs& seed) noexcept;
     /// Phases of `vectors` at a sample, in turns in [0, 1), from the newest piece that starts at or before it.
-    [[nodiscard]] std::array<float, inference::ribCount> at(std::int64_t sample,
-                                                            const WaveVectors& vectors) const noexcept;
-    /// Adds a piece from `start` on with this advance along these wave vectors. Removes pieces that start there or
-    /// later.
-    void add(std::int64_t start, const WaveVectors& vectors, const RibTurns& turnsPerSample) noexcept;
+    [[nodiscard]] RibTurns at(std::int64_t sample, const WaveVectors& vectors) const noexcept;
+    /// The same, drawn towards the phases of a place on the surface, so that the ribs stay where they are: at once for
+    /// the first segment of a stream, then by half of the difference and at most a tenth of a turn for each.
+    [[nodiscard]] RibTurns at(std::int64_t sample, const WaveVectors& vectors,
+                              const std::array<double, 2>& placeMetres) const noexcept;
+    /// Adds a piece from `start` on with these phases there and this advance along these wave vectors. Removes pieces
+    /// that start there or later.
+    void add(std::int64_t start, const WaveVectors& vectors, const RibTurns& phase,
+             const RibTurns& turnsPerSample) noexcept;
 
 private:
     struct Piece {
@@ -65,8 +72,6 @@ private:
     // Only pieces ahead of the read head can be removed. A timeline reaches 600 samples ahead and a hop takes at least
     // 10, so this is enough; when full, the oldest piece is dropped, which no later segment needs.
     static constexpr std::size_t capacity = 64;
-
-    [[nodiscard]] RibTurns turnsAt(std::int64_t sample, const WaveVectors& vectors) const noexcept;
 
     // In the order of their starts.
     std::array<Piece, capacity> pieces_{};

@@ -15,6 +15,10 @@ namespace {
 constexpr double reserveSamples = 40.0;
 // A tenth of a second of polling. The planner does not wait longer for a device that has stopped.
 constexpr int maximumPolls = 50;
+// A tip that has not reported for this long is not guessed any further.
+constexpr double maximumSecondsAhead = 0.25;
+// From the noise to the vibration: two samples of the resampler and one of the networks (measured).
+constexpr std::int64_t outputDelaySamples = 3;
 constexpr auto segmentLength = static_cast<std::int64_t>(inference::segmentSamples);
 
 std::int64_t scaled(std::int64_t samples, double readingRate) noexcept {
@@ -24,7 +28,10 @@ std::int64_t scaled(std::int64_t samples, double readingRate) noexcept {
 }  // namespace
 
 SegmentPlanner::SegmentPlanner(VoiceChannels& channels, const PlannerSettings& settings) noexcept
-    : channels_(channels), settings_(settings), balance_(settings.seed, settings.voice) {}
+    : channels_(channels),
+      settings_(settings),
+      places_(settings.seed, settings.voice),
+      balance_(settings.seed, settings.voice) {}
 
 bool SegmentPlanner::wake() noexcept {
     channels_.toWorker.fetch();
@@ -61,6 +68,7 @@ bool SegmentPlanner::wake() noexcept {
     polls_ = 0;
     if (isNewStream) {
         ribs_.begin(playhead.streamStart, playhead.seedRibs);
+        places_.begin();
     }
     if (!replaces) {
         hop_ = isNewStream ? 0 : head - lastHead_;
@@ -143,9 +151,23 @@ void SegmentPlanner::prepare(std::int64_t start) noexcept {
     plannedStart_ = start;
     balance_.follow(channels_.toWorker.current().blend, request_.motion, start);
     mirror_.history(start, history_);
-    request_.ribPhase = ribs_.at(start, waveVectorsOf(request_.embedding));
-    inference::fillStandardNormal({.seed = settings_.seed, .voice = settings_.voice, .segment = segments_}, noise_);
+    stretch_ = places_.at(channels_.toWorker.current().contact, start, secondsAhead(start));
+    const WaveVectors vectors = waveVectorsOf(request_.embedding);
+    ribPhase_ = stretch_.ribPlaceMetres ? ribs_.at(start, vectors, *stretch_.ribPlaceMetres) : ribs_.at(start, vectors);
+    request_.ribPhase = toNetwork(ribPhase_);
+    if (!inference::fillSurfaceNoise(stretch_.surface, stretch_.path, noise_)) {
+        inference::fillStandardNormal({.seed = settings_.seed, .voice = settings_.voice, .segment = segments_}, noise_);
+    }
     ++segments_;
+}
+
+double SegmentPlanner::secondsAhead(std::int64_t sample) const noexcept {
+    const PublishedContact& contact = channels_.toWorker.current().contact;
+    const Playhead& playhead = channels_.playhead.current();
+    const double fromBlock = static_cast<double>(sample + outputDelaySamples - playhead.blockHead) /
+                             (inference::waveformRateHz * contact.ranged.readingRate);
+    const double sincePublished = channels_.isRealTime ? playhead.blockSeconds - contact.publishedSeconds : 0.0;
+    return std::clamp(fromBlock + sincePublished, 0.0, maximumSecondsAhead);
 }
 
 bool SegmentPlanner::deliver(std::span<float, inference::segmentSamples> segmentMps2) noexcept {
@@ -167,7 +189,8 @@ bool SegmentPlanner::deliver(std::span<float, inference::segmentSamples> segment
         return false;
     }
     mirror_.commit(plannedStart_, sent.segment.samplesMps2);
-    ribs_.add(plannedStart_, waveVectorsOf(request_.embedding),
+    places_.add(plannedStart_, stretch_);
+    ribs_.add(plannedStart_, waveVectorsOf(request_.embedding), ribPhase_,
               ribTurnsPerSample(request_.embedding, static_cast<double>(request_.motion[0]),
                                 static_cast<double>(request_.motion[1])));
 

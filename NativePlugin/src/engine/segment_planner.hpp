@@ -2,6 +2,7 @@
 
 #include "engine/blend_balance.hpp"
 #include "engine/lead_estimator.hpp"
+#include "engine/place_track.hpp"
 #include "engine/rib_phase.hpp"
 #include "engine/voice_channels.hpp"
 #include "engine/waveform_timeline.hpp"
@@ -62,6 +63,8 @@ private:
     void learn() noexcept;
     void restorePast() noexcept;
     void prepare(std::int64_t start) noexcept;
+    /// Time from the publishing of the newest contact to the moment when a sample sounds.
+    [[nodiscard]] double secondsAhead(std::int64_t sample) const noexcept;
     [[nodiscard]] std::int64_t leadSamples(std::int64_t blockAdvance, double readingRate) const noexcept;
 
     VoiceChannels& channels_;
@@ -71,6 +74,10 @@ private:
     WaveformTimeline mirror_;
     // Rib phases of the present stream.
     RibTrack ribs_;
+    PlaceTrack places_;
+    // Of the requested segment.
+    SurfaceStretch stretch_;
+    RibTurns ribPhase_{};
     BlendBalance balance_;
 
     struct Sent {

@@ -66,6 +66,8 @@ Silence VoiceRenderer::reportedSilence(double rateHz) const noexcept {
 }
 
 void VoiceRenderer::noteBlock(std::size_t frames) noexcept {
+    blockHead_ = voice_.timeline().head();
+    blockSeconds_ = channels_.clock();
     // Devices may alternate between block lengths, so the maximum decreases only after many blocks.
     constexpr int window = 64;
     if (++blocksNoted_ >= window) {
@@ -458,6 +460,8 @@ void VoiceRenderer::report(std::uint64_t uncoveredBefore, bool sounded) noexcept
     playhead.running = running;
     playhead.takenSequence = takenSequence_;
     playhead.headAtTake = headAtTake_;
+    playhead.blockHead = blockHead_;
+    playhead.blockSeconds = blockSeconds_;
     playhead.blockAdvance = std::max(longestBlock_[0], longestBlock_[1]);
     timeline.view(playhead.timeline);
     channels_.playhead.post();

@@ -87,14 +87,14 @@ TEST_F(BlendRibsTest, NoPhaseJumpsDuringASweepBetweenTwoRuledLabels) {
     for (int step = 0; step <= 100; ++step) {
         const float share = 0.01F * static_cast<float>(step);
         const WaveVectors vectors = ribsOf({{1, 1.0F - share}, {2, share}}, before);
-        const std::array<float, 2> phases = track.at(step * hop, vectors);
+        const RibTurns phases = track.at(step * hop, vectors);
         for (std::size_t rib = 0; rib < all.size(); ++rib) {
             const auto slot = std::ranges::find(vectors, all[rib]) - vectors.begin();
             if (slot == 2) {
                 isKnown[rib] = false;
                 continue;
             }
-            const auto phase = static_cast<double>(phases[static_cast<std::size_t>(slot)]);
+            const double phase = phases[static_cast<std::size_t>(slot)];
             if (isKnown[rib]) {
                 const double gap = phase - travelled[rib];
                 ASSERT_NEAR(gap, std::round(gap), 1e-4) << "rib " << rib << " at a share of " << share;
@@ -107,7 +107,7 @@ TEST_F(BlendRibsTest, NoPhaseJumpsDuringASweepBetweenTwoRuledLabels) {
         }
         std::array<float, model::embeddingSize> embedding{};
         setWaveVectors(embedding, vectors);
-        track.add(step * hop, vectors, ribTurnsPerSample(embedding, 0.1, 0.05));
+        track.add(step * hop, vectors, phases, ribTurnsPerSample(embedding, 0.1, 0.05));
         before = vectors;
     }
 }

@@ -41,6 +41,8 @@ struct DeviceSettings {
     std::function<double(double)> latencySeconds = [](double) { return 0.002; };
     float fullScaleMps2 = 60.0F;
     std::optional<std::int64_t> fixedLeadSamples = std::nullopt;
+    /// Publisher and callback read the simulated clock, as they read the steady one in a real engine.
+    bool readsClock = false;
 };
 
 /// Main thread, worker and audio device of one voice on a simulated clock, with the rates and latencies of the
@@ -57,6 +59,10 @@ public:
           generator_(generator),
           voice_(library, workerAlive, voiceSettings(settings)) {
         voice_.renderer.setSink(&waveform);
+        if (settings.readsClock) {
+            voice_.channels.isRealTime = true;
+            voice_.channels.clock = []() noexcept { return clockSeconds; };
+        }
     }
 
     /// Runs for a time and appends the played samples to `output`.
@@ -69,6 +75,7 @@ public:
                 break;
             }
             now_ = next;
+            clockSeconds = next;
             if (pending_ && pendingAt_ <= next) {
                 deliver();
             } else if (nextUpdate_ <= next) {
@@ -114,6 +121,8 @@ public:
     WaveformRecorder waveform;
 
 private:
+    static inline double clockSeconds = 0.0;
+
     static LiveVoiceSettings voiceSettings(const DeviceSettings& settings) {
         LiveVoiceSettings voice;
         voice.planner.fixedLeadSamples = settings.fixedLeadSamples;

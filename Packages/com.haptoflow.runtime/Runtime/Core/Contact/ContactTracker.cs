@@ -398,6 +398,10 @@ namespace HaptoFlow.Contact
             reading.State.SecondVelocityMps = (float)Double3.Dot(velocity, reading.SecondAxis);
             reading.State.ApproachSpeedMps = (float)approachSpeedMps;
             reading.State.ForceNewtons = (float)ForceOf(surface, reading.PenetrationMetres);
+            reading.State.HasPlace = true;
+            reading.State.PlaceMetres = new PlaceVector(contact.Local.PointMetres);
+            reading.State.FirstAxis = new PlaceVector(surface.Frame.First);
+            reading.State.SecondAxis = new PlaceVector(surface.Frame.Second);
             return reading;
         }
 

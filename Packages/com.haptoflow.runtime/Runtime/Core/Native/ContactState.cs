@@ -57,6 +57,30 @@ namespace HaptoFlow
         /// positive is brighter, 0 is none.</summary>
         public float ToneDbPerOctave;
 
+        private uint hasPlace;
+
+        /// <summary>Names the surface: the same place of the same surface feels the same in every touch and every
+        /// session, and surfaces with different numbers differ.</summary>
+        public uint SurfaceSeed;
+
+        /// <summary>The contact point in a frame that moves and turns with the surface, in metres; read where
+        /// <see cref="HasPlace"/> is true.</summary>
+        public PlaceVector PlaceMetres;
+
+        /// <summary>The first axis of the velocity in that frame, of length 1.</summary>
+        public PlaceVector FirstAxis;
+
+        /// <summary>The second axis of the velocity in that frame, of length 1.</summary>
+        public PlaceVector SecondAxis;
+
+        /// <summary>True where <see cref="PlaceMetres"/> and the axes say where the tip is. Where they do not, the voice
+        /// adds up the velocity from the touch-down on, and a place feels the same within one touch only.</summary>
+        public bool HasPlace
+        {
+            readonly get => hasPlace != 0;
+            set => hasPlace = value ? 1u : 0u;
+        }
+
         /// <summary>True while the tip touches a surface.</summary>
         public bool Touching
         {
