@@ -105,11 +105,11 @@ TEST_F(PlaceTest, APlaceIsHeardWhenTheTipIsThereWhateverTheDevice) {
     }
 }
 
-TEST_F(PlaceTest, TwoStylusesFindTheSameSurfaceAndSurfacesDiffer) {
+TEST_F(PlaceTest, AnotherPlaceHasOtherNoise) {
     DeviceSettings settings;
     settings.readsClock = true;
     const std::vector<float> first = heard(settings, 0.05, 0.1);
-    EXPECT_GT(match(first, 0.05, 0.1).correlation, 0.75);
+    EXPECT_GT(match(first, 0.05, 0.1).correlation, 0.6);
     EXPECT_LT(match(first, 0.25, 0.1).correlation, 0.2);
 }
 
