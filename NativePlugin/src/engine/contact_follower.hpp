@@ -2,6 +2,7 @@
 
 #include "engine/contact_state.hpp"
 
+#include <array>
 #include <cstdint>
 
 namespace haptoflow::engine {
@@ -22,22 +23,44 @@ enum class ContactAction {
 
 /// Derives actions from the contact states of one stylus. Texture sounds only while the tip slides, and only on
 /// surfaces with the texture effect.
+///
+/// Where the place is known, the distance decides and not the speed alone, so that a tip which creeps is heard and a
+/// tip which a hand holds still is not, although its tremor of up to half a millimetre is faster than creeping. Sliding
+/// begins a millimetre from where the tip came to rest, or half a millimetre from there at the speed of a stroke. It
+/// goes on while the tip draws a point along behind it on a slack string of half a millimetre (the play operator of
+/// hysteresis: Visintin, "Differential Models of Hysteresis", 1994), and ends when the tip stops or has not moved that
+/// point for 150 ms, in which a tip at 7 mm/s turns back.
+///
+/// Where the place is unknown, the speed decides: from 4 mm/s on, until below 2 mm/s.
 class ContactFollower {
 public:
-    /// Sliding begins at 4 mm/s and ends below 2 mm/s.
     static constexpr float slideStartMps = 0.004F;
     static constexpr float slideEndMps = 0.002F;
+    static constexpr float strokeMps = 0.03F;
+    static constexpr float stopMps = 0.0003F;
+    static constexpr float stringMetres = 0.0005F;
+    static constexpr float startMetres = 0.001F;
+    static constexpr double holdSeconds = 0.15;
 
-    [[nodiscard]] ContactAction update(const ContactState& state) noexcept;
+    /// `nowSeconds` is the time of the state on a clock that runs while the voice is rendered.
+    [[nodiscard]] ContactAction update(const ContactState& state, double nowSeconds) noexcept;
     [[nodiscard]] bool sliding() const noexcept { return sliding_; }
     /// Number of touch-downs so far, independent of the caller's touch counter.
     [[nodiscard]] std::uint64_t touches() const noexcept { return touches_; }
 
 private:
+    [[nodiscard]] bool slidesBySpeed(float speedMps, bool isNewTouch) const noexcept;
+    [[nodiscard]] bool slidesByDistance(const ContactState& state, bool isNewTouch, double nowSeconds) noexcept;
+
     std::uint32_t touchCounter_ = 0;
     std::uint64_t touches_ = 0;
     bool touching_ = false;
     bool sliding_ = false;
+    // The end of the string: where the tip came to rest, or what it draws along. Valid while `drawsPoint_`.
+    bool drawsPoint_ = false;
+    std::uint32_t surfaceSeed_ = 0;
+    std::array<float, 3> pointMetres_{};
+    double pulledSeconds_ = 0.0;
 };
 
 }  // namespace haptoflow::engine

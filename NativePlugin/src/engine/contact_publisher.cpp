@@ -42,8 +42,9 @@ ContactAction ContactPublisher::publish(ContactState state) noexcept {
     VoiceCounters& counters = channels_.counters;
     counters.sanitised.fetch_add(sanitise(state), std::memory_order_relaxed);
     counters.updates.fetch_add(1, std::memory_order_relaxed);
+    const double nowSeconds = channels_.clock();
     if (state.isMoving() != contact_.state.isMoving()) {
-        movingSinceSeconds_ = contact_.publishedSeconds;
+        movingSinceSeconds_ = nowSeconds;
     }
     const bool hasSignal = channels_.controls.signal.load(std::memory_order_relaxed).isSet();
     if (hasSignal) {
@@ -51,7 +52,7 @@ ContactAction ContactPublisher::publish(ContactState state) noexcept {
         blows_.withdraw(surfaceEffects);
     }
 
-    const ContactAction action = follower_.update(state);
+    const ContactAction action = follower_.update(state, channels_.renderedSeconds.load(std::memory_order_relaxed));
     const bool isNewTouch = follower_.touches() != contact_.touch;
     const MaterialLibrary::ReadScope reading(library_);
     const Ingredients ingredients = reading.ingredients(state.material);
@@ -60,7 +61,7 @@ ContactAction ContactPublisher::publish(ContactState state) noexcept {
         ribs_ = waveVectorsOf(material.embedding);
     }
     contact_.state = state;
-    contact_.publishedSeconds = channels_.clock();
+    contact_.publishedSeconds = nowSeconds;
     contact_.onset += action == ContactAction::onset || action == ContactAction::tap ? 1 : 0;
     contact_.touch = follower_.touches();
     contact_.sliding = follower_.sliding();

@@ -141,6 +141,8 @@ struct VoiceChannels {
     /// Reason for the silence of the newest block, and the device's rate. Set by the callback.
     std::atomic<Silence> silence{Silence::rest};
     std::atomic<double> deviceRateHz{0.0};
+    /// Time that was rendered so far. Set by the callback.
+    std::atomic<double> renderedSeconds{0.0};
     std::atomic<bool> isRateSupported{true};
 
     /// Blow::number of the newest blow that the callback has taken. Set by the callback.

@@ -46,7 +46,10 @@ void VoiceRenderer::render(std::span<float> out, double rateHz) noexcept {
     }
     contactAgeFrames_ += out.size();
     lastPlace_ -= static_cast<std::int64_t>(out.size());
-    waitedSeconds_ += dsp::isOutputRate(rateHz) ? static_cast<double>(out.size()) / rateHz : 0.0;
+    const double blockSeconds = dsp::isOutputRate(rateHz) ? static_cast<double>(out.size()) / rateHz : 0.0;
+    waitedSeconds_ += blockSeconds;
+    channels_.renderedSeconds.store(channels_.renderedSeconds.load(std::memory_order_relaxed) + blockSeconds,
+                                    std::memory_order_relaxed);
     count(channels_.counters.renderedFrames, out.size());
     channels_.audible.store(!voice_.isSilent(), std::memory_order_release);
     channels_.silence.store(reportedSilence(rateHz), std::memory_order_relaxed);
