@@ -57,6 +57,7 @@ Scene checked(Scene scene, const ContactSettings& settings) {
     require(notNegative(settings.openMeshDepthMetres), "openMeshDepthMetres must be 0 or more");
     require(notNegative(settings.lostSeconds), "lostSeconds must be 0 or more");
     require(positive(velocity.windowSeconds), "windowSeconds must be above 0");
+    require(positive(velocity.approachSeconds), "approachSeconds must be above 0");
     require(notNegative(velocity.holdSeconds), "holdSeconds must be 0 or more");
     require(velocity.stopSeconds > velocity.holdSeconds && isUsable(velocity.stopSeconds),
             "stopSeconds must be above holdSeconds");
@@ -308,16 +309,17 @@ void ContactTracker::countEdge(double heightMetres) noexcept {
 
 ContactReading ContactTracker::describe(const Candidate& contact, bool touchDown, const TipSample& sample) {
     const glm::dvec3 normal = unitOr(contact.pose.directionToWorld(contact.local.normal), {0.0, 1.0, 0.0});
-    const glm::dvec3 velocity = relativeVelocity(history_, scene_.surfaces[contact.surface], contact.local.pointMetres);
+    const auto [velocity, approach] =
+        relativeVelocity(history_, scene_.surfaces[contact.surface], contact.local.pointMetres);
     const TangentAxes& axes = frames_[contact.surface].update(contact.local.normal, stepSeconds_);
     localNormal_ = contact.local.normal;
     if (touchDown) {
         ++touchCounter_;
         ++statistics_.touchDowns;
-        approachSpeedMps_ = std::max(0.0, -glm::dot(velocity, normal));
+        approachSpeedMps_ = std::max(0.0, -glm::dot(approach, normal));
         transitions_.forget();
     }
-    noteTransition({contact.surface, {contact.local.pointMetres, contact.local.normal}, contact.pose}, velocity);
+    noteTransition({contact.surface, {contact.local.pointMetres, contact.local.normal}, contact.pose}, approach);
 
     ContactReading reading = idle();
     reading.touching = true;

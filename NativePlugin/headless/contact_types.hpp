@@ -55,11 +55,15 @@ struct ContactReading {
 
 /// Settings of the velocity estimate from tracked positions. See TipHistory.
 struct VelocitySettings {
-    /// The line is fitted to the positions of this time, or to three positions if they are sparser.
-    double windowSeconds = 0.035;
-    /// A repeated position counts as held by the tracker up to this time, then the velocity fades.
+    /// The longest time from which positions are taken, no whole number of usual frames, so that rounding does not
+    /// decide how many; two positions are always taken.
+    double windowSeconds = 0.105;
+    /// The time over which the speed of an approach is averaged, or three positions if they are sparser: what a tip
+    /// meets has turned it by the time that it is noticed.
+    double approachSeconds = 0.035;
+    /// A repeated position counts as held by a tracker that repeats itself up to this time, then the velocity fades.
     double holdSeconds = 0.030;
-    /// A position repeated for this long means that the tip has stopped.
+    /// A position repeated for this long by such a tracker means that the tip has stopped.
     double stopSeconds = 0.050;
     /// A longer pause drops the history.
     double maximumGapSeconds = 0.250;

@@ -4,6 +4,12 @@
 #include <glm/geometric.hpp>
 
 namespace haptoflow::headless {
+namespace {
+
+// A tracker that measured so often without repeating itself is trusted not to.
+constexpr std::size_t trustedMeasurements = 32;
+
+}  // namespace
 
 TipHistory::TipHistory(const VelocitySettings& settings) : settings_(settings) {
     frames_.reserve(capacity);
@@ -16,6 +22,9 @@ void TipHistory::clear() noexcept {
 
 TipStep TipHistory::start(TipStep step, double timeSeconds, const glm::dvec3& positionMetres) {
     clear();
+    noise_.restart();
+    noise_.add(timeSeconds, positionMetres);
+    movedSeconds_ = timeSeconds;
     frames_.push_back({timeSeconds, positionMetres, true});
     latestSeconds_ = timeSeconds;
     measuredSeconds_ = timeSeconds;
@@ -39,24 +48,41 @@ TipStep TipHistory::add(double timeSeconds, const glm::dvec3& positionMetres) {
         return start(TipStep::teleported, timeSeconds, positionMetres);
     }
     latestSeconds_ = timeSeconds;
-    if (timeSeconds - frames_.back().timeSeconds < settings_.minimumStepSeconds) {
+    const double frameSeconds = timeSeconds - frames_.back().timeSeconds;
+    if (frameSeconds < settings_.minimumStepSeconds) {
         return TipStep::continued;
     }
-    if (moved > settings_.minimumMoveMetres) {
-        resting_ = false;
-    } else if (sinceMeasured >= settings_.stopSeconds) {
+    const bool hasMoved = moved > settings_.minimumMoveMetres;
+    if (hasMoved) {
+        measure(timeSeconds, positionMetres, frameSeconds);
+    } else if (sinceMeasured >= stopSeconds()) {
         confirmStop(timeSeconds);
     }
-    const bool fresh = resting_ || moved > settings_.minimumMoveMetres;
     if (frames_.size() == capacity) {
         frames_.erase(frames_.begin());
     }
-    frames_.push_back({timeSeconds, positionMetres, fresh});
-    if (fresh) {
+    frames_.push_back({timeSeconds, positionMetres, hasMoved || resting_});
+    if (frames_.back().fresh) {
         measuredSeconds_ = timeSeconds;
         measuredMetres_ = positionMetres;
     }
     return TipStep::continued;
+}
+
+/// Learns about the tracker from a position that differs from the last.
+void TipHistory::measure(double timeSeconds, const glm::dvec3& positionMetres, double frameSeconds) {
+    moveSeconds_ = timeSeconds - movedSeconds_;
+    movedSeconds_ = timeSeconds;
+    resting_ = false;
+    measurementsInRow_ = std::min(measurementsInRow_ + 1, trustedMeasurements);
+    if (moveSeconds_ > frameSeconds) {
+        noise_.restart();
+        if (moveSeconds_ <= settings_.stopSeconds) {
+            hasRepeated_ = true;
+            measurementsInRow_ = 0;
+        }
+    }
+    noise_.add(timeSeconds, positionMetres);
 }
 
 void TipHistory::confirmStop(double timeSeconds) {
@@ -73,8 +99,19 @@ void TipHistory::confirmStop(double timeSeconds) {
 
 double TipHistory::confidence() const noexcept {
     const double held = latestSeconds_ - measuredSeconds_;
-    const double fading = settings_.stopSeconds - settings_.holdSeconds;
-    return std::clamp((settings_.stopSeconds - held) / fading, 0.0, 1.0);
+    return std::clamp((stopSeconds() - held) / (stopSeconds() - holdSeconds()), 0.0, 1.0);
+}
+
+bool TipHistory::isTrusted() const noexcept {
+    return measurementsInRow_ >= trustedMeasurements;
+}
+
+double TipHistory::holdSeconds() const noexcept {
+    return isTrusted() ? std::min(settings_.holdSeconds, 0.5 * moveSeconds_) : settings_.holdSeconds;
+}
+
+double TipHistory::stopSeconds() const noexcept {
+    return isTrusted() ? std::min(settings_.stopSeconds, 1.5 * moveSeconds_) : settings_.stopSeconds;
 }
 
 }  // namespace haptoflow::headless

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "headless/contact_types.hpp"
+#include "headless/tracker_noise.hpp"
 
 #include <cstddef>
 #include <glm/vec3.hpp>
@@ -33,6 +34,8 @@ enum class TipStep {
 ///
 /// A tracker slower than the frame rate repeats positions. Repeated positions are not measurements and are excluded
 /// from the velocity until `stopSeconds`; after that the tip has really stopped, and all of them count as measurements.
+/// For a tracker that has not repeated itself for a while, one repeated position may be either, and a second is a stop.
+/// One that has is slow: its positions are as old as its own clock says, by up to a frame.
 class TipHistory {
 public:
     static constexpr std::size_t capacity = 256;
@@ -45,19 +48,32 @@ public:
 
     /// Oldest first.
     [[nodiscard]] std::span<const TipFrame> frames() const noexcept { return frames_; }
-    /// Weight of the last measurement's velocity: 1 up to `holdSeconds` after it, 0 from `stopSeconds` on.
+    /// Noise of the positions on each axis.
+    [[nodiscard]] double noiseMetres() const noexcept { return noise_.metres(); }
+    /// True if the tracker repeated itself within its last measurements.
+    [[nodiscard]] bool isSlow() const noexcept { return hasRepeated_ && !isTrusted(); }
+    /// Weight of the last measurement's velocity: 1 up to the hold time after it, 0 from the stop time on.
     [[nodiscard]] double confidence() const noexcept;
     [[nodiscard]] const VelocitySettings& settings() const noexcept { return settings_; }
 
 private:
     TipStep start(TipStep step, double timeSeconds, const glm::dvec3& positionMetres);
     void confirmStop(double timeSeconds);
+    void measure(double timeSeconds, const glm::dvec3& positionMetres, double frameSeconds);
+    [[nodiscard]] bool isTrusted() const noexcept;
+    [[nodiscard]] double holdSeconds() const noexcept;
+    [[nodiscard]] double stopSeconds() const noexcept;
 
     VelocitySettings settings_;
+    TrackerNoise noise_;
     std::vector<TipFrame> frames_;
     double latestSeconds_ = 0.0;
     double measuredSeconds_ = 0.0;
     glm::dvec3 measuredMetres_{0.0};
+    double movedSeconds_ = 0.0;
+    double moveSeconds_ = 0.0;
+    std::size_t measurementsInRow_ = 0;
+    bool hasRepeated_ = false;
     bool resting_ = false;
 };
 

@@ -96,6 +96,7 @@ namespace HaptoFlow.RepositoryTests
                 LostSeconds = json["lost_seconds"].AsNumber(),
             };
             settings.Velocity.WindowSeconds = json["velocity_window_seconds"].AsNumber();
+            settings.Velocity.ApproachSeconds = json["velocity_approach_seconds"].AsNumber();
             settings.Velocity.HoldSeconds = json["velocity_hold_seconds"].AsNumber();
             settings.Velocity.StopSeconds = json["velocity_stop_seconds"].AsNumber();
             settings.Velocity.MaximumGapSeconds = json["velocity_longest_gap_seconds"].AsNumber();

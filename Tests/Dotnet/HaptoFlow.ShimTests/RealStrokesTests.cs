@@ -59,7 +59,10 @@ namespace HaptoFlow.ShimTests
                 float gap = Vector3.Dot(stylus.transform.position - table.transform.position, normal) - tipRadiusMetres;
                 landings += far && gap < 0f ? 1 : 0;
                 far = gap > ReleaseDistanceMetres || (far && gap >= 0f);
-                Assert.That(float.IsNaN(stylus.Contact.FirstVelocityMps), Is.False);
+                HapticContact contact = stylus.Contact;
+                float speed = Mathf.Sqrt(contact.FirstVelocityMps * contact.FirstVelocityMps +
+                    contact.SecondVelocityMps * contact.SecondVelocityMps);
+                Assert.That(speed, Is.LessThan(3f), $"{name} at {seconds:F2} s");
             }
             Assert.That(landings, Is.GreaterThan(0), name);
             Assert.That(log.Began, Is.LessThanOrEqualTo(landings), $"{name}: on and off more than once a landing");

@@ -21,6 +21,7 @@ void visitSettings(Settings& settings, Visit&& visit) {
     visit("open_mesh_depth_metres", settings.openMeshDepthMetres);
     visit("lost_seconds", settings.lostSeconds);
     visit("velocity_window_seconds", settings.velocity.windowSeconds);
+    visit("velocity_approach_seconds", settings.velocity.approachSeconds);
     visit("velocity_hold_seconds", settings.velocity.holdSeconds);
     visit("velocity_stop_seconds", settings.velocity.stopSeconds);
     visit("velocity_longest_gap_seconds", settings.velocity.maximumGapSeconds);

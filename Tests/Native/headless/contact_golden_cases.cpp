@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <numbers>
+#include <random>
 
 namespace haptoflow::headless::golden {
 namespace {
@@ -106,6 +107,19 @@ Case trackerHold() {
                   }));
 }
 
+Case noisyScribble() {
+    const json table = surfaceWith("table", {{"plane", json::object()}});
+    std::mt19937 random(7);
+    return caseOf("a scribble by a noisy tracker, rest, and an exact stop", sceneWith({table}, 0.001),
+                  sampledPath(2.0, frameRateHz, [&](double time) {
+                      const double metres = time < 1.0 ? 0.01 * std::sin(6.0 * std::numbers::pi * time) : 0.0;
+                      const auto noise = [&] {
+                          return time < 1.7 ? 0.0002 * (static_cast<double>(random()) / 4294967296.0 - 0.5) : 0.0;
+                      };
+                      return glm::dvec3{metres + noise(), 0.0004 + noise(), 0.5 * metres + noise()};
+                  }));
+}
+
 Case brokenTracking() {
     const json table = surfaceWith("table", {{"plane", json::object()}});
     const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -159,8 +173,8 @@ Case stepsAndWall() {
 }  // namespace
 
 std::vector<Case> goldenCases() {
-    return {boxEdge(),     deepInsideBox(),  spherePole(),  movingPlate(), meshAndBlend(),
-            trackerHold(), brokenTracking(), seamAndTaps(), stepsAndWall()};
+    return {boxEdge(),     deepInsideBox(), spherePole(),     movingPlate(), meshAndBlend(),
+            trackerHold(), noisyScribble(), brokenTracking(), seamAndTaps(), stepsAndWall()};
 }
 
 }  // namespace haptoflow::headless::golden

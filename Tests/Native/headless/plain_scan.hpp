@@ -101,13 +101,13 @@ private:
 
     void describe(const Found& contact, bool touchDown, double stepSeconds) {
         const glm::dvec3 normal = unitOr(contact.pose.directionToWorld(contact.local.normal), {0.0, 1.0, 0.0});
-        const glm::dvec3 velocity =
+        const auto [velocity, approach] =
             relativeVelocity(history_, scene_.surfaces[contact.surface], contact.local.pointMetres);
         const TangentAxes& axes = frames_[contact.surface].update(contact.local.normal, stepSeconds);
         normal_ = contact.local.normal;
         if (touchDown) {
             ++last_.touchCounter;
-            approachSpeedMps_ = std::max(0.0, -glm::dot(velocity, normal));
+            approachSpeedMps_ = std::max(0.0, -glm::dot(approach, normal));
         }
         last_.touching = true;
         last_.surfaceIndex = static_cast<int>(contact.surface);

@@ -7,15 +7,19 @@ namespace HaptoFlow.Contact
     /// <summary>Settings for the velocity from tracked positions. See <see cref="TipHistory"/>.</summary>
     internal sealed class VelocitySettings
     {
-        /// <summary>Time window of the velocity estimate; it always includes three positions where they are
-        /// sparser.</summary>
-        public double WindowSeconds { get; set; } = 0.035;
+        /// <summary>The longest time from which positions are taken, no whole number of usual frames, so that rounding
+        /// does not decide how many; two positions are always taken.</summary>
+        public double WindowSeconds { get; set; } = 0.105;
 
-        /// <summary>A position repeated for up to this long counts as a tracker repeating itself; then the velocity
-        /// fades.</summary>
+        /// <summary>The time over which the speed of an approach is averaged, or three positions if they are sparser:
+        /// what a tip meets has turned it by the time that it is noticed.</summary>
+        public double ApproachSeconds { get; set; } = 0.035;
+
+        /// <summary>A position repeated for up to this long counts as held by a tracker that repeats itself; then the
+        /// velocity fades.</summary>
         public double HoldSeconds { get; set; } = 0.030;
 
-        /// <summary>A position repeated for this long counts as a stop.</summary>
+        /// <summary>A position repeated for this long by such a tracker counts as a stop.</summary>
         public double StopSeconds { get; set; } = 0.050;
 
         /// <summary>After a longer pause the history is discarded.</summary>
@@ -73,6 +77,7 @@ namespace HaptoFlow.Contact
             Require(NotNegative(OpenMeshDepthMetres), nameof(OpenMeshDepthMetres), "0 or more");
             Require(NotNegative(LostSeconds), nameof(LostSeconds), "0 or more");
             Require(Positive(Velocity.WindowSeconds), nameof(Velocity.WindowSeconds), "above 0");
+            Require(Positive(Velocity.ApproachSeconds), nameof(Velocity.ApproachSeconds), "above 0");
             Require(NotNegative(Velocity.HoldSeconds), nameof(Velocity.HoldSeconds), "0 or more");
             Require(Positive(Velocity.StopSeconds) && Velocity.StopSeconds > Velocity.HoldSeconds,
                 nameof(Velocity.StopSeconds), "above " + nameof(Velocity.HoldSeconds));

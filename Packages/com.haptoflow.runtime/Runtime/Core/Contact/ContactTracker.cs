@@ -374,17 +374,18 @@ namespace HaptoFlow.Contact
         {
             ContactBody surface = contact.Surface;
             Double3 normal = Vectors.UnitOr(contact.Pose.DirectionToWorld(contact.Local.Normal), Double3.Up);
-            Double3 velocity = relativeVelocity.Of(history, surface.Track, contact.Local.PointMetres);
+            TipVelocity found = relativeVelocity.Of(history, surface.Track, contact.Local.PointMetres);
+            Double3 velocity = found.NowMps;
             surface.Frame.Update(contact.Local.Normal, stepSeconds);
             localNormal = contact.Local.Normal;
             if (touchDown)
             {
                 ++touchCounter;
                 ++statistics.TouchDowns;
-                approachSpeedMps = Math.Max(0.0, -Double3.Dot(velocity, normal));
+                approachSpeedMps = Math.Max(0.0, -Double3.Dot(found.ApproachMps, normal));
                 transitions.Forget();
             }
-            CountTransition(contact, velocity);
+            CountTransition(contact, found.ApproachMps);
 
             ContactReading reading = Idle();
             reading.State.Touching = true;

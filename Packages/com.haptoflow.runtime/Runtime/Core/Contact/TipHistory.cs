@@ -1,4 +1,5 @@
 #nullable enable
+using System;
 using HaptoFlow.Numerics;
 
 namespace HaptoFlow.Contact
@@ -33,16 +34,26 @@ namespace HaptoFlow.Contact
     /// stops.</summary>
     /// <remarks>A tracker slower than the frame rate repeats positions. Repetitions are not measurements and are left
     /// out of the velocity until <see cref="VelocitySettings.StopSeconds"/>; then the tip has really stopped and all of
-    /// them count as measurements.</remarks>
+    /// them count as measurements. For a tracker that has not repeated itself for a while, one repeated position may be
+    /// either, and a second is a stop. One that has is slow: its positions are as old as its own clock says, by up to a
+    /// frame.</remarks>
     internal sealed class TipHistory
     {
         public const int Capacity = 256;
 
+        // A tracker that measured so often without repeating itself is trusted not to.
+        private const int TrustedMeasurements = 32;
+
         private readonly TipFrame[] frames = new TipFrame[Capacity];
+        private readonly TrackerNoise noise = new TrackerNoise();
         private int oldest;
         private double latestSeconds;
         private double measuredSeconds;
         private Double3 measuredMetres;
+        private double movedSeconds;
+        private double moveSeconds;
+        private int measurementsInRow;
+        private bool hasRepeated;
         private bool resting;
 
         public TipHistory(VelocitySettings settings) => Settings = settings;
@@ -51,6 +62,12 @@ namespace HaptoFlow.Contact
 
         public int Count { get; private set; }
 
+        /// <summary>Noise of the positions on each axis.</summary>
+        public double NoiseMetres => noise.Metres;
+
+        /// <summary>True if the tracker repeated itself within its last measurements.</summary>
+        public bool IsSlow => hasRepeated && !IsTrusted;
+
         /// <summary>Weight of the last measurement's velocity: 1 up to the hold time, falling to 0 at the stop
         /// time.</summary>
         public double Confidence
@@ -58,10 +75,19 @@ namespace HaptoFlow.Contact
             get
             {
                 double held = latestSeconds - measuredSeconds;
-                double fading = Settings.StopSeconds - Settings.HoldSeconds;
-                return Vectors.Clamp((Settings.StopSeconds - held) / fading, 0.0, 1.0);
+                return Vectors.Clamp((StopSeconds - held) / (StopSeconds - HoldSeconds), 0.0, 1.0);
             }
         }
+
+        private bool IsTrusted => measurementsInRow >= TrustedMeasurements;
+
+        private double HoldSeconds => IsTrusted
+            ? Math.Min(Settings.HoldSeconds, 0.5 * moveSeconds)
+            : Settings.HoldSeconds;
+
+        private double StopSeconds => IsTrusted
+            ? Math.Min(Settings.StopSeconds, 1.5 * moveSeconds)
+            : Settings.StopSeconds;
 
         /// <summary>The frame of an age; 0 is the newest.</summary>
         public ref readonly TipFrame Newest(int age) => ref At(Count - 1 - age);
@@ -96,19 +122,21 @@ namespace HaptoFlow.Contact
                 return Start(TipStep.Teleported, timeSeconds, positionMetres);
             }
             latestSeconds = timeSeconds;
-            if (timeSeconds - Newest(0).TimeSeconds < Settings.MinimumStepSeconds)
+            double frameSeconds = timeSeconds - Newest(0).TimeSeconds;
+            if (frameSeconds < Settings.MinimumStepSeconds)
             {
                 return TipStep.Continued;
             }
-            if (moved > Settings.MinimumMoveMetres)
+            bool hasMoved = moved > Settings.MinimumMoveMetres;
+            if (hasMoved)
             {
-                resting = false;
+                Measure(timeSeconds, positionMetres, frameSeconds);
             }
-            else if (sinceMeasured >= Settings.StopSeconds)
+            else if (sinceMeasured >= StopSeconds)
             {
                 ConfirmStop(timeSeconds);
             }
-            bool fresh = resting || moved > Settings.MinimumMoveMetres;
+            bool fresh = hasMoved || resting;
             Push(timeSeconds, positionMetres, fresh);
             if (fresh)
             {
@@ -121,11 +149,33 @@ namespace HaptoFlow.Contact
         private TipStep Start(TipStep step, double timeSeconds, Double3 positionMetres)
         {
             Clear();
+            noise.Restart();
+            noise.Add(timeSeconds, positionMetres);
+            movedSeconds = timeSeconds;
             Push(timeSeconds, positionMetres, true);
             latestSeconds = timeSeconds;
             measuredSeconds = timeSeconds;
             measuredMetres = positionMetres;
             return step;
+        }
+
+        /// <summary>Learns about the tracker from a position that differs from the last.</summary>
+        private void Measure(double timeSeconds, Double3 positionMetres, double frameSeconds)
+        {
+            moveSeconds = timeSeconds - movedSeconds;
+            movedSeconds = timeSeconds;
+            resting = false;
+            measurementsInRow = Math.Min(measurementsInRow + 1, TrustedMeasurements);
+            if (moveSeconds > frameSeconds)
+            {
+                noise.Restart();
+                if (moveSeconds <= Settings.StopSeconds)
+                {
+                    hasRepeated = true;
+                    measurementsInRow = 0;
+                }
+            }
+            noise.Add(timeSeconds, positionMetres);
         }
 
         private void ConfirmStop(double timeSeconds)

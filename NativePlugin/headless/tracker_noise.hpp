@@ -1,0 +1,35 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <glm/vec3.hpp>
+
+namespace haptoflow::headless {
+
+/// How noisy a tracker's places are, from the places themselves.
+///
+/// A hand's path is smooth over four measurements; what their third difference says is mostly noise. The estimate
+/// follows a low quantile of it by small steps (Robbins and Monro 1951), because now and then the hand adds its share.
+class TrackerNoise {
+public:
+    /// On each axis.
+    [[nodiscard]] double metres() const noexcept { return metres_; }
+
+    /// Forgets the measurements, not what was learnt from them.
+    void restart() noexcept { count_ = 0; }
+
+    /// A new measurement, in the frame after the last one's.
+    void add(double timeSeconds, const glm::dvec3& placeMetres) noexcept;
+
+private:
+    struct Measurement {
+        double timeSeconds = 0.0;
+        glm::dvec3 placeMetres{0.0};
+    };
+
+    std::array<Measurement, 4> newest_{};
+    std::size_t count_ = 0;
+    double metres_ = 50e-6;
+};
+
+}  // namespace haptoflow::headless
