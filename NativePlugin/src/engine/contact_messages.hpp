@@ -30,6 +30,8 @@ struct PublishedContact {
     std::uint64_t updates = 0;
     std::uint64_t slides = 0;
     RangedMotion ranged;
+    /// The materials' level for the motion, before the range law's gain; that of the newest sliding state.
+    float levelMps2 = 1.0F;
     /// VoiceChannels::clock when it was published.
     double publishedSeconds = 0.0;
 };

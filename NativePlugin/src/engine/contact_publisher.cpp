@@ -17,13 +17,13 @@ constexpr effects::EffectMask surfaceEffects =
 
 /// The heaviest material's seed that is nearest to a motion, scaled to the level of that motion; silence if the
 /// material has no seed.
-OnsetSeed seedFor(const Ingredients& ingredients, const Material& material, const RangedMotion& ranged) noexcept {
+OnsetSeed seedFor(const Ingredients& ingredients, const Material& material, const RangedMotion& ranged,
+                  float levelMps2) noexcept {
     OnsetSeed onset;
     const Seed* seed = retrieveSeed(ingredients.heaviest().material->seeds, ranged.motion);
     if (seed == nullptr) {
         return onset;
     }
-    const float levelMps2 = ingredients.levelMps2(ranged.levelMotion);
     std::ranges::transform(seed->samples, onset.samplesMps2.begin(),
                            [levelMps2](float sample) { return sample * levelMps2; });
     // The seed plays as recorded, so its rib phase advances with its own velocity and not with the tip's.
@@ -71,7 +71,8 @@ ContactAction ContactPublisher::publish(ContactState state) noexcept {
         applyRangeLaw(library_.model().header(), material, state.velocityMps, state.forceNewtons, state.spatialScale);
     // Every sliding state carries a seed, because the callback may resume with any of them.
     if (contact_.sliding || action == ContactAction::tap) {
-        seed_ = seedFor(ingredients, material, contact_.ranged);
+        contact_.levelMps2 = ingredients.levelMps2(contact_.ranged.levelMotion);
+        seed_ = seedFor(ingredients, material, contact_.ranged, contact_.levelMps2);
     }
     blows_.follow(contact_, ingredients, reading.ingredients(blows_.touched().material));
     if (action == ContactAction::rest && state.touching != 0) {

@@ -180,6 +180,7 @@ bool SegmentPlanner::deliver(std::span<float, inference::segmentSamples> segment
     sent.segment.sequence = sequence_;
     sent.segment.stream = stream_;
     sent.segment.start = plannedStart_;
+    sent.segment.levelMps2 = contact.levelMps2;
     std::ranges::copy(segmentMps2, sent.segment.samplesMps2.begin());
     sent.plannedHead = playhead.timeline.head;
     sent.readingRate = contact.ranged.readingRate;

@@ -17,6 +17,8 @@ struct QueuedSegment {
     std::uint64_t stream = 0;
     /// The sample in waveform time at which it takes over.
     std::int64_t start = 0;
+    /// The level that it was generated for: PublishedContact::levelMps2.
+    float levelMps2 = 1.0F;
     /// m/s^2.
     std::array<float, inference::segmentSamples> samplesMps2{};
 };

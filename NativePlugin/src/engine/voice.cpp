@@ -18,12 +18,13 @@ std::unique_ptr<OutputStage> Voice::exchangeOutput(std::unique_ptr<OutputStage> 
     return output;
 }
 
-void Voice::onset(std::span<const float, WaveformTimeline::seedSamples> seedMps2) noexcept {
+void Voice::onset(std::span<const float, WaveformTimeline::seedSamples> seedMps2, float levelMps2) noexcept {
     const bool fromSilence = isTextureSilent();
     if (fromSilence) {
         timeline_.clear();
     }
     timeline_.open(seedMps2);
+    follower_.begin(timeline_.head(), levelMps2);
     if (fromSilence) {
         prime();
     }
@@ -88,8 +89,12 @@ void Voice::prime() noexcept {
     warp_.setTargetRatio(readingRate_);
 }
 
-std::int64_t Voice::commit(std::int64_t start, std::span<const float, inference::segmentSamples> segment) noexcept {
+std::int64_t Voice::commit(std::int64_t start, std::span<const float, inference::segmentSamples> segment,
+                           float levelMps2) noexcept {
     const std::int64_t takeOver = timeline_.commit(start, segment);
+    if (takeOver >= 0) {
+        follower_.takeOver(takeOver, levelMps2);
+    }
     if (sink_ != nullptr && takeOver >= 0) {
         sink_->tookOver(takeOver);
     }
@@ -130,6 +135,7 @@ void Voice::applyTone(std::span<float> samplesMps2) noexcept {
 void Voice::readWaveform(std::span<float> out) noexcept {
     const std::int64_t start = timeline_.head();
     timeline_.read(out);
+    follower_.process(start, out);
     applyTone(out);
     if (sink_ != nullptr && !out.empty()) {
         sink_->played(start, out);

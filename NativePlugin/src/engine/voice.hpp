@@ -4,6 +4,7 @@
 #include "dsp/limiter.hpp"
 #include "dsp/rate_warp.hpp"
 #include "dsp/tone_filter.hpp"
+#include "engine/level_follower.hpp"
 #include "engine/output_stage.hpp"
 #include "engine/waveform_timeline.hpp"
 
@@ -27,8 +28,9 @@ public:
     virtual void tookOver(std::int64_t sample) noexcept = 0;
 };
 
-/// The signal of one stylus tip. Its stages in order: timeline, tone, level, reading rate, output rate, gate, blows and
-/// signal, delay, compensation, strength, exposure guard, the gate of all effects, limiter.
+/// The signal of one stylus tip. Its stages in order: timeline, level of the newest state, tone, range law, reading
+/// rate, output rate, gate, blows and signal, delay, compensation, strength, exposure guard, the gate of all effects,
+/// limiter.
 ///
 /// While the texture's gate is closed, the waveform is not read and its clock stands still. If no effect sounds either,
 /// `render` writes zeros. Used by one thread. Construction excepted, all functions take bounded time, allocate nothing
@@ -40,10 +42,13 @@ public:
     Voice(double outputRateHz, float fullScaleMps2, EffectFigures& figures);
 
     /// Touch-down, or sliding resumed: the second half of the seed sounds from the next sample on, the first half
-    /// becomes its past.
-    void onset(std::span<const float, WaveformTimeline::seedSamples> seedMps2) noexcept;
-    /// See WaveformTimeline::commit.
-    std::int64_t commit(std::int64_t start, std::span<const float, inference::segmentSamples> segment) noexcept;
+    /// becomes its past. `levelMps2` is the seed's.
+    void onset(std::span<const float, WaveformTimeline::seedSamples> seedMps2, float levelMps2) noexcept;
+    /// See WaveformTimeline::commit; `levelMps2` is the level that the segment was generated for.
+    std::int64_t commit(std::int64_t start, std::span<const float, inference::segmentSamples> segment,
+                        float levelMps2) noexcept;
+    /// Sets the level of the newest contact state, which the waveform takes on within 4 ms.
+    void setLevel(float levelMps2) noexcept { follower_.setLevel(levelMps2); }
     /// Lift-off: fades the texture to silence within 5 ms; effects sound to their end.
     void release() noexcept { output_->gate.close(); }
     /// Fades everything to silence within 5 ms; effects stay silent until `allowEffects`.
@@ -101,6 +106,7 @@ private:
 
     std::unique_ptr<OutputStage> output_;
     WaveformTimeline timeline_;
+    LevelFollower follower_;
     dsp::ToneFilter tone_;
     dsp::LevelSmoother level_;
     dsp::RateWarp warp_;

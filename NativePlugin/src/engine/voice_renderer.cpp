@@ -95,6 +95,7 @@ void VoiceRenderer::applyContact() noexcept {
     const AudioMessage& message = channels_.toAudio.current();
     const RangedMotion& ranged = message.contact.ranged;
     voice_.setRangeLaw(static_cast<float>(ranged.levelGain), ranged.readingRate);
+    voice_.setLevel(message.contact.levelMps2);
     voice_.setTone(message.tone ? &*message.tone : nullptr);
 }
 
@@ -204,7 +205,7 @@ void VoiceRenderer::begin() noexcept {
         count(channels_.counters.taps);
     }
     applyContact();
-    voice_.onset(seed.samplesMps2);
+    voice_.onset(seed.samplesMps2, contact().levelMps2);
 }
 
 void VoiceRenderer::takeBlows(std::size_t frames) noexcept {
@@ -371,7 +372,8 @@ void VoiceRenderer::takeSegments() noexcept {
         takenSequence_ = segment->sequence;
         headAtTake_[takenSequence_ % headAtTake_.size()] = voice_.timeline().head();
         const bool isCurrent = isSounding() && segment->stream == stream_;
-        const std::int64_t takeOver = isCurrent ? voice_.commit(segment->start, segment->samplesMps2) : -1;
+        const std::int64_t takeOver =
+            isCurrent ? voice_.commit(segment->start, segment->samplesMps2, segment->levelMps2) : -1;
         if (takeOver < 0) {
             count(channels_.counters.dropped);
         } else if (takeOver > segment->start) {

@@ -43,7 +43,7 @@ TEST(VoiceTest, WithoutTouchTheVoiceWritesZerosAndItsClockStandsStill) {
 
 TEST(VoiceTest, TheSeedSoundsAtOnceWithAConstantDelay) {
     Voice voice(playedRateHz, 60.0F, unreadFigures);
-    voice.onset(toneSeed(6.0F));
+    voice.onset(toneSeed(6.0F), 1.0F);
     const std::vector<float> output = renderSamples(voice, 1440);
     // After the ramp of 2 ms, the output is the seed with a delay below a millisecond.
     double best = 0.0;
@@ -69,7 +69,7 @@ TEST(VoiceTest, TheSeedSoundsAtOnceWithAConstantDelay) {
 
 TEST(VoiceTest, AReleasedVoiceIsSilentWithinFiveMillisecondsWithoutAClick) {
     Voice voice(playedRateHz, 60.0F, unreadFigures);
-    voice.onset(toneSeed(6.0F));
+    voice.onset(toneSeed(6.0F), 1.0F);
     std::vector<float> output = renderSamples(voice, 2000);
     const float ordinaryStep = testing::largestStep(output);
     voice.release();
@@ -82,14 +82,14 @@ TEST(VoiceTest, AReleasedVoiceIsSilentWithinFiveMillisecondsWithoutAClick) {
 
 TEST(VoiceTest, ATouchDuringAFadeStartsWithoutAStep) {
     Voice voice(playedRateHz, 60.0F, unreadFigures);
-    voice.onset(toneSeed(6.0F));
+    voice.onset(toneSeed(6.0F), 1.0F);
     std::vector<float> output = renderSamples(voice, 1777);
     const float ordinaryStep = testing::largestStep(output);
     for (int touch = 0; touch < 6; ++touch) {
         voice.release();
         const std::vector<float> fading = renderSamples(voice, 101);
         output.insert(output.end(), fading.begin(), fading.end());
-        voice.onset(toneSeed(6.0F));
+        voice.onset(toneSeed(6.0F), 1.0F);
         const std::vector<float> sounding = renderSamples(voice, 733);
         output.insert(output.end(), sounding.begin(), sounding.end());
     }
@@ -100,8 +100,8 @@ TEST(VoiceTest, ATouchDuringAFadeStartsWithoutAStep) {
 TEST(VoiceTest, TheOutputDoesNotDependOnTheBlockLength) {
     Voice whole(playedRateHz, 60.0F, unreadFigures);
     Voice pieces(playedRateHz, 60.0F, unreadFigures);
-    whole.onset(toneSeed(3.0F));
-    pieces.onset(toneSeed(3.0F));
+    whole.onset(toneSeed(3.0F), 1.0F);
+    pieces.onset(toneSeed(3.0F), 1.0F);
     const std::vector<float> expected = renderSamples(whole, 4096);
     std::vector<float> output;
     for (const std::size_t count : {1U, 63U, 64U, 65U, 256U, 700U, 1000U, 1947U}) {
@@ -116,25 +116,25 @@ TEST(VoiceTest, ANonFiniteSeedGivesSilenceAndIsCounted) {
     Voice voice(playedRateHz, 60.0F, unreadFigures);
     std::array<float, 400> seed = toneSeed(6.0F);
     seed[300] = std::nanf("");
-    voice.onset(seed);
+    voice.onset(seed, 1.0F);
     const std::vector<float> output = renderSamples(voice, 9600);
     EXPECT_TRUE(std::ranges::all_of(output, [](float sample) { return std::isfinite(sample); }));
     EXPECT_GT(voice.limiter().nonFiniteCount(), 0U);
     voice.release();
     (void)renderSamples(voice, 480);
-    voice.onset(toneSeed(6.0F));
+    voice.onset(toneSeed(6.0F), 1.0F);
     EXPECT_GT(testing::peak(renderSamples(voice, 960)), 0.1F) << "the next touch must sound normally";
 }
 
 TEST(VoiceTest, InsideTheRangeTheFiltersDelayByAtMostOneAndAHalfMilliseconds) {
     // A step in the waveform at a known sample. The delay is the time until half of the step has been output.
     Voice voice(playedRateHz, 60.0F, unreadFigures);
-    voice.onset(std::array<float, 400>{});
+    voice.onset(std::array<float, 400>{}, 1.0F);
     std::vector<float> output = renderSamples(voice, 480);
     const std::int64_t step = voice.timeline().head() + 10;
     std::array<float, 200> segment{};
     std::fill(segment.begin() + 10, segment.end(), 6.0F);
-    ASSERT_EQ(voice.commit(step - 10, segment), step - 10);
+    ASSERT_EQ(voice.commit(step - 10, segment, 1.0F), step - 10);
     const double readAt = 480.0 / playedRateHz + 10.0 / 2000.0;
     const std::vector<float> later = renderSamples(voice, 2400);
     output.insert(output.end(), later.begin(), later.end());
@@ -147,7 +147,7 @@ TEST(VoiceTest, InsideTheRangeTheFiltersDelayByAtMostOneAndAHalfMilliseconds) {
 TEST(VoiceTest, AHigherReadingRateRaisesTheFrequency) {
     Voice voice(playedRateHz, 60.0F, unreadFigures);
     voice.setRangeLaw(1.0, 2.0);
-    voice.onset(toneSeed(6.0F));
+    voice.onset(toneSeed(6.0F), 1.0F);
     voice.setRangeLaw(1.0, 2.0);
     renderSamples(voice, 2000);
     std::array<float, 200> segment{};
@@ -156,7 +156,7 @@ TEST(VoiceTest, AHigherReadingRateRaisesTheFrequency) {
         const double t = static_cast<double>(start + static_cast<std::int64_t>(i)) / 2000.0;
         segment[i] = static_cast<float>(6.0 * std::sin(2.0 * std::numbers::pi * 120.0 * t));
     }
-    ASSERT_EQ(voice.commit(start, segment), start);
+    ASSERT_EQ(voice.commit(start, segment, 1.0F), start);
     const std::vector<float> output = renderSamples(voice, 1900);
     int crossings = 0;
     for (std::size_t i = 700; i < 1900; ++i) {
