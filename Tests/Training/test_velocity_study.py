@@ -21,7 +21,7 @@ from haptoflow_paper.velocity.velocity_estimators import (
 )
 from haptoflow_paper.velocity.velocity_figures import VelocityErrors
 from haptoflow_paper.velocity.velocity_report import page_words
-from haptoflow_paper.velocity.velocity_study import PRODUCT, product_velocity
+from haptoflow_paper.velocity.velocity_study import PRODUCT, PRODUCT_SETTINGS, product_velocity
 from haptoflow_training.model_stamp import with_measured_words
 
 ROOT = Path(__file__).parents[2]
@@ -29,21 +29,15 @@ STROKES = ROOT.parent / "shared" / "strokes" / "vr-pen-on-surface" / "strokes.cs
 ENGINE = Path(os.environ.get("HAPTOFLOW_ENGINE", ROOT / "build" / "native" / "haptoflow"))
 RESULTS = ROOT / "Training" / "haptoflow_paper" / "results" / "velocity.json"
 PAGE = ROOT / "Documentation~" / "velocity.md"
-CHOSEN = "growing parabola"
-
-
-def _settings() -> dict[str, float]:
-    settings: dict[str, float] = json.loads(RESULTS.read_text(encoding="utf-8"))["rows"][CHOSEN]["settings"]
-    return settings
 
 
 @pytest.mark.parametrize("rate_hz", [72.0, 500.0])
-def test_the_product_is_the_chosen_estimator_with_the_chosen_settings(rate_hz: float) -> None:
+def test_the_product_is_the_growing_parabola_with_the_settings_that_the_study_names(rate_hz: float) -> None:
     assert ENGINE.is_file(), f"{ENGINE} is missing: build it with `npm run build`"
     motions = list(made_motions())
     if STROKES.is_file():
         motions += list(real_motions(read_recorded_strokes(STROKES), ("2",)))
-    estimate = growing_parabola(**_settings())
+    estimate = growing_parabola(**PRODUCT_SETTINGS)
     for motion in motions:
         case = sampled(motion, rate_hz, 0.00002, 9)
         wanted = estimate(case.times_s, case.measured_m, case.noise_known_m)
