@@ -33,6 +33,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--model", type=Path, required=True, help="the .haptoflow file")
     parser.add_argument("--strokes", type=Path, required=True, help="CSV: stroke_id,t_s,x_m,y_m,z_m")
     parser.add_argument("--name", default="this version", help='of the row (default "this version")')
+    parser.add_argument("--commit", help="from which the engine was built, if it was not this tree's")
     parser.add_argument("--workers", type=int, default=2, help="renders at a time (default: 2)")
     parser.add_argument("--out", type=Path, required=True, help="JSON, made or extended by a row")
 
@@ -47,7 +48,7 @@ def run(options: argparse.Namespace) -> int:
             options.engine, options.model, strokes, workers=options.workers, advance=lambda: bar.update(1)
         )
     rows[options.name] = {
-        "commit": source_commit(Path(__file__).parent),
+        "commit": options.commit or source_commit(Path(__file__).parent),
         "model_sha256": sha256_of(options.model),
         "labels": list(LABELS), "seeds": list(SEEDS), "noise_mm": 1000.0 * NOISE_METRES, "lags": lags,
     }  # fmt: skip
