@@ -31,6 +31,7 @@ struct ContactOptions {
     std::string modelPath;
     std::vector<std::string> materials;
     std::optional<double> defaultStiffnessNewtonsPerMetre;
+    bool asRecorded = false;
     headless::ContactSettings settings;
 };
 
@@ -77,12 +78,12 @@ void runContact(const ContactOptions& options) {
         useStiffnessOfMaterials(settings, *materials);
     }
     if (options.outputPath.empty()) {
-        writeContactStates(std::cout, scene, stroke, options.strokePath, settings);
+        writeContactStates(std::cout, scene, stroke, options.strokePath, settings, options.asRecorded);
         return;
     }
     OutputFile output("-o", options.outputPath);
     std::ofstream file(output.partial(), std::ios::binary);
-    writeContactStates(file, scene, stroke, options.strokePath, settings);
+    writeContactStates(file, scene, stroke, options.strokePath, settings, options.asRecorded);
     file.close();
     if (!file) {
         throw InputError(options.outputPath + ": could not be written to its end; is the disk full?");
@@ -93,13 +94,14 @@ void runContact(const ContactOptions& options) {
 }  // namespace
 
 void writeContactStates(std::ostream& output, const headless::Scene& scene, const Stroke& stroke,
-                        const std::string& strokeName, const headless::ContactSettings& settings) {
+                        const std::string& strokeName, const headless::ContactSettings& settings, bool asRecorded) {
     headless::ContactTracker tracker(scene, settings);
-    const std::size_t frames = frameCount(stroke, scene.updateRateHz, strokeName);
+    const std::size_t frames = asRecorded ? stroke.samples.size() : frameCount(stroke, scene.updateRateHz, strokeName);
     output << "t,surface,touching,touch_counter,px,py,pz,nx,ny,nz,penetration_m,vx_mps,vy_mps,approach_mps,force_n,"
               "landing_counter,edge_counter,edge_height_m\n";
     for (std::size_t frame = 0; frame < frames; ++frame) {
-        const headless::ContactReading reading = tracker.update(frameAt(stroke, scene.updateRateHz, frame));
+        const headless::ContactReading reading =
+            tracker.update(asRecorded ? stroke.samples[frame] : frameAt(stroke, scene.updateRateHz, frame));
         writeNumber(output, reading.timeSeconds);
         output << ',';
         if (reading.touching) {
@@ -130,6 +132,9 @@ void addContactCommand(CLI::App& app, CommandOutcome& outcome) {
         ->type_name("STROKE.csv");
     command->add_option("-o,--output", options->outputPath, "Write to this file instead of standard output")
         ->type_name("FILE");
+    command->add_flag("--as-recorded", options->asRecorded,
+                      "A frame for each sample of the stroke, at its time, instead of the scene's update_rate: for a "
+                      "recording of the tracker's own frames");
     CLI::Option* model = command
                              ->add_option("--model", options->modelPath,
                                           "Model file whose labels give the stiffness of surfaces without their own "

@@ -8,9 +8,10 @@
 
 namespace haptoflow::cli {
 
-/// Plays the stroke in the scene at the scene's update rate and writes one CSV line per frame. Throws InputError if the
-/// stroke, named `strokeName`, is too long.
+/// Plays the stroke in the scene at the scene's update rate, or in frames at its own samples, and writes one CSV line
+/// per frame. Throws InputError if the stroke, named `strokeName`, is too long.
 void writeContactStates(std::ostream& output, const headless::Scene& scene, const Stroke& stroke,
-                        const std::string& strokeName, const headless::ContactSettings& settings);
+                        const std::string& strokeName, const headless::ContactSettings& settings,
+                        bool asRecorded = false);
 
 }  // namespace haptoflow::cli

@@ -10,7 +10,7 @@ import pytest
 from haptoflow_training.cli import main
 from haptoflow_training.errors import InputError
 from haptoflow_training.studies.bench_figures import BenchFigures, Block, Spread, read_bench
-from haptoflow_training.studies.delay_budget import Budget, budgets, page_words
+from haptoflow_training.studies.delay_budget import Budget, budgets, page_words, read_lags
 
 PUBLISHED = Path(__file__).parents[2] / "Documentation~" / "benchmarks.md"
 ROWS = [
@@ -108,3 +108,24 @@ def test_the_chart_and_the_page_are_written_together(tmp_path: Path) -> None:
     assert "(images/delay-budget.png)" in page.read_text(encoding="utf-8")
     chart = (tmp_path / "images" / "delay-budget.png").read_bytes()
     assert chart.startswith(b"\x89PNG") and read_bench(PUBLISHED).model_sha256.encode() in chart
+
+
+def _row(lag_ms: float) -> dict[str, object]:
+    rates = {rate: {"lag_ms": lag_ms, "correlation": 0.9} for rate in ("72", "90", "120")}
+    return {"lags": {"scribbles": rates, "real strokes": rates}}
+
+
+def test_the_lag_from_stylus_to_vibration_is_a_row_for_each_kind_of_stroke_and_version(tmp_path: Path) -> None:
+    path = tmp_path / "lag.json"
+    path.write_text(json.dumps({"before": _row(30.0), "now": _row(12.04)}), encoding="utf-8")
+    words = page_words(read_bench(PUBLISHED), "c.png", None, read_lags(path))
+    assert "| scribbles, before | 30.0 | 30.0 | 30.0 |" in words
+    assert "| real strokes, now | 12.0 | 12.0 | 12.0 |" in words
+
+
+@pytest.mark.parametrize("text", ["{}", "[", '{"now": {}}', "[1]"])
+def test_a_report_of_lags_that_is_not_one_is_refused_by_name(tmp_path: Path, text: str) -> None:
+    path = tmp_path / "lag.json"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(InputError, match=r"lag\.json: not a report"):
+        read_lags(path)

@@ -14,6 +14,7 @@ from haptoflow_training.cli import main
 from haptoflow_training.model_stamp import with_measured_words
 from haptoflow_training.studies.bench_figures import read_bench
 from haptoflow_training.studies.delay_budget import page_words as budget_words
+from haptoflow_training.studies.delay_budget import read_lags
 from haptoflow_training.studies.log_columns import COLUMNS
 from haptoflow_training.studies.plans import latency_plan, similarity_plan
 from haptoflow_training.studies.shaffer import factors
@@ -103,7 +104,8 @@ def test_the_page_states_the_counterbalancing_of_the_plans() -> None:
 
 def test_the_budget_page_shows_the_published_benchmark() -> None:
     page = BUDGET.read_text(encoding="utf-8")
-    words = budget_words(read_bench(PAGES / "benchmarks.md"), "images/delay-budget.png")
+    lags = read_lags(ROOT / "Training" / "results" / "default" / "stylus-lag.json")
+    words = budget_words(read_bench(PAGES / "benchmarks.md"), "images/delay-budget.png", None, lags)
     assert page == with_measured_words(page, words), "write it anew: haptoflow-training study budget --page"
 
 

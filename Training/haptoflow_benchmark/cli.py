@@ -11,6 +11,7 @@ _COMMANDS = {
     "evaluate": "compare a model with recordings of your own: level and spectrum of each label",
     "discriminate": "check that a classifier trained on recordings recognises the label of what the engine renders",
     "measure-wave-vectors": "count ribs found, missed and falsely found in seconds of strokes",
+    "measure-lag": "measure how late the level of the vibration follows the speed of the pen",
     "measure-full-scale": "measure which acceleration should be full scale, from recorded strokes on every label",
 }
 _DESCRIPTION = """Measures a model, the shipped one or your own: accuracy beside recordings, labels told apart, materials

@@ -57,6 +57,19 @@ std::string statesOf(const headless::Scene& scene, const std::string& strokeText
     return output.str();
 }
 
+TEST(ContactCommandTest, AsRecordedEverySampleIsAFrameAtItsTime) {
+    std::ostringstream output;
+    writeContactStates(output, tableScene("table"),
+                       parseStroke("t,x,y,z\n0,0,0,0\n0.011,0.0022,0,0\n0.019,0.0038,0,0\n0.031,0.0062,0,0\n", "s.csv"),
+                       "s.csv", {}, true);
+    const auto lines = linesOf(output.str());
+    ASSERT_EQ(lines.size(), 5U);
+    for (const auto& [line, seconds] : {std::pair(2U, 0.011), {3U, 0.019}, {4U, 0.031}}) {
+        EXPECT_DOUBLE_EQ(numberOf(header, lines[line], "t"), seconds);
+        EXPECT_NEAR(numberOf(header, lines[line], "vx_mps"), 0.2, 1e-9);
+    }
+}
+
 TEST(ContactCommandTest, EveryFrameIsALineInTheOrderOfTheHeader) {
     const auto lines = linesOf(statesOf(tableScene("table"), "t,x,y,z\n0,0,0.0005,0\n0.1,0.02,0.0005,0\n"));
     ASSERT_EQ(lines.size(), 12U);

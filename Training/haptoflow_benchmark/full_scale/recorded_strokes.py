@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
 
 from haptoflow_training.errors import InputError
 
@@ -48,3 +49,12 @@ def onto_table(stroke: NDArray[np.float64]) -> NDArray[np.float64]:
         plane = points[height <= np.quantile(height, _SHARE_ON_TABLE)]
     centre = np.median(points[:, :2], axis=0)
     return np.c_[stroke[:, 0] - stroke[0, 0], points[:, 0] - centre[0], height, points[:, 1] - centre[1]]
+
+
+def on_table_spline(stroke: NDArray[np.float64]) -> tuple[float, CubicSpline]:
+    """Length in s, and the path [n, 3] as `onto_table`, over time from 0: a spline through the tracker's distinct
+    positions, which it measured evenly in time, whatever the times at which frames read them."""
+    placed = onto_table(stroke)
+    is_fresh = np.r_[True, np.any(np.diff(placed[:, 1:], axis=0) != 0.0, axis=1)]
+    ticks = np.linspace(0.0, placed[is_fresh, 0][-1], int(is_fresh.sum()))
+    return float(ticks[-1]), CubicSpline(ticks, placed[is_fresh, 1:])

@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
-from haptoflow_benchmark.full_scale.recorded_strokes import onto_table
+from haptoflow_benchmark.full_scale.recorded_strokes import on_table_spline
+from haptoflow_paper.velocity.velocity_estimators import Array, tracker_noise
 
 RATES_HZ = (72.0, 90.0, 120.0, 500.0)
 NOISES_METRES = (0.0, 0.00002, 0.0001)
@@ -20,14 +21,14 @@ _FRAME_JITTER = 0.15
 _WARM_UP_SECONDS = 0.5
 _TURN_SECONDS = 0.06
 
-Array = NDArray[np.float64]
 Place = Callable[[Array], Array]
 
 
 @dataclass(frozen=True)
 class VelocityCase:
     """kind: "scribble 2 Hz", "slow 5 mm/s", "real 4"... times_s: [n]; measured_m: [n, 3], y up from the table;
-    velocity_mps: [n, 2] along the table, x and z, true at each time. steps: [k, 3], time in s, speed before and after in
+    noise_known_m: [n], what a tracker's noise was estimated to be by then. velocity_mps: [n, 2] along the table, x and z,
+    true at each time. steps: [k, 3], time in s, speed before and after in
     m/s, of sudden changes."""
 
     kind: str
@@ -35,6 +36,7 @@ class VelocityCase:
     noise_m: float
     times_s: Array
     measured_m: Array
+    noise_known_m: Array
     velocity_mps: Array
     steps: Array
 
@@ -45,7 +47,9 @@ class VelocityCase:
 
 
 @dataclass(frozen=True)
-class _Motion:
+class Motion:
+    """place, velocity: [n] seconds to [n, 3] m and m/s. steps: as a case's."""
+
     kind: str
     seconds: float
     place: Place
@@ -53,7 +57,7 @@ class _Motion:
     steps: Array
 
 
-def made_motions() -> Iterator[_Motion]:
+def made_motions() -> Iterator[Motion]:
     """Scribbles, reversals, stops and starts, slow strokes, rest."""
     for hertz, amplitude in ((2.0, 0.020), (3.0, 0.010), (5.0, 0.005)):
         yield _scribble(hertz, amplitude)
@@ -64,17 +68,24 @@ def made_motions() -> Iterator[_Motion]:
         yield _arc(mps)
 
 
-def real_motions(strokes: Mapping[str, Array], persons: tuple[str, ...]) -> Iterator[_Motion]:
-    """Strokes of the persons, spline through the tracker's distinct positions, which it measured evenly in time."""
+def real_motions(strokes: Mapping[str, Array], persons: tuple[str, ...]) -> Iterator[Motion]:
+    """Strokes of the persons, splines through the tracker's distinct positions, which it measured evenly in time. The
+    warm-up is the stroke's beginning turned about its first point, which leaves the velocity there without a jump."""
     for name, stroke in strokes.items():
         person = person_of(name)
         if person not in persons:
             continue
-        placed = onto_table(stroke)
-        fresh = np.r_[True, np.any(np.diff(placed[:, 1:], axis=0) != 0.0, axis=1)]
-        ticks = np.linspace(placed[0, 0], placed[fresh, 0][-1], int(fresh.sum()))
-        spline = CubicSpline(ticks, placed[fresh, 1:])
-        yield _Motion(f"real {person}", float(ticks[-1]), spline, spline.derivative(), np.empty((0, 3)))
+        yield _led_in(f"real {person}", *on_table_spline(stroke))
+
+
+def _led_in(kind: str, seconds: float, spline: CubicSpline) -> Motion:
+    slope, begin = spline.derivative(), spline(0.0)
+    before = min(_WARM_UP_SECONDS, seconds)
+
+    def place(t: Array) -> Array:
+        return np.asarray(begin + np.sign(t - before)[:, None] * (spline(np.abs(t - before)) - begin))
+
+    return Motion(kind, before + seconds, place, lambda t: slope(np.abs(t - before)), np.empty((0, 3)))
 
 
 def person_of(stroke: str) -> str:
@@ -82,28 +93,31 @@ def person_of(stroke: str) -> str:
     return stroke.split("/")[1]
 
 
-def sampled(motion: _Motion, rate_hz: float, noise_m: float, seed: int = 0) -> VelocityCase:
-    """What a tracker with a noise says in jittered frames; always the same for the same arguments."""
-    generator = np.random.default_rng(zlib.crc32(f"{motion.kind} {motion.seconds} {rate_hz} {noise_m} {seed}".encode()))
+def sampled(motion: Motion, rate_hz: float, noise_m: float, seed: int) -> VelocityCase:
+    """What a tracker with a noise on each axis says in jittered frames; the same for the same arguments."""
+    name = f"{motion.kind} {motion.seconds} {rate_hz} {noise_m} {seed}"
+    generator = np.random.default_rng(zlib.crc32(name.encode()))
     count = int(motion.seconds * rate_hz) - 1
     frames = np.arange(count) + generator.uniform() + generator.uniform(-_FRAME_JITTER, _FRAME_JITTER, count)
     times = np.clip(frames / rate_hz, 0.0, motion.seconds)
     places = motion.place(times) + noise_m * generator.standard_normal((count, 3))
-    return VelocityCase(motion.kind, rate_hz, noise_m, times, places, motion.velocity(times)[:, [0, 2]], motion.steps)
+    return VelocityCase(
+        motion.kind, rate_hz, noise_m, times, places, tracker_noise(times, places), motion.velocity(times)[:, [0, 2]],
+        motion.steps,
+    )  # fmt: skip
 
 
-def _scribble(hertz: float, amplitude: float) -> _Motion:
+def _scribble(hertz: float, amplitude: float) -> Motion:
     turn = 2.0 * np.pi * hertz
-    return _Motion(
-        f"scribble {hertz:g} Hz", 3.5, lambda t: _along(amplitude * np.sin(turn * t), t),
+    return Motion(
+        f"scribble {hertz:g} Hz", 3.5, lambda t: _along(amplitude * np.sin(turn * t)),
         lambda t: _along(amplitude * turn * np.cos(turn * t)), np.empty((0, 3)),
     )  # fmt: skip
 
 
-def _along(metres: Array, drift: Array | None = None) -> Array:
+def _along(metres: Array) -> Array:
     """[n, 3] along a line that lies across both axes."""
-    direction = np.array([0.8, 0.0, 0.6])
-    return metres[:, None] * direction
+    return metres[:, None] * np.array([0.8, 0.0, 0.6])
 
 
 def _reversal_speeds(mps: float, seconds: float) -> list[tuple[float, float]]:
@@ -116,7 +130,7 @@ def _reversal_speeds(mps: float, seconds: float) -> list[tuple[float, float]]:
     return [*corners, (seconds, sign * mps)]
 
 
-def _polyline(kind: str, corners: list[tuple[float, float]]) -> _Motion:
+def _polyline(kind: str, corners: list[tuple[float, float]]) -> Motion:
     """Speed linear between corners; place is its exact integral."""
     times, speeds = np.array(corners).T
     base = np.r_[0.0, np.cumsum(np.diff(times) * (speeds[1:] + speeds[:-1]) / 2)]
@@ -127,12 +141,10 @@ def _polyline(kind: str, corners: list[tuple[float, float]]) -> _Motion:
         slope = (speeds[index + 1] - speeds[index]) / (times[index + 1] - times[index])
         return _along(base[index] + since * (speeds[index] + slope * since / 2))
 
-    return _Motion(
-        kind, float(times[-1]), place, lambda t: _along(np.interp(t, times, speeds)), np.empty((0, 3))
-    )  # fmt: skip
+    return Motion(kind, float(times[-1]), place, lambda t: _along(np.interp(t, times, speeds)), np.empty((0, 3)))
 
 
-def _stops_and_starts(mps: float) -> _Motion:
+def _stops_and_starts(mps: float) -> Motion:
     moments = np.arange(0.43, 6.0, 0.43)
     moving = np.arange(len(moments) + 1) % 2
     starts = np.r_[0.0, moments]
@@ -142,14 +154,14 @@ def _stops_and_starts(mps: float) -> _Motion:
         return np.searchsorted(moments, t, side="right")
 
     steps = np.c_[moments, mps * moving[:-1], mps * moving[1:]]
-    return _Motion(
+    return Motion(
         f"steps of {1000 * mps:g} mm/s", 6.0,
         lambda t: _along(base[index(t)] + (t - starts[index(t)]) * moving[index(t)] * mps),
         lambda t: _along(mps * moving[index(t)].astype(np.float64)), steps[steps[:, 0] > _WARM_UP_SECONDS],
     )  # fmt: skip
 
 
-def _arc(mps: float) -> _Motion:
+def _arc(mps: float) -> Motion:
     """Slow motion on a circle of 20 mm; rest at speed 0."""
     radius = 0.02
     turn = mps / radius
@@ -160,4 +172,4 @@ def _arc(mps: float) -> _Motion:
     def velocity(t: Array) -> Array:
         return mps * np.c_[-np.sin(turn * t), np.zeros(len(t)), np.cos(turn * t)]
 
-    return _Motion("rest" if mps == 0.0 else f"slow {1000 * mps:g} mm/s", 3.5, place, velocity, np.empty((0, 3)))
+    return Motion("rest" if mps == 0.0 else f"slow {1000 * mps:g} mm/s", 3.5, place, velocity, np.empty((0, 3)))

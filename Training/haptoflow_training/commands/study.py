@@ -24,6 +24,7 @@ from haptoflow_training.studies.study_folder import read_faultless, read_folder
 from haptoflow_training.whole_file import write_whole
 
 _PUBLISHED = Path("Documentation~") / "benchmarks.md"
+_PUBLISHED_LAGS = Path("Training") / "results" / "default" / "stylus-lag.json"
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -294,6 +295,9 @@ The first reads the tables of Documentation~/benchmarks.md, the second those of 
 device delay that you measured. The third writes the page anew after `npm run bench -- --publish`.
 """
     parser.add_argument("--bench", type=Path, default=_PUBLISHED, help="bench.json, or the page that publishes it")
+    parser.add_argument(
+        "--lags", type=Path, default=_PUBLISHED_LAGS, help="what haptoflow-benchmark measure-lag wrote"
+    )
     parser.add_argument("--device-ms", type=float, help="from the audio callback to the hand, as you measured it")
     parser.add_argument("--page", type=Path, help="page whose measured part is written anew")
     parser.add_argument("--chart", type=Path, help="PNG file to write")
@@ -302,7 +306,7 @@ device delay that you measured. The third writes the page anew after `npm run be
 
 def _budget(options: argparse.Namespace) -> int:
     from haptoflow_training.studies.bench_figures import read_bench
-    from haptoflow_training.studies.delay_budget import page_words, write_chart
+    from haptoflow_training.studies.delay_budget import page_words, read_lags, write_chart
 
     if options.device_ms is not None:
         _require_range("--device-ms", options.device_ms, 0, 1000)
@@ -313,7 +317,7 @@ def _budget(options: argparse.Namespace) -> int:
     if options.page is not None and chart is None:
         chart = options.page.parent / "images" / "delay-budget.png"
     address = "" if chart is None else Path(os.path.relpath(chart, (options.page or chart).parent)).as_posix()
-    words = page_words(bench, address, options.device_ms)
+    words = page_words(bench, address, options.device_ms, read_lags(options.lags))
     _write_measured(options.page, words)
     if chart is not None:
         write_chart(chart, bench, options.device_ms)

@@ -4,7 +4,7 @@ using HaptoFlow.Numerics;
 namespace HaptoFlow.Contact
 {
     /// <summary>Detects from frame to frame whether a tip moves over a surface at rest, for signals that start and stop
-    /// with the motion. The velocity for textures covers 35 ms and would be late.</summary>
+    /// with the motion: by the last two measurements alone, whatever came before.</summary>
     /// <remarks>Two thresholds keep a tracker's noise and a hand's tremor (some 10 mm/s) from switching a signal at
     /// rest. The difference of two frames lags by half a frame, which is counted as part of the pose
     /// interval.</remarks>

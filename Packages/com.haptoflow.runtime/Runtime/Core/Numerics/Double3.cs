@@ -5,7 +5,7 @@ namespace HaptoFlow.Numerics
 {
     /// <summary>A position or direction in double precision, in Unity's left-handed, y-up frame.</summary>
     /// <remarks>Single precision is not sufficient for contact: at 10 m from the origin its resolution is 1 micrometre,
-    /// which is 1 cm/s of velocity noise over a window of 35 ms at 90 Hz.</remarks>
+    /// which is a tenth of a millimetre a second of velocity noise from one frame to the next at 90 Hz.</remarks>
     internal readonly struct Double3 : IEquatable<Double3>
     {
         public readonly double X;

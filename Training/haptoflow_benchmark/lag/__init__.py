@@ -1,0 +1,1 @@
+"""How late the vibration follows the stylus."""

@@ -1,0 +1,184 @@
+"""The study of velocity estimators: parameters chosen on some persons, figures on the others."""
+
+from __future__ import annotations
+
+import csv
+import io
+import tempfile
+from collections import defaultdict
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from haptoflow_benchmark.engine.engine_render import run_engine, write_scene
+from haptoflow_paper.velocity.velocity_cases import (
+    NOISES_METRES,
+    RATES_HZ,
+    VelocityCase,
+    made_motions,
+    person_of,
+    real_motions,
+    sampled,
+)
+from haptoflow_paper.velocity.velocity_estimators import (
+    Array,
+    Estimator,
+    adaptive_window,
+    end_of_parabola,
+    growing_parabola,
+    kalman,
+    line,
+)
+from haptoflow_paper.velocity.velocity_figures import VelocityErrors, pooled_rms
+
+TODAY, PRODUCT = "line over 35 ms", "product"
+# Settings of the growing parabola in the product, set on the choosing persons in a trial before this study: the
+# smallest errors of scribbles that leave rest with 0.1 mm of noise as quiet as with the line.
+PRODUCT_SETTINGS = {"cubic": 3.0, "cost_mps": 0.01}
+# Rates at which parameters are chosen: those of headsets.
+HEADSET_RATES_HZ = (72.0, 90.0, 120.0)
+_CHOOSING_SEED = 1
+_REPORTING_SEEDS = (2, 3)
+_MAKERS: Mapping[str, Callable[..., Estimator]] = {
+    "line": line, "adaptive": adaptive_window, "end": end_of_parabola, "growing": growing_parabola, "kalman": kalman,
+}  # fmt: skip
+_Settings = Mapping[str, float]
+# By row of the table: its maker, and the settings to choose from.
+CANDIDATES: Mapping[str, tuple[str, Sequence[_Settings]]] = {
+    TODAY: ("line", [{"seconds": 0.035}]),
+    "line over another time": ("line", [{"seconds": value} for value in (0.02, 0.028, 0.05)]),
+    "adaptive window, first order": ("adaptive", [
+        {"order": 1, "least": 2, "band": band} for band in (2.0, 2.5, 3.0, 3.5, 4.0)
+    ]),
+    "adaptive window, second order": ("adaptive", [
+        {"order": 2, "least": least, "band": band} for least in (3, 4) for band in (2.0, 2.5, 3.0, 3.5, 4.0)
+    ]),
+    "end of a parabola": ("end", [{"seconds": value} for value in (0.03, 0.04, 0.05, 0.06)]),
+    "Kalman filter, white jerk": ("kalman", [{"jerk": value} for value in (3.0, 10.0, 30.0, 100.0)]),
+    "growing parabola": ("growing", [
+        {"cubic": cubic, "cost_mps": cost} for cubic in (2.5, 3.0, 3.5) for cost in (0.005, 0.01, 0.02)
+    ]),
+}  # fmt: skip
+_Key = tuple[str, float, float]
+
+
+@dataclass(frozen=True)
+class VelocityPlan:
+    """strokes: by name, as recorded. choosing: persons on whom parameters are chosen. engine: the built command
+    line."""
+
+    strokes: Mapping[str, Array]
+    choosing: tuple[str, ...]
+    engine: Path
+    rates_hz: tuple[float, ...] = RATES_HZ
+    workers: int = 2
+
+    @property
+    def reporting(self) -> tuple[str, ...]:
+        """The other persons."""
+        return tuple(sorted({person_of(name) for name in self.strokes} - set(self.choosing)))
+
+
+def run_study(plan: VelocityPlan, advance: Callable[[], object]) -> dict[str, Any]:
+    """By row the chosen settings and the figures of every kind of stroke, rate and noise. Advances once for each
+    set of settings tried, once for each row."""
+    choosing = list(_cases(plan, plan.choosing, HEADSET_RATES_HZ, (_CHOOSING_SEED,)))
+    reporting = list(_cases(plan, plan.reporting, plan.rates_hz, _REPORTING_SEEDS))
+    rows: dict[str, Any] = {}
+    with ProcessPoolExecutor(plan.workers) as pool:
+        tried = {
+            row: [pool.submit(_measured, maker, settings, choosing) for settings in options]
+            for row, (maker, options) in CANDIDATES.items()
+        }
+        today = tried[TODAY][0].result()
+        reported = {}
+        for row, (maker, options) in CANDIDATES.items():
+            scores = []
+            for each in tried[row]:
+                scores.append(score(each.result(), today))
+                advance()
+            best = int(np.argmin(scores))
+            rows[row] = {"settings": dict(options[best]), "score": round(scores[best], 3)}
+            reported[row] = pool.submit(_measured, maker, options[best], reporting)
+        rows[PRODUCT] = {"settings": PRODUCT_SETTINGS}
+        reported[PRODUCT] = pool.submit(_measured_product, plan.engine, reporting)
+        for row, figures in reported.items():
+            rows[row]["cells"] = [
+                {"kind": kind, "rate_hz": rate, "noise_mm": 1000.0 * noise, **found}
+                for (kind, rate, noise), found in figures.result().items()
+            ]
+            advance()
+    return rows
+
+
+def steps_of(plan: VelocityPlan) -> int:
+    """How often `run_study` advances."""
+    return sum(len(options) + 1 for _, options in CANDIDATES.values()) + 1
+
+
+def score(figures: Mapping[_Key, Mapping[str, float]], today: Mapping[_Key, Mapping[str, float]]) -> float:
+    """Geometric mean of ratios to today's figures over headset rates, noise above 0: speed error of scribbles, speed and
+    vector error of real strokes, vector error of slow strokes, speed at rest."""
+    logarithms = []
+    for group, figure in (("scribble", "speed_error_db"), ("real", "speed_error_db"), ("real", "vector_error_mmps"),
+                          ("slow", "vector_error_mmps"), ("rest", "speed_mmps")):  # fmt: skip
+        keys = [key for key in today if key[0].startswith(group) and key[2] > 0.0]
+        ratio = pooled_rms(figures[key][figure] for key in keys) / pooled_rms(today[key][figure] for key in keys)
+        logarithms.append(np.log(ratio))
+    return float(np.exp(np.mean(logarithms)))
+
+
+def _cases(
+    plan: VelocityPlan, persons: tuple[str, ...], rates_hz: Iterable[float], seeds: Iterable[int]
+) -> Iterator[VelocityCase]:
+    for seed in seeds:
+        for motion in (*made_motions(), *real_motions(plan.strokes, persons)):
+            for rate in rates_hz:
+                for noise in NOISES_METRES:
+                    yield sampled(motion, rate, noise, seed)
+
+
+def _measured(maker: str, settings: _Settings, cases: Sequence[VelocityCase]) -> dict[_Key, dict[str, float]]:
+    estimate = _MAKERS[maker](**settings)
+
+    def velocity_of(case: VelocityCase) -> tuple[Array, NDArray[np.bool_]]:
+        found = estimate(case.times_s, case.measured_m, case.noise_known_m)
+        return found[:, [0, 2]], np.ones(len(found), dtype=bool)
+
+    return _figures(cases, velocity_of)
+
+
+def _measured_product(engine: Path, cases: Sequence[VelocityCase]) -> dict[_Key, dict[str, float]]:
+    return _figures(cases, lambda case: product_velocity(engine, case))
+
+
+def _figures(
+    cases: Sequence[VelocityCase], velocity_of: Callable[[VelocityCase], tuple[Array, NDArray[np.bool_]]]
+) -> dict[_Key, dict[str, float]]:
+    errors: dict[_Key, VelocityErrors] = defaultdict(VelocityErrors)
+    for case in cases:
+        kind = "real" if case.kind.startswith("real") else "steps" if case.kind.startswith("steps") else case.kind
+        errors[kind, case.rate_hz, case.noise_m].add(case, *velocity_of(case))
+    return {key: each.figures() for key, each in errors.items()}
+
+
+def product_velocity(engine: Path, case: VelocityCase) -> tuple[Array, NDArray[np.bool_]]:
+    """What `haptoflow contact` says of a case: [n, 2] in m/s along the table, x and z, and [n] where it touches."""
+    # Deep enough for every lift of a stroke.
+    tip_radius, depth = 0.5, 0.25
+    with tempfile.TemporaryDirectory() as folder:
+        scene, stroke = Path(folder) / "scene.json", Path(folder) / "stroke.csv"
+        write_scene(scene, "wood", case.rate_hz, tip_radius)
+        columns = np.c_[case.times_s, case.measured_m + [0.0, depth, 0.0]]
+        np.savetxt(stroke, columns, fmt="%.12g", delimiter=",", header="t,x,y,z", comments="")
+        command = [str(engine), "contact", str(scene), "--stroke", str(stroke), "--as-recorded"]
+        printed = run_engine([*command, "--default-stiffness", "500"])
+    lines = list(csv.DictReader(io.StringIO(printed)))
+    # The second tangent axis is -z.
+    velocity = np.array([[float(each["vx_mps"]), -float(each["vy_mps"])] for each in lines])
+    return velocity, np.array([each["touching"] == "1" for each in lines])
