@@ -29,7 +29,7 @@ constexpr double highestTextureHz = 240.0;
 constexpr double followSeconds = 0.015;
 constexpr double frequencyFollowSeconds = 0.04;
 constexpr double suddenRise = 4.0;
-constexpr double suddenFall = 4.0;
+constexpr double suddenFall = 8.0;
 constexpr double suddenSeconds = 0.03;
 
 bool isWithin(double value, double low, double high) noexcept {
@@ -217,9 +217,11 @@ void WaveFeatures::follow(double square, const Spectrum& spectrum, bool hasOnset
     if (frame_ == suddenUntil_ && square < lastSquare_) {
         ++suddenUntil_;
     }
+    if (suddenFall * std::max(square, lastSquare_) < square_) {
+        suddenUntil_ = std::max(suddenUntil_, frame_ + 1);
+    }
     const bool isSudden = frame_ <= suddenUntil_ || square > suddenRise * square_;
     square_ = isSudden ? square : square_ + (1.0 - std::exp(-frameSeconds / followSeconds)) * (square - square_);
-    square_ = std::min(square_, suddenFall * std::max(square, lastSquare_));
     lastSquare_ = square;
     if (spectrum.feltHz > 0.0) {
         const double share = isSudden ? 1.0 : 1.0 - std::exp(-frameSeconds / frequencyFollowSeconds);

@@ -73,8 +73,8 @@ struct WaveFeatureOptions {
 ///
 /// In 5 ms of noise an energy is off by many decibels, which no hand follows. Therefore r^2 follows the frames with a
 /// time constant of 15 ms, and the centroid with 40 ms. What is sudden is not smoothed: more than four times the mean,
-/// and what follows an onset for 30 ms and as long as it decays. Two frames in a row of less than a quarter of the mean
-/// pull it down to four times the stronger one. So an impact arrives in its own frame at full height.
+/// what follows an onset for 30 ms and as long as it decays, and from the second of two frames of less than an eighth
+/// of the mean on for as long as they fall. So an impact arrives in its own frame at full height.
 ///
 /// Onsets are detected sample by sample: the mean square of the last 4 ms is compared with an exponential mean of 30 ms
 /// that ended 5 ms earlier. The onset is the sample at which the wave first reached a quarter of its peak within the

@@ -228,13 +228,13 @@ TEST(WaveFeaturesTest, ADecayingTapIsNotProlonged) {
     }
 }
 
-TEST(WaveFeaturesTest, ATextureThatStopsIsNotFelt45MillisecondsLater) {
+TEST(WaveFeaturesTest, ATextureThatStopsIsNotFelt55MillisecondsLater) {
     for (std::size_t end = 3000; end < 3010; ++end) {
         std::vector<float> wave = textureNoise(5.0, 2.0, 4);
         std::fill(wave.begin() + static_cast<std::ptrdiff_t>(end), wave.end(), 0.0F);
         WaveFeatures features;
         for (const WaveFrame& frame : allFrames(features, wave, 28)) {
-            if (frame.firstSample >= end + 90) {
+            if (frame.firstSample >= end + 110) {
                 ASSERT_LT(frame.intensity, 1.0F) << frame.firstSample - end;
             }
         }

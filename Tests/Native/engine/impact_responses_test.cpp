@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <string>
+#include <utility>
 
 namespace haptoflow::engine {
 namespace {
@@ -66,11 +66,10 @@ TEST(ImpactResponsesTest, EveryLabelOfTheShippedModelHasTheTapOfAPieceOfItsName)
 
 TEST(ImpactResponsesTest, ABlendsResponseLiesBetweenItsLabelsAndUnknownLabelsAreSkipped) {
     model::testing::ModelBuilder builder;
-    builder.header["labels"][0]["stiffness_newtons_per_metre"] = 400.0;
-    builder.header["labels"][1]["stiffness_newtons_per_metre"] = 6400.0;
-    for (const int label : {0, 1}) {
-        builder.header["labels"][label]["category"] = "without a piece";
-        builder.header["labels"][label]["name"] = "label " + std::to_string(label);
+    for (const auto& [label, frequencyHz] : {std::pair{0, 100.0}, {1, 400.0}}) {
+        const nlohmann::json mode = {
+            {"frequency_hz", frequencyHz}, {"decay_per_second", 70.0}, {"gain_per_second", 100.0}};
+        builder.header["labels"][label]["impact"] = {{"modes", nlohmann::json::array({mode})}, {"restitution", 0.0}};
     }
     const testing::SmallLibrary small(model::ModelFile::parse(builder.build()));
     const auto frequencyOf = [&small](std::initializer_list<testing::LabelWeight> entries) {
