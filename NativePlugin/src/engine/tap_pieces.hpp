@@ -8,12 +8,11 @@
 
 namespace haptoflow::engine {
 
-/// What a label is usually made of and how large a piece of it usually is. Properties are typical values of handbooks:
-/// Ashby (Materials Selection in Mechanical Design, 5th edition, appendix A) for modulus and density of solids, the
-/// Wood Handbook (Forest Products Laboratory, 2010, chapters 5 and 12) for wood and plywood, Cremer, Heckl and
-/// Petersson (Structure-Borne Sound, 3rd edition, table of loss factors) for losses of plates. Moduli and losses of
-/// layers are orders of magnitude of compression across the layer, and sizes are those of everyday pieces; both are
-/// assumptions.
+/// What a label may be made of and how large a piece of it may be. Modulus and density of solids and losses of plates
+/// are rounded typical values: Ashby (Materials Selection in Mechanical Design, appendix A) for solids, the Wood
+/// Handbook (Forest Products Laboratory) for wood and plywood, Cremer, Heckl and Petersson (Structure-Borne Sound) for
+/// losses. Sizes, the mesh's losses, and modulus and losses of layers are assumptions, adjusted within what such pieces
+/// may have until each pair of taps differs noticeably.
 struct TapPiece {
     std::string_view label;
     std::string_view category;

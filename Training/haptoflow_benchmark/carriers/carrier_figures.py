@@ -155,7 +155,7 @@ def taps_on_noise(frames: Frames, repeats: int = 60) -> NDArray[np.float64]:
     rows = []
     times = np.arange(WAVE_RATE_HZ) / WAVE_RATE_HZ
     for repeat in range(repeats):
-        frequency = (80.0, 150.0, 250.0)[repeat % 3]
+        frequency = (80.0, 150.0, 250.0, 350.0)[repeat % 4]
         begin = (WAVE_RATE_HZ // 2 + repeat % 10) / WAVE_RATE_HZ
         since = np.maximum(times - begin, 0.0)
         tap = 15.0 * np.exp(-80.0 * since) * np.sin(2.0 * np.pi * frequency * since)
