@@ -6,6 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string_view>
+#include <utility>
 
 namespace haptoflow::engine {
 namespace {
@@ -23,7 +26,13 @@ const TapPiece& pieceNamed(std::string_view label) {
     return *std::ranges::find(tapPieces(), label, &TapPiece::label);
 }
 
-TEST(TapPiecesTest, EachPairOfTapsDiffersNoticeablyInFrequencyOrDecay) {
+// Apart with the damping of the hand left out, not with it.
+using Pair = std::pair<std::string_view, std::string_view>;
+const std::set<Pair> alike{{"concrete", "stone"},    {"corduroy", "jute"}, {"glass", "wood"},
+                           {"jute", "metal mesh"},   {"metal", "stone"},   {"metal mesh", "plastic"},
+                           {"metal mesh", "rubber"}, {"paper", "plywood"}};
+
+TEST(TapPiecesTest, AllPairsOfTapsButTheNamedOnesDifferNoticeablyInFrequencyOrDecay) {
     for (const TapPiece& one : tapPieces()) {
         for (const TapPiece& other : tapPieces()) {
             if (one.label >= other.label) {
@@ -31,8 +40,9 @@ TEST(TapPiecesTest, EachPairOfTapsDiffersNoticeablyInFrequencyOrDecay) {
             }
             const auto first = tapOn(one).modes[0];
             const auto second = tapOn(other).modes[0];
-            EXPECT_TRUE(ratioOf(first.frequencyHz, second.frequencyHz) > noticeableFrequencyRatio ||
-                        ratioOf(first.decayPerSecond, second.decayPerSecond) > noticeableDecayRatio)
+            EXPECT_EQ(ratioOf(first.frequencyHz, second.frequencyHz) <= noticeableFrequencyRatio &&
+                          ratioOf(first.decayPerSecond, second.decayPerSecond) <= noticeableDecayRatio,
+                      alike.contains({one.label, other.label}))
                 << one.label << " " << first.frequencyHz << " Hz, " << first.decayPerSecond << "/s; " << other.label
                 << " " << second.frequencyHz << " Hz, " << second.decayPerSecond << "/s";
         }
@@ -81,7 +91,7 @@ TEST(TapPiecesTest, ALayerVibratesAsThePenOnItsContactWithOneMode) {
     const double hz = std::sqrt(contact / 0.015) / (2.0 * 3.14159265);
     const auto modes = tapOn(layer).modes;
     EXPECT_NEAR(static_cast<double>(modes[0].frequencyHz), 100.0 * std::pow(hz / 100.0, 0.404), 0.1);
-    EXPECT_NEAR(static_cast<double>(modes[0].decayPerSecond), 25.0 + 0.5 * 3.14159265 * hz, 0.1);
+    EXPECT_NEAR(static_cast<double>(modes[0].decayPerSecond), 60.0 + 0.5 * 3.14159265 * hz, 0.1);
     EXPECT_EQ(modes[1].frequencyHz, 0.0F);
 }
 
