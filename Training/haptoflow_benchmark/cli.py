@@ -13,9 +13,10 @@ _COMMANDS = {
     "measure-wave-vectors": "count ribs found, missed and falsely found in seconds of strokes",
     "measure-lag": "measure how late the level of the vibration follows the speed of the pen",
     "measure-full-scale": "measure which acceleration should be full scale, from recorded strokes on every label",
+    "measure-carriers": "measure what a device with one carrier plays of every label",
 }
 _DESCRIPTION = """Measures a model, the shipped one or your own: accuracy beside recordings, labels told apart, materials
-learnt from seconds of recording, ribs found, the full scale. Each command measures one property.
+learnt from seconds of recording, ribs found, the full scale, carriers for controllers. Each command measures one property.
 To train and export a model, `haptoflow-training` is enough; the comparison with rivals is `haptoflow-paper`.
 """
 

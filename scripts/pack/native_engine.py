@@ -1,5 +1,4 @@
-"""Parts of the C interface that the pictures need beyond `EngineLibrary`: a voice with its exposure guard, and the
-features of a waveform."""
+"""A part of the C interface that the pictures need beyond `EngineLibrary`: a voice with its exposure guard."""
 
 from __future__ import annotations
 
@@ -37,45 +36,6 @@ class _ContactState(Structure):
 class _Exposure(Structure):
     _fields_ = [("struct_size", c_uint32), ("reason", c_int32), ("gain", c_double), ("short_term_mps2", c_double),
                 ("daily_mps2", c_double), ("lowered_seconds", c_double)]
-
-
-class _FeatureOptions(Structure):
-    _fields_ = [("struct_size", c_uint32), ("sample_rate_hz", c_uint32), ("frame_seconds", c_double),
-                ("minimum_frequency_hz", c_double), ("maximum_frequency_hz", c_double)]
-
-
-_FRAME = np.dtype([("first_sample", "u8"), ("sample_count", "u4"), ("intensity", "f4"), ("centroid_hz", "f4"),
-                   ("frequency_hz", "f4"), ("amplitude_mps2", "f4"), ("transient_offset_seconds", "f4"),
-                   ("transient_mps2", "f4"), ("transient_hz", "f4")], align=True)
-
-
-def wave_frames(
-    engine: EngineLibrary,
-    wave_mps2: np.ndarray,
-    rate_hz: int,
-    frame_seconds: float,
-    minimum_hz: float,
-    maximum_hz: float,
-) -> np.ndarray:
-    """Frames of a waveform [N] in m/s^2, with a column of seconds at which each begins; rate_hz: a multiple of 2000."""
-    options = options_of(
-        _FeatureOptions, sample_rate_hz=rate_hz, frame_seconds=frame_seconds, minimum_frequency_hz=minimum_hz,
-        maximum_frequency_hz=maximum_hz,
-    )  # fmt: skip
-    features, count = c_void_p(), c_uint64()
-    engine.call("haptoflow_wave_features_create", byref(options), byref(features))
-    wave = np.ascontiguousarray(wave_mps2, dtype=np.float32)
-    frames = np.zeros(int(len(wave) / (rate_hz * frame_seconds)) + 1, dtype=_FRAME)
-    engine.call("haptoflow_wave_features_process", features, wave.ctypes.data_as(c_void_p), c_uint64(len(wave)),
-                frames.ctypes.data_as(c_void_p), c_uint64(len(frames)), byref(count))
-    engine.call("haptoflow_wave_features_close", byref(features))
-    frames = frames[: count.value]
-    result = np.zeros(len(frames), dtype=[*((name, "f8") for name in _FRAME.names), ("seconds", "f8")])
-    for name in _FRAME.names:
-        result[name] = frames[name]
-    # The low-pass before the features delays by 1.5 ms.
-    result["seconds"] = frames["first_sample"] / 2000.0 - 0.0015
-    return result
 
 
 def exposure(

@@ -943,11 +943,12 @@ typedef struct haptoflow_wave_frame {
      * delay. */
     uint64_t first_sample;
     uint32_t sample_count;
-    /* Perceived intensity; 1 is the detection threshold. */
+    /* Perceived intensity; 1 is the detection threshold. Smoothed with a time constant of 15 ms, except where it is
+     * sudden. */
     float intensity;
-    /* Spectral centroid, weighted by the hand's sensitivity; the last perceptible one while the wave is silent. */
+    /* Mean frequency of the part of the spectrum that exceeds the threshold; the last one while the wave is silent. */
     float centroid_hz;
-    /* The carrier: the centroid limited to the device's range, and the amplitude (peak, m/s^2) at which a sinusoid of
+    /* The carrier: the centroid mapped to the device's range, and the amplitude (peak, m/s^2) at which a sinusoid of
      * that frequency has the same intensity. */
     float frequency_hz;
     float amplitude_mps2;

@@ -23,6 +23,14 @@ constexpr double maximumMps2 = 1e6;
 // Value of r^2 below which nothing is felt and the spectrum is meaningless.
 constexpr double imperceptible = 1e-6;
 constexpr double firstCentroidHz = 160.0;
+// Where the centroids of textures lie.
+constexpr double lowestTextureHz = 50.0;
+constexpr double highestTextureHz = 240.0;
+constexpr double followSeconds = 0.015;
+constexpr double frequencyFollowSeconds = 0.04;
+constexpr double suddenRise = 4.0;
+constexpr double suddenFall = 8.0;
+constexpr double suddenSeconds = 0.03;
 
 bool isWithin(double value, double low, double high) noexcept {
     return value >= low && value <= high;
@@ -55,8 +63,16 @@ WaveFeatures::WaveFeatures(const WaveFeatureOptions& options)
         window_[i] = std::pow(std::sin(0.5 * std::numbers::pi * share), 2.0);
         cosines_[i] = std::cos(2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(historySamples));
     }
+    double windowSum = 0.0;
+    for (const double value : window_) {
+        windowSum += value;
+    }
+    thresholdEnergy_ = 0.25 * windowSum * windowSum;
     for (std::size_t bin = 0; bin < bins; ++bin) {
-        exponents_[bin] = intensityExponent(binHz * static_cast<double>(bin));
+        const double frequencyHz = binHz * static_cast<double>(bin);
+        exponents_[bin] = intensityExponent(frequencyHz);
+        logFrequencies_[bin] = bin > 0 ? std::log(frequencyHz) : 0.0;
+        squaredThresholds_[bin] = std::pow(detectionThresholdMps2(frequencyHz), 2.0);
     }
     reset();
 }
@@ -66,7 +82,11 @@ void WaveFeatures::reset() noexcept {
     thresholds_.fill(0.0);
     taken_ = 0;
     frame_ = 0;
+    weightedCentroidHz_ = firstCentroidHz;
     centroidHz_ = firstCentroidHz;
+    square_ = 0.0;
+    lastSquare_ = 0.0;
+    suddenUntil_ = 0;
     slowEnergy_ = 0.0;
     fastEnergy_ = 0.0;
     hasOnset_ = false;
@@ -172,18 +192,41 @@ WaveFrame WaveFeatures::finishFrame() noexcept {
     ++frame_;
     const Spectrum spectrum = spectrumOfHistory();
     if (spectrum.energy > imperceptible) {
-        centroidHz_ = spectrum.centroidHz;
+        weightedCentroidHz_ = spectrum.weightedCentroidHz;
     }
-    const double ratio = std::sqrt(2.0 * meanSquare(start, end, centroidHz_));
-    const double intensity = spectrum.energy > imperceptible ? intensityOfRatio(ratio, spectrum.exponent) : 0.0;
-    const double frequencyHz = clampedToDevice(centroidHz_);
+    const double square = spectrum.energy > imperceptible ? 2.0 * meanSquare(start, end, weightedCentroidHz_) : 0.0;
+    const WaveTransient transient = transientWithin(start, end);
+    follow(square, spectrum, transient.amplitudeMps2 > 0.0F);
+    const double intensity =
+        spectrum.energy > imperceptible ? intensityOfRatio(std::sqrt(square_), spectrum.exponent) : 0.0;
+    const double frequencyHz = onDevice(centroidHz_);
     return {.firstSample = start,
             .sampleCount = static_cast<std::uint32_t>(end - start),
             .intensity = static_cast<float>(intensity),
             .centroidHz = static_cast<float>(centroidHz_),
             .frequencyHz = static_cast<float>(frequencyHz),
             .amplitudeMps2 = static_cast<float>(amplitudeOfIntensity(intensity, frequencyHz)),
-            .transient = transientWithin(start, end)};
+            .transient = transient};
+}
+
+void WaveFeatures::follow(double square, const Spectrum& spectrum, bool hasOnset) noexcept {
+    const double frameSeconds = frameSamples_ / sampleRateHz;
+    if (hasOnset) {
+        suddenUntil_ = frame_ + static_cast<std::uint64_t>(std::ceil(suddenSeconds / frameSeconds));
+    }
+    if (frame_ == suddenUntil_ && square < lastSquare_) {
+        ++suddenUntil_;
+    }
+    if (suddenFall * std::max(square, lastSquare_) < square_) {
+        suddenUntil_ = std::max(suddenUntil_, frame_ + 1);
+    }
+    const bool isSudden = frame_ <= suddenUntil_ || square > suddenRise * square_;
+    square_ = isSudden ? square : square_ + (1.0 - std::exp(-frameSeconds / followSeconds)) * (square - square_);
+    lastSquare_ = square;
+    if (spectrum.feltHz > 0.0) {
+        const double share = isSudden ? 1.0 : 1.0 - std::exp(-frameSeconds / frequencyFollowSeconds);
+        centroidHz_ *= std::pow(spectrum.feltHz / centroidHz_, share);
+    }
 }
 
 WaveFeatures::Spectrum WaveFeatures::spectrumOfHistory() const noexcept {
@@ -192,6 +235,8 @@ WaveFeatures::Spectrum WaveFeatures::spectrumOfHistory() const noexcept {
         windowed[i] = window_[i] * thresholds_[(taken_ + i) % historySamples];
     }
     Spectrum spectrum;
+    double feltEnergy = 0.0;
+    double logFrequency = 0.0;
     for (std::size_t bin = 1; bin < bins; ++bin) {
         double real = 0.0;
         double imaginary = 0.0;
@@ -201,11 +246,19 @@ WaveFeatures::Spectrum WaveFeatures::spectrumOfHistory() const noexcept {
         }
         const double energy = real * real + imaginary * imaginary;
         spectrum.energy += energy;
-        spectrum.centroidHz += energy * static_cast<double>(bin);
+        spectrum.weightedCentroidHz += energy * static_cast<double>(bin);
         spectrum.exponent += energy * exponents_[bin];
+        if (energy > thresholdEnergy_) {
+            const double felt = energy * squaredThresholds_[bin];
+            feltEnergy += felt;
+            logFrequency += felt * logFrequencies_[bin];
+        }
+    }
+    if (feltEnergy > 0.0) {
+        spectrum.feltHz = std::exp(logFrequency / feltEnergy);
     }
     if (spectrum.energy > 0.0) {
-        spectrum.centroidHz *= binHz / spectrum.energy;
+        spectrum.weightedCentroidHz *= binHz / spectrum.energy;
         spectrum.exponent /= spectrum.energy;
     }
     return spectrum;
@@ -252,15 +305,20 @@ WaveTransient WaveFeatures::transientWithin(std::uint64_t start, std::uint64_t e
     // 2 sin(turn / 2).
     const double turn = 2.0 * std::atan2(std::sqrt(differences), std::sqrt(sums));
     const double ownHz = turn / (2.0 * std::numbers::pi) * sampleRateHz;
-    const double frequencyHz = clampedToDevice(ownHz);
+    const double frequencyHz = onDevice(ownHz);
     const double amplitude = amplitudeOfIntensity(intensityOfSinusoid(peak, ownHz), frequencyHz);
     return {.offsetSeconds = static_cast<float>(static_cast<double>(std::max(onset_, start) - start) / sampleRateHz),
             .amplitudeMps2 = static_cast<float>(amplitude),
             .frequencyHz = static_cast<float>(frequencyHz)};
 }
 
-double WaveFeatures::clampedToDevice(double frequencyHz) const noexcept {
-    return std::clamp(frequencyHz, options_.minFrequencyHz, options_.maxFrequencyHz);
+double WaveFeatures::onDevice(double frequencyHz) const noexcept {
+    const double low = options_.minFrequencyHz;
+    const double high = options_.maxFrequencyHz;
+    const double playedLow = std::max(low, std::min(lowestTextureHz, high));
+    const double playedHigh = std::min(high, std::max(highestTextureHz, low));
+    const double compression = std::log(playedHigh / playedLow) / std::log(highestTextureHz / lowestTextureHz);
+    return std::clamp(playedLow * std::pow(frequencyHz / lowestTextureHz, compression), low, high);
 }
 
 }  // namespace haptoflow::effects

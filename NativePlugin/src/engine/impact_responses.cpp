@@ -1,5 +1,7 @@
 #include "engine/impact_responses.hpp"
 
+#include "engine/tap_pieces.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -39,10 +41,24 @@ struct MeanMode {
     }
 };
 
+double stiffnessHz(const model::Label& label) noexcept {
+    return std::clamp(5.0 * std::sqrt(label.stiffnessNewtonsPerMetre), 25.0, 450.0);
+}
+
+/// Whether the header's main mode repeats what follows from the stiffness, rounded as training writes it.
+bool statesOnlyStiffness(const model::Label& label) noexcept {
+    return !label.impact || std::abs(label.impact->modes[0].frequencyHz - stiffnessHz(label)) < 0.01;
+}
+
 }  // namespace
 
 ImpactResponse impactResponse(const model::Label& label) noexcept {
     ImpactResponse response;
+    if (const TapPiece* piece = tapPieceOf(label); piece != nullptr && statesOnlyStiffness(label)) {
+        response = tapOn(*piece);
+        response.restitution = label.impact ? static_cast<float>(label.impact->restitution) : 0.0F;
+        return response;
+    }
     if (label.impact) {
         for (std::size_t i = 0; i < response.modes.size(); ++i) {
             const model::ImpactMode& mode = label.impact->modes[i];
@@ -53,7 +69,7 @@ ImpactResponse impactResponse(const model::Label& label) noexcept {
         response.restitution = static_cast<float>(label.impact->restitution);
         return response;
     }
-    const double frequencyHz = std::clamp(5.0 * std::sqrt(label.stiffnessNewtonsPerMetre), 25.0, 450.0);
+    const double frequencyHz = stiffnessHz(label);
     response.modes[0] = {.frequencyHz = static_cast<float>(frequencyHz),
                          .decayPerSecond = static_cast<float>(60.0 + 0.15 * frequencyHz),
                          .gainPerSecond = static_cast<float>(0.15 * 2.0 * std::numbers::pi * frequencyHz)};

@@ -1,10 +1,13 @@
 #include "engine/impact_responses.hpp"
 
+#include "engine/tap_pieces.hpp"
+#include "model/model_file.hpp"
 #include "small_library.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 namespace haptoflow::engine {
 namespace {
@@ -38,10 +41,36 @@ TEST(ImpactResponsesTest, TheModelsImpactResponseIsUsed) {
     EXPECT_FLOAT_EQ(response.restitution, 0.1F);
 }
 
+TEST(ImpactResponsesTest, ALabelWhoseHeaderOnlyRepeatsItsStiffnessHasTheTapOfItsPiece) {
+    model::Label label = labelOf(5000.0);
+    label.name = "metal";
+    label.impact = model::Impact{.modes = {{{353.55, 70.65, 333.22}, {340.0, 178.0, 100.0}}}, .restitution = 0.28};
+    const effects::ImpactResponse response = impactResponse(label);
+    EXPECT_EQ(response.modes[0].frequencyHz, tapOn(*tapPieceOf(label)).modes[0].frequencyHz);
+    EXPECT_FLOAT_EQ(response.restitution, 0.28F);
+    label.impact->modes[0].frequencyHz = 350.0;
+    EXPECT_FLOAT_EQ(impactResponse(label).modes[0].frequencyHz, 350.0F) << "a mode of the file's own is kept";
+}
+
+TEST(ImpactResponsesTest, EveryLabelOfTheShippedModelHasTheTapOfAPieceOfItsName) {
+    const model::ModelFile model = model::ModelFile::read(HAPTOFLOW_TEST_DEFAULT_MODEL);
+    for (const model::Label& label : model.header().labels) {
+        const TapPiece* piece = tapPieceOf(label);
+        ASSERT_NE(piece, nullptr) << label.name;
+        EXPECT_EQ(piece->label, label.name);
+        EXPECT_EQ(piece->category, label.category);
+        EXPECT_EQ(piece->stiffnessNewtonsPerMetre, label.stiffnessNewtonsPerMetre) << label.name;
+        EXPECT_EQ(impactResponse(label).modes[0].frequencyHz, tapOn(*piece).modes[0].frequencyHz) << label.name;
+    }
+}
+
 TEST(ImpactResponsesTest, ABlendsResponseLiesBetweenItsLabelsAndUnknownLabelsAreSkipped) {
     model::testing::ModelBuilder builder;
-    builder.header["labels"][0]["stiffness_newtons_per_metre"] = 400.0;
-    builder.header["labels"][1]["stiffness_newtons_per_metre"] = 6400.0;
+    for (const auto& [label, frequencyHz] : {std::pair{0, 100.0}, {1, 400.0}}) {
+        const nlohmann::json mode = {
+            {"frequency_hz", frequencyHz}, {"decay_per_second", 70.0}, {"gain_per_second", 100.0}};
+        builder.header["labels"][label]["impact"] = {{"modes", nlohmann::json::array({mode})}, {"restitution", 0.0}};
+    }
     const testing::SmallLibrary small(model::ModelFile::parse(builder.build()));
     const auto frequencyOf = [&small](std::initializer_list<testing::LabelWeight> entries) {
         return impactResponse(small.ingredients(entries)).modes[0].frequencyHz;
@@ -51,6 +80,21 @@ TEST(ImpactResponsesTest, ABlendsResponseLiesBetweenItsLabelsAndUnknownLabelsAre
     EXPECT_NEAR(frequencyOf({{0, 0.5F}, {1, 0.5F}}), 200.0F, 1e-3F);
     EXPECT_FLOAT_EQ(frequencyOf({{0, 0.5F}, {99, 0.5F}}), 100.0F);
     EXPECT_FLOAT_EQ(frequencyOf({}), 100.0F) << "an empty blend is the first label";
+}
+
+TEST(ImpactResponsesTest, ABlendOfTwoPiecesLiesBetweenTheirTaps) {
+    model::testing::ModelBuilder builder;
+    builder.header["labels"][0]["category"] = "glass";
+    builder.header["labels"][1]["category"] = "fur";
+    const testing::SmallLibrary small(model::ModelFile::parse(builder.build()));
+    const auto tap = [&small](std::initializer_list<testing::LabelWeight> entries) {
+        return impactResponse(small.ingredients(entries)).modes[0];
+    };
+    const auto glass = tap({{0, 1.0F}});
+    const auto fur = tap({{1, 1.0F}});
+    const auto both = tap({{0, 0.5F}, {1, 0.5F}});
+    EXPECT_NEAR(both.frequencyHz, std::sqrt(glass.frequencyHz * fur.frequencyHz), 0.01F);
+    EXPECT_NEAR(both.gainPerSecond, 0.5F * (glass.gainPerSecond + fur.gainPerSecond), 0.01F);
 }
 
 TEST(ImpactResponsesTest, AModeThatOneLabelLacksIsWeakerInTheBlend) {

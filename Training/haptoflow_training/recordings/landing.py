@@ -4,7 +4,8 @@ recorder.
 A tip of mass m that lands with speed v on a spring k vibrates as v sqrt(k/m) e^(-Bt) sin(sqrt(k/m) t) (Okamura,
 Cutkosky, Dennerlein 2001, fit the same form to taps on real materials). The spring is that of the virtual surface, so
 that a stiffer surface also sounds harder; a resonance of the specimen is added. The mass, the restitution and the decay
-were chosen by listening and from plots, not measured: rubber, wood and stone come to about 90, 170 and 320 Hz.
+were chosen by listening and from plots, not measured: rubber, wood and stone come to about 90, 170 and 320 Hz. For labels
+of which it knows a usual piece, the engine keeps the restitution only, and taps on that piece instead.
 """
 
 from __future__ import annotations

@@ -67,7 +67,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
             foreach ((double seconds, float amplitude, _, _) in motor.Commands.Skip(5))
             {
                 double waveSeconds = seconds - 0.5 * FrameSeconds - WaveFeatures.LatencySeconds - 0.004;
-                Assert.That(amplitude, Is.EqualTo(Envelope(waveSeconds)).Within(0.06));
+                Assert.That(amplitude, Is.EqualTo(Envelope(waveSeconds)).Within(0.1));
             }
         }
 
@@ -118,7 +118,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
             float before = motor.AmplitudeAt(now);
             wave.IsSilent = true;
             now = Play(motor, queue, now, 2.5 * FrameSeconds);
-            Assert.That(motor.AmplitudeAt(now), Is.LessThan(0.04f * before), "-28 dB after 35 ms");
+            Assert.That(motor.AmplitudeAt(now), Is.LessThan(0.06f * before), "-24 dB after 35 ms");
             now = Play(motor, queue, now, 4.0 * FrameSeconds);
             AssertStopsWithoutFurtherCommands(motor, queue, now);
         }

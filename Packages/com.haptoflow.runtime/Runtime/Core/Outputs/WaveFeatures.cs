@@ -26,7 +26,7 @@ namespace HaptoFlow.Outputs
         /// scale.</summary>
         public float Amplitude { get; }
 
-        /// <summary>Perceptually weighted centre of the spectrum, within the device's range, in Hz.</summary>
+        /// <summary>Mean frequency of what is felt, mapped to the device's range, in Hz.</summary>
         public float FrequencyHz { get; }
 
         /// <summary>Amplitude of the vibration at <see cref="TransientFrequencyHz"/> that feels as strong as a

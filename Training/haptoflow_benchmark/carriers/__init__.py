@@ -1,0 +1,1 @@
+"""What a device with one carrier plays of a model's labels."""
