@@ -10,6 +10,7 @@ from haptoflow_training.cli import run_program
 _COMMANDS = {
     "evaluate": "measure accuracy and time of every row of the plan",
     "few-shot": "measure materials fitted to ten seconds of recording, beside rivals",
+    "place": "measure whether a place of a surface feels the same twice",
     "velocity": "measure estimates of the velocity of the tip on strokes of known velocity",
     "train": "`haptoflow-training train` for rivals, codecs, their objectives and ablations too",
     "train-codec": "train the small codec whose latents some rows work on",

@@ -1,0 +1,1 @@
+"""Whether a place of a surface feels the same twice."""

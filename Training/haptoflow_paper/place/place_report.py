@@ -1,0 +1,65 @@
+"""The page's words about places."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from haptoflow_paper.metrics.judged_figures import BY_KEY
+from haptoflow_paper.place.place_study import second_passes, summary
+from haptoflow_training.model_stamp import model_line
+
+# Goals: the least median over random labels; None where likeness is not wanted and chance is.
+GOALS: dict[str, float | None] = {
+    "same direction and speed": 0.65, "20 % faster": 0.6, "twice as fast": 0.5, "half as fast": 0.5, "backwards": 0.6,
+    "object moved and turned": 0.65, "second round of a circle": 0.65, "0.1 mm beside": 0.4, "1 mm beside": None,
+    "another object": None,
+}  # fmt: skip
+_RULED_GOAL = 0.9
+# Two passes of other objects have this correlation at the best of 81 shifts; a path beside is as unlike as that.
+_CHANCE_MARGIN = 0.05
+
+
+def page_words(results: Mapping[str, Any]) -> str:
+    likeness = results["likeness"]
+    now, before = likeness["now"], likeness.get("before")
+    chance = summary(now, "another object")["median"]
+    lines = [model_line(results["model_sha256"]), "", *_head(before is not None)]
+    for name in [*second_passes(), "second round of a circle"]:
+        lines.append(_row(name, summary(now, name), None if before is None else summary(before, name), chance))
+    lines += ["", *_accuracy_words(results.get("accuracy"))]
+    return "\n".join(lines)
+
+
+def _head(has_baseline: bool) -> list[str]:
+    columns = ["second pass", "random labels: median (least to most)", "goal", "shift, mm"]
+    columns += ["mesh, corduroy, jute, without a shift", "bumps found"]
+    columns += ["before: median"] if has_baseline else []
+    return ["| " + " | ".join(columns) + " |", "|---" * len(columns) + "|"]
+
+
+def _row(name: str, found: Mapping[str, Any], before: Mapping[str, Any] | None, chance: float) -> str:
+    goal = GOALS[name]
+    met = found["median"] <= chance + _CHANCE_MARGIN if goal is None else found["median"] >= goal
+    aim = "chance" if goal is None else f"{goal:g}"
+    ruled = ", ".join(f"{value:.2f}" for value in found["ruled"].values())
+    if name == "same direction and speed":
+        missed = [label for label, value in found["ruled"].items() if value < _RULED_GOAL]
+        ruled += f" (goal {_RULED_GOAL:g}: " + (f"missed by {', '.join(missed)})" if missed else "met)")
+    cells = [name, f"{found['median']:.2f} ({found['least']:.2f} to {found['most']:.2f})"]
+    cells += [f"{aim}: {'met' if met else 'missed'}", f"{found['shift_mm']:.2f}", ruled]
+    cells += [f"{100.0 * found['bumps_found']:.0f} %" if "bumps_found" in found else ""]
+    cells += [] if before is None else [f"{before['median']:.2f}"]
+    return "| " + " | ".join(cells) + " |"
+
+
+def _accuracy_words(accuracy: Mapping[str, Any] | None) -> list[str]:
+    if accuracy is None or "before" not in accuracy:
+        return []
+    lines = ["| accuracy of whole renders | now: median, p90 | before: median, p90 | now is |", "|---|---|---|---|"]
+    for key, outcome in accuracy["verdict"].items():
+        now, before = (accuracy[name].get(key) for name in ("now", "before"))
+        if now is not None and before is not None:
+            shown = [f"{each['median']:.3g}, {each['p90']:.3g}" for each in (now, before)]
+            lines.append(f"| {BY_KEY[key].words} | {shown[0]} | {shown[1]} | {outcome} |")
+    return lines

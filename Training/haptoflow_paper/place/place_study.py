@@ -1,0 +1,125 @@
+"""The study of places: likeness of passes, bumps found again, and accuracy beside an engine without places."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from haptoflow_paper.place.likeness import Profile, bumps, likeness, over_place, share_found_again
+from haptoflow_paper.place.passes import Pass, Renderer, Rounds, Table
+from haptoflow_training.waveform import SAMPLE_RATE_HZ
+
+# Labels whose ribs are ruled; the others are random.
+RULED = ("metal mesh", "corduroy", "jute")
+BUMPY = ("stone", "concrete", "brick")
+_LOW_METRES, _HIGH_METRES = 0.002, 0.052
+# Beginnings of second passes, so that hand-overs and the network's grid of 8 samples fall elsewhere.
+_EARLIER_METRES = (0.00051, 0.00173, 0.00247, 0.0033)
+_BUMPS, _OTHER_BUMPS = 5, 8
+_MOVED = {"position_metres": (0.3, 0.2, -0.4), "turn_degrees": 35.0}
+
+
+def second_passes() -> dict[str, tuple[dict[str, Any], Pass]]:
+    """What a second pass changes: of the table, and of the pass."""
+    once = Pass()
+    return {
+        "same direction and speed": ({}, once),
+        "20 % faster": ({}, Pass(-0.01, 0.068, 0.12)),
+        "twice as fast": ({}, Pass(-0.02, 0.075, 0.2)),
+        "half as fast": ({}, Pass(-0.005, 0.06, 0.05)),
+        "backwards": ({}, Pass(0.065, -0.01)),
+        "object moved and turned": (_MOVED, once),
+        "0.1 mm beside": ({}, replace(once, beside_metres=1e-4)),
+        "1 mm beside": ({}, replace(once, beside_metres=1e-3)),
+        "another object": ({"name": "another table"}, once),
+    }
+
+
+@dataclass(frozen=True)
+class _Task:
+    label: str
+    renderer: Renderer
+    # Without a place, passes differ by their seed only, as two passes of one session do.
+    seeds: tuple[int, int] = (1, 1)
+
+
+def _figures_of(task: _Task) -> dict[str, Any]:
+    reference_pass = Pass()
+    table = Table(task.label)
+
+    def profile(where: Table, stroke: Pass, seed: int) -> Profile:
+        return over_place(task.renderer.wave(where, stroke, seed), stroke)
+
+    first = profile(table, reference_pass, task.seeds[0])
+    figures: dict[str, Any] = {}
+    for name, (changes, stroke) in second_passes().items():
+        seconds = [
+            profile(replace(table, **changes), stroke.begun_earlier(metres), task.seeds[1]) for metres in _EARLIER_METRES
+        ]
+        found = [likeness(first, second, _LOW_METRES, _HIGH_METRES) for second in seconds]
+        figures[name] = {
+            "correlation": float(np.mean([each.correlation for each in found])),
+            "unshifted": float(np.mean([each.unshifted for each in found])),
+            "shift_mm": float(1e3 * np.median([each.shift_metres for each in found])),
+            "bumps_found": float(np.mean([_bumps_found(first, second) for second in seconds])),
+        }
+    figures["second round of a circle"] = _second_round(task)
+    return figures
+
+
+def _bumps_found(first: Profile, second: Profile) -> float:
+    return share_found_again(
+        bumps(first, _LOW_METRES, _HIGH_METRES, _BUMPS), bumps(second, _LOW_METRES, _HIGH_METRES, _OTHER_BUMPS)
+    )
+
+
+def _second_round(task: _Task) -> dict[str, float]:
+    rounds = Rounds()
+    wave = task.renderer.wave(Table(task.label), rounds, task.seeds[0])
+    samples = rounds.round_seconds * SAMPLE_RATE_HZ
+    # The second half of the first round, as a profile of which one sample is one step.
+    half, whole = round(0.5 * samples), round(samples)
+    first = Profile(0.0, wave[half:whole])
+    second = Profile(5e-5 * (whole - samples), wave[half + whole : 2 * whole])
+    found = likeness(first, second, 0.001, 0.045)
+    return {"correlation": found.correlation, "unshifted": found.unshifted, "shift_mm": 1e3 * found.shift_metres}
+
+
+def steps_of(labels: Sequence[str], engines: int) -> int:
+    return len(labels) * engines
+
+
+def measure_likeness(
+    renderer: Renderer, baseline: Renderer | None, labels: Sequence[str], workers: int, advance: Callable[[], object]
+) -> dict[str, dict[str, Any]]:
+    """{"now": {label: {second pass: figures}}, "before": the same}; `before` renders both passes with other seeds."""
+    rows = {"now": [_Task(label, renderer) for label in labels]}
+    if baseline is not None:
+        rows["before"] = [_Task(label, baseline, (1, 2)) for label in labels]
+    results: dict[str, dict[str, Any]] = {}
+    with ThreadPoolExecutor(workers) as pool:
+        for name, tasks in rows.items():
+            results[name] = {}
+            for task, figures in zip(tasks, pool.map(_figures_of, tasks), strict=True):
+                results[name][task.label] = figures
+                advance()
+    return results
+
+
+def summary(by_label: Mapping[str, Mapping[str, Mapping[str, float]]], second_pass: str) -> dict[str, Any]:
+    """Median, least and most over the random labels, the ruled labels' unshifted correlation, and bumps."""
+    random = [figures[second_pass] for label, figures in by_label.items() if label not in RULED]
+    values = [each["correlation"] for each in random]
+    summed: dict[str, Any] = {
+        "median": float(np.median(values)), "least": min(values), "most": max(values),
+        "shift_mm": float(np.median([each["shift_mm"] for each in random])),
+        "ruled": {label: by_label[label][second_pass]["unshifted"] for label in RULED if label in by_label},
+    }  # fmt: skip
+    found = [by_label[label][second_pass].get("bumps_found") for label in BUMPY if label in by_label]
+    if found and None not in found:
+        summed["bumps_found"] = float(np.mean([each for each in found if each is not None]))
+    return summed
