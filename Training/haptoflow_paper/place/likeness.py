@@ -15,6 +15,8 @@ from haptoflow_training.waveform import SAMPLE_RATE_HZ
 STEP_METRES = 5e-5
 SHIFT_METRES = 1e-3
 _BUMP_DISTANCE_METRES = 0.003
+# Of the RMS. A Gaussian wave exceeds the first once in fifteen metres, the second twice a metre.
+_BUMP_SIZE, _FOUND_SIZE = 4.5, 3.5
 
 
 @dataclass(frozen=True)
@@ -60,16 +62,21 @@ def likeness(first: Profile, second: Profile, low_metres: float, high_metres: fl
     return Likeness(found[best], float(shifts[best]), at(0.0))
 
 
-def bumps(profile: Profile, low_metres: float, high_metres: float, count: int) -> Doubles:
-    """Places of the highest peaks, 3 mm apart or more: the outsized asperities."""
-    size = np.abs(profile.between(low_metres, high_metres))
-    peaks, _ = find_peaks(size, distance=round(_BUMP_DISTANCE_METRES / STEP_METRES))
-    highest = peaks[np.argsort(size[peaks])[::-1][:count]]
-    places: Doubles = low_metres + STEP_METRES * highest
+def bumps(profile: Profile, low_metres: float, high_metres: float) -> Doubles:
+    """Places of the outsized asperities: peaks, 3 mm apart or more, above 4.5 times the RMS."""
+    size = _relative_size(profile.between(low_metres, high_metres))
+    distance = round(_BUMP_DISTANCE_METRES / STEP_METRES)
+    peaks, _ = find_peaks(size, distance=distance, height=_BUMP_SIZE)
+    places: Doubles = low_metres + STEP_METRES * peaks
     return places
 
 
-def share_found_again(first: Doubles, second: Doubles, within_metres: float = 1e-3) -> float:
-    """Share of the first places that have one of the second near them."""
-    near = np.abs(first[:, None] - second[None, :]).min(axis=1) <= within_metres
-    return float(near.mean())
+def found_again(places: Doubles, second: Profile, low_metres: float, high_metres: float) -> int:
+    """Number of the places within a millimetre of which the second pass exceeds 3.5 times its RMS."""
+    size = _relative_size(second.between(low_metres, high_metres))
+    at = low_metres + STEP_METRES * np.arange(len(size))
+    return sum(bool(np.any(size[np.abs(at - place) <= SHIFT_METRES] >= _FOUND_SIZE)) for place in places)
+
+
+def _relative_size(wave: Doubles) -> Doubles:
+    return np.abs(wave) / np.sqrt(np.mean(np.square(wave)))

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from haptoflow_paper.metrics.judged_figures import BY_KEY
-from haptoflow_paper.place.place_study import second_passes, summary
+from haptoflow_paper.place.place_study import bumps_found, second_passes, summary
 from haptoflow_training.model_stamp import model_line
 
 # Goals: the least median over random labels; None where likeness is not wanted and chance is.
@@ -27,13 +27,13 @@ def page_words(results: Mapping[str, Any]) -> str:
     lines = [model_line(results["model_sha256"]), "", *_head(before is not None)]
     for name in [*second_passes(), "second round of a circle"]:
         lines.append(_row(name, summary(now, name), None if before is None else summary(before, name), chance))
-    lines += ["", *_accuracy_words(results.get("accuracy"))]
+    lines += ["", _bump_words(now), "", *_accuracy_words(results.get("accuracy"))]
     return "\n".join(lines)
 
 
 def _head(has_baseline: bool) -> list[str]:
     columns = ["second pass", "random labels: median (least to most)", "goal", "shift, mm"]
-    columns += ["mesh, corduroy, jute, without a shift", "bumps found"]
+    columns += ["mesh, corduroy, jute, without a shift"]
     columns += ["before: median"] if has_baseline else []
     return ["| " + " | ".join(columns) + " |", "|---" * len(columns) + "|"]
 
@@ -48,9 +48,20 @@ def _row(name: str, found: Mapping[str, Any], before: Mapping[str, Any] | None, 
         ruled += f" (goal {_RULED_GOAL:g}: " + (f"missed by {', '.join(missed)})" if missed else "met)")
     cells = [name, f"{found['median']:.2f} ({found['least']:.2f} to {found['most']:.2f})"]
     cells += [f"{aim}: {'met' if met else 'missed'}", f"{found['shift_mm']:.2f}", ruled]
-    cells += [f"{100.0 * found['bumps_found']:.0f} %" if "bumps_found" in found else ""]
     cells += [] if before is None else [f"{before['median']:.2f}"]
     return "| " + " | ".join(cells) + " |"
+
+
+def _bump_words(now: Mapping[str, Any]) -> str:
+    found = bumps_found(now)
+    if found["bumps"] == 0:
+        return "No bumps: none of the labels measured has outsized asperities."
+    missed = "" if found["again"] >= 0.9 * found["bumps"] else " Goal missed: the same millimetre should have them again."
+    return (
+        f"Of {found['bumps']} peaks above 4.5 times the RMS (stone, concrete and brick, half a metre at 30 mm/s), the "
+        f"next pass has {found['again']} within a millimetre; another object would have {found['by_chance']} by "
+        f"chance.{missed}"
+    )
 
 
 def _accuracy_words(accuracy: Mapping[str, Any] | None) -> list[str]:

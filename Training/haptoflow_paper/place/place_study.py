@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from haptoflow_paper.place.likeness import Profile, bumps, likeness, over_place, share_found_again
+from haptoflow_paper.place.likeness import Profile, bumps, found_again, likeness, over_place
 from haptoflow_paper.place.passes import Pass, Renderer, Rounds, Table
 from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
@@ -19,7 +19,7 @@ BUMPY = ("stone", "concrete", "brick")
 _LOW_METRES, _HIGH_METRES = 0.002, 0.052
 # Beginnings of second passes, so that hand-overs and the network's grid of 8 samples fall elsewhere.
 _EARLIER_METRES = (0.00051, 0.00173, 0.00247, 0.0033)
-_BUMPS, _OTHER_BUMPS = 5, 8
+_LONG, _LONG_RANGE_METRES = Pass(-0.01, 0.55, 0.03), (0.0, 0.53)
 _MOVED = {"position_metres": (0.3, 0.2, -0.4), "turn_degrees": 35.0}
 
 
@@ -65,16 +65,24 @@ def _figures_of(task: _Task) -> dict[str, Any]:
             "correlation": float(np.mean([each.correlation for each in found])),
             "unshifted": float(np.mean([each.unshifted for each in found])),
             "shift_mm": float(1e3 * np.median([each.shift_metres for each in found])),
-            "bumps_found": float(np.mean([_bumps_found(first, second) for second in seconds])),
         }
     figures["second round of a circle"] = _second_round(task)
+    if task.label in BUMPY:
+        figures["bumps"] = _bumps_of(task)
     return figures
 
 
-def _bumps_found(first: Profile, second: Profile) -> float:
-    return share_found_again(
-        bumps(first, _LOW_METRES, _HIGH_METRES, _BUMPS), bumps(second, _LOW_METRES, _HIGH_METRES, _OTHER_BUMPS)
-    )
+def _bumps_of(task: _Task) -> dict[str, int]:
+    """Bumps of one pass of half a metre at 30 mm/s, those that the next pass finds, and those that chance finds."""
+    once, again = _LONG, _LONG.begun_earlier(_EARLIER_METRES[-1])
+    table, other = Table(task.label), Table(task.label, "another table")
+    first = over_place(task.renderer.wave(table, once, task.seeds[0]), once)
+    places = bumps(first, *_LONG_RANGE_METRES)
+    found = {
+        name: found_again(places, over_place(task.renderer.wave(where, again, task.seeds[1]), again), *_LONG_RANGE_METRES)
+        for name, where in (("again", table), ("by_chance", other))
+    }
+    return {"bumps": len(places), **found}
 
 
 def _second_round(task: _Task) -> dict[str, float]:
@@ -111,15 +119,17 @@ def measure_likeness(
 
 
 def summary(by_label: Mapping[str, Mapping[str, Mapping[str, float]]], second_pass: str) -> dict[str, Any]:
-    """Median, least and most over the random labels, the ruled labels' unshifted correlation, and bumps."""
+    """Median, least and most over the random labels, and the ruled labels' correlation without a shift."""
     random = [figures[second_pass] for label, figures in by_label.items() if label not in RULED]
     values = [each["correlation"] for each in random]
-    summed: dict[str, Any] = {
+    return {
         "median": float(np.median(values)), "least": min(values), "most": max(values),
         "shift_mm": float(np.median([each["shift_mm"] for each in random])),
         "ruled": {label: by_label[label][second_pass]["unshifted"] for label in RULED if label in by_label},
     }  # fmt: skip
-    found = [by_label[label][second_pass].get("bumps_found") for label in BUMPY if label in by_label]
-    if found and None not in found:
-        summed["bumps_found"] = float(np.mean([each for each in found if each is not None]))
-    return summed
+
+
+def bumps_found(by_label: Mapping[str, Mapping[str, Mapping[str, int]]]) -> dict[str, int]:
+    """Sums over the labels with outsized asperities: {bumps, again, by_chance}."""
+    counts = [figures["bumps"] for figures in by_label.values() if "bumps" in figures]
+    return {key: sum(each[key] for each in counts) for key in ("bumps", "again", "by_chance")}
