@@ -24,7 +24,7 @@ from haptoflow_benchmark.full_scale.measurement import (
     smallest_full_scale,
     summarise,
 )
-from haptoflow_benchmark.full_scale.recorded_strokes import onto_table, read_recorded_strokes
+from haptoflow_benchmark.full_scale.recorded_strokes import evenly_on_table, onto_table, read_recorded_strokes
 from haptoflow_training.errors import InputError
 
 ROOT = Path(__file__).parents[2]
@@ -122,7 +122,8 @@ def test_the_engine_s_limiter_changes_as_many_samples_as_counted_here(tmp_path: 
     level = measure_levels(ENGINE, MODEL, {"stroke": stroke}, ("stone",), (2.0,))[0]
     scene, table, report = (tmp_path / name for name in ("scene.json", "stroke.csv", "report.json"))
     write_scene(scene, "stone", 72.0, 0.005)
-    np.savetxt(table, np.c_[onto_table(stroke), np.full(len(stroke), 2.0)], fmt="%.7f", delimiter=",",
+    path = evenly_on_table(stroke)
+    np.savetxt(table, np.c_[path, np.full(len(path), 2.0)], fmt="%.7f", delimiter=",",
                header="t,x,y,z,force", comments="")  # fmt: skip
     subprocess.run(
         [str(ENGINE), "render", str(scene), "--stroke", str(table), "-o", str(tmp_path / "out.wav"), "--model", str(MODEL),

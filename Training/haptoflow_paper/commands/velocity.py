@@ -48,7 +48,8 @@ def run(options: argparse.Namespace) -> int:
         raise InputError(f"{options.strokes}: names of strokes must hold the person, as in Study1/4/circle")
     persons = {person_of(name) for name in strokes}
     if not set(options.choosing) < persons:
-        raise InputError(f"--choosing {' '.join(options.choosing)}: expected some of {' '.join(sorted(persons))}, not all")
+        given, known = " ".join(options.choosing), " ".join(sorted(persons))
+        raise InputError(f"--choosing {given}: expected some of {known}, not all")
     for place in (options.results, options.page):
         if place is not None:
             check_writable(place)

@@ -27,9 +27,8 @@ Place = Callable[[Array], Array]
 @dataclass(frozen=True)
 class VelocityCase:
     """kind: "scribble 2 Hz", "slow 5 mm/s", "real 4"... times_s: [n]; measured_m: [n, 3], y up from the table;
-    noise_known_m: [n], what a tracker's noise was estimated to be by then. velocity_mps: [n, 2] along the table, x and z,
-    true at each time. steps: [k, 3], time in s, speed before and after in
-    m/s, of sudden changes."""
+    noise_known_m: [n], what a tracker's noise was estimated to be by then. velocity_mps: [n, 2] along the table, x and
+    z, true at each time. steps: [k, 3], time in s, speed before and after in m/s, of sudden changes."""
 
     kind: str
     rate_hz: float

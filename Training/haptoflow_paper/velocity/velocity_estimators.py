@@ -94,9 +94,8 @@ def kalman(jerk: float) -> Estimator:
         for newest in range(1, len(times)):
             t = times[newest] - times[newest - 1]
             step = np.array([[1.0, t, t * t / 2.0], [0.0, 1.0, t], [0.0, 0.0, 1.0]])
-            added = np.array(
-                [[t**5 / 20.0, t**4 / 8.0, t**3 / 6.0], [t**4 / 8.0, t**3 / 3.0, t**2 / 2.0], [t**3 / 6.0, t**2 / 2.0, t]]
-            )
+            fifth, fourth, third = t**5 / 20.0, t**4 / 8.0, t**3 / 3.0
+            added = np.array([[fifth, fourth, third / 2.0], [fourth, third, t**2 / 2.0], [third / 2.0, t**2 / 2.0, t]])
             state = step @ state
             covariance = step @ covariance @ step.T + jerk**2 * added
             gain = covariance[:, 0] / (covariance[0, 0] + noise[newest] ** 2)

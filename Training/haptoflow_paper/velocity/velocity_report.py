@@ -89,7 +89,8 @@ def verdicts(rows: Mapping[str, Any]) -> list[tuple[str, list[tuple[float, float
         return [(of(PRODUCT, noise), share * of(TODAY, noise)) for noise in noises]
 
     found = [
-        (f"{kind}: at most half of the line's error, dB", compared([kind], "speed_error_db", 0.5)) for kind in _SCRIBBLES
+        (f"{kind}: at most half of the line's error, dB", compared([kind], "speed_error_db", 0.5))
+        for kind in _SCRIBBLES
     ]
     found.append(("slow strokes: not worse than the line, vector, mm/s", compared(_SLOW, "vector_error_mmps", 1.0)))
     found.append(("rest: not worse than the line, mm/s", compared(["rest"], "speed_mmps", 1.0)))

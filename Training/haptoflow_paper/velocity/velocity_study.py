@@ -122,8 +122,8 @@ def steps_of(plan: VelocityPlan) -> int:
 
 
 def score(figures: Mapping[_Key, Mapping[str, float]], today: Mapping[_Key, Mapping[str, float]]) -> float:
-    """Geometric mean of ratios to today's figures over headset rates, noise above 0: speed error of scribbles, speed and
-    vector error of real strokes, vector error of slow strokes, speed at rest."""
+    """Geometric mean of ratios to today's figures over headset rates, noise above 0: speed error of scribbles, speed
+    and vector error of real strokes, vector error of slow strokes, speed at rest."""
     logarithms = []
     for group, figure in (("scribble", "speed_error_db"), ("real", "speed_error_db"), ("real", "vector_error_mmps"),
                           ("slow", "vector_error_mmps"), ("rest", "speed_mmps")):  # fmt: skip

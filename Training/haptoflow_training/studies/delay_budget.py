@@ -23,9 +23,9 @@ _MAIN_BLOCK = Block(256)
 _PARTS = (("pose interval", "#4a73b5"), ("inference, p99", "#d1495b"), ("audio block", "#2f7d57"))
 _NOT_MEASURED = "not measured here"
 _LAG_WORDS = (
-    "From stylus to vibration, by rendering strokes offline with a lead of 8 ms: the lag at which the vibration's level "
-    "follows the pen's true speed best. It holds half a pose interval, the estimate of velocity, lead and hop, and "
-    "neither audio block nor device:"
+    "From stylus to vibration, by rendering strokes offline with a lead of 8 ms: the lag at which the level of the "
+    "vibration follows the pen's true speed best. It holds half a pose interval, the estimate of velocity, lead and "
+    "hop, and neither audio block nor device:"
 )
 _TITLES = {TURN_ON: "Turn-On", TURN_OFF: "Turn-Off"}
 
