@@ -46,7 +46,7 @@ bool ContactFollower::slidesByDistance(const ContactState& state, bool isNewCont
         string[axis] = state.placeMetres[axis] - pointMetres_[axis];
     }
     const float distance = std::hypot(string[0], string[1], string[2]);
-    if (!sliding_ && distance < (speed >= strokeMps ? stringMetres : startMetres)) {
+    if (!sliding_ && distance < (speed >= strokeMps ? strokeStartMetres : startMetres)) {
         return false;
     }
     if (distance > stringMetres) {

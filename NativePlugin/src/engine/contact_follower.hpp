@@ -26,7 +26,7 @@ enum class ContactAction {
 ///
 /// Where the place is known, the distance decides and not the speed alone, so that a tip which creeps is heard and a
 /// tip which a hand holds still is not, although its tremor of up to half a millimetre is faster than creeping. Sliding
-/// begins a millimetre from where the tip came to rest, or half a millimetre from there at the speed of a stroke. It
+/// begins a millimetre from where the tip came to rest, or 0.75 mm from there at the speed of a stroke, 40 mm/s. It
 /// goes on while the tip draws a point along behind it on a slack string of half a millimetre (the play operator of
 /// hysteresis: Visintin, "Differential Models of Hysteresis", 1994), and ends when the tip stops or has not moved that
 /// point for 150 ms, in which a tip at 7 mm/s turns back.
@@ -36,10 +36,11 @@ class ContactFollower {
 public:
     static constexpr float slideStartMps = 0.004F;
     static constexpr float slideEndMps = 0.002F;
-    static constexpr float strokeMps = 0.03F;
+    static constexpr float strokeMps = 0.04F;
     static constexpr float stopMps = 0.0003F;
     static constexpr float stringMetres = 0.0005F;
     static constexpr float startMetres = 0.001F;
+    static constexpr float strokeStartMetres = 0.00075F;
     static constexpr double holdSeconds = 0.15;
 
     /// `nowSeconds` is the time of the state on a clock that runs while the voice is rendered.

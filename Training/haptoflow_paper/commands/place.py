@@ -8,6 +8,8 @@ from pathlib import Path
 from tqdm import tqdm
 
 from haptoflow_benchmark.full_scale.measurement import model_labels
+from haptoflow_benchmark.full_scale.recorded_strokes import read_recorded_strokes
+from haptoflow_paper.place.creeping import CREEPING_LABELS, creeping, held_silent, holds, recorder_without_noise
 from haptoflow_paper.place.passes import Renderer
 from haptoflow_paper.place.place_accuracy import accuracy_report, measure_cells, steady_pairs
 from haptoflow_paper.place.place_report import page_words
@@ -20,7 +22,8 @@ from haptoflow_training.whole_file import check_writable, write_whole
 _EXAMPLES = """examples:
   haptoflow-paper place --engine build/native/haptoflow \\
     --model Packages/com.haptoflow.runtime/Runtime/Models/default.haptoflow \\
-    --baseline older/build/native/haptoflow --work work/place \\
+    --baseline older/build/native/haptoflow --work work/place \
+    --strokes ../shared/strokes/vr-pen-on-surface/strokes.csv \\
     --results Training/haptoflow_paper/results/place.json --page Documentation~/place.md
 
 Passes alone take a minute or two. With --work, the reference recordings are made there (some minutes, once) and
@@ -39,6 +42,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--model", required=True, type=Path, help="the .haptoflow file")
     parser.add_argument("--baseline", type=Path, help="an older command line, for the columns before")
     parser.add_argument("--work", type=Path, help="folder of the reference recordings; without it, no accuracy")
+    parser.add_argument("--strokes", type=Path, help="CSV: stroke_id,t_s,x_m,y_m,z_m; its held pens must be silent")
     parser.add_argument("--labels", nargs="+", help="labels of the passes (default: all)")
     parser.add_argument("--workers", type=int, default=2, help="renders at a time (default 2)")
     parser.add_argument("--results", required=True, type=Path, help="JSON file to write")
@@ -62,6 +66,12 @@ def run(options: argparse.Namespace) -> int:
         "model_sha256": sha256_of(options.model),
         "likeness": found,
     }
+    results["creeping"] = {
+        label: {"now": creeping(renderers[0], label), "recorder": recorder_without_noise(label)}
+        for label in tqdm(CREEPING_LABELS, unit="label", desc="creeping")
+    }
+    if options.strokes is not None:
+        results["held"] = held_silent(renderers[0], holds(read_recorded_strokes(options.strokes)))
     if options.work is not None:
         results["accuracy"] = _accuracy(options, engines)
     write_json(options.results, results)

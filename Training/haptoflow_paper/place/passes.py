@@ -7,6 +7,7 @@ import math
 import tempfile
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -87,6 +88,12 @@ class Rounds:
         return times, self.radius_metres * np.cos(angle), self.radius_metres * np.sin(angle)
 
 
+class Stroke(Protocol):
+    """A stroke over a table: times [n] from 0 on, and places along and beside the line, [n] each."""
+
+    def points(self) -> tuple[Doubles, Doubles, Doubles]: ...
+
+
 @dataclass(frozen=True)
 class Renderer:
     """Renders strokes with one engine. Threads may share it."""
@@ -96,7 +103,7 @@ class Renderer:
     update_rate_hz: float = 90.0
     options: tuple[str, ...] = field(default=())
 
-    def wave(self, table: Table, stroke: Pass | Rounds, seed: int = 1) -> Doubles:
+    def wave(self, table: Table, stroke: Stroke, seed: int = 1) -> Doubles:
         """The vibration [n] in m/s^2 at 2 kHz, from the stroke's first moment on."""
         times, along, beside = stroke.points()
         with tempfile.TemporaryDirectory() as name:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from haptoflow_paper.metrics.judged_figures import BY_KEY
@@ -28,6 +28,7 @@ def page_words(results: Mapping[str, Any]) -> str:
     for name in [*second_passes(), "second round of a circle"]:
         lines.append(_row(name, summary(now, name), None if before is None else summary(before, name), chance))
     lines += ["", _bump_words(now), "", *_accuracy_words(results.get("accuracy"))]
+    lines += ["", *_creeping_words(results["creeping"]), "", _held_words(results.get("held", ()))]
     return "\n".join(lines)
 
 
@@ -62,6 +63,31 @@ def _bump_words(now: Mapping[str, Any]) -> str:
         f"next pass has {found['again']} within a millimetre; another object would have {found['by_chance']} by "
         f"chance.{missed}"
     )
+
+
+def _creeping_words(creeping: Mapping[str, Any]) -> list[str]:
+    speeds = list(next(iter(creeping.values()))["now"])
+    lines = [
+        "| creeping, peak in m/s² (kurtosis) | " + " | ".join(f"{speed} mm/s; recorder" for speed in speeds) + " |",
+        "|---" * (1 + len(speeds)) + "|",
+    ]
+    for label, rows in creeping.items():
+        cells = [
+            "; ".join(f"{rows[name][speed]['peak_mps2']:.2f} ({rows[name][speed]['kurtosis']:.0f})" for name in rows)
+            for speed in speeds
+        ]
+        lines.append(f"| {label} | " + " | ".join(cells) + " |")
+    return lines
+
+
+def _held_words(held: Sequence[Mapping[str, float]]) -> str:
+    if not held:
+        return ""
+    silent = [each["diameter_mm"] for each in held if each["peak_mps2"] == 0.0]
+    heard = [each["diameter_mm"] for each in held if each["peak_mps2"] > 0.0]
+    words = f"Of {len(held)} stretches in which a recorded pen was held, {len(silent)} are exactly silent"
+    words += f", with tremor of up to {max(silent):.2f} mm across" if silent else ""
+    return words + (f"; heard are {', '.join(f'{size:.2f} mm' for size in heard)} (goal missed)." if heard else ".")
 
 
 def _accuracy_words(accuracy: Mapping[str, Any] | None) -> list[str]:

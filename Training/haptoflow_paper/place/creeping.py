@@ -1,0 +1,123 @@
+"""Slow motion: what a creeping tip feels, and that a held tip feels nothing."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy.signal import butter, resample_poly, sosfilt
+
+from haptoflow_benchmark.metrics.temporal_metrics import kurtosis
+from haptoflow_paper.place.passes import Doubles, Pass, Renderer, Table
+from haptoflow_training.recordings.synthetic import HELD_OUT_SPECIMEN, Material, load_materials
+from haptoflow_training.recordings.synthetic.carriers import path_from_velocity
+from haptoflow_training.recordings.synthetic.contact import SIMULATION_RATE_HZ, tool_acceleration
+from haptoflow_training.waveform import SAMPLE_RATE_HZ
+
+SPEEDS_MPS = (0.002, 0.003, 0.005)
+CREEPING_LABELS = ("stone", "brick", "concrete", "sandpaper", "wood", "glass")
+_SECONDS = 6.0
+# A millimetre passes before a creeping tip is heard.
+_SETTLING_SECONDS = 1.0
+_QUIET_RADIUS_METRES, _QUIET_SECONDS = 0.0006, 0.25
+_HOLD_SECONDS = 5.0
+
+
+@dataclass(frozen=True)
+class Hold:
+    """A pen held at one place: times [n] and places [n, 2] around it."""
+
+    times: Doubles
+    places_metres: Doubles
+
+    def points(self) -> tuple[Doubles, Doubles, Doubles]:
+        return self.times, self.places_metres[:, 0], self.places_metres[:, 1]
+
+    @property
+    def diameter_metres(self) -> float:
+        between = self.places_metres[:, None] - self.places_metres[None]
+        return float(np.hypot(between[..., 0], between[..., 1]).max())
+
+
+def creeping(renderer: Renderer, label: str) -> dict[str, dict[str, float]]:
+    """{speed in mm/s: figures} of the render."""
+    found = {}
+    for speed in SPEEDS_MPS:
+        wave = renderer.wave(Table(label), Pass(0.0, _SECONDS * speed, speed))
+        found[f"{1e3 * speed:g}"] = _figures(wave[round(_SETTLING_SECONDS * SAMPLE_RATE_HZ) :])
+    return found
+
+
+def recorder_without_noise(label: str) -> dict[str, dict[str, float]]:
+    """The same of the recorder's surface, without its sensors' noise."""
+    material = _material(label)
+    highpass = butter(2, 10.0, "high", fs=SAMPLE_RATE_HZ, output="sos")
+    found = {}
+    for speed in SPEEDS_MPS:
+        count = round(_SECONDS * SIMULATION_RATE_HZ)
+        velocity = np.zeros((count, 2))
+        velocity[:, 0] = 1e3 * speed
+        path = path_from_velocity(np.array([10.0, 12.0]), velocity)
+        normal = tool_acceleration(material, path, np.ones(count), specimen=HELD_OUT_SPECIMEN)[:, 2]
+        wave = sosfilt(highpass, resample_poly(normal, 1, round(SIMULATION_RATE_HZ / SAMPLE_RATE_HZ)))
+        found[f"{1e3 * speed:g}"] = _figures(wave[round(_SETTLING_SECONDS * SAMPLE_RATE_HZ) :])
+    return found
+
+
+def _material(label: str) -> Material:
+    return next(each for each in load_materials() if each.label == label)
+
+
+def _figures(wave: Doubles) -> dict[str, float]:
+    peak = float(np.abs(wave).max())
+    return {
+        "rms_mps2": float(np.sqrt(np.mean(np.square(wave)))), "peak_mps2": peak,
+        "kurtosis": float(kurtosis(wave)) if peak > 0.0 else 0.0,
+    }  # fmt: skip
+
+
+def holds(strokes: Mapping[str, Doubles]) -> list[Hold]:
+    """The tremor of every stretch in which a recorded pen stays within 0.6 mm for 0.25 s, less its straight drift,
+    played to and fro for five seconds. strokes: [n, 4] each, seconds and metres."""
+    found = []
+    for rows in strokes.values():
+        moved = np.r_[True, np.any(np.diff(rows[:, 1:3], axis=0) != 0.0, axis=1)]
+        times, places = rows[moved, 0], rows[moved, 1:3]
+        begin = 0
+        while begin < len(times):
+            end = begin + 1
+            while end < len(times) and (
+                np.linalg.norm(places[end] - places[begin:end].mean(axis=0)) < _QUIET_RADIUS_METRES
+            ):
+                end += 1
+            if times[end - 1] - times[begin] > _QUIET_SECONDS:
+                # With its last places the pen leaves.
+                found.append(_tremor(times[begin : end - 2], places[begin : end - 2]))
+                begin = end
+            else:
+                begin += 1
+    return found
+
+
+def _tremor(times: Doubles, places: Doubles) -> Hold:
+    since = times - times[0]
+    drift = np.stack([np.polyval(np.polyfit(since, places[:, axis], 1), since) for axis in (0, 1)], axis=1)
+    tremor = places - drift
+    steps = np.diff(since)
+    turns = int(np.ceil(_HOLD_SECONDS / since[-1]))
+    rows = np.concatenate([tremor[1:] if turn % 2 == 0 else tremor[::-1][1:] for turn in range(turns)])
+    passed = np.concatenate([steps if turn % 2 == 0 else steps[::-1] for turn in range(turns)])
+    return Hold(np.r_[0.0, np.cumsum(passed)], np.concatenate([tremor[:1], rows]))
+
+
+def held_silent(renderer: Renderer, tremors: Sequence[Hold]) -> list[dict[str, Any]]:
+    """For each tremor: its size, and the largest output while the pen is held on sandpaper."""
+    return [
+        {
+            "diameter_mm": 1e3 * hold.diameter_metres,
+            "peak_mps2": float(np.abs(renderer.wave(Table("sandpaper"), hold)).max()),
+        }
+        for hold in tremors
+    ]
