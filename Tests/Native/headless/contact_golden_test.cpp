@@ -38,5 +38,29 @@ TEST(ContactGoldenTest, EveryReadingOfTheGoldenFileIsReproduced) {
     }
 }
 
+TEST(ContactGoldenTest, AnObjectThatWasMovedAndTurnedKeepsThePlacesOnIt) {
+    for (const golden::Case& testCase : golden::goldenCases()) {
+        if (testCase.name != golden::carriedPlateName) {
+            continue;
+        }
+        const golden::Outcome outcome = golden::play(testCase);
+        const std::size_t half = outcome.readings.size() / 2;
+        std::size_t compared = 0;
+        for (std::size_t frame = 0; frame < half; ++frame) {
+            const ContactReading& before = outcome.readings[frame];
+            const ContactReading& after = outcome.readings[frame + half];
+            ASSERT_EQ(before.touching, after.touching) << "frame " << frame;
+            if (before.touching) {
+                EXPECT_LT(glm::distance(before.placeMetres, after.placeMetres), 1e-9) << "frame " << frame;
+                EXPECT_LT(glm::distance(before.firstAxis, after.firstAxis), 1e-9) << "frame " << frame;
+                ++compared;
+            }
+        }
+        EXPECT_GT(compared, 30U);
+        return;
+    }
+    FAIL() << "the case is missing";
+}
+
 }  // namespace
 }  // namespace haptoflow::headless

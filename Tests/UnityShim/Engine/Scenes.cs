@@ -27,6 +27,8 @@ namespace UnityEngine.SceneManagement
         /// <summary>Number of the world of bodies that the scene has; 0 for the one that scenes share.</summary>
         internal int PhysicsNumber;
 
+        public int buildIndex => Number == 0 ? 0 : -1;
+
         public static bool operator ==(Scene lhs, Scene rhs) => lhs.Number == rhs.Number;
 
         public static bool operator !=(Scene lhs, Scene rhs) => !(lhs == rhs);
