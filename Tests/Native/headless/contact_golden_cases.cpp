@@ -181,7 +181,7 @@ Case stepsAndWall() {
 }  // namespace
 
 std::vector<Case> goldenCases() {
-    return {boxEdge(),     deepInsideBox(),  spherePole(),  movingPlate(), meshAndBlend(),
+    return {boxEdge(),     deepInsideBox(),  spherePole(),  movingPlate(),  meshAndBlend(),
             trackerHold(), brokenTracking(), seamAndTaps(), stepsAndWall(), carriedPlate()};
 }
 
