@@ -57,6 +57,34 @@ namespace HaptoFlow.PreviewTests
             Assert.That(compared, Is.GreaterThan(20));
         }
 
+        [Test]
+        public void TheVelocityOfEveryPresetIsTheDerivativeOfThePlaceAlongItsAxes(
+            [ValueSource(nameof(Presets))] StrokePreset preset)
+        {
+            Stroke stroke = PresetStrokes.Make(preset, new StrokeSettings(0.05, 1.0, 130.0, 2.0));
+            int compared = 0;
+            for (int index = 1; index < stroke.States.Count - 1; ++index)
+            {
+                ContactState before = stroke.States[index - 1].ContactOn(default);
+                ContactState now = stroke.States[index].ContactOn(default);
+                ContactState after = stroke.States[index + 1].ContactOn(default);
+                Assert.That(now.HasPlace, Is.EqualTo(now.Touching));
+                if (!stroke.States[index].Continues || !stroke.States[index + 1].Continues)
+                {
+                    continue;
+                }
+                double seconds = 2.0 / Stroke.UpdateRateHz;
+                double x = (after.PlaceMetres.X - before.PlaceMetres.X) / seconds;
+                double z = (after.PlaceMetres.Z - before.PlaceMetres.Z) / seconds;
+                Assert.That(now.FirstVelocityMps,
+                    Is.EqualTo(x * now.FirstAxis.X + z * now.FirstAxis.Z).Within(1e-3));
+                Assert.That(now.SecondVelocityMps,
+                    Is.EqualTo(x * now.SecondAxis.X + z * now.SecondAxis.Z).Within(1e-3));
+                ++compared;
+            }
+            Assert.That(compared, Is.GreaterThan(20));
+        }
+
         [TestCase(StrokePreset.Slide)]
         [TestCase(StrokePreset.Spiral)]
         [TestCase(StrokePreset.Pressing)]

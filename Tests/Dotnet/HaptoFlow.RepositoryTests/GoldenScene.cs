@@ -78,6 +78,15 @@ namespace HaptoFlow.RepositoryTests
                 "landing_counter" => reading.State.LandingCounter,
                 "edge_counter" => reading.State.EdgeCounter,
                 "edge_height_m" => reading.State.EdgeHeightMetres,
+                "place_x" => reading.State.PlaceMetres.X,
+                "place_y" => reading.State.PlaceMetres.Y,
+                "place_z" => reading.State.PlaceMetres.Z,
+                "first_x" => reading.State.FirstAxis.X,
+                "first_y" => reading.State.FirstAxis.Y,
+                "first_z" => reading.State.FirstAxis.Z,
+                "second_x" => reading.State.SecondAxis.X,
+                "second_y" => reading.State.SecondAxis.Y,
+                "second_z" => reading.State.SecondAxis.Z,
                 _ => throw new KeyNotFoundException($"the golden file has a column \"{column}\" that this test does not know"),
             };
         }

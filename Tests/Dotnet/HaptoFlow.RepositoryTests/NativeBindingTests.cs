@@ -225,6 +225,22 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
+        public void APlaceThatIsNotANumberIsRefusedAndOneThatIsIsTaken()
+        {
+            using HapticEngine engine = EngineWithoutWorker();
+            using HapticVoice voice = engine.OpenVoice(48000.0);
+            ContactState state = Sliding(1);
+            state.HasPlace = true;
+            state.FirstAxis = new PlaceVector(1f, 0f, 0f);
+            state.SecondAxis = new PlaceVector(0f, 0f, -1f);
+            Peak(engine, voice, state, 1);
+            Assert.That(voice.Statistics().Sanitised, Is.Zero);
+            state.PlaceMetres = new PlaceVector(0f, 0f, float.NaN);
+            Peak(engine, voice, state, 1);
+            Assert.That(voice.Statistics().Sanitised, Is.EqualTo(1UL));
+        }
+
+        [Test]
         public void ASignalReplacesTheTextureWhileTheTipMoves()
         {
             using HapticEngine engine = EngineWithoutWorker();

@@ -17,6 +17,20 @@ namespace HaptoFlow.ShimTests
         public void FramesWithoutATouchAllocateNothing() => Check(_ => new Vector3(0f, 0.3f, 0f), () => Board());
 
         [Test]
+        public void ASeedFromTheHierarchyAllocatesNothing()
+        {
+            HapticSurface board = Board();
+            board.transform.SetParent(Make("room").transform, false);
+            Collider collider = board.GetComponent<BoxCollider>();
+            uint before = SurfaceSeeds.Of(collider, board);
+            long allocated = GC.GetAllocatedBytesForCurrentThread();
+            uint after = SurfaceSeeds.Of(collider, board);
+            allocated = GC.GetAllocatedBytesForCurrentThread() - allocated;
+            Assert.That(allocated, Is.Zero);
+            Assert.That(after, Is.EqualTo(before));
+        }
+
+        [Test]
         public void SlidingOverABoxAllocatesNothing() => Check(Circle(0.001f), () => Board());
 
         [Test]

@@ -145,7 +145,16 @@ const std::vector<std::string>& readingColumns() {
                                                   "force_n",
                                                   "landing_counter",
                                                   "edge_counter",
-                                                  "edge_height_m"};
+                                                  "edge_height_m",
+                                                  "place_x",
+                                                  "place_y",
+                                                  "place_z",
+                                                  "first_x",
+                                                  "first_y",
+                                                  "first_z",
+                                                  "second_x",
+                                                  "second_y",
+                                                  "second_z"};
     return columns;
 }
 
@@ -167,7 +176,16 @@ std::vector<double> rowOf(const ContactReading& reading) {
             reading.forceNewtons,
             static_cast<double>(reading.landingCounter),
             static_cast<double>(reading.edgeCounter),
-            reading.edgeHeightMetres};
+            reading.edgeHeightMetres,
+            reading.placeMetres.x,
+            reading.placeMetres.y,
+            reading.placeMetres.z,
+            reading.firstAxis.x,
+            reading.firstAxis.y,
+            reading.firstAxis.z,
+            reading.secondAxis.x,
+            reading.secondAxis.y,
+            reading.secondAxis.z};
 }
 
 json statisticsToJson(const ContactStatistics& statistics) {

@@ -11,6 +11,10 @@ namespace haptoflow::headless::golden {
 inline constexpr const char* fileFormat = "haptoflow contact states";
 inline constexpr int fileVersion = 2;
 
+/// A case in which the tip takes the same way over a plate in each half, `carriedPlateSeconds` long.
+inline constexpr const char* carriedPlateName = "the same way over a plate before and after it was moved and turned";
+inline constexpr double carriedPlateSeconds = 0.6;
+
 /// One scene and the stroke played in it, with one update per sample. Tests/Golden/contact/README.md describes the
 /// file's format.
 struct Case {

@@ -78,6 +78,28 @@ Case movingPlate() {
                   }));
 }
 
+/// The same way over a plate before and after it was moved and turned. The tip is lifted in between.
+Case carriedPlate() {
+    const Pose before{{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}};
+    const Pose after = sanitised({{0.3, 0.1, -0.2}, {0.8, 0.3, 0.5, 0.1}});
+    const auto keyframe = [](double time, const Pose& pose) {
+        const glm::dvec3& at = pose.positionMetres;
+        return json{{"t", time},
+                    {"position", {at.x, at.y, at.z}},
+                    {"rotation", {pose.rotation.x, pose.rotation.y, pose.rotation.z, pose.rotation.w}}};
+    };
+    json plate = surfaceWith("plate", {{"box", {{"size", {0.4, 0.02, 0.4}}}}});
+    plate["motion"] = {{"loop", false}, {"keyframes", {keyframe(0.45, before), keyframe(0.6, after)}}};
+    return caseOf(carriedPlateName, sceneWith({plate}, 0.003),
+                  sampledPath(2.0 * carriedPlateSeconds, frameRateHz, [&](double time) {
+                      const bool isMoved = time >= carriedPlateSeconds - 1e-9;
+                      const double local = isMoved ? time - carriedPlateSeconds : time;
+                      const glm::dvec3 tip{0.05 * std::cos(9.0 * local), local < 0.4 ? 0.0122 : 0.05,
+                                           0.04 * std::sin(9.0 * local)};
+                      return (isMoved ? after : before).pointToWorld(tip);
+                  }));
+}
+
 Case meshAndBlend() {
     const testing::RawMesh raw = testing::rawTorus(0.06, 0.02, 12, 8);
     json vertices = json::array();
@@ -173,8 +195,8 @@ Case stepsAndWall() {
 }  // namespace
 
 std::vector<Case> goldenCases() {
-    return {boxEdge(),     deepInsideBox(), spherePole(),     movingPlate(), meshAndBlend(),
-            trackerHold(), noisyScribble(), brokenTracking(), seamAndTaps(), stepsAndWall()};
+    return {boxEdge(),       deepInsideBox(),  spherePole(),  movingPlate(),  meshAndBlend(), trackerHold(),
+            noisyScribble(), brokenTracking(), seamAndTaps(), stepsAndWall(), carriedPlate()};
 }
 
 }  // namespace haptoflow::headless::golden

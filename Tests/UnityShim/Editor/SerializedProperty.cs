@@ -51,7 +51,7 @@ namespace UnityEditor
         public SerializedPropertyType propertyType =>
             FieldType == typeof(string) ? SerializedPropertyType.String
             : FieldType == typeof(bool) ? SerializedPropertyType.Boolean
-            : FieldType == typeof(int) ? SerializedPropertyType.Integer
+            : FieldType == typeof(int) || FieldType == typeof(uint) ? SerializedPropertyType.Integer
             : FieldType == typeof(float) ? SerializedPropertyType.Float
             : FieldType == typeof(Vector2) ? SerializedPropertyType.Vector2
             : FieldType == typeof(Vector3) ? SerializedPropertyType.Vector3
@@ -82,6 +82,12 @@ namespace UnityEditor
         {
             get => Boxed is LayerMask mask ? mask.value : (int)Boxed!;
             set => Change(FieldType == typeof(LayerMask) ? (object)(LayerMask)value : value);
+        }
+
+        public uint uintValue
+        {
+            get => (uint)Boxed!;
+            set => Change(value);
         }
 
         /// <summary>The index of the value among the names.</summary>

@@ -1,3 +1,4 @@
+using System.Collections.Generic;
 using System.Linq;
 using UnityEngine.SceneManagement;
 using UnityShim;
@@ -27,6 +28,8 @@ namespace UnityEngine.SceneManagement
         /// <summary>Number of the world of bodies that the scene has; 0 for the one that scenes share.</summary>
         internal int PhysicsNumber;
 
+        public int buildIndex => Number == 0 ? 0 : -1;
+
         public static bool operator ==(Scene lhs, Scene rhs) => lhs.Number == rhs.Number;
 
         public static bool operator !=(Scene lhs, Scene rhs) => !(lhs == rhs);
@@ -39,6 +42,18 @@ namespace UnityEngine.SceneManagement
         {
             Scene scene = this;
             return World.AllObjects.Where(each => each.transform.parent is null && each.scene == scene).ToArray();
+        }
+
+        public void GetRootGameObjects(List<GameObject> rootGameObjects)
+        {
+            rootGameObjects.Clear();
+            foreach (GameObject each in World.AllObjects)
+            {
+                if (each.transform.parent is null && each.scene == this)
+                {
+                    rootGameObjects.Add(each);
+                }
+            }
         }
     }
 

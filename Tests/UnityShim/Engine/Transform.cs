@@ -61,6 +61,10 @@ namespace UnityEngine
 
         public Transform GetChild(int index) => Children[index];
 
+        public int GetSiblingIndex() => above is object
+            ? above.Children.IndexOf(this)
+            : UnityShim.World.RootIndexOf(gameObject);
+
         public Transform? Find(string n) => Children.Find(child => child.name == n);
 
         public void SetPositionAndRotation(Vector3 position, Quaternion rotation)

@@ -80,6 +80,9 @@ namespace UnityShim
             }
         }
 
+        /// <summary>Calls Reset, as the editor does for a new component.</summary>
+        public static void Reset(MonoBehaviour script) => Find(script.GetType(), "Reset")?.Invoke(script, null);
+
         private static MethodInfo? Find(Type? type, string name)
         {
             for (; type != null && type != typeof(MonoBehaviour) && type != typeof(ScriptableObject); type = type.BaseType)

@@ -104,6 +104,20 @@ namespace UnityShim
 
         internal static Object? Resource(string path) => ResourceAssets.TryGetValue(path, out Object? asset) ? asset : null;
 
+        internal static int RootIndexOf(GameObject root)
+        {
+            int index = 0;
+            foreach (GameObject each in Objects)
+            {
+                if (ReferenceEquals(each, root))
+                {
+                    break;
+                }
+                index += each.transform.parent is null && each.scene == root.scene ? 1 : 0;
+            }
+            return index;
+        }
+
         internal static void Add(GameObject gameObject) => Objects.Add(gameObject);
 
         internal static void KeepOverSceneLoads(Object target) => Kept.Add(target);
@@ -135,6 +149,10 @@ namespace UnityShim
                 var state = new ScriptState(script);
                 int place = Scripts.FindLastIndex(each => each.Order <= state.Order) + 1;
                 Scripts.Insert(place, state);
+                if (!IsPlaying)
+                {
+                    Messages.Reset(script);
+                }
                 state.Refresh();
             }
             return component;

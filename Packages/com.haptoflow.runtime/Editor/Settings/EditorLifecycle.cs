@@ -27,6 +27,7 @@ namespace HaptoFlow.Editor
             EditorApplication.projectChanged += ProjectSettingsAsset.Forget;
             // In play mode, names of objects are read again only after this call, because reading them allocates.
             EditorApplication.hierarchyChanged += MaterialMaps.Change;
+            EditorApplication.hierarchyChanged += SurfaceSeedKeeper.Renew;
         }
 
         private static string? FolderOfPages()

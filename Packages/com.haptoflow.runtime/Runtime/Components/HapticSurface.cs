@@ -37,6 +37,10 @@ namespace HaptoFlow
             "readable mesh colliders that are not convex. It may be empty.")]
         private HapticMaskMap? mask;
 
+        [SerializeField, Tooltip("The seed says where the surface's asperities lie: surfaces with different numbers " +
+            "differ. At 0 the object's place in the hierarchy decides.")]
+        private uint seed;
+
         private readonly List<Collider> registered = new List<Collider>();
         private bool isStale;
         private readonly MaterialLookUp ownLookUp = new MaterialLookUp();
@@ -93,6 +97,14 @@ namespace HaptoFlow
 
         /// <summary>A texture that blends in further materials at the touched place; null for none.</summary>
         public HapticMaskMap? Mask { get => mask; set => mask = value; }
+
+        /// <summary>Says where the surface's asperities lie: the same place of surfaces with the same number and
+        /// material feels the same, in every session, and surfaces with different numbers differ. At 0, the value of
+        /// components added by scripts of a running scene, the collider's place in the hierarchy decides.</summary>
+        /// <remarks>The editor gives each component, and each copy, a number of its own. A copy made while the scene
+        /// runs has its original's until this property is set. A change applies when a tip next comes near. Main
+        /// thread.</remarks>
+        public uint Seed { get => seed; set => seed = value; }
 
         /// <summary>Colliders that belong to this surface. Direct children that come or go, and colliders added deeper
         /// below, are detected automatically.</summary>
@@ -158,6 +170,9 @@ namespace HaptoFlow
         private MaterialLookUp LookUp(HapticSession session) => sharedMaterial != null
             ? sharedMaterial.LookUp(session, this)
             : ownLookUp.Of(own, session, this);
+
+        // Unity calls it only in the editor, for a new component and for Reset in its menu.
+        private void Reset() => seed = SurfaceSeeds.New();
 
         private void OnEnable()
         {

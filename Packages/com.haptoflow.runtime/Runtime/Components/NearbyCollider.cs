@@ -41,6 +41,7 @@ namespace HaptoFlow
                 ? surface.transform.TransformDirection(surface.Grain)
                 : collider.transform.TransformDirection(Vector3.right);
             Tracked.Restart(ColliderProbe.PoseOf(collider).DirectionToLocal(grain.ToDouble()), 0.0);
+            Tracked.Seed = SurfaceSeeds.Of(collider, surface);
         }
 
         public void End()

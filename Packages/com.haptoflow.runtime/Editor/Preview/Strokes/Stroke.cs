@@ -34,6 +34,7 @@ namespace HaptoFlow.Preview
                 StrokeState point = path(seconds);
                 touches += point.Touching && !touched ? 1u : 0u;
                 (double Column, double Row) now = (0.0, 0.0);
+                (point.WayXMetres, point.WayYMetres) = (point.XMetres, point.YMetres);
                 if (wraps)
                 {
                     now = (Math.Floor(point.XMetres / PatchWidthMetres), Math.Floor(point.YMetres / PatchHeightMetres));

@@ -10,6 +10,11 @@ namespace HaptoFlow.Preview
     {
         public double XMetres;
         public double YMetres;
+
+        /// <summary>The position before it wrapped: at the edge of the patch the picture jumps, not the sound. Set by
+        /// the stroke.</summary>
+        public double WayXMetres;
+        public double WayYMetres;
         public double VelocityXMps;
         public double VelocityYMps;
         public double ForceNewtons;
@@ -47,6 +52,11 @@ namespace HaptoFlow.Preview
             contact.ApproachSpeedMps = (float)LandingSpeedMps;
             contact.EdgeCounter = EdgeCounter;
             contact.EdgeHeightMetres = PresetStrokes.RimHeightMetres;
+            // A horizontal plane as the contact model describes it: x is the first axis, the second points along -z.
+            contact.HasPlace = Touching;
+            contact.PlaceMetres = new PlaceVector((float)WayXMetres, 0f, (float)-WayYMetres);
+            contact.FirstAxis = new PlaceVector(1f, 0f, 0f);
+            contact.SecondAxis = new PlaceVector(0f, 0f, -1f);
             return contact;
         }
     }

@@ -20,6 +20,9 @@ namespace HaptoFlow.Contact
 
         public double StiffnessNewtonsPerMetre { get; set; }
 
+        /// <summary>Names the surface to the engine.</summary>
+        public uint Seed { get; set; }
+
         internal TangentFrame Frame { get; }
 
         /// <summary>Resets the state for another surface.</summary>

@@ -400,6 +400,7 @@ namespace HaptoFlow.Contact
             reading.State.ApproachSpeedMps = (float)approachSpeedMps;
             reading.State.ForceNewtons = (float)ForceOf(surface, reading.PenetrationMetres);
             reading.State.HasPlace = true;
+            reading.State.SurfaceSeed = surface.Seed;
             reading.State.PlaceMetres = new PlaceVector(contact.Local.PointMetres);
             reading.State.FirstAxis = new PlaceVector(surface.Frame.First);
             reading.State.SecondAxis = new PlaceVector(surface.Frame.Second);
