@@ -33,6 +33,7 @@ nlohmann::ordered_json goals() {
             {"onset_ms", "one block; with bursts, one burst"},
             {"contact_to_sound_ms", "the voice's lead, one block and 1 ms; the delay of the output's filters is added"},
             {"stop_ms", "one block and 5 ms"},
+            {"noise_us", "at most 5 % of standard, paced, more for the surface's than for that of time"},
             {"speedup_vs_paper_architecture", "at least 60, hot"},
             {"idle", "no inference"}};
 }

@@ -187,6 +187,19 @@ void printInference(std::ostream& stream, const Json& report) {
     }
 }
 
+void printNoise(std::ostream& stream, const Json& paces) {
+    std::vector<Row> table{
+        {"pace", "of the surface p50", "p99", "worst", "of time p50", "p99", "worst", "added to standard, %"}};
+    for (const auto& [pace, entry] : paces.items()) {
+        Row row{pace};
+        appendRanks(row, entry["surface"]);
+        appendRanks(row, entry["time"]);
+        row.push_back(figure(entry["added_to_standard_percent"]));
+        table.push_back(row);
+    }
+    printTable(stream, "noise of one segment, us", table);
+}
+
 void printVoices(std::ostream& stream, const Json& rows) {
     std::vector<Row> table{
         {"voices", "batched p50", "p99", "worst", "one by one p50", "p99", "worst", "batched / one by one"}};
@@ -262,6 +275,7 @@ void printTables(std::ostream& stream, const Json& report) {
     print("contact_to_sound_ms", [&](const Json& section) { printLatency(stream, "contact to sound, ms", section); });
     print("stop_ms", [&](const Json& section) { printLatency(stream, "stop, ms", section); });
     print("inference_ms", [&](const Json&) { printInference(stream, report); });
+    print("noise_us", [&](const Json& section) { printNoise(stream, section); });
     print("voices", [&](const Json& section) { printVoices(stream, section); });
     print("idle", [&](const Json& section) { printIdle(stream, section); });
     print("load", [&](const Json&) { printLoad(stream, report); });

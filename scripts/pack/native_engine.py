@@ -12,7 +12,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "Training"))
 
 from haptoflow_benchmark.engine.engine_library import EngineLibrary  # noqa: E402
-from haptoflow_training.native_library import options_of  # noqa: E402
+from haptoflow_training.native_library import NativeModel, options_of  # noqa: E402
 
 RATE_HZ = 8000
 BLOCK_FRAMES = 111
@@ -50,28 +50,28 @@ def exposure(
 ) -> np.ndarray:
     """The exposure guard's reports during an endless stroke, ten rows a second. The engine has no thread of its own:
     this function steps it, faster than real time."""
-    model, handle, voice = engine.open_model(model_file), c_void_p(), c_uint64()
-    options = options_of(
-        _EngineOptions, quality=_QUALITY_STANDARD, runtime=engine.runtime, model=model, without_worker=1,
-        fixed_lead_ms=8.0, update_rate_hz=RATE_HZ / BLOCK_FRAMES,
-    )  # fmt: skip
-    engine.call("haptoflow_engine_create", byref(options), byref(handle))
-    engine.call("haptoflow_voice_create", handle, c_double(RATE_HZ), byref(voice))
-    engine.call("haptoflow_voice_set_exposure_guard", voice, c_uint32(1), c_float(actuator_gain))
-    state = options_of(_ContactState, touching=1, touch_counter=1, label_count=1, force_newtons=force_newtons)
-    state.labels[0] = [each["name"] for each in engine.header(model)["labels"]].index(label)
-    state.weights[0], state.velocity_mps[0] = 1.0, speed_mps
-    block = (c_float * BLOCK_FRAMES)()
-    rows = []
-    for index in range(int(seconds * RATE_HZ / BLOCK_FRAMES)):
-        engine.call("haptoflow_voice_publish", voice, byref(state))
-        engine.call("haptoflow_engine_step", handle)
-        engine.call("haptoflow_voice_render", voice, block, c_uint32(BLOCK_FRAMES), c_uint32(1), c_int32(0), c_double(RATE_HZ))
-        if index % 7 == 0:
-            now = options_of(_Exposure)
-            engine.call("haptoflow_voice_exposure", voice, byref(now))
-            rows.append((index * BLOCK_FRAMES / RATE_HZ, now.gain, now.short_term_mps2))
-    engine.call("haptoflow_voice_destroy", byref(voice))
-    engine.call("haptoflow_engine_close", byref(handle))
-    engine.call("haptoflow_model_close", byref(model))
+    handle, voice = c_void_p(), c_uint64()
+    with NativeModel(engine, model_file) as model:
+        options = options_of(
+            _EngineOptions, quality=_QUALITY_STANDARD, runtime=engine.runtime, model=model.handle, without_worker=1,
+            fixed_lead_ms=8.0, update_rate_hz=RATE_HZ / BLOCK_FRAMES,
+        )  # fmt: skip
+        engine.call("haptoflow_engine_create", byref(options), byref(handle))
+        engine.call("haptoflow_voice_create", handle, c_double(RATE_HZ), byref(voice))
+        engine.call("haptoflow_voice_set_exposure_guard", voice, c_uint32(1), c_float(actuator_gain))
+        state = options_of(_ContactState, touching=1, touch_counter=1, label_count=1, force_newtons=force_newtons)
+        state.labels[0] = [each["name"] for each in engine.header(model.handle)["labels"]].index(label)
+        state.weights[0], state.velocity_mps[0] = 1.0, speed_mps
+        block = (c_float * BLOCK_FRAMES)()
+        rows = []
+        for index in range(int(seconds * RATE_HZ / BLOCK_FRAMES)):
+            engine.call("haptoflow_voice_publish", voice, byref(state))
+            engine.call("haptoflow_engine_step", handle)
+            engine.call("haptoflow_voice_render", voice, block, c_uint32(BLOCK_FRAMES), c_uint32(1), c_int32(0), c_double(RATE_HZ))
+            if index % 7 == 0:
+                now = options_of(_Exposure)
+                engine.call("haptoflow_voice_exposure", voice, byref(now))
+                rows.append((index * BLOCK_FRAMES / RATE_HZ, now.gain, now.short_term_mps2))
+        engine.call("haptoflow_voice_destroy", byref(voice))
+        engine.call("haptoflow_engine_close", byref(handle))
     return np.array(rows, dtype=[(name, "f8") for name in ("seconds", "gain", "short_term_mps2")])

@@ -40,7 +40,7 @@ namespace HaptoFlow.PreviewTests
             Assert.That(pad.Speeds, Is.Empty, "nothing plays yet");
             Play(0.25);
             Assert.That(Strengths(pad).Max(), Is.InRange(0.08f, 1f));
-            Assert.That(pad.Speeds.Count, Is.InRange(8, 18), "at most 60 a second");
+            Assert.That(pad.Speeds.Count, Is.InRange(4, 18), "at most 60 a second, fewer while nothing changes");
             Press("Stop");
             Assert.That(Strengths(pad).Last(), Is.Zero);
             int sent = pad.Speeds.Count;

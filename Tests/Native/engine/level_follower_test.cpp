@@ -1,10 +1,14 @@
 #include "engine/level_follower.hpp"
 
+#include "simulated_device.hpp"
+#include "test_model.hpp"
+
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <vector>
 
 namespace haptoflow::engine {
@@ -116,6 +120,26 @@ TEST(LevelFollowerTest, AHundredSegmentsAheadOfTheHeadAreKeptWithinTheRoom) {
     }
     const std::vector<float> found = gains(follower, 0, 1200);
     EXPECT_NEAR(found[1100], 0.5F, 1e-5F);
+}
+
+TEST(LevelOfNewestStateTest, AFasterStrokeIsLouderBeforeItsSegmentArrives) {
+    const model::ModelFile model = testing::smallModel();
+    testing::MotionGenerator tone;
+    testing::DeviceSettings settings;
+    settings.blockFrames = 64;
+    settings.updateHz = 20.0;
+    settings.fixedLeadSamples = 60;
+    testing::SimulatedDevice device(model, tone, settings);
+    device.run(0.999, [](double) { return testing::sliding(0.05F); });
+    const std::size_t before = device.waveform.samples.size();
+    // The state at 1 s; its segment follows 30 ms later.
+    device.run(0.02, [](double) { return testing::sliding(0.1F); });
+    const std::span<const float> played = device.waveform.samples;
+    const auto peakOf = [&](std::size_t first, std::size_t count) {
+        return testing::peak(played.subspan(first, count));
+    };
+    const float quiet = peakOf(before - 100, 80);
+    EXPECT_NEAR(peakOf(before + 15, 22) / quiet, 2.0F, 0.05F);
 }
 
 }  // namespace

