@@ -10,33 +10,29 @@ namespace {
 
 using Vector = std::array<double, 3>;
 
-constexpr std::size_t directionCount = 16;
+constexpr std::size_t directionCount = 12;
 constexpr std::size_t cellsPerBlock = 8;
 constexpr int logCellsPerBlock = 3;
 // A longer coordinate would leave the integers that a double holds exactly.
 constexpr double maximumMetres = 1e6;
 // Across its direction, each Brownian motion changes sign at random from one sheet to the next. Without that, a path
-// beside another would meet a sixteenth of the other's noise again, at a distance.
+// beside another would meet a twelfth of the other's noise again, at a distance.
 constexpr double sheetMetres = 0.001;
 
 /// Equal areas of a half sphere, turned so that they lie evenly in each coordinate plane, where most surfaces are.
 constexpr std::array<Vector, directionCount> directions{{
-    {-0.00400, -0.63541, 0.77217},
-    {-0.65885, 0.33700, -0.67257},
-    {0.99235, -0.12122, 0.02349},
-    {-0.75944, -0.57873, 0.29719},
-    {0.19389, 0.36465, -0.91074},
-    {0.52346, -0.72745, 0.44364},
-    {-0.84776, -0.22510, -0.48024},
-    {0.81960, -0.07761, -0.56766},
-    {-0.25479, -0.92198, 0.29161},
-    {-0.25664, -0.03152, -0.96599},
-    {0.72891, -0.67546, -0.11153},
-    {-0.60862, -0.73173, -0.30685},
-    {0.37444, -0.26943, -0.88725},
-    {0.17521, -0.98014, -0.09293},
-    {-0.27495, -0.58635, -0.76197},
-    {0.31853, -0.73175, -0.60256},
+    {0.76273, 0.17233, -0.62333},
+    {-0.22771, -0.67898, 0.69795},
+    {-0.54054, 0.50524, -0.67272},
+    {0.79248, -0.59208, -0.14633},
+    {-0.90720, -0.35173, 0.23081},
+    {0.18111, 0.13196, -0.97457},
+    {0.12899, -0.97063, 0.20307},
+    {-0.84877, -0.07266, -0.52374},
+    {0.44460, -0.53928, -0.71520},
+    {-0.53675, -0.84291, -0.03754},
+    {-0.34051, -0.30665, -0.88883},
+    {-0.05871, -0.85807, -0.51016},
 }};
 
 /// Cells of one size. Each is divided into the eight cells of a block of the next level.
@@ -75,23 +71,31 @@ Vector across(std::size_t k) noexcept {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// Coordinate of a path along one direction, in cells of one length.
-class CellPath {
-public:
-    /// `offset` counts in samples.
-    CellPath(const SurfacePath& path, const Vector& direction, double cellMetres, double offset = 0.0) noexcept
-        : step_(dot(path.stepMetres, direction) / cellMetres),
-          start_(dot(path.startMetres, direction) / cellMetres + offset * step_) {}
+/// The part of a segment that is computed at once.
+constexpr std::size_t partSamples = 256;
 
-    [[nodiscard]] std::int64_t cellAfter(std::size_t samples) const noexcept {
-        const double place = start_ + step_ * static_cast<double>(static_cast<std::int64_t>(samples));
-        const auto truncated = static_cast<std::int64_t>(place);
-        return truncated - (static_cast<double>(truncated) > place ? 1 : 0);
+/// The cells of one length that a path along a direction passes, one for each sample's beginning.
+class CellRun {
+public:
+    /// `offset` counts in samples, `count` is at most partSamples + 1.
+    CellRun(const SurfacePath& path, const Vector& direction, double cellMetres, double offset,
+            std::size_t count) noexcept {
+        const double step = dot(path.stepMetres, direction) / cellMetres;
+        const double start = dot(path.startMetres, direction) / cellMetres + offset * step;
+        const double lowest = std::floor(start + std::min(0.0, step * static_cast<double>(count)));
+        first_ = static_cast<std::int64_t>(lowest);
+        const double from = start - lowest;
+        // Not below zero, so that truncation is the floor, which compilers do for several samples at once.
+        for (std::int32_t index = 0; index < static_cast<std::int32_t>(count); ++index) {
+            cells_[static_cast<std::size_t>(index)] =
+                static_cast<std::int32_t>(from + step * static_cast<double>(index));
+        }
     }
+    [[nodiscard]] std::int64_t at(std::size_t index) const noexcept { return first_ + cells_[index]; }
 
 private:
-    double step_;
-    double start_;
+    std::int64_t first_ = 0;
+    std::array<std::int32_t, partSamples + 1> cells_;
 };
 
 /// The cells that a path is divided into along one direction: the coarsest of a level, of its pairs or of its fours
@@ -116,21 +120,17 @@ struct Grid {
 class BrownianMotion {
 public:
     BrownianMotion(std::uint64_t key, const Grid& grid, std::int64_t firstPlace) noexcept
-        : key_(key), grid_(grid), here_(blockOf(firstPlace)) {}
+        : key_(key), grid_(grid), here_((firstPlace * static_cast<std::int64_t>(grid.stride)) >> logCellsPerBlock) {
+        moveTo(here_);
+    }
 
     /// Value at the lower end of a cell of the grid, up to a constant. The time grows with the distance from the last.
     [[nodiscard]] double at(std::int64_t place) noexcept {
-        const std::int64_t block = blockOf(place);
-        while (here_ < block) {
-            base_ += blockAt(grid_.level, here_, grid_.stride).sums[cellsPerBlock];
-            ++here_;
+        const std::int64_t cell = place * static_cast<std::int64_t>(grid_.stride);
+        if (const std::int64_t block = cell >> logCellsPerBlock; block != here_) {
+            moveTo(block);
         }
-        while (here_ > block) {
-            --here_;
-            base_ -= blockAt(grid_.level, here_, grid_.stride).sums[cellsPerBlock];
-        }
-        const std::size_t cell = static_cast<std::size_t>(place) * grid_.stride % cellsPerBlock;
-        return base_ + blockAt(grid_.level, block, grid_.stride).sums[cell];
+        return base_ + blocks_[grid_.level].sums[static_cast<std::size_t>(cell) % cellsPerBlock];
     }
 
 private:
@@ -140,8 +140,16 @@ private:
         std::array<double, cellsPerBlock + 1> sums{};
     };
 
-    [[nodiscard]] std::int64_t blockOf(std::int64_t place) const noexcept {
-        return (place * static_cast<std::int64_t>(grid_.stride)) >> logCellsPerBlock;
+    void moveTo(std::int64_t block) noexcept {
+        while (here_ < block) {
+            base_ += blockAt(grid_.level, here_, grid_.stride).sums[cellsPerBlock];
+            ++here_;
+        }
+        while (here_ > block) {
+            --here_;
+            base_ -= blockAt(grid_.level, here_, grid_.stride).sums[cellsPerBlock];
+        }
+        (void)blockAt(grid_.level, here_, grid_.stride);
     }
 
     const Block& blockAt(std::size_t level, std::int64_t index, std::size_t stride) noexcept {
@@ -203,34 +211,32 @@ struct Sample {
     double variance = 0.0;
 };
 
-/// The part of a segment that is computed at once.
-constexpr std::size_t partSamples = 256;
 using Part = std::array<Sample, partSamples>;
 
 void addDirection(std::uint64_t surface, std::size_t k, const SurfacePath& path, std::span<Sample> samples) noexcept {
     const std::uint64_t key = mixed(surface * directionCount + k);
     const double stepMetres = dot(path.stepMetres, directions[k]);
     const Grid grid(std::abs(stepMetres));
-    const CellPath along(path, directions[k], grid.cellMetres());
-    const CellPath sideways(path, across(k), sheetMetres, 0.5);
-    std::int64_t before = along.cellAfter(0);
+    const double cellMetres = grid.cellMetres();
+    const CellRun along(path, directions[k], cellMetres, 0.0, samples.size() + 1);
+    const CellRun sheets(path, across(k), sheetMetres, 0.5, samples.size());
+    const std::uint64_t direction = stepMetres < 0.0 ? 1U : 0U;
+    std::int64_t before = along.at(0);
     BrownianMotion motion(key, grid, before);
     double valueBefore = motion.at(before);
-    std::int64_t sheet = std::numeric_limits<std::int64_t>::min();
-    double sign = 0.0;
     for (std::size_t index = 0; index < samples.size(); ++index) {
-        const std::int64_t after = along.cellAfter(index + 1);
+        const std::int64_t after = along.at(index + 1);
         if (after == before) {
             continue;
         }
-        if (const std::int64_t newSheet = sideways.cellAfter(index); newSheet != sheet) {
-            sheet = newSheet;
-            const bool isNegative = (mixed(key ^ static_cast<std::uint64_t>(sheet)) & 1U) != 0;
-            sign = isNegative == (stepMetres < 0.0) ? 1.0 : -1.0;
-        }
+        // The highest bit of a product depends on every bit of both factors.
+        const std::uint64_t sheet =
+            (static_cast<std::uint64_t>(sheets.at(index)) * 0x9E3779B97F4A7C15U ^ key) * 0xD6E8FEB86659FD93U;
+        const double sign = ((sheet >> 63U) ^ direction) == 0 ? 1.0 : -1.0;
         const double value = motion.at(after);
         samples[index].increment += sign * (value - valueBefore);
-        samples[index].variance += grid.cellMetres() * static_cast<double>(std::abs(after - before));
+        samples[index].variance +=
+            cellMetres * static_cast<double>(static_cast<std::int32_t>(std::abs(after - before)));
         valueBefore = value;
         before = after;
     }

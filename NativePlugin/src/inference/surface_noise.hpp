@@ -22,7 +22,7 @@ struct SurfacePath {
 /// both directions and, as far as the samples' ways overlap, at every speed; along any path at any speed from 1 mm/s to
 /// 20 m/s the numbers are uncorrelated. Different values of `surface` give independent fields.
 ///
-/// The field is a sum of 16 Brownian motions, each along one direction u_k through the surface's frame:
+/// The field is a sum of 12 Brownian motions, each along one direction u_k through the surface's frame:
 /// z[n] = sum_k |increment of B_k over the way along u_k| / sqrt(sum_k |dq_k|) with q_k = position . u_k, each
 /// increment taken from the smaller q_k to the larger. B_k is refined by halving (Levy's construction: Karatzas and
 /// Shreve, "Brownian motion and stochastic calculus", 2.3) from hashed numbers, down to cells no longer than a sample's

@@ -130,7 +130,7 @@ TEST(SurfaceNoiseTest, TheSamePlaceHasTheSameNoiseAtOtherSpeeds) {
     EXPECT_GT(correlation(sums, coarser(stroke(0.05, direction, 24'000), 20)), 0.97);
     EXPECT_GT(correlation(sums, coarser(stroke(0.125, direction, 9'600), 8)), 0.97);
     EXPECT_GT(correlation(sums, coarser(stroke(0.01, direction, 120'000), 100)), 0.95);
-    EXPECT_GT(correlation(sums, coarser(stroke(1.0, direction, 1'200), 1)), 0.65);
+    EXPECT_GT(correlation(sums, coarser(stroke(1.0, direction, 1'200), 1)), 0.6);
 }
 
 TEST(SurfaceNoiseTest, TheSamePlaceReachedByAnotherPathHasTheSameNoise) {
