@@ -294,8 +294,12 @@ headless::SceneSurface readSurface(const Node& node) {
     }
     surface.seed = hashOf(surface.name);
     if (node.has("seed")) {
-        surface.seed =
-            static_cast<std::uint32_t>(node.at("seed").number(0.0, 4294967295.0, "a number from 0 to 4294967295"));
+        const Node seed = node.at("seed");
+        const json& number = seed.raw();
+        if (!number.is_number_integer() || number < 0 || number > std::numeric_limits<std::uint32_t>::max()) {
+            seed.fail("a whole number from 0 to 4294967295");
+        }
+        surface.seed = number.get<std::uint32_t>();
     }
     if (node.has("grain")) {
         surface.grain = node.at("grain").vector("a direction [x, y, z] in the object's own axes");

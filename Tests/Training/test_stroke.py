@@ -115,6 +115,21 @@ def test_a_scripted_stroke_starts_and_ends_at_its_waypoints_and_rounds_the_other
         assert np.min(np.linalg.norm(stroke.position_metres - waypoint, axis=1)) < 0.03
 
 
+def test_smoothing_takes_the_movements_out_of_waypoints_that_draw_a_curve():
+    angles = np.linspace(0.0, np.pi, 60)
+    curve = [[0.05 * np.cos(angle), 0.0, 0.05 * np.sin(angle)] for angle in angles]
+
+    def swing(smoothing_seconds):
+        stroke = scripted_stroke(
+            curve, segment_seconds=0.016, tremor_metres=0.0, smoothing_seconds=smoothing_seconds
+        )
+        speed = np.linalg.norm(np.diff(stroke.position_metres, axis=0), axis=1)[25:-25]
+        return speed.std() / speed.mean()
+
+    assert swing(0.0) > 0.2
+    assert swing(0.02) < 0.03
+
+
 def test_a_repeated_waypoint_is_a_pause_and_force_follows_its_waypoints():
     stroke = scripted_stroke(
         [[0.0, 0.0, 0.0], [0.1, 0.0, 0.0], [0.1, 0.0, 0.0]],

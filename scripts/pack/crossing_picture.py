@@ -27,7 +27,7 @@ STROKE = SAMPLES / "HeadlessScenes/crossing.stroke.csv"
 PICTURE = ROOT / "Documentation~/images/crossing-lag.png"
 RATE_HZ = 8000
 SEEDS = range(1, 17)
-SHOWN_SECONDS = (0.7, 2.3)
+SHOWN_SECONDS = (4.9, 6.5)
 FLOOR_MPS = 0.01
 FULL_SCALE_MPS2 = 200.0
 
@@ -85,7 +85,7 @@ def main() -> None:
         axis.set_ylabel("mm/s")
         other = axis.twinx()
         other.plot(np.arange(len(level)) / RATE_HZ, level, color="#b4533c", label="level of the vibration, dB")
-        other.set_ylim(-30.0, 15.0)
+        other.set_ylim(-30.0, 30.0)
         other.set_ylabel("dB re 1 m/s²")
         axis.set_title(f"{name}: the level follows the speed {lag:.0f} ms later", loc="left", fontsize=11)
         lines = [*axis.lines, *other.lines]

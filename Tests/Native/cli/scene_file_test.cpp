@@ -175,6 +175,10 @@ TEST(SceneFileTest, ErrorsForUnknownAndMissingKeysNameTheKnownOnes) {
                 AllOf(HasSubstr("surfaces[0]: unknown key \"colour\""), HasSubstr("material, stiffness")));
     EXPECT_THAT(complaintAbout("/surfaces/0/shape/box/radius", 1), HasSubstr("surfaces[0].shape.box: unknown key"));
     EXPECT_THAT(complaintAbout("/surfaces/3/shape/plane/size", 1), HasSubstr("surfaces[3].shape.plane: unknown key"));
+    for (const json& seed : {json(1.5), json(-1), json(4294967296), json("seven")}) {
+        EXPECT_THAT(complaintAbout("/surfaces/0/seed", seed), HasSubstr("surfaces[0].seed: expected a whole number"));
+    }
+    EXPECT_EQ(complaintAbout("/surfaces/0/seed", 4294967295), "no complaint");
     EXPECT_THAT(complaintAbout("/surfaces/0/shape/cube", 1), HasSubstr("surfaces[0].shape: unknown key \"cube\""));
     EXPECT_THAT(complaintAbout("/updateRate", 90), HasSubstr("top level: unknown key \"updateRate\""));
     EXPECT_THAT(complaintAfter([](json& document) { document["surfaces"][0].erase("material"); }),

@@ -10,14 +10,16 @@ from haptoflow_training.errors import InputError
 from haptoflow_training.strokes.hand_stroke import DEFAULT_TREMOR_METRES, SpatialStroke, scripted_stroke
 from haptoflow_training.whole_file import write_whole
 
-_KEYS = ("waypoints_metres", "segment_seconds", "rate_hz", "seed", "tremor_metres", "force_newtons")
+_KEYS = ("waypoints_metres", "segment_seconds", "rate_hz", "seed", "tremor_metres", "force_newtons",
+         "smoothing_seconds")  # fmt: skip
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     parser.description = "Sigma-lognormal movement through the way-points of a TOML script."
     parser.epilog = (
         "script keys: waypoints_metres = [[x, y, z], ...], segment_seconds (a number, or one a leg), "
-        "and optionally rate_hz (120), seed (0), tremor_metres (5e-5), force_newtons = [one a way-point]."
+        "and optionally rate_hz (120), seed (0), tremor_metres (5e-5), force_newtons = [one a way-point], "
+        "smoothing_seconds (0; 0.02 where way-points only draw a curve)."
     )
     parser.formatter_class = argparse.HelpFormatter
     parser.add_argument("--script", type=Path, required=True)
@@ -54,6 +56,7 @@ def stroke_from_script(path: Path, *, seed: int | None = None) -> SpatialStroke:
             seed=int(script.get("seed", 0)) if seed is None else seed,
             tremor_metres=float(script.get("tremor_metres", DEFAULT_TREMOR_METRES)),
             force_newtons=script.get("force_newtons"),
+            smoothing_seconds=float(script.get("smoothing_seconds", 0.0)),
         )
     except (TypeError, ValueError) as error:
         raise InputError(f"{path}: {error}") from error

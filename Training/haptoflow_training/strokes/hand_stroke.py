@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import gaussian_filter1d
 from scipy.signal import butter, sosfiltfilt
 
 from haptoflow_training.strokes.sigma_lognormal import Submovement, summed_velocity
@@ -162,11 +163,14 @@ def scripted_stroke(
     seed: int = 0,
     tremor_metres: float = DEFAULT_TREMOR_METRES,
     force_newtons: Sequence[float] | None = None,
+    smoothing_seconds: float = 0.0,
 ) -> SpatialStroke:
     """Sigma-lognormal movement through way-points [[x, y, z], ...], one submovement a leg.
 
     Legs overlap, so the tip rounds a way-point without stopping; a repeated way-point is a pause. `force_newtons` gives
-    one force for each way-point, interpolated with the same progress. Deterministic by seed. ValueError if the
+    one force for each way-point, interpolated with the same progress. `smoothing_seconds` is the standard deviation of a
+    Gaussian over the path, for way-points that only draw a curve: each leg is a movement of its own, whose start and
+    stop would be felt. Deterministic by seed. ValueError if the
     way-points, times or rates cannot make a stroke.
     """
     points = np.asarray(waypoints_metres, dtype=np.float64)
@@ -193,6 +197,8 @@ def scripted_stroke(
         position += progress[:, None] * (points[leg + 1] - points[leg])
         if force is not None and forces is not None:
             force += progress * (forces[leg + 1] - forces[leg])
+    if smoothing_seconds > 0.0:
+        position = gaussian_filter1d(position, smoothing_seconds * rate_hz, axis=0, mode="nearest")
     if tremor_metres > 0.0:
         position += tremor(rng, len(time), rate_hz, tremor_metres, 3)
     return SpatialStroke(time, position, force)
