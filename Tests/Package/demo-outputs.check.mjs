@@ -19,7 +19,7 @@ function soundingLevel(samples) {
   let [energy, count] = [0, 0];
   for (let begin = 0; begin < samples.length; begin += 240) {
     const block = samples.subarray(begin, begin + 240);
-    if (block.every((value) => Math.abs(value) < 1e-5)) continue;
+    if (block.every((value) => value === 0)) continue;
     energy += block.reduce((sum, value) => sum + value * value, 0);
     count += block.length;
   }

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from haptoflow_paper.place.creeping import holds
+from haptoflow_paper.place.hand_overs import HOP_SAMPLES, hand_overs
 from haptoflow_paper.place.likeness import Profile, bumps, found_again, likeness, over_place
 from haptoflow_paper.place.passes import Pass, Rounds, Table
 from haptoflow_paper.place.place_report import page_words
@@ -68,6 +69,23 @@ def test_points_on_a_turned_table_are_the_same_points_of_the_table() -> None:
     assert local[:, 0] * np.sin(angle) + local[:, 2] * np.cos(angle) == pytest.approx(beside)
 
 
+class _Bursts:
+    """A renderer of noise that is 3 dB louder for 5 ms of every hop."""
+
+    def wave(self, table: Table, stroke: Pass, seed: int = 1) -> np.ndarray:
+        wave = np.random.default_rng(1).standard_normal(40_000)
+        wave[np.arange(len(wave)) % HOP_SAMPLES < 10] *= np.sqrt(2.0)
+        return wave
+
+
+def test_a_burst_at_every_hand_over_is_seen() -> None:
+    found = hand_overs(_Bursts(), "wood")
+    # 2 over the mean of ten samples at 2 and eighteen at 1.
+    assert found["burst"] == pytest.approx(10.0 * np.log10(2.0 / (38.0 / 28.0)), abs=0.3)
+    assert found["swing"] > 2.5
+    assert found["burst_chance"] < 0.4
+
+
 def test_a_held_pen_is_found_and_a_moving_one_is_not() -> None:
     times = np.arange(0.0, 1.0, 0.01)
     tremor = 2e-4 * np.stack([np.sin(60.0 * times), np.cos(50.0 * times)], axis=1)
@@ -93,6 +111,7 @@ def test_the_page_says_met_and_missed() -> None:
     creeping = {"wood": {"now": {"2": {"peak_mps2": 0.1, "kurtosis": 3.0}}, "recorder": {"2": {"peak_mps2": 0.0, "kurtosis": 0.0}}}}
     words = page_words(
         {"model_sha256": "ab", "likeness": {"now": by_label}, "creeping": creeping,
+         "hand_overs": {"wood": [{"swing": 2.0, "chance": 0.6, "burst": 0.4, "burst_chance": 0.2}]},
          "held": [{"diameter_mm": 0.7, "peak_mps2": 0.0}, {"diameter_mm": 1.4, "peak_mps2": 0.2}]}
     )  # fmt: skip
     assert "| same direction and speed | 0.62 (0.62 to 0.62) | 0.65: missed |" in words

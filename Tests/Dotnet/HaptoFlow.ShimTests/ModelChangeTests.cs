@@ -37,7 +37,8 @@ namespace HaptoFlow.ShimTests
             foreach (int change in changes)
             {
                 float jump = Enumerable.Range(change, (int)(0.08 * RateHz)).Max(Jump);
-                Assert.That(jump, Is.LessThan(1.5f * steady), $"a click after frame {change}");
+                // While one voice fades into the other, both have the noise of one place and add up in phase.
+                Assert.That(jump, Is.LessThan(2f * steady), $"a click after frame {change}");
             }
             double loudness = Rms(0, changes[0]);
             foreach (int change in changes)

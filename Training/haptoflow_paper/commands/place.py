@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from dataclasses import replace
 from pathlib import Path
 
 from tqdm import tqdm
@@ -10,6 +11,7 @@ from tqdm import tqdm
 from haptoflow_benchmark.full_scale.measurement import model_labels
 from haptoflow_benchmark.full_scale.recorded_strokes import read_recorded_strokes
 from haptoflow_paper.place.creeping import CREEPING_LABELS, creeping, held_silent, holds, recorder_without_noise
+from haptoflow_paper.place.hand_overs import HOP_SAMPLES, hand_overs
 from haptoflow_paper.place.passes import Renderer
 from haptoflow_paper.place.place_accuracy import accuracy_report, measure_cells, steady_pairs
 from haptoflow_paper.place.place_report import page_words
@@ -17,6 +19,7 @@ from haptoflow_paper.place.place_study import measure_likeness, steps_of
 from haptoflow_paper.reference.reference_set import reference_set
 from haptoflow_training.model_stamp import read_measured_page, sha256_of, with_measured_words
 from haptoflow_training.training.run_log import source_commit, write_json
+from haptoflow_training.waveform import SAMPLE_RATE_HZ
 from haptoflow_training.whole_file import check_writable, write_whole
 
 _EXAMPLES = """examples:
@@ -69,6 +72,10 @@ def run(options: argparse.Namespace) -> int:
     results["creeping"] = {
         label: {"now": creeping(renderers[0], label), "recorder": recorder_without_noise(label)}
         for label in tqdm(CREEPING_LABELS, unit="label", desc="creeping")
+    }
+    results["hand_overs"] = {
+        label: [hand_overs(replace(each, update_rate_hz=SAMPLE_RATE_HZ / HOP_SAMPLES), label) for each in renderers]
+        for label in tqdm(labels, unit="label", desc="hand-overs")
     }
     if options.strokes is not None:
         results["held"] = held_silent(renderers[0], holds(read_recorded_strokes(options.strokes)))

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+import numpy as np
+
 from haptoflow_paper.metrics.judged_figures import BY_KEY
 from haptoflow_paper.place.place_study import bumps_found, second_passes, summary
 from haptoflow_training.model_stamp import model_line
@@ -28,6 +30,7 @@ def page_words(results: Mapping[str, Any]) -> str:
     for name in [*second_passes(), "second round of a circle"]:
         lines.append(_row(name, summary(now, name), None if before is None else summary(before, name), chance))
     lines += ["", _bump_words(now), "", *_accuracy_words(results.get("accuracy"))]
+    lines += ["", *_hand_over_words(results["hand_overs"])]
     lines += ["", *_creeping_words(results["creeping"]), "", _held_words(results.get("held", ()))]
     return "\n".join(lines)
 
@@ -63,6 +66,24 @@ def _bump_words(now: Mapping[str, Any]) -> str:
         f"next pass has {found['again']} within a millimetre; another object would have {found['by_chance']} by "
         f"chance.{missed}"
     )
+
+
+def _hand_over_words(by_label: Mapping[str, Sequence[Mapping[str, float]]]) -> list[str]:
+    """Rows of one engine, or of two beside each other: now, before."""
+    names = ["now", "before"][: len(next(iter(by_label.values())))]
+    lines = [
+        "| above 300 Hz, folded at the hop, dB: median (most) | " + " | ".join(names) + " | by chance |",
+        "|---" * (2 + len(names)) + "|",
+    ]
+    for words, key, chance in (("loudest 5 ms", "burst", "burst_chance"), ("swing", "swing", "chance")):
+        cells = [_median_and_most([rows[index][key] for rows in by_label.values()]) for index in range(len(names))]
+        cells.append(_median_and_most([rows[0][chance] for rows in by_label.values()]))
+        lines.append(f"| {words} | " + " | ".join(cells) + " |")
+    return lines
+
+
+def _median_and_most(values: Sequence[float]) -> str:
+    return f"{np.median(values):.2f} ({max(values):.2f})"
 
 
 def _creeping_words(creeping: Mapping[str, Any]) -> list[str]:
