@@ -43,7 +43,7 @@ struct TapPiece {
 /// Most of these lie above what a hand feels or an actuator plays, as Okamura, Cutkosky and Dennerlein 2001 found of
 /// measured taps, and are brought into the band as there, with their order kept: f_felt = 100 Hz (f / 100 Hz)^0.404
 /// maps 10 Hz to 4 kHz to 40 to 450 Hz, so that an octave becomes a third, slightly more than a just noticeable
-/// difference of frequency. The decay is 25 + pi eta f per second: the support and the hand, and the losses eta of the
+/// difference of frequency. The decay is 60 + pi eta f per second: the support and the hand, and the losses eta of the
 /// material at the piece's own frequency f. The hand's share of the amplitude, 0.15 * 2 pi f_felt m/s^2 per m/s, is
 /// that of a label without a piece; the upper mode has 0.3 of it, times the pen's share in that mode, and the losses of
 /// a tip (0.1).
