@@ -172,6 +172,14 @@ private:
         state.force_newtons = wildFloat();
         state.spatial_scale = wildFloat();
         state.tone_db_per_octave = wildFloat();
+        state.has_place = next() % 3;
+        state.surface_seed = next() % 4;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            state.place_metres[axis] = wildFloat();
+            // Usable axes in most states, so that wild places reach the noise.
+            state.first_axis[axis] = oneIn(16) ? wildFloat() : (axis == 0 ? 1.0F : 0.0F);
+            state.second_axis[axis] = oneIn(16) ? wildFloat() : (axis == 1 ? 1.0F : 0.0F);
+        }
         state.struct_size = sizeOf(sizeof(state));
         return state;
     }

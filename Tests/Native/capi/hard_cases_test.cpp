@@ -111,6 +111,19 @@ std::vector<HardCase> hardCases() {
         {"DirectionReversedEveryUpdate", [](uint32_t update) { return slidingState(update % 2 == 0 ? 0.3F : -0.3F); }},
         {"SpeedJumpsEveryUpdate", [](uint32_t update) { return slidingState(update % 2 == 0 ? 0.004F : 18.0F); }},
         {"ForceJumpsEveryUpdate", [](uint32_t update) { return slidingState(0.1F, update % 2 == 0 ? 0.01F : 900.0F); }},
+        {"PlaceSurfaceAndAxesThrownAboutEveryUpdate",
+         [](uint32_t update) {
+             State state = slidingState(update % 2 == 0 ? 0.3F : -0.05F);
+             const auto angle = static_cast<float>(update);
+             state.has_place = 1;
+             state.surface_seed = update % 3;
+             state.place_metres[0] = 9000.0F * std::sin(7.0F * angle);
+             state.place_metres[1] = std::sin(3.0F * angle);
+             state.first_axis[0] = std::cos(angle);
+             state.first_axis[1] = std::sin(angle);
+             state.second_axis[2] = 1.0F;
+             return state;
+         }},
         // Lifted and touching alternate: 43 of 86 updates are touch-downs.
         {.name = "ContactToggledEveryUpdate",
          .state =
