@@ -4,6 +4,7 @@
 #include "output_checks.hpp"
 
 #include <array>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <string>
