@@ -43,13 +43,23 @@ void runHot(Contender& contender, std::size_t runs) {
     }
 }
 
+/// Waits for the next update. A run that takes longer than the pace is followed by the next one at once.
+class Pace {
+public:
+    void wait() {
+        due_ = std::max(due_ + 1.0 / updateRateHz, nowSeconds());
+        sleepUntil(due_);
+    }
+
+private:
+    double due_ = nowSeconds();
+};
+
 void runPaced(Contender& contender, std::size_t runs) {
     (void)contender.run();
-    double due = nowSeconds();
+    Pace pace;
     for (std::size_t run = 0; run < runs; ++run) {
-        // A run that takes longer than the pace is followed by the next one at once.
-        due = std::max(due + 1.0 / updateRateHz, nowSeconds());
-        sleepUntil(due);
+        pace.wait();
         contender.pacedSeconds.push_back(contender.run());
     }
 }
@@ -89,12 +99,11 @@ public:
     explicit NoiseTimer(const model::ModelFile& model) : model_(model) {}
 
     void run(std::size_t runs, bool isPaced) {
-        double due = nowSeconds();
+        Pace pace;
         for (std::size_t run = 0; run < runs; ++run) {
             for (const bool isOfSurface : {true, false}) {
                 if (isPaced) {
-                    due = std::max(due + 1.0 / updateRateHz, nowSeconds());
-                    sleepUntil(due);
+                    pace.wait();
                 }
                 seconds_[isPaced][isOfSurface].push_back(once(isOfSurface));
             }

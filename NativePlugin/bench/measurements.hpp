@@ -12,8 +12,9 @@ namespace haptoflow::bench {
 
 /// "inference_ms": the time to generate one segment with each tier of the model on one thread, once without pauses and
 /// once every 1/72 s. With the paper's model also "paper_architecture_ms" and "speedup_vs_paper_architecture" from the
-/// same run, and "noise_us", the time for the noise of one segment, of the surface and of time. All tiers run in blocks
-/// in random order, so that a slow second of the machine affects all of them alike.
+/// same run. All tiers run in blocks in random order, so that a slow second of the machine affects all of them alike.
+/// "noise_us": the time to make the noise of one segment, for noise that belongs to the surface and for noise that
+/// belongs to time, and what the difference adds to the tier "standard".
 [[nodiscard]] nlohmann::ordered_json measureInference(const Subjects& subjects, const BenchPlan& plan,
                                                       const Advance& advance);
 

@@ -34,8 +34,9 @@ enum class TipStep {
 ///
 /// A tracker slower than the frame rate repeats positions. Repeated positions are not measurements and are excluded
 /// from the velocity until `stopSeconds`; after that the tip has really stopped, and all of them count as measurements.
-/// For a tracker that has not repeated itself for a while, one repeated position may be either, and a second is a stop.
-/// One that has is slow: its positions are as old as its own clock says, by up to a frame.
+/// A tracker that has measured in 32 frames in a row is trusted not to repeat positions: the first position that it
+/// repeats halves the weight of the velocity, and the second in a row is a stop. A tracker that has repeated positions
+/// and is not trusted since is slow: its positions may be older than the frames that report them, by up to a frame.
 class TipHistory {
 public:
     static constexpr std::size_t capacity = 256;

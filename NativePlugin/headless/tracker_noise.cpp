@@ -27,7 +27,7 @@ void TrackerNoise::add(double timeSeconds, const glm::dvec3& placeMetres) noexce
     glm::dvec3 difference(0.0);
     double norm = 0.0;
     for (std::size_t index = 0; index < newest_.size(); ++index) {
-        // Times in units of the whole, so that weights stay within range.
+        // Divided by the time from first to last, because the cubes of seconds would make the weights huge.
         double weight = 1.0;
         for (std::size_t other = 0; other < newest_.size(); ++other) {
             if (other != index) {

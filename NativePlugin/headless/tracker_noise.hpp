@@ -8,8 +8,9 @@ namespace haptoflow::headless {
 
 /// How noisy a tracker's places are, from the places themselves.
 ///
-/// A hand's path is smooth over four measurements; what their third difference says is mostly noise. The estimate
-/// follows a low quantile of it by small steps (Robbins and Monro 1951), because now and then the hand adds its share.
+/// A hand moves smoothly over four measurements, so that their third difference is mostly noise. Sudden movements of
+/// the hand make it larger now and then; therefore the estimate follows a low quantile of it, by small steps (Robbins
+/// and Monro 1951).
 class TrackerNoise {
 public:
     /// On each axis.

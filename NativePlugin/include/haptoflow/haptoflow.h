@@ -709,7 +709,8 @@ typedef struct haptoflow_contact_state {
     /* Names the surface: the same place of the same surface feels the same in every touch and every session, and
      * surfaces with different numbers differ. */
     uint32_t surface_seed;
-    /* The contact point in a frame that moves and turns with the surface, in metres. */
+    /* The contact point in metres, in a frame that is fixed to the surface: while the surface moves and turns, the
+     * coordinates of a point on it stay the same. */
     float place_metres[3];
     /* The two axes of velocity_mps in that frame, of length 1. */
     float first_axis[3];

@@ -72,9 +72,10 @@ struct WaveFeatureOptions {
 /// a narrower range that interval is compressed on a logarithmic scale, so that textures keep their order.
 ///
 /// In 5 ms of noise an energy is off by many decibels, which no hand follows. Therefore r^2 follows the frames with a
-/// time constant of 15 ms, and the centroid with 40 ms. What is sudden is not smoothed: more than four times the mean,
-/// what follows an onset for 30 ms and as long as it decays, and from the second of two frames of less than an eighth
-/// of the mean on for as long as they fall. So an impact arrives in its own frame at full height.
+/// time constant of 15 ms, and the centroid with 40 ms. Three kinds of frames are not smoothed, because they are
+/// sudden: one whose r^2 is more than four times the smoothed one; those of the 30 ms after an onset, and after these
+/// as long as r^2 falls; and the second of two frames in a row below an eighth of the smoothed r^2, and after it as
+/// long as r^2 falls. So an impact arrives in its own frame at full height.
 ///
 /// Onsets are detected sample by sample: the mean square of the last 4 ms is compared with an exponential mean of 30 ms
 /// that ended 5 ms earlier. The onset is the sample at which the wave first reached a quarter of its peak within the

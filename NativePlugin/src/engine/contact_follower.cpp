@@ -9,8 +9,8 @@ ContactAction ContactFollower::update(const ContactState& state, double nowSecon
     const bool isTouching = state.touching != 0;
     // The counter starts at 0, so a first state with a counter above 0 reports a touch that began before that state.
     const bool newTouch = state.touchCounter != touchCounter_;
-    const bool isNewContact = newTouch || !touching_;
-    touches_ += newTouch || (isTouching && !touching_) ? 1 : 0;
+    const bool isNewContact = newTouch || (isTouching && !touching_);
+    touches_ += isNewContact ? 1 : 0;
     touchCounter_ = state.touchCounter;
     touching_ = isTouching;
     const bool wasSliding = sliding_;
@@ -34,8 +34,7 @@ bool ContactFollower::slidesBySpeed(float speedMps, bool isNewTouch) const noexc
 
 bool ContactFollower::slidesByDistance(const ContactState& state, bool isNewContact, double nowSeconds) noexcept {
     const float speed = state.speedMps();
-    if (isNewContact || !drawsPoint_ || surfaceSeed_ != state.surfaceSeed) {
-        drawsPoint_ = true;
+    if (isNewContact || !pointMetres_ || surfaceSeed_ != state.surfaceSeed) {
         surfaceSeed_ = state.surfaceSeed;
         pointMetres_ = state.placeMetres;
         pulledSeconds_ = nowSeconds;
@@ -43,7 +42,7 @@ bool ContactFollower::slidesByDistance(const ContactState& state, bool isNewCont
     }
     std::array<float, 3> string{};
     for (std::size_t axis = 0; axis < string.size(); ++axis) {
-        string[axis] = state.placeMetres[axis] - pointMetres_[axis];
+        string[axis] = state.placeMetres[axis] - (*pointMetres_)[axis];
     }
     const float distance = std::hypot(string[0], string[1], string[2]);
     if (!sliding_ && distance < (speed >= strokeMps ? strokeStartMetres : startMetres)) {
@@ -51,7 +50,7 @@ bool ContactFollower::slidesByDistance(const ContactState& state, bool isNewCont
     }
     if (distance > stringMetres) {
         for (std::size_t axis = 0; axis < string.size(); ++axis) {
-            pointMetres_[axis] += string[axis] * (1.0F - stringMetres / distance);
+            (*pointMetres_)[axis] += string[axis] * (1.0F - stringMetres / distance);
         }
         pulledSeconds_ = nowSeconds;
     }

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 namespace haptoflow::engine {
 
@@ -51,16 +52,15 @@ public:
 
 private:
     [[nodiscard]] bool slidesBySpeed(float speedMps, bool isNewTouch) const noexcept;
-    [[nodiscard]] bool slidesByDistance(const ContactState& state, bool isNewTouch, double nowSeconds) noexcept;
+    [[nodiscard]] bool slidesByDistance(const ContactState& state, bool isNewContact, double nowSeconds) noexcept;
 
     std::uint32_t touchCounter_ = 0;
     std::uint64_t touches_ = 0;
     bool touching_ = false;
     bool sliding_ = false;
-    // The end of the string: where the tip came to rest, or what it draws along. Valid while `drawsPoint_`.
-    bool drawsPoint_ = false;
+    // The end of the string: where the tip came to rest, or what it draws along. Empty before the first known place.
+    std::optional<std::array<float, 3>> pointMetres_;
     std::uint32_t surfaceSeed_ = 0;
-    std::array<float, 3> pointMetres_{};
     double pulledSeconds_ = 0.0;
 };
 

@@ -69,7 +69,7 @@ struct ContactState {
     [[nodiscard]] bool isMoving() const noexcept { return touching != 0 && speedMps() >= 0.005F; }
 };
 
-/// Whether the place is within 10 km of the surface's origin and both axes have length 1, to a tenth.
+/// Whether place and axes can be used: no coordinate is beyond 10 km, and both axes have a length from 0.9 to 1.1.
 [[nodiscard]] inline bool hasUsablePlace(const ContactState& state) noexcept {
     const auto isUnit = [](const std::array<float, 3>& axis) {
         return std::abs(std::hypot(axis[0], axis[1], axis[2]) - 1.0F) <= 0.1F;

@@ -21,22 +21,13 @@ float logOf(float levelMps2) noexcept {
 }  // namespace
 
 void LevelFollower::begin(std::int64_t start, float levelMps2) noexcept {
-    pieces_[0] = {start, logOf(levelMps2)};
-    count_ = 1;
-    logLevel_ = target_ = pieces_[0].logLevel;
+    logLevel_ = target_ = logOf(levelMps2);
     step_ = 0.0F;
+    pieces_.begin({start, logLevel_});
 }
 
 void LevelFollower::takeOver(std::int64_t start, float levelMps2) noexcept {
-    while (count_ > 0 && pieces_[count_ - 1].start >= start) {
-        --count_;
-    }
-    if (count_ == capacity) {
-        std::ranges::copy(pieces_.begin() + 1, pieces_.end(), pieces_.begin());
-        --count_;
-    }
-    pieces_[count_] = {start, logOf(levelMps2)};
-    ++count_;
+    pieces_.add({start, logOf(levelMps2)});
 }
 
 void LevelFollower::setLevel(float levelMps2) noexcept {
@@ -48,21 +39,14 @@ void LevelFollower::setLevel(float levelMps2) noexcept {
 }
 
 void LevelFollower::process(std::int64_t start, std::span<float> samples) noexcept {
-    std::size_t piece = 0;
-    for (std::size_t index = 0; index < samples.size(); ++index) {
-        const std::int64_t sample = start + static_cast<std::int64_t>(index);
-        while (piece + 1 < count_ && pieces_[piece + 1].start <= sample) {
-            ++piece;
-        }
+    for (float& sample : samples) {
         logLevel_ = std::abs(target_ - logLevel_) <= std::abs(step_) ? target_ : logLevel_ + step_;
-        const float gain = logLevel_ - pieces_[piece].logLevel;
+        const float gain = logLevel_ - pieces_.at(start).logLevel;
         if (gain != 0.0F) {
-            samples[index] *= std::exp(std::clamp(gain, smallestGain, largestGain));
+            sample *= std::exp(std::clamp(gain, smallestGain, largestGain));
         }
+        ++start;
     }
-    std::copy(pieces_.begin() + static_cast<std::ptrdiff_t>(piece),
-              pieces_.begin() + static_cast<std::ptrdiff_t>(count_), pieces_.begin());
-    count_ -= piece;
 }
 
 }  // namespace haptoflow::engine

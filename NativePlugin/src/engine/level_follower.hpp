@@ -1,7 +1,7 @@
 #pragma once
 
-#include <array>
-#include <cstddef>
+#include "engine/piece_list.hpp"
+
 #include <cstdint>
 #include <span>
 
@@ -31,11 +31,8 @@ private:
         // Natural logarithm of the level in m/s^2.
         float logLevel = 0.0F;
     };
-    // A timeline reaches 600 samples ahead and a hop takes at least 10; older pieces than the head's are not needed.
-    static constexpr std::size_t capacity = 64;
 
-    std::array<Piece, capacity> pieces_{};
-    std::size_t count_ = 1;
+    PieceList<Piece> pieces_;
     float logLevel_ = 0.0F;
     float target_ = 0.0F;
     float step_ = 0.0F;

@@ -10,7 +10,8 @@ namespace {
 using Vector = std::array<double, 3>;
 
 // Axes that turn by less within the distance belong to a flat surface: its radius of curvature is above 5 m.
-constexpr float steadyTurn = 1e-3F;
+// 1e-3 as single precision, in which axes come.
+constexpr double steadyTurn = static_cast<double>(1e-3F);
 constexpr double flatMetres = 0.005;
 
 double difference(const std::array<float, 3>& left, const std::array<float, 3>& right) noexcept {
@@ -89,8 +90,8 @@ bool PlaceTrack::isFlat(const ContactState& state) noexcept {
         isFlat_ = true;
         return true;
     }
-    const bool hasTurned = difference(anchor_->firstAxis, state.firstAxis) > static_cast<double>(steadyTurn) ||
-                           difference(anchor_->secondAxis, state.secondAxis) > static_cast<double>(steadyTurn);
+    const bool hasTurned = difference(anchor_->firstAxis, state.firstAxis) > steadyTurn ||
+                           difference(anchor_->secondAxis, state.secondAxis) > steadyTurn;
     if (hasTurned || anchor_->surfaceSeed != state.surfaceSeed) {
         anchor_ = state;
         isFlat_ = false;

@@ -93,13 +93,13 @@ std::array<float, inference::ribCount> toNetwork(const RibTurns& phases) noexcep
 }
 
 void RibTrack::begin(std::int64_t start, const SeedRibs& seed) noexcept {
-    pieces_[0] = {.start = start, .phase = seed.phase, .turnsPerSample = seed.turnsPerSample, .vectors = seed.vectors};
-    count_ = 1;
+    pieces_.begin(
+        {.start = start, .phase = seed.phase, .turnsPerSample = seed.turnsPerSample, .vectors = seed.vectors});
 }
 
 RibTurns RibTrack::at(std::int64_t sample, const WaveVectors& vectors,
                       const std::array<double, 2>& placeMetres) const noexcept {
-    const bool isFirst = count_ == 1;
+    const bool isFirst = pieces_.hasOnlyOne();
     RibTurns turns = at(sample, vectors);
     for (std::size_t rib = 0; rib < turns.size(); ++rib) {
         const double wanted = (static_cast<double>(vectors[rib].x) * placeMetres[0] +
@@ -114,24 +114,11 @@ RibTurns RibTrack::at(std::int64_t sample, const WaveVectors& vectors,
 
 void RibTrack::add(std::int64_t start, const WaveVectors& vectors, const RibTurns& phase,
                    const RibTurns& turnsPerSample) noexcept {
-    const Piece piece{.start = start, .phase = phase, .turnsPerSample = turnsPerSample, .vectors = vectors};
-    while (count_ > 0 && pieces_[count_ - 1].start >= start) {
-        --count_;
-    }
-    if (count_ == capacity) {
-        std::ranges::copy(pieces_.begin() + 1, pieces_.end(), pieces_.begin());
-        --count_;
-    }
-    pieces_[count_] = piece;
-    ++count_;
+    pieces_.add({.start = start, .phase = phase, .turnsPerSample = turnsPerSample, .vectors = vectors});
 }
 
 RibTurns RibTrack::at(std::int64_t sample, const WaveVectors& vectors) const noexcept {
-    std::size_t newest = count_ - 1;
-    while (newest > 0 && pieces_[newest].start > sample) {
-        --newest;
-    }
-    const Piece& piece = pieces_[newest];
+    const Piece& piece = pieces_.at(sample);
     RibTurns turns{};
     for (std::size_t rib = 0; rib < turns.size(); ++rib) {
         const double travelled =

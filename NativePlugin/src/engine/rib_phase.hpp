@@ -1,5 +1,6 @@
 #pragma once
 
+#include "engine/piece_list.hpp"
 #include "inference/segment_generator.hpp"
 
 #include <array>
@@ -69,13 +70,8 @@ private:
         RibTurns turnsPerSample{};
         WaveVectors vectors{};
     };
-    // Only pieces ahead of the read head can be removed. A timeline reaches 600 samples ahead and a hop takes at least
-    // 10, so this is enough; when full, the oldest piece is dropped, which no later segment needs.
-    static constexpr std::size_t capacity = 64;
 
-    // In the order of their starts.
-    std::array<Piece, capacity> pieces_{};
-    std::size_t count_ = 1;
+    PieceList<Piece> pieces_;
 };
 
 }  // namespace haptoflow::engine

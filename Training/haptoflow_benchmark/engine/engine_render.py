@@ -62,7 +62,7 @@ def write_stroke(path: Path, motion: NDArray[np.floating]) -> None:
         [rows * step_seconds, position[rows, 0], np.full(len(rows), 0.0005), -position[rows, 1], motion[rows, 2]],
         axis=1,
     )
-    np.savetxt(path, columns, fmt="%.7f", delimiter=",", header="t,x,y,z,force", comments="")
+    write_rows(path, columns, digits=7)
 
 
 def read_wav(path: Path) -> NDArray[np.float32]:
@@ -85,6 +85,25 @@ def run_engine(command: list[str]) -> str:
     return done.stdout
 
 
+def write_rows(path: Path, rows: NDArray[np.floating], digits: int = 9) -> None:
+    """Write a stroke's rows [n, 5]: seconds, the tip's position in metres, force in newtons."""
+    np.savetxt(path, rows, fmt=f"%.{digits}f", delimiter=",", header="t,x,y,z,force", comments="")
+
+
+def rendered_samples(
+    engine: Path, scene: Path, stroke: Path, wav: Path, *, model: Path | None, seed: int, options: tuple[str, ...] = ()
+) -> NDArray[np.float64]:
+    """Run `haptoflow render`, and return the samples of its WAV at 2 kHz, +-1 = FULL_SCALE_MPS2. InputError carries the
+    command's own message if it fails."""
+    command = [str(engine), "render", str(scene), "--stroke", str(stroke), "-o", str(wav)]
+    command += ["--rate", str(_RENDER_RATE_HZ), "--seed", str(seed), *options]
+    if model is not None:
+        command += ["--model", str(model)]
+    run_engine(command)
+    samples: NDArray[np.float64] = resample_poly(read_wav(wav).astype(np.float64), 1, _RENDER_RATE_HZ // SAMPLE_RATE_HZ)
+    return samples
+
+
 def render_motion(
     engine: Path,
     label: str,
@@ -99,10 +118,8 @@ def render_motion(
     scene, stroke, wav, report = (folder / name for name in ("scene.json", "stroke.csv", "out.wav", "report.json"))
     write_scene(scene, label, UPDATE_RATE_HZ)
     write_stroke(stroke, motion)
-    command = [str(engine), "render", str(scene), "--stroke", str(stroke), "-o", str(wav)]
-    command += ["--report", str(report), "--rate", str(_RENDER_RATE_HZ), "--seed", str(seed), *options]
-    if model is not None:
-        command += ["--model", str(model)]
-    run_engine(command)
-    waveform = resample_poly(read_wav(wav).astype(np.float64), 1, _RENDER_RATE_HZ // SAMPLE_RATE_HZ) * FULL_SCALE_MPS2
+    samples = rendered_samples(
+        engine, scene, stroke, wav, model=model, seed=seed, options=("--report", str(report), *options)
+    )
+    waveform = samples * FULL_SCALE_MPS2
     return EngineRender(waveform[: len(motion)], json.loads(report.read_text(encoding="utf-8")))

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from haptoflow_benchmark.engine.engine_render import read_wav, run_engine, write_scene
+from haptoflow_benchmark.engine.engine_render import read_wav, run_engine, write_rows, write_scene
 from haptoflow_benchmark.full_scale.recorded_strokes import evenly_on_table
 from haptoflow_training.closed_loop.render import UPDATE_RATE_HZ
 from haptoflow_training.errors import InputError
@@ -79,8 +79,7 @@ def _render(
     scene, table, wav = (folder / name for name in ("scene.json", "stroke.csv", "out.wav"))
     write_scene(scene, label, UPDATE_RATE_HZ, _TIP_RADIUS_METRES)
     path = evenly_on_table(stroke)
-    columns = np.c_[path, np.full(len(path), force_newtons)]
-    np.savetxt(table, columns, fmt="%.7f", delimiter=",", header="t,x,y,z,force", comments="")
+    write_rows(table, np.c_[path, np.full(len(path), force_newtons)], digits=7)
     command = [str(engine), "render", str(scene), "--stroke", str(table), "-o", str(wav), "--model", str(model)]
     run_engine([*command, "--rate", str(_RATE_HZ), "--full-scale", str(_UNBENT_FULL_SCALE_MPS2), "--quiet"])
     magnitudes = np.abs(read_wav(wav))

@@ -12,9 +12,8 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import resample_poly
 
-from haptoflow_benchmark.engine.engine_render import read_wav, run_engine, write_scene
+from haptoflow_benchmark.engine.engine_render import rendered_samples, write_rows, write_scene
 from haptoflow_benchmark.full_scale.recorded_strokes import on_table_spline
 from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
@@ -30,7 +29,6 @@ _SCRIBBLE_SECONDS = 4.0
 _FORCE_NEWTONS = 1.0
 # The path is written so finely that the frames' straight lines between its samples follow it.
 _PATH_HZ = 1000.0
-_RENDER_RATE_HZ = 8000
 # Deep enough for every lift of a stroke.
 _TIP_RADIUS_METRES, _DEPTH_METRES = 0.5, 0.25
 _LEVEL_SECONDS = 0.012
@@ -122,11 +120,8 @@ def _rendered(engine: Path, model: Path, stroke: LagStroke, rate_hz: float, labe
     with tempfile.TemporaryDirectory() as folder:
         scene, table, wav = (Path(folder) / name for name in ("scene.json", "stroke.csv", "out.wav"))
         write_scene(scene, label, rate_hz, _TIP_RADIUS_METRES)
-        columns = np.c_[times, places, np.full(len(times), _FORCE_NEWTONS)]
-        np.savetxt(table, columns, fmt="%.9f", delimiter=",", header="t,x,y,z,force", comments="")
-        command = [str(engine), "render", str(scene), "--stroke", str(table), "-o", str(wav), "--model", str(model)]
-        run_engine([*command, "--rate", str(_RENDER_RATE_HZ), "--seed", str(seed), "--quiet"])
-        waveform = resample_poly(read_wav(wav).astype(np.float64), 1, _RENDER_RATE_HZ // SAMPLE_RATE_HZ)
+        write_rows(table, np.c_[times, places, np.full(len(times), _FORCE_NEWTONS)])
+        waveform = rendered_samples(engine, scene, table, wav, model=model, seed=seed, options=("--quiet",))
     return np.asarray(waveform[: int(stroke.seconds * SAMPLE_RATE_HZ)])
 
 

@@ -25,7 +25,7 @@ from haptoflow_training.whole_file import check_writable, write_whole
 _EXAMPLES = """examples:
   haptoflow-paper place --engine build/native/haptoflow \\
     --model Packages/com.haptoflow.runtime/Runtime/Models/default.haptoflow \\
-    --baseline older/build/native/haptoflow --work work/place \
+    --baseline older/build/native/haptoflow --work work/place \\
     --strokes ../shared/strokes/vr-pen-on-surface/strokes.csv \\
     --results Training/haptoflow_paper/results/place.json --page Documentation~/place.md
 

@@ -27,7 +27,8 @@ _HOLD_SECONDS = 5.0
 
 @dataclass(frozen=True)
 class Hold:
-    """A pen held at one place: times [n] and places [n, 2] around it."""
+    """The tremor of a pen that is held at one place: times [n] in seconds from 0 on, and positions [n, 2] in metres
+    relative to that place."""
 
     times: Doubles
     places_metres: Doubles

@@ -5,20 +5,17 @@ from __future__ import annotations
 import json
 import math
 import tempfile
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import resample_poly
 
-from haptoflow_benchmark.engine.engine_render import FULL_SCALE_MPS2, read_wav, run_engine
-from haptoflow_training.waveform import SAMPLE_RATE_HZ
+from haptoflow_benchmark.engine.engine_render import FULL_SCALE_MPS2, rendered_samples, write_rows
 
 Doubles = NDArray[np.float64]
 
-_RENDER_RATE_HZ = 8000
 _STROKE_STEP_SECONDS = 0.004
 _DEPTH_METRES = 0.0005
 
@@ -101,7 +98,6 @@ class Renderer:
     engine: Path
     model: Path
     update_rate_hz: float = 90.0
-    options: tuple[str, ...] = field(default=())
 
     def wave(self, table: Table, stroke: Stroke, seed: int = 1) -> Doubles:
         """The vibration [n] in m/s^2 at 2 kHz, from the stroke's first moment on."""
@@ -111,10 +107,5 @@ class Renderer:
             scene, csv, wav = folder / "scene.json", folder / "stroke.csv", folder / "out.wav"
             scene.write_text(json.dumps(table.scene(self.update_rate_hz)), encoding="utf-8")
             columns = np.column_stack([times, table.to_world(along, beside), np.ones_like(times)])
-            np.savetxt(csv, columns, fmt="%.9f", delimiter=",", header="t,x,y,z,force", comments="")
-            run_engine(
-                [str(self.engine), "render", str(scene), "--stroke", str(csv), "-o", str(wav),
-                 "--rate", str(_RENDER_RATE_HZ), "--seed", str(seed), "--model", str(self.model), *self.options]
-            )  # fmt: skip
-            samples = read_wav(wav).astype(np.float64)
-        return resample_poly(samples, 1, _RENDER_RATE_HZ // SAMPLE_RATE_HZ) * FULL_SCALE_MPS2
+            write_rows(csv, columns)
+            return rendered_samples(self.engine, scene, csv, wav, model=self.model, seed=seed) * FULL_SCALE_MPS2

@@ -1,4 +1,4 @@
-"""The page's words about places."""
+"""Writes the measured part of Documentation~/place.md: tables of the study's figures, and which goals are met."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import numpy as np
 
 from haptoflow_paper.metrics.judged_figures import BY_KEY
 from haptoflow_paper.place.place_study import bumps_found, second_passes, summary
+from haptoflow_training.markdown import table
 from haptoflow_training.model_stamp import model_line
 
 # Goals: the least median over random labels; None where likeness is not wanted and chance is.
@@ -26,23 +27,25 @@ def page_words(results: Mapping[str, Any]) -> str:
     likeness = results["likeness"]
     now, before = likeness["now"], likeness.get("before")
     chance = summary(now, "another object")["median"]
-    lines = [model_line(results["model_sha256"]), "", *_head(before is not None)]
-    for name in [*second_passes(), "second round of a circle"]:
-        lines.append(_row(name, summary(now, name), None if before is None else summary(before, name), chance))
-    lines += ["", _bump_words(now), "", *_accuracy_words(results.get("accuracy"))]
-    lines += ["", *_hand_over_words(results["hand_overs"])]
-    lines += ["", *_creeping_words(results["creeping"]), "", _held_words(results.get("held", ()))]
-    return "\n".join(lines)
+    rows = [
+        _row(name, summary(now, name), None if before is None else summary(before, name), chance)
+        for name in [*second_passes(), "second round of a circle"]
+    ]
+    parts = [
+        model_line(results["model_sha256"]), table(_head(before is not None), rows), _bump_words(now),
+        _accuracy_words(results.get("accuracy")), _hand_over_words(results["hand_overs"]),
+        _creeping_words(results["creeping"]), _held_words(results.get("held", ())),
+    ]  # fmt: skip
+    return "\n\n".join(parts)
 
 
 def _head(has_baseline: bool) -> list[str]:
     columns = ["second pass", "random labels: median (least to most)", "goal", "shift, mm"]
     columns += ["mesh, corduroy, jute, without a shift"]
-    columns += ["before: median"] if has_baseline else []
-    return ["| " + " | ".join(columns) + " |", "|---" * len(columns) + "|"]
+    return columns + (["before: median"] if has_baseline else [])
 
 
-def _row(name: str, found: Mapping[str, Any], before: Mapping[str, Any] | None, chance: float) -> str:
+def _row(name: str, found: Mapping[str, Any], before: Mapping[str, Any] | None, chance: float) -> list[str]:
     goal = GOALS[name]
     met = found["median"] <= chance + _CHANCE_MARGIN if goal is None else found["median"] >= goal
     aim = "chance" if goal is None else f"{goal:g}"
@@ -52,8 +55,7 @@ def _row(name: str, found: Mapping[str, Any], before: Mapping[str, Any] | None, 
         ruled += f" (goal {_RULED_GOAL:g}: " + (f"missed by {', '.join(missed)})" if missed else "met)")
     cells = [name, f"{found['median']:.2f} ({found['least']:.2f} to {found['most']:.2f})"]
     cells += [f"{aim}: {'met' if met else 'missed'}", f"{found['shift_mm']:.2f}", ruled]
-    cells += [] if before is None else [f"{before['median']:.2f}"]
-    return "| " + " | ".join(cells) + " |"
+    return cells + ([] if before is None else [f"{before['median']:.2f}"])
 
 
 def _bump_words(now: Mapping[str, Any]) -> str:
@@ -68,37 +70,32 @@ def _bump_words(now: Mapping[str, Any]) -> str:
     )
 
 
-def _hand_over_words(by_label: Mapping[str, Sequence[Mapping[str, float]]]) -> list[str]:
+def _hand_over_words(by_label: Mapping[str, Sequence[Mapping[str, float]]]) -> str:
     """Rows of one engine, or of two beside each other: now, before."""
     names = ["now", "before"][: len(next(iter(by_label.values())))]
-    lines = [
-        "| above 300 Hz, folded at the hop, dB: median (most) | " + " | ".join(names) + " | by chance |",
-        "|---" * (2 + len(names)) + "|",
-    ]
+    table_rows = []
     for words, key, chance in (("loudest 5 ms", "burst", "burst_chance"), ("swing", "swing", "chance")):
         cells = [_median_and_most([rows[index][key] for rows in by_label.values()]) for index in range(len(names))]
         cells.append(_median_and_most([rows[0][chance] for rows in by_label.values()]))
-        lines.append(f"| {words} | " + " | ".join(cells) + " |")
-    return lines
+        table_rows.append([words, *cells])
+    return table(["above 300 Hz, folded at the hop, dB: median (most)", *names, "by chance"], table_rows)
 
 
 def _median_and_most(values: Sequence[float]) -> str:
     return f"{np.median(values):.2f} ({max(values):.2f})"
 
 
-def _creeping_words(creeping: Mapping[str, Any]) -> list[str]:
+def _creeping_words(creeping: Mapping[str, Any]) -> str:
     speeds = list(next(iter(creeping.values()))["now"])
-    lines = [
-        "| creeping, peak in m/s² (kurtosis) | " + " | ".join(f"{speed} mm/s; recorder" for speed in speeds) + " |",
-        "|---" * (1 + len(speeds)) + "|",
-    ]
+    table_rows = []
     for label, rows in creeping.items():
         cells = [
             "; ".join(f"{rows[name][speed]['peak_mps2']:.2f} ({rows[name][speed]['kurtosis']:.0f})" for name in rows)
             for speed in speeds
         ]
-        lines.append(f"| {label} | " + " | ".join(cells) + " |")
-    return lines
+        table_rows.append([label, *cells])
+    headings = [f"{speed} mm/s; recorder" for speed in speeds]
+    return table(["creeping, peak in m/s² (kurtosis)", *headings], table_rows)
 
 
 def _held_words(held: Sequence[Mapping[str, float]]) -> str:
@@ -111,13 +108,14 @@ def _held_words(held: Sequence[Mapping[str, float]]) -> str:
     return words + (f"; heard are {', '.join(f'{size:.2f} mm' for size in heard)} (goal missed)." if heard else ".")
 
 
-def _accuracy_words(accuracy: Mapping[str, Any] | None) -> list[str]:
+def _accuracy_words(accuracy: Mapping[str, Any] | None) -> str:
     if accuracy is None or "before" not in accuracy:
-        return []
-    lines = ["| accuracy of whole renders | now: median, p90 | before: median, p90 | now is |", "|---|---|---|---|"]
+        return ""
+    table_rows = []
     for key, outcome in accuracy["verdict"].items():
         now, before = (accuracy[name].get(key) for name in ("now", "before"))
         if now is not None and before is not None:
             shown = [f"{each['median']:.3g}, {each['p90']:.3g}" for each in (now, before)]
-            lines.append(f"| {BY_KEY[key].words} | {shown[0]} | {shown[1]} | {outcome} |")
-    return lines
+            table_rows.append([BY_KEY[key].words, *shown, outcome])
+    headings = ["accuracy of whole renders", "now: median, p90", "before: median, p90", "now is"]
+    return table(headings, table_rows)

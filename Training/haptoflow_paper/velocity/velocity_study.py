@@ -48,7 +48,7 @@ _MAKERS: Mapping[str, Callable[..., Estimator]] = {
     "line": line, "adaptive": adaptive_window, "end": end_of_parabola, "growing": growing_parabola, "kalman": kalman,
 }  # fmt: skip
 _Settings = Mapping[str, float]
-# By row of the table: its maker, and the settings to choose from.
+# The rows of the table: for each, the function that makes its estimator, and the settings among which the study chooses.
 CANDIDATES: Mapping[str, tuple[str, Sequence[_Settings]]] = {
     TODAY: ("line", [{"seconds": 0.035}]),
     "line over another time": ("line", [{"seconds": value} for value in (0.02, 0.028, 0.05)]),

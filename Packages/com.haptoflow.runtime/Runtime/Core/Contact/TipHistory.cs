@@ -34,9 +34,10 @@ namespace HaptoFlow.Contact
     /// stops.</summary>
     /// <remarks>A tracker slower than the frame rate repeats positions. Repetitions are not measurements and are left
     /// out of the velocity until <see cref="VelocitySettings.StopSeconds"/>; then the tip has really stopped and all of
-    /// them count as measurements. For a tracker that has not repeated itself for a while, one repeated position may be
-    /// either, and a second is a stop. One that has is slow: its positions are as old as its own clock says, by up to a
-    /// frame.</remarks>
+    /// them count as measurements. A tracker that has measured in 32 frames in a row is trusted not to repeat positions:
+    /// the first position that it repeats halves the weight of the velocity, and the second in a row is a stop. A tracker
+    /// that has repeated positions and is not trusted since is slow: its positions may be older than the frames that
+    /// report them, by up to a frame.</remarks>
     internal sealed class TipHistory
     {
         public const int Capacity = 256;

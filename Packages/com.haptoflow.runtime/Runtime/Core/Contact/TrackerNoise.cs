@@ -5,9 +5,9 @@ using HaptoFlow.Numerics;
 namespace HaptoFlow.Contact
 {
     /// <summary>How noisy a tracker's places are, from the places themselves.</summary>
-    /// <remarks>A hand's path is smooth over four measurements; what their third difference says is mostly noise. The
-    /// estimate follows a low quantile of it by small steps (Robbins and Monro 1951), because now and then the hand adds
-    /// its share.</remarks>
+    /// <remarks>A hand moves smoothly over four measurements, so that their third difference is mostly noise. Sudden
+    /// movements of the hand make it larger now and then; therefore the estimate follows a low quantile of it, by small
+    /// steps (Robbins and Monro 1951).</remarks>
     internal sealed class TrackerNoise
     {
         private const int Needed = 4;
@@ -46,7 +46,7 @@ namespace HaptoFlow.Contact
             double norm = 0.0;
             for (int index = 0; index < Needed; ++index)
             {
-                // Times in units of the whole, so that weights stay within range.
+                // Divided by the time from first to last, because the cubes of seconds would make the weights huge.
                 double weight = 1.0;
                 for (int other = 0; other < Needed; ++other)
                 {

@@ -63,8 +63,8 @@ namespace HaptoFlow
         /// session, and surfaces with different numbers differ.</summary>
         public uint SurfaceSeed;
 
-        /// <summary>The contact point in a frame that moves and turns with the surface, in metres; read where
-        /// <see cref="HasPlace"/> is true.</summary>
+        /// <summary>The contact point in metres, in a frame that is fixed to the surface: while the surface moves and
+        /// turns, the coordinates of a point on it stay the same. Read where <see cref="HasPlace"/> is true.</summary>
         public PlaceVector PlaceMetres;
 
         /// <summary>The first axis of the velocity in that frame, of length 1.</summary>

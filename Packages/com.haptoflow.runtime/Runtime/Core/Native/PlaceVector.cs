@@ -10,18 +10,18 @@ namespace HaptoFlow
     [Preserve, StructLayout(LayoutKind.Sequential)]
     public readonly struct PlaceVector
     {
-        /// <summary>Component along the frame's first axis.</summary>
+        /// <summary>x coordinate in the surface's frame.</summary>
         public readonly float X;
 
-        /// <summary>Component along the frame's second axis.</summary>
+        /// <summary>y coordinate in the surface's frame.</summary>
         public readonly float Y;
 
-        /// <summary>Component along the frame's third axis.</summary>
+        /// <summary>z coordinate in the surface's frame.</summary>
         public readonly float Z;
 
-        /// <param name="x">Component along the frame's first axis.</param>
-        /// <param name="y">Component along the frame's second axis.</param>
-        /// <param name="z">Component along the frame's third axis.</param>
+        /// <param name="x">x coordinate in the surface's frame.</param>
+        /// <param name="y">y coordinate in the surface's frame.</param>
+        /// <param name="z">z coordinate in the surface's frame.</param>
         public PlaceVector(float x, float y, float z) => (X, Y, Z) = (x, y, z);
 
         internal PlaceVector(Double3 vector) : this((float)vector.X, (float)vector.Y, (float)vector.Z)
