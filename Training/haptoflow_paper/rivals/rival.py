@@ -5,8 +5,8 @@ from __future__ import annotations
 import torch
 from torch import Tensor, nn
 
-from haptoflow_paper.rivals.condition import ConditionPerceptron
 from haptoflow_paper.rivals.segment_network import INPUTS, SegmentNetwork
+from haptoflow_training.models.condition_perceptron import ConditionPerceptron
 from haptoflow_training.models.rib_comb import GAINS, PARTIALS, RibComb, spread_gains
 
 RIB_INPUTS = ("previous", "rib_phase")

@@ -12,8 +12,8 @@ import math
 import torch
 from torch import Tensor, nn
 
-from haptoflow_paper.rivals.condition import ConditionPerceptron
 from haptoflow_paper.rivals.rival import Rival, reads
+from haptoflow_training.models.condition_perceptron import ConditionPerceptron
 from haptoflow_training.waveform import SEGMENT_SAMPLES
 
 BINS = SEGMENT_SAMPLES // 2 + 1
