@@ -71,6 +71,8 @@ def _label_entry(
         "stiffness_newtons_per_metre": info.stiffness_newtons_per_metre,
         "friction_coefficient": info.friction_coefficient,
         **({} if info.landing is None else {"impact": _impact_entry(info.landing)}),
+        **({} if info.stick_slip is None else {"stick_slip": _rounded(asdict(info.stick_slip))}),
+        **({} if not info.rib_wander else {"rib_wander": [_rounded(asdict(each)) for each in info.rib_wander]}),
         **({} if table is None else {"level": table.to_json()}),
     }
 
@@ -78,6 +80,10 @@ def _label_entry(
 def _impact_entry(landing: Landing) -> dict[str, Any]:
     modes = [{key: round(value, 2) for key, value in asdict(mode).items()} for mode in landing.modes]
     return {"modes": modes, "restitution": round(landing.restitution, 3)}
+
+
+def _rounded(values: dict[str, float]) -> dict[str, float]:
+    return {key: round(value, 6) for key, value in values.items()}
 
 
 def _header(

@@ -40,6 +40,8 @@ class DataConfig:
     labels: use only these; empty for all.
     machine_* and hand_*: how many synthetic recordings of each protocol;
     hand_guided_share: the share of hand recordings in which speed and direction are held for a while.
+    accelerometer_noise: whether synthetic recordings hold the noise and the steps of their accelerometer, which a model
+    would learn as part of every material.
     """
 
     source: str = "synthetic"
@@ -54,6 +56,7 @@ class DataConfig:
     hand_recordings_per_label: int = 24
     hand_duration_seconds: float = 8.0
     hand_guided_share: float = 0.0
+    accelerometer_noise: bool = True
 
 
 @dataclass(frozen=True)
