@@ -52,11 +52,11 @@ class AutoregressiveRival(Rival):
         previous: Tensor,
         embedding: Tensor,
         motion: Tensor,
-        rib_phase: Tensor,
+        phases: Tensor,
         generator: torch.Generator,
     ) -> Tensor:
         """[B]: Gaussian negative log-likelihood per sample of the one-step prediction errors, without the rib lines."""
         coefficients, log_gain = self.process(embedding, motion)
-        rest, past = self.rest(segment, previous, embedding, motion, rib_phase)
+        rest, past = self.rest(segment, previous, embedding, motion, phases)
         error = prediction_errors(torch.cat([past[:, 0, -ORDER:], rest[:, 0]], dim=1), coefficients)
         return (log_gain + 0.5 * error.square() * torch.exp(-2.0 * log_gain)).mean(dim=1)

@@ -94,13 +94,13 @@ class EngineGenerator:
         motions: _Floats,
         previous_mps2: _Floats,
         noise: _Floats,
-        rib_phase: _Floats | None = None,
+        phases: _Floats | None = None,
     ) -> _Floats:
         """Segments [n, 200] in m/s^2 from embeddings [n, 64], motions [n, 3], previous and noise [n, 200].
 
-        rib_phase: [n, 2], turns along the embedding's wave vectors at each segment's first sample; zeros if None.
+        phases: [n, 2], turns along the embedding's wave vectors at each segment's first sample; zeros if None.
         """
-        phases = np.zeros((len(embeddings), RIB_COUNT), dtype=np.float32) if rib_phase is None else rib_phase
+        phases = np.zeros((len(embeddings), RIB_COUNT), dtype=np.float32) if phases is None else phases
         given = (embeddings, motions, previous_mps2, noise, phases)
         arrays = [np.ascontiguousarray(array, dtype=np.float32) for array in given]
         count = len(arrays[0])

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -40,7 +40,13 @@ class SurfaceStatistics:
 
     @classmethod
     def of_labels(cls, labels: Sequence[LabelInfo]) -> SurfaceStatistics:
-        return cls.of_entries([label.wander_entries() for label in labels])
+        return cls.of_entries(
+            [
+                {"rib_wander": [asdict(ribs) for ribs in label.rib_wander]}
+                | ({} if label.stick_slip is None else {"stick_slip": asdict(label.stick_slip)})
+                for label in labels
+            ]
+        )
 
     @classmethod
     def of_entries(cls, labels: Sequence[Mapping[str, Any]]) -> SurfaceStatistics:

@@ -51,9 +51,9 @@ class _OneStep(nn.Module):
         self.model = model
 
     def forward(
-        self, noisy: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, rib_phase: Tensor | None = None
+        self, noisy: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, phases: Tensor | None = None
     ) -> Tensor:
-        phase = noisy.new_zeros(()) if rib_phase is None else rib_phase
+        phase = noisy.new_zeros(()) if phases is None else phases
         return self.model.one_step(noisy, previous, embedding, motion, phase)
 
 
@@ -89,7 +89,7 @@ def example_inputs(model: HaptoFlowModel) -> tuple[Tensor, dict[str, Tensor]]:
         "motion": torch.full((batch, 3), 0.1),
     }
     if model.comb is not None:
-        conditions["rib_phase"] = torch.full((batch, 2), 0.25)
+        conditions["phases"] = torch.full((batch, 2), 0.25)
     return wave, conditions
 
 

@@ -34,7 +34,7 @@ class VelocityField(PatchUnet):
     noisy and previous: [B, C, N] with C channels of the representation (1 for raw samples) and N positions (200); time:
     [B, 1], or [1, 1] for all; embedding: [B, 64]; motion: [B, 3]. Returns [B, C, N]. N must be a multiple of `patch`.
     With `ribs` (raw samples only), the rib comb predicts the partials of a ruled surface from the past and from
-    rib_phase [B, 2] in turns. With `impulses` (raw samples only), rare events come from the tails of the noise.
+    phases [B, 2] in turns. With `impulses` (raw samples only), rare events come from the tails of the noise.
     levels: 2 for a U-Net whose second level has half the positions; 1 for its first block alone, in less than half the
     time.
     """
@@ -85,9 +85,9 @@ class VelocityField(PatchUnet):
         previous: Tensor,
         embedding: Tensor,
         motion: Tensor,
-        rib_phase: Tensor | None = None,
+        phases: Tensor | None = None,
     ) -> Tensor:
-        return self.velocity(noisy, self.time(time), previous, embedding, motion, rib_phase)
+        return self.velocity(noisy, self.time(time), previous, embedding, motion, phases)
 
     def _encode_time(self) -> None:
         self.time = TimeEncoder()
@@ -99,7 +99,7 @@ class VelocityField(PatchUnet):
         previous: Tensor,
         embedding: Tensor,
         motion: Tensor,
-        rib_phase: Tensor | None,
+        phases: Tensor | None,
     ) -> Tensor:
         """`forward`, with the encoded flow time in place of the time: moment [B, 64], or [1, 64] for all."""
         given = torch.cat([embedding, self.motion(motion)], dim=1)
@@ -109,9 +109,9 @@ class VelocityField(PatchUnet):
 
         entering, added = [noisy], []
         if self.comb is not None:
-            if rib_phase is None:
+            if phases is None:
                 raise ValueError("a field with ribs needs the rib phase")
-            combed = self.comb(mirrored, embedding, motion, rib_phase, line_gains)
+            combed = self.comb(mirrored, embedding, motion, phases, line_gains)
             entering.append(combed)
             added.append(combed[:, -1:])
         if self.impulses is not None:
