@@ -157,16 +157,16 @@ def drift_db_per_minute(
     source: SegmentSource,
     embeddings: _Floats,
     statistics: SurfaceStatistics,
+    labels: NDArray[np.int64],
     *,
     seconds: float,
     update_rate_hz: float,
     seed: int,
 ) -> tuple[float, float]:
-    """(median, worst) over labels of the absolute drift at 0.15 m/s and 1 N."""
+    """(median, worst) over these label indices of the absolute drift at 0.15 m/s and 1 N."""
     samples = int(seconds * SAMPLE_RATE_HZ)
     motion = np.array([0.15, 0.0, 1.0], dtype=np.float32)
-    motions = np.broadcast_to(motion, (len(embeddings), samples, 3))
-    labels = np.arange(len(embeddings))
+    motions = np.broadcast_to(motion, (len(labels), samples, 3))
     run = run_closed_loop(source, embeddings, motions, labels, statistics, update_rate_hz=update_rate_hz, seed=seed)
     drifts = [abs(row_metrics.drift_db_per_minute(wave[SETTLING_SAMPLES:])) for wave in run.waves]
     return float(np.median(drifts)), float(np.max(drifts))

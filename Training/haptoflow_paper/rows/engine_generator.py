@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from haptoflow_benchmark.engine.engine_library import EngineLibrary
+from haptoflow_training.closed_loop.phase_track import SurfaceStatistics
 from haptoflow_training.native_library import NativeModel, options_of
 from haptoflow_training.waveform import SEGMENT_SAMPLES
 
@@ -56,6 +57,7 @@ class EngineGenerator:
         self._model = NativeModel(engine, model)
         self.header = engine.header(self._model.handle)
         self.embeddings = self._read_embeddings()
+        self.statistics = SurfaceStatistics.of_entries(self.header["labels"])
         options = options_of(
             _GeneratorOptions,
             solver=SOLVERS[solver],
