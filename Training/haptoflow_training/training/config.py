@@ -12,6 +12,8 @@ from haptoflow_training.errors import InputError
 from haptoflow_training.extensions import configuration_class
 
 Rule = tuple[bool, str, str]
+# The order of tiers in a file; the most accurate comes last.
+TIER_NAMES = ("sketch", "draft", "standard", "fine")
 # Keys of the evaluation's own configurations, with the value for which a run does what every run here does: files and
 # checkpoints that say so are read.
 _EVALUATION_KEYS: dict[str, Any] = {
@@ -59,11 +61,15 @@ class DataConfig:
 
 @dataclass(frozen=True)
 class ModelConfig:
-    """The velocity field: its `width`, `previous_width` and `levels`.
+    """network: `field` (a velocity field from noise), `skeleton` (no network: a filter, rib lines and impulses), or
+    `refinement` (of the skeleton of another run, `--base`).
 
-    ribs: it has a rib comb. impulses: rare events come from the tails of the noise.
+    hidden: width of the skeleton's perceptron. width, previous_width, levels: of a field or a refinement. ribs: a field
+    has a rib comb. impulses: a field's rare events come from the tails of the noise.
     """
 
+    network: str = "field"
+    hidden: int = 160
     ribs: bool = False
     impulses: bool = False
     width: int = 64
@@ -211,8 +217,15 @@ class TrainingConfig:
                 "two numbers, 1 <= min <= max <= 50",
             ),
             (config.batch.emphasis > 0.0, "batch.emphasis", "above 0"),
+            (
+                config.model.network in ("field", "skeleton", "refinement"),
+                "model.network",
+                "'field', 'skeleton' or 'refinement'",
+            ),
+            (config.model.network != "refinement" or config.recipe.shares_base, "recipe.shares_base", "true"),
+            (config.model.hidden >= 8, "model.hidden", "at least 8"),
             (config.model.width >= 8, "model.width", "at least 8"),
-            (config.tier in ("draft", "standard", "fine"), "tier", "'draft', 'standard' or 'fine'"),
+            (config.tier in TIER_NAMES, "tier", f"one of {', '.join(TIER_NAMES)}"),
         )
 
 
