@@ -10,7 +10,7 @@ import pytest
 from dataset_samples import small_recording
 from numpy.typing import NDArray
 
-from haptoflow_training.preprocessing.pipeline import PreparedRecording, preprocess_recording
+from haptoflow_training.preprocessing.pipeline import PreparedRecording, preprocess_parts, preprocess_recording
 from haptoflow_training.preprocessing.preparation import prepare_store
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.recordings.synthetic import Material, load_materials, record_condition
@@ -67,7 +67,7 @@ def test_rubber_s_slips_come_at_the_stated_phase_and_not_at_any_other_rate(speed
     assert length_mm == pytest.approx(MATERIALS["rubber"].stick_slip_length_mm, rel=0.1)
 
 
-def test_a_slip_longer_under_more_force_and_none_at_rest() -> None:
+def test_slips_are_longer_under_more_force_and_there_are_none_at_rest() -> None:
     light, firm = (
         record_condition(
             MATERIALS["rubber"], velocity_mps=(0.05, 0.0), force_newtons=force, duration_seconds=2.0, seed=1
@@ -90,6 +90,26 @@ def test_what_a_material_lacks_is_zero_and_a_file_knows_nothing() -> None:
     assert file.wander is None
     prepared = preprocess_recording(file, SETTINGS)
     assert prepared.wander_turns.shape == (len(prepared.waveform_mps2), 3) and not np.any(prepared.wander_turns)
+
+
+def test_the_parts_between_gaps_keep_the_phases_of_their_times() -> None:
+    recording = record_condition(
+        MATERIALS["rubber"], velocity_mps=(0.05, 0.0), force_newtons=1.0, duration_seconds=4.0, seed=1
+    )
+    time = recording.acceleration_time_seconds
+    kept = (time < 1.9) | (time > 2.1)
+    gapped = replace(
+        recording, acceleration_time_seconds=time[kept], acceleration_g=recording.acceleration_g[kept]
+    )
+    first, second = preprocess_parts(gapped, SETTINGS)
+    assert recording.wander is not None
+    for part, begin, end in ((first, 0.0, 1.9), (second, 2.1, 4.0)):
+        first_turn, last_turn = np.interp(
+            [begin + SETTINGS.trim_seconds, end - SETTINGS.trim_seconds],
+            recording.wander.time_seconds, recording.wander.turns[:, 2],
+        )  # fmt: skip
+        assert part.wander_turns[0, 2] == pytest.approx(first_turn, abs=1.0)
+        assert part.wander_turns[-1, 2] == pytest.approx(last_turn, abs=1.0)
 
 
 def test_a_store_keeps_wander_specimen_and_the_fraction_of_the_slip_s_phase(tmp_path: Path) -> None:
