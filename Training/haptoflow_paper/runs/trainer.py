@@ -63,7 +63,7 @@ class EvaluatedTrainer(Trainer):
 
     @staticmethod
     def possible_phases(config: EvaluatedConfig) -> list[Phase]:  # type: ignore[override]
-        level, field, energy, forced, polish = Trainer.possible_phases(config)
+        level, _, field, energy, forced, polish = Trainer.possible_phases(config)
         recipe = config.recipe
         objective = "own" if config.model.architecture != "unet" else recipe.objective
         reflow = Phase("reflow", "reflow", recipe.reflow_steps, recipe.reflow_learning_rate, field.batch_size)

@@ -194,6 +194,7 @@ class Trainer:
         fitted = "likelihood" if config.model.network == "skeleton" else "flow"
         return [
             Phase("level", "level", level_steps, rate, 8 * batch),
+            Phase("filter", "filter", recipe.filter_steps, rate, batch),
             Phase("field", fitted, optimiser.steps, rate, batch),
             Phase("energy", "energy", recipe.energy_steps, recipe.energy_learning_rate, energy_batch),
             forced,
