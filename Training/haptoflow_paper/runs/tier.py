@@ -15,6 +15,7 @@ from haptoflow_paper.runs.networks import EvaluatedModel
 from haptoflow_training.export.onnx_graphs import example_inputs, export_graph, export_network
 from haptoflow_training.export.trained_tier import TrainedTier
 from haptoflow_training.models.haptoflow_model import Condition
+from haptoflow_training.models.surface_waves import PHASES
 
 
 class _AverageVelocity(nn.Module):
@@ -41,7 +42,7 @@ def network_graph(model: EvaluatedModel, kind: str) -> bytes:
     """As `export_network`, for a rival and for tiers of `kind` "average-velocity" too."""
     wave, conditions = example_inputs(model)
     if isinstance(model.field, SegmentNetwork):
-        examples = {"noisy": wave, **conditions, "phases": torch.full((len(wave), 2), 0.25)}
+        examples = {"noisy": wave, **conditions, "phases": torch.full((len(wave), PHASES), 0.25)}
         inputs = {name: examples[name] for name in model.field.inputs}
         return export_graph(SegmentNetworkGraph(model.field), inputs, "segment")
     if kind == "average-velocity":
