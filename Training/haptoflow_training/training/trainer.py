@@ -592,7 +592,8 @@ def load_trained(folder: Path) -> tuple[TrainingConfig, list[str], HaptoFlowMode
             f"{folder}` and its configuration first"
         )
     config = config_from_dict(content["config"], folder / "checkpoint.pt")
-    specimens = content["average"]["module"]["embedding.pieces"].shape[1]
+    weights = content["average"]["module"]
+    specimens = weights["embedding.pieces"].shape[1] if "embedding.pieces" in weights else 0
     model = build_model(config, [()] * len(content["labels"]), specimens)
-    model.load_state_dict(content["average"]["module"])
+    model.load_state_dict(weights)
     return config, content["labels"], model.eval().requires_grad_(False)
