@@ -53,13 +53,15 @@ def network_graph(model: EvaluatedModel, kind: str) -> bytes:
 
 
 class EvaluatedTier(TrainedTier):
-    """kind: of a rival `direct`, of MeanFlow `average-velocity`. A latent tier has an encoder and a decoder."""
+    """kind: of a rival `direct`, of MeanFlow `average-velocity`. A latent tier has an encoder and a decoder. A tier with
+    a skeleton is as the product's."""
 
     config: EvaluatedConfig
-    model: EvaluatedModel
 
     @property
     def kind(self) -> str:
+        if not isinstance(self.model, EvaluatedModel):
+            return super().kind
         if isinstance(self.model.field, SegmentNetwork):
             return "direct"
         return "average-velocity" if self.config.recipe.objective == "average-velocity" else super().kind
@@ -70,6 +72,8 @@ class EvaluatedTier(TrainedTier):
         return super().evaluate(noisy, time, interval, condition)
 
     def graphs(self) -> dict[str, bytes]:
+        if not isinstance(self.model, EvaluatedModel):
+            return super().graphs()
         graphs = {f"{self.name}.field": network_graph(self.model, self.kind)}
         if self.model.representation.is_latent:
             with tempfile.TemporaryDirectory() as folder:
@@ -81,7 +85,7 @@ class EvaluatedTier(TrainedTier):
 
     def header_entry(self) -> dict[str, Any]:
         entry = super().header_entry()
-        if self.model.representation.is_latent:
+        if isinstance(self.model, EvaluatedModel) and self.model.representation.is_latent:
             entry |= {"representation": "latent", "latent_shape": list(self.model.representation.shape)}
             entry |= {name: f"{self.name}.{name}" for name in ("encoder", "decoder")}
         return entry
