@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import dataclasses
 import json
 import zlib
@@ -18,8 +19,10 @@ from training_fixtures import FakeStore, make_store
 from haptoflow_training.closed_loop.level_calibration import TierSource
 from haptoflow_training.closed_loop.phase_track import SurfaceStatistics
 from haptoflow_training.closed_loop.render import run_closed_loop
+from haptoflow_training.commands import train_tiers
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.exporter import export_run
+from haptoflow_training.export.level_table import MeasuredLevels
 from haptoflow_training.export.model_file import ModelFile, model_space, read_model_file
 from haptoflow_training.export.trained_tier import load_tiers
 from haptoflow_training.models.skeleton_model import SkeletonModel
@@ -251,3 +254,24 @@ def test_a_skeleton_keeps_its_likelihood_in_the_energy_phase(monkeypatch: pytest
         assert weight.grad is not None and weight.grad[filtering].abs().max() > 0.0
         # The untrained rungs do nothing to a likelihood.
         assert (weight.grad[139:].abs().max() > 0.0) == (objective == "energy")
+
+
+def test_the_default_model_s_base_is_its_sketch_and_becomes_a_tier_of_the_file(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    trained: list[str] = []
+    written: list[Path] = []
+
+    def write(folder: Path, source: object, out: Path, parity: object, levels: object, further: list[Path], *_: object) -> None:
+        written.extend([folder, *further])
+
+    monkeypatch.setattr(train_tiers, "open_source", lambda *_: None)
+    monkeypatch.setattr(train_tiers, "_train_all", lambda files, *_: trained.extend(path.stem for path in files))
+    monkeypatch.setattr(train_tiers, "measured_levels", lambda *_: MeasuredLevels())
+    monkeypatch.setattr(train_tiers, "write_model", write)
+    parser = argparse.ArgumentParser()
+    train_tiers.add_options(parser)
+    words = ["--out", str(tmp_path), "--export", str(tmp_path / "m.haptoflow")]
+    assert train_tiers.run(parser.parse_args(words)) == 0
+    assert trained == ["base", "standard", "draft"]
+    assert written[0].name == "standard" and sorted(folder.name for folder in written) == ["base", "draft", "standard"]
