@@ -13,7 +13,10 @@ import pytest
 import torch
 from numpy.typing import NDArray
 
-from haptoflow_training.export.model_file import ModelFile, read_model_file
+from haptoflow_paper.rows.row_plan import PlannedRow
+from haptoflow_paper.rows.row_runner import _sizes
+from haptoflow_training.export.model_file import ModelFile, model_space, read_model_file
+from haptoflow_training.fewshot.add_label import with_label
 from haptoflow_training.models.conditioning import MotionFeatures
 from haptoflow_training.models.rung_impulses import TAIL_RUNGS
 
@@ -117,3 +120,33 @@ def test_the_tensors_alone_give_level_filter_and_the_film_with_its_factors(
 
         film = _perceptron(file, "standard.condition", _condition(case, FINE))
         np.testing.assert_allclose(film, case["film"], atol=1e-4)
+
+
+def test_a_further_label_of_a_model_with_specimens_has_the_offsets_of_the_label_itself(file: ModelFile) -> None:
+    material = {
+        "name": "learnt", "space": model_space(file), "category": "own", "embedding": [0.1] * 64,
+        "seeds": [{"samples": [1.0] * 400, "velocity_mps": [0.1, 0.0], "force_newtons": 1.0}],
+    }  # fmt: skip
+    larger = with_label(file, material)
+    assert larger.tensors["embedding"].shape == (3, 64)
+    assert larger.tensors["pieces"].shape == (3, make_skeleton_model.SPECIMENS, 60)
+    assert not larger.tensors["pieces"][2].any() and larger.tensors["pieces"].dtype == np.float32
+    np.testing.assert_array_equal(larger.tensors["pieces"][:2], file.tensors["pieces"])
+
+
+def test_the_bytes_of_a_tier_are_its_graph_and_all_tensors_that_native_code_computes_with(file: ModelFile) -> None:
+    blobs = [{"name": name, "bytes": values.nbytes} for name, values in file.tensors.items()]
+    blobs += [{"name": name, "bytes": len(graph)} for name, graph in file.graphs.items()]
+
+    class Generator:
+        header = {**file.header, "blobs": blobs}
+
+    def size(tier: str) -> int:
+        row = PlannedRow(name=tier, family="HaptoFlow", block="ours", model="m.haptoflow", tier=tier)
+        return _sizes(Generator(), row)["bytes"]  # type: ignore[arg-type]
+
+    def weights(*beginnings: str) -> int:
+        return sum(values.nbytes for name, values in file.tensors.items() if name.startswith(beginnings))
+
+    assert size("sketch") == weights("skeleton.", "level.")
+    assert size("standard") - size("sketch") == weights("standard.condition.") + len(file.graphs["standard.field"])
