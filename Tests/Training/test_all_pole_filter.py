@@ -1,4 +1,4 @@
-"""All-pole filters from predictions: exact, continuing a past, stable and of limited resonance whatever is predicted."""
+"""All-pole filters from predictions: exact, continuing a past, stable, of limited resonance whatever is predicted."""
 
 from __future__ import annotations
 

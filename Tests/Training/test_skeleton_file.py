@@ -1,4 +1,4 @@
-"""The golden model with a skeleton: what its tensors and header say, and that PyTorch still makes its golden vectors."""
+"""The golden model with a skeleton: what its tensors and header say, and whether PyTorch still makes its vectors."""
 
 from __future__ import annotations
 

@@ -7,6 +7,7 @@ import dataclasses
 import json
 import zlib
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import onnx
@@ -137,7 +138,9 @@ def test_a_resumed_run_ends_with_the_weights_of_an_uninterrupted_one(
         torch.testing.assert_close(halves[name], weights, msg=name)
 
 
-def test_a_base_without_a_skeleton_is_refused_for_a_refinement_with_the_remedy(tmp_path: Path, store: FakeStore) -> None:
+def test_a_base_without_a_skeleton_is_refused_for_a_refinement_with_the_remedy(
+    tmp_path: Path, store: FakeStore
+) -> None:
     Trainer(_config(steps=2), store, tmp_path / "field", ALONE).run()
     with pytest.raises(InputError, match="field: has no skeleton; name a run whose model.network is 'skeleton'"):
         Trainer(_refinement(), store, tmp_path / "run", ALONE, tmp_path / "field")
@@ -262,7 +265,8 @@ def test_the_default_model_s_base_is_its_sketch_and_becomes_a_tier_of_the_file(
     trained: list[str] = []
     written: list[Path] = []
 
-    def write(folder: Path, source: object, out: Path, parity: object, levels: object, further: list[Path], *_: object) -> None:
+    def write(*given: Any) -> None:
+        folder, _, _, _, _, further, _ = given
         written.extend([folder, *further])
 
     monkeypatch.setattr(train_tiers, "open_source", lambda *_: None)

@@ -199,8 +199,9 @@ def _fast_speeds(generator: EngineGenerator, pairs: list[ReferencePair]) -> list
     fast = [pair for pair in pairs if _is_fast(pair)]
     for rate in UPDATE_RATES_HZ:
         made = accuracy.generate_set(
-            generator, generator.embeddings, generator.statistics, fast, update_rate_hz=rate, seed=_SEED, open_loop=False
-        )
+            generator, generator.embeddings, generator.statistics, fast,
+            update_rate_hz=rate, seed=_SEED, open_loop=False,
+        )  # fmt: skip
         rows = accuracy.measure(fast, made)
         for speed in FAST_SPEEDS_MPS:
             chosen = [entry for entry in rows if entry["speed_mps"] == speed]

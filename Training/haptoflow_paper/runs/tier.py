@@ -53,8 +53,8 @@ def network_graph(model: EvaluatedModel, kind: str) -> bytes:
 
 
 class EvaluatedTier(TrainedTier):
-    """kind: of a rival `direct`, of MeanFlow `average-velocity`. A latent tier has an encoder and a decoder. A tier with
-    a skeleton is as the product's."""
+    """kind: of a rival `direct`, of MeanFlow `average-velocity`. A latent tier has an encoder and a decoder. A tier
+    with a skeleton is as the product's."""
 
     config: EvaluatedConfig
 

@@ -23,8 +23,8 @@ CONFIGURATIONS = Path(__file__).resolve().parents[2] / "configs" / "default"
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     parser.description = (
-        "Trains what the tiers share (embedding, level model, skeleton), then the tiers, --lanes of them at a time, each "
-        "on one core, corrects the level error of the default tier for each label, and writes one model "
+        "Trains what the tiers share (embedding, level model, skeleton), then the tiers, --lanes of them at a time, "
+        "each on one core, corrects the level error of the default tier for each label, and writes one model "
         "file. Run it again to resume after an interruption."
     )
     parser.epilog = (

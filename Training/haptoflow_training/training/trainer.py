@@ -100,8 +100,8 @@ def trainer_of(config: TrainingConfig) -> type[Trainer]:
 
 
 def build_model(config: TrainingConfig, wave_vectors: WaveVectors, specimens: int = 0) -> HaptoFlowModel:
-    """The untrained model of `config`. wave_vectors: of each label's ribs, empty for none. specimens: recorded pieces of
-    each label, 0 if they are not told apart."""
+    """The untrained model of `config`. wave_vectors: of each label's ribs, empty for none. specimens: recorded
+    pieces of each label, 0 if they are not told apart."""
     return trainer_of(config).build_model(config, wave_vectors, specimens)
 
 
