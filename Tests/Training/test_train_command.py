@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 import torch
 
+import haptoflow_paper  # noqa: F401  (a budget is one of its keys)
 from haptoflow_training.cli import main
 from haptoflow_training.preprocessing.store import SegmentStore
 from haptoflow_training.preprocessing.store_lock import store_lock
