@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from haptoflow_paper.rows.row_plan import PlannedRow
 from haptoflow_paper.rows.row_runner import _sizes
 from haptoflow_training.export.model_file import ModelFile, model_space, read_model_file
+from haptoflow_training.export.skeleton_tensors import condition_tensors, skeleton_tensors
 from haptoflow_training.fewshot.add_label import with_label
 from haptoflow_training.models.conditioning import MotionFeatures
 from haptoflow_training.models.rung_impulses import TAIL_RUNGS
@@ -70,11 +71,15 @@ def test_pytorch_still_makes_the_golden_vectors(cases: list[dict[str, Any]]) -> 
 
 
 def test_the_file_is_that_of_the_model_which_made_the_golden_vectors(file: ModelFile) -> None:
-    sketch, _ = make_skeleton_model.build()
-    np.testing.assert_array_equal(file.tensors["embedding"], sketch.embedding.weight.numpy())
-    np.testing.assert_array_equal(file.tensors["pieces"], sketch.embedding.offsets.numpy())
-    last = sketch.skeleton.perceptron.layers[-1]
-    np.testing.assert_array_equal(file.tensors["skeleton.4.weight"], last.weight.numpy())
+    sketch, refined = make_skeleton_model.build()
+    assert refined.refiner is not None
+    written = {
+        "embedding": sketch.embedding.weight.numpy(), "pieces": sketch.embedding.offsets.numpy(),
+        **skeleton_tensors(sketch.level, sketch.skeleton), **condition_tensors("standard", refined.refiner),
+    }  # fmt: skip
+    assert written.keys() == file.tensors.keys() - {"seeds"}
+    for name, values in written.items():
+        np.testing.assert_allclose(values, file.tensors[name], rtol=1e-6, atol=1e-7, err_msg=name)
 
 
 def test_the_header_states_the_skeleton_and_its_tiers(file: ModelFile) -> None:

@@ -221,10 +221,11 @@ def test_a_skeleton_and_a_refinement_sound_in_closed_loop(name: str, runs: Path)
 
 
 def _shift_loss(monkeypatch: pytest.MonkeyPatch, store: FakeStore, *, trained: bool) -> float:
-    """What the term for shifts adds to the loss of a refinement over an untrained skeleton, which has no rungs."""
+    """What the term for shifts adds to the loss of a refinement over a skeleton with swing and lines, without rungs."""
     torch.manual_seed(4)
     model = build_model(_refinement(), WAVE_VECTORS, specimens=3)
     assert isinstance(model, SkeletonModel) and model.refiner is not None
+    torch.nn.init.normal_(model.skeleton.perceptron.layers[-1].bias[25:139], std=0.3)
     if trained:
         torch.nn.init.normal_(model.refiner.leave.weight, std=0.2)
     losses = SkeletonLosses(model, _refinement().solver, train_level=False)
