@@ -172,24 +172,24 @@ def test_the_waveform_trains_lines_swing_and_rungs_and_only_the_likelihood_train
     assert weighed[:filtering].abs().max() == 0.0
     swing, lines, rungs = weighed[filtering:].split(OUTPUTS[1:])
     assert all(part.abs().max() > 0.0 for part in (swing, lines, rungs))
-    likelihood = skeleton.likelihood(_noise(2, 13), _noise(2, 14), skeleton.gains(*_own_condition()), phases)
+    likelihood = skeleton.likelihood(_noise(2, 13), skeleton.gains(*_own_condition()), phases)
     (weighed,) = torch.autograd.grad(likelihood.sum(), weight)
     assert weighed[:filtering].abs().max() > 0.0
 
 
-def _recorded(gains: SkeletonGains, phases: torch.Tensor, rows: int) -> tuple[torch.Tensor, torch.Tensor]:
-    """Segments of the skeleton and the waveforms before them, [rows, 1, 200] each."""
+def _recorded(gains: SkeletonGains, phases: torch.Tensor, rows: int) -> torch.Tensor:
+    """Segments of the skeleton, [rows, 1, 200]."""
     earlier = advanced(phases, -200).expand(rows, 6)
     past = SKELETON.parts(_noise(rows, 20), _noise(rows, 21), gains, earlier).begun
-    return SKELETON.parts(_noise(rows, 22), past, gains, phases.expand(rows, 6)).begun, past
+    return SKELETON.parts(_noise(rows, 22), past, gains, phases.expand(rows, 6)).begun
 
 
 def test_the_likelihood_is_best_at_the_true_filter_level_and_swing() -> None:
     phases, true = _phases((40.0, -25.0, 66.0), (0.1, 0.7, 0.4)), _with_ribs(2)
-    segment, past = _recorded(true, phases, 128)
+    segment = _recorded(true, phases, 128)
 
     def likelihood(gains: SkeletonGains) -> float:
-        return SKELETON.likelihood(segment, past, gains, phases.expand(128, 6)).mean().item()
+        return SKELETON.likelihood(segment, gains, phases.expand(128, 6)).mean().item()
 
     best = likelihood(true)
     other = _gains(RAW + 0.15 * torch.randn(RAW.shape, generator=torch.Generator().manual_seed(1)))
@@ -207,12 +207,19 @@ def test_the_likelihood_is_best_at_the_true_filter_level_and_swing() -> None:
 def test_the_likelihood_ignores_the_lines() -> None:
     phases, gains = _phases((40.0, -25.0, 66.0), (0.1, 0.7, 0.4)), _with_ribs(2)
     plain = gains._replace(lines=torch.zeros_like(gains.lines))
-    segment, past = _recorded(plain, phases, 4)
-    lines = SKELETON._lines(gains, phases)
-    lined_past = torch.cat([past[:, :, :-ORDER], past[:, :, -ORDER:] + lines[:, None, :ORDER]], dim=2)
-    with_lines = SKELETON.likelihood(segment + lines[:, None, ORDER:], lined_past, gains, phases.expand(4, 6))
-    without = SKELETON.likelihood(segment, past, plain, phases.expand(4, 6))
+    segment, lines = _recorded(plain, phases, 4), SKELETON._lines(gains, phases)
+    with_lines = SKELETON.likelihood(segment + lines[:, None, ORDER:], gains, phases.expand(4, 6))
+    without = SKELETON.likelihood(segment, plain, phases.expand(4, 6))
     torch.testing.assert_close(with_lines, without, rtol=0.0, atol=1e-4)
+
+
+def test_the_likelihood_does_not_depend_on_what_was_before_the_segment() -> None:
+    phases, gains = _phases((0.0, 0.0, 0.0)), _gains()
+    pasts = torch.zeros(16, 1, 200), 4.0 * _noise(16, 24)
+    begun = [SKELETON.parts(_noise(16, 23), past, gains, phases.expand(16, 6)).begun for past in pasts]
+    assert (begun[0] - begun[1]).abs().max() > 1.0
+    silent, foreign = (SKELETON.likelihood(wave, gains, phases.expand(16, 6)) for wave in begun)
+    torch.testing.assert_close(silent, foreign, rtol=0.0, atol=1e-4)
 
 
 def _refined(*, trained: bool) -> tuple[SkeletonModel, SkeletonModel]:

@@ -1,4 +1,4 @@
-"""haptoflow-training train-tiers: train a whole model file, several tiers over one base."""
+"""haptoflow-training train-tiers: train a whole model file, several tiers over one embedding and level model."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ CONFIGURATIONS = Path(__file__).resolve().parents[2] / "configs" / "default"
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     parser.description = (
-        "Trains what the tiers share (embedding, level model, skeleton), then the tiers, --lanes of them at a time, "
-        "each on one core, corrects the level error of the default tier for each label, and writes one model "
-        "file. Run it again to resume after an interruption."
+        "Trains what the tiers share (embedding, level model and, if base.toml says so, the skeleton, which is a tier "
+        "of its own), then the networks, --lanes of them at a time, each on one core, corrects the level error of the "
+        "default tier for each label, and writes one model file. Run it again to resume after an interruption."
     )
     parser.epilog = (
         "example:\n"
@@ -61,12 +61,11 @@ def run(options: argparse.Namespace) -> int:
     if options.export is None:
         return 0
     folders = [options.out / path.stem for path in tier_files]
-    if config.model.network == "skeleton":
-        # It sounds without the tiers' networks: a tier of its own.
-        folders.append(base)
     default = options.out / "standard" if options.out / "standard" in folders else folders[0]
     levels = MeasuredLevels(measured_levels(default, source).offsets_db)
     further = [folder for folder in folders if folder != default]
+    if config.model.network == "skeleton":
+        further.append(base)
     write_model(default, source, options.export, options.parity, levels, further, options.out / "export.json")
     return 0
 

@@ -95,13 +95,14 @@ class Skeleton(nn.Module):
     def forward(self, noise: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, phases: Tensor) -> Tensor:
         return self.parts(noise, previous, self.gains(embedding, motion), phases).begun
 
-    def likelihood(self, segment: Tensor, previous: Tensor, gains: SkeletonGains, phases: Tensor) -> Tensor:
-        """[B]: Gaussian negative log-likelihood per sample of the one-step prediction errors of a recorded segment and
-        its past [B, 1, 200], without the lines."""
+    def likelihood(self, segment: Tensor, gains: SkeletonGains, phases: Tensor) -> Tensor:
+        """[B]: Gaussian negative log-likelihood per sample of the one-step prediction errors of a recorded segment [B,
+        1, 200] without its lines, from the filter's 25th sample on. What was before the segment, which may be silence
+        or another material, is no part of it: errors there would be a hundred times as large and flatten the filter."""
         log_gain = gains.log_gain + self._swung(gains, self.swing_waves(phases))
-        wave = torch.cat([previous[:, 0, -ORDER:], segment[:, 0]], dim=1) - self._lines(gains, phases)
-        error = prediction_errors(wave, gains.coefficients)
-        return (log_gain + 0.5 * error.square() * torch.exp(-2.0 * log_gain)).mean(dim=1)
+        error = prediction_errors(segment[:, 0] - self._lines(gains, phases)[:, ORDER:], gains.coefficients)
+        known = log_gain[:, ORDER:]
+        return (known + 0.5 * error.square() * torch.exp(-2.0 * known)).mean(dim=1)
 
     def _lines(self, gains: SkeletonGains, phases: Tensor) -> Tensor:
         """[B, 24 + 200]: the lines, from the filter's memory on."""

@@ -35,7 +35,7 @@ class SkeletonLosses(Losses):
         gains = skeleton.gains(given.embedding, given.batch.motion)
         # All segments weigh alike: weighting down unpredictable ones would bias a likelihood towards too little
         # variance.
-        likelihood = skeleton.likelihood(given.segment, given.recorded_previous, gains, given.phases).mean()
+        likelihood = skeleton.likelihood(given.segment, gains, given.phases).mean()
         if objective == "likelihood":
             return likelihood
         drawn = tuple(
