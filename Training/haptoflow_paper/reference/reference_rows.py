@@ -33,18 +33,24 @@ def _shaped_noise(spectrum: NDArray[np.float64], samples: int, generator: np.ran
     return np.asarray(shaped / np.sqrt(np.square(shaped).mean() + 1e-30))
 
 
+def _of_another_specimen(pair: ReferencePair) -> _Floats:
+    if pair.other_specimen is None:
+        raise ValueError(f"{pair.condition}: nothing was recorded of another specimen")
+    return pair.other_specimen
+
+
 def reference_waves(name: str, pairs: list[ReferencePair], seed: int) -> list[_Floats]:
     """One waveform for each pair, as long as its recording, m/s^2.
 
     independent-draw: another recording of the same condition, on the same specimen. another-specimen: on another piece
-    of the material. mean-spectrum: noise with the label's mean spectrum over
-    all its conditions, at the recording's own level. white-noise: at that level too.
+    of the material. mean-spectrum: noise with the label's mean spectrum over all its conditions, at the recording's own
+    level. white-noise: at that level too.
     """
     generator = np.random.default_rng(seed)
     if name == "independent-draw":
         return [pair.independent for pair in pairs]
     if name == "another-specimen":
-        return [pair.recorded if pair.other_specimen is None else pair.other_specimen for pair in pairs]
+        return [_of_another_specimen(pair) for pair in pairs]
     if name == "silence":
         return [np.zeros_like(pair.recorded) for pair in pairs]
     if name == "white-noise":

@@ -1,7 +1,7 @@
 """The reference recordings of the evaluation: outside all training, each with two further ones of the same motion.
 
-The independent one is of another place on the held-out specimen: a draw of the true process, the best that any generator
-can score. The third is of another specimen of the label: what two pieces of one material differ by.
+The independent one is of another place on the held-out specimen: a draw of the true process, the best that any
+generator can score. The third is of another specimen of the label: what two pieces of one material differ by.
 """
 
 from __future__ import annotations
@@ -22,7 +22,13 @@ from haptoflow_training import preprocessing
 from haptoflow_training.preprocessing.pipeline import PreparedRecording, preprocess_recording
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.recordings import synthetic
-from haptoflow_training.recordings.synthetic import FURTHER_SPECIMENS, HELD_OUT_SPECIMEN, Material, load_materials, record_condition
+from haptoflow_training.recordings.synthetic import (
+    FURTHER_SPECIMENS,
+    HELD_OUT_SPECIMEN,
+    Material,
+    load_materials,
+    record_condition,
+)
 from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 _Floats = NDArray[np.float32]
@@ -32,8 +38,8 @@ _INDEPENDENT_SEED = 100_000
 
 @dataclass(frozen=True)
 class ReferencePair:
-    """recorded, independent and other_specimen [n] in m/s^2; motion [n, 3] of all. start_mm: the place on the surface where
-    `recorded` begins. wander_turns [n, 3]: of its waves, as a store has them (preprocessing/store.py)."""
+    """recorded, independent and other_specimen [n] in m/s^2; motion [n, 3] of all. start_mm: the place on the surface
+    where `recorded` begins. wander_turns [n, 3]: of its waves, as a store has them (preprocessing/store.py)."""
 
     condition: Condition
     recorded: _Floats
