@@ -1,74 +1,62 @@
 #include "skeleton/linear_layer.hpp"
 
 #include <algorithm>
-#include <array>
 
 namespace haptoflow::skeleton {
 namespace {
 
-constexpr std::size_t wideBlock = 16;
-constexpr std::size_t narrowBlock = 4;
+// A segment every 14 ms finds the weights outside the processor's nearest caches. Requested this far ahead, they arrive
+// in time; without, waiting for them takes three times as long as the arithmetic.
+constexpr std::size_t floatsAhead = 1024;
+constexpr std::size_t floatsPerLine = 16;
 
-/// Calls `action(first output, width)` for each block.
-template <typename Action>
-void forEachBlock(std::size_t outputs, Action action) {
-    std::size_t first = 0;
-    for (; first + wideBlock <= outputs; first += wideBlock) {
-        action(first, wideBlock);
+void request([[maybe_unused]] const float* first, [[maybe_unused]] std::size_t count) noexcept {
+#if defined(__GNUC__)
+    for (std::size_t i = 0; i < count; i += floatsPerLine) {
+        __builtin_prefetch(first + i);
     }
-    for (; first < outputs; first += narrowBlock) {
-        action(first, narrowBlock);
+#endif
+}
+
+/// Adds the contributions of two inputs, whose weights follow each other, to `count` sums.
+void addPair(const float* x, const float* weight, float* __restrict sums, std::size_t count) noexcept {
+    for (std::size_t i = 0; i < count; ++i) {
+        sums[i] += x[0] * weight[i] + x[1] * weight[count + i];
     }
 }
 
-template <std::size_t Width>
-std::array<float, Width> sumsOf(const float* weights, std::span<const float> x, const float* bias) noexcept {
-    std::array<float, Width> sums{};
-    for (std::size_t output = 0; output < Width; ++output) {
-        sums[output] = bias[output];
+void addOne(float x, const float* weight, float* __restrict sums, std::size_t count) noexcept {
+    for (std::size_t i = 0; i < count; ++i) {
+        sums[i] += x * weight[i];
     }
-    for (const float value : x) {
-        for (std::size_t output = 0; output < Width; ++output) {
-            sums[output] += value * weights[output];
-        }
-        weights += Width;
-    }
-    return sums;
 }
 
 }  // namespace
 
 LinearLayer::LinearLayer(std::span<const float> weight, std::span<const float> bias)
-    : inputs_(weight.size() / bias.size()), outputs_(bias.size()) {
-    forEachBlock(outputs_, [&](std::size_t first, std::size_t width) {
-        const auto rowAt = [&](std::size_t input, std::size_t output) {
-            return output < outputs_ ? weight[output * inputs_ + input] : 0.0F;
-        };
+    : inputs_(weight.size() / bias.size()), weight_(weight.size()), bias_(bias.begin(), bias.end()) {
+    for (std::size_t output = 0; output < outputs(); ++output) {
         for (std::size_t input = 0; input < inputs_; ++input) {
-            for (std::size_t output = first; output < first + width; ++output) {
-                blocks_.push_back(rowAt(input, output));
-            }
+            weight_[input * outputs() + output] = weight[output * inputs_ + input];
         }
-        for (std::size_t output = first; output < first + width; ++output) {
-            bias_.push_back(output < outputs_ ? bias[output] : 0.0F);
-        }
-    });
+    }
 }
 
 void LinearLayer::apply(std::span<const float> x, std::span<float> y) const noexcept {
-    const auto read = x.first(inputs_);
-    forEachBlock(outputs_, [&](std::size_t first, std::size_t width) {
-        const float* weights = blocks_.data() + first * inputs_;
-        const float* bias = bias_.data() + first;
-        if (width == wideBlock) {
-            const auto sums = sumsOf<wideBlock>(weights, read, bias);
-            std::ranges::copy(sums, y.subspan(first).begin());
-        } else {
-            const auto sums = sumsOf<narrowBlock>(weights, read, bias);
-            const std::size_t kept = std::min(narrowBlock, outputs_ - first);
-            std::copy_n(sums.begin(), kept, y.subspan(first).begin());
-        }
-    });
+    const std::size_t count = outputs();
+    std::ranges::copy(bias_, y.begin());
+    const float* weight = weight_.data();
+    const float* end = weight + weight_.size();
+    request(weight, std::min(floatsAhead, weight_.size()));
+    std::size_t input = 0;
+    for (; input + 2 <= inputs_; input += 2, weight += 2 * count) {
+        const auto left = static_cast<std::size_t>(end - weight);
+        request(weight + std::min(floatsAhead, left), std::min(2 * count, left - std::min(floatsAhead, left)));
+        addPair(x.data() + input, weight, y.data(), count);
+    }
+    if (input < inputs_) {
+        addOne(x[input], weight, y.data(), count);
+    }
 }
 
 }  // namespace haptoflow::skeleton

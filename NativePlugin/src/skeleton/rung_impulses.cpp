@@ -10,6 +10,7 @@ namespace {
 constexpr std::array<double, 6> ringsHz{50.0, 90.0, 160.0, 280.0, 500.0, 800.0};
 constexpr double ringDecay = 0.4;
 constexpr float largestGain = 8.0F;
+constexpr auto lowestRung = static_cast<float>(model::SkeletonHeader::rungs.front());
 static_assert(atomCount == 1 + 2 * ringsHz.size());
 
 /// Standard deviation of sign(n) max(|n| - rung, 0) of standard normal n: E = 2 [(1 + t^2) Q(t) - t p(t)].
@@ -50,33 +51,35 @@ RungImpulses::RungImpulses() {
 void RungImpulses::strike(Segment noise, std::span<const float, gainCount> gains,
                           std::span<float, segmentSamples> struck) const noexcept {
     std::ranges::fill(struck, 0.0F);
-    for (std::size_t rung = 0; rung < rungCount; ++rung) {
-        const auto gainsOf = [&](std::size_t tail) {
-            return std::span<const float, atomCount>(gains.subspan((tail * rungCount + rung) * atomCount, atomCount));
-        };
-        strikeRung(noise, rung, 1.0F, gainsOf(0), struck);
-        strikeRung(noise, rung, -1.0F, gainsOf(1), struck);
-    }
-}
-
-void RungImpulses::strikeRung(Segment noise, std::size_t rung, float sign, std::span<const float, atomCount> gains,
-                              std::span<float, segmentSamples> struck) const noexcept {
-    const auto height = static_cast<float>(model::SkeletonHeader::rungs[rung]);
-    Kernel kernel;
-    bool hasKernel = false;
+    // Rarely more than twenty of the 200 samples.
+    std::array<std::size_t, segmentSamples> places{};
+    std::size_t count = 0;
     for (std::size_t at = 0; at < noise.size(); ++at) {
-        const float excess = sign * noise[at] - height;
-        if (!(excess > 0.0F)) {
-            continue;
-        }
-        if (!hasKernel) {
-            kernel = kernelOf(gains);
-            hasKernel = true;
-        }
-        const float event = sign * scales_[rung] * excess;
-        const std::size_t heard = std::min(taps, segmentSamples - at);
-        for (std::size_t tap = 0; tap < heard; ++tap) {
-            struck[at + tap] += event * kernel[tap];
+        places[count] = at;
+        count += std::fabs(noise[at]) > lowestRung ? 1 : 0;
+    }
+    for (const bool isNegative : {false, true}) {
+        for (std::size_t rung = 0; rung < rungCount; ++rung) {
+            const std::size_t first = ((isNegative ? rungCount : 0) + rung) * atomCount;
+            const float sign = isNegative ? -1.0F : 1.0F;
+            const auto height = static_cast<float>(model::SkeletonHeader::rungs[rung]);
+            Kernel kernel;
+            bool hasKernel = false;
+            for (const std::size_t at : std::span(places).first(count)) {
+                const float excess = sign * noise[at] - height;
+                if (!(excess > 0.0F)) {
+                    continue;
+                }
+                if (!hasKernel) {
+                    kernel = kernelOf(std::span<const float, atomCount>(gains.subspan(first, atomCount)));
+                    hasKernel = true;
+                }
+                const float event = sign * scales_[rung] * excess;
+                const std::size_t heard = std::min(taps, segmentSamples - at);
+                for (std::size_t tap = 0; tap < heard; ++tap) {
+                    struck[at + tap] += event * kernel[tap];
+                }
+            }
         }
     }
 }

@@ -24,9 +24,6 @@ public:
 
 private:
     using Kernel = std::array<float, taps>;
-    /// Adds the impulses of one rung and one tail of the noise, `sign` 1 or -1.
-    void strikeRung(Segment noise, std::size_t rung, float sign, std::span<const float, atomCount> gains,
-                    std::span<float, segmentSamples> struck) const noexcept;
     [[nodiscard]] Kernel kernelOf(std::span<const float, atomCount> gains) const noexcept;
 
     std::array<Kernel, atomCount> atoms_{};

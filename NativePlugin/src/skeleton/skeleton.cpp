@@ -9,7 +9,7 @@
 namespace haptoflow::skeleton {
 namespace {
 
-constexpr double largestSwing = 2.0;
+constexpr float largestSwing = 2.0F;
 
 /// The outputs of one family, in the perceptron's order.
 FamilyGains gainsOf(std::span<const float, 2 * (swingHarmonics + lineHarmonics)> outputs) noexcept {
@@ -28,15 +28,14 @@ FamilyGains gainsOf(std::span<const float, 2 * (swingHarmonics + lineHarmonics)>
 
 /// The noise with the gain that the filter and the waves give it.
 std::array<float, segmentSamples> driveOf(Segment noise, double logGain, const SurfaceWaves& waves) noexcept {
+    const auto gain = static_cast<float>(std::exp(logGain));
     std::array<float, segmentSamples> drive{};
     if (!waves.isHeard()) {
-        const auto gain = static_cast<float>(std::exp(logGain));
         std::ranges::transform(noise, drive.begin(), [gain](float sample) { return gain * sample; });
         return drive;
     }
-    std::ranges::transform(noise, waves.swing(), drive.begin(), [logGain](float sample, float swing) {
-        const double limited = largestSwing * std::tanh(static_cast<double>(swing) / largestSwing);
-        return sample * static_cast<float>(std::exp(logGain + limited));
+    std::ranges::transform(noise, waves.swing(), drive.begin(), [gain](float sample, float swing) {
+        return sample * gain * std::exp(largestSwing * std::tanh(swing / largestSwing));
     });
     return drive;
 }
@@ -92,7 +91,7 @@ void Skeleton::begin(const Moment& moment, const Condition& condition, std::span
     std::array<float, filterOrder> rest{};
     std::ranges::transform(moment.previous.last<filterOrder>(), waves.lines(), rest.begin(), std::minus<>());
     std::array<float, segmentSamples> noise{};
-    toUnitScale(moment.noise, 1.0F, noise);
+    std::ranges::transform(moment.noise, noise.begin(), [](float sample) { return limitedOrZero(sample, noiseLimit); });
     parameters.filter.run(rest, driveOf(noise, parameters.filter.logGain, waves), begun);
     impulses_.strike(noise, parameters.rungs, struck);
     const auto lines = std::span(waves.lines()).last<segmentSamples>();

@@ -24,7 +24,7 @@ struct Moment {
     Phases phases{};
     /// The 200 samples before the segment in unit scale, limited to +-16.
     Segment previous;
-    /// Standard normal; limited to +-16, a sample that is not a number counts as 0.
+    /// Standard normal; limited to +-9, a sample that is not a number counts as 0.
     Segment noise;
 };
 

@@ -24,6 +24,8 @@ inline constexpr std::size_t atomCount = 13;
 
 /// Largest magnitude of a sample in unit scale: m/s^2 divided by the level.
 inline constexpr float unitLimit = 16.0F;
+/// Largest magnitude of the noise; no number of inference::fillStandardNormal reaches it.
+inline constexpr float noiseLimit = 9.0F;
 
 using Segment = std::span<const float, segmentSamples>;
 

@@ -12,12 +12,15 @@ namespace haptoflow::skeleton {
     return std::isfinite(value) ? value : 0.0F;
 }
 
-/// `wave` divided by `scale` and limited to +-16; what is then not a number becomes 0. The waves may be the same.
-inline void toUnitScale(Segment wave, float scale, std::span<float, segmentSamples> unit) noexcept {
-    std::ranges::transform(wave, unit.begin(), [scale](float sample) {
-        const float scaled = sample / scale;
-        return std::isnan(scaled) ? 0.0F : std::clamp(scaled, -unitLimit, unitLimit);
-    });
+/// A sample limited to +-`limit`; what is not a number becomes 0.
+[[nodiscard]] inline float limitedOrZero(float sample, float limit) noexcept {
+    return std::isnan(sample) ? 0.0F : std::clamp(sample, -limit, limit);
+}
+
+/// `waveMps2` divided by the level and limited to +-16. The waves may be the same.
+inline void toUnitScale(Segment waveMps2, float levelMps2, std::span<float, segmentSamples> unit) noexcept {
+    std::ranges::transform(waveMps2, unit.begin(),
+                           [levelMps2](float sample) { return limitedOrZero(sample / levelMps2, unitLimit); });
 }
 
 }  // namespace haptoflow::skeleton

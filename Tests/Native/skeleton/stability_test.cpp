@@ -22,8 +22,9 @@ using Wave = std::array<float, segmentSamples>;
 // 13.9 ms, a state of a display of 72 Hz.
 constexpr std::size_t hop = 28;
 constexpr std::size_t tenMinutes = 600 * 2000 / hop;
-// Filter 16, families at most 3 * 14 * 2 * 3, impulses of all rungs: far above any of them, far below a runaway.
-constexpr double unitBound = 2000.0;
+// Filter 16, families at most 3 * 14 * 2 * 3; a strike of the highest rung is its excess times 400, times at most 8 for
+// each of 13 atoms. A runaway passes this within a second.
+constexpr double unitBound = 1e6;
 
 struct Telling {
     std::array<float, embeddingSize> embedding{};
@@ -32,10 +33,11 @@ struct Telling {
     float level = 1.0F;
 };
 
-/// RMS in unit scale of the first and of the last minute.
+/// Mean level in unit scale of the first and of the last minute, in dB. A mean of levels, because a few strikes would
+/// decide a mean of powers.
 struct Drift {
-    double first = 0.0;
-    double last = 0.0;
+    double firstDb = 0.0;
+    double lastDb = 0.0;
 };
 
 class StabilityTest : public ::testing::Test {
@@ -65,8 +67,9 @@ protected:
             for (const float sample : played) {
                 squares += static_cast<double>(sample) * static_cast<double>(sample);
             }
-            drift.first += step < minute ? squares : 0.0;
-            drift.last += step + minute >= tenMinutes ? squares : 0.0;
+            const double levelDb = 10.0 * std::log10(squares / hop + 1e-12) / minute;
+            drift.firstDb += step < minute ? levelDb : 0.0;
+            drift.lastDb += step + minute >= tenMinutes ? levelDb : 0.0;
             const bool isBounded = std::ranges::all_of(
                 begun, [](float sample) { return std::isfinite(sample) && std::fabs(sample) < unitBound; });
             if (!isBounded) {
@@ -77,8 +80,6 @@ protected:
             std::ranges::transform(played, previousMps2.end() - hop,
                                    [&told](float sample) { return sample * told.level; });
         }
-        drift.first = std::sqrt(drift.first / (static_cast<double>(minute) * hop));
-        drift.last = std::sqrt(drift.last / (static_cast<double>(minute) * hop));
         return drift;
     }
     template <typename Tell>
@@ -115,8 +116,7 @@ TEST_F(StabilityTest, TenMinutesOfOneMaterialNeitherGrowNorFade) {
             turns -= std::floor(turns);
             return now;
         });
-        EXPECT_GT(drift.last, 0.0);
-        EXPECT_NEAR(20.0 * std::log10(drift.last / drift.first), 0.0, 1.0) << "seed " << seed;
+        EXPECT_NEAR(drift.lastDb, drift.firstDb, 0.3) << "seed " << seed;
     }
 }
 
