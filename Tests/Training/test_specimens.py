@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 from synthetic_samples import record_hand, record_machine
 
 from haptoflow_training.recordings.recording import RecordingIdentity
@@ -24,7 +25,8 @@ from haptoflow_training.recordings.synthetic import (
     training_specimen,
 )
 from haptoflow_training.recordings.synthetic.contact import SIMULATION_RATE_HZ
-from haptoflow_training.recordings.synthetic.features import impact_acceleration, ruling_height
+from haptoflow_training.recordings.synthetic.features import impact_acceleration, rib_wander_turns, ruling_height
+from haptoflow_training.recordings.synthetic.materials import Material, Ruling
 from haptoflow_training.recordings.synthetic.surface import TipPath, random_height
 from haptoflow_training.training.config import load_config
 from haptoflow_training.training.recordings_source import synthetic_recordings
@@ -37,6 +39,11 @@ def _path(speed_mmps: float = 200.0, seconds: float = 2.0, degrees: float = 20.0
     angle = np.radians(degrees)
     velocity = np.tile(speed_mmps * np.array([np.cos(angle), np.sin(angle)]), (int(seconds * SIMULATION_RATE_HZ), 1))
     return TipPath(np.cumsum(velocity, axis=0) / SIMULATION_RATE_HZ, velocity)
+
+
+def _ribs(material: Material, ruling: Ruling, number: int, *, specimen: int) -> NDArray[np.float64]:
+    wander = rib_wander_turns(material, ruling, number, _path(), specimen=specimen)
+    return ruling_height(material, ruling, number, _path(), wander)
 
 
 def test_another_specimen_has_another_random_surface_and_other_asperities() -> None:
@@ -53,9 +60,9 @@ def test_specimens_have_their_ribs_at_the_same_places_but_for_the_jitter() -> No
         material = MATERIALS[label]
         for number, ruling in enumerate(material.rulings):
             machined = replace(ruling, jitter=0.0)
-            one, other = (ruling_height(material, machined, number, _path(), specimen=each) for each in (0, 4))
+            one, other = (_ribs(material, machined, number, specimen=each) for each in (0, 4))
             assert np.array_equal(one, other)
-            one, other = (ruling_height(material, ruling, number, _path(), specimen=each) for each in (0, 4))
+            one, other = (_ribs(material, ruling, number, specimen=each) for each in (0, 4))
             assert not np.array_equal(one, other)
 
 
@@ -70,7 +77,8 @@ def test_the_phase_of_ribs_is_the_wave_vector_times_the_recorded_position_on_eve
             duration_seconds=2.0,
             seed=seed,
             specimen=specimen,
-            noise=False,
+            accelerometer_noise=False,
+            motion_noise=False,
         )
         time = recording.acceleration_time_seconds
         settled = (time > 0.3) & (time < 1.9)
@@ -100,7 +108,7 @@ def test_no_recording_of_the_default_training_is_of_the_held_out_specimen(monkey
     counted: Counter[int] = Counter()
     for ride in ("machine_pass", "hand_ride", "guided_ride"):
         monkeypatch.setattr(protocols, ride, lambda rng, **condition: None)
-    monkeypatch.setattr(protocols, "record_ride", lambda *ride, specimen: counted.update([specimen]))
+    monkeypatch.setattr(protocols, "record_ride", lambda *ride, specimen, accelerometer_noise: counted.update([specimen]))
     recordings = list(synthetic_recordings(load_config(CONFIGURATIONS / "default" / "standard.toml").data))
     for recording in recordings:
         recording.load()

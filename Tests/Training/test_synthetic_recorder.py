@@ -17,7 +17,7 @@ from haptoflow_training.recordings.synthetic import (
     record_hand_condition,
     record_machine_condition,
 )
-from haptoflow_training.recordings.synthetic.contact import SIMULATION_RATE_HZ, tool_acceleration
+from haptoflow_training.recordings.synthetic.contact import SIMULATION_RATE_HZ, tool_vibration
 from haptoflow_training.recordings.synthetic.surface import TipPath, random_height
 
 MATERIALS = {material.label: material for material in load_materials()}
@@ -30,7 +30,8 @@ def _vibration(label, *, velocity=(0.1, 0.0), force=1.0, seconds=1.0, seed=1, no
         force_newtons=force,
         duration_seconds=seconds,
         seed=seed,
-        noise=noise,
+        accelerometer_noise=noise,
+        motion_noise=noise,
     )
     settled = recording.acceleration_g[int(0.15 * len(recording.acceleration_g)) :]
     return (settled - settled.mean(axis=0)) * STANDARD_GRAVITY_MPS2, recording
@@ -170,7 +171,7 @@ def test_the_three_axes_carry_different_but_related_signals():
 def test_off_the_surface_the_tip_falls_no_faster_than_its_force_pushes():
     count = 8000
     path = _straight([0.0, 0.0], 0.1, 1500.0, count)
-    normal = tool_acceleration(MATERIALS["sandpaper"], path, np.full(count, 0.2), specimen=4)[:, 2]
+    normal = tool_vibration(MATERIALS["sandpaper"], path, np.full(count, 0.2), specimen=4).acceleration_mps2[:, 2]
     assert normal.min() > -(0.2 / 0.02 + 9.81) * 1.001
     assert normal.max() > -1.3 * normal.min()
 
@@ -288,7 +289,8 @@ def test_a_trajectory_of_arrays_is_followed():
         force_newtons=np.array([0.5, 1.5]),
         duration_seconds=1.0,
         seed=3,
-        noise=False,
+        accelerometer_noise=False,
+        motion_noise=False,
     )
     assert np.ptp(recording.position_mm[:, 0]) == pytest.approx(100.0, abs=1.0)
     assert recording.force_newtons[0] == pytest.approx(0.5)

@@ -1,5 +1,7 @@
 #include "inference/surface_noise.hpp"
 
+#include "inference/hashed_numbers.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -53,12 +55,6 @@ constexpr std::array<Level, 7> levels{{
     {0x1p-22, 0x1p-11},
     {0x1p-25, 0x1p-11 * rootOfEighth},
 }};
-
-std::uint64_t mixed(std::uint64_t value) noexcept {
-    value = (value ^ (value >> 30U)) * 0xBF58476D1CE4E5B9U;
-    value = (value ^ (value >> 27U)) * 0x94D049BB133111EBU;
-    return value ^ (value >> 31U);
-}
 
 double dot(const Vector& a, const Vector& b) noexcept {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];

@@ -7,8 +7,8 @@ from dataclasses import dataclass, fields
 import torch
 from torch import Tensor
 
-from haptoflow_training.models.haptoflow_model import HaptoFlowModel
-from haptoflow_training.models.label_embedding import rib_phase
+from haptoflow_training.models.haptoflow_model import FieldModel
+from haptoflow_training.models.label_embedding import surface_phases
 from haptoflow_training.models.level_model import scaled_previous
 from haptoflow_training.training.batches import SegmentBatch
 from haptoflow_training.training.flow_matching import Field, interpolate, solve
@@ -25,6 +25,7 @@ class ReflowPairs:
     label: Tensor
     motion: Tensor
     position_mm: Tensor
+    wander: Tensor
 
     def draw(self, count: int, generator: torch.Generator) -> ReflowPairs:
         """`count` pairs at random."""
@@ -36,15 +37,16 @@ class ReflowPairs:
             self.label[rows],
             self.motion[rows],
             self.position_mm[rows],
+            self.wander[rows],
         )
 
-    def loss(self, model: HaptoFlowModel, generator: torch.Generator) -> Tensor:
+    def loss(self, model: FieldModel, generator: torch.Generator) -> Tensor:
         """`reflow_loss` of the model's velocity field."""
         embedding = model.embedding(self.label)
-        phase = rib_phase(embedding, self.position_mm)
+        phases = surface_phases(embedding, self.motion, self.position_mm, self.wander)
 
         def field(noisy: Tensor, time: Tensor) -> Tensor:
-            return model.field(noisy, time, self.previous, embedding, self.motion, phase)
+            return model.field(noisy, time, self.previous, embedding, self.motion, phases)
 
         return reflow_loss(field, self, generator)
 
@@ -56,18 +58,18 @@ class ReflowPairs:
 
 
 @torch.no_grad()
-def own_pairs(model: HaptoFlowModel, batch: SegmentBatch, generator: torch.Generator) -> ReflowPairs:
+def own_pairs(model: FieldModel, batch: SegmentBatch, generator: torch.Generator) -> ReflowPairs:
     """Noise, and the segments that the model's flow makes of it under the conditions of a batch."""
     embedding = model.embedding(batch.label)
     previous = model.encode(scaled_previous(batch.previous, model.level(embedding, batch.motion)))
     noise = torch.randn(batch.label.shape[0], *model.shape, generator=generator)
-    phase = rib_phase(embedding, batch.position_mm)
+    phases = surface_phases(embedding, batch.motion, batch.position_mm, batch.wander)
 
     def field(noisy: Tensor, time: Tensor) -> Tensor:
-        return model.field(noisy, time, previous, embedding, batch.motion, phase)
+        return model.field(noisy, time, previous, embedding, batch.motion, phases)
 
     target = solve(field, noise, "midpoint", 4)
-    return ReflowPairs(noise, target, previous, batch.label, batch.motion, batch.position_mm)
+    return ReflowPairs(noise, target, previous, batch.label, batch.motion, batch.position_mm, batch.wander)
 
 
 def reflow_loss(field: Field, pairs: ReflowPairs, generator: torch.Generator) -> Tensor:

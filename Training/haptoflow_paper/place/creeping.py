@@ -13,7 +13,7 @@ from haptoflow_benchmark.metrics.temporal_metrics import kurtosis
 from haptoflow_paper.place.passes import Doubles, Pass, Renderer, Table
 from haptoflow_training.recordings.synthetic import HELD_OUT_SPECIMEN, Material, load_materials
 from haptoflow_training.recordings.synthetic.carriers import path_from_velocity
-from haptoflow_training.recordings.synthetic.contact import SIMULATION_RATE_HZ, tool_acceleration
+from haptoflow_training.recordings.synthetic.contact import SIMULATION_RATE_HZ, tool_vibration
 from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 SPEEDS_MPS = (0.002, 0.003, 0.005)
@@ -61,7 +61,8 @@ def recorder_without_noise(label: str) -> dict[str, dict[str, float]]:
         velocity = np.zeros((count, 2))
         velocity[:, 0] = 1e3 * speed
         path = path_from_velocity(np.array([10.0, 12.0]), velocity)
-        normal = tool_acceleration(material, path, np.ones(count), specimen=HELD_OUT_SPECIMEN)[:, 2]
+        vibration = tool_vibration(material, path, np.ones(count), specimen=HELD_OUT_SPECIMEN)
+        normal = vibration.acceleration_mps2[:, 2]
         wave = sosfilt(highpass, resample_poly(normal, 1, round(SIMULATION_RATE_HZ / SAMPLE_RATE_HZ)))
         found[f"{1e3 * speed:g}"] = _figures(wave[round(_SETTLING_SECONDS * SAMPLE_RATE_HZ) :])
     return found

@@ -28,22 +28,26 @@ from haptoflow_training.waveform import SAMPLE_RATE_HZ
 _Floats = NDArray[np.float32]
 
 _INDEPENDENT_SEED = 100_000
+# Whole turns do not matter; a float keeps the rest.
+_WRAP = 1.0
 
 
 @dataclass(frozen=True)
 class ReferencePair:
     """recorded and independent [n] in m/s^2; motion [n, 3] of both. start_mm: the place on the surface where
-    `recorded` begins."""
+    `recorded` begins. wander_turns [n, 3]: of its waves, as a store has them (preprocessing/store.py)."""
 
     condition: Condition
     recorded: _Floats
     independent: _Floats
     motion: _Floats
     start_mm: tuple[float, float] = (0.0, 0.0)
+    wander_turns: _Floats | None = None
 
 
 def _record(material: Material, motion: NDArray[np.float64], seed: int) -> PreparedRecording:
-    """One recording of the motion [n, 3] at 2 kHz on the held-out specimen, trimmed like every recording."""
+    """One recording of the motion [n, 3] at 2 kHz on the held-out specimen, trimmed like every recording, without the
+    accelerometer's noise: nobody should be asked to reproduce it."""
     recording = record_condition(
         material,
         velocity_mps=(motion[:, 0], motion[:, 1]),
@@ -51,6 +55,7 @@ def _record(material: Material, motion: NDArray[np.float64], seed: int) -> Prepa
         duration_seconds=len(motion) / SAMPLE_RATE_HZ,
         seed=seed,
         specimen=HELD_OUT_SPECIMEN,
+        accelerometer_noise=False,
     )
     return preprocess_recording(recording, PreprocessingSettings())
 
@@ -74,8 +79,9 @@ def record_pair(task: tuple[Condition, Material, Material]) -> ReferencePair:
     travelled = _travelled_mm(known_motion)
     # Averaged over the recording, because a single reading is off by up to 0.1 mm.
     start = (prepared[0].position_mm[:length] - travelled).mean(axis=0)
+    wander = np.mod(prepared[0].wander_turns[:length], _WRAP).astype(np.float32)
     return ReferencePair(
-        condition, waves[0][:length], waves[1][:length], known_motion, (float(start[0]), float(start[1]))
+        condition, waves[0][:length], waves[1][:length], known_motion, (float(start[0]), float(start[1])), wander
     )
 
 
@@ -85,11 +91,21 @@ def _travelled_mm(motion: _Floats) -> NDArray[np.float64]:
     return np.cumsum(step, axis=0) - step
 
 
-def rib_phases(pair: ReferencePair, embedding: _Floats, samples: NDArray[np.int64]) -> _Floats:
-    """Rib phases of the recording at these samples, in turns along the embedding's two wave vectors, [n, 2]."""
-    wave_vectors = embedding[-4:].astype(np.float64).reshape(2, 2)
-    places = np.asarray(pair.start_mm) + _travelled_mm(pair.motion)[samples]
-    return np.mod(places @ wave_vectors.T, 1.0).astype(np.float32)
+def known_phases(pair: ReferencePair, embedding: _Floats, samples: NDArray[np.int64]) -> _Floats:
+    """The phases [n, 6] (models/surface_waves.py) of the recording at these samples, for an embedding [64]; the rates
+    are those over a hop."""
+    count, hop = len(pair.motion), SAMPLE_RATE_HZ // 72
+    last = np.minimum(samples + hop, count - 1)
+    vectors = embedding[-4:].astype(np.float64).reshape(2, 2)
+    turns = np.zeros((count, 3))
+    turns[:, :2] = (np.asarray(pair.start_mm) + _travelled_mm(pair.motion)) @ vectors.T
+    if pair.wander_turns is not None:
+        turns += pair.wander_turns
+    steps = np.diff(turns, axis=0, append=turns[-1:])
+    advanced = np.concatenate([np.zeros((1, 3)), np.cumsum(steps - np.rint(steps), axis=0)])
+    rates = (advanced[last] - advanced[samples]) * (SAMPLE_RATE_HZ / np.maximum(last - samples, 1))[:, None]
+    wrapped = np.mod(np.mod(turns[samples], 1.0).astype(np.float32), np.float32(1.0))
+    return np.concatenate([wrapped, rates.astype(np.float32)], axis=1)
 
 
 def _recorder_crc32() -> str:
@@ -113,7 +129,7 @@ def reference_set(
                 return [
                     ReferencePair(
                         entry, stored[f"recorded{i}"], stored[f"independent{i}"], stored[f"motion{i}"],
-                        (float(stored["starts_mm"][i, 0]), float(stored["starts_mm"][i, 1])),
+                        (float(stored["starts_mm"][i, 0]), float(stored["starts_mm"][i, 1])), stored[f"wander{i}"],
                     )
                     for i, entry in enumerate(wanted)
                 ]  # fmt: skip
@@ -129,6 +145,7 @@ def reference_set(
     }  # fmt: skip
     for i, pair in enumerate(pairs):
         arrays |= {f"recorded{i}": pair.recorded, f"independent{i}": pair.independent, f"motion{i}": pair.motion}
+        arrays[f"wander{i}"] = pair.wander_turns
     temporary = cache.with_suffix(".part.npz")
     np.savez(temporary, **arrays)
     temporary.replace(cache)

@@ -5,11 +5,11 @@ from __future__ import annotations
 import torch
 from torch import Tensor, nn
 
-from haptoflow_paper.rivals.condition import ConditionPerceptron
 from haptoflow_paper.rivals.segment_network import INPUTS, SegmentNetwork
+from haptoflow_training.models.condition_perceptron import ConditionPerceptron
 from haptoflow_training.models.rib_comb import GAINS, PARTIALS, RibComb, spread_gains
 
-RIB_INPUTS = ("previous", "rib_phase")
+RIB_INPUTS = ("previous", "phases")
 _HIDDEN = 96
 
 
@@ -31,10 +31,10 @@ class RibLines(nn.Module):
         nn.init.zeros_(last.weight)
         nn.init.zeros_(last.bias)
 
-    def forward(self, previous: Tensor, embedding: Tensor, motion: Tensor, rib_phase: Tensor) -> tuple[Tensor, Tensor]:
+    def forward(self, previous: Tensor, embedding: Tensor, motion: Tensor, phases: Tensor) -> tuple[Tensor, Tensor]:
         """The lines of the segment, and the previous waveform without its lines, [B, 1, 200] each, in unit scale."""
         mirrored = torch.flip(previous, dims=[2])
-        ribs = self.comb.ribs(embedding, motion, rib_phase)
+        ribs = self.comb.ribs(embedding, motion, phases)
         gains = torch.index_select(self.gains(embedding, motion), 1, self.spread)
         lines = self.comb.partials(ribs, mirrored, gains)[1] * ribs.sounding
         rest = mirrored - (lines * self.comb.mirror).reshape(-1, 1, 2 * PARTIALS) @ ribs.waves
@@ -52,10 +52,10 @@ class Rival(SegmentNetwork):
     def comb(self) -> RibComb | None:
         return None if self.lines is None else self.lines.comb
 
-    def forward(self, noisy: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, rib_phase: Tensor) -> Tensor:
+    def forward(self, noisy: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, phases: Tensor) -> Tensor:
         if self.lines is None:
             return self.own_form(noisy, previous, embedding, motion)
-        lines, rest = self.lines(previous, embedding, motion, rib_phase)
+        lines, rest = self.lines(previous, embedding, motion, phases)
         return lines + self.own_form(noisy, rest, embedding, motion)
 
     def own_form(self, noisy: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor) -> Tensor:
@@ -63,13 +63,13 @@ class Rival(SegmentNetwork):
         raise NotImplementedError
 
     def rest(
-        self, segment: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, rib_phase: Tensor
+        self, segment: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, phases: Tensor
     ) -> tuple[Tensor, Tensor]:
         """A recorded segment and its previous waveform without their rib lines, [B, 1, 200] each, to which the
         published form is fitted."""
         if self.lines is None:
             return segment, previous
-        lines, rest = self.lines(previous, embedding, motion, rib_phase)
+        lines, rest = self.lines(previous, embedding, motion, phases)
         return segment - lines, rest
 
 
@@ -88,11 +88,11 @@ class RegressingRival(Rival):
         previous: Tensor,
         embedding: Tensor,
         motion: Tensor,
-        rib_phase: Tensor,
+        phases: Tensor,
         generator: torch.Generator,
     ) -> Tensor:
         noise = torch.randn(segment.shape, generator=generator)
-        answer = self(noise, previous, embedding, motion, rib_phase)
+        answer = self(noise, previous, embedding, motion, phases)
         return (answer - segment).square().mean(dim=(1, 2))
 
 

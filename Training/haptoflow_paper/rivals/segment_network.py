@@ -7,7 +7,7 @@ from torch import Tensor, nn
 
 from haptoflow_training.models.rib_comb import RibComb
 
-INPUTS = ("noisy", "previous", "embedding", "motion", "rib_phase")
+INPUTS = ("noisy", "previous", "embedding", "motion", "phases")
 
 
 class SegmentNetwork(nn.Module):
@@ -26,7 +26,7 @@ class SegmentNetwork(nn.Module):
         """The comb of its rib partials; None for a network without ribs."""
         raise NotImplementedError
 
-    def forward(self, noisy: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, rib_phase: Tensor) -> Tensor:
+    def forward(self, noisy: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, phases: Tensor) -> Tensor:
         """Segment [B, 1, 200] from standard normal noise and previous waveform [B, 1, 200], embedding [B, 64],
         motion [B, 3] (vx, vy in m/s, force in N) and rib phase [B, 2] (turns)."""
         raise NotImplementedError
@@ -37,7 +37,7 @@ class SegmentNetwork(nn.Module):
         previous: Tensor,
         embedding: Tensor,
         motion: Tensor,
-        rib_phase: Tensor,
+        phases: Tensor,
         generator: torch.Generator,
     ) -> Tensor:
         """[B]: this network's own training loss for recorded segments [B, 1, 200], row by row."""

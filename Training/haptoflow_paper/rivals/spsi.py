@@ -12,8 +12,8 @@ import math
 import torch
 from torch import Tensor, nn
 
-from haptoflow_paper.rivals.condition import ConditionPerceptron
 from haptoflow_paper.rivals.rival import Rival, reads
+from haptoflow_training.models.condition_perceptron import ConditionPerceptron
 from haptoflow_training.waveform import SEGMENT_SAMPLES
 
 BINS = SEGMENT_SAMPLES // 2 + 1
@@ -153,10 +153,10 @@ class SpsiRival(Rival):
         previous: Tensor,
         embedding: Tensor,
         motion: Tensor,
-        rib_phase: Tensor,
+        phases: Tensor,
         generator: torch.Generator,
     ) -> Tensor:
-        rest, _ = self.rest(segment, previous, embedding, motion, rib_phase)
+        rest, _ = self.rest(segment, previous, embedding, motion, phases)
         power = magnitude_spectrum(rest).square() + POWER_FLOOR
         stated = self.log_magnitudes(embedding, motion)
         if not self.is_sampled:

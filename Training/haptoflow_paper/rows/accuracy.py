@@ -15,7 +15,8 @@ from haptoflow_paper.metrics import row_metrics
 from haptoflow_paper.metrics.cell_figures import SETTLING_SAMPLES, measure_cell
 from haptoflow_paper.metrics.told_apart import told_apart_percent
 from haptoflow_paper.reference.reference_conditions import is_on_other_label
-from haptoflow_paper.reference.reference_set import ReferencePair, rib_phases
+from haptoflow_paper.reference.reference_set import ReferencePair, known_phases
+from haptoflow_training.closed_loop.phase_track import SurfaceStatistics
 from haptoflow_training.closed_loop.render import SegmentSource, hop_positions, run_closed_loop
 from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
@@ -38,13 +39,14 @@ class GeneratedSet:
 def generate_set(
     source: SegmentSource,
     embeddings: _Floats,
+    statistics: SurfaceStatistics,
     pairs: Sequence[ReferencePair],
     *,
     update_rate_hz: float,
     seed: int,
     open_loop: bool = True,
 ) -> GeneratedSet:
-    """Run every pair's motion through `source`; embeddings [labels, 64] by label index.
+    """Run every pair's motion through `source`; embeddings [labels, 64] and statistics of the surfaces by label index.
 
     Pairs of similar length share a batch.
     """
@@ -58,27 +60,28 @@ def generate_set(
         motions = np.stack(
             [np.pad(pairs[row].motion, ((0, longest - len(pairs[row].motion)), (0, 0)), mode="edge") for row in rows]
         )
-        chosen = np.stack([embeddings[pairs[row].condition.label_index] for row in rows])
-        others = np.stack([_other_embedding(embeddings, pairs[row]) for row in rows])
+        chosen = np.array([pairs[row].condition.label_index for row in rows])
+        others = np.array([_other_label(pairs[row]) for row in rows])
         hops = hop_positions(longest, update_rate_hz)
         elsewhere = np.array([pairs[row].condition.kind == "change" for row in rows])
         is_other = elsewhere[:, None] & is_on_other_label(longest)[hops][None, :]
-        condition_embeddings = np.where(is_other[:, :, None], others[:, None], chosen[:, None])
-        run = run_closed_loop(source, condition_embeddings, motions, update_rate_hz=update_rate_hz, seed=seed + first)
+        labels = np.where(is_other, others[:, None], chosen[:, None])
+        run = run_closed_loop(
+            source, embeddings, motions, labels, statistics, update_rate_hz=update_rate_hz, seed=seed + first
+        )
         for place, row in enumerate(rows):
             length = len(pairs[row].recorded)
             closed[row] = run.waves[place, :length]
             starts[row] = run.hop_starts[run.hop_starts < length]
             if open_loop and not elsewhere[place]:
-                opened[row] = open_loop_wave(source, chosen[place], pairs[row], seed=seed + row)
+                opened[row] = open_loop_wave(source, embeddings[chosen[place]], pairs[row], seed=seed + row)
     return GeneratedSet(closed, opened, starts)
 
 
-def _other_embedding(embeddings: _Floats, pair: ReferencePair) -> _Floats:
-    """The embedding of the other label of a change; elsewhere that of the label itself."""
+def _other_label(pair: ReferencePair) -> int:
+    """The other label of a change; elsewhere the label itself."""
     other = pair.condition.other_index
-    chosen: _Floats = embeddings[other if other >= 0 else pair.condition.label_index]
-    return chosen
+    return other if other >= 0 else pair.condition.label_index
 
 
 def open_loop_wave(source: SegmentSource, embedding: _Floats, pair: ReferencePair, *, seed: int) -> _Floats:
@@ -88,7 +91,7 @@ def open_loop_wave(source: SegmentSource, embedding: _Floats, pair: ReferencePai
     previous = pair.recorded[: count * 200].reshape(count, 200)
     motion = pair.motion[: count * 200].reshape(count, 200, 3)[:, -28:].mean(axis=1)
     noise = np.random.default_rng(seed).standard_normal((count, 200)).astype(np.float32)
-    phases = rib_phases(pair, embedding, 200 * np.arange(1, count + 1))
+    phases = known_phases(pair, embedding, 200 * np.arange(1, count + 1))
     condition_embeddings = np.tile(embedding, (count, 1))
     return source.generate(condition_embeddings, motion.astype(np.float32), previous, noise, phases).reshape(-1)
 
@@ -153,15 +156,17 @@ def label_discrimination(classifier: LabelClassifier, pairs: Sequence[ReferenceP
 def drift_db_per_minute(
     source: SegmentSource,
     embeddings: _Floats,
+    statistics: SurfaceStatistics,
+    labels: NDArray[np.int64],
     *,
     seconds: float,
     update_rate_hz: float,
     seed: int,
 ) -> tuple[float, float]:
-    """(median, worst) over labels of the absolute drift at 0.15 m/s and 1 N."""
+    """(median, worst) over these label indices of the absolute drift at 0.15 m/s and 1 N."""
     samples = int(seconds * SAMPLE_RATE_HZ)
     motion = np.array([0.15, 0.0, 1.0], dtype=np.float32)
-    motions = np.broadcast_to(motion, (len(embeddings), samples, 3))
-    run = run_closed_loop(source, embeddings, motions, update_rate_hz=update_rate_hz, seed=seed)
+    motions = np.broadcast_to(motion, (len(labels), samples, 3))
+    run = run_closed_loop(source, embeddings, motions, labels, statistics, update_rate_hz=update_rate_hz, seed=seed)
     drifts = [abs(row_metrics.drift_db_per_minute(wave[SETTLING_SAMPLES:])) for wave in run.waves]
     return float(np.median(drifts)), float(np.max(drifts))

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from haptoflow_benchmark.engine.engine_library import EngineLibrary
+from haptoflow_training.closed_loop.phase_track import SurfaceStatistics
 from haptoflow_training.native_library import NativeModel, options_of
 from haptoflow_training.waveform import SEGMENT_SAMPLES
 
@@ -56,6 +57,7 @@ class EngineGenerator:
         self._model = NativeModel(engine, model)
         self.header = engine.header(self._model.handle)
         self.embeddings = self._read_embeddings()
+        self.statistics = SurfaceStatistics.of_entries(self.header["labels"])
         options = options_of(
             _GeneratorOptions,
             solver=SOLVERS[solver],
@@ -94,13 +96,13 @@ class EngineGenerator:
         motions: _Floats,
         previous_mps2: _Floats,
         noise: _Floats,
-        rib_phase: _Floats | None = None,
+        phases: _Floats | None = None,
     ) -> _Floats:
         """Segments [n, 200] in m/s^2 from embeddings [n, 64], motions [n, 3], previous and noise [n, 200].
 
-        rib_phase: [n, 2], turns along the embedding's wave vectors at each segment's first sample; zeros if None.
+        phases: [n, 2], turns along the embedding's wave vectors at each segment's first sample; zeros if None.
         """
-        phases = np.zeros((len(embeddings), RIB_COUNT), dtype=np.float32) if rib_phase is None else rib_phase
+        phases = np.zeros((len(embeddings), RIB_COUNT), dtype=np.float32) if phases is None else phases
         given = (embeddings, motions, previous_mps2, noise, phases)
         arrays = [np.ascontiguousarray(array, dtype=np.float32) for array in given]
         count = len(arrays[0])

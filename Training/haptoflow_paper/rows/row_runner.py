@@ -158,12 +158,13 @@ def _engine_figures(place: Workplace, yardstick: Yardstick, row: PlannedRow, see
     drift_seconds = _LONG_DRIFT_SECONDS if extended else _SHORT_DRIFT_SECONDS
     with generator_of(place, row, seed) as generator:
         made = accuracy.generate_set(
-            generator, generator.embeddings, pairs, update_rate_hz=UPDATE_RATE_HZ, seed=_SEED
+            generator, generator.embeddings, generator.statistics, pairs, update_rate_hz=UPDATE_RATE_HZ, seed=_SEED
         )
-        embeddings = generator.embeddings[::4] if _is_reduced(place, row, seed) else generator.embeddings
+        labels = np.arange(0, len(generator.embeddings), 4 if _is_reduced(place, row, seed) else 1)
         drift = accuracy.drift_db_per_minute(
-            generator, embeddings, seconds=drift_seconds, update_rate_hz=UPDATE_RATE_HZ, seed=_SEED
-        )
+            generator, generator.embeddings, generator.statistics, labels,
+            seconds=drift_seconds, update_rate_hz=UPDATE_RATE_HZ, seed=_SEED,
+        )  # fmt: skip
         rows = accuracy.measure(pairs, made)
         result: dict[str, Any] = {
             "discrimination": accuracy.label_discrimination(yardstick.classifier, pairs, made.closed),
@@ -194,7 +195,7 @@ def _fast_speeds(generator: EngineGenerator, pairs: list[ReferencePair]) -> list
     fast = [pair for pair in pairs if _is_fast(pair)]
     for rate in UPDATE_RATES_HZ:
         made = accuracy.generate_set(
-            generator, generator.embeddings, fast, update_rate_hz=rate, seed=_SEED, open_loop=False
+            generator, generator.embeddings, generator.statistics, fast, update_rate_hz=rate, seed=_SEED, open_loop=False
         )
         rows = accuracy.measure(fast, made)
         for speed in FAST_SPEEDS_MPS:
@@ -213,10 +214,12 @@ def _level_kinks(generator: EngineGenerator) -> dict[str, float]:
     speeds = np.geomspace(0.02, 1.5, _SWEEP_SPEEDS)
     samples = int(SAMPLE_RATE_HZ * _SWEEP_SECONDS)
     kinks = []
-    for embedding in generator.embeddings:
+    for label in range(len(generator.embeddings)):
         motions = np.zeros((_SWEEP_SPEEDS, samples, 3), dtype=np.float32)
         motions[:, :, 0], motions[:, :, 2] = speeds[:, None], 1.0
-        rows = np.tile(embedding, (_SWEEP_SPEEDS, 1))
-        run = run_closed_loop(generator, rows, motions, update_rate_hz=UPDATE_RATE_HZ, seed=_SEED)
+        run = run_closed_loop(
+            generator, generator.embeddings, motions, np.full(_SWEEP_SPEEDS, label), generator.statistics,
+            update_rate_hz=UPDATE_RATE_HZ, seed=_SEED,
+        )  # fmt: skip
         kinks.append(kink_db(20.0 * np.log10([rms(wave[400:]) + 1e-9 for wave in run.waves])))
     return {"median": float(np.median(kinks)), "worst": float(np.max(kinks))}

@@ -34,9 +34,9 @@ def _once(source: SegmentSource, generator: np.random.Generator) -> float:
     previous = generator.standard_normal((1, 200)).astype(np.float32)
     noise = generator.standard_normal((1, 200)).astype(np.float32)
     motion = np.array([[0.1 + 0.4 * generator.random(), 0.0, 1.0]], dtype=np.float32)
-    rib_phase = generator.random((1, 2)).astype(np.float32)
+    phases = generator.random((1, 2)).astype(np.float32)
     begin = time.perf_counter()
-    source.generate(embedding, motion, previous, noise, rib_phase)
+    source.generate(embedding, motion, previous, noise, phases)
     return 1e3 * (time.perf_counter() - begin)
 
 

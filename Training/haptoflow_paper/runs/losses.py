@@ -28,7 +28,7 @@ class EvaluatedLosses(Losses):
     def field_loss(self, given: ScaledBatch, objective: str, generator: torch.Generator) -> Tensor:
         field, motion = self.model.field, given.batch.motion
         if objective == "own":
-            own = field.loss(given.segment, given.previous, given.embedding, motion, given.rib_phase, generator)
+            own = field.loss(given.segment, given.previous, given.embedding, motion, given.phases, generator)
             # A likelihood weighs all segments alike: weighting down unpredictable ones would bias it towards too little
             # variance.
             weight = torch.ones_like(given.power) if field.is_sampled else given.power.reciprocal()
@@ -38,7 +38,7 @@ class EvaluatedLosses(Losses):
             def bound(rows: slice) -> AverageField:
                 def average(noisy: Tensor, time: Tensor, interval: Tensor) -> Tensor:
                     return field(
-                        noisy, time, given.previous[rows], given.embedding[rows], motion[rows], given.rib_phase[rows],
+                        noisy, time, given.previous[rows], given.embedding[rows], motion[rows], given.phases[rows],
                         interval,
                     )  # fmt: skip
 

@@ -10,11 +10,11 @@ from torch import Tensor, nn
 from haptoflow_paper.codec.representation_base import Representation
 from haptoflow_paper.rivals.segment_network import SegmentNetwork
 from haptoflow_training.models.conditioning import TimeEncoder
-from haptoflow_training.models.haptoflow_model import HaptoFlowModel
+from haptoflow_training.models.haptoflow_model import FieldModel
 from haptoflow_training.models.velocity_field import VelocityField
 
 
-class EvaluatedModel(HaptoFlowModel):
+class EvaluatedModel(FieldModel):
     """A model whose network may be a rival, or work on the latents of a codec."""
 
     field: VelocityField | SegmentNetwork  # type: ignore[assignment]
@@ -26,8 +26,11 @@ class EvaluatedModel(HaptoFlowModel):
         representation: Representation,
         level: nn.Module,
         field: VelocityField | SegmentNetwork,
+        specimens: int = 0,
     ) -> None:
-        super().__init__(wave_vectors=wave_vectors, level=level, field=field)  # type: ignore[arg-type]
+        super().__init__(
+            wave_vectors=wave_vectors, level=level, field=field, specimens=specimens  # type: ignore[arg-type]
+        )
         self.representation = representation
         self.shape = representation.shape
 
@@ -42,11 +45,11 @@ class EvaluatedModel(HaptoFlowModel):
         return torch.randn(len(noise), *self.shape) if self.representation.is_latent else noise
 
     def one_step(
-        self, noise: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, rib_phase: Tensor
+        self, noise: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, phases: Tensor
     ) -> Tensor:
         if isinstance(self.field, SegmentNetwork):
-            return self.field(noise, previous, embedding, motion, rib_phase)
-        return super().one_step(noise, previous, embedding, motion, rib_phase)
+            return self.field(noise, previous, embedding, motion, phases)
+        return super().one_step(noise, previous, embedding, motion, phases)
 
 
 class DeafVelocityField(VelocityField):
@@ -70,13 +73,13 @@ class AverageVelocityField(VelocityField):
         previous: Tensor,
         embedding: Tensor,
         motion: Tensor,
-        rib_phase: Tensor | None = None,
+        phases: Tensor | None = None,
         interval: Tensor | None = None,
     ) -> Tensor:
         moment = self.time(time)
         if interval is not None:
             moment = moment + self.interval(interval)
-        return self.velocity(noisy, moment, previous, embedding, motion, rib_phase)
+        return self.velocity(noisy, moment, previous, embedding, motion, phases)
 
 
 class ConstantLevel(nn.Module):

@@ -32,16 +32,16 @@ class _AverageVelocity(nn.Module):
         previous: Tensor,
         embedding: Tensor,
         motion: Tensor,
-        rib_phase: Tensor | None = None,
+        phases: Tensor | None = None,
     ) -> Tensor:
-        return self.field(noisy, time, previous, embedding, motion, rib_phase, interval)
+        return self.field(noisy, time, previous, embedding, motion, phases, interval)
 
 
 def network_graph(model: EvaluatedModel, kind: str) -> bytes:
     """As `export_network`, for a rival and for tiers of `kind` "average-velocity" too."""
     wave, conditions = example_inputs(model)
     if isinstance(model.field, SegmentNetwork):
-        examples = {"noisy": wave, **conditions, "rib_phase": torch.full((len(wave), 2), 0.25)}
+        examples = {"noisy": wave, **conditions, "phases": torch.full((len(wave), 2), 0.25)}
         inputs = {name: examples[name] for name in model.field.inputs}
         return export_graph(SegmentNetworkGraph(model.field), inputs, "segment")
     if kind == "average-velocity":

@@ -30,7 +30,6 @@ _PAIRS_AT_A_TIME = 500
 class EvaluatedTrainer(Trainer):
     """Trains one evaluated configuration. With `optimiser.budget_seconds` the clock is the process's computing time."""
 
-    losses = EvaluatedLosses
     _config: EvaluatedConfig
     _losses: EvaluatedLosses
 
@@ -40,7 +39,13 @@ class EvaluatedTrainer(Trainer):
         self._pair_count = self._config.recipe.reflow_pairs
 
     @staticmethod
-    def build_model(config: EvaluatedConfig, wave_vectors: WaveVectors) -> EvaluatedModel:  # type: ignore[override]
+    def losses_of(config: EvaluatedConfig) -> type[EvaluatedLosses]:  # type: ignore[override]
+        return EvaluatedLosses
+
+    @staticmethod
+    def build_model(  # type: ignore[override]
+        config: EvaluatedConfig, wave_vectors: WaveVectors, specimens: int = 0
+    ) -> EvaluatedModel:
         shape = config.model
         representation = build_representation(shape.representation)
         if shape.architecture == "unet":
@@ -54,7 +59,7 @@ class EvaluatedTrainer(Trainer):
         else:
             field = build_rival(shape.architecture, ribs=shape.ribs, sampled=shape.sampled)
         level = LevelModel() if shape.level == "law" else ConstantLevel()
-        return EvaluatedModel(wave_vectors=wave_vectors, representation=representation, level=level, field=field)
+        return EvaluatedModel(wave_vectors=wave_vectors, representation=representation, level=level, field=field, specimens=specimens)
 
     @staticmethod
     def possible_phases(config: EvaluatedConfig) -> list[Phase]:  # type: ignore[override]

@@ -15,6 +15,7 @@ import numpy as np
 import torch
 from numpy.typing import NDArray
 
+from haptoflow_training.closed_loop.phase_track import SurfaceStatistics
 from haptoflow_training.closed_loop.render import UPDATE_RATE_HZ, SegmentSource, hop_positions, run_closed_loop
 from haptoflow_training.export.level_table import LevelTable
 from haptoflow_training.export.trained_tier import TrainedTier
@@ -72,13 +73,14 @@ def closed_loop_levels(
     source: SegmentSource,
     embeddings: _Floats,
     store: SegmentStore,
+    statistics: SurfaceStatistics,
     held_out: HeldOut,
     advance: Callable[[int], None] = lambda count: None,
     extent: Extent = Extent(),
     labels_wanted: frozenset[int] | None = None,
 ) -> ClosedLoopLevels:
     """The levels that `source` generates for the motion of training recordings in closed loop at 72 Hz, with the
-    recorded ones. embeddings [labels, 64]. labels_wanted: only these label indices; None for all.
+    recorded ones. embeddings [labels, 64]; statistics: of the surfaces, by label. labels_wanted: only these label indices; None for all.
 
     Recordings of the test split are not used, and windows with a sample in a held-out band are not compared.
     """
@@ -87,7 +89,7 @@ def closed_loop_levels(
     motions = np.stack([_padded(store.motion[_span(recording, extent)], longest) for recording in chosen])
     labels = np.array([recording.label_index for recording in chosen])
     run = run_closed_loop(
-        source, embeddings[labels], motions, update_rate_hz=UPDATE_RATE_HZ, seed=_SEED, advance=advance
+        source, embeddings, motions, labels, statistics, update_rate_hz=UPDATE_RATE_HZ, seed=_SEED, advance=advance
     )
     made, recorded_powers, speeds, forces, owners = [], [], [], [], []
     for recording, wave in zip(chosen, run.waves, strict=True):
@@ -155,7 +157,7 @@ class TierSource:
 
     @torch.no_grad()
     def generate(
-        self, embeddings: _Floats, motions: _Floats, previous_mps2: _Floats, noise: _Floats, rib_phase: _Floats
+        self, embeddings: _Floats, motions: _Floats, previous_mps2: _Floats, noise: _Floats, phases: _Floats
     ) -> _Floats:
         """Segments [n, 200] in m/s^2, as SegmentSource."""
         model, tier = self._tier.model, self._tier
@@ -168,7 +170,7 @@ class TierSource:
                 log_level[row, 0] = float(table.log_level(speed, motions[row, 2]))
         previous = model.encode(scaled_previous(torch.from_numpy(previous_mps2).unsqueeze(1), log_level))
         drawn = model.start(torch.from_numpy(noise).unsqueeze(1))
-        condition = previous, embedding, motion, torch.from_numpy(rib_phase)
+        condition = previous, embedding, motion, torch.from_numpy(phases)
         made = tier.generate(drawn, condition, tier.solver, tier.steps)
         segments: _Floats = (model.decode(made) * log_level.exp().unsqueeze(-1)).squeeze(1).numpy()
         return segments

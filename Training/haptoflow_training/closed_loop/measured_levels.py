@@ -20,6 +20,7 @@ from haptoflow_training.closed_loop.level_calibration import (
     offsets_db,
 )
 from haptoflow_training.closed_loop.level_following import level_tables
+from haptoflow_training.closed_loop.phase_track import SurfaceStatistics
 from haptoflow_training.export.exponents import fit_exponents
 from haptoflow_training.export.level_table import LevelTable, MeasuredLevels
 from haptoflow_training.export.trained_tier import TrainedTier, load_tiers
@@ -35,12 +36,13 @@ def measured_levels(folder: Path, source: Source, extent: Extent = Extent()) -> 
     torch.set_num_threads(1)
     tier = load_tiers([folder])[0]
     held_out = HeldOut.of(tier.config.batch)
+    statistics = SurfaceStatistics.of_labels(source.labels)
 
     def measure(tables: Mapping[int, LevelTable]) -> ClosedLoopLevels:
         made = TierSource(tier, tables)
         wanted = frozenset(tables) or None
         with tqdm(total=hops(source.store, extent), unit="hop", desc="levels") as bar:
-            return closed_loop_levels(made, made.embeddings, source.store, held_out, bar.update, extent, wanted)
+            return closed_loop_levels(made, made.embeddings, source.store, statistics, held_out, bar.update, extent, wanted)
 
     levels = measure({})
     offsets = offsets_db(levels, len(source.labels))
@@ -59,7 +61,8 @@ def seconds_of_a_measurement(tier: TrainedTier, source: Source, extent: Extent) 
     made = TierSource(tier)
     few = Extent(extent.recordings_per_label, _TRIED_SAMPLES)
     begun = time.monotonic()
-    closed_loop_levels(made, made.embeddings, source.store, HeldOut.of(tier.config.batch), extent=few)
+    statistics = SurfaceStatistics.of_labels(source.labels)
+    closed_loop_levels(made, made.embeddings, source.store, statistics, HeldOut.of(tier.config.batch), extent=few)
     return (time.monotonic() - begun) * hops(source.store, extent) / hops(source.store, few)
 
 

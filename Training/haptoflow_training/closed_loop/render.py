@@ -9,6 +9,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from haptoflow_training.closed_loop.phase_track import PhaseTrack, SurfaceStatistics
 from haptoflow_training.waveform import SAMPLE_RATE_HZ, SEGMENT_SAMPLES
 
 SPLICE_SAMPLES = 4
@@ -22,7 +23,7 @@ class SegmentSource(Protocol):
     """Generates segments [n, 200] in m/s^2: the engine, a trained tier, or a reference row of the benchmark."""
 
     def generate(
-        self, embeddings: _Floats, motions: _Floats, previous_mps2: _Floats, noise: _Floats, rib_phase: _Floats
+        self, embeddings: _Floats, motions: _Floats, previous_mps2: _Floats, noise: _Floats, phases: _Floats
     ) -> _Floats: ...
 
 
@@ -61,15 +62,18 @@ def run_closed_loop(
     source: SegmentSource,
     embeddings: _Floats,
     motions: _Floats,
+    labels: NDArray[np.int64],
+    statistics: SurfaceStatistics,
     *,
     update_rate_hz: float,
     seed: int,
     advance: Callable[[int], None] = lambda count: None,
 ) -> ClosedLoopRun:
-    """Render `motions` [n, samples, 3] for `embeddings` [n, 64], or [n, hops, 64] where labels change, from silence.
+    """Render `motions` [n, samples, 3] from silence for `embeddings` [labels, 64] and label indices [n], or [n, hops]
+    where labels change.
 
-    The condition of each segment is the mean motion of the hop before it, because a tracker knows no more. The rib
-    phase is integrated from the same motions, as in the engine.
+    The condition of each segment is the mean motion of the hop before it, because a tracker knows no more. The phases
+    are integrated from the same motions, as in the engine; statistics: of the surfaces, by label.
     """
     rows, samples, _ = motions.shape
     # The waveform is preceded by silence, long enough to be the first segment's previous waveform.
@@ -77,19 +81,18 @@ def run_closed_loop(
     wave = out[:, SEGMENT_SAMPLES:]
     starts = hop_positions(samples, update_rate_hz)
     generator = np.random.default_rng(seed)
-    wave_vectors, phase = np.zeros((rows, 2, 2)), np.zeros((rows, 2))
+    track = PhaseTrack(statistics, rows, seed)
     condition = np.zeros((rows, 3), dtype=np.float32)
     before = 0
     for hop, start in enumerate(starts):
-        travelled_mm = condition[:, :2].astype(np.float64) * (1000.0 * (start - before) / SAMPLE_RATE_HZ)
-        phase = np.mod(phase + np.einsum("rkc,rc->rk", wave_vectors, travelled_mm), 1.0)
-        embedding = embeddings if embeddings.ndim == 2 else embeddings[:, hop]
-        wave_vectors = embedding[:, -4:].astype(np.float64).reshape(rows, 2, 2)
+        track.advance(condition, int(start - before))
+        label = labels if labels.ndim == 1 else labels[:, hop]
+        embedding = embeddings[label]
         known = motions[:, before:start] if start > before else motions[:, :1]
         past = out[:, start : start + SEGMENT_SAMPLES].copy()
         noise = generator.standard_normal((rows, SEGMENT_SAMPLES)).astype(np.float32)
         condition = known.mean(axis=1).astype(np.float32)
-        segment = source.generate(embedding, condition, past, noise, phase.astype(np.float32))
+        segment = source.generate(embedding, condition, past, noise, track.at(embedding, label, condition))
         if start > 0:
             segment = spliced(wave[:, start : start + SEGMENT_SAMPLES], segment)
         wave[:, start : start + SEGMENT_SAMPLES] = segment

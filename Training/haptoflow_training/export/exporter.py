@@ -20,6 +20,7 @@ from haptoflow_training.export.model_file import ModelFile, write_model_file
 from haptoflow_training.export.onnx_graphs import export_level_model
 from haptoflow_training.export.parity import write_parity
 from haptoflow_training.export.seed_bank import SEED_SAMPLES, build_seed_bank
+from haptoflow_training.export.skeleton_tensors import skeleton_header, skeleton_tensors
 from haptoflow_training.export.trained_tier import TrainedTier, load_tiers
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE
 from haptoflow_training.models.level_model import shift_level
@@ -70,6 +71,8 @@ def _label_entry(
         "stiffness_newtons_per_metre": info.stiffness_newtons_per_metre,
         "friction_coefficient": info.friction_coefficient,
         **({} if info.landing is None else {"impact": _impact_entry(info.landing)}),
+        **({} if info.stick_slip is None else {"stick_slip": _rounded(asdict(info.stick_slip))}),
+        **({} if not info.rib_wander else {"rib_wander": [_rounded(asdict(each)) for each in info.rib_wander]}),
         **({} if table is None else {"level": table.to_json()}),
     }
 
@@ -77,6 +80,10 @@ def _label_entry(
 def _impact_entry(landing: Landing) -> dict[str, Any]:
     modes = [{key: round(value, 2) for key, value in asdict(mode).items()} for mode in landing.modes]
     return {"modes": modes, "restitution": round(landing.restitution, 3)}
+
+
+def _rounded(values: dict[str, float]) -> dict[str, float]:
+    return {key: round(value, 6) for key, value in values.items()}
 
 
 def _header(
@@ -164,11 +171,16 @@ def export_run(
         measurements["level_offsets_db"] = [round(offset, 3) for offset in levels.offsets_db]
     header = _header(config, tiers, source, bank.entries, measurements, levels.tables)
     graphs = {name: graph for tier in tiers for name, graph in tier.graphs().items()}
-    file = ModelFile(
-        header=header,
-        tensors={"embedding": model.embedding.weight.detach().numpy().copy(), "seeds": bank.waves},
-        graphs={**graphs, "level": export_level_model(model.level)},
-    )
+    tensors = {name: values for tier in tiers for name, values in tier.tensors().items()}
+    tensors |= {"embedding": model.embedding.weight.detach().numpy().copy(), "seeds": bank.waves}
+    if default.skeleton is None:
+        graphs["level"] = export_level_model(model.level)
+    else:
+        header["skeleton"] = skeleton_header(default.skeleton)
+        tensors |= skeleton_tensors(model.level, default.skeleton)
+        if model.embedding.pieces.shape[1]:
+            tensors["pieces"] = model.embedding.offsets.detach().numpy().copy()
+    file = ModelFile(header=header, tensors=tensors, graphs=graphs)
     checksum = write_model_file(out, file)
     if parity is not None:
         batch = SegmentBatches(store, "validation", config.batch, config.seed).draw(10)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from haptoflow_training.recordings.landing import Landing
+from haptoflow_training.recordings.wander import RibWander, StickSlip
 
 
 @dataclass(frozen=True)
@@ -13,7 +14,8 @@ class LabelInfo:
 
     wave_vectors_per_mm: (x, y) of each family of ribs in cycles per millimetre, perpendicular to the ribs. landing: the
     vibration at touch-down; if None, the model file has no such entry and the engine derives the impact from the
-    stiffness.
+    stiffness. stick_slip: None for a label that is not known to slip. rib_wander: for each wave vector; empty if the
+    ribs are not known to wander.
     """
 
     name: str
@@ -23,6 +25,8 @@ class LabelInfo:
     wavelength_metres: float | None = None
     wave_vectors_per_mm: tuple[tuple[float, float], ...] = ()
     landing: Landing | None = None
+    stick_slip: StickSlip | None = None
+    rib_wander: tuple[RibWander, ...] = ()
 
     @property
     def known_wave_vectors(self) -> tuple[tuple[float, float], ...]:

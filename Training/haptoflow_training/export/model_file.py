@@ -117,8 +117,12 @@ def read_model_file(path: Path) -> ModelFile:
 
 def model_space(model: ModelFile) -> str:
     """Eight hex digits that identify the networks an embedding belongs to: the CRC-32 over each tier's name and the
-    CRC-32 of its field graph, in the file's order."""
-    text = "".join(
-        f"{tier['name']}:{zlib.crc32(model.graphs[tier['field']]):08x};" for tier in model.header["tiers"]
-    )
+    CRC-32 of its field graph, in the file's order; for a skeleton, of its perceptron's last layer."""
+    text = "".join(f"{tier['name']}:{_identity(model, tier):08x};" for tier in model.header["tiers"])
     return f"{zlib.crc32(text.encode('ascii')):08x}"
+
+
+def _identity(model: ModelFile, tier: dict[str, Any]) -> int:
+    if tier["kind"] == "skeleton":
+        return zlib.crc32(np.ascontiguousarray(model.tensors["skeleton.4.weight"]).astype("<f4").tobytes())
+    return zlib.crc32(model.graphs[tier["field"]])

@@ -10,7 +10,9 @@ import torch
 from torch import Tensor, nn
 
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE
-from haptoflow_training.models.haptoflow_model import HaptoFlowModel
+from haptoflow_training.models.haptoflow_model import FieldModel, HaptoFlowModel
+from haptoflow_training.models.refiner import ENTERING, Refiner
+from haptoflow_training.waveform import SEGMENT_SAMPLES
 
 OPSET = 16
 
@@ -49,10 +51,32 @@ class _OneStep(nn.Module):
         self.model = model
 
     def forward(
-        self, noisy: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, rib_phase: Tensor | None = None
+        self, noisy: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, phases: Tensor | None = None
     ) -> Tensor:
-        phase = noisy.new_zeros(()) if rib_phase is None else rib_phase
+        phase = noisy.new_zeros(()) if phases is None else phases
         return self.model.one_step(noisy, previous, embedding, motion, phase)
+
+
+class _Refinement(nn.Module):
+    """The refinement without what native code computes: the skeleton's segment and the FiLM parameters are inputs."""
+
+    def __init__(self, refiner: Refiner) -> None:
+        super().__init__()
+        self.refiner = refiner
+
+    def forward(self, entering: Tensor, past: Tensor, film: Tensor) -> Tensor:
+        return self.refiner.through(entering, past, film)
+
+
+def export_refinement(refiner: Refiner) -> bytes:
+    """The graph of a tier of kind "refine": inputs entering, past, film; output correction."""
+    batch, sizes = 2, sum(refiner.film_sizes)
+    inputs = {
+        "entering": torch.zeros(batch, ENTERING, 1, SEGMENT_SAMPLES),
+        "past": torch.zeros(batch, 1, 1, SEGMENT_SAMPLES),
+        "film": torch.zeros(batch, sizes),
+    }
+    return export_graph(_Refinement(refiner), inputs, "correction")
 
 
 def example_inputs(model: HaptoFlowModel) -> tuple[Tensor, dict[str, Tensor]]:
@@ -64,12 +88,12 @@ def example_inputs(model: HaptoFlowModel) -> tuple[Tensor, dict[str, Tensor]]:
         "embedding": torch.zeros(batch, EMBEDDING_SIZE),
         "motion": torch.full((batch, 3), 0.1),
     }
-    if model.field.comb is not None:
-        conditions["rib_phase"] = torch.full((batch, 2), 0.25)
+    if model.comb is not None:
+        conditions["phases"] = torch.full((batch, 2), 0.25)
     return wave, conditions
 
 
-def export_network(model: HaptoFlowModel, kind: str) -> bytes:
+def export_network(model: FieldModel, kind: str) -> bytes:
     """The graph of a tier of `kind` "flow" or "direct" (model-format.md, Graphs).
 
     A direct tier's graph has no flow time: a field trained by the energy distance is valid only for one step from time

@@ -8,7 +8,7 @@ from typing import Any
 import torch
 
 from haptoflow_training.export.trained_tier import TrainedTier
-from haptoflow_training.models.label_embedding import rib_phase
+from haptoflow_training.models.label_embedding import WAVE_VECTORS, surface_phases
 from haptoflow_training.models.level_model import scaled_previous
 from haptoflow_training.training.batches import SegmentBatch
 from haptoflow_training.training.run_log import write_json
@@ -17,6 +17,8 @@ _SOLVERS = {
     "flow": (("euler", 1), ("euler", 8), ("midpoint", 2), ("heun", 3), ("midpoint", 4)),
     "average-velocity": (("euler", 1), ("euler", 2), ("euler", 4)),
     "direct": (("euler", 1),),
+    "skeleton": (("euler", 1),),
+    "refine": (("euler", 1),),
 }
 
 
@@ -33,9 +35,10 @@ def write_parity(
         kind, steps = _SOLVERS[tier.kind][row // len(tiers) % len(_SOLVERS[tier.kind])]
         embedding = tier.model.embedding(batch.label[row : row + 1])
         motion, previous = batch.motion[row : row + 1], batch.previous[row : row + 1]
-        phase = rib_phase(embedding, batch.position_mm[row : row + 1])
+        where = batch.position_mm[row : row + 1], batch.wander[row : row + 1]
+        phases = surface_phases(embedding, motion, *where)
         log_level = tier.model.level(embedding, motion)
-        condition = scaled_previous(previous, log_level), embedding, motion, phase
+        condition = scaled_previous(previous, log_level), embedding, motion, phases
         noise = torch.randn(1, 1, 200, generator=generator)
         start, interval = torch.zeros(1, 1), torch.full((1, 1), 1.0 / steps)
         segment = tier.generate(noise, condition, kind, steps) * torch.exp(log_level).unsqueeze(-1)
@@ -46,7 +49,8 @@ def write_parity(
                 "steps": steps,
                 "embedding": embedding.flatten().tolist(),
                 "motion": motion.flatten().tolist(),
-                "rib_phase": phase.flatten().tolist(),
+                "phases": phases.flatten().tolist(),
+                "rib_phase": phases[0, :WAVE_VECTORS].tolist(),
                 "previous": previous.flatten().tolist(),
                 "noise": noise.flatten().tolist(),
                 "log_level": log_level.item(),

@@ -10,16 +10,18 @@ import torch
 from torch import Tensor
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.export.onnx_graphs import export_network
+from haptoflow_training.export.onnx_graphs import export_network, export_refinement
+from haptoflow_training.export.skeleton_tensors import Tensors, condition_tensors
 from haptoflow_training.extensions import located
 from haptoflow_training.models.haptoflow_model import Condition, HaptoFlowModel
+from haptoflow_training.models.skeleton import Skeleton
+from haptoflow_training.models.skeleton_model import SkeletonModel
 from haptoflow_training.models.velocity_field import parameter_count
-from haptoflow_training.training.config import TrainingConfig
+from haptoflow_training.training.config import TIER_NAMES, TrainingConfig
 from haptoflow_training.training.flow_matching import solve
 from haptoflow_training.training.trainer import load_trained
 
-# The order of tiers in a file; the most accurate comes last.
-TIER_NAMES = ("draft", "standard", "fine")
+_ONE_STEP = ("direct", "skeleton", "refine")
 
 
 @dataclass(frozen=True)
@@ -37,6 +39,8 @@ class TrainedTier:
 
     @property
     def kind(self) -> str:
+        if isinstance(self.model, SkeletonModel):
+            return "skeleton" if self.model.refiner is None else "refine"
         return "direct" if self.config.recipe.energy_steps else "flow"
 
     @property
@@ -45,12 +49,12 @@ class TrainedTier:
 
     @property
     def steps(self) -> int:
-        return 1 if self.kind == "direct" else self.config.solver.steps
+        return self.config.solver.steps if self.kind == "flow" else 1
 
     def evaluate(self, noisy: Tensor, time: Tensor, interval: Tensor, condition: Condition) -> Tensor:
         """The output of the exported graph: the velocity, or the segment of a direct tier. interval [B, 1]: the flow
         time of a step, which only a derived tier may read."""
-        if self.kind == "direct":
+        if self.kind in _ONE_STEP:
             return self.model.one_step(noisy, *condition)
         return self.model.field(noisy, time, *condition)
 
@@ -61,7 +65,7 @@ class TrainedTier:
             interval = torch.full_like(time, 1.0 / steps)
             return self.evaluate(noisy, time, interval, condition)
 
-        if self.kind == "direct":
+        if self.kind in _ONE_STEP:
             return field(noise, torch.zeros(noise.shape[0], 1))
         return solve(field, noise, solver if self.kind == "flow" else "euler", steps)
 
@@ -70,12 +74,30 @@ class TrainedTier:
         """Whether the noise that a segment begins with has the segment's shape, as golden vectors need it."""
         return self.model.shape == HaptoFlowModel.shape
 
+    @property
+    def skeleton(self) -> Skeleton | None:
+        """The skeleton that this tier plays or refines; None for a velocity field."""
+        return self.model.skeleton if isinstance(self.model, SkeletonModel) else None
+
     def graphs(self) -> dict[str, bytes]:
         """The graphs of this tier alone, by their names in the file."""
+        if isinstance(self.model, SkeletonModel):
+            refiner = self.model.refiner
+            return {} if refiner is None else {f"{self.name}.field": export_refinement(refiner)}
         return {f"{self.name}.field": export_network(self.model, self.kind)}
+
+    def tensors(self) -> Tensors:
+        """The tensors of this tier alone, by their names in the file."""
+        if isinstance(self.model, SkeletonModel) and self.model.refiner is not None:
+            return condition_tensors(self.name, self.model.refiner)
+        return {}
 
     def header_entry(self) -> dict[str, Any]:
         """The tier's entry in the file's header."""
+        if self.skeleton is not None:
+            graph = {"field": f"{self.name}.field"} if self.kind == "refine" else {}
+            parameters = parameter_count(self.model.network)
+            return {"name": self.name, "kind": self.kind, **graph, "parameters": parameters, "accuracy": {}, "cost": {}}
         return {
             "name": self.name,
             "kind": self.kind,
@@ -83,7 +105,7 @@ class TrainedTier:
             "level": "level",
             "solver": self.solver,
             "steps": self.steps,
-            "parameters": parameter_count(self.model.field),
+            "parameters": parameter_count(self.model.network),
             "representation": "raw",
             "accuracy": {},
             "cost": {},
@@ -100,8 +122,12 @@ def load_tiers(folders: list[Path]) -> list[TrainedTier]:
     """The finished runs in `folders`, in the order of the file; they must share labels, embedding and level."""
     tiers = [tier_of(*load_trained(folder), folder) for folder in folders]
     first = tiers[0]
+    if len({tier.skeleton is None for tier in tiers}) > 1:
+        raise InputError(f"{', '.join(map(str, folders))}: tiers with a skeleton and tiers without do not share a file")
     for tier, folder in zip(tiers, folders, strict=True):
-        shared = (tier.model.embedding, first.model.embedding), (tier.model.level, first.model.level)
+        shared = [(tier.model.embedding, first.model.embedding), (tier.model.level, first.model.level)]
+        if tier.skeleton is not None and first.skeleton is not None:
+            shared.append((tier.skeleton, first.skeleton))
         same = all(
             torch.equal(own, other)
             for module, base in shared

@@ -10,17 +10,18 @@ from torch import Tensor, nn
 from haptoflow_training.models.band_limit import BandLimit
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE
 from haptoflow_training.models.label_embedding import LabelEmbedding
+from haptoflow_training.models.rib_comb import RibComb
 from haptoflow_training.models.velocity_field import VelocityField
 from haptoflow_training.waveform import SEGMENT_SAMPLES
 
 
-# What a segment is generated under: previous waveform [B, *shape] in unit scale, embedding [B, 64], motion [B, 3] and rib
-# phase [B, 2] in turns.
+# What a segment is generated under: previous waveform [B, *shape] in unit scale, embedding [B, 64], motion [B, 3] and
+# phases [B, 6] (models/surface_waves.py).
 Condition = tuple[Tensor, Tensor, Tensor, Tensor]
 
 
 class HaptoFlowModel(nn.Module):
-    """The trainable model behind one tier of a `.haptoflow` file: embedding, level and the network itself.
+    """The trainable model behind one tier of a `.haptoflow` file: embedding, level and what makes the waveform.
 
     shape: (channels, positions) of what the network works on. Here that is the samples of a segment; a derived model
     may encode them.
@@ -29,17 +30,21 @@ class HaptoFlowModel(nn.Module):
     shape: tuple[int, int] = (1, SEGMENT_SAMPLES)
 
     def __init__(
-        self,
-        *,
-        wave_vectors: Sequence[Sequence[tuple[float, float]]],
-        level: nn.Module,
-        field: VelocityField,
+        self, *, wave_vectors: Sequence[Sequence[tuple[float, float]]], level: nn.Module, specimens: int = 0
     ) -> None:
         super().__init__()
-        self.embedding = LabelEmbedding(EMBEDDING_SIZE, wave_vectors)
+        self.embedding = LabelEmbedding(EMBEDDING_SIZE, wave_vectors, specimens)
         self.level = level
-        self.field = field
-        self.band_limit = BandLimit()
+
+    @property
+    def comb(self) -> RibComb | None:
+        """What projects waveforms on the partials of ribs; None for a model without ribs."""
+        raise NotImplementedError
+
+    @property
+    def network(self) -> nn.Module:
+        """What this tier trains beyond the embedding and the level."""
+        raise NotImplementedError
 
     def encode(self, waveform: Tensor) -> Tensor:
         """[B, 1, 200] in unit scale to [B, *shape]."""
@@ -53,14 +58,39 @@ class HaptoFlowModel(nn.Module):
         """The noise [B, *shape] from which a segment is generated where noise [B, 1, 200] is given."""
         return noise
 
-    def one_step(
-        self, noise: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, rib_phase: Tensor
-    ) -> Tensor:
-        """The segment [B, 1, 200] of a network trained to produce it in one step; all waveforms in unit scale.
-        rib_phase [B, 2] in turns, at the segment's first sample."""
-        change = self.field(noise, torch.zeros(1, 1), previous, embedding, motion, rib_phase)
-        return self.band_limit(previous, noise + change)
+    def one_step(self, noise: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, phases: Tensor) -> Tensor:
+        """The segment [B, 1, 200] of a network trained to produce it in one step; all waveforms in unit scale. phases
+        [B, 6] at the segment's first sample."""
+        raise NotImplementedError
 
     def log_level(self, label: Tensor, motion: Tensor) -> Tensor:
         """[B, 1]: natural logarithm of the RMS in m/s^2 expected for label [B] and motion [B, 3]."""
         return self.level(self.embedding(label), motion)
+
+
+class FieldModel(HaptoFlowModel):
+    """A velocity field from noise to the segment."""
+
+    def __init__(
+        self,
+        *,
+        wave_vectors: Sequence[Sequence[tuple[float, float]]],
+        level: nn.Module,
+        field: VelocityField,
+        specimens: int = 0,
+    ) -> None:
+        super().__init__(wave_vectors=wave_vectors, level=level, specimens=specimens)
+        self.field = field
+        self.band_limit = BandLimit()
+
+    @property
+    def comb(self) -> RibComb | None:
+        return self.field.comb
+
+    @property
+    def network(self) -> nn.Module:
+        return self.field
+
+    def one_step(self, noise: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, phases: Tensor) -> Tensor:
+        change = self.field(noise, torch.zeros(1, 1), previous, embedding, motion, phases)
+        return self.band_limit(previous, noise + change)

@@ -16,14 +16,26 @@ WAVE_VECTORS = 2
 WAVE_NUMBERS = 2 * WAVE_VECTORS
 
 
+# How many numbers tell the specimens of a label apart, and the initial size of their directions in the embedding.
+_SPREAD_DIRECTIONS, _INITIAL_SPREAD = 4, 0.1
+
+
 class LabelEmbedding(nn.Module):
-    """[B] label indices to [B, 64]. wave_vectors: for each label, up to two (x, y) in cycles per millimetre."""
+    """[B] label indices to [B, 64]. wave_vectors: for each label, up to two (x, y) in cycles per millimetre.
+
+    specimens: how many pieces of each label are recorded. Each has an offset of its own within a few directions that
+    all labels share; over the specimens of a label they add up to zero, so that a label is the mean of its pieces.
+    """
 
     wave_numbers: Tensor
 
-    def __init__(self, size: int, wave_vectors: Sequence[Sequence[tuple[float, float]]]) -> None:
+    def __init__(
+        self, size: int, wave_vectors: Sequence[Sequence[tuple[float, float]]], specimens: int = 0
+    ) -> None:
         super().__init__()
         self.learnt = nn.Embedding(len(wave_vectors), size - WAVE_NUMBERS)
+        self.pieces = nn.Parameter(torch.zeros(len(wave_vectors), specimens, _SPREAD_DIRECTIONS))
+        self.directions = nn.Parameter(_INITIAL_SPREAD * torch.randn(_SPREAD_DIRECTIONS, size - WAVE_NUMBERS))
         known = torch.zeros(len(wave_vectors), WAVE_NUMBERS)
         for row, vectors in enumerate(wave_vectors):
             for place, (x, y) in enumerate(vectors[:WAVE_VECTORS]):
@@ -35,8 +47,18 @@ class LabelEmbedding(nn.Module):
         """[labels, 64]: the table of a model file."""
         return torch.cat([self.learnt.weight, self.wave_numbers], dim=1)
 
-    def forward(self, label: Tensor) -> Tensor:
-        return torch.cat([self.learnt(label), self.wave_numbers[label]], dim=1)
+    @property
+    def offsets(self) -> Tensor:
+        """[labels, specimens, 60]: of each specimen from its label."""
+        return (self.pieces - self.pieces.mean(dim=1, keepdim=True)) @ self.directions
+
+    def forward(self, label: Tensor, specimen: Tensor | None = None) -> Tensor:
+        """specimen [B]: the piece, -1 for the label itself, as without it."""
+        learnt = self.learnt(label)
+        if specimen is not None and self.pieces.shape[1]:
+            known = (specimen >= 0).to(learnt.dtype).unsqueeze(1)
+            learnt = learnt + known * self.offsets[label, specimen.clamp(min=0)]
+        return torch.cat([learnt, self.wave_numbers[label]], dim=1)
 
 
 def signed_rib_frequencies_hz(embedding: Tensor, motion: Tensor) -> Tensor:
@@ -52,9 +74,16 @@ def rib_frequencies_hz(embedding: Tensor, motion: Tensor) -> Tensor:
     return signed_rib_frequencies_hz(embedding, motion).abs()
 
 
-def rib_phase(embedding: Tensor, position_mm: Tensor) -> Tensor:
-    """[B, 2]: the rib phase k . x of both wave vectors in turns, wrapped to [0, 1), at position_mm [B, 2] (doubles: a
-    stroke of metres crosses thousands of ribs)."""
+def surface_phases(embedding: Tensor, motion: Tensor, position_mm: Tensor, wander: Tensor) -> Tensor:
+    """[B, 6]: the phases (models/surface_waves.py) at position_mm [B, 2], for embedding [B, 64] and motion [B, 3].
+
+    Doubles for the position: a stroke of metres crosses thousands of ribs. wander [B, 6]: by how much each family is
+    displaced from k . x, in turns, and how fast that changes, in Hz; of stick-slip, which no position fixes, all of it.
+    """
     vectors = embedding[:, -WAVE_NUMBERS:].detach().double().reshape(-1, WAVE_VECTORS, 2)
-    turns = (vectors @ position_mm.double().unsqueeze(2)).squeeze(2)
-    return (turns - turns.floor()).to(embedding.dtype)
+    placed = (vectors @ position_mm.double().unsqueeze(2)).squeeze(2)
+    crossed = signed_rib_frequencies_hz(embedding.detach(), motion).squeeze(2)
+    nothing = torch.zeros(len(embedding), 1)
+    turns = torch.cat([placed, nothing.double()], dim=1) + wander[:, : WAVE_VECTORS + 1].double()
+    rates = torch.cat([crossed, nothing], dim=1) + wander[:, WAVE_VECTORS + 1 :]
+    return torch.cat([(turns - turns.floor()).to(rates.dtype), rates], dim=1)

@@ -135,8 +135,12 @@ class RibComb(nn.Module):
 
     def ribs(self, embedding: Tensor, motion: Tensor, rib_phase: Tensor) -> Ribs:
         """The ribs for embedding [B, 64], motion [B, 3] and rib phase [B, 2] in turns at the segment's first sample;
-        without gradient, because wave vectors are not learnt."""
-        signed = signed_rib_frequencies_hz(embedding.detach(), motion).reshape(-1, WAVE_VECTORS)
+        without gradient, because wave vectors are not learnt. Phases [B, 6] (models/surface_waves.py) state the rates,
+        too."""
+        if rib_phase.shape[1] == WAVE_VECTORS:
+            signed = signed_rib_frequencies_hz(embedding.detach(), motion).reshape(-1, WAVE_VECTORS)
+        else:
+            rib_phase, signed = rib_phase[:, :WAVE_VECTORS], rib_phase[:, WAVE_VECTORS + 1 : 2 * WAVE_VECTORS + 1]
         # Count the phase in the direction of motion.
         place = torch.cat([signed.abs(), torch.sign(signed) * rib_phase], dim=1)
         angles, limits = torch.addmm(self.bias, place, self.weight).split([self.sines, 4 * PARTIALS], dim=1)

@@ -15,6 +15,8 @@ from torch import Tensor, nn
 from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 RUNGS = (2.0, 2.6, 3.1, 3.5)
+# The skeleton's: the last one is exceeded every eight seconds.
+TAIL_RUNGS = (*RUNGS, 4.0)
 TAPS = 64
 _RINGS_HZ = (50.0, 90.0, 160.0, 280.0, 500.0, 800.0)
 _RING_DECAY = 0.4
@@ -47,8 +49,12 @@ def _atoms() -> Tensor:
     return torch.stack([atom / atom.norm() for atom in atoms])
 
 
-class RungImpulses(nn.Module):
-    """noise [B, 1, N] and gains [B, 52] to impulses [B, 1, N]; the output is zero where all gains are zero."""
+class TailImpulses(nn.Module):
+    """noise [B, 1, N] and gains [B, rungs * 13] to impulses [B, 1, N]; the output is zero where all gains are zero.
+
+    both_tails: gains [B, 2 * rungs * 13], of positive noise first: asperities that push the tip up need not resemble
+    those that push it down.
+    """
 
     rungs: Tensor
     scales: Tensor
@@ -56,12 +62,15 @@ class RungImpulses(nn.Module):
     read: Tensor
     struck_atoms: Tensor
 
-    def __init__(self, samples: int = 200) -> None:
+    def __init__(
+        self, samples: int = 200, rungs: tuple[float, ...] = TAIL_RUNGS, both_tails: bool = True
+    ) -> None:
         super().__init__()
         self.samples, self.windows = samples, samples // _WINDOW
-        self.register_buffer("rungs", torch.tensor(RUNGS).reshape(1, -1, 1), persistent=False)
-        scales = torch.tensor([1.0 / _excess_deviation(rung) for rung in RUNGS])
-        self.register_buffer("scales", scales.reshape(1, -1, 1), persistent=False)
+        self.both_tails, self.kernels = both_tails, len(rungs) * (2 if both_tails else 1)
+        self.register_buffer("rungs", torch.tensor(rungs).reshape(1, -1, 1), persistent=False)
+        scales = torch.tensor([1.0 / _excess_deviation(rung) for rung in rungs])
+        self.register_buffer("scales", (scales.repeat(2) if both_tails else scales).reshape(1, -1, 1), persistent=False)
         self.register_buffer("atoms", _atoms(), persistent=False)
         reach = _WINDOWS_BEFORE * _WINDOW
         windows_read = torch.arange(self.windows).unsqueeze(1) + torch.arange(_WINDOWS_BEFORE + 1)
@@ -79,7 +88,20 @@ class RungImpulses(nn.Module):
         # sample takes as long as copying a window.
         padded = nn.functional.pad(noise, (self.reach, 0)).reshape(-1, self.windows + _WINDOWS_BEFORE, _WINDOW)
         gathered = padded[:, self.read].reshape(-1, self.windows, 1, self.sources)
-        excess = gathered - torch.maximum(torch.minimum(gathered, self.rungs), -self.rungs)
-        struck = (excess * self.scales).reshape(-1, self.windows, len(RUNGS) * self.sources)
-        kernels = (gains.reshape(-1, ATOMS) @ self.struck_atoms).reshape(-1, len(RUNGS) * self.sources, _WINDOW)
+        struck = (self._excess(gathered) * self.scales).reshape(-1, self.windows, self.kernels * self.sources)
+        kernels = (gains.reshape(-1, ATOMS) @ self.struck_atoms).reshape(-1, self.kernels * self.sources, _WINDOW)
         return (struck @ kernels).reshape(-1, 1, self.samples)
+
+    def _excess(self, gathered: Tensor) -> Tensor:
+        """[B, windows, kernels, sources]: by how much the noise exceeds each rung."""
+        if self.both_tails:
+            up, down = (gathered - self.rungs).clamp(min=0.0), (gathered + self.rungs).clamp(max=0.0)
+            return torch.stack([up, down], dim=2).flatten(2, 3)
+        return gathered - torch.maximum(torch.minimum(gathered, self.rungs), -self.rungs)
+
+
+class RungImpulses(TailImpulses):
+    """Impulses of a network: gains [B, 52], the same kernel for both tails."""
+
+    def __init__(self, samples: int = 200) -> None:
+        super().__init__(samples, RUNGS, both_tails=False)

@@ -8,6 +8,7 @@ from scipy import signal
 from scipy.interpolate import CubicSpline
 
 from haptoflow_training.preprocessing.filters import zero_phase_low_pass
+from haptoflow_training.recordings.recording import Wander
 
 
 def velocity_mps(
@@ -60,6 +61,14 @@ def position_mm_on_grid(
     uniform, positions = _uniform(time_seconds, position_mm)
     clamped = np.clip(grid_seconds, uniform[0], uniform[-1])
     return np.asarray(CubicSpline(uniform, positions, axis=0)(clamped))
+
+
+def wander_turns_on_grid(wander: Wander | None, grid_seconds: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The phases of `wander` at [n, 3] `grid_seconds` (constant beyond the ends), by a cubic spline; zero if unknown."""
+    if wander is None:
+        return np.zeros((len(grid_seconds), 3))
+    clamped = np.clip(grid_seconds, wander.time_seconds[0], wander.time_seconds[-1])
+    return np.asarray(CubicSpline(wander.time_seconds, wander.turns, axis=0)(clamped))
 
 
 def _uniform(

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import hashlib
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +17,7 @@ from haptoflow_training.preprocessing.pipeline import PreparedRecording
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
 
 PaddingState = Literal["rest", "contact", "air"]
+_Float = TypeVar("_Float", np.float32, np.float64)
 PADDING_STATES: tuple[PaddingState, ...] = ("rest", "contact", "air")
 # Largest share of a recording's length at each end, so that silence does not outweigh the recording.
 _MAXIMUM_SHARE = 1.0 / 3.0
@@ -77,10 +78,17 @@ def _pad_front(
     return PreparedRecording(
         np.concatenate([np.zeros(samples, dtype=np.float32), waveform]),
         np.concatenate([silence, motion]),
-        np.concatenate([np.repeat(prepared.position_mm[:1], samples, axis=0), prepared.position_mm]),
+        _held_before(prepared.position_mm, samples),
+        _held_before(prepared.wander_turns, samples),
     )
+
+
+def _held_before(values: NDArray[_Float], samples: int) -> NDArray[_Float]:
+    return np.concatenate([np.repeat(values[:1], samples, axis=0), values])
 
 
 def _reversed(prepared: PreparedRecording) -> PreparedRecording:
     waveform: NDArray[np.float32] = prepared.waveform_mps2[::-1]
-    return PreparedRecording(waveform, prepared.motion[::-1], prepared.position_mm[::-1])
+    return PreparedRecording(
+        waveform, prepared.motion[::-1], prepared.position_mm[::-1], prepared.wander_turns[::-1]
+    )

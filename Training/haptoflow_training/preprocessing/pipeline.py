@@ -24,12 +24,14 @@ _MAXIMUM_TRIM_SHARE = 0.2
 @dataclass(frozen=True)
 class PreparedRecording:
     """waveform_mps2: [n] float32, m/s^2. motion: [n, 3] float32: vx, vy in m/s, force in N. position_mm: [n, 2] float32:
-    where the tip is on the surface. All finite, n > 0.
+    where the tip is on the surface. wander_turns: [n, 3] float64, as of Wander (recording.py), zero for files. All
+    finite, n > 0.
     """
 
     waveform_mps2: NDArray[np.float32]
     motion: NDArray[np.float32]
     position_mm: NDArray[np.float32]
+    wander_turns: NDArray[np.float64]
 
 
 def preprocess_recording(recording: Recording, settings: PreprocessingSettings) -> PreparedRecording:
@@ -94,6 +96,7 @@ def _prepared(recording: Recording, settings: PreprocessingSettings) -> Prepared
         waveform[middle].astype(np.float32),
         np.column_stack([velocity, force])[middle].astype(np.float32),
         position[middle].astype(np.float32),
+        motion.wander_turns_on_grid(recording.wander, grid[middle]),
     )
 
 

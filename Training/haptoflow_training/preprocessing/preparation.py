@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import Any, BinaryIO, Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 from tqdm import tqdm
 
 from haptoflow_training.errors import InputError
@@ -58,6 +59,7 @@ class _Prepared:
     part: int = 0
     split: Split | None = None
     piece: int = 0
+    specimen: int | None = None
 
     @property
     def name(self) -> str:
@@ -225,7 +227,7 @@ def _prepare_one(
             piece = _prepare_part(item, number, cut(part, time), settings, seed, time.split, pieces[time.split])
             pieces[time.split] += 1
             prepared.append(piece)
-    return prepared
+    return [dataclasses.replace(one, specimen=recording.specimen) for one in prepared]
 
 
 def _prepare_part(
@@ -260,7 +262,8 @@ def _append_all(
                 continue
             whole = item.padded.prepared
             length = len(whole.waveform_mps2)
-            for file, values in zip(files, (whole.waveform_mps2, whole.motion, whole.position_mm), strict=True):
+            arrays = (whole.waveform_mps2, whole.motion, whole.position_mm, _stored_wander(whole.wander_turns))
+            for file, values in zip(files, arrays, strict=True):
                 _append(file, values)
             identity = item.identity
             conditions = dataclasses.asdict(identity)
@@ -278,10 +281,19 @@ def _append_all(
                     padding_before=item.padded.padding_before,
                     padding_after=item.padded.padding_after,
                     peak_mps2=item.peak_mps2,
+                    specimen=item.specimen,
                 )
             )
             start += length
     return stored, skipped
+
+
+def _stored_wander(turns: NDArray[np.float64]) -> NDArray[np.float32]:
+    """The phase of stick and slip grows without bound, and float32 would lose its fraction: it is stored modulo 1."""
+    stored = turns.astype(store_module.STORED_FLOAT)
+    stored[:, -1] = np.mod(turns[:, -1], 1.0)
+    stored[stored[:, -1] >= 1.0, -1] = 0.0
+    return stored
 
 
 def _append(file: BinaryIO, values: np.ndarray) -> None:

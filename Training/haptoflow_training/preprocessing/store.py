@@ -1,7 +1,9 @@
-"""The store of prepared recordings: `store.json` beside three raw little-endian arrays, opened without copying.
+"""The store of prepared recordings: `store.json` beside four raw little-endian arrays, opened without copying.
 
 `waveform.f32` [total] holds m/s^2 divided by `peak_mps2`; `motion.f32` [total, 3] holds vx, vy in m/s and
-force in N; `position.f32` [total, 2] holds the place on the surface in mm. `store.json` is written last: a folder without it is unfinished.
+force in N; `position.f32` [total, 2] holds the place on the surface in mm; `wander.f32` [total, 3] holds by how many
+turns ribs lie ahead of evenly spaced ones, and the phase of stick and slip in turns, 0 to below 1 (zero where unknown).
+`store.json` is written last: a folder without it is unfinished.
 """
 
 from __future__ import annotations
@@ -20,18 +22,20 @@ from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.preprocessing.split import Split
 from haptoflow_training.recordings.recording import Protocol
 
-STORE_VERSION = 2
+STORE_VERSION = 3
 STORE_FILE = "store.json"
 WAVEFORM_FILE = "waveform.f32"
 MOTION_FILE = "motion.f32"
 POSITION_FILE = "position.f32"
-ARRAY_FILES = (WAVEFORM_FILE, MOTION_FILE, POSITION_FILE)
+WANDER_FILE = "wander.f32"
+ARRAY_FILES = (WAVEFORM_FILE, MOTION_FILE, POSITION_FILE, WANDER_FILE)
 STORED_FLOAT = np.dtype("<f4")
 
 
 @dataclass(frozen=True)
 class StoredRecording:
-    """The place of one recording in the arrays: [start, start + length), including the silence added at its ends."""
+    """The place of one recording in the arrays: [start, start + length), including the silence added at its ends.
+    specimen: the piece of the material that was recorded; None if unknown."""
 
     name: str
     label: str
@@ -48,6 +52,7 @@ class StoredRecording:
     padding_before: int
     padding_after: int
     peak_mps2: float
+    specimen: int | None
 
     @property
     def samples(self) -> slice:
@@ -74,13 +79,15 @@ class SkippedRecording:
 @dataclass(frozen=True)
 class SegmentStore:
     """waveform: [total] float32, unit scale (not clipped: a fifth of the recordings peaks above 1). motion: [total,
-    3] float32: vx, vy in m/s, force in N. position_mm: [total, 2] float32: the place on the surface. All are
-    read-only memory maps, which processes can share."""
+    3] float32: vx, vy in m/s, force in N. position_mm: [total, 2] float32: the place on the surface. wander_turns:
+    [total, 3] float32: as of Wander (recording.py), the last column modulo 1. All are read-only memory maps, which
+    processes can share."""
 
     path: Path
     waveform: NDArray[np.float32]
     motion: NDArray[np.float32]
     position_mm: NDArray[np.float32]
+    wander_turns: NDArray[np.float32]
     labels: list[str]
     recordings: list[StoredRecording]
     skipped: list[SkippedRecording]
@@ -108,6 +115,7 @@ class SegmentStore:
                 waveform=_map(root / WAVEFORM_FILE, (total,)),
                 motion=_map(root / MOTION_FILE, (total, 3)),
                 position_mm=_map(root / POSITION_FILE, (total, 2)),
+                wander_turns=_map(root / WANDER_FILE, (total, 3)),
                 labels=list(header["labels"]),
                 recordings=recordings,
                 skipped=skipped,

@@ -58,6 +58,19 @@ class RecordingIdentity:
 
 
 @dataclass(frozen=True)
+class Wander:
+    """Phases that do not follow from the position, known of synthetic recordings only.
+
+    time_seconds: [j] float64, evenly spaced. turns: [j, 3] float64: for each of two families of ribs (in the order of
+    the label's wave vectors) by how many turns the ribs under the tip lie ahead of evenly spaced ones; and the cycles of
+    stick and slip since the recording began. Zero for what the label lacks.
+    """
+
+    time_seconds: NDArray[np.float64]
+    turns: NDArray[np.float64]
+
+
+@dataclass(frozen=True)
 class Recording:
     """Three sensors with their own clocks; nothing resampled, nothing filtered.
 
@@ -65,7 +78,7 @@ class Recording:
     1] for a single axis. force_time_seconds: [m] float64. force_newtons: [m] float. position_time_seconds: [k] float64.
     position_mm: [k, 2] float, millimetres, X and Y of the scan area. specimen: the piece of the material that a
     synthetic recording is of; None for files. velocity_mps: [k, 2] at position_time_seconds if velocity was recorded
-    and the position is its integral; None if it is to be derived from the position.
+    and the position is its integral; None if it is to be derived from the position. wander: None for files.
     """
 
     identity: RecordingIdentity
@@ -78,6 +91,7 @@ class Recording:
     position_mm: NDArray[np.floating]
     specimen: int | None = None
     velocity_mps: NDArray[np.floating] | None = None
+    wander: Wander | None = None
 
     @property
     def vibration_g(self) -> NDArray[np.float64]:

@@ -14,9 +14,11 @@ from haptoflow_training.errors import InputError
 from haptoflow_training.preprocessing.store import SegmentStore
 from haptoflow_training.training.config import BatchConfig
 from haptoflow_training.training.held_out import HeldOut, clear_spans
-from haptoflow_training.waveform import SEGMENT_SAMPLES
+from haptoflow_training.waveform import SAMPLE_RATE_HZ, SEGMENT_SAMPLES
 
 LEVEL_WINDOW_SAMPLES = 100
+# The column of the store's wander that holds the phase of stick-slip.
+SLIP = 2
 # Where inside a segment its motion is stored for the level: every 10 ms, both ends included.
 _KNOTS = np.linspace(0, SEGMENT_SAMPLES - 1, 11).round().astype(np.int64)
 
@@ -26,20 +28,23 @@ class Chain:
     """The motion before a batch's previous waveform, over which the network renders its own past.
 
     start [B, 1, 200]: the waveform before the first hop, m/s^2. motion [B, K, 3]: the condition of each hop.
-    position_mm [B, K, 2]: where each hop begins. hop_samples: samples that each hop appends.
+    position_mm [B, K, 2] and wander [B, K, 6]: where each hop begins. hop_samples: samples that each hop appends.
     """
 
     start: Tensor
     motion: Tensor
     position_mm: Tensor
+    wander: Tensor
     hop_samples: int
 
 
 @dataclass(frozen=True)
 class SegmentBatch:
-    """waveforms in m/s^2: previous [B, 1, 200], segment [B, 1, 200]; label [B]; motion [B, 3]: the condition.
+    """waveforms in m/s^2: previous [B, 1, 200], segment [B, 1, 200]; label [B]; specimen [B], -1 where none is known;
+    motion [B, 3]: the condition.
 
-    position_mm [B, 2]: where the segment begins. motion_path [B, 11, 3]: the motion at evenly spaced samples of the
+    position_mm [B, 2]: where the segment begins. wander [B, 6]: by how much the surface's waves are displaced from that
+    place, and how fast (models/label_embedding.py, `surface_phases`). motion_path [B, 11, 3]: the motion at evenly spaced samples of the
     segment, its ends included.
     level_motion [B, 3] and level_mean_square_mps2 [B, 1]: a 50 ms window for the level model.
     """
@@ -47,8 +52,10 @@ class SegmentBatch:
     previous: Tensor
     segment: Tensor
     label: Tensor
+    specimen: Tensor
     motion: Tensor
     position_mm: Tensor
+    wander: Tensor
     motion_path: Tensor
     level_motion: Tensor
     level_mean_square_mps2: Tensor
@@ -77,6 +84,9 @@ class SegmentBatches:
         self._starts = np.array([recording.start for recording in long_enough], dtype=np.int64)
         self._lengths = np.array([recording.length for recording in long_enough], dtype=np.int64)
         self._labels = np.array([recording.label_index for recording in long_enough], dtype=np.int64)
+        specimens = [-1 if recording.specimen is None else recording.specimen for recording in long_enough]
+        self._specimens = np.array(specimens, dtype=np.int64)
+        self._slips = bool(store.wander_turns[:, SLIP].any())
         machine = np.array([recording.protocol == "machine" for recording in long_enough])
         self._spans = clear_spans(store.motion, self._starts, self._lengths, HeldOut.of(config))
         self._groups = [
@@ -154,13 +164,30 @@ class SegmentBatches:
         start = self._store.waveform[windows[:, :SEGMENT_SAMPLES]] * np.float32(self._store.peak_mps2)
         start[generator.random(count) < config.chain_silence_probability] = 0.0
         motion = self._store.motion[windows[:, SEGMENT_SAMPLES:]].reshape(count, hops, hop, 3).mean(axis=2)
+        begins = windows[:, SEGMENT_SAMPLES::hop][:, :hops]
         chain = Chain(
             start=torch.from_numpy(start).unsqueeze(1),
             motion=torch.from_numpy(motion.astype(np.float32)),
-            position_mm=torch.from_numpy(self._store.position_mm[windows[:, SEGMENT_SAMPLES::hop][:, :hops]]),
+            position_mm=torch.from_numpy(self._store.position_mm[begins]),
+            wander=torch.from_numpy(self._wander(begins, np.full(begins.shape, hop))),
             hop_samples=hop,
         )
         return dataclasses.replace(batch, chain=chain)
+
+    def _wander(self, begins: NDArray[np.int64], hops: NDArray[np.int64]) -> NDArray[np.float32]:
+        """[..., 6] at the samples `begins`: the surface's wander in turns, and its mean rate over the hop in Hz."""
+        turns = self._store.wander_turns
+        change = turns[begins + hops].astype(np.float64) - turns[begins]
+        # A hop may pass hundreds of slips; their phase is wrapped, so that only sums of single steps are unambiguous.
+        slips = turns[..., SLIP]
+        if self._slips:
+            longest = int(hops.max())
+            within = np.arange(longest) < hops[..., None]
+            steps = begins[..., None] + np.where(within, np.arange(longest), 0)
+            moved = slips[steps + 1] - slips[steps]
+            change[..., SLIP] = ((moved - np.rint(moved)) * within).sum(axis=-1)
+        rates = change * (SAMPLE_RATE_HZ / hops[..., None])
+        return np.concatenate([turns[begins], rates], axis=-1).astype(np.float32)
 
     def _longest_common_span(self) -> int:
         """The number of consecutive samples that every label has in at least one span."""
@@ -198,8 +225,10 @@ class SegmentBatches:
             previous=torch.from_numpy(previous).unsqueeze(1),
             segment=torch.from_numpy(waves[:, SEGMENT_SAMPLES:].copy()).unsqueeze(1),
             label=torch.from_numpy(self._labels[recordings]),
+            specimen=torch.from_numpy(self._specimens[recordings]),
             motion=torch.from_numpy(motion.astype(np.float32)),
             position_mm=torch.from_numpy(self._store.position_mm[split_point]),
+            wander=torch.from_numpy(self._wander(split_point, hop)),
             motion_path=torch.from_numpy(motions[:, _KNOTS].astype(np.float32)),
             level_motion=torch.from_numpy(level_motion.astype(np.float32)),
             level_mean_square_mps2=torch.from_numpy(

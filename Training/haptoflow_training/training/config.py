@@ -12,6 +12,8 @@ from haptoflow_training.errors import InputError
 from haptoflow_training.extensions import configuration_class
 
 Rule = tuple[bool, str, str]
+# The order of tiers in a file; the most accurate comes last.
+TIER_NAMES = ("sketch", "draft", "standard", "fine")
 # Keys of the evaluation's own configurations, with the value for which a run does what every run here does: files and
 # checkpoints that say so are read.
 _EVALUATION_KEYS: dict[str, Any] = {
@@ -38,6 +40,8 @@ class DataConfig:
     labels: use only these; empty for all.
     machine_* and hand_*: how many synthetic recordings of each protocol;
     hand_guided_share: the share of hand recordings in which speed and direction are held for a while.
+    accelerometer_noise: whether synthetic recordings hold the noise and the steps of their accelerometer, which a model
+    would learn as part of every material.
     """
 
     source: str = "synthetic"
@@ -52,15 +56,20 @@ class DataConfig:
     hand_recordings_per_label: int = 24
     hand_duration_seconds: float = 8.0
     hand_guided_share: float = 0.0
+    accelerometer_noise: bool = True
 
 
 @dataclass(frozen=True)
 class ModelConfig:
-    """The velocity field: its `width`, `previous_width` and `levels`.
+    """network: `field` (a velocity field from noise), `skeleton` (no network: a filter, rib lines and impulses), or
+    `refinement` (of the skeleton of another run, `--base`).
 
-    ribs: it has a rib comb. impulses: rare events come from the tails of the noise.
+    hidden: width of the skeleton's perceptron. width, previous_width, levels: of a field or a refinement. ribs: a field
+    has a rib comb. impulses: a field's rare events come from the tails of the noise.
     """
 
+    network: str = "field"
+    hidden: int = 160
     ribs: bool = False
     impulses: bool = False
     width: int = 64
@@ -208,8 +217,15 @@ class TrainingConfig:
                 "two numbers, 1 <= min <= max <= 50",
             ),
             (config.batch.emphasis > 0.0, "batch.emphasis", "above 0"),
+            (
+                config.model.network in ("field", "skeleton", "refinement"),
+                "model.network",
+                "'field', 'skeleton' or 'refinement'",
+            ),
+            (config.model.network != "refinement" or config.recipe.shares_base, "recipe.shares_base", "true"),
+            (config.model.hidden >= 8, "model.hidden", "at least 8"),
             (config.model.width >= 8, "model.width", "at least 8"),
-            (config.tier in ("draft", "standard", "fine"), "tier", "'draft', 'standard' or 'fine'"),
+            (config.tier in TIER_NAMES, "tier", f"one of {', '.join(TIER_NAMES)}"),
         )
 
 

@@ -8,7 +8,7 @@ import torch
 from torch import Tensor, nn
 
 from haptoflow_training.models.haptoflow_model import Condition, HaptoFlowModel
-from haptoflow_training.models.label_embedding import rib_frequencies_hz, rib_phase
+from haptoflow_training.models.label_embedding import rib_frequencies_hz, surface_phases
 from haptoflow_training.models.level_model import level_loss, scaled_previous
 from haptoflow_training.models.rib_comb import PARTIALS
 from haptoflow_training.training.batches import Chain, SegmentBatch
@@ -27,7 +27,7 @@ class ScaledBatch:
     """A batch in unit scale, as the model encodes it.
 
     segment and previous [B, *shape]; recorded_previous: [B, 1, 200], which `previous` is but for a chain of the
-    network's own output; rib_phase [B, 2] in turns; power [B]: mean square of the segment, at least 1; unsteadiness
+    network's own output; phases [B, 6]; power [B]: mean square of the segment, at least 1; unsteadiness
     [B]: the largest deviation of the log level within the segment from that of the condition.
     """
 
@@ -36,13 +36,22 @@ class ScaledBatch:
     segment: Tensor
     previous: Tensor
     recorded_previous: Tensor
-    rib_phase: Tensor
+    phases: Tensor
     power: Tensor
     unsteadiness: Tensor
 
     @property
     def condition(self) -> Condition:
-        return self.previous, self.embedding, self.batch.motion, self.rib_phase
+        return self.previous, self.embedding, self.batch.motion, self.phases
+
+    @property
+    def steadiness(self) -> Tensor:
+        """[B]: the weight of a segment, from what is known before it: near 1 where the level changes by less than a few
+        decibels and the past is about as loud as the level predicts. In unit scale, a stop or a start looks like an
+        impact. A weight that depended on the segment itself would bias the network towards fewer impacts than
+        recorded."""
+        loudness = (self.recorded_previous.square().mean(dim=(1, 2)) / _LOUD_PAST).clamp(min=1.0)
+        return loudness.rsqrt() / (1.0 + (self.unsteadiness / _UNSTEADY_LOG_LEVEL).pow(4))
 
 
 class Losses(nn.Module):
@@ -80,19 +89,20 @@ class Losses(nn.Module):
     def level_loss(self, batch: SegmentBatch) -> Tensor:
         if not self._train_level:
             return torch.zeros(())
-        return level_loss(self.model.log_level(batch.label, batch.level_motion), batch.level_mean_square_mps2)
+        embedding = self.model.embedding(batch.label, batch.specimen)
+        return level_loss(self.model.level(embedding, batch.level_motion), batch.level_mean_square_mps2)
 
     def _scaled(self, batch: SegmentBatch, objective: str, generator: torch.Generator) -> ScaledBatch:
         model = self.model
-        embedding = model.embedding(batch.label)
+        embedding = model.embedding(batch.label, batch.specimen)
         # The field works in unit scale; its loss must not move the level to make the task easier.
-        log_level = model.log_level(batch.label, batch.motion).detach()
+        log_level = model.level(embedding, batch.motion).detach()
         steady_segment, unsteadiness = self._steady_segment(batch, embedding)
         segment = model.encode(steady_segment)
         recorded_previous = scaled_previous(batch.previous, log_level)
         previous = recorded_previous
         if batch.chain is not None:
-            own_previous = self.render_chain(batch.chain, batch.label, objective, generator)
+            own_previous = self.render_chain(batch.chain, embedding.detach(), objective, generator)
             previous = scaled_previous(own_previous, log_level)
         # Bursts that the level cannot predict (an impact, the first motion after a rest) are learnt, but must not
         # outweigh a hundred ordinary segments.
@@ -103,7 +113,7 @@ class Losses(nn.Module):
             segment=segment,
             previous=model.encode(previous),
             recorded_previous=recorded_previous,
-            rib_phase=rib_phase(embedding, batch.position_mm),
+            phases=surface_phases(embedding, batch.motion, batch.position_mm, batch.wander),
             power=power,
             unsteadiness=unsteadiness,
         )
@@ -117,12 +127,12 @@ class Losses(nn.Module):
         noise = torch.randn(2 * len(segment), *segment.shape[1:], generator=generator)
         condition = [torch.cat([part, part]) for part in given.condition]
         first, second = self.model.one_step(noise, *condition).chunk(2)
-        return self._one_step_loss(given, (first, second))
+        return self.one_step_loss(given, (first, second))
 
-    def _one_step_loss(self, given: ScaledBatch, drawn: tuple[Tensor, Tensor]) -> Tensor:
+    def one_step_loss(self, given: ScaledBatch, drawn: tuple[Tensor, Tensor]) -> Tensor:
         """The energy loss of a recording and two draws, [B, 1, 200] each, in unit scale."""
-        batch, embedding, phase = given.batch, given.embedding, given.rib_phase
-        weight = _steadiness(given.unsteadiness, given.recorded_previous)
+        batch, embedding, phase = given.batch, given.embedding, given.phases
+        weight = given.steadiness
         recorded = given.segment
         segments = [wave.squeeze(1) for wave in (recorded, *drawn)]
         true = given.recorded_previous.squeeze(1), segments[0]
@@ -153,9 +163,9 @@ class Losses(nn.Module):
     def _partials(
         self, batch: SegmentBatch, embedding: Tensor, segments: tuple[Tensor, ...], phase: Tensor
     ) -> tuple[list[Tensor], Tensor]:
-        """For each segment, its partials [B, 2, P] relative to the rib phase; and a mask [B, P] of those that one
+        """For each segment, its partials [B, 2, P] relative to the ribs; and a mask [B, P] of those that one
         segment can resolve. Both are zero for a network without ribs."""
-        comb = self.model.field.comb
+        comb = self.model.comb
         if comb is None:
             nothing = torch.zeros(len(batch.label), 2, PARTIALS)
             return [nothing] * len(segments), nothing[:, 0]
@@ -165,13 +175,13 @@ class Losses(nn.Module):
 
     @torch.no_grad()
     def render_chain(
-        self, chain: Chain, label: Tensor, objective: str, generator: torch.Generator
+        self, chain: Chain, embedding: Tensor, objective: str, generator: torch.Generator
     ) -> Tensor:
         """The previous waveform [B, 1, 200] in m/s^2 after the chain's hops, rendered by the network itself."""
         model, previous = self.model, chain.start
         for hop in range(chain.motion.shape[1]):
-            where = chain.motion[:, hop], chain.position_mm[:, hop]
-            segment = self.generate(previous, label, *where, objective, generator)
+            where = chain.motion[:, hop], chain.position_mm[:, hop], chain.wander[:, hop]
+            segment = self.generate(previous, embedding, *where, objective, generator)
             appended = segment[:, :, : chain.hop_samples]
             previous = torch.cat([previous[:, :, appended.shape[2] :], appended], dim=2)
         return previous
@@ -180,25 +190,25 @@ class Losses(nn.Module):
     def generate(
         self,
         previous_mps2: Tensor,
-        label: Tensor,
+        embedding: Tensor,
         motion: Tensor,
         position_mm: Tensor,
+        wander: Tensor,
         objective: str,
         generator: torch.Generator,
     ) -> Tensor:
         """One segment [B, 1, 200] in m/s^2, generated in the way the objective's tier is run."""
         model = self.model
-        embedding = model.embedding(label)
-        phase = rib_phase(embedding, position_mm)
+        phases = surface_phases(embedding, motion, position_mm, wander)
         log_level = model.level(embedding, motion)
         previous = model.encode(scaled_previous(previous_mps2, log_level))
-        noise = torch.randn(label.shape[0], *model.shape, generator=generator)
-        made = self.drawn(objective, noise, (previous, embedding, motion, phase))
+        noise = torch.randn(len(embedding), *model.shape, generator=generator)
+        made = self.drawn(objective, noise, (previous, embedding, motion, phases))
         return model.decode(made) * torch.exp(log_level).unsqueeze(-1)
 
     def drawn(self, objective: str, noise: Tensor, condition: Condition) -> Tensor:
         """The segment [B, *shape] that the network of an objective makes of noise. condition: previous, embedding,
-        motion, rib phase."""
+        motion, phases."""
         if objective == "energy":
             return self.model.one_step(noise, *condition)
         return solve(self._field(condition), noise, self._solver.kind, self._solver.steps)
@@ -219,12 +229,3 @@ class Losses(nn.Module):
         samples = batch.segment.shape[-1]
         log_level = nn.functional.interpolate(log_level, size=samples, mode="linear", align_corners=True)
         return batch.segment * torch.exp(-log_level), unsteadiness
-
-
-def _steadiness(unsteadiness: Tensor, previous: Tensor) -> Tensor:
-    """[B]: the weight of a segment, from what is known before it: near 1 where the level changes by less than a few
-    decibels and the past [B, 1, 200] is about as loud as the level predicts. In unit scale, a stop or a start looks
-    like an impact. A weight that depended on the segment itself would bias the network towards fewer impacts than
-    recorded."""
-    loudness = (previous.square().mean(dim=(1, 2)) / _LOUD_PAST).clamp(min=1.0)
-    return loudness.rsqrt() / (1.0 + (unsteadiness / _UNSTEADY_LOG_LEVEL).pow(4))

@@ -30,6 +30,7 @@ from haptoflow_training.recordings.synthetic import (
     record_condition_of,
 )
 from haptoflow_training.recordings.synthetic.materials import select_materials
+from haptoflow_training.recordings.wander import rib_wander_of, stick_slip_of
 from haptoflow_training.training.config import DataConfig
 from haptoflow_training.training.found_wave_vectors import with_found_wave_vectors
 
@@ -46,6 +47,7 @@ class SyntheticRecording:
     seed: int
     hand_duration_seconds: float
     hand_guided_share: float
+    accelerometer_noise: bool = True
 
     @property
     def label(self) -> str:
@@ -58,6 +60,7 @@ class SyntheticRecording:
             seed=self.seed,
             duration_seconds=self.hand_duration_seconds,
             guided_share=self.hand_guided_share,
+            accelerometer_noise=self.accelerometer_noise,
         )
 
 
@@ -99,8 +102,9 @@ def synthetic_recordings(data: DataConfig) -> Iterator[SyntheticRecording]:
         ) + hand_conditions(material, seed=data.recordings_seed, recordings=data.hand_recordings_per_label)
         for identity in identities:
             yield SyntheticRecording(
-                material, identity, data.recordings_seed, data.hand_duration_seconds, data.hand_guided_share
-            )
+                material, identity, data.recordings_seed, data.hand_duration_seconds, data.hand_guided_share,
+                data.accelerometer_noise,
+            )  # fmt: skip
 
 
 def _materials(data: DataConfig) -> tuple[Material, ...]:
@@ -162,6 +166,8 @@ def synthetic_label_infos(data: DataConfig) -> list[LabelInfo]:
             ),
             wave_vectors_per_mm=material.wave_vectors_per_mm,
             landing=landing_of(material),
+            stick_slip=stick_slip_of(material),
+            rib_wander=rib_wander_of(material),
         )
         for material in _materials(data)
     ]

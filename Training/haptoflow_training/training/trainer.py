@@ -25,8 +25,11 @@ from tqdm import tqdm
 
 from haptoflow_training.errors import InputError
 from haptoflow_training.extensions import located
-from haptoflow_training.models.haptoflow_model import HaptoFlowModel
+from haptoflow_training.models.haptoflow_model import FieldModel, HaptoFlowModel
 from haptoflow_training.models.level_model import LevelModel
+from haptoflow_training.models.refiner import Refiner
+from haptoflow_training.models.skeleton import Skeleton
+from haptoflow_training.models.skeleton_model import SkeletonModel
 from haptoflow_training.models.velocity_field import VelocityField
 from haptoflow_training.preprocessing.store import SegmentStore
 from haptoflow_training.stopping import Stopped, end_if_stopped
@@ -38,6 +41,7 @@ from haptoflow_training.training.losses import Losses
 from haptoflow_training.training.moving_average import MovingAverage
 from haptoflow_training.training.processes import Processes
 from haptoflow_training.training.run_log import MetricsLog, plot_metrics, source_commit, write_json
+from haptoflow_training.training.skeleton_losses import SkeletonLosses
 
 _COLUMNS = ("step", "phase", "field_loss", "level_loss", "validation_field_loss", "validation_level_loss", "seconds")
 _LOG_EVERY = 100
@@ -95,9 +99,10 @@ def trainer_of(config: TrainingConfig) -> type[Trainer]:
     return trainer
 
 
-def build_model(config: TrainingConfig, wave_vectors: WaveVectors) -> HaptoFlowModel:
-    """The untrained model of `config`. wave_vectors: of each label's ribs, empty for none."""
-    return trainer_of(config).build_model(config, wave_vectors)
+def build_model(config: TrainingConfig, wave_vectors: WaveVectors, specimens: int = 0) -> HaptoFlowModel:
+    """The untrained model of `config`. wave_vectors: of each label's ribs, empty for none. specimens: recorded pieces of
+    each label, 0 if they are not told apart."""
+    return trainer_of(config).build_model(config, wave_vectors, specimens)
 
 
 def planned_steps(config: TrainingConfig) -> list[int]:
@@ -107,8 +112,6 @@ def planned_steps(config: TrainingConfig) -> list[int]:
 
 class Trainer:
     """Trains one configuration on one store into one folder."""
-
-    losses: type[Losses] = Losses
 
     def __init__(
         self,
@@ -130,14 +133,15 @@ class Trainer:
         self._budget: Budget | None = None
         torch.set_num_threads(config.threads)
         torch.manual_seed(config.seed)
-        self.model = self.build_model(config, wave_vectors or [()] * len(store.labels))
+        specimens = 1 + max((each.specimen for each in store.recordings if each.specimen is not None), default=-1)
+        self.model = self.build_model(config, wave_vectors or [()] * len(store.labels), specimens)
         self.check_start(config, processes, base)
         if base is not None:
             adopt_base(self.model, base, list(store.labels))
         if start is not None:
             adopt_start(self.model, start, list(store.labels))
         self._balance = LabelBalance(len(store.labels))
-        self._losses = self.losses(
+        self._losses = self.losses_of(config)(
             self.model, config.solver, train_level=not config.recipe.shares_base, balance=self._balance
         )
         self._average = MovingAverage(self.model, optimiser.average_decay)
@@ -156,17 +160,22 @@ class Trainer:
         self._saved_at = 0.0
 
     @staticmethod
-    def build_model(config: TrainingConfig, wave_vectors: WaveVectors) -> HaptoFlowModel:
+    def build_model(config: TrainingConfig, wave_vectors: WaveVectors, specimens: int = 0) -> HaptoFlowModel:
         """As the function `build_model`, for configurations of this trainer."""
         shape = config.model
-        field = VelocityField(
-            width=shape.width,
-            previous_width=shape.previous_width,
-            ribs=shape.ribs,
-            impulses=shape.impulses,
-            levels=shape.levels,
-        )
-        return HaptoFlowModel(wave_vectors=wave_vectors, level=LevelModel(), field=field)
+        sizes: dict[str, int] = {
+            "width": shape.width, "previous_width": shape.previous_width, "levels": shape.levels,
+        }  # fmt: skip
+        given: dict[str, Any] = {"wave_vectors": wave_vectors, "level": LevelModel(), "specimens": specimens}
+        if shape.network == "field":
+            return FieldModel(**given, field=VelocityField(**sizes, ribs=shape.ribs, impulses=shape.impulses))
+        refiner = Refiner(**sizes) if shape.network == "refinement" else None
+        return SkeletonModel(**given, skeleton=Skeleton(shape.hidden), refiner=refiner)
+
+    @staticmethod
+    def losses_of(config: TrainingConfig) -> type[Losses]:
+        """The class of the losses of a run."""
+        return Losses if config.model.network == "field" else SkeletonLosses
 
     @staticmethod
     def possible_phases(config: TrainingConfig) -> list[Phase]:
@@ -182,9 +191,10 @@ class Trainer:
         if recipe.energy_steps:
             # If all pasts were the network's own, it would forget how to continue a recorded one.
             forced = Phase("self-forcing", "energy", recipe.self_forcing_steps, forced_rate, energy_batch, 2)
+        fitted = "likelihood" if config.model.network == "skeleton" else "flow"
         return [
             Phase("level", "level", level_steps, rate, 8 * batch),
-            Phase("field", "flow", optimiser.steps, rate, batch),
+            Phase("field", fitted, optimiser.steps, rate, batch),
             Phase("energy", "energy", recipe.energy_steps, recipe.energy_learning_rate, energy_batch),
             forced,
             Phase("polish", "level", polish_steps, rate, 8 * batch),
@@ -386,7 +396,7 @@ class Trainer:
             self.start_from_average()
         if phase.name == "polish":
             # The level is fitted again to the averaged embedding, which is the one that is exported.
-            for parameter in (*self.model.field.parameters(), *self.model.embedding.parameters()):
+            for parameter in (*self.model.network.parameters(), *self.model.embedding.parameters()):
                 parameter.requires_grad_(False)
 
     def start_from_average(self) -> None:
@@ -418,7 +428,7 @@ class Trainer:
     def validate(self, phase: Phase | None = None) -> tuple[float, float]:
         """(level loss, loss of the phase's objective) of the averaged model on fixed pairs of the validation split."""
         generator = torch.Generator().manual_seed(99)
-        losses = self.losses(self.averaged_model, self._config.solver)
+        losses = self.losses_of(self._config)(self.averaged_model, self._config.solver)
         objective = (phase or self._phases[-1]).objective
         if objective == "level":
             objective = next((entry.objective for entry in self._phases if entry.name == "field"), "level")
@@ -530,9 +540,15 @@ def _save_atomically(content: dict[str, object], path: Path) -> None:
 
 
 def adopt_base(model: HaptoFlowModel, folder: Path, labels: list[str]) -> None:
-    """Copy the embedding and level of the finished run in `folder` into `model`, and freeze them."""
+    """Copy the embedding, the level and, for a refinement, the skeleton of the finished run in `folder` into `model`,
+    and freeze them."""
     weights = _averaged_weights(folder, labels, "--base")
-    for name, part in (("embedding", model.embedding), ("level", model.level)):
+    shared: list[tuple[str, nn.Module]] = [("embedding", model.embedding), ("level", model.level)]
+    if isinstance(model, SkeletonModel):
+        if not any(key.startswith("skeleton.") for key in weights):
+            raise InputError(f"--base {folder}: has no skeleton; name a run whose model.network is 'skeleton'")
+        shared.append(("skeleton", model.skeleton))
+    for name, part in shared:
         # The base's own network, if it has one, is ignored.
         prefix = f"{name}."
         part.load_state_dict({key[len(prefix) :]: value for key, value in weights.items() if key.startswith(prefix)})
@@ -576,6 +592,7 @@ def load_trained(folder: Path) -> tuple[TrainingConfig, list[str], HaptoFlowMode
             f"{folder}` and its configuration first"
         )
     config = config_from_dict(content["config"], folder / "checkpoint.pt")
-    model = build_model(config, [()] * len(content["labels"]))
+    specimens = content["average"]["module"]["embedding.pieces"].shape[1]
+    model = build_model(config, [()] * len(content["labels"]), specimens)
     model.load_state_dict(content["average"]["module"])
     return config, content["labels"], model.eval().requires_grad_(False)

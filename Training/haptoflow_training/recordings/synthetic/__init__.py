@@ -10,12 +10,14 @@ from haptoflow_training.recordings.synthetic.protocols import (
 )
 from haptoflow_training.recordings.synthetic.recorder import record_condition
 from haptoflow_training.recordings.synthetic.specimens import (
+    FURTHER_SPECIMENS,
     HELD_OUT_SPECIMEN,
     TRAINING_SPECIMENS,
     training_specimen,
 )
 
 __all__ = [
+    "FURTHER_SPECIMENS",
     "HELD_OUT_SPECIMEN",
     "TRAINING_SPECIMENS",
     "Material",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,10 +12,13 @@ from scipy.signal import sosfilt
 from haptoflow_training.recordings.synthetic import filters
 from haptoflow_training.recordings.synthetic.features import (
     impact_acceleration,
+    rib_wander_turns,
     ruling_height,
     slip_acceleration,
+    slips_of,
 )
-from haptoflow_training.recordings.synthetic.materials import Material
+from haptoflow_training.recordings.synthetic.materials import MAXIMUM_RULINGS, Material
+from haptoflow_training.recordings.synthetic.spread import character_of, surface_gain
 from haptoflow_training.recordings.synthetic.surface import TipPath, random_height
 
 SIMULATION_RATE_HZ = 8000.0
@@ -38,27 +42,40 @@ _EFFECTIVE_MASS_KG = 0.02
 _TOUCH_NEWTONS = 0.02
 
 
-def tool_acceleration(
-    material: Material, path: TipPath, force_newtons: NDArray[np.float64], *, specimen: int
-) -> NDArray[np.float64]:
-    """Acceleration [n, 3] in m/s^2 (X, Y in the surface, Z along its normal), without gravity or noise.
+@dataclass(frozen=True)
+class ToolVibration:
+    """acceleration_mps2: [n, 3], X and Y in the surface, Z along its normal, without gravity or noise; zero where the
+    tip rests. wander_turns: [n, 3], the phases that do not follow from the position: for each of two families of ribs by
+    how many turns they lie ahead of evenly spaced ones, and the cycles of stick and slip; zero for what the material
+    lacks."""
 
-    path and force_newtons [n] are at SIMULATION_RATE_HZ. Zero where the tip rests.
-    """
+    acceleration_mps2: NDArray[np.float64]
+    wander_turns: NDArray[np.float64]
+
+
+def tool_vibration(
+    material: Material, path: TipPath, force_newtons: NDArray[np.float64], *, specimen: int
+) -> ToolVibration:
+    """The vibration of a tool whose tip follows `path`; path and force_newtons [n] are at SIMULATION_RATE_HZ."""
     rate = SIMULATION_RATE_HZ
     height, tilt = random_height(material, path, specimen=specimen)
+    wander_turns = np.zeros((len(height), MAXIMUM_RULINGS + 1))
     for number, ruling in enumerate(material.rulings):
-        height += ruling_height(material, ruling, number, path, specimen=specimen)
+        wander_turns[:, number] = rib_wander_turns(material, ruling, number, path, specimen=specimen)
+        height += ruling_height(material, ruling, number, path, wander_turns[:, number])
     impacts = impact_acceleration(material, path, rate, specimen=specimen)
-    slips = slip_acceleration(material, path, force_newtons, rate, specimen=specimen)
+    pulls = 0.5 * impacts
+    slips = slips_of(material, path, force_newtons, rate, specimen=specimen)
+    if slips is not None:
+        wander_turns[:, -1] = slips.turns
+        pulls = pulls + slip_acceleration(material, path, slips) / material.tangential_share
 
-    tail = _shared_sections(material, rate)
+    tail = _shared_sections(material, character_of(material, specimen).tilt_db_per_octave, rate)
     speed = np.hypot(*path.velocity_mmps.T)
     stiffening = resonance_steps(speed, force_newtons)
     normal = _through_contact(material, 1e-6 * height, impacts, stiffening, 1.0, 1.0, tail)
     along = material.tangential_share * _through_contact(
-        material, 1e-6 * height, 0.5 * impacts + slips / material.tangential_share, stiffening,
-        _TANGENTIAL_RESONANCE, _TANGENTIAL_DAMPING, tail,
+        material, 1e-6 * height, pulls, stiffening, _TANGENTIAL_RESONANCE, _TANGENTIAL_DAMPING, tail
     )
     across = _LATERAL_SHARE * material.tangential_share * _through_contact(
         material, 1e-6 * tilt, -0.5 * impacts, stiffening, _TANGENTIAL_RESONANCE, _TANGENTIAL_DAMPING, tail
@@ -67,11 +84,12 @@ def tool_acceleration(
     heading = path.velocity_mmps / np.sqrt(speed**2 + 1.0)[:, None]
     gain = np.maximum(force_newtons, _TOUCH_NEWTONS) ** material.calibrated.force_exponent
     gain = gain * np.clip(force_newtons / _TOUCH_NEWTONS, 0.0, 1.0)
+    gain = gain * surface_gain(material, path.position_mm, specimen)
     if material.nap != 0.0:
         grain = math.radians(material.grain_degrees)
         gain = gain * (1.0 - material.nap * (heading @ np.array([math.cos(grain), math.sin(grain)])))
     gain = gain * _bounce_gain(material, speed, force_newtons)
-    return np.stack(
+    acceleration = np.stack(
         [
             gain * (along * heading[:, 0] - across * heading[:, 1]),
             gain * (along * heading[:, 1] + across * heading[:, 0]),
@@ -79,10 +97,11 @@ def tool_acceleration(
         ],
         axis=1,
     )
+    return ToolVibration(acceleration, wander_turns)
 
 
-def _shared_sections(material: Material, rate_hz: float) -> NDArray[np.float64]:
-    sections = [filters.absorption(material.calibrated.absorption_db_per_octave, rate_hz)]
+def _shared_sections(material: Material, tilt_db_per_octave: float, rate_hz: float) -> NDArray[np.float64]:
+    sections = [filters.absorption(material.calibrated.absorption_db_per_octave + tilt_db_per_octave, rate_hz)]
     sections += [filters.peak(*mode, rate_hz) for mode in material.tool_modes]
     return np.concatenate(sections)
 

@@ -14,6 +14,9 @@ from haptoflow_training.errors import InputError
 
 DEFAULT_MATERIALS_PATH = Path(__file__).resolve().parents[3] / "configs" / "materials.toml"
 
+# Models and engine know so many families of ribs.
+MAXIMUM_RULINGS = 2
+
 
 @dataclass(frozen=True)
 class Targets:
@@ -80,9 +83,13 @@ class Material:
     impact_strength: float = 0.0
     impact_spacing_mm: float = 1.0
     impact_density: float = 0.0
+    impact_upward_share: float = 0.85
     stick_slip_strength: float = 0.0
     stick_slip_length_mm: float = 0.6
     stick_slip_critical_mmps: float = 150.0
+    specimen_spread_db: float = 1.5
+    specimen_tilt_db_per_octave: float = 0.4
+    place_spread_db: float = 0.7
 
     @property
     def dominant_ruling(self) -> Ruling | None:
@@ -97,6 +104,11 @@ class Material:
             (math.cos(angle) / ruling.wavelength_mm, math.sin(angle) / ruling.wavelength_mm)
             for angle, ruling in zip(angles, self.rulings, strict=True)
         )
+
+    @property
+    def without_spread(self) -> Material:
+        """The label's typical statistics on every specimen and at every place, as the targets state them."""
+        return replace(self, specimen_spread_db=0.0, specimen_tilt_db_per_octave=0.0, place_spread_db=0.0)
 
     def with_calibrated(self, **values: float) -> Material:
         return replace(self, calibrated=replace(self.calibrated, **values))
@@ -150,11 +162,17 @@ def _material(source: Path, index: int, entry: dict[str, Any]) -> Material:
         ("contact_damping", 0.1, 2.0),
         ("impact_spacing_mm", 0.05, 20.0),
         ("impact_density", 0.0, 1.0),
+        ("impact_upward_share", 0.0, 1.0),
         ("stick_slip_length_mm", 0.05, 20.0),
+        ("specimen_spread_db", 0.0, 6.0),
+        ("specimen_tilt_db_per_octave", 0.0, 2.0),
+        ("place_spread_db", 0.0, 3.0),
     ):
         value = getattr(material, name)
         if not lowest <= value <= highest:
             raise InputError(f"{where}: {name} = {value}; expected a number between {lowest} and {highest}")
+    if len(material.rulings) > MAXIMUM_RULINGS:
+        raise InputError(f"{where}: {len(material.rulings)} rulings; expected {MAXIMUM_RULINGS} at most")
     return material
 
 

@@ -88,12 +88,11 @@ def measure(
 ) -> Measurement:
     """Record the design's conditions, prepare the recordings as training does, and fit RMS = k (v/100)^p F^q.
 
-    Directions alternate between `specimens`.
-
-    The sensor's own noise, measured at rest, is subtracted as power. p and q are a least-squares fit of log RMS over
+    Directions alternate between `specimens`, all with the label's typical statistics: targets are of a label, not of a
+    piece. The sensor's own noise, measured at rest, is subtracted as power. p and q are a least-squares fit of log RMS over
     all conditions; k, centroid, slope are those of the reference condition, 100 mm/s and 1 N.
     """
-    record = partial(_waveforms, material, design, specimens)
+    record = partial(_waveforms, material.without_spread, design, specimens)
     resting = _spectrum(record(0.0, 1.0, seed, 1))
     rows, levels, centroids = [], [], []
     for speed in design.speeds_mmps:

@@ -62,7 +62,12 @@ def hand_conditions(material: Material, *, seed: int, recordings: int) -> list[R
 
 
 def record_machine_condition(
-    material: Material, identity: RecordingIdentity, *, seed: int, specimen: int | None = None
+    material: Material,
+    identity: RecordingIdentity,
+    *,
+    seed: int,
+    specimen: int | None = None,
+    accelerometer_noise: bool = True,
 ) -> Recording:
     """One machine pass. specimen: None selects the one that the training protocol records under this identity."""
     if identity.direction_degrees is None:
@@ -75,7 +80,7 @@ def record_machine_condition(
         force_newtons=1e-3 * identity.force_millinewtons,
     )
     chosen = training_specimen(identity) if specimen is None else specimen
-    return record_ride(material, identity, ride, rng, specimen=chosen)
+    return record_ride(material, identity, ride, rng, specimen=chosen, accelerometer_noise=accelerometer_noise)
 
 
 def record_hand_condition(
@@ -86,6 +91,7 @@ def record_hand_condition(
     duration_seconds: float = 8.0,
     guided_share: float = 0.0,
     specimen: int | None = None,
+    accelerometer_noise: bool = True,
 ) -> Recording:
     """One hand stroke: free, or guided for a `guided_share` of all, spread evenly over the repeats.
 
@@ -100,7 +106,7 @@ def record_hand_condition(
         median_force_newtons=1e-3 * identity.force_millinewtons,
     )
     chosen = training_specimen(identity) if specimen is None else specimen
-    return record_ride(material, identity, ride, rng, specimen=chosen)
+    return record_ride(material, identity, ride, rng, specimen=chosen, accelerometer_noise=accelerometer_noise)
 
 
 def record_condition_of(
@@ -110,13 +116,15 @@ def record_condition_of(
     seed: int,
     duration_seconds: float = 8.0,
     guided_share: float = 0.0,
+    accelerometer_noise: bool = True,
 ) -> Recording:
     """The training protocols' recording of an identity; duration_seconds and guided_share: of a hand recording."""
     if identity.protocol == "machine":
-        return record_machine_condition(material, identity, seed=seed)
+        return record_machine_condition(material, identity, seed=seed, accelerometer_noise=accelerometer_noise)
     return record_hand_condition(
-        material, identity, seed=seed, duration_seconds=duration_seconds, guided_share=guided_share
-    )
+        material, identity, seed=seed, duration_seconds=duration_seconds, guided_share=guided_share,
+        accelerometer_noise=accelerometer_noise,
+    )  # fmt: skip
 
 
 def _generator(seed: int, identity: RecordingIdentity) -> np.random.Generator:

@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from haptoflow_training.recordings.recording import Recording, RecordingIdentity
 from haptoflow_training.recordings.synthetic.carriers import Ride, path_from_velocity
-from haptoflow_training.recordings.synthetic.contact import SIMULATION_RATE_HZ, tool_acceleration
+from haptoflow_training.recordings.synthetic.contact import SIMULATION_RATE_HZ, tool_vibration
 from haptoflow_training.recordings.synthetic.materials import Material
 from haptoflow_training.recordings.synthetic.sensors import sense
 from haptoflow_training.recordings.synthetic.specimens import HELD_OUT_SPECIMEN
@@ -20,19 +20,22 @@ def record_ride(
     rng: np.random.Generator,
     *,
     specimen: int,
-    noise: bool = True,
+    accelerometer_noise: bool = True,
+    motion_noise: bool = True,
 ) -> Recording:
-    """The sensors' readings of one ride over one specimen of a material."""
-    texture = tool_acceleration(material, ride.path, ride.force_newtons, specimen=specimen)
+    """The sensors' readings of one ride over one specimen of a material; noise as of `sense`."""
+    texture = tool_vibration(material, ride.path, ride.force_newtons, specimen=specimen)
     return sense(
         identity,
         material.label,
         rng,
         rate_hz=SIMULATION_RATE_HZ,
-        acceleration_mps2=texture + ride.carrier_mps2,
+        acceleration_mps2=texture.acceleration_mps2 + ride.carrier_mps2,
         force_newtons=ride.force_newtons,
         position_mm=ride.path.position_mm,
-        noise=noise,
+        wander_turns=texture.wander_turns,
+        accelerometer_noise=accelerometer_noise,
+        motion_noise=motion_noise,
         specimen=specimen,
     )
 
@@ -45,14 +48,15 @@ def record_condition(
     duration_seconds: float,
     seed: int,
     specimen: int = HELD_OUT_SPECIMEN,
-    noise: bool = True,
+    accelerometer_noise: bool = True,
+    motion_noise: bool = True,
 ) -> Recording:
     """A recording along a prescribed trajectory, without carrier noise: the reference of an evaluation.
 
     velocity_mps: (vx, vy), each a number or an array spread evenly over the duration, m/s, up to 1.5 in magnitude.
     force_newtons: a number or such an array, 0-5 N. seed: of the place on the surface and the sensor noise. specimen:
-    the piece of the material, 0 or more; by default the one that no training protocol records. `noise` False leaves out
-    sensor noise and quantisation. Deterministic by its arguments.
+    the piece of the material, 0 or more; by default the typical one, which no training protocol records. Noise as of
+    `sense`. Deterministic by its arguments.
     """
     count = int(round(duration_seconds * SIMULATION_RATE_HZ))
     velocity_mmps = 1e3 * np.stack([_spread(component, count) for component in velocity_mps], axis=1)
@@ -67,7 +71,10 @@ def record_condition(
     rng = np.random.default_rng([seed, material.texture_id, 5])
     path = path_from_velocity(rng.uniform(-500.0, 500.0, size=2), velocity_mmps)
     ride = Ride(path, force, np.zeros((count, 3)))
-    return record_ride(material, identity, ride, rng, specimen=specimen, noise=noise)
+    return record_ride(
+        material, identity, ride, rng, specimen=specimen, accelerometer_noise=accelerometer_noise,
+        motion_noise=motion_noise,
+    )  # fmt: skip
 
 
 def _spread(values: ArrayLike, count: int) -> NDArray[np.float64]:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import map_coordinates, spline_filter1d
 from scipy.signal import sosfilt
 
-from haptoflow_training.recordings.recording import STANDARD_GRAVITY_MPS2, Recording, RecordingIdentity
+from haptoflow_training.recordings.recording import STANDARD_GRAVITY_MPS2, Recording, RecordingIdentity, Wander
 from haptoflow_training.recordings.synthetic import filters
 
 _FULL_SCALE_G = 16.0
@@ -24,6 +24,8 @@ _MOUNT_RESONANCE = (1400.0, 4.0, 2.0)
 _LOAD_CELL_HZ, _LOAD_CELL_UPDATES_HZ, _LOAD_CELL_STEP_NEWTONS = 6000.0, 80.0, 0.01
 _LOAD_CELL_ACCURACY_NEWTONS = 0.05
 _POSITION_HZ, _POSITION_STEP_MM = 100.0, 0.01
+# Every so many samples of the simulation: fast ribs jitter too quickly for the position's clock.
+_WANDER_EVERY = 4
 
 
 def sense(
@@ -35,12 +37,16 @@ def sense(
     acceleration_mps2: NDArray[np.float64],
     force_newtons: NDArray[np.float64],
     position_mm: NDArray[np.float64],
-    noise: bool = True,
+    wander_turns: NDArray[np.float64],
+    accelerometer_noise: bool = True,
+    motion_noise: bool = True,
     specimen: int | None = None,
 ) -> Recording:
     """A Recording of the simulated quantities on a uniform clock: acceleration [n, 3], force [n], position [n, 2].
+    wander_turns [n, 3] is no sensor's and stays exact.
 
-    Without `noise`, noise, quantisation and offsets are left out; clocks and ranges stay.
+    Without `accelerometer_noise`, the acceleration has neither noise nor quantisation; without `motion_noise`, force and
+    position have neither, nor offsets. Clocks and ranges stay, and so does everything about the other sensors.
     """
     duration = len(force_newtons) / rate_hz
     stamps = _irregular_stamps(rng, duration - 2.0 / rate_hz)
@@ -51,19 +57,23 @@ def sense(
         coefficients = spline_filter1d(mounted[:, axis] / STANDARD_GRAVITY_MPS2, mode="nearest")
         sensed[:, axis] = map_coordinates(coefficients, cells, order=3, mode="nearest", prefilter=False)
     sensed[:, 2] -= 1.0
-    if noise:
+    # Drawn before the accelerometer's noise, so that the force is the same without it.
+    force_time, force = _load_cell(rng, rate_hz, force_newtons, motion_noise)
+    if accelerometer_noise:
         bandwidth_hz = 0.5 * len(stamps) / duration
         sensed += _NOISE_G_PER_ROOT_HZ * math.sqrt(bandwidth_hz) * rng.standard_normal(sensed.shape)
     sensed = soft_limit(sensed, _FULL_SCALE_G)
-    if noise:
+    if accelerometer_noise:
         sensed = np.round(sensed / _STEP_G) * _STEP_G
 
-    force_time, force = _load_cell(rng, rate_hz, force_newtons, noise)
     position_time = np.arange(int(duration * _POSITION_HZ)) / _POSITION_HZ
     position = position_mm[np.minimum(np.round(position_time * rate_hz).astype(int), len(position_mm) - 1)]
-    if noise:
+    if motion_noise:
         position = np.round(position / _POSITION_STEP_MM) * _POSITION_STEP_MM
-    return Recording(identity, label, stamps, sensed, force_time, force, position_time, position, specimen)
+    wander = Wander(np.arange(0, len(force_newtons), _WANDER_EVERY) / rate_hz, wander_turns[::_WANDER_EVERY])
+    return Recording(
+        identity, label, stamps, sensed, force_time, force, position_time, position, specimen, wander=wander
+    )  # fmt: skip
 
 
 def soft_limit(values: NDArray[np.float64], limit: float) -> NDArray[np.float64]:

@@ -1,0 +1,64 @@
+"""The skeleton of a model as tensors of its file: what native code computes without a graph (model-format.md)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from torch import Tensor, nn
+
+from haptoflow_training.models.condition_perceptron import ConditionPerceptron
+from haptoflow_training.models.level_model import LevelModel
+from haptoflow_training.models.refiner import Refiner
+from haptoflow_training.models.rung_impulses import TAIL_RUNGS
+from haptoflow_training.models.skeleton import LINE_HARMONICS, ORDER, SWING_HARMONICS, Skeleton
+from haptoflow_training.models.velocity_field import parameter_count
+
+Tensors = dict[str, NDArray[np.float32]]
+
+
+def skeleton_header(skeleton: Skeleton) -> dict[str, Any]:
+    """The key `skeleton` of the file's header."""
+    return {
+        "order": ORDER,
+        "harmonics": LINE_HARMONICS,
+        "swing_harmonics": SWING_HARMONICS,
+        "rungs": list(TAIL_RUNGS),
+        "hidden": skeleton.perceptron.layers[0].out_features,
+        "parameters": parameter_count(skeleton),
+    }
+
+
+def skeleton_tensors(level: LevelModel, skeleton: Skeleton) -> Tensors:
+    """The tensors that all tiers with a skeleton share."""
+    return {
+        "level.law.weight": _numbers(level.power_law.weight),
+        "level.law.bias": _numbers(level.power_law.bias),
+        **_layers("level.correction", level.correction),
+        **_layers("skeleton", skeleton.perceptron.layers),
+    }
+
+
+def condition_tensors(tier: str, refiner: Refiner) -> Tensors:
+    """The perceptron of a tier's FiLM parameters; their factors are part of its last layer."""
+    condition: ConditionPerceptron = refiner.condition
+    tensors = _layers(f"{tier}.condition", condition.layers)
+    factors = _numbers(refiner.film_factors)
+    tensors[f"{tier}.condition.4.weight"] = tensors[f"{tier}.condition.4.weight"] * factors[:, None]
+    tensors[f"{tier}.condition.4.bias"] = tensors[f"{tier}.condition.4.bias"] * factors
+    return tensors
+
+
+def _layers(name: str, layers: nn.Sequential) -> Tensors:
+    return {
+        f"{name}.{place}.{kind}": _numbers(getattr(layer, kind))
+        for place, layer in enumerate(layers)
+        if isinstance(layer, nn.Linear)
+        for kind in ("weight", "bias")
+    }
+
+
+def _numbers(values: Tensor) -> NDArray[np.float32]:
+    numbers: NDArray[np.float32] = values.detach().numpy().astype(np.float32).copy()
+    return numbers

@@ -1,0 +1,26 @@
+"""A perceptron of material and motion: what native code evaluates in place of a graph."""
+
+from __future__ import annotations
+
+import torch
+from torch import Tensor, nn
+
+from haptoflow_training.models.conditioning import EMBEDDING_SIZE, MotionFeatures
+
+
+class ConditionPerceptron(nn.Module):
+    """Embedding [B, 64] and motion features through two hidden layers to [B, outputs]."""
+
+    def __init__(self, outputs: int, hidden: int = 256) -> None:
+        super().__init__()
+        self.features = MotionFeatures()
+        self.layers = nn.Sequential(
+            nn.Linear(EMBEDDING_SIZE + self.features.size, hidden),
+            nn.SiLU(),
+            nn.Linear(hidden, hidden),
+            nn.SiLU(),
+            nn.Linear(hidden, outputs),
+        )
+
+    def forward(self, embedding: Tensor, motion: Tensor) -> Tensor:
+        return self.layers(torch.cat([embedding, self.features(motion)], dim=1))

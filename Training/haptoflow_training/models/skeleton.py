@@ -1,0 +1,114 @@
+"""The skeleton: what sounds without a network.
+
+Noise drives a small filter that continues the previous waveform; the drive swings with the ribs; rib lines and rare
+impulses are added. One perceptron of material and motion gives every coefficient. Native code computes the same
+(src/skeleton), so a segment costs microseconds. Kin: autoregressive rendering of textures after Culbertson et al. 2014;
+as the start of a network's refinement, PriorGrad (Lee et al. 2022) and SpecGrad (Koizumi et al. 2022).
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import torch
+from torch import Tensor, nn
+
+from haptoflow_training.models.all_pole_filter import AllPoleFilter, PredictedFilter, prediction_errors
+from haptoflow_training.models.condition_perceptron import ConditionPerceptron
+from haptoflow_training.models.level_model import PREVIOUS_LIMIT
+from haptoflow_training.models.rung_impulses import ATOMS, TailImpulses, TAIL_RUNGS
+from haptoflow_training.models.surface_waves import FAMILIES, SurfaceWaves
+
+ORDER = 24
+SWING_HARMONICS = 5
+LINE_HARMONICS = 14
+_MAXIMUM_SWING_HZ, _MAXIMUM_LINE_HZ = 700.0, 960.0
+# Bounds of what the perceptron predicts, so that no material, blend or motion drives the output out of range.
+_SWING_LIMIT, _LINE_LIMIT, _RUNG_LIMIT = 2.0, 3.0, 8.0
+SWING_GAINS = FAMILIES * 2 * SWING_HARMONICS
+LINE_GAINS = FAMILIES * 2 * LINE_HARMONICS
+RUNG_GAINS = 2 * len(TAIL_RUNGS) * ATOMS
+OUTPUTS = (ORDER + 1, SWING_GAINS, LINE_GAINS, RUNG_GAINS)
+
+
+class SkeletonParts(NamedTuple):
+    """begun, struck [B, 1, 200]: the skeleton's segment, and the impulses in it. cosines, sines [B, 3, 5, 200]: the
+    waves that swing the drive."""
+
+    begun: Tensor
+    struck: Tensor
+    cosines: Tensor
+    sines: Tensor
+
+
+class SkeletonGains(NamedTuple):
+    """What the perceptron says of a condition. coefficients [B, 24] and log_gain [B, 1] of the filter; swing [B, 3, 2,
+    5, 1], lines [B, 3, 2, 14, 1]: of cosines and sines; rungs [B, 130]."""
+
+    coefficients: Tensor
+    log_gain: Tensor
+    swing: Tensor
+    lines: Tensor
+    rungs: Tensor
+
+
+def _limited(values: Tensor, limit: float) -> Tensor:
+    return limit * torch.tanh(values / limit)
+
+
+class Skeleton(nn.Module):
+    """Segments in unit scale from noise, previous waveform, material, motion and phases."""
+
+    def __init__(self, hidden: int = 160) -> None:
+        super().__init__()
+        self.perceptron = ConditionPerceptron(sum(OUTPUTS), hidden)
+        self.filter = AllPoleFilter(ORDER)
+        self.predicted = PredictedFilter(ORDER)
+        self.impulses = TailImpulses()
+        self.swing_waves = SurfaceWaves(SWING_HARMONICS, _MAXIMUM_SWING_HZ)
+        self.line_waves = SurfaceWaves(LINE_HARMONICS, _MAXIMUM_LINE_HZ, first_sample=-ORDER)
+        last = self.perceptron.layers[-1]
+        with torch.no_grad():
+            last.weight[ORDER + 1 :] = 0.0
+            last.bias[ORDER + 1 :] = 0.0
+
+    def gains(self, embedding: Tensor, motion: Tensor) -> SkeletonGains:
+        filtering, swing, lines, rungs = self.perceptron(embedding, motion).split(list(OUTPUTS), dim=1)
+        return SkeletonGains(
+            *self.predicted(filtering),
+            swing.reshape(-1, FAMILIES, 2, SWING_HARMONICS, 1),
+            _limited(lines.reshape(-1, FAMILIES, 2, LINE_HARMONICS, 1), _LINE_LIMIT),
+            _limited(rungs, _RUNG_LIMIT),
+        )
+
+    def parts(self, noise: Tensor, previous: Tensor, gains: SkeletonGains, phases: Tensor) -> SkeletonParts:
+        """The segment of noise and previous waveform [B, 1, 200]. Only the likelihood fits the filter; the energy
+        distance, which trains all else, would only blur it."""
+        lines = self._lines(gains, phases)
+        waves = self.swing_waves(phases)
+        drive = noise[:, 0] * (gains.log_gain.detach() + self._swung(gains, waves)).exp()
+        rest = previous[:, 0, -ORDER:] - lines[:, :ORDER]
+        filtered = self.filter(drive, gains.coefficients.detach(), rest).clamp(-PREVIOUS_LIMIT, PREVIOUS_LIMIT)
+        struck = self.impulses(noise, gains.rungs)
+        return SkeletonParts((lines[:, ORDER:] + filtered).unsqueeze(1) + struck, struck, *waves)
+
+    def forward(self, noise: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, phases: Tensor) -> Tensor:
+        return self.parts(noise, previous, self.gains(embedding, motion), phases).begun
+
+    def likelihood(self, segment: Tensor, previous: Tensor, gains: SkeletonGains, phases: Tensor) -> Tensor:
+        """[B]: Gaussian negative log-likelihood per sample of the one-step prediction errors of a recorded segment and
+        its past [B, 1, 200], without the lines."""
+        log_gain = gains.log_gain + self._swung(gains, self.swing_waves(phases))
+        wave = torch.cat([previous[:, 0, -ORDER:], segment[:, 0]], dim=1) - self._lines(gains, phases)
+        error = prediction_errors(wave, gains.coefficients)
+        return (log_gain + 0.5 * error.square() * torch.exp(-2.0 * log_gain)).mean(dim=1)
+
+    def _lines(self, gains: SkeletonGains, phases: Tensor) -> Tensor:
+        """[B, 24 + 200]: the lines, from the filter's memory on."""
+        cosines, sines = self.line_waves(phases)
+        return (gains.lines[:, :, 0] * cosines + gains.lines[:, :, 1] * sines).sum(dim=(1, 2))
+
+    def _swung(self, gains: SkeletonGains, waves: tuple[Tensor, Tensor]) -> Tensor:
+        """[B, 200]: what the ribs add to the drive's log level."""
+        total = (gains.swing[:, :, 0] * waves[0] + gains.swing[:, :, 1] * waves[1]).sum(dim=(1, 2))
+        return _limited(total, _SWING_LIMIT)

@@ -1,0 +1,65 @@
+"""Waves fixed to the surface: harmonics of ribs and of stick-slip, at known phases and rates.
+
+A surface has up to three families: ribs or threads along two wave vectors, and the relaxation oscillation of a tip that
+sticks and slips. `phases` [B, 6] says where each is at a segment's first sample, in turns, and then how fast each
+advances, in Hz and with sign. A recorder that knows its ribs states true phases; at run time the engine adds them up.
+"""
+
+from __future__ import annotations
+
+import math
+
+import torch
+from torch import Tensor, nn
+
+from haptoflow_training.models.label_embedding import WAVE_VECTORS
+from haptoflow_training.waveform import SAMPLE_RATE_HZ, SEGMENT_SAMPLES
+
+FAMILIES = WAVE_VECTORS + 1
+# Below this rate a family stands still.
+MINIMUM_HZ = 0.5
+
+
+class SurfaceWaves(nn.Module):
+    """Cosines and sines of the harmonics of each family, zero where the harmonic lies outside the band.
+
+    first_sample: of what `forward` computes, relative to the segment; negative for samples before it. The phase is
+    counted in the direction of motion, so that a stroke that turns back meets the same ribs backwards.
+    """
+
+    seconds: Tensor
+
+    def __init__(self, harmonics: int, maximum_hz: float, first_sample: int = 0) -> None:
+        super().__init__()
+        self.harmonics, self.maximum_hz = harmonics, maximum_hz
+        samples = torch.arange(float(first_sample), float(SEGMENT_SAMPLES))
+        self.register_buffer("seconds", ((samples + 0.5) / SAMPLE_RATE_HZ).reshape(1, 1, -1), persistent=False)
+
+    @torch.no_grad()
+    def forward(self, phases: Tensor) -> tuple[Tensor, Tensor]:
+        """phases [B, 6] to cosines and sines [B, 3, H, N], without gradient: where ribs are is not learnt."""
+        turns, rates = phases.reshape(-1, 2, FAMILIES, 1).unbind(dim=1)
+        size = rates.abs()
+        ahead = torch.where(rates < 0.0, -turns, turns)
+        angle = 2.0 * math.pi * (ahead + size * self.seconds)
+        alive = (size > MINIMUM_HZ).to(phases.dtype)
+        # Harmonics by rotation: cosines and sines of angles themselves take most of a training step.
+        cosine, sine = torch.cos(angle), torch.sin(angle)
+        turned_cosine, turned_sine = cosine * alive, sine * alive
+        cosines, sines = [], []
+        for order in range(1, self.harmonics + 1):
+            inside = (order * size < self.maximum_hz).to(phases.dtype)
+            cosines.append(inside * turned_cosine)
+            sines.append(inside * turned_sine)
+            turned_cosine, turned_sine = (
+                turned_cosine * cosine - turned_sine * sine,
+                turned_sine * cosine + turned_cosine * sine,
+            )
+        return torch.stack(cosines, dim=2), torch.stack(sines, dim=2)
+
+
+def advanced(phases: Tensor, samples: int) -> Tensor:
+    """The phases [B, 6] of a segment that begins `samples` later at the same rates."""
+    turns, rates = phases.chunk(2, dim=1)
+    later = turns + rates * (samples / SAMPLE_RATE_HZ)
+    return torch.cat([later - later.floor(), rates], dim=1)

@@ -1,0 +1,67 @@
+"""The losses of a skeleton and of its refinement: `likelihood` and `energy`."""
+
+from __future__ import annotations
+
+import torch
+from torch import Tensor
+
+from haptoflow_training.models.skeleton_model import SkeletonModel
+from haptoflow_training.models.surface_waves import advanced
+from haptoflow_training.training.losses import Losses, ScaledBatch
+
+# Samples by which the second pass of the shift's loss is begun later: up to the hop of an update at 72 Hz.
+_MAXIMUM_SHIFT = 27
+_SHIFT_WEIGHT = 1.0
+_SMALL = 1e-6
+
+
+class SkeletonLosses(Losses):
+    """In the energy phases a skeleton keeps its likelihood, because the embedding would drift away from the filter
+    without it. A refinement, for which the skeleton is given, also learns that a segment begun later says the same of
+    the same samples: a network of patches would else depend on where its patches lie, and be heard at every hop."""
+
+    model: SkeletonModel
+
+    def field_loss(self, given: ScaledBatch, objective: str, generator: torch.Generator) -> Tensor:
+        if self.model.refiner is None:
+            return self._skeleton_loss(given, objective, generator)
+        return self._refinement_loss(given, generator)
+
+    def drawn(self, objective: str, noise: Tensor, condition: tuple[Tensor, Tensor, Tensor, Tensor]) -> Tensor:
+        return self.model.one_step(noise, *condition)
+
+    def _skeleton_loss(self, given: ScaledBatch, objective: str, generator: torch.Generator) -> Tensor:
+        skeleton = self.model.skeleton
+        gains = skeleton.gains(given.embedding, given.batch.motion)
+        # All segments weigh alike: weighting down unpredictable ones would bias a likelihood towards too little
+        # variance.
+        likelihood = skeleton.likelihood(given.segment, given.recorded_previous, gains, given.phases).mean()
+        if objective == "likelihood":
+            return likelihood
+        drawn = tuple(
+            skeleton.parts(self._noise(given, generator), given.previous, gains, given.phases).begun for _ in range(2)
+        )
+        return likelihood + self.one_step_loss(given, (drawn[0], drawn[1]))
+
+    def _refinement_loss(self, given: ScaledBatch, generator: torch.Generator) -> Tensor:
+        model = self.model
+        noise = self._noise(given, generator)
+        # Both draws in one pass: few large matrix products are faster than many small ones.
+        both = torch.cat([noise, self._noise(given, generator)])
+        condition = [torch.cat([part, part]) for part in given.condition]
+        first, second = model.one_step(both, *condition).chunk(2)
+        loss = self.one_step_loss(given, (first, second))
+        later = int(torch.randint(1, _MAXIMUM_SHIFT + 1, (1,), generator=generator))
+        again = model.one_step(
+            torch.cat([noise[:, :, later:], self._noise(given, generator)[:, :, :later]], dim=2),
+            torch.cat([given.previous[:, :, later:], first[:, :, :later]], dim=2),
+            given.embedding, given.batch.motion, advanced(given.phases, later),
+        )  # fmt: skip
+        difference = again[:, 0, : again.shape[2] - later] - first[:, 0, later:]
+        weight = given.steadiness
+        shift = (weight * (difference.square().mean(dim=1) + _SMALL).sqrt()).sum() / weight.sum()
+        return loss + _SHIFT_WEIGHT * shift
+
+    @staticmethod
+    def _noise(given: ScaledBatch, generator: torch.Generator) -> Tensor:
+        return torch.randn(given.segment.shape, generator=generator)
