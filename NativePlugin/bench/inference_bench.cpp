@@ -22,7 +22,7 @@ constexpr std::size_t requestCount = 64;
 struct Contender {
     std::string name;
     const model::Tier& tier;
-    std::unique_ptr<inference::OnnxSegmentGenerator> generator;
+    std::unique_ptr<inference::TierGenerator> generator;
     RandomRequests requests;
     std::array<float, inference::segmentSamples> segment{};
     std::vector<double> hotSeconds{};
@@ -81,9 +81,9 @@ void inRandomOrder(std::deque<Contender>& contenders, std::size_t runs, std::mt1
 nlohmann::ordered_json figuresOf(const Contender& contender) {
     nlohmann::ordered_json figures = toJson(distributionOf(contender.hotSeconds), milliseconds);
     figures["paced"] = toJson(distributionOf(contender.pacedSeconds), milliseconds);
-    const bool isDirect = contender.tier.kind == model::TierKind::direct;
-    figures["solver"] = isDirect ? "direct" : std::string(model::solverName(contender.tier.solver));
-    figures["steps"] = isDirect ? 1 : contender.tier.steps;
+    const model::Tier& tier = contender.tier;
+    figures["solver"] = std::string(tier.isSolved() ? model::solverName(tier.solver) : model::kindName(tier.kind));
+    figures["steps"] = tier.isSolved() ? tier.steps : 1;
     figures["parameters"] = contender.tier.parameters;
     return figures;
 }

@@ -131,4 +131,8 @@ std::shared_ptr<const inference::Runtime> openRuntime() {
     }
 }
 
+std::shared_ptr<const inference::Runtime> openRuntimeFor(std::span<const model::Tier> tiers) {
+    return std::ranges::any_of(tiers, &model::Tier::needsOnnxRuntime) ? openRuntime() : nullptr;
+}
+
 }  // namespace haptoflow::cli

@@ -14,9 +14,6 @@
 
 namespace haptoflow::skeleton {
 
-/// Turns of the three families at the segment's first sample, then their signed rates in Hz.
-using Phases = std::array<float, 2 * familyCount>;
-
 /// What a segment is made of. The spans must live while it is used.
 struct Moment {
     std::span<const float, embeddingSize> embedding;

@@ -27,6 +27,9 @@ inline constexpr float unitLimit = 16.0F;
 /// Largest magnitude of the noise; no number of inference::fillStandardNormal reaches it.
 inline constexpr float noiseLimit = 9.0F;
 
+/// Turns of the three families at a segment's first sample, then their signed rates in Hz.
+using Phases = std::array<float, 2 * familyCount>;
+
 using Segment = std::span<const float, segmentSamples>;
 
 /// Where the outputs of the perceptron `skeleton` begin: reflections and gain, swing and lines of each family, rungs.
