@@ -4,6 +4,7 @@
 #include "exit_codes.hpp"
 #include "inference/inference_error.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <optional>
 #include <system_error>
