@@ -82,9 +82,11 @@ std::vector<inference::SegmentRequest> requestsOf(const haptoflow_batch* batch, 
         std::copy_n(given.embeddings + index * inference::embeddingSize, inference::embeddingSize,
                     request.embedding.begin());
         std::copy_n(given.motions + index * motionSize, motionSize, request.motion.begin());
-        if (withWaveforms && given.rib_phases != nullptr) {
+        if (withWaveforms) {
             std::array<float, inference::ribCount> turns{};
-            std::copy_n(given.rib_phases + index * inference::ribCount, turns.size(), turns.begin());
+            if (given.rib_phases != nullptr) {
+                std::copy_n(given.rib_phases + index * inference::ribCount, turns.size(), turns.begin());
+            }
             request.phases = inference::phasesOf(request.embedding, request.motion, turns);
         }
         if (given.own_levels_mps2 != nullptr) {
