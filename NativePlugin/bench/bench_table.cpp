@@ -200,7 +200,7 @@ void printNoise(std::ostream& stream, const Json& paces) {
     printTable(stream, "noise of one segment, us", table);
 }
 
-void printVoices(std::ostream& stream, const Json& rows) {
+void printVoices(std::ostream& stream, const std::string& title, const Json& rows) {
     std::vector<Row> table{
         {"voices", "batched p50", "p99", "worst", "one by one p50", "p99", "worst", "batched / one by one"}};
     for (const Json& entry : rows) {
@@ -210,7 +210,7 @@ void printVoices(std::ostream& stream, const Json& rows) {
         row.push_back(figure(entry["ratio"]));
         table.push_back(row);
     }
-    printTable(stream, "voices, one update, ms", table);
+    printTable(stream, title, table);
 }
 
 void printIdle(std::ostream& stream, const Json& idle) {
@@ -276,7 +276,9 @@ void printTables(std::ostream& stream, const Json& report) {
     print("stop_ms", [&](const Json& section) { printLatency(stream, "stop, ms", section); });
     print("inference_ms", [&](const Json&) { printInference(stream, report); });
     print("noise_us", [&](const Json& section) { printNoise(stream, section); });
-    print("voices", [&](const Json& section) { printVoices(stream, section); });
+    print("voices", [&](const Json& section) { printVoices(stream, "voices, one update, ms", section); });
+    print("sketch_voices",
+          [&](const Json& section) { printVoices(stream, "voices of the sketch, one update, ms", section); });
     print("idle", [&](const Json& section) { printIdle(stream, section); });
     print("load", [&](const Json&) { printLoad(stream, report); });
     print("contact", [&](const Json& section) { printContact(stream, section); });

@@ -22,7 +22,7 @@ constexpr std::size_t requestCount = 64;
 struct Contender {
     std::string name;
     const model::Tier& tier;
-    std::unique_ptr<inference::OnnxSegmentGenerator> generator;
+    std::unique_ptr<inference::TierGenerator> generator;
     RandomRequests requests;
     std::array<float, inference::segmentSamples> segment{};
     std::vector<double> hotSeconds{};
@@ -81,9 +81,9 @@ void inRandomOrder(std::deque<Contender>& contenders, std::size_t runs, std::mt1
 nlohmann::ordered_json figuresOf(const Contender& contender) {
     nlohmann::ordered_json figures = toJson(distributionOf(contender.hotSeconds), milliseconds);
     figures["paced"] = toJson(distributionOf(contender.pacedSeconds), milliseconds);
-    const bool isDirect = contender.tier.kind == model::TierKind::direct;
-    figures["solver"] = isDirect ? "direct" : std::string(model::solverName(contender.tier.solver));
-    figures["steps"] = isDirect ? 1 : contender.tier.steps;
+    const model::Tier& tier = contender.tier;
+    figures["solver"] = std::string(tier.isSolved() ? model::solverName(tier.solver) : model::kindName(tier.kind));
+    figures["steps"] = tier.isSolved() ? tier.steps : 1;
     figures["parameters"] = contender.tier.parameters;
     return figures;
 }
@@ -174,6 +174,42 @@ nlohmann::ordered_json reportOf(const std::deque<Contender>& contenders, const S
     return report;
 }
 
+/// One row for each number of voices: the tier's segments in one batch, and as many batches of one.
+nlohmann::ordered_json voiceRows(const Subjects& subjects, const model::Tier& tier, const BenchPlan& plan,
+                                 const Advance& advance) {
+    const std::size_t most = *std::ranges::max_element(plan.batchVoices);
+    const auto batched = subjects.generator(*subjects.model, tier, most);
+    const auto single = subjects.generator(*subjects.model, tier, 1);
+    RandomRequests source(*subjects.model, most, subjects.seed);
+    std::vector<float> segments(most * inference::segmentSamples);
+    std::mt19937_64 random(subjects.seed);
+    nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+    for (const std::size_t voices : plan.batchVoices) {
+        const auto target = std::span(segments).first(voices * inference::segmentSamples);
+        std::array<std::vector<double>, 2> seconds;
+        for (std::size_t run = 0; run < plan.batchRuns() + 1; ++run) {
+            const auto requests = source.next(voices);
+            const std::size_t first = random() % 2;
+            for (const std::size_t kind : {first, 1 - first}) {
+                auto& generator = kind == 0 ? *batched : *single;
+                const double taken = secondsOf([&] { generator.generate(requests, target); });
+                if (run > 0) {
+                    seconds.at(kind).push_back(taken);
+                }
+            }
+        }
+        const nlohmann::ordered_json batch = toJson(distributionOf(seconds[0]), milliseconds);
+        const nlohmann::ordered_json oneByOne = toJson(distributionOf(seconds[1]), milliseconds);
+        rows.push_back({{"count", voices},
+                        {"ms_per_update", batch["p50"]},
+                        {"batched", batch},
+                        {"one_by_one", oneByOne},
+                        {"ratio", ratioOf(batch["p50"].get<double>(), oneByOne["p50"].get<double>())}});
+        advance(static_cast<double>(rows.size()) / static_cast<double>(plan.batchVoices.size()));
+    }
+    return rows;
+}
+
 }  // namespace
 
 nlohmann::ordered_json measureInference(const Subjects& subjects, const BenchPlan& plan, const Advance& advance) {
@@ -214,37 +250,16 @@ nlohmann::ordered_json measureInference(const Subjects& subjects, const BenchPla
 
 nlohmann::ordered_json measureVoices(const Subjects& subjects, const BenchPlan& plan, const Advance& advance) {
     const dsp::ScopedFlushDenormals flush;
-    const std::size_t most = *std::ranges::max_element(plan.batchVoices);
-    const auto batched = subjects.generator(*subjects.model, subjects.standard(), most);
-    const auto single = subjects.generator(*subjects.model, subjects.standard(), 1);
-    RandomRequests source(*subjects.model, most, subjects.seed);
-    std::vector<float> segments(most * inference::segmentSamples);
-    std::mt19937_64 random(subjects.seed);
-    nlohmann::ordered_json rows = nlohmann::ordered_json::array();
-    for (const std::size_t voices : plan.batchVoices) {
-        const auto target = std::span(segments).first(voices * inference::segmentSamples);
-        std::array<std::vector<double>, 2> seconds;
-        for (std::size_t run = 0; run < plan.batchRuns() + 1; ++run) {
-            const auto requests = source.next(voices);
-            const std::size_t first = random() % 2;
-            for (const std::size_t kind : {first, 1 - first}) {
-                auto& generator = kind == 0 ? *batched : *single;
-                const double taken = secondsOf([&] { generator.generate(requests, target); });
-                if (run > 0) {
-                    seconds.at(kind).push_back(taken);
-                }
-            }
-        }
-        const nlohmann::ordered_json batch = toJson(distributionOf(seconds[0]), milliseconds);
-        const nlohmann::ordered_json oneByOne = toJson(distributionOf(seconds[1]), milliseconds);
-        rows.push_back({{"count", voices},
-                        {"ms_per_update", batch["p50"]},
-                        {"batched", batch},
-                        {"one_by_one", oneByOne},
-                        {"ratio", ratioOf(batch["p50"].get<double>(), oneByOne["p50"].get<double>())}});
-        advance(static_cast<double>(rows.size()) / static_cast<double>(plan.batchVoices.size()));
+    const auto& tiers = subjects.model->header().tiers;
+    const auto sketch = std::ranges::find(tiers, model::TierKind::skeleton, &model::Tier::kind);
+    const double shares = sketch != tiers.end() ? 2.0 : 1.0;
+    nlohmann::ordered_json report{
+        {"voices", voiceRows(subjects, subjects.standard(), plan, [&](double share) { advance(share / shares); })}};
+    if (sketch != tiers.end()) {
+        report["sketch_voices"] =
+            voiceRows(subjects, *sketch, plan, [&](double share) { advance(0.5 + share / shares); });
     }
-    return {{"voices", rows}};
+    return report;
 }
 
 }  // namespace haptoflow::bench

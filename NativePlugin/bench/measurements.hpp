@@ -19,6 +19,7 @@ namespace haptoflow::bench {
                                                       const Advance& advance);
 
 /// "voices": the segments of several voices in one batch, compared with as many batches of one, by the tier "standard".
+/// "sketch_voices": the same by the tier of kind `skeleton`, if the model has one.
 [[nodiscard]] nlohmann::ordered_json measureVoices(const Subjects& subjects, const BenchPlan& plan,
                                                    const Advance& advance);
 

@@ -2,6 +2,7 @@
 
 #include "bench/bench_plan.hpp"
 #include "inference/gaussian_noise.hpp"
+#include "inference/rib_rates.hpp"
 #include "inference/tier_graphs.hpp"
 
 #include <algorithm>
@@ -22,10 +23,9 @@ const model::Tier& Subjects::standard() const {
     return named != nullptr ? *named : model->header().tiers[model->header().defaultTier];
 }
 
-std::unique_ptr<inference::OnnxSegmentGenerator> Subjects::generator(const model::ModelFile& file,
-                                                                     const model::Tier& tier, std::size_t batch) const {
-    return std::make_unique<inference::OnnxSegmentGenerator>(runtime, file, tier.name, inference::defaultSolver(tier),
-                                                             batch);
+std::unique_ptr<inference::TierGenerator> Subjects::generator(const model::ModelFile& file, const model::Tier& tier,
+                                                              std::size_t batch) const {
+    return inference::makeGenerator(runtime, file, tier, inference::defaultSolver(tier), batch);
 }
 
 std::unique_ptr<engine::LiveEngine> Subjects::engineWith(std::unique_ptr<inference::SegmentGenerator> generator,
@@ -91,6 +91,7 @@ RandomRequests::RandomRequests(const model::ModelFile& model, std::size_t count,
             .previous = Wave(waves, inference::segmentSamples),
             .noise = Wave(waves + inference::segmentSamples, inference::segmentSamples)};
         std::ranges::copy(model.embedding(label(generator)), request.embedding.begin());
+        request.phases = inference::phasesOf(request.embedding, request.motion, {});
         requests_.push_back(request);
     }
 }

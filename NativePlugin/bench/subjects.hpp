@@ -2,7 +2,7 @@
 
 #include "engine/live_engine.hpp"
 #include "inference/onnx_runtime.hpp"
-#include "inference/onnx_segment_generator.hpp"
+#include "inference/tier_generator.hpp"
 #include "model/model_file.hpp"
 
 #include <cstddef>
@@ -36,9 +36,8 @@ struct Subjects {
     /// The tier "standard", or the model's default tier if it has no such tier.
     [[nodiscard]] const model::Tier& standard() const;
     /// A tier of `file` with its own solver.
-    [[nodiscard]] std::unique_ptr<inference::OnnxSegmentGenerator> generator(const model::ModelFile& file,
-                                                                             const model::Tier& tier,
-                                                                             std::size_t batch) const;
+    [[nodiscard]] std::unique_ptr<inference::TierGenerator> generator(const model::ModelFile& file,
+                                                                      const model::Tier& tier, std::size_t batch) const;
     /// An engine with a single fixed tier.
     [[nodiscard]] std::unique_ptr<engine::LiveEngine> engineWith(std::unique_ptr<inference::SegmentGenerator> generator,
                                                                  bool hasWorker) const;

@@ -63,6 +63,12 @@ std::string figures(const std::string& json) {
     return text.empty() ? "not measured" : text;
 }
 
+std::string skeletonOf(const model::ModelHeader& header) {
+    return header.skeleton ? std::to_string(header.skeleton->parameters) + " weights, " +
+                                 std::to_string(header.skeleton->hidden) + " hidden units"
+                           : "-";
+}
+
 void printGeneral(std::ostream& stream, const std::string& path, const model::ModelFile& file) {
     const model::ModelHeader& header = file.header();
     const model::Provenance& provenance = header.provenance;
@@ -82,18 +88,28 @@ void printGeneral(std::ostream& stream, const std::string& path, const model::Mo
                         {"trained force", interval(header.forceNewtons) + " N"},
                         {"peak", shortNumber(header.peakMps2) + " m/s^2"},
                         {"seeds", std::to_string(header.seeds.size())},
+                        {"skeleton", skeletonOf(header)},
                         {"space", model::spaceOf(header) + ": material files of this space work with the model"}});
+}
+
+std::string wanderOf(const model::Label& label) {
+    std::string text;
+    for (const model::RibWander& each : label.ribWander) {
+        text += (text.empty() ? "" : ", ") + shortNumber(each.turns);
+    }
+    return text.empty() ? "-" : text;
 }
 
 void printLabels(std::ostream& stream, const model::ModelHeader& header) {
     std::vector<Row> rows{{"label", "category", "level exponents (speed, force)", "frequency exponent", "wavelength mm",
-                           "stiffness N/m", "friction"}};
+                           "stiffness N/m", "friction", "stick-slip mm", "rib wander turns"}};
     for (const model::Label& label : header.labels) {
         rows.push_back({orDash(label.name), orDash(label.category),
                         shortNumber(label.speedLevelExponent) + ", " + shortNumber(label.forceLevelExponent),
                         shortNumber(label.frequencyExponent),
                         label.wavelengthMetres ? shortNumber(*label.wavelengthMetres * 1000.0) : "-",
-                        shortNumber(label.stiffnessNewtonsPerMetre), shortNumber(label.frictionCoefficient)});
+                        shortNumber(label.stiffnessNewtonsPerMetre), shortNumber(label.frictionCoefficient),
+                        label.stickSlip ? shortNumber(label.stickSlip->lengthMetres * 1000.0) : "-", wanderOf(label)});
     }
     stream << "\nLabels (" << header.labels.size() << ")\n";
     printTable(stream, rows);
@@ -104,12 +120,12 @@ void printTiers(std::ostream& stream, const model::ModelFile& file) {
     std::vector<Row> rows{{"tier", "kind", "solver", "steps", "parameters", "graph bytes", "accuracy", "cost"}};
     for (std::size_t index = 0; index < header.tiers.size(); ++index) {
         const model::Tier& tier = header.tiers[index];
-        const bool direct = tier.kind == model::TierKind::direct;
-        rows.push_back(
-            {orDash(tier.name) + (index == header.defaultTier ? " (default)" : ""),
-             std::string(model::kindName(tier.kind)), direct ? "-" : std::string(model::solverName(tier.solver)),
-             direct ? "-" : std::to_string(tier.steps), std::to_string(tier.parameters),
-             std::to_string(file.blob(tier.field).size()), figures(tier.accuracyJson), figures(tier.costJson)});
+        rows.push_back({orDash(tier.name) + (index == header.defaultTier ? " (default)" : ""),
+                        std::string(model::kindName(tier.kind)),
+                        tier.isSolved() ? std::string(model::solverName(tier.solver)) : "-",
+                        tier.isSolved() ? std::to_string(tier.steps) : "-", std::to_string(tier.parameters),
+                        tier.needsOnnxRuntime() ? std::to_string(file.blob(tier.field).size()) : "-",
+                        figures(tier.accuracyJson), figures(tier.costJson)});
     }
     stream << "\nTiers (" << header.tiers.size() << ")\n";
     printTable(stream, rows);

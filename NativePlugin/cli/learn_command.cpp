@@ -187,7 +187,7 @@ void runLearn(const LearnOptions& options) {
     }
     try {
         const learning::LearntMaterial learnt =
-            learning::learnMaterial(recording.view(), model, tier, openRuntime(), settings);
+            learning::learnMaterial(recording.view(), model, tier, openRuntimeFor(model.header().tiers), settings);
         writeMaterial(output, learnt.materialJson, model.header());
         if (report) {
             writeText(*report, learning::reportJson(learnt.report));

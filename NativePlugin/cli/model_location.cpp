@@ -4,6 +4,7 @@
 #include "exit_codes.hpp"
 #include "inference/inference_error.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <optional>
 #include <system_error>
@@ -129,6 +130,10 @@ std::shared_ptr<const inference::Runtime> openRuntime() {
     } catch (const inference::RuntimeUnavailable& error) {
         throw InputError(error.what());
     }
+}
+
+std::shared_ptr<const inference::Runtime> openRuntimeFor(std::span<const model::Tier> tiers) {
+    return std::ranges::any_of(tiers, &model::Tier::needsOnnxRuntime) ? openRuntime() : nullptr;
 }
 
 }  // namespace haptoflow::cli

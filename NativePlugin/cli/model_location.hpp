@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 
 namespace haptoflow::cli {
@@ -24,5 +25,7 @@ namespace haptoflow::cli {
 
 /// Opens the ONNX Runtime that findOnnxRuntime finds; errors become InputError.
 [[nodiscard]] std::shared_ptr<const inference::Runtime> openRuntime();
+/// The same where one of the tiers needs it; null otherwise.
+[[nodiscard]] std::shared_ptr<const inference::Runtime> openRuntimeFor(std::span<const model::Tier> tiers);
 
 }  // namespace haptoflow::cli

@@ -4,7 +4,7 @@
 #include "engine/offline_renderer.hpp"
 #include "exit_codes.hpp"
 #include "headless/contact_tracker.hpp"
-#include "inference/onnx_segment_generator.hpp"
+#include "inference/tier_generator.hpp"
 #include "inference/tier_graphs.hpp"
 #include "messages.hpp"
 #include "model/model_file.hpp"
@@ -106,7 +106,7 @@ inference::SolverSettings chooseSolver(const model::Tier& tier, const std::strin
     if (!steps) {
         return inference::defaultSolver(tier);
     }
-    if (tier.kind == model::TierKind::direct) {
+    if (!tier.isSolved()) {
         throw UsageError("--solver and --steps have no effect on the tier '" + tier.name +
                          "', which is evaluated once: leave both out, or choose a tier of another kind with --quality "
                          "(`haptoflow inspect` shows kinds)");
@@ -362,7 +362,7 @@ void runRender(const RenderOptions& options) {
     RenderFiles files(options);
     requireWavName({"-o", options.outputPath});
     requireWavName({"--waveform", options.waveformPath});
-    inference::OnnxSegmentGenerator generator(openRuntime(), model, tier.name, solver, 1);
+    const auto generator = inference::makeGenerator(openRuntimeFor(std::span(&tier, 1)), model, tier, solver, 1);
 
     const ProgressBar bar = progressBar("render", options.quiet);
     std::size_t frame = 0;
@@ -375,21 +375,20 @@ void runRender(const RenderOptions& options) {
         bar(static_cast<double>(frame) / static_cast<double>(frames), {});
         return stateOf(tracker.update(tip), surfaces, effects);
     };
-    const engine::OfflineFigures figures = engine::renderOffline(model, generator, next, engineSettings, files);
+    const engine::OfflineFigures figures = engine::renderOffline(model, *generator, next, engineSettings, files);
 
     const std::uint64_t allTouches = touchesOfEverySample(scene, stroke, frames, settings);
     const std::uint64_t missedTouches = allTouches - std::min(allTouches, figures.touches);
     const std::filesystem::path wav(options.outputPath.empty() ? options.parametricPath : options.outputPath);
-    const bool isSolved = tier.kind != model::TierKind::direct;
     const bool isEuler = tier.kind == model::TierKind::averageVelocity;
     files.complete(renderReport({.name = wav.stem().string(),
                                  .model = modelPath.filename().string(),
                                  .labels = labelsIn(scene),
                                  .wav = wav.filename().string(),
                                  .tier = tier.name,
-                                 .solver = !isSolved ? ""
-                                           : isEuler ? "euler"
-                                                     : std::string(model::solverName(solver.kind)),
+                                 .solver = !tier.isSolved() ? ""
+                                           : isEuler        ? "euler"
+                                                            : std::string(model::solverName(solver.kind)),
                                  .steps = solver.steps,
                                  .outputRateHz = options.engine.outputRateHz,
                                  .missedTouches = missedTouches},
@@ -424,7 +423,9 @@ void addRenderCommand(CLI::App& app, CommandOutcome& outcome) {
         ->type_name("FILE");
     command->add_option("--quality", options->quality,
                         "A tier of the model, such as draft; `haptoflow inspect` lists them");
-    command->add_option("--solver", options->solver, "ODE solver instead of the tier's own; not for kind `direct`")
+    command
+        ->add_option("--solver", options->solver,
+                     "ODE solver instead of the tier's own; for kinds `flow` and `average-velocity`")
         ->check(CLI::IsMember({"euler", "midpoint", "heun"}));
     command->add_option("--steps", options->steps, "Steps of that solver")->transform(wholeBetween(1, 16, ""));
     command->add_option("--seed", options->engine.seed, "Seed of the noise: equal seeds give equal bytes")

@@ -274,7 +274,7 @@ typedef struct haptoflow_tier_info {
     int32_t steps;
     /* All texts are valid until the model is closed. */
     const char* name;
-    /* "flow", "average-velocity" or "direct". */
+    /* "flow", "average-velocity", "direct", "skeleton" or "refine". */
     const char* kind;
     /* Measured figures as JSON objects; "{}" if nothing was measured. */
     const char* accuracy_json;
@@ -399,6 +399,7 @@ typedef struct haptoflow_generator_options {
     uint32_t struct_size;
     /* HAPTOFLOW_SOLVER_OF_TIER, or a solver with `steps`. */
     haptoflow_solver solver;
+    /* Null for a tier of kind "skeleton", which needs none. */
     const haptoflow_runtime* runtime;
     const haptoflow_model* model;
     /* Name of the tier; null for the model's default. */
@@ -429,8 +430,9 @@ typedef struct haptoflow_batch {
     /* count * HAPTOFLOW_SEGMENT_SAMPLES standard normal numbers. Not needed for levels. */
     const float* noise;
     /* count * HAPTOFLOW_RIB_COUNT phases: the position of the tip along each of the embedding's wave vectors at the
-     * segment's first sample, in cycles from 0 to below 1; null for zeros. Not needed for levels. Only graphs with the
-     * input "rib_phase" read it. */
+     * segment's first sample, in cycles from 0 to below 1; null for zeros. Not needed for levels. Read by graphs with
+     * the input "rib_phase" and by tiers of the kinds "skeleton" and "refine", which take the rates from the embedding
+     * and the motion. */
     const float* rib_phases;
     /* count levels above 0, RMS in m/s^2, that replace those of the level graph; null to use the level graph. */
     const float* own_levels_mps2;
@@ -491,6 +493,8 @@ typedef struct haptoflow_engine_options {
     uint32_t struct_size;
     /* Only the tier of this quality is loaded. HAPTOFLOW_QUALITY_AUTO loads every tier of the model. */
     haptoflow_quality quality;
+    /* Null where there is no ONNX Runtime: then only tiers of kind "skeleton" can be used, and HAPTOFLOW_QUALITY_AUTO uses
+     * the most accurate of those. */
     const haptoflow_runtime* runtime;
     const haptoflow_model* model;
     /* Contact states per second, 1 to 10000; 0 for 72. Determines the budget and how fast tiers are measured. */

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
+#include <ranges>
 #include <string>
 #include <utility>
 #include <vector>
@@ -45,12 +47,25 @@ std::size_t tierOfQuality(const model::ModelHeader& header, haptoflow_quality qu
     }
 }
 
-engine::QualitySettings qualitySettings(const model::ModelHeader& header, haptoflow_quality quality, double budgetMs) {
+/// The most accurate tier that needs no ONNX Runtime, if the model has one.
+std::optional<std::size_t> tierWithoutRuntime(const model::ModelHeader& header) {
+    for (const std::size_t tier : std::views::reverse(model::tiersByAccuracy(header.tiers))) {
+        if (!header.tiers[tier].needsOnnxRuntime()) {
+            return tier;
+        }
+    }
+    return std::nullopt;
+}
+
+engine::QualitySettings qualitySettings(const model::ModelHeader& header, haptoflow_quality quality, double budgetMs,
+                                        bool hasRuntime) {
     engine::QualitySettings settings;
     settings.budgetMs = budgetMs;
     const std::size_t tier = tierOfQuality(header, quality);
     if (quality != HAPTOFLOW_QUALITY_AUTO) {
         settings.fixedTier = tier;
+    } else if (!hasRuntime) {
+        settings.fixedTier = tierWithoutRuntime(header);
     }
     return settings;
 }
@@ -68,7 +83,8 @@ engine::LiveEngineSettings engineSettings(const haptoflow_engine_options& given,
     }
     engine::LiveEngineSettings settings;
     settings.updateRateHz = orDefault(given.update_rate_hz, settings.updateRateHz);
-    settings.quality = qualitySettings(header, given.quality, 1000.0 * budgetShare / settings.updateRateHz);
+    settings.quality =
+        qualitySettings(header, given.quality, 1000.0 * budgetShare / settings.updateRateHz, given.runtime != nullptr);
     settings.tiersByAccuracy = model::tiersByAccuracy(header.tiers);
     settings.fullScaleMps2 = static_cast<float>(orDefault(given.full_scale_mps2, defaultFullScaleMps2));
     settings.seed = given.seed;
@@ -87,7 +103,7 @@ haptoflow_status haptoflow_engine_create(const haptoflow_engine_options* options
     return guarded([&] {
         const auto given = readDescriptor(options, mandatoryOptions, "options");
         (void)require(engine, "engine");
-        const auto runtime = runtimes().get(given.runtime);
+        const auto runtime = runtimeOf(given.runtime);
         const auto open = models().get(given.model);
         const model::ModelHeader& header = open->model.header();
         const uint32_t batch = given.batch_voices != 0 ? given.batch_voices : defaultBatchVoices;
@@ -129,7 +145,8 @@ haptoflow_status haptoflow_engine_set_quality(haptoflow_engine* engine, haptoflo
         const auto open = engines().get(engine);
         engine::LiveEngine& live = *open->engine;
         const model::ModelHeader& header = live.model().header();
-        const auto settings = qualitySettings(header, quality, live.statistics().budgetMs);
+        const auto settings =
+            qualitySettings(header, quality, live.statistics().budgetMs, open->loader.runtime != nullptr);
         engine::requireServedQuality(settings, open->hasWorker);
         const std::lock_guard lock(open->loading);
         for (std::size_t tier = 0; tier < header.tiers.size(); ++tier) {

@@ -1,9 +1,11 @@
 #include "capi/handles.hpp"
+#include "inference/rib_rates.hpp"
 #include "inference/tier_graphs.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 using namespace haptoflow;
@@ -80,8 +82,12 @@ std::vector<inference::SegmentRequest> requestsOf(const haptoflow_batch* batch, 
         std::copy_n(given.embeddings + index * inference::embeddingSize, inference::embeddingSize,
                     request.embedding.begin());
         std::copy_n(given.motions + index * motionSize, motionSize, request.motion.begin());
-        if (withWaveforms && given.rib_phases != nullptr) {
-            std::copy_n(given.rib_phases + index * inference::ribCount, inference::ribCount, request.ribPhase.begin());
+        if (withWaveforms) {
+            std::array<float, inference::ribCount> turns{};
+            if (given.rib_phases != nullptr) {
+                std::copy_n(given.rib_phases + index * inference::ribCount, turns.size(), turns.begin());
+            }
+            request.phases = inference::phasesOf(request.embedding, request.motion, turns);
         }
         if (given.own_levels_mps2 != nullptr) {
             request.levelMps2 = requireLevel(given.own_levels_mps2[index]);
@@ -98,16 +104,16 @@ haptoflow_status haptoflow_generator_create(const haptoflow_generator_options* o
     return guarded([&] {
         const auto given = readDescriptor(options, mandatoryOptions, "options");
         (void)require(generator, "generator");
-        const auto runtime = runtimes().get(given.runtime);
+        const auto runtime = runtimeOf(given.runtime);
         const auto open = models().get(given.model);
         const model::Tier& tier = tierNamed(open->model, given.tier);
         const auto tierSolver = inference::defaultSolver(tier);
         const uint32_t batch = given.maximum_batch != 0 ? given.maximum_batch : defaultBatch;
-        *generator = generators().open(std::shared_ptr<OpenGenerator>(
-            new OpenGenerator{{},
-                              tierSolver,
-                              {runtime, open->model, tier.name, solverSettings(given.solver, given.steps, tierSolver),
-                               batch, loadLimits(given.cancellation, given.probe_limit_ms)}}));
+        auto loaded =
+            inference::makeGenerator(runtime, open->model, tier, solverSettings(given.solver, given.steps, tierSolver),
+                                     batch, loadLimits(given.cancellation, given.probe_limit_ms));
+        *generator =
+            generators().open(std::shared_ptr<OpenGenerator>(new OpenGenerator{{}, tierSolver, std::move(loaded)}));
     });
 }
 
@@ -120,7 +126,7 @@ haptoflow_status haptoflow_generator_set_solver(haptoflow_generator* generator, 
     return guarded([&] {
         const auto open = generators().get(generator);
         const std::lock_guard lock(open->mutex);
-        open->generator.setSolver(solverSettings(solver, steps, open->tierSolver));
+        open->generator->setSolver(solverSettings(solver, steps, open->tierSolver));
     });
 }
 
@@ -132,7 +138,7 @@ haptoflow_status haptoflow_generator_generate(haptoflow_generator* generator, co
         const std::span<float> segments(require(segments_mps2, "segments_mps2"),
                                         requests.size() * inference::segmentSamples);
         const std::lock_guard lock(open->mutex);
-        open->generator.generate(requests, segments);
+        open->generator->generate(requests, segments);
     });
 }
 
@@ -143,6 +149,6 @@ haptoflow_status haptoflow_generator_levels(haptoflow_generator* generator, cons
         const auto requests = requestsOf(batch, false);
         const std::span<float> levels(require(levels_mps2, "levels_mps2"), requests.size());
         const std::lock_guard lock(open->mutex);
-        open->generator.levels(requests, levels);
+        open->generator->levels(requests, levels);
     });
 }

@@ -6,6 +6,10 @@
 
 namespace haptoflow::capi {
 
+std::shared_ptr<const inference::Runtime> runtimeOf(const haptoflow_runtime* runtime) {
+    return runtime != nullptr ? runtimes().get(runtime) : nullptr;
+}
+
 const model::Tier& tierNamed(const model::ModelFile& model, const char* name) {
     if (name == nullptr) {
         return model.header().tiers[model.header().defaultTier];
@@ -35,14 +39,12 @@ inference::LoadLimits loadLimits(const haptoflow_cancellation* cancellation, dou
 std::unique_ptr<inference::SegmentGenerator> TierLoader::load(std::size_t tier,
                                                               const inference::LoadLimits& limits) const {
     const model::Tier& wanted = model->model.header().tiers.at(tier);
-    return std::make_unique<inference::OnnxSegmentGenerator>(runtime, model->model, wanted.name,
-                                                             inference::defaultSolver(wanted), batch, limits);
+    return inference::makeGenerator(runtime, model->model, wanted, inference::defaultSolver(wanted), batch, limits);
 }
 
 std::unique_ptr<inference::LevelEstimator> TierLoader::loadLevels(std::size_t tier,
                                                                   const inference::LoadLimits& limits) const {
-    return std::make_unique<inference::OnnxLevelEstimator>(runtime, model->model, model->model.header().tiers.at(tier),
-                                                           limits);
+    return inference::makeLevelEstimator(runtime, model->model, model->model.header().tiers.at(tier), limits);
 }
 
 haptoflow_label_info describe(const model::Label& label) {

@@ -5,8 +5,7 @@
 #include "engine/live_engine.hpp"
 #include "haptoflow/haptoflow.h"
 #include "inference/load_limits.hpp"
-#include "inference/onnx_level_estimator.hpp"
-#include "inference/onnx_segment_generator.hpp"
+#include "inference/tier_generator.hpp"
 #include "model/material_file.hpp"
 #include "model/model_file.hpp"
 
@@ -31,19 +30,20 @@ struct OpenModel {
 struct OpenGenerator {
     std::mutex mutex;
     inference::SolverSettings tierSolver;
-    inference::OnnxSegmentGenerator generator;
+    std::unique_ptr<inference::TierGenerator> generator;
 };
 
 /// Loads the tiers of one engine, when it is created or when a later quality uses them.
 struct TierLoader {
+    /// Null if the caller has none.
     std::shared_ptr<const inference::Runtime> runtime;
     std::shared_ptr<const OpenModel> model;
     std::size_t batch;
 
-    /// Throws what OnnxSegmentGenerator's constructor throws.
+    /// Throws what inference::makeGenerator throws.
     [[nodiscard]] std::unique_ptr<inference::SegmentGenerator> load(std::size_t tier,
                                                                     const inference::LoadLimits& limits) const;
-    /// Loads only the tier's level graph. Throws what OnnxLevelEstimator's constructor throws.
+    /// Loads only what the tier's levels need. Throws what inference::makeLevelEstimator throws.
     [[nodiscard]] std::unique_ptr<inference::LevelEstimator> loadLevels(std::size_t tier,
                                                                         const inference::LoadLimits& limits) const;
 };
@@ -121,6 +121,9 @@ template <typename Table>
 [[nodiscard]] inline MaterialTable& materials() {
     return lastingTable<MaterialTable>("material");
 }
+
+/// The runtime of a handle; null for null. Throws std::invalid_argument for a handle that is not open.
+[[nodiscard]] std::shared_ptr<const inference::Runtime> runtimeOf(const haptoflow_runtime* runtime);
 
 /// The tier of this name, or the model's default tier if `name` is null. Throws std::invalid_argument for an unknown
 /// name.

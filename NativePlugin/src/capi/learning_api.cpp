@@ -82,7 +82,7 @@ haptoflow_status haptoflow_learn_material(const haptoflow_learning_options* opti
     return guarded([&] {
         const auto given = readDescriptor(options, mandatoryOptions, "options");
         (void)require(learning, "learning");
-        const auto runtime = runtimes().get(given.runtime);
+        const auto runtime = runtimeOf(given.runtime);
         const auto open = models().get(given.model);
         const model::Tier& tier = tierNamed(open->model, given.tier);
         const inference::LoadLimits limits = loadLimits(given.cancellation, 0.0);

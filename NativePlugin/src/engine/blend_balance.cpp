@@ -1,6 +1,7 @@
 #include "engine/blend_balance.hpp"
 
 #include "inference/gaussian_noise.hpp"
+#include "inference/rib_rates.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -80,8 +81,7 @@ void BlendBalance::request(std::vector<inference::SegmentRequest>& requests) {
         inference::fillStandardNormal(key, shadow.noise);
         inference::SegmentRequest request{
             .embedding = shadow.part.embedding, .motion = motion_, .previous = shadow.previous, .noise = shadow.noise};
-        std::ranges::transform(shadow.phase, request.ribPhase.begin(),
-                               [](double turns) { return static_cast<float>(turns); });
+        request.phases = inference::phasesOf(request.embedding, motion_, toNetwork(shadow.phase));
         request.levelMps2 = 1.0F;
         requests.push_back(request);
         ++requested_;

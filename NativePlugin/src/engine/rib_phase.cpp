@@ -1,5 +1,7 @@
 #include "engine/rib_phase.hpp"
 
+#include "inference/rib_rates.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -72,14 +74,8 @@ RibTurns phasesFor(const WaveVectors& vectors, const WaveVectors& from, const Ri
 
 RibTurns ribTurnsPerSample(std::span<const float, inference::embeddingSize> embedding, double vxMps,
                            double vyMps) noexcept {
-    const WaveVectors vectors = waveVectorsOf(embedding);
-    RibTurns turns{};
-    for (std::size_t rib = 0; rib < turns.size(); ++rib) {
-        const double cyclesPerSecond =
-            (static_cast<double>(vectors[rib].x) * vxMps + static_cast<double>(vectors[rib].y) * vyMps) *
-            millimetresPerMetre;
-        turns[rib] = cyclesPerSecond / inference::waveformRateHz;
-    }
+    RibTurns turns = inference::ribRatesHz(embedding, vxMps, vyMps);
+    std::ranges::for_each(turns, [](double& each) { each /= inference::waveformRateHz; });
     return turns;
 }
 

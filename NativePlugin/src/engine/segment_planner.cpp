@@ -1,6 +1,7 @@
 #include "engine/segment_planner.hpp"
 
 #include "inference/gaussian_noise.hpp"
+#include "inference/rib_rates.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -154,7 +155,7 @@ void SegmentPlanner::prepare(std::int64_t start) noexcept {
     stretch_ = places_.at(channels_.toWorker.current().contact, start, secondsAhead(start));
     const WaveVectors vectors = waveVectorsOf(request_.embedding);
     ribPhase_ = stretch_.ribPlaceMetres ? ribs_.at(start, vectors, *stretch_.ribPlaceMetres) : ribs_.at(start, vectors);
-    request_.ribPhase = toNetwork(ribPhase_);
+    request_.phases = inference::phasesOf(request_.embedding, request_.motion, toNetwork(ribPhase_));
     if (!inference::fillSurfaceNoise(stretch_.surface, stretch_.path, noise_)) {
         inference::fillStandardNormal({.seed = settings_.seed, .voice = settings_.voice, .segment = segments_}, noise_);
     }

@@ -1,19 +1,18 @@
 #include "inference/onnx_segment_generator.hpp"
 
 #include "inference/gaussian_noise.hpp"
+#include "inference/generator_checks.hpp"
 #include "inference/tier_graphs.hpp"
+#include "skeleton/unit_scale.hpp"
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 namespace haptoflow::inference {
 namespace {
-
-constexpr float previousLimit = 16.0F;
 
 const model::Tier& requireTier(const model::ModelFile& model, std::string_view name) {
     const model::Tier* tier = model.findTier(name);
@@ -27,20 +26,6 @@ const model::Tier& requireTier(const model::ModelFile& model, std::string_view n
     throw std::invalid_argument(message);
 }
 
-std::size_t requireBatch(std::size_t batch) {
-    if (batch < 1 || batch > maximumBatchSize) {
-        throw std::invalid_argument("the maximum batch is " + std::to_string(batch) + "; expected 1 to 256");
-    }
-    return batch;
-}
-
-void requireSize(std::size_t found, std::size_t expected, const char* what) {
-    if (found != expected) {
-        throw std::invalid_argument(std::string(what) + " for " + std::to_string(expected) + " numbers; found " +
-                                    std::to_string(found));
-    }
-}
-
 /// Key for the noise of a latent point, which has more numbers than a request's noise. It is derived from that noise,
 /// so that equal requests give equal segments.
 NoiseKey keyOfNoise(std::span<const float> noise) {
@@ -49,18 +34,6 @@ NoiseKey keyOfNoise(std::span<const float> noise) {
         hash = (hash ^ std::bit_cast<std::uint32_t>(value)) * 0x100000001B3U;
     }
     return {hash, 0, 0};
-}
-
-bool allFinite(std::span<const float> values) {
-    return std::all_of(values.begin(), values.end(), [](float value) { return std::isfinite(value); });
-}
-
-/// Calls `action(first, count)` for consecutive parts of at most `maximum` elements.
-template <typename Action>
-void inBatches(std::size_t total, std::size_t maximum, Action action) {
-    for (std::size_t first = 0; first < total; first += maximum) {
-        action(first, std::min(maximum, total - first));
-    }
 }
 
 }  // namespace
@@ -135,9 +108,7 @@ void OnnxSegmentGenerator::generateBatch(std::span<const SegmentRequest> request
     for (std::size_t index = 0; index < segments.size(); ++index) {
         segments[index] = waveforms[index] * levelsMps2_[index / segmentSamples];
     }
-    if (!allFinite(segments)) {
-        throw InferenceError("the field graph returned a waveform that is not finite");
-    }
+    requireFinite(segments, "field graph");
 }
 
 void OnnxSegmentGenerator::prepare(std::span<const SegmentRequest> requests) {
@@ -151,16 +122,15 @@ void OnnxSegmentGenerator::prepare(std::span<const SegmentRequest> requests) {
     }
 
     const auto previous = std::span(previous_).first(requests.size() * segmentSamples);
-    for (std::size_t index = 0; index < previous.size(); ++index) {
-        const std::size_t row = index / segmentSamples;
-        const float scaled = requests[row].previous[index % segmentSamples] / levelsMps2_[row];
-        previous[index] = std::clamp(scaled, -previousLimit, previousLimit);
+    for (std::size_t row = 0; row < requests.size(); ++row) {
+        const std::span<float, segmentSamples> unit(previous.data() + row * segmentSamples, segmentSamples);
+        skeleton::toUnitScale(requests[row].previous, levelsMps2_[row], unit);
     }
     field_.setPrevious(previous);
 
     const auto ribPhases = field_.ribPhases();
     for (std::size_t index = 0; index < requests.size(); ++index) {
-        std::ranges::copy(requests[index].ribPhase, ribPhases.subspan(index * ribCount).begin());
+        std::copy_n(requests[index].phases.begin(), ribCount, ribPhases.subspan(index * ribCount).begin());
         const auto point = std::span(points_).subspan(index * pointSize_, pointSize_);
         if (point.size() == segmentSamples) {
             std::ranges::copy(requests[index].noise, point.begin());

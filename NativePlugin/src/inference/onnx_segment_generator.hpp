@@ -7,6 +7,7 @@
 #include "inference/onnx_velocity_field.hpp"
 #include "inference/segment_generator.hpp"
 #include "inference/solver.hpp"
+#include "inference/tier_generator.hpp"
 #include "model/model_file.hpp"
 
 #include <cstddef>
@@ -19,8 +20,6 @@
 
 namespace haptoflow::inference {
 
-inline constexpr std::size_t maximumBatchSize = 256;
-
 /// Number of runs of each graph. Tests use it to show that nothing is computed needlessly.
 struct RunCounts {
     std::uint64_t level = 0;
@@ -29,10 +28,10 @@ struct RunCounts {
     std::uint64_t decoder = 0;
 };
 
-/// One tier of a model, run by ONNX Runtime. Up to `maximumBatch` requests are evaluated together, with one run per
-/// evaluation of the field; more requests are split into several batches. Worker thread; used by one thread at a time;
-/// allocates.
-class OnnxSegmentGenerator final : public SegmentGenerator {
+/// A tier that is a network alone, run by ONNX Runtime. Up to `maximumBatch` requests are evaluated together, with one
+/// run per evaluation of the field; more requests are split into several batches. Worker thread; used by one thread at
+/// a time; allocates.
+class OnnxSegmentGenerator final : public TierGenerator {
 public:
     /// Loads, checks and runs the tier's graphs. The model need not outlive the generator. Throws std::invalid_argument
     /// for a tier that the model does not have, solver settings out of range or a batch outside 1 to maximumBatchSize;
@@ -42,7 +41,7 @@ public:
 
     /// Takes effect with the next batch. Tiers of kind `average-velocity` always use Euler steps; tiers of kind
     /// `direct` are evaluated once and ignore the settings. Throws std::invalid_argument for settings out of range.
-    void setSolver(SolverSettings solver);
+    void setSolver(SolverSettings solver) override;
     [[nodiscard]] SolverSettings solver() const noexcept { return settings_; }
 
     void generate(std::span<const SegmentRequest> requests, std::span<float> segments) override;

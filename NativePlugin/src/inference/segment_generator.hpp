@@ -2,6 +2,7 @@
 
 #include "dsp/sample_rates.hpp"
 #include "model/model_header.hpp"
+#include "skeleton/skeleton_layout.hpp"
 
 #include <array>
 #include <cstddef>
@@ -37,12 +38,12 @@ struct SegmentRequest {
     std::span<const float, segmentSamples> previous;
     /// Standard normal noise, the solver's starting point.
     std::span<const float, segmentSamples> noise;
-    /// For each wave vector of the embedding, the distance along it at the segment's first sample, in turns in [0, 1).
-    /// Read by graphs with the input `rib_phase`.
-    std::array<float, ribCount> ribPhase{};
-    /// RMS in m/s^2 that replaces the level graph's; empty for the graph's.
+    /// For the ribs along each wave vector of the embedding and for stick-slip, the turns at the segment's first sample
+    /// in [0, 1), then the signed rates in Hz. Graphs with the input `rib_phase` read the first two numbers.
+    skeleton::Phases phases{};
+    /// RMS in m/s^2 that replaces the model's; empty for the model's.
     std::optional<float> levelMps2{};
-    /// The level graph's motion input where it differs from `motion`, and a gain on the graph's level.
+    /// The motion for the model's level where it differs from `motion`, and a gain on the model's level.
     std::optional<std::array<float, 3>> levelMotion{};
     float levelGain = 1.0F;
 };

@@ -1,5 +1,7 @@
 #include "inference/tier_graphs.hpp"
 
+#include "skeleton/skeleton.hpp"
+
 #include <string>
 #include <utility>
 #include <vector>
@@ -38,6 +40,18 @@ OnnxGraph loadField(std::shared_ptr<const Runtime> runtime, const model::ModelFi
         signature.inputs.push_back({"interval", {1}});
     }
     return load(std::move(runtime), model, tier, tier.field, std::move(signature), maximumBatch, limits);
+}
+
+OnnxGraph loadRefinement(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model, const model::Tier& tier,
+                         std::size_t filmSize, std::size_t maximumBatch, const LoadLimits& limits) {
+    constexpr auto samples = static_cast<std::int64_t>(segmentSamples);
+    constexpr auto channels = static_cast<std::int64_t>(skeleton::Skeleton::enteringChannels);
+    return load(std::move(runtime), model, tier, tier.field,
+                {{{"entering", {channels, 1, samples}},
+                  {"past", {1, 1, samples}},
+                  {"film", {static_cast<std::int64_t>(filmSize)}}},
+                 {"correction", waveformShape}},
+                maximumBatch, limits);
 }
 
 OnnxGraph loadLevel(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model, const model::Tier& tier,

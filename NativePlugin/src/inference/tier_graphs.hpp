@@ -20,6 +20,11 @@ inline constexpr std::size_t ribPhase = 5;
 /// Only in tiers of kind `average-velocity`.
 inline constexpr std::size_t interval = 6;
 }  // namespace field_input
+namespace refinement_input {
+inline constexpr std::size_t entering = 0;
+inline constexpr std::size_t past = 1;
+inline constexpr std::size_t film = 2;
+}  // namespace refinement_input
 namespace level_input {
 inline constexpr std::size_t embedding = 0;
 inline constexpr std::size_t motion = 1;
@@ -33,6 +38,10 @@ inline constexpr std::size_t motion = 1;
                                   const model::Tier& tier, std::size_t maximumBatch, const LoadLimits& limits);
 [[nodiscard]] OnnxGraph loadLevel(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model,
                                   const model::Tier& tier, std::size_t maximumBatch, const LoadLimits& limits);
+/// Tiers of kind `refine` only; `filmSize` numbers condition the graph.
+[[nodiscard]] OnnxGraph loadRefinement(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model,
+                                       const model::Tier& tier, std::size_t filmSize, std::size_t maximumBatch,
+                                       const LoadLimits& limits);
 /// Latent tiers only.
 [[nodiscard]] OnnxGraph loadEncoder(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model,
                                     const model::Tier& tier, std::size_t maximumBatch, const LoadLimits& limits);

@@ -1,6 +1,7 @@
 #include "learning/closed_loop.hpp"
 
 #include "inference/gaussian_noise.hpp"
+#include "inference/rib_rates.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -34,19 +35,6 @@ void splice(std::span<float, segment> running, std::span<const float, segment> s
         const double norm = std::sqrt(rest * rest + share * share + 2.0 * share * rest * correlation);
         running[i] = static_cast<float>((rest * running[i] + share * successor[i]) / norm);
     }
-}
-
-/// Change of the phase along each wave vector from sample to sample, in cycles.
-std::array<double, inference::ribCount> turnsPerSample(const Embedding& embedding, const std::array<float, 3>& motion) {
-    constexpr double millimetresPerMetre = 1000.0;
-    std::array<double, inference::ribCount> turns{};
-    for (std::size_t rib = 0; rib < turns.size(); ++rib) {
-        const std::size_t first = embedding.size() - 2 * inference::ribCount + 2 * rib;
-        const double cyclesPerMillimetreSpeed =
-            static_cast<double>(embedding[first]) * motion[0] + static_cast<double>(embedding[first + 1]) * motion[1];
-        turns[rib] = cyclesPerMillimetreSpeed * millimetresPerMetre / inference::waveformRateHz;
-    }
-    return turns;
 }
 
 }  // namespace
@@ -100,10 +88,12 @@ std::vector<float> ClosedLoop::run(std::span<const Embedding> embeddings, std::s
     for (std::size_t start = 0; start < whole; start += settings.hopSamples, ++hop) {
         for (std::size_t c = 0; c < chains.size(); ++c) {
             requests[c].motion = motionFrom(chains[c].start + start, settings.hopSamples);
-            for (std::size_t rib = 0; rib < inference::ribCount; ++rib) {
-                const auto phase = static_cast<float>(phases[c][rib]);
-                requests[c].ribPhase[rib] = phase < 1.0F ? phase : 0.0F;
-            }
+            std::array<float, inference::ribCount> turns{};
+            std::ranges::transform(phases[c], turns.begin(), [](double each) {
+                const auto phase = static_cast<float>(each);
+                return phase < 1.0F ? phase : 0.0F;
+            });
+            requests[c].phases = inference::phasesOf(requests[c].embedding, requests[c].motion, turns);
             inference::fillStandardNormal(
                 {.seed = settings.seed, .voice = chains[c].noise, .segment = settings.round * 4096 + hop},
                 at(noise, c));
@@ -121,9 +111,12 @@ std::vector<float> ClosedLoop::run(std::span<const Embedding> embeddings, std::s
             } else {
                 splice(running, successor);
             }
-            const auto turns = turnsPerSample(requests[c].embedding, requests[c].motion);
-            for (std::size_t rib = 0; rib < turns.size(); ++rib) {
-                const double phase = phases[c][rib] + turns[rib] * static_cast<double>(settings.hopSamples);
+            const auto& motion = requests[c].motion;
+            const auto ratesHz = inference::ribRatesHz(requests[c].embedding, static_cast<double>(motion[0]),
+                                                       static_cast<double>(motion[1]));
+            for (std::size_t rib = 0; rib < ratesHz.size(); ++rib) {
+                const double phase = phases[c][rib] + ratesHz[rib] / inference::waveformRateHz *
+                                                          static_cast<double>(settings.hopSamples);
                 phases[c][rib] = phase - std::floor(phase);
             }
         }

@@ -1,7 +1,7 @@
 #include "learning/learner.hpp"
 
 #include "inference/inference_error.hpp"
-#include "inference/onnx_segment_generator.hpp"
+#include "inference/tier_generator.hpp"
 #include "inference/tier_graphs.hpp"
 #include "learning/closed_loop.hpp"
 #include "learning/embedding_search.hpp"
@@ -263,12 +263,12 @@ LearntMaterial learnMaterial(const recordings::Recording& recording, const model
                              const LearningSettings& settings, const inference::LoadLimits& limits) {
     constexpr std::size_t batchOfFit = 64;
     const auto open = [&](const model::Tier& each) {
-        return std::make_unique<inference::OnnxSegmentGenerator>(runtime, model, each.name,
-                                                                 inference::defaultSolver(each), batchOfFit, limits);
+        return inference::makeGenerator(runtime, model, each, inference::defaultSolver(each), batchOfFit, limits);
     };
     std::vector<OtherTier> others;
     for (const model::Tier& each : model.header().tiers) {
-        if (each.name != tier.name) {
+        const bool canRun = runtime != nullptr || !each.needsOnnxRuntime();
+        if (each.name != tier.name && canRun) {
             others.push_back({.name = each.name, .generator = open(each)});
         }
     }

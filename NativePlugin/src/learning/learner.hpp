@@ -33,7 +33,8 @@ struct OtherTier {
                                            inference::SegmentGenerator& generator, const LearningSettings& settings,
                                            std::span<const OtherTier> otherTiers = {});
 
-/// The same on one of the model's tiers, of which it opens all; compares the material on the others.
+/// The same on one of the model's tiers, of which it opens all; compares the material on the others. Without a runtime,
+/// only tiers that need none are opened.
 [[nodiscard]] LearntMaterial learnMaterial(const recordings::Recording& recording, const model::ModelFile& model,
                                            const model::Tier& tier, std::shared_ptr<const inference::Runtime> runtime,
                                            const LearningSettings& settings, const inference::LoadLimits& limits = {});

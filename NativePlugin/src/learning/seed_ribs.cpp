@@ -1,6 +1,7 @@
 #include "learning/seed_ribs.hpp"
 
 #include "inference/gaussian_noise.hpp"
+#include "inference/rib_rates.hpp"
 
 #include <algorithm>
 #include <array>
@@ -65,10 +66,10 @@ private:
                 {},
                 1.0F,
                 {}};
-            for (std::size_t each = 0; each < known.size(); ++each) {
-                request.ribPhase[each] = asPhase(known[each]);
-            }
-            request.ribPhase[rib] = static_cast<float>(tried(k / draws));
+            std::array<float, inference::ribCount> turns{};
+            std::ranges::transform(known, turns.begin(), asPhase);
+            turns[rib] = static_cast<float>(tried(k / draws));
+            request.phases = inference::phasesOf(request.embedding, request.motion, turns);
             requests.push_back(request);
         }
         std::vector<float> made(requests.size() * half);

@@ -16,6 +16,9 @@ void readLabelTraits(const HeaderNode& node, Label& label);
 /// Reads one element of the header's "labels"; its embedding row must be below `embeddingRows`. Throws ModelError.
 [[nodiscard]] Label readLabel(const HeaderNode& node, std::size_t embeddingRows);
 
+/// Reads the header's "skeleton". Throws ModelError.
+[[nodiscard]] SkeletonHeader readSkeleton(const HeaderNode& node);
+
 /// Reads one element of the header's "tiers"; the graphs that it names must be ONNX blobs. Throws ModelError.
 [[nodiscard]] Tier readTier(const HeaderNode& node, const NameIndex& blobNames, const std::vector<Blob>& blobs);
 

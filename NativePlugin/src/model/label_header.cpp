@@ -46,6 +46,21 @@ ToneTable readTone(const HeaderNode& node) {
     return tone;
 }
 
+StickSlip readStickSlip(const HeaderNode& node) {
+    return {.lengthMetres = node.at("length_metres").number(1e-6, 1.0),
+            .wander = node.at("wander").number(0.0, 1.0),
+            .wanderMetres = node.at("wander_metres").number(1e-6, 10.0)};
+}
+
+std::vector<RibWander> readRibWander(const HeaderNode& node) {
+    std::vector<RibWander> wanders;
+    for (const HeaderNode& each : node.elements(1, 2)) {
+        wanders.push_back({.turns = each.at("turns").number(0.0, 10.0),
+                           .wavelengthMetres = each.at("wavelength_metres").number(1e-6, 10.0)});
+    }
+    return wanders;
+}
+
 }  // namespace
 
 void readLabelTraits(const HeaderNode& node, Label& label) {
@@ -77,6 +92,12 @@ void readLabelTraits(const HeaderNode& node, Label& label) {
     }
     if (const auto offset = node.find("level_offset_db")) {
         label.levelOffsetDb = offset->number(-24.0, 24.0);
+    }
+    if (const auto stickSlip = node.find("stick_slip")) {
+        label.stickSlip = readStickSlip(*stickSlip);
+    }
+    if (const auto wander = node.find("rib_wander")) {
+        label.ribWander = readRibWander(*wander);
     }
 }
 

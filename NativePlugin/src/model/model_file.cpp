@@ -87,12 +87,25 @@ const Tier* ModelFile::findTier(std::string_view name) const noexcept {
     return findByName(header_.tiers, name);
 }
 
-std::span<const std::byte> ModelFile::blob(std::string_view name) const {
-    const Blob* found = findByName(header_.blobs, name);
+const Blob* ModelFile::findBlob(std::string_view name) const noexcept {
+    return findByName(header_.blobs, name);
+}
+
+const Blob& ModelFile::requireBlob(std::string_view name) const {
+    const Blob* found = findBlob(name);
     if (found == nullptr) {
         throw std::out_of_range("the model has no blob \"" + std::string(name) + '"');
     }
-    return std::span(bytes_).subspan(found->offset, found->bytes);
+    return *found;
+}
+
+std::span<const std::byte> ModelFile::blob(std::string_view name) const {
+    const Blob& found = requireBlob(name);
+    return std::span(bytes_).subspan(found.offset, found.bytes);
+}
+
+std::vector<float> ModelFile::tensor(std::string_view name) const {
+    return readTensor(bytes_, requireBlob(name));
 }
 
 std::span<const float, embeddingSize> ModelFile::embedding(std::size_t label) const {

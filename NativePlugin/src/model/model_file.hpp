@@ -37,6 +37,10 @@ public:
     /// The tier of this name, or null.
     [[nodiscard]] const Tier* findTier(std::string_view name) const noexcept;
 
+    /// The header's entry of the blob of this name, or null.
+    [[nodiscard]] const Blob* findBlob(std::string_view name) const noexcept;
+    /// The numbers of a float32 blob. Throws std::out_of_range for an unknown name.
+    [[nodiscard]] std::vector<float> tensor(std::string_view name) const;
     /// A blob's bytes, aligned to at least 16. Throws std::out_of_range for an unknown name.
     [[nodiscard]] std::span<const std::byte> blob(std::string_view name) const;
     /// The material embedding of header().labels[label].
@@ -49,6 +53,7 @@ public:
 
 private:
     ModelFile() = default;
+    [[nodiscard]] const Blob& requireBlob(std::string_view name) const;
 
     std::vector<std::byte> bytes_;
     std::size_t headerTextBytes_ = 0;

@@ -89,8 +89,9 @@ const Blob& requireMatrix(const HeaderNode& node, const std::string& name, const
 std::string spaceOf(const ModelHeader& header) {
     std::string text;
     for (const Tier& tier : header.tiers) {
-        const auto field = std::ranges::find(header.blobs, tier.field, &Blob::name);
-        text += tier.name + ':' + hexadecimal(field->crc32) + ';';
+        const std::string_view identity = tier.kind == TierKind::skeleton ? skeletonTensor : tier.field;
+        const auto blob = std::ranges::find(header.blobs, identity, &Blob::name);
+        text += tier.name + ':' + hexadecimal(blob->crc32) + ';';
     }
     return hexadecimal(crc32(std::as_bytes(std::span(text))));
 }
@@ -129,6 +130,12 @@ ModelHeader readHeader(std::string_view text) {
         tierNames.add(node, header.tiers.back().name, header.tiers.size() - 1);
     }
     header.defaultTier = tierNames.at(root.at("default_tier"), "tier");
+
+    if (std::ranges::any_of(header.tiers, &Tier::usesSkeleton)) {
+        header.skeleton = readSkeleton(root.at("skeleton"));
+        (void)requireMatrix(root.at("blobs"), std::string(skeletonTensor), header.blobs,
+                            static_cast<std::size_t>(header.skeleton->hidden));
+    }
 
     const HeaderNode bank = root.at("seed_bank");
     (void)bank.at("samples").integer(seedSamples, seedSamples);

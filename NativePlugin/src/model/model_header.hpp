@@ -69,6 +69,22 @@ struct Impact {
     double restitution = 0.0;
 };
 
+/// How far the true phase of ribs wanders from that of an even ruling.
+struct RibWander {
+    /// Standard deviation.
+    double turns = 0.0;
+    /// Distance over which it changes.
+    double wavelengthMetres = 0.0;
+};
+
+/// A tip that sticks and slips: the slip comes anew after about this distance.
+struct StickSlip {
+    double lengthMetres = 0.0;
+    /// Share by which the distance wanders, and over which distance it does.
+    double wander = 0.0;
+    double wanderMetres = 0.0;
+};
+
 struct Label {
     std::string name;
     std::size_t embeddingRow = 0;
@@ -85,21 +101,28 @@ struct Label {
     std::optional<ToneTable> tone;
     /// Added to every level, from the level graph or from a table.
     double levelOffsetDb = 0.0;
+    std::optional<StickSlip> stickSlip;
+    /// One for each wave vector; empty for even ribs.
+    std::vector<RibWander> ribWander;
 };
 
-enum class TierKind { flow, averageVelocity, direct };
+/// What a tier runs: a velocity field with a solver; one with an interval; a graph that returns the segment; the
+/// skeleton alone; the skeleton and a graph that corrects it.
+enum class TierKind { flow, averageVelocity, direct, skeleton, refine };
 enum class SolverKind { euler, midpoint, heun };
 enum class TierRepresentation { raw, latent };
 
 struct Tier {
     std::string name;
     TierKind kind = TierKind::flow;
-    /// Names of ONNX blobs; `encoder` and `decoder` are empty unless the representation is latent.
+    /// Names of ONNX blobs, empty for graphs that the tier does not have: `encoder` and `decoder` unless the
+    /// representation is latent, `level` for tiers that use the skeleton, `field` for kind `skeleton`.
     std::string field;
     std::string level;
     std::string encoder;
     std::string decoder;
-    SolverKind solver = SolverKind::midpoint;
+    /// Without effect on tiers that are not solved.
+    SolverKind solver = SolverKind::euler;
     int steps = 1;
     std::int64_t parameters = 0;
     TierRepresentation representation = TierRepresentation::raw;
@@ -111,7 +134,31 @@ struct Tier {
     /// The tier's measured error: its spectral distance plus the 90th percentile of its level error. Empty if one of
     /// them was not measured.
     std::optional<double> errorDb;
+
+    /// False for a tier that is evaluated once.
+    [[nodiscard]] bool isSolved() const noexcept { return kind == TierKind::flow || kind == TierKind::averageVelocity; }
+    /// True for a tier whose level, filter, lines and impulses come from the model's skeleton.
+    [[nodiscard]] bool usesSkeleton() const noexcept { return kind == TierKind::skeleton || kind == TierKind::refine; }
+    /// True for a tier that has graphs.
+    [[nodiscard]] bool needsOnnxRuntime() const noexcept { return kind != TierKind::skeleton; }
 };
+
+/// The model's skeleton. The sizes are those of the format.
+struct SkeletonHeader {
+    /// Coefficients of the filter.
+    static constexpr std::size_t order = 24;
+    /// Harmonics of the lines and of the swing of the drive's gain.
+    static constexpr std::size_t harmonics = 14;
+    static constexpr std::size_t swingHarmonics = 5;
+    /// Heights in the noise, in standard deviations, beyond which it strikes.
+    static constexpr std::array<double, 5> rungs{2.0, 2.6, 3.1, 3.5, 4.0};
+
+    /// Hidden units of the perceptron, and weights of skeleton and level.
+    std::int64_t hidden = 0;
+    std::int64_t parameters = 0;
+};
+/// The tensor that stands for the skeleton in the model's space.
+inline constexpr std::string_view skeletonTensor = "skeleton.4.weight";
 
 /// Indices of the tiers, the least accurate first; equally accurate ones in the file's order. If a tier was not
 /// measured, all are in the file's order.
@@ -150,19 +197,22 @@ struct ModelHeader {
     std::vector<Tier> tiers;
     /// Index in `tiers`.
     std::size_t defaultTier = 0;
+    /// Set if a tier uses it.
+    std::optional<SkeletonHeader> skeleton;
     std::string seedTensor;
     std::vector<SeedEntry> seeds;
     std::vector<Blob> blobs;
 };
 
 /// Identifies the embedding space of the model's networks: 8 hexadecimal digits in lower case, the CRC-32 of
-/// "name:crc;" for each tier in the file's order, where crc is that of its velocity field's graph.
+/// "name:crc;" for each tier in the file's order, where crc is that of its graph, or for kind `skeleton` of the tensor
+/// skeletonTensor.
 [[nodiscard]] std::string spaceOf(const ModelHeader& header);
 
 /// Parses the header's text. Throws ModelError that names the key.
 [[nodiscard]] ModelHeader readHeader(std::string_view text);
 
-/// The file's names of the values: "flow", "average-velocity" or "direct", and so on.
+/// The file's names of the values: "flow", "average-velocity", "direct", and so on.
 [[nodiscard]] std::string_view kindName(TierKind kind) noexcept;
 [[nodiscard]] std::string_view solverName(SolverKind solver) noexcept;
 

@@ -13,11 +13,16 @@
 namespace haptoflow::model {
 namespace {
 
+constexpr std::int64_t maximumParameters = INT64_C(1) << 32;
+
 template <typename Value>
 using Word = std::pair<std::string_view, Value>;
 
-constexpr std::array<Word<TierKind>, 3> kindWords = {
-    {{"flow", TierKind::flow}, {"average-velocity", TierKind::averageVelocity}, {"direct", TierKind::direct}}};
+constexpr std::array<Word<TierKind>, 5> kindWords = {{{"flow", TierKind::flow},
+                                                      {"average-velocity", TierKind::averageVelocity},
+                                                      {"direct", TierKind::direct},
+                                                      {"skeleton", TierKind::skeleton},
+                                                      {"refine", TierKind::refine}}};
 constexpr std::array<Word<SolverKind>, 3> solverWords = {
     {{"euler", SolverKind::euler}, {"midpoint", SolverKind::midpoint}, {"heun", SolverKind::heun}}};
 constexpr std::array<Word<TierRepresentation>, 2> representationWords = {
@@ -84,6 +89,19 @@ std::optional<double> readError(const std::string& accuracyJson) {
     return spectral && level ? std::optional(*spectral + *level) : std::nullopt;
 }
 
+/// The keys of tiers that are networks alone.
+void readSolvedKeys(const HeaderNode& node, const NameIndex& blobNames, const std::vector<Blob>& blobs, Tier& tier) {
+    tier.level = readGraphName(node.at("level"), blobNames, blobs);
+    tier.solver = readWord(node.at("solver"), solverWords);
+    tier.steps = static_cast<int>(node.at("steps").integer(1, 16));
+    tier.representation = readWord(node.at("representation"), representationWords);
+    if (tier.representation == TierRepresentation::latent) {
+        tier.latentShape = readLatentShape(node.at("latent_shape"));
+        tier.encoder = readGraphName(node.at("encoder"), blobNames, blobs);
+        tier.decoder = readGraphName(node.at("decoder"), blobNames, blobs);
+    }
+}
+
 }  // namespace
 
 std::vector<std::size_t> tiersByAccuracy(const std::vector<Tier>& tiers) {
@@ -103,21 +121,32 @@ Tier readTier(const HeaderNode& node, const NameIndex& blobNames, const std::vec
     Tier tier;
     tier.name = node.at("name").name(nameBytes);
     tier.kind = readWord(node.at("kind"), kindWords);
-    tier.field = readGraphName(node.at("field"), blobNames, blobs);
-    tier.level = readGraphName(node.at("level"), blobNames, blobs);
-    tier.solver = readWord(node.at("solver"), solverWords);
-    tier.steps = static_cast<int>(node.at("steps").integer(1, 16));
-    tier.parameters = node.at("parameters").integer(0, INT64_C(1) << 32);
-    tier.representation = readWord(node.at("representation"), representationWords);
-    if (tier.representation == TierRepresentation::latent) {
-        tier.latentShape = readLatentShape(node.at("latent_shape"));
-        tier.encoder = readGraphName(node.at("encoder"), blobNames, blobs);
-        tier.decoder = readGraphName(node.at("decoder"), blobNames, blobs);
+    if (tier.kind != TierKind::skeleton) {
+        tier.field = readGraphName(node.at("field"), blobNames, blobs);
     }
+    if (!tier.usesSkeleton()) {
+        readSolvedKeys(node, blobNames, blobs, tier);
+    }
+    tier.parameters = node.at("parameters").integer(0, maximumParameters);
     tier.accuracyJson = node.at("accuracy").objectText();
     tier.costJson = node.at("cost").objectText();
     tier.errorDb = readError(tier.accuracyJson);
     return tier;
+}
+
+SkeletonHeader readSkeleton(const HeaderNode& node) {
+    const auto requireSize = [&node](std::string_view key, std::size_t size) {
+        (void)node.at(key).integer(static_cast<std::int64_t>(size), static_cast<std::int64_t>(size));
+    };
+    requireSize("order", SkeletonHeader::order);
+    requireSize("harmonics", SkeletonHeader::harmonics);
+    requireSize("swing_harmonics", SkeletonHeader::swingHarmonics);
+    const HeaderNode rungs = node.at("rungs");
+    if (!std::ranges::equal(rungs.numbers(SkeletonHeader::rungs.size(), 0.0, 16.0), SkeletonHeader::rungs)) {
+        rungs.refuse("[2, 2.6, 3.1, 3.5, 4]");
+    }
+    return {.hidden = node.at("hidden").integer(1, 512),
+            .parameters = node.at("parameters").integer(0, maximumParameters)};
 }
 
 std::string_view kindName(TierKind kind) noexcept {

@@ -52,6 +52,15 @@ private:
     std::string path_;
 };
 
+TEST(InspectTest, ASkeletonItsTiersAndTheWavesOfLabelsAreShown) {
+    const Finished run = inspect(HAPTOFLOW_TEST_GOLDEN_DIR "/model/skeleton.haptoflow");
+    EXPECT_EQ(run.exitCode, 0) << run.output;
+    for (const char* part : {"skeleton", "9317 weights, 24 hidden units", "stick-slip mm", "1.1", "rib wander turns",
+                             "0.12, 0", "sketch", "refine", "standard (default)"}) {
+        EXPECT_THAT(run.output, HasSubstr(part));
+    }
+}
+
 TEST(InspectTest, ProvenanceLabelsAndTiersAreShownAsText) {
     const Finished run = inspect(tinyModel);
     EXPECT_EQ(run.exitCode, 0) << run.output;

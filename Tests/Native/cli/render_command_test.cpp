@@ -79,6 +79,21 @@ TEST_F(RenderCommandTest, AModelWhoseGraphsCannotBeLoadedIsAnInputErrorWithTierA
     EXPECT_FALSE(exists("felt.wav"));
 }
 
+TEST_F(RenderCommandTest, TiersWithASkeletonRenderAndTakeNoSolver) {
+    const std::string model = " --model '" HAPTOFLOW_TEST_GOLDEN_DIR "/model/skeleton.haptoflow'";
+    write("ruled.json", R"({"surfaces": [{"name": "floor", "shape": {"plane": {}}, "material": "ruled"}]})");
+    for (const std::string quality : {"sketch", "standard"}) {
+        const std::string words =
+            "render ruled.json --stroke stroke.csv -o felt.wav --report felt.json --quality " + quality + model;
+        const Finished rendered = run(words);
+        EXPECT_EQ(rendered.exitCode, 0) << rendered.errors;
+        EXPECT_GT(nlohmann::json::parse(read("felt.json")).at("rms_mps2").get<double>(), 0.0) << quality;
+        const Finished solved = run(words + " --solver euler --steps 2");
+        EXPECT_EQ(solved.exitCode, 2) << solved.errors;
+        EXPECT_THAT(solved.errors, HasSubstr("evaluated once"));
+    }
+}
+
 TEST_F(RenderCommandTest, TwoOutputsWithOneNameAreRefused) {
     expectUsage("-o felt.wav --waveform felt.wav", "--waveform felt.wav: is the same file as -o felt.wav");
     expectUsage("-o felt.wav --report ./felt.wav", "--report ./felt.wav: is the same file as -o felt.wav");

@@ -51,7 +51,7 @@ float ribs(double turns) {
 void ribsOf(const SegmentRequest& request, std::span<float> segment) {
     const double step = turnsPerSample(std::span(request.embedding).subspan(60, 2), request.motion);
     for (std::size_t i = 0; i < segment.size(); ++i) {
-        segment[i] = ribs(static_cast<double>(request.ribPhase[0]) + step * static_cast<double>(i));
+        segment[i] = ribs(static_cast<double>(request.phases[0]) + step * static_cast<double>(i));
     }
 }
 
@@ -95,7 +95,7 @@ class RibPhaseTest : public ::testing::Test {
 protected:
     model::ModelFile model_ = ribModel();
     FakeGenerator generator_{[this](const SegmentRequest& request, std::span<float> segment) {
-        phases_.push_back(request.ribPhase);
+        phases_.push_back({request.phases[0], request.phases[1]});
         speedsMps_.push_back(request.motion[0]);
         turns_.push_back(turnsPerSample(std::span(request.embedding).subspan(60, 2), request.motion));
         ribsOf(request, segment);
@@ -405,7 +405,7 @@ TEST_F(RibPhaseTest, EachVoiceOfABatchHasItsOwnPhase) {
         void generate(std::span<const SegmentRequest> requests, std::span<float> segments) override {
             rounds_.emplace_back();
             for (std::size_t i = 0; i < requests.size(); ++i) {
-                rounds_.back().push_back(requests[i].ribPhase);
+                rounds_.back().push_back({requests[i].phases[0], requests[i].phases[1]});
                 ribsOf(requests[i], segments.subspan(i * inference::segmentSamples, inference::segmentSamples));
             }
         }

@@ -99,7 +99,7 @@ protected:
     model::ModelFile model_ = ruledModel();
     std::vector<Asked> requested_;
     FakeGenerator generator_{[this](const inference::SegmentRequest& request, std::span<float> segment) {
-        requested_.push_back({request.ribPhase[0], request.motion, request.levelMotion.value_or(request.motion)});
+        requested_.push_back({request.phases[0], request.motion, request.levelMotion.value_or(request.motion)});
         std::ranges::copy(request.noise, segment.begin());
     }};
 };

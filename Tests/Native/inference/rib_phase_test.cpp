@@ -32,7 +32,7 @@ model::ModelFile ribModel() {
 std::vector<SegmentRequest> requestsWithPhases() {
     auto requests = goldenBatch().requests();
     for (std::size_t i = 0; i < requests.size(); ++i) {
-        requests[i].ribPhase = phases[i];
+        std::ranges::copy(phases[i], requests[i].phases.begin());
     }
     return requests;
 }
@@ -41,7 +41,7 @@ std::vector<SegmentRequest> requestsWithPhases() {
 std::vector<float> effectOfPhase(OnnxSegmentGenerator& generator, const std::vector<SegmentRequest>& requests) {
     auto without = requests;
     for (SegmentRequest& request : without) {
-        request.ribPhase = {};
+        request.phases = {};
     }
     std::vector<float> levels(requests.size());
     std::vector<float> with(requests.size() * segmentSamples);

@@ -58,7 +58,7 @@ public:
                                    std::span<const float>(row->noise).first<segmentSamples>()};
             std::ranges::copy(row->embedding, request.embedding.begin());
             std::ranges::copy(row->motion, request.motion.begin());
-            request.ribPhase = row->ribPhase;
+            std::ranges::copy(row->ribPhase, request.phases.begin());
             result.push_back(request);
         }
         return result;

@@ -1,0 +1,33 @@
+#include "inference/generator_checks.hpp"
+
+#include "inference/inference_error.hpp"
+#include "inference/tier_generator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace haptoflow::inference {
+
+std::size_t requireBatch(std::size_t batch) {
+    if (batch < 1 || batch > maximumBatchSize) {
+        throw std::invalid_argument("the maximum batch is " + std::to_string(batch) + "; expected 1 to 256");
+    }
+    return batch;
+}
+
+void requireSize(std::size_t found, std::size_t expected, const char* what) {
+    if (found != expected) {
+        throw std::invalid_argument(std::string(what) + " for " + std::to_string(expected) + " numbers; found " +
+                                    std::to_string(found));
+    }
+}
+
+void requireFinite(std::span<const float> segments, const char* source) {
+    if (!std::ranges::all_of(segments, [](float sample) { return std::isfinite(sample); })) {
+        throw InferenceError(std::string("the ") + source + " returned a waveform that is not finite");
+    }
+}
+
+}  // namespace haptoflow::inference

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+namespace haptoflow::inference {
+
+/// Returns `batch`. Throws std::invalid_argument outside 1 to maximumBatchSize.
+[[nodiscard]] std::size_t requireBatch(std::size_t batch);
+
+/// Throws std::invalid_argument that begins with `what` unless `found` is `expected`.
+void requireSize(std::size_t found, std::size_t expected, const char* what);
+
+/// Throws InferenceError that names `source` if a sample is not finite.
+void requireFinite(std::span<const float> segments, const char* source);
+
+/// Calls `action(first, count)` for consecutive parts of at most `maximum` elements.
+template <typename Action>
+void inBatches(std::size_t total, std::size_t maximum, Action action) {
+    for (std::size_t first = 0; first < total; first += maximum) {
+        action(first, total - first < maximum ? total - first : maximum);
+    }
+}
+
+}  // namespace haptoflow::inference

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "inference/onnx_graph.hpp"
+#include "inference/skeleton_generator.hpp"
+#include "inference/tier_generator.hpp"
+#include "skeleton/perceptron.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace haptoflow::inference {
+
+/// A tier of kind `refine`: the skeleton, and a graph that corrects it. Conditioning is native, so that a batch is one
+/// run of a small graph. Used by one thread at a time; allocates.
+class RefinedGenerator final : public TierGenerator {
+public:
+    /// Throws what makeGenerator throws.
+    RefinedGenerator(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model, const model::Tier& tier,
+                     SolverSettings solver, std::size_t maximumBatch, const LoadLimits& limits = {});
+
+    void setSolver(SolverSettings solver) override;
+    void generate(std::span<const SegmentRequest> requests, std::span<float> segments) override;
+    void levels(std::span<const SegmentRequest> requests, std::span<float> levelsMps2) override;
+
+    /// Number of runs of the graph; tests use it to show that nothing is computed needlessly.
+    [[nodiscard]] std::uint64_t graphRuns() const noexcept { return graph_.runs(); }
+
+private:
+    void generateBatch(std::span<const SegmentRequest> requests, std::span<float> segments);
+
+    std::size_t maximumBatch_;
+    SkeletonLevelEstimator level_;
+    std::shared_ptr<const skeleton::Skeleton> skeleton_;
+    skeleton::Perceptron conditioning_;
+    OnnxGraph graph_;
+    std::vector<float> levelsMps2_;
+};
+
+}  // namespace haptoflow::inference

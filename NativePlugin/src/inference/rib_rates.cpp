@@ -1,0 +1,34 @@
+#include "inference/rib_rates.hpp"
+
+#include <algorithm>
+
+namespace haptoflow::inference {
+namespace {
+
+constexpr double millimetresPerMetre = 1000.0;
+
+}  // namespace
+
+std::array<double, ribCount> ribRatesHz(std::span<const float, embeddingSize> embedding, double vxMps,
+                                        double vyMps) noexcept {
+    const auto vectors = embedding.last<2 * ribCount>();
+    std::array<double, ribCount> rates{};
+    for (std::size_t rib = 0; rib < rates.size(); ++rib) {
+        rates[rib] =
+            (static_cast<double>(vectors[2 * rib]) * vxMps + static_cast<double>(vectors[2 * rib + 1]) * vyMps) *
+            millimetresPerMetre;
+    }
+    return rates;
+}
+
+skeleton::Phases phasesOf(std::span<const float, embeddingSize> embedding, const std::array<float, 3>& motion,
+                          const std::array<float, ribCount>& turns) noexcept {
+    skeleton::Phases phases{};
+    std::ranges::copy(turns, phases.begin());
+    std::ranges::transform(ribRatesHz(embedding, static_cast<double>(motion[0]), static_cast<double>(motion[1])),
+                           phases.begin() + skeleton::familyCount,
+                           [](double rateHz) { return static_cast<float>(rateHz); });
+    return phases;
+}
+
+}  // namespace haptoflow::inference

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "inference/segment_generator.hpp"
+
+#include <array>
+#include <span>
+
+namespace haptoflow::inference {
+
+/// Signed rates in Hz at which a tip crosses the ribs of an embedding, one for each wave vector: k . v.
+[[nodiscard]] std::array<double, ribCount> ribRatesHz(std::span<const float, embeddingSize> embedding, double vxMps,
+                                                      double vyMps) noexcept;
+
+/// Phases of a request: the turns of the two families of ribs, and the rates of the embedding at the motion. The third
+/// family stands still.
+[[nodiscard]] skeleton::Phases phasesOf(std::span<const float, embeddingSize> embedding,
+                                        const std::array<float, 3>& motion,
+                                        const std::array<float, ribCount>& turns) noexcept;
+
+}  // namespace haptoflow::inference

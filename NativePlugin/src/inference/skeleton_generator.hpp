@@ -1,0 +1,51 @@
+#pragma once
+
+#include "inference/load_limits.hpp"
+#include "inference/tier_generator.hpp"
+#include "model/model_file.hpp"
+#include "skeleton/level_model.hpp"
+#include "skeleton/skeleton.hpp"
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace haptoflow::inference {
+
+/// The levels of a model with a skeleton, computed natively. Any thread; no allocation.
+class SkeletonLevelEstimator final : public LevelEstimator {
+public:
+    /// Throws model::ModelError (inconsistent) that names a tensor.
+    explicit SkeletonLevelEstimator(const model::ModelFile& model);
+
+    /// Throws InferenceError for an impossible level, std::invalid_argument if the spans differ in size.
+    void levels(std::span<const SegmentRequest> requests, std::span<float> levelsMps2) override;
+
+private:
+    std::shared_ptr<const skeleton::LevelModel> level_;
+};
+
+/// A request with its previous waveform in unit scale. `previous` must live as long as the moment.
+[[nodiscard]] skeleton::Moment momentOf(const SegmentRequest& request, float levelMps2,
+                                        std::span<float, segmentSamples> previous) noexcept;
+
+/// A tier of kind `skeleton`: needs no ONNX Runtime. Used by one thread at a time.
+class SkeletonGenerator final : public TierGenerator {
+public:
+    /// Throws what makeGenerator throws.
+    SkeletonGenerator(const model::ModelFile& model, SolverSettings solver, std::size_t maximumBatch,
+                      const LoadLimits& limits = {});
+
+    void setSolver(SolverSettings solver) override;
+    /// Allocates for the largest number of requests so far.
+    void generate(std::span<const SegmentRequest> requests, std::span<float> segments) override;
+    void levels(std::span<const SegmentRequest> requests, std::span<float> levelsMps2) override;
+
+private:
+    SkeletonLevelEstimator level_;
+    std::shared_ptr<const skeleton::Skeleton> skeleton_;
+    std::vector<float> levelsMps2_;
+};
+
+}  // namespace haptoflow::inference

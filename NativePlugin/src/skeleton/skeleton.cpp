@@ -1,0 +1,122 @@
+#include "skeleton/skeleton.hpp"
+
+#include "skeleton/unit_scale.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace haptoflow::skeleton {
+namespace {
+
+constexpr float largestSwing = 2.0F;
+
+/// The outputs of one family, in the perceptron's order.
+FamilyGains gainsOf(std::span<const float, 2 * (swingHarmonics + lineHarmonics)> outputs) noexcept {
+    FamilyGains gains;
+    const float* next = outputs.data();
+    const auto take = [&next](auto& part) {
+        std::copy_n(next, part.size(), part.begin());
+        next += part.size();
+    };
+    take(gains.swingCosine);
+    take(gains.swingSine);
+    take(gains.lineCosine);
+    take(gains.lineSine);
+    return gains;
+}
+
+/// The noise with the gain that the filter and the waves give it.
+std::array<float, segmentSamples> driveOf(Segment noise, double logGain, const SurfaceWaves& waves) noexcept {
+    const auto gain = static_cast<float>(std::exp(logGain));
+    std::array<float, segmentSamples> drive{};
+    if (!waves.isHeard()) {
+        std::ranges::transform(noise, drive.begin(), [gain](float sample) { return gain * sample; });
+        return drive;
+    }
+    std::ranges::transform(noise, waves.swing(), drive.begin(), [gain](float sample, float swing) {
+        return sample * gain * std::exp(largestSwing * std::tanh(swing / largestSwing));
+    });
+    return drive;
+}
+
+}  // namespace
+
+struct Skeleton::Pulses {
+    SurfaceWaves::Pulses cosines{};
+    SurfaceWaves::Pulses sines{};
+};
+
+Skeleton::Skeleton(HiddenLayers hidden, OutputLayers outputs)
+    : hidden_(std::move(hidden)), outputs_(std::move(outputs)) {}
+
+std::array<FamilyPhase, familyCount> Skeleton::familiesOf(const Phases& phases) noexcept {
+    std::array<FamilyPhase, familyCount> families{};
+    for (std::size_t family = 0; family < familyCount; ++family) {
+        families[family] = {.turns = static_cast<double>(phases[family]),
+                            .rateHz = static_cast<double>(phases[familyCount + family])};
+    }
+    return families;
+}
+
+SegmentParameters Skeleton::parametersFor(const Condition& condition,
+                                          const std::array<FamilyPhase, familyCount>& phases) const noexcept {
+    const HiddenLayers::Activations activations = hidden_.run(condition);
+    SegmentParameters parameters;
+    std::array<float, filterOrder + 1> filter{};
+    outputs_.filter.apply(activations, filter);
+    parameters.filter = ReflectionFilter::of(std::span(filter).first<filterOrder>(), filter.back());
+    for (std::size_t family = 0; family < familyCount; ++family) {
+        if (phases[family].isHeard()) {
+            std::array<float, 2 * (swingHarmonics + lineHarmonics)> outputs{};
+            outputs_.families[family].apply(activations, outputs);
+            parameters.families[family] = gainsOf(outputs);
+        }
+    }
+    outputs_.rungs.apply(activations, parameters.rungs);
+    return parameters;
+}
+
+void Skeleton::begin(const Moment& moment, const Condition& condition, std::span<float, segmentSamples> begun,
+                     std::span<float, segmentSamples> struck, Pulses* pulses) const noexcept {
+    const auto phases = familiesOf(moment.phases);
+    const SegmentParameters parameters = parametersFor(condition, phases);
+    SurfaceWaves waves;
+    for (std::size_t family = 0; family < familyCount; ++family) {
+        if (phases[family].isHeard()) {
+            waves.add(phases[family], parameters.families[family], pulses != nullptr ? &pulses->cosines : nullptr,
+                      pulses != nullptr ? &pulses->sines : nullptr);
+        }
+    }
+    std::array<float, filterOrder> rest{};
+    std::ranges::transform(moment.previous.last<filterOrder>(), waves.lines(), rest.begin(), std::minus<>());
+    std::array<float, segmentSamples> noise{};
+    std::ranges::transform(moment.noise, noise.begin(), [](float sample) { return limitedOrZero(sample, noiseLimit); });
+    parameters.filter.run(rest, driveOf(noise, parameters.filter.logGain, waves), begun);
+    impulses_.strike(noise, parameters.rungs, struck);
+    const auto lines = std::span(waves.lines()).last<segmentSamples>();
+    for (std::size_t n = 0; n < segmentSamples; ++n) {
+        begun[n] += lines[n] + struck[n];
+    }
+}
+
+void Skeleton::sketch(const Moment& moment, const Condition& condition,
+                      std::span<float, segmentSamples> begun) const noexcept {
+    std::array<float, segmentSamples> struck{};
+    begin(moment, condition, begun, struck, nullptr);
+}
+
+void Skeleton::enter(const Moment& moment, const Condition& condition,
+                     std::span<float, enteringChannels * segmentSamples> entering) const noexcept {
+    Pulses pulses;
+    begin(moment, condition, entering.first<segmentSamples>(), entering.subspan<segmentSamples, segmentSamples>(),
+          &pulses);
+    auto next = entering.begin() + 2 * segmentSamples;
+    for (const SurfaceWaves::Pulses* each : {&pulses.cosines, &pulses.sines}) {
+        for (const auto& harmonic : *each) {
+            next = std::ranges::copy(harmonic, next).out;
+        }
+    }
+}
+
+}  // namespace haptoflow::skeleton

@@ -1,0 +1,78 @@
+#pragma once
+
+#include "skeleton/condition.hpp"
+#include "skeleton/linear_layer.hpp"
+#include "skeleton/perceptron.hpp"
+#include "skeleton/reflection_filter.hpp"
+#include "skeleton/rung_impulses.hpp"
+#include "skeleton/skeleton_layout.hpp"
+#include "skeleton/surface_waves.hpp"
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+namespace haptoflow::skeleton {
+
+/// What a segment is made of. The spans must live while it is used.
+struct Moment {
+    std::span<const float, embeddingSize> embedding;
+    Motion motion{};
+    Phases phases{};
+    /// The 200 samples before the segment in unit scale, limited to +-16.
+    Segment previous;
+    /// Standard normal; limited to +-9, a sample that is not a number counts as 0.
+    Segment noise;
+};
+
+/// The last layer of the perceptron `skeleton`, cut by what its outputs are for, so that a family that is not heard
+/// costs nothing.
+struct OutputLayers {
+    /// Reflections and gain.
+    LinearLayer filter;
+    /// Of each family the swing's cosines and sines, then the lines' cosines and sines.
+    std::array<LinearLayer, familyCount> families;
+    LinearLayer rungs;
+};
+
+/// The parameters of a segment.
+struct SegmentParameters {
+    ReflectionFilter filter;
+    /// Zero for a family that is not heard.
+    std::array<FamilyGains, familyCount> families{};
+    std::array<float, RungImpulses::gainCount> rungs{};
+};
+
+/// What sounds without a graph: noise through a filter that continues the previous waveform, lines of ribs and
+/// stick-slip, and impulses. Immutable, so that any number of threads may use it; allocates nothing while it runs. The
+/// result is finite and bounded for any argument.
+class Skeleton {
+public:
+    /// Channels of what the refining graph sees.
+    static constexpr std::size_t enteringChannels = 2 + 2 * swingHarmonics;
+
+    Skeleton(HiddenLayers hidden, OutputLayers outputs);
+
+    [[nodiscard]] SegmentParameters parametersFor(const Condition& condition,
+                                                  const std::array<FamilyPhase, familyCount>& phases) const noexcept;
+    [[nodiscard]] static std::array<FamilyPhase, familyCount> familiesOf(const Phases& phases) noexcept;
+
+    /// Writes the segment in unit scale.
+    void sketch(const Moment& moment, const Condition& condition,
+                std::span<float, segmentSamples> begun) const noexcept;
+    /// Writes what the refining graph sees, one channel after the other: the segment, its impulses, and the cosines and
+    /// then the sines of the first five harmonics, summed over the families.
+    void enter(const Moment& moment, const Condition& condition,
+               std::span<float, enteringChannels * segmentSamples> entering) const noexcept;
+
+private:
+    struct Pulses;
+    void begin(const Moment& moment, const Condition& condition, std::span<float, segmentSamples> begun,
+               std::span<float, segmentSamples> struck, Pulses* pulses) const noexcept;
+
+    HiddenLayers hidden_;
+    OutputLayers outputs_;
+    RungImpulses impulses_;
+};
+
+}  // namespace haptoflow::skeleton

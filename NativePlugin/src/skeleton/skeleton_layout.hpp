@@ -1,0 +1,45 @@
+#pragma once
+
+#include "dsp/sample_rates.hpp"
+#include "model/model_header.hpp"
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+namespace haptoflow::skeleton {
+
+using dsp::segmentSamples;
+using dsp::waveformRateHz;
+using model::embeddingSize;
+
+inline constexpr std::size_t filterOrder = model::SkeletonHeader::order;
+inline constexpr std::size_t lineHarmonics = model::SkeletonHeader::harmonics;
+inline constexpr std::size_t swingHarmonics = model::SkeletonHeader::swingHarmonics;
+inline constexpr std::size_t rungCount = model::SkeletonHeader::rungs.size();
+/// Families of waves that the surface's place drives: two of ribs and stick-slip.
+inline constexpr std::size_t familyCount = 3;
+/// Kernels that a rung's impulses are made of.
+inline constexpr std::size_t atomCount = 13;
+
+/// Largest magnitude of a sample in unit scale: m/s^2 divided by the level.
+inline constexpr float unitLimit = 16.0F;
+/// Largest magnitude of the noise; no number of inference::fillStandardNormal reaches it.
+inline constexpr float noiseLimit = 9.0F;
+
+/// Turns of the three families at a segment's first sample, then their signed rates in Hz.
+using Phases = std::array<float, 2 * familyCount>;
+
+using Segment = std::span<const float, segmentSamples>;
+
+/// Where the outputs of the perceptron `skeleton` begin: reflections and gain, swing and lines of each family, rungs.
+namespace output {
+inline constexpr std::size_t reflections = 0;
+inline constexpr std::size_t gain = filterOrder;
+inline constexpr std::size_t swing = gain + 1;
+inline constexpr std::size_t lines = swing + familyCount * 2 * swingHarmonics;
+inline constexpr std::size_t rungs = lines + familyCount * 2 * lineHarmonics;
+inline constexpr std::size_t count = rungs + 2 * rungCount * atomCount;
+}  // namespace output
+
+}  // namespace haptoflow::skeleton

@@ -1,0 +1,54 @@
+#pragma once
+
+#include "skeleton/skeleton_layout.hpp"
+
+#include <array>
+#include <cstddef>
+
+namespace haptoflow::skeleton {
+
+/// Phase of a family of waves at the segment's first sample, and its rate.
+struct FamilyPhase {
+    double turns = 0.0;
+    /// Negative where the tip moves against the family's direction.
+    double rateHz = 0.0;
+
+    /// False where the family is too slow to be a wave: then nothing of it is computed.
+    [[nodiscard]] bool isHeard() const noexcept;
+};
+
+/// A family's outputs of the perceptron: of each harmonic the cosine's and the sine's share of the swing, and of the
+/// lines.
+struct FamilyGains {
+    std::array<float, swingHarmonics> swingCosine{};
+    std::array<float, swingHarmonics> swingSine{};
+    std::array<float, lineHarmonics> lineCosine{};
+    std::array<float, lineHarmonics> lineSine{};
+};
+
+/// Waves whose phase the place on the surface fixes: lines, and the swing of the noise's gain. Samples are at (n + 0.5)
+/// / 2000 s; the lines begin filterOrder samples before the segment.
+class SurfaceWaves {
+public:
+    static constexpr std::size_t lineSamples = filterOrder + segmentSamples;
+    /// Cosines or sines of the swing's harmonics, summed over the families.
+    using Pulses = std::array<std::array<float, segmentSamples>, swingHarmonics>;
+
+    /// Adds a family that is heard. With `cosines` and `sines`, also adds the swing's harmonics to them. No allocation.
+    void add(const FamilyPhase& phase, const FamilyGains& gains, Pulses* cosines = nullptr,
+             Pulses* sines = nullptr) noexcept;
+
+    /// Lines in unit scale from 24 samples before the segment to its end.
+    [[nodiscard]] const std::array<float, lineSamples>& lines() const noexcept { return lines_; }
+    /// What is added to the natural logarithm of the drive's gain, before its limit.
+    [[nodiscard]] const std::array<float, segmentSamples>& swing() const noexcept { return swing_; }
+    /// True if a family was added.
+    [[nodiscard]] bool isHeard() const noexcept { return isHeard_; }
+
+private:
+    bool isHeard_ = false;
+    std::array<float, lineSamples> lines_{};
+    std::array<float, segmentSamples> swing_{};
+};
+
+}  // namespace haptoflow::skeleton

@@ -1,0 +1,63 @@
+#include "skeleton/motion_features.hpp"
+
+#include "skeleton/condition.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace haptoflow::skeleton {
+namespace {
+
+TEST(MotionFeaturesTest, TheFeaturesOfASlantedStrokeAsWorkedOutByHand) {
+    // Speed .05 m/s: ln(.0505 / .06) and, at 1 N, ln(1.02).
+    const Motion motion{0.03F, -0.04F, 1.0F};
+    const double speed = std::log(0.0505 / 0.06);
+    const double force = std::log(1.02);
+    EXPECT_NEAR(logMotionOf(motion).speed, speed, 1e-6);
+    EXPECT_NEAR(logMotionOf(motion).force, force, 1e-6);
+    const double x = 0.03 / 0.052;
+    const double y = -0.04 / 0.052;
+    const std::array<double, smoothFeatures> smooth{0.5 * speed,
+                                                    0.5 * force,
+                                                    x,
+                                                    y,
+                                                    x * x - y * y,
+                                                    2.0 * x * y,
+                                                    std::sin(0.5 * speed),
+                                                    std::cos(0.5 * speed),
+                                                    std::sin(speed),
+                                                    std::cos(speed),
+                                                    0.05,
+                                                    0.2};
+    for (std::size_t i = 0; i < smooth.size(); ++i) {
+        EXPECT_NEAR(smoothFeaturesOf(motion).at(i), smooth.at(i), 1e-6) << i;
+    }
+    const auto fine = fineFeaturesOf(motion);
+    EXPECT_NEAR(fine[6], std::sin(0.5 * speed), 1e-6);
+    EXPECT_NEAR(fine[14], std::sin(8.0 * speed), 1e-6);
+    EXPECT_NEAR(fine[15], std::cos(8.0 * speed), 1e-6);
+    EXPECT_NEAR(fine[17], 0.2, 1e-6);
+}
+
+TEST(MotionFeaturesTest, RestAndANegativeForceAreFinite) {
+    const auto logarithms = logMotionOf({0.0F, 0.0F, -3.0F});
+    EXPECT_NEAR(logarithms.speed, std::log(0.0005 / 0.06), 1e-6);
+    EXPECT_NEAR(logarithms.force, std::log(0.02), 1e-6);
+}
+
+TEST(ConditionTest, NumbersThatAreNotFiniteCountAsZero) {
+    std::array<float, embeddingSize> embedding{};
+    embedding[3] = std::numeric_limits<float>::quiet_NaN();
+    embedding[4] = std::numeric_limits<float>::infinity();
+    embedding[5] = 2.0F;
+    const Motion broken{std::numeric_limits<float>::quiet_NaN(), 0.1F, std::numeric_limits<float>::infinity()};
+    const Condition condition = conditionOf(embedding, broken);
+    std::array<float, embeddingSize> clean{};
+    clean[5] = 2.0F;
+    EXPECT_EQ(condition, conditionOf(clean, {0.0F, 0.1F, 0.0F}));
+}
+
+}  // namespace
+}  // namespace haptoflow::skeleton

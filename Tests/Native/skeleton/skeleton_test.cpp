@@ -1,0 +1,144 @@
+#include "skeleton/skeleton.hpp"
+
+#include "skeleton/level_model.hpp"
+#include "skeleton/skeleton_tensors.hpp"
+#include "skeleton/unit_scale.hpp"
+#include "skeleton_model.hpp"
+#include "support/counting_new.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace haptoflow::skeleton::testing {
+namespace {
+
+using Wave = std::array<float, segmentSamples>;
+using Entering = std::array<float, Skeleton::enteringChannels * segmentSamples>;
+
+Wave randomWave(std::uint32_t seed) {
+    std::mt19937 random(seed);
+    std::normal_distribution<float> normal;
+    Wave wave{};
+    std::ranges::generate(wave, [&] { return normal(random); });
+    return wave;
+}
+
+class SkeletonTest : public ::testing::Test {
+protected:
+    [[nodiscard]] Wave sketchOf(const Phases& phases, const Wave& previous, const Wave& noise) const {
+        Wave begun{};
+        skeleton_->sketch(
+            {.embedding = embedding_, .motion = motion_, .phases = phases, .previous = previous, .noise = noise},
+            conditionOf(embedding_, motion_), begun);
+        return begun;
+    }
+
+    std::shared_ptr<const Skeleton> skeleton_ = readSkeleton(read(skeletonModel()));
+    std::array<float, embeddingSize> embedding_{0.5F, -1.0F, 0.25F};
+    Motion motion_{0.1F, -0.05F, 1.0F};
+    Wave previous_ = randomWave(1);
+    Wave noise_ = randomWave(2);
+    const Phases ruled_{0.25F, 0.5F, 0.0F, 60.0F, -130.0F, 0.0F};
+};
+
+TEST_F(SkeletonTest, ASegmentIsLinesAndFilteredNoiseAndImpulses) {
+    const Condition condition = conditionOf(embedding_, motion_);
+    const auto phases = Skeleton::familiesOf(ruled_);
+    const SegmentParameters parameters = skeleton_->parametersFor(condition, phases);
+    SurfaceWaves waves;
+    waves.add(phases[0], parameters.families[0]);
+    waves.add(phases[1], parameters.families[1]);
+    std::array<float, filterOrder> rest{};
+    for (std::size_t j = 0; j < filterOrder; ++j) {
+        rest[j] = previous_[segmentSamples - filterOrder + j] - waves.lines()[j];
+    }
+    Wave drive{};
+    for (std::size_t n = 0; n < segmentSamples; ++n) {
+        const double swing = 2.0 * std::tanh(0.5 * static_cast<double>(waves.swing()[n]));
+        drive[n] = noise_[n] * static_cast<float>(std::exp(parameters.filter.logGain + swing));
+    }
+    Wave filtered{};
+    parameters.filter.run(rest, drive, filtered);
+    Wave struck{};
+    RungImpulses().strike(noise_, parameters.rungs, struck);
+    const Wave begun = sketchOf(ruled_, previous_, noise_);
+    for (std::size_t n = 0; n < segmentSamples; ++n) {
+        EXPECT_NEAR(begun[n], waves.lines()[filterOrder + n] + filtered[n] + struck[n], 1e-5) << n;
+    }
+}
+
+TEST_F(SkeletonTest, TheSamePastNoiseAndPhasesGiveTheSameSegment) {
+    EXPECT_EQ(sketchOf(ruled_, previous_, noise_), sketchOf(ruled_, previous_, noise_));
+}
+
+TEST_F(SkeletonTest, WhatTheRefiningGraphSeesBeginsWithTheSketch) {
+    Entering entering{};
+    const Moment moment{
+        .embedding = embedding_, .motion = motion_, .phases = ruled_, .previous = previous_, .noise = noise_};
+    skeleton_->enter(moment, conditionOf(embedding_, motion_), entering);
+    const Wave begun = sketchOf(ruled_, previous_, noise_);
+    EXPECT_TRUE(std::ranges::equal(std::span(entering).first<segmentSamples>(), begun));
+    // Cosines of the first harmonic of both families at the first sample, .25 ms into the segment.
+    const auto angle = [](double turns, double rateHz) {
+        return 2.0 * std::numbers::pi * (turns + rateHz * 0.5 / 2000.0);
+    };
+    EXPECT_NEAR(entering[2 * segmentSamples], std::cos(angle(0.25, 60.0)) + std::cos(angle(-0.5, 130.0)), 1e-5);
+    EXPECT_NEAR(entering[7 * segmentSamples], std::sin(angle(0.25, 60.0)) + std::sin(angle(-0.5, 130.0)), 1e-5);
+}
+
+TEST_F(SkeletonTest, AnUnruledSurfaceHasNoWavesAndItsPhasesDoNotMatter) {
+    const Phases still{0.7F, 0.2F, 0.9F, 0.0F, 0.4F, -0.5F};
+    EXPECT_EQ(sketchOf(still, previous_, noise_), sketchOf({}, previous_, noise_));
+}
+
+TEST_F(SkeletonTest, SamplesThatAreNotNumbersCountAsZero) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    Wave noise = noise_;
+    noise[7] = nan;
+    Wave clean = noise_;
+    clean[7] = 0.0F;
+    EXPECT_EQ(sketchOf(ruled_, previous_, noise), sketchOf(ruled_, previous_, clean));
+    Wave previous = previous_;
+    previous.back() = nan;
+    Wave unit{};
+    toUnitScale(previous, 2.0F, unit);
+    EXPECT_EQ(unit.back(), 0.0F);
+    EXPECT_EQ(unit.front(), previous_.front() / 2.0F);
+}
+
+TEST_F(SkeletonTest, ThePreviousWaveformIsLimitedInUnitScale) {
+    Wave loud{};
+    loud[0] = 100.0F;
+    loud[1] = -std::numeric_limits<float>::infinity();
+    toUnitScale(loud, 0.5F, loud);
+    EXPECT_EQ(loud[0], 16.0F);
+    EXPECT_EQ(loud[1], -16.0F);
+}
+
+TEST_F(SkeletonTest, ASegmentAllocatesNothing) {
+    const std::size_t before = haptoflow::testing::allocationCount();
+    const Wave begun = sketchOf(ruled_, previous_, noise_);
+    EXPECT_EQ(haptoflow::testing::allocationCount(), before);
+    EXPECT_TRUE(std::isfinite(begun[0]));
+}
+
+TEST(LevelModelTest, TheLawIsLinearInTheLogarithmsAndTheCorrectionIsLimited) {
+    const auto zeros = [](std::size_t count) { return std::vector<float>(count); };
+    std::vector<float> law = zeros(3 * embeddingSize);
+    law[0] = 2.0F;
+    const std::array<float, 3> bias{0.5F, 0.75F, 0.25F};
+    std::vector<float> one{1e6F};
+    const Perceptron correction({{zeros(76), std::array<float, 1>{10.0F}}, {std::array<float, 1>{1.0F}, zeros(1)}},
+                                {one, zeros(1)});
+    const LevelModel level({law, bias}, correction);
+    const std::array<float, embeddingSize> embedding{0.5F};
+    const double expected = 1.0 + 0.5 + 0.75 * std::log(0.0605 / 0.06) + 0.25 * std::log(2.02) + 0.9;
+    EXPECT_NEAR(level.logLevel(embedding, {0.0F, 0.06F, 2.0F}), expected, 1e-6);
+}
+
+}  // namespace
+}  // namespace haptoflow::skeleton::testing

@@ -1,0 +1,113 @@
+#include "skeleton/surface_waves.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+
+namespace haptoflow::skeleton {
+namespace {
+
+FamilyGains randomGains(std::uint32_t seed) {
+    std::mt19937 random(seed);
+    std::normal_distribution<float> normal;
+    FamilyGains gains;
+    for (auto* part : {&gains.swingCosine, &gains.swingSine}) {
+        for (float& gain : *part) {
+            gain = normal(random);
+        }
+    }
+    for (auto* part : {&gains.lineCosine, &gains.lineSine}) {
+        for (float& gain : *part) {
+            gain = normal(random);
+        }
+    }
+    return gains;
+}
+
+/// The angle of a harmonic at sample n, straight from the definition.
+double theta(const FamilyPhase& phase, std::size_t harmonic, double n) {
+    const double sign = phase.rateHz >= 0.0 ? 1.0 : -1.0;
+    return 2.0 * std::numbers::pi * static_cast<double>(harmonic) *
+           (sign * phase.turns + std::fabs(phase.rateHz) * (n + 0.5) / 2000.0);
+}
+
+void expectDefinition(const FamilyPhase& phase) {
+    const FamilyGains gains = randomGains(11);
+    SurfaceWaves waves;
+    SurfaceWaves::Pulses cosines{};
+    SurfaceWaves::Pulses sines{};
+    waves.add(phase, gains, &cosines, &sines);
+    for (std::size_t at = 0; at < SurfaceWaves::lineSamples; ++at) {
+        const double n = static_cast<double>(at) - 24.0;
+        double line = 0.0;
+        double swing = 0.0;
+        for (std::size_t h = 1; h <= lineHarmonics; ++h) {
+            const double angle = theta(phase, h, n);
+            const double harmonicHz = static_cast<double>(h) * std::fabs(phase.rateHz);
+            if (harmonicHz < 960.0) {
+                line += 3.0 * std::tanh(gains.lineCosine[h - 1] / 3.0) * std::cos(angle) +
+                        3.0 * std::tanh(gains.lineSine[h - 1] / 3.0) * std::sin(angle);
+            }
+            if (h <= swingHarmonics && at >= 24) {
+                const bool isHeard = harmonicHz < 700.0;
+                swing += isHeard ? gains.swingCosine[h - 1] * std::cos(angle) + gains.swingSine[h - 1] * std::sin(angle)
+                                 : 0.0;
+                ASSERT_NEAR(cosines[h - 1][at - 24], isHeard ? std::cos(angle) : 0.0, 3e-6) << h << ' ' << at;
+                ASSERT_NEAR(sines[h - 1][at - 24], isHeard ? std::sin(angle) : 0.0, 3e-6) << h << ' ' << at;
+            }
+        }
+        ASSERT_NEAR(waves.lines()[at], line, 2e-5) << at;
+        if (at >= 24) {
+            ASSERT_NEAR(waves.swing()[at - 24], swing, 2e-5) << at;
+        }
+    }
+}
+
+TEST(SurfaceWavesTest, LinesSwingAndPulsesFollowTheDefinition) {
+    for (const double rateHz : {0.6, 37.5, 91.0, 333.0, 650.0, 959.0}) {
+        expectDefinition({.turns = 0.3, .rateHz = rateHz});
+    }
+}
+
+TEST(SurfaceWavesTest, AFamilyMetBackwardsIsMirroredInTime) {
+    expectDefinition({.turns = 0.3, .rateHz = -37.5});
+    expectDefinition({.turns = 0.9, .rateHz = -210.0});
+}
+
+TEST(SurfaceWavesTest, PhasesOfManyTurnsLoseNoPrecision) {
+    expectDefinition({.turns = 1e6 + 0.25, .rateHz = 90.0});
+}
+
+TEST(SurfaceWavesTest, OnlyRatesBetweenHalfAHertzAndTheHighestLineAreHeard) {
+    EXPECT_FALSE((FamilyPhase{.turns = 0.5, .rateHz = 0.0}.isHeard()));
+    EXPECT_FALSE((FamilyPhase{.turns = 0.5, .rateHz = -0.5}.isHeard()));
+    EXPECT_TRUE((FamilyPhase{.turns = 0.5, .rateHz = -0.51}.isHeard()));
+    EXPECT_TRUE((FamilyPhase{.turns = 0.5, .rateHz = 959.9}.isHeard()));
+    EXPECT_FALSE((FamilyPhase{.turns = 0.5, .rateHz = 960.0}.isHeard()));
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_FALSE((FamilyPhase{.turns = nan, .rateHz = 50.0}.isHeard()));
+    EXPECT_FALSE((FamilyPhase{.turns = 0.5, .rateHz = nan}.isHeard()));
+}
+
+TEST(SurfaceWavesTest, FamiliesAddUp) {
+    const FamilyPhase one{.turns = 0.1, .rateHz = 60.0};
+    const FamilyPhase other{.turns = 0.7, .rateHz = -140.0};
+    SurfaceWaves both;
+    both.add(one, randomGains(1));
+    both.add(other, randomGains(2));
+    SurfaceWaves first;
+    first.add(one, randomGains(1));
+    SurfaceWaves second;
+    second.add(other, randomGains(2));
+    for (std::size_t n = 0; n < SurfaceWaves::lineSamples; ++n) {
+        EXPECT_NEAR(both.lines()[n], first.lines()[n] + second.lines()[n], 1e-5);
+    }
+    EXPECT_FALSE(SurfaceWaves().isHeard());
+    EXPECT_TRUE(both.isHeard());
+}
+
+}  // namespace
+}  // namespace haptoflow::skeleton
