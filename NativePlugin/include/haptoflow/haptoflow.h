@@ -60,11 +60,12 @@ extern "C" {
 #define HAPTOFLOW_VERSION_PATCH 0
 #define HAPTOFLOW_VERSION_TEXT "0.1.0"
 
-/* Samples of a segment and of the previous waveform; lengths of a material embedding, a motion and a rib phase. */
+/* Samples of a segment and of the previous waveform; lengths of a material embedding, a motion and the
+ * phases of the surface's waves. */
 #define HAPTOFLOW_SEGMENT_SAMPLES 200
 #define HAPTOFLOW_EMBEDDING_SIZE 64
 #define HAPTOFLOW_MOTION_SIZE 3
-#define HAPTOFLOW_RIB_COUNT 2
+#define HAPTOFLOW_PHASES 6
 
 /* The acceleration in m/s^2 that corresponds to +-1 in the output unless options set another one. */
 #define HAPTOFLOW_DEFAULT_FULL_SCALE_MPS2 200.0
@@ -429,11 +430,11 @@ typedef struct haptoflow_batch {
     const float* previous_mps2;
     /* count * HAPTOFLOW_SEGMENT_SAMPLES standard normal numbers. Not needed for levels. */
     const float* noise;
-    /* count * HAPTOFLOW_RIB_COUNT phases: the position of the tip along each of the embedding's wave vectors at the
-     * segment's first sample, in cycles from 0 to below 1; null for zeros. Not needed for levels. Read by graphs with
-     * the input "rib_phase" and by tiers of the kinds "skeleton" and "refine", which take the rates from the embedding
-     * and the motion. */
-    const float* rib_phases;
+    /* count * HAPTOFLOW_PHASES numbers: for the ribs along each of the embedding's two wave vectors and for stick-slip,
+     * the phase at the segment's first sample in cycles from 0 to below 1, then its signed rate in Hz for each; null
+     * for phases of zero and the rates at which the motion crosses the wave vectors. Not needed for levels. Read by
+     * graphs with the input "phases" or "rib_phase" and by tiers of the kinds "skeleton" and "refine". */
+    const float* phases;
     /* count levels above 0, RMS in m/s^2, that replace those of the level graph; null to use the level graph. */
     const float* own_levels_mps2;
 } haptoflow_batch;

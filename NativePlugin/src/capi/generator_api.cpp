@@ -13,7 +13,7 @@ using namespace haptoflow::capi;
 
 static_assert(inference::segmentSamples == HAPTOFLOW_SEGMENT_SAMPLES);
 static_assert(inference::embeddingSize == HAPTOFLOW_EMBEDDING_SIZE);
-static_assert(inference::ribCount == HAPTOFLOW_RIB_COUNT);
+static_assert(skeleton::Phases{}.size() == HAPTOFLOW_PHASES);
 static_assert(inference::maximumBatchSize == HAPTOFLOW_MAXIMUM_BATCH);
 
 namespace {
@@ -24,7 +24,7 @@ constexpr std::size_t motionSize = HAPTOFLOW_MOTION_SIZE;
 // The fields that the first version required; steps and maximum_batch have defaults.
 constexpr std::size_t mandatoryOptions = offsetof(haptoflow_generator_options, steps);
 constexpr std::size_t mandatoryForLevels = offsetof(haptoflow_batch, previous_mps2);
-constexpr std::size_t mandatoryForSegments = offsetof(haptoflow_batch, rib_phases);
+constexpr std::size_t mandatoryForSegments = offsetof(haptoflow_batch, phases);
 
 float requireLevel(float levelMps2) {
     if (!(levelMps2 > 0.0F && levelMps2 <= 1e6F)) {
@@ -83,11 +83,11 @@ std::vector<inference::SegmentRequest> requestsOf(const haptoflow_batch* batch, 
                     request.embedding.begin());
         std::copy_n(given.motions + index * motionSize, motionSize, request.motion.begin());
         if (withWaveforms) {
-            std::array<float, inference::ribCount> turns{};
-            if (given.rib_phases != nullptr) {
-                std::copy_n(given.rib_phases + index * inference::ribCount, turns.size(), turns.begin());
+            request.phases = inference::phasesOf(request.embedding, request.motion, {});
+            if (given.phases != nullptr) {
+                std::copy_n(given.phases + index * request.phases.size(), request.phases.size(),
+                            request.phases.begin());
             }
-            request.phases = inference::phasesOf(request.embedding, request.motion, turns);
         }
         if (given.own_levels_mps2 != nullptr) {
             request.levelMps2 = requireLevel(given.own_levels_mps2[index]);

@@ -128,9 +128,8 @@ void OnnxSegmentGenerator::prepare(std::span<const SegmentRequest> requests) {
     }
     field_.setPrevious(previous);
 
-    const auto ribPhases = field_.ribPhases();
     for (std::size_t index = 0; index < requests.size(); ++index) {
-        std::copy_n(requests[index].phases.begin(), ribCount, ribPhases.subspan(index * ribCount).begin());
+        field_.setPhases(index, requests[index].phases);
         const auto point = std::span(points_).subspan(index * pointSize_, pointSize_);
         if (point.size() == segmentSamples) {
             std::ranges::copy(requests[index].noise, point.begin());

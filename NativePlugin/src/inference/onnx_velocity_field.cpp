@@ -30,8 +30,9 @@ std::span<float> OnnxVelocityField::motions() {
     return field_.input(field_input::motion);
 }
 
-std::span<float> OnnxVelocityField::ribPhases() {
-    return field_.input(field_input::ribPhase);
+void OnnxVelocityField::setPhases(std::size_t request, const skeleton::Phases& phases) {
+    std::copy_n(phases.begin(), ribCount, field_.input(field_input::ribPhase).subspan(request * ribCount).begin());
+    std::ranges::copy(phases, field_.input(field_input::phases).subspan(request * phases.size()).begin());
 }
 
 void OnnxVelocityField::setPrevious(std::span<const float> waveforms) {

@@ -20,10 +20,11 @@ public:
                       std::size_t maximumBatch, const LoadLimits& limits);
 
     void setBatch(std::size_t batch);
-    /// Inputs of the batch, to be filled before `evaluate`: batch * 64, batch * 3 and batch * 2 numbers.
+    /// Inputs of the batch, to be filled before `evaluate`: batch * 64 and batch * 3 numbers.
     [[nodiscard]] std::span<float> embeddings();
     [[nodiscard]] std::span<float> motions();
-    [[nodiscard]] std::span<float> ribPhases();
+    /// Phases of a request of the batch.
+    void setPhases(std::size_t request, const skeleton::Phases& phases);
     /// Sets the previous waveforms, batch * 200 numbers in unit scale. A latent tier encodes them here, once for all
     /// steps. Throws InferenceError.
     void setPrevious(std::span<const float> waveforms);

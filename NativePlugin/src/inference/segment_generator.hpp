@@ -39,7 +39,8 @@ struct SegmentRequest {
     /// Standard normal noise, the solver's starting point.
     std::span<const float, segmentSamples> noise;
     /// For the ribs along each wave vector of the embedding and for stick-slip, the turns at the segment's first sample
-    /// in [0, 1), then the signed rates in Hz. Graphs with the input `rib_phase` read the first two numbers.
+    /// in [0, 1), then the signed rates in Hz. Graphs with the input `rib_phase` instead of `phases` read the first two
+    /// numbers.
     skeleton::Phases phases{};
     /// RMS in m/s^2 that replaces the model's; empty for the model's.
     std::optional<float> levelMps2{};

@@ -13,6 +13,7 @@ const std::vector<std::int64_t> waveformShape{1, static_cast<std::int64_t>(segme
 const TensorSignature embedding{"embedding", {static_cast<std::int64_t>(embeddingSize)}};
 const TensorSignature motion{"motion", {3}};
 const TensorSignature ribPhase{"rib_phase", {static_cast<std::int64_t>(ribCount)}};
+const TensorSignature phases{"phases", {static_cast<std::int64_t>(skeleton::Phases{}.size())}};
 
 const std::vector<std::int64_t>& pointShape(const model::Tier& tier) {
     return tier.representation == model::TierRepresentation::latent ? tier.latentShape : waveformShape;
@@ -33,9 +34,14 @@ std::size_t pointSize(const model::Tier& tier) {
 OnnxGraph loadField(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model, const model::Tier& tier,
                     std::size_t maximumBatch, const LoadLimits& limits) {
     const bool direct = tier.kind == model::TierKind::direct;
-    GraphSignature signature{
-        {{"noisy", pointShape(tier)}, {"time", {1}}, {"previous", pointShape(tier)}, embedding, motion, ribPhase},
-        {direct ? "segment" : "velocity", pointShape(tier)}};
+    GraphSignature signature{{{"noisy", pointShape(tier)},
+                              {"time", {1}},
+                              {"previous", pointShape(tier)},
+                              embedding,
+                              motion,
+                              ribPhase,
+                              phases},
+                             {direct ? "segment" : "velocity", pointShape(tier)}};
     if (tier.kind == model::TierKind::averageVelocity) {
         signature.inputs.push_back({"interval", {1}});
     }

@@ -310,7 +310,7 @@ private:
         const std::vector<float> embeddings = wildFloats(std::size_t{count} * HAPTOFLOW_EMBEDDING_SIZE);
         const std::vector<float> motions = wildFloats(std::size_t{count} * HAPTOFLOW_MOTION_SIZE);
         const std::vector<float> waveforms = wildFloats(std::size_t{count} * HAPTOFLOW_SEGMENT_SAMPLES);
-        const std::vector<float> ribPhases = wildFloats(std::size_t{count} * HAPTOFLOW_RIB_COUNT);
+        const std::vector<float> phases = wildFloats(std::size_t{count} * HAPTOFLOW_PHASES);
         const std::vector<float> ownLevels = wildFloats(count);
         haptoflow_batch batch{sizeOf(sizeof(batch)),
                               count,
@@ -318,7 +318,7 @@ private:
                               motions.data(),
                               waveforms.data(),
                               waveforms.data(),
-                              oneIn(2) ? ribPhases.data() : nullptr,
+                              oneIn(2) ? phases.data() : nullptr,
                               oneIn(4) ? ownLevels.data() : nullptr};
         if (oneIn(8)) {
             batch.count = next();

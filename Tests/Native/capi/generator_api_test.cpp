@@ -129,12 +129,12 @@ TEST_F(GeneratorApiTest, AStructSizeThatEndsWithinAPointerExcludesThePointer) {
     createMidpointOfThreeSteps();
     const Golden golden;
     std::vector<float> segments(3 * samples);
-    std::array<float, 3 * HAPTOFLOW_RIB_COUNT> phases{};
+    std::array<float, 3 * HAPTOFLOW_PHASES> phases{};
     for (std::uint32_t bytes = 1; bytes < sizeof(void*); ++bytes) {
         haptoflow_batch batch = golden.batch();
         // Copying only the pointer's first bytes would make an invalid address.
-        batch.rib_phases = phases.data();
-        batch.struct_size = static_cast<std::uint32_t>(offsetof(haptoflow_batch, rib_phases)) + bytes;
+        batch.phases = phases.data();
+        batch.struct_size = static_cast<std::uint32_t>(offsetof(haptoflow_batch, phases)) + bytes;
         ASSERT_EQ(haptoflow_generator_generate(generator_, &batch, segments.data()), HAPTOFLOW_OK) << bytes;
         EXPECT_THAT(segments, ::testing::Pointwise(::testing::FloatNear(1e-4F), golden.segments)) << bytes;
     }
@@ -155,23 +155,27 @@ TEST(GeneratorRibPhaseTest, TheRibPhasesOfABatchReachTheGraphAndMissingOnesAreZe
     haptoflow_generator* generator = nullptr;
     ASSERT_EQ(haptoflow_generator_create(&options, &generator), HAPTOFLOW_OK) << message();
 
-    const std::array<float, 6> phases{0.25F, 0.5F, 0.9F, 0.0F, 0.0F, 0.75F};
+    std::array<float, 3 * HAPTOFLOW_PHASES> phases{};
+    constexpr std::array<std::array<float, 2>, 3> turns{{{0.25F, 0.5F}, {0.9F, 0.0F}, {0.0F, 0.75F}}};
+    for (std::size_t row = 0; row < turns.size(); ++row) {
+        std::ranges::copy(turns[row], phases.begin() + static_cast<std::ptrdiff_t>(row * HAPTOFLOW_PHASES));
+    }
     std::vector<float> segments(3 * samples);
     haptoflow_batch batch = golden.batch();
-    batch.rib_phases = phases.data();
+    batch.phases = phases.data();
     ASSERT_EQ(haptoflow_generator_generate(generator, &batch, segments.data()), HAPTOFLOW_OK) << message();
     for (std::size_t i = 0; i < segments.size(); ++i) {
         const std::size_t row = i / samples;
-        const float expected = inference::testing::firstRibWeight * phases[2 * row] +
-                               inference::testing::secondRibWeight * phases[2 * row + 1];
+        const float expected =
+            inference::testing::firstRibWeight * turns[row][0] + inference::testing::secondRibWeight * turns[row][1];
         ASSERT_NEAR(segments[i] / golden.levels[row], expected, 1e-5F) << i;
     }
-    // A caller compiled with a header that did not have rib phases.
-    batch.struct_size = offsetof(haptoflow_batch, rib_phases);
+    // A caller compiled with a header that did not have phases.
+    batch.struct_size = offsetof(haptoflow_batch, phases);
     ASSERT_EQ(haptoflow_generator_generate(generator, &batch, segments.data()), HAPTOFLOW_OK) << message();
     EXPECT_THAT(segments, ::testing::Each(0.0F));
     batch.struct_size = sizeof(batch);
-    batch.rib_phases = nullptr;
+    batch.phases = nullptr;
     ASSERT_EQ(haptoflow_generator_generate(generator, &batch, segments.data()), HAPTOFLOW_OK) << message();
     EXPECT_THAT(segments, ::testing::Each(0.0F));
 

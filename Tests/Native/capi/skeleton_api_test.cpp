@@ -117,7 +117,7 @@ TEST_F(SkeletonApiTest, ARefinedTierPlays) {
     EXPECT_EQ(haptoflow_runtime_close(&runtime), HAPTOFLOW_OK);
 }
 
-TEST_F(SkeletonApiTest, AGeneratorOfTheSketchTakesRatesFromEmbeddingAndMotion) {
+TEST_F(SkeletonApiTest, AGeneratorOfTheSketchReadsThePhasesOfABatch) {
     haptoflow_generator_options options{};
     options.struct_size = sizeof(options);
     options.model = model_;
@@ -134,7 +134,8 @@ TEST_F(SkeletonApiTest, AGeneratorOfTheSketchTakesRatesFromEmbeddingAndMotion) {
     std::generate_n(noise.begin(), HAPTOFLOW_SEGMENT_SAMPLES, [&] { return normal(random); });
     std::copy_n(noise.begin(), HAPTOFLOW_SEGMENT_SAMPLES, noise.begin() + HAPTOFLOW_SEGMENT_SAMPLES);
     const std::vector<float> previous(noise.size());
-    const std::array<float, 4> phases{0.0F, 0.0F, 0.5F, 0.0F};
+    const std::array<float, 2 * HAPTOFLOW_PHASES> phases{0.0F, 0.0F, 0.0F, 80.0F, 0.0F, 0.0F,
+                                                         0.5F, 0.0F, 0.0F, 80.0F, 0.0F, 0.0F};
     haptoflow_batch batch{sizeof(batch), 2,      embeddings.data(), motions.data(), previous.data(), noise.data(),
                           phases.data(), nullptr};
     std::vector<float> segments(noise.size());

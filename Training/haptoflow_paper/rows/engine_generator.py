@@ -11,8 +11,6 @@ from numpy.typing import NDArray
 
 from haptoflow_benchmark.engine.engine_library import EngineLibrary
 from haptoflow_training.closed_loop.phase_track import SurfaceStatistics
-from haptoflow_training.models.label_embedding import WAVE_VECTORS
-from haptoflow_training.models.surface_waves import PHASES
 from haptoflow_training.native_library import NativeModel, options_of
 from haptoflow_training.waveform import SEGMENT_SAMPLES
 
@@ -43,7 +41,7 @@ class _Batch(ctypes.Structure):
         ("motions", _pointer),
         ("previous_mps2", _pointer),
         ("noise", _pointer),
-        ("rib_phases", _pointer),
+        ("phases", _pointer),
     ]
 
 
@@ -101,11 +99,10 @@ class EngineGenerator:
     ) -> _Floats:
         """Segments [n, 200] in m/s^2 from embeddings [n, 64], motions [n, 3], previous and noise [n, 200].
 
-        phases: [n, 6] (models/surface_waves.py) at each segment's first sample, of which the library reads the turns of
-        both rib families; zeros if None.
+        phases: [n, 6] (models/surface_waves.py) at each segment's first sample; None for phases of zero, at the rates
+        at which the motions cross the embeddings' wave vectors.
         """
-        phases = np.zeros((len(embeddings), PHASES), dtype=np.float32) if phases is None else phases
-        given = (embeddings, motions, previous_mps2, noise, phases[:, :WAVE_VECTORS])
+        given = [embeddings, motions, previous_mps2, noise, *([] if phases is None else [phases])]
         arrays = [np.ascontiguousarray(array, dtype=np.float32) for array in given]
         count = len(arrays[0])
         pointers = [array.ctypes.data_as(_pointer) for array in arrays]
