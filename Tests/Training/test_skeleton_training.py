@@ -13,7 +13,7 @@ import numpy as np
 import onnx
 import pytest
 import torch
-from test_export import INFOS, PROVENANCE
+from test_export import PROVENANCE
 from test_trainer import ALONE, _config, ask_to_stop_after
 from training_fixtures import FakeStore, make_store
 
@@ -23,6 +23,7 @@ from haptoflow_training.closed_loop.render import run_closed_loop
 from haptoflow_training.commands import train_tiers
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.exporter import export_run
+from haptoflow_training.export.label_info import LabelInfo
 from haptoflow_training.export.level_table import MeasuredLevels
 from haptoflow_training.export.model_file import ModelFile, model_space, read_model_file
 from haptoflow_training.export.trained_tier import load_tiers
@@ -37,8 +38,8 @@ from haptoflow_training.training.trainer import Trainer, TrainingStopped, build_
 
 WAVE_VECTORS = [[(0.5, 0.0)], []]
 WANDERING = [
-    dataclasses.replace(INFOS[0], wave_vectors_per_mm=((0.5, 0.0),), rib_wander=(RibWander(0.1, 0.014),)),
-    dataclasses.replace(INFOS[1], stick_slip=StickSlip(0.0011, 0.25, 0.004)),
+    LabelInfo("tone", "metal", 900.0, 0.3, 0.002, ((0.5, 0.0),), rib_wander=(RibWander(0.1, 0.014),)),
+    LabelInfo("noise", "stone", 1500.0, 0.6, stick_slip=StickSlip(0.0011, 0.25, 0.004)),
 ]
 
 
