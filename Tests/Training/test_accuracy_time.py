@@ -32,10 +32,12 @@ def _pair(label: str, index: int, seed: int) -> ReferencePair:
     smoothing = np.hanning(3 + 6 * index)
     waves = [
         (3.0 ** index * np.convolve(generator.standard_normal(40000), smoothing, mode="same")).astype(np.float32)
-        for _ in range(2)
+        for _ in range(3)
     ]
     motion = np.tile(np.array([0.2, 0.0, 1.0], dtype=np.float32), (40000, 1))
-    return ReferencePair(Condition(label, index, "constant", 0.2, 1.0, 0.0, 20.0, seed), *waves, motion)
+    condition = Condition(label, index, "constant", 0.2, 1.0, 0.0, 20.0, seed)
+    # Another piece of the material is 2 dB louder.
+    return ReferencePair(condition, *waves[:2], motion, other_specimen=np.float32(10.0**0.1) * waves[2])
 
 
 @pytest.fixture(scope="module")
@@ -57,8 +59,9 @@ def _figures(pairs: list[ReferencePair], name: str, gain: float = 1.0) -> dict[s
 
 def test_the_reference_rows_have_the_figures_that_theory_predicts(pairs: list[ReferencePair]) -> None:
     found = {name: _figures(pairs, name) for name in REFERENCE_ROWS}
-    draw, mean, white, silence = (summary(found[name]["conditions"]) for name in REFERENCE_ROWS)
+    draw, piece, mean, white, silence = (summary(found[name]["conditions"]) for name in REFERENCE_ROWS)
     assert abs(draw["level_error_db"]) < 0.3 and draw["gfc_recording"] > 0.99 and draw["lsd_db"] < 1.0  # type: ignore[index]
+    assert piece["level_error_db"] == pytest.approx(2.0, abs=0.3)  # type: ignore[index]
     assert mean["lsd_db"] < 2.0 < white["lsd_db"]  # type: ignore[index]
     assert abs(white["level_error_db"]) < 0.3  # type: ignore[index]
     assert silence["rmse"] == pytest.approx(1.0, abs=0.01)  # type: ignore[index]

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import dataclasses
+
 import numpy as np
 import pytest
 import torch
-from training_fixtures import make_store
+from training_fixtures import RATE_HZ, FakeStore, make_store
 
 from haptoflow_training.errors import InputError
 from haptoflow_training.training.batches import SegmentBatches
@@ -97,3 +99,57 @@ def test_a_restored_generator_draws_the_same_pairs() -> None:
 def test_a_split_without_long_recordings_is_named() -> None:
     with pytest.raises(ValueError, match="'validation'"):
         SegmentBatches(make_store(seconds=0.15), "validation", PLAIN, 1)
+
+
+def test_a_pair_states_the_specimen_of_its_recording_and_minus_one_where_none_is_known() -> None:
+    store = make_store()
+    told = [dataclasses.replace(each, specimen=None if each.label_index else number % 2)
+            for number, each in enumerate(store.recordings)]  # fmt: skip
+    batch = SegmentBatches(dataclasses.replace(store, recordings=told), "train", PLAIN, 9).draw(32)
+    for row in range(32):
+        start = _positions(store.waveform, batch.segment[row, 0])
+        owner = next(each for each in told if each.start <= start < each.start + each.length)
+        assert batch.specimen[row].item() == (-1 if owner.specimen is None else owner.specimen)
+    assert {-1, 0, 1} == set(batch.specimen.tolist())
+
+
+def _wandering_store() -> tuple[FakeStore, np.ndarray]:
+    """A store whose ribs wander by a tenth of a turn and whose tip slips up to 900 times a second; and the unwrapped
+    turns [n, 3] of both."""
+    store = make_store()
+    time = np.arange(len(store.waveform)) / RATE_HZ
+    slips_hz = 500.0 + 400.0 * np.sin(2.0 * np.pi * 1.3 * time)
+    turns = np.stack([0.1 * np.sin(2.0 * np.pi * 5.0 * time), 0.0 * time, np.cumsum(slips_hz) / RATE_HZ], axis=1)
+    stored = turns.astype(np.float32)
+    stored[:, 2] = np.mod(turns[:, 2], 1.0)
+    return dataclasses.replace(store, wander_turns=stored), turns
+
+
+@pytest.mark.parametrize("hop", [1, 28, 200])
+def test_wander_is_that_of_the_segment_s_first_sample_and_its_mean_rate_over_the_hop(hop: int) -> None:
+    store, turns = _wandering_store()
+    config = dataclasses.replace(PLAIN, hop_samples=(hop, hop))
+    batch = SegmentBatches(store, "train", config, 10).draw(16)  # type: ignore[arg-type]
+    fastest_hz = 0.0
+    for row in range(16):
+        start = _positions(store.waveform, batch.segment[row, 0])
+        np.testing.assert_array_equal(batch.wander[row, :3].numpy(), store.wander_turns[start])
+        rates_hz = (turns[start + hop] - turns[start]) * RATE_HZ / hop
+        # A single sample's step in single precision is known to 0.1 Hz.
+        np.testing.assert_allclose(batch.wander[row, 3:].numpy(), rates_hz, atol=0.3 if hop == 1 else 0.05)
+        fastest_hz = max(fastest_hz, rates_hz[2])
+    assert fastest_hz > 500.0, "dozens of slips in a hop of 100 ms"
+
+
+def test_every_hop_of_a_chain_has_the_wander_of_its_own_place() -> None:
+    store, turns = _wandering_store()
+    config = dataclasses.replace(PLAIN, chain_hops=(3, 3), chain_silence_probability=0.0)
+    batch = SegmentBatches(store, "train", config, 11).draw_chains(6)  # type: ignore[arg-type]
+    assert batch.chain is not None and batch.chain.wander.shape == (6, 3, 6)
+    hop = batch.chain.hop_samples
+    for row in range(6):
+        start = _positions(store.waveform, batch.segment[row, 0])
+        begins = start - hop * np.arange(3, 0, -1)
+        np.testing.assert_array_equal(batch.chain.wander[row, :, :3].numpy(), store.wander_turns[begins])
+        rates_hz = (turns[begins + hop] - turns[begins]) * RATE_HZ / hop
+        np.testing.assert_allclose(batch.chain.wander[row, :, 3:].numpy(), rates_hz, atol=0.05)

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from training_fixtures import still_surfaces
 
 from haptoflow_paper.metrics.cell_figures import measure_cell
 from haptoflow_paper.metrics.judged_figures import BY_KEY
@@ -100,7 +101,7 @@ def test_a_change_of_label_is_judged_near_the_changes_only_and_in_each_direction
 class _Echo:
     """Segments whose level is the embedding's first number."""
 
-    def generate(self, embeddings: Any, motions: Any, previous_mps2: Any, noise: Any, rib_phase: Any) -> Any:
+    def generate(self, embeddings: Any, motions: Any, previous_mps2: Any, noise: Any, phases: Any) -> Any:
         return (noise * embeddings[:, :1]).astype(np.float32)
 
 
@@ -109,7 +110,9 @@ def test_in_a_change_of_label_each_hop_is_conditioned_on_the_label_under_the_tip
     embeddings[:, 0] = (1.0, 4.0)
     plain = _pair(_noise(1))
     change = dataclasses.replace(_pair(_noise(1), "change", other_label="b", other_index=1))
-    made = accuracy.generate_set(_Echo(), embeddings, [plain, change], update_rate_hz=72.0, seed=1)
+    made = accuracy.generate_set(
+        _Echo(), embeddings, still_surfaces(2), [plain, change], update_rate_hz=72.0, seed=1
+    )
     elsewhere = is_on_other_label(_SAMPLES)
     assert made.closed[0].std() == pytest.approx(1.0, abs=0.05)
     assert made.closed[1][~elsewhere].std() == pytest.approx(1.0, abs=0.3)
@@ -117,8 +120,11 @@ def test_in_a_change_of_label_each_hop_is_conditioned_on_the_label_under_the_tip
     assert len(made.opened[0]) and not len(made.opened[1])
 
 
-def test_a_closed_loop_takes_an_embedding_for_each_hop() -> None:
-    embeddings = np.zeros((1, 72, 64), dtype=np.float32)
-    embeddings[0, 36:, 0] = 5.0
-    run = run_closed_loop(_Echo(), embeddings, np.zeros((1, 2000, 3), np.float32), update_rate_hz=72.0, seed=1)
+def test_a_closed_loop_takes_a_label_for_each_hop() -> None:
+    embeddings = np.zeros((2, 64), dtype=np.float32)
+    embeddings[1, 0] = 5.0
+    labels = (np.arange(72) >= 36).astype(np.int64)[None]
+    run = run_closed_loop(
+        _Echo(), embeddings, np.zeros((1, 2000, 3), np.float32), labels, still_surfaces(2), update_rate_hz=72.0, seed=1
+    )
     assert np.abs(run.waves[0, :990]).max() == 0.0 and run.waves[0, 1010:].std() > 4.0

@@ -19,7 +19,7 @@ from haptoflow_training.training.config import TrainingConfig, config_from_dict,
 from haptoflow_training.training.trainer import Trainer, build_model
 
 PAPER = Path(__file__).parents[2] / "Training" / "haptoflow_paper"
-CONDITION = (torch.full((2, 64), 0.1), torch.full((2, 3), 0.2), torch.full((2, 2), 0.3))
+CONDITION = (torch.full((2, 64), 0.1), torch.full((2, 3), 0.2), torch.full((2, 6), 0.3))
 
 
 def test_every_stored_row_was_measured_with_the_present_configuration_of_its_model() -> None:
@@ -64,7 +64,7 @@ def test_a_configuration_names_the_classes_that_train_and_export_it() -> None:
     deaf = evaluated(_config(), model={"hears_previous": False, "level": "constant"})
     built = build_model(deaf, [(), ()])
     assert isinstance(built.field, DeafVelocityField) and isinstance(built.level, ConstantLevel)
-    assert type(build_model(_config(), [(), ()])).__name__ == "HaptoFlowModel"
+    assert type(build_model(_config(), [(), ()])).__name__ == "FieldModel"
     assert not deaf.calibrates_level
 
 

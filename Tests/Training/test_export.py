@@ -22,13 +22,18 @@ from haptoflow_training.export.label_info import LabelInfo
 from haptoflow_training.export.model_file import ModelFile, read_model_file
 from haptoflow_training.export.seed_bank import build_seed_bank
 from haptoflow_training.recordings.landing import Landing, LandingMode
+from haptoflow_training.recordings.wander import RibWander, StickSlip
 from haptoflow_training.training.held_out import HeldOut
 from haptoflow_training.training.recordings_source import Provenance, Source
 from haptoflow_training.training.trainer import Trainer
 
 LANDING = Landing((LandingMode(180.0, 75.5, 170.0), LandingMode(640.0, 700.0, 40.0)), 0.25)
 INFOS = [
-    LabelInfo("tone", "metal", 900.0, 0.3, 0.002, landing=LANDING), LabelInfo("noise", "stone", 1500.0, 0.6),
+    LabelInfo(
+        "tone", "metal", 900.0, 0.3, 0.002, landing=LANDING, stick_slip=StickSlip(0.0011, 0.25, 0.004),
+        rib_wander=(RibWander(0.12, 7.0 * 0.0017),),
+    ),
+    LabelInfo("noise", "stone", 1500.0, 0.6),
 ]  # fmt: skip
 PROVENANCE = Provenance("trained on nothing real", "a test", "MIT")
 
@@ -65,6 +70,15 @@ def test_the_header_holds_a_label_s_touch_down_vibration_if_it_is_known(
         "restitution": 0.25,
     }
     assert "impact" not in unknown
+
+
+def test_the_header_says_how_a_label_slips_and_how_its_ribs_wander_if_it_is_known(
+    exported: tuple[Path, ModelFile, FakeStore]
+) -> None:
+    known, unknown = exported[1].header["labels"]
+    assert known["stick_slip"] == {"length_metres": 0.0011, "wander": 0.25, "wander_metres": 0.004}
+    assert known["rib_wander"] == [{"turns": 0.12, "wavelength_metres": 0.0119}]
+    assert "stick_slip" not in unknown and "rib_wander" not in unknown
 
 
 def test_graphs_are_opset_16_with_named_inputs_and_a_dynamic_batch(

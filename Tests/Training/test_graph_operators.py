@@ -17,6 +17,7 @@ from haptoflow_paper.codec.small_codec import SmallCodec, SmallCodecShape
 from haptoflow_paper.rivals import ARCHITECTURES
 from haptoflow_paper.runs.tier import network_graph
 from haptoflow_training.export.onnx_graphs import export_level_model
+from haptoflow_training.export.trained_tier import tier_of
 from haptoflow_training.training.config import TrainingConfig, load_config
 from haptoflow_training.training.trainer import build_model
 
@@ -42,14 +43,22 @@ def _check(graph: bytes) -> None:
 
 
 @pytest.mark.parametrize("kind", ["flow", "average-velocity", "direct"])
-def test_every_kind_of_tier_in_shipped_sizes_uses_only_listed_operators(kind: str) -> None:
-    for size in ("draft", "standard"):
-        config = load_config(CONFIGS / "default" / f"{size}.toml")
+def test_every_kind_of_field_uses_only_listed_operators(kind: str) -> None:
+    base = load_config(ROOT / "Training" / "haptoflow_paper" / "configs" / "standard.toml")
+    for levels in (1, 2):
+        config = dataclasses.replace(base, model=dataclasses.replace(base.model, levels=levels))
         if kind == "average-velocity":
             config = evaluated(config, recipe={"objective": kind, "energy_steps": 0})
         model = build_model(config, NO_RIBS)
         _check(network_graph(model, kind))
     _check(export_level_model(model.level))
+
+
+@pytest.mark.parametrize("size", ["draft", "standard"])
+def test_the_refinements_in_shipped_sizes_use_only_listed_operators(size: str) -> None:
+    config = load_config(CONFIGS / "default" / f"{size}.toml")
+    (graph,) = tier_of(config, ["a", "b"], build_model(config, NO_RIBS)).graphs().values()
+    _check(graph)
 
 
 @pytest.mark.parametrize("architecture", ARCHITECTURES)

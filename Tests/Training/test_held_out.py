@@ -144,7 +144,7 @@ def test_the_level_is_calibrated_only_on_windows_outside_the_bands() -> None:
     store = dataclasses.replace(STORE, waveform=level * noise)
 
     class Right:
-        def generate(self, embeddings: Any, motions: Any, previous_mps2: Any, noise: Any, rib_phase: Any) -> Any:
+        def generate(self, embeddings: Any, motions: Any, previous_mps2: Any, noise: Any, phases: Any) -> Any:
             return noise
 
     embeddings = np.zeros((2, 64), dtype=np.float32)

@@ -33,7 +33,7 @@ class _KnownSource:
         self._gain = 10.0 ** (np.array(gain_db) / 20.0)
 
     def generate(
-        self, embeddings: _Floats, motions: _Floats, previous_mps2: _Floats, noise: _Floats, rib_phase: _Floats
+        self, embeddings: _Floats, motions: _Floats, previous_mps2: _Floats, noise: _Floats, phases: _Floats
     ) -> _Floats:
         del previous_mps2
         speed, force = np.hypot(motions[:, 0], motions[:, 1]), motions[:, 2]

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 import pytest
-from training_fixtures import RATE_HZ, FakeRecording, FakeStore, travelled_mm
+from training_fixtures import RATE_HZ, FakeRecording, FakeStore, still_surfaces, travelled_mm
 
 from haptoflow_training.closed_loop.level_calibration import ClosedLoopLevels, TierSource, closed_loop_levels
 from haptoflow_training.closed_loop.level_following import level_tables
@@ -78,7 +78,8 @@ def followed() -> tuple[dict[int, LevelTable], FakeStore]:
 
     def measure(tables: Mapping[int, LevelTable]) -> ClosedLoopLevels:
         wanted = frozenset(tables) or None
-        return closed_loop_levels(LawOrTables(tables), embeddings, store, HeldOut(), labels_wanted=wanted)
+        source, still = LawOrTables(tables), still_surfaces(2)
+        return closed_loop_levels(source, embeddings, store, still, HeldOut(), labels_wanted=wanted)
 
     return level_tables(measure({}), exponents, measure), store
 
@@ -134,11 +135,11 @@ def test_a_level_table_scales_only_its_own_label_in_the_closed_loop() -> None:
     motions = np.array([[0.2, 0.0, 2.0], [0.2, 0.0, 2.0]], dtype=np.float32)
     nothing = np.zeros((2, 200), dtype=np.float32)
     noise = np.random.default_rng(1).standard_normal((2, 200)).astype(np.float32)
-    phase = np.zeros((2, 2), dtype=np.float32)
-    plain = TierSource(tier).generate(embeddings, motions, nothing, noise, phase)
-    tabled = TierSource(tier, {0: table}).generate(embeddings, motions, nothing, noise, phase)
+    phases = np.zeros((2, 6), dtype=np.float32)
+    plain = TierSource(tier).generate(embeddings, motions, nothing, noise, phases)
+    tabled = TierSource(tier, {0: table}).generate(embeddings, motions, nothing, noise, phases)
     again = TierSource(tier, {0: LevelTable((0.05,), (0.0,), 1.0, 0.0, 0.0)}).generate(
-        embeddings, motions, nothing, noise, phase
+        embeddings, motions, nothing, noise, phases
     )
     np.testing.assert_array_equal(tabled[1], plain[1])
     ratio = np.sqrt(np.square(tabled[0]).mean() / np.square(again[0]).mean())

@@ -66,6 +66,18 @@ def test_an_unknown_key_is_named(tmp_path):
         load_materials(path)
 
 
+def test_a_third_family_of_ribs_and_a_spread_beyond_belief_are_refused(tmp_path):
+    path = tmp_path / "materials.toml"
+    text = DEFAULT_MATERIALS_PATH.read_text()
+    rib = "{ direction_degrees = 0.0, wavelength_mm = 2.5, relative_height = 3.0, jitter = 0.02 }"
+    path.write_text(text.replace(f"rulings = [{rib}]", f"rulings = [{rib}, {rib}, {rib}]"))
+    with pytest.raises(InputError, match="corduroy: 3 rulings; expected 2 at most"):
+        load_materials(path)
+    path.write_text(text.replace("specimen_spread_db = 0.75", "specimen_spread_db = 75", 1))
+    with pytest.raises(InputError, match="glass: specimen_spread_db = 75; expected a number between 0.0 and 6.0"):
+        load_materials(path)
+
+
 def test_a_missing_file_and_an_unknown_label_are_named(tmp_path):
     with pytest.raises(InputError, match="nowhere.toml"):
         load_materials(tmp_path / "nowhere.toml")

@@ -10,7 +10,8 @@ import torch
 from haptoflow_training.models.band_limit import BandLimit
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE, MotionFeatures
 from haptoflow_training.models.level_model import LevelModel, level_loss, unit_scale
-from haptoflow_training.models.velocity_field import FilmBlock, VelocityField, parameter_count
+from haptoflow_training.models.patch_unet import FilmBlock
+from haptoflow_training.models.velocity_field import VelocityField, parameter_count
 
 
 def _inputs(batch: int, channels: int = 1, positions: int = 200) -> dict[str, torch.Tensor]:

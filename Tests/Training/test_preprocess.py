@@ -150,7 +150,8 @@ def test_a_recording_that_cannot_be_prepared_is_refused_by_name(how: str, words:
 def _loud(samples: int = 2000) -> PreparedRecording:
     moving = np.tile(np.array([0.04, 0.03, 0.5], dtype=np.float32), (samples, 1))
     place = np.linspace([1.0, 2.0], [1.0 + 0.02 * samples, 2.0 + 0.015 * samples], samples, dtype=np.float32)
-    return PreparedRecording(np.ones(samples, dtype=np.float32), moving, place)
+    wander = np.linspace([0.1, -0.1, 3.0], [0.2, 0.1, 90.0], samples)
+    return PreparedRecording(np.ones(samples, dtype=np.float32), moving, place, wander)
 
 
 def test_padding_puts_whole_silent_segments_before_and_after_with_the_probability_asked_for() -> None:
@@ -172,6 +173,9 @@ def test_padding_is_silent_without_velocity_and_fades_into_the_recording_in_10_m
         wave, moving = padded.prepared.waveform_mps2, padded.prepared.motion
         front, back = padded.padding_before, padded.padding_after
         assert len(wave) == len(moving) == 2000 + front + back
+        wander = padded.prepared.wander_turns
+        np.testing.assert_array_equal(wander[: front + 1], np.tile(_loud().wander_turns[0], (front + 1, 1)))
+        np.testing.assert_array_equal(wander[-back - 1 :], np.tile(_loud().wander_turns[-1], (back + 1, 1)))
         silent = np.r_[0:front, len(wave) - back : len(wave)]
         assert not np.any(wave[silent]) and not np.any(moving[silent, :2])
         assert np.all(np.diff(wave[front : front + 20]) > 0) and np.all(wave[front + 20 : -back - 20] == 1.0)

@@ -51,7 +51,7 @@ def test_asperities_neither_repeat_nor_keep_a_beat_along_thirty_metres_of_straig
     path = TipPath(np.cumsum(velocity, axis=0) / rate, velocity)
     for label in ("stone", "concrete", "brick", "sandpaper"):
         impulses = impact_acceleration(MATERIALS[label], path, rate, specimen=2)
-        struck = np.abs(impulses) > 0.0
+        struck = impulses != np.median(impulses)
         assert 0.7 < np.sum(struck) * MATERIALS[label].impact_spacing_mm / (
             STROKE_MM * MATERIALS[label].impact_density
         ) < 1.1

@@ -150,7 +150,8 @@ def test_the_energy_distance_detects_a_modulation_that_the_spectrum_does_not_sho
 
 def test_the_reflow_loss_is_minimal_for_the_straight_path_of_each_pair() -> None:
     noise, target = _noise(32, 8, 1).unsqueeze(1), _noise(32, 8, 2).unsqueeze(1)
-    pairs = ReflowPairs(noise, target, noise, torch.zeros(32, dtype=torch.long), torch.zeros(32, 3), torch.zeros(32, 2))
+    where = torch.zeros(32, dtype=torch.long), torch.zeros(32, 3), torch.zeros(32, 2), torch.zeros(32, 6)
+    pairs = ReflowPairs(noise, target, noise, *where)
     generator = torch.Generator().manual_seed(0)
     assert reflow_loss(lambda state, time: target - noise, pairs, generator).item() < 1e-10
     assert reflow_loss(lambda state, time: torch.zeros_like(state), pairs, generator).item() > 1.0
@@ -181,13 +182,13 @@ def test_rendering_a_chain_appends_each_generated_hop() -> None:
     losses = Losses(model, SolverConfig("euler", 1))
     chain = SegmentBatches(store, "train", BatchConfig(chain_hops=(2, 2)), 4).draw_chains(3).chain
     assert chain is not None
-    label = torch.tensor([0, 1, 0])
-    lived = losses.render_chain(chain, label, "flow", torch.Generator().manual_seed(1))
+    embedding = model.embedding(torch.tensor([0, 1, 0])).detach()
+    lived = losses.render_chain(chain, embedding, "flow", torch.Generator().manual_seed(1))
     generator = torch.Generator().manual_seed(1)
 
     def hop(number: int, previous: torch.Tensor) -> torch.Tensor:
-        where = chain.motion[:, number], chain.position_mm[:, number]
-        return losses.generate(previous, label, *where, "flow", generator)[:, :, : chain.hop_samples]
+        where = chain.motion[:, number], chain.position_mm[:, number], chain.wander[:, number]
+        return losses.generate(previous, embedding, *where, "flow", generator)[:, :, : chain.hop_samples]
 
     first = hop(0, chain.start)
     kept = torch.cat([chain.start[:, :, chain.hop_samples :], first], dim=2)
@@ -212,7 +213,7 @@ def test_a_recipe_runs_through_its_phases_and_states_its_tier_kind(name: str, tm
     assert len({row.split(",")[1] for row in rows[1:]}) == len(planned_steps(config))
     tier = tier_of(*load_trained(tmp_path))
     assert tier.kind == kind
-    condition = torch.zeros(3, 1, 200), torch.randn(3, 64), torch.rand(3, 3), torch.rand(3, 2)
+    condition = torch.zeros(3, 1, 200), torch.randn(3, 64), torch.rand(3, 3), torch.rand(3, 6)
     made = tier.generate(torch.randn(3, 1, 200), condition, tier.solver, tier.steps)
     assert made.shape == (3, 1, 200) and torch.isfinite(made).all()
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import shutil
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -22,6 +23,7 @@ from haptoflow_training.recordings.synthetic.measurement import (
     measure,
     slope_db_per_octave,
 )
+from haptoflow_training.recordings.synthetic.spread_measurement import SpreadMeasurement, measure_spread
 
 MATERIALS = {material.label: material for material in load_materials()}
 # From 20 mm/s like the report: at lower speeds ribs are met at less than 20 Hz, which bends a ruled label's level law.
@@ -118,7 +120,7 @@ def test_the_report_names_a_material_that_misses_its_target_and_writes_table_num
 ):
     from haptoflow_training.commands import report_recorder
 
-    monkeypatch.setattr(report_recorder, "_measure", lambda each: measure(each, seed=31, design=_TINY))
+    monkeypatch.setattr(report_recorder, "_measure", lambda each: (measure(each, seed=31, design=_TINY), SPREAD))
     monkeypatch.setattr(report_recorder, "ProcessPoolExecutor", _SameProcess)
     path = tmp_path / "materials.toml"
     text = DEFAULT_MATERIALS_PATH.read_text()
@@ -136,9 +138,22 @@ def test_the_report_names_a_material_that_misses_its_target_and_writes_table_num
     assert f"v^{np.mean(exponents):.2f}" in (out / "recorder-report.md").read_text()
     assert document["materials"][0]["passes"] is False and document["materials"][1]["passes"] is True
     assert "| metal |" in (out / "recorder-report.md").read_text()
+    assert document["materials"][0]["spread"]["specimen_db"] == 1.4
+    assert "| metal | 1.40 (0.75) | 0.40 (0.2) | 0.60 | +0.10 |" in (out / "recorder-report.md").read_text()
     assert (out / "images" / "recorder-spectra.png").read_bytes().startswith(b"\x89PNG")
 
 
+@pytest.mark.parametrize("label", ["wood", "glass"])
+def test_the_measured_spread_of_specimens_is_what_the_material_states(label):
+    found = measure_spread(MATERIALS[label], seed=5, design=replace(SMALL, duration_seconds=1.8, reference_repeats=2))
+    assert found.specimen_db == pytest.approx(MATERIALS[label].specimen_spread_db, rel=0.2)
+    assert found.specimen_slope_db_per_octave == pytest.approx(MATERIALS[label].specimen_tilt_db_per_octave, rel=0.4)
+    assert found.mean_db == pytest.approx(0.0, abs=0.3)
+    plain = measure_spread(MATERIALS[label].without_spread, seed=5, design=SMALL)
+    assert plain.specimen_db < 0.25
+
+
+SPREAD = SpreadMeasurement(1.4, 0.4, 0.6, 0.1)
 _TINY = Design((50.0, 100.0, 200.0), (0.5, 2.0), (0.0, 45.0, 90.0, 135.0), 1.2, 2)
 
 

@@ -19,8 +19,9 @@ from haptoflow_paper.reference.reference_conditions import (
     is_on_other_label,
     motion_of,
 )
-from haptoflow_paper.reference.reference_set import record_pair, rib_phases
-from haptoflow_training.recordings.synthetic import HELD_OUT_SPECIMEN, Material, load_materials
+from haptoflow_paper.reference.reference_set import known_phases, record_pair
+from haptoflow_training.recordings.synthetic import FURTHER_SPECIMENS, HELD_OUT_SPECIMEN, Material, load_materials
+from haptoflow_training.recordings.synthetic.specimens import TRAINING_SPECIMENS
 
 MATERIALS = load_materials()
 CHOSEN = conditions(MATERIALS)
@@ -134,7 +135,7 @@ def test_a_change_of_label_is_made_of_the_two_labels_recordings_turn_by_turn() -
     assert not np.array_equal(mixed[elsewhere], plain[elsewhere]) and elsewhere.mean() == pytest.approx(0.5, abs=0.02)
 
 
-def test_both_recordings_of_a_pair_are_of_the_held_out_specimen(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_two_recordings_are_of_the_held_out_specimen_and_the_third_of_one_that_no_training_knows_either(monkeypatch: pytest.MonkeyPatch) -> None:
     specimens: list[int] = []
 
     def spy(*arguments: Any, **named: Any) -> Any:
@@ -145,7 +146,9 @@ def test_both_recordings_of_a_pair_are_of_the_held_out_specimen(monkeypatch: pyt
     monkeypatch.setattr(subject, "record_condition", spy)
     condition = dataclasses.replace(_first("glass", "change"), seconds=1.0)
     record_pair((condition, _material("glass"), MATERIALS[condition.other_index]))
-    assert specimens == [HELD_OUT_SPECIMEN] * 4
+    further = FURTHER_SPECIMENS[condition.seed % len(FURTHER_SPECIMENS)]
+    assert specimens == [HELD_OUT_SPECIMEN, HELD_OUT_SPECIMEN, further] * 2
+    assert not {HELD_OUT_SPECIMEN, *FURTHER_SPECIMENS} & set(TRAINING_SPECIMENS)
 
 
 def test_the_phase_of_the_ribs_is_that_of_the_place_on_the_surface_where_the_recording_is() -> None:
@@ -157,8 +160,10 @@ def test_the_phase_of_the_ribs_is_that_of_the_place_on_the_surface_where_the_rec
     embedding = np.zeros(64, dtype=np.float32)
     embedding[-4] = 1.0 / ruling.wavelength_mm
     samples = np.arange(len(pair.recorded))
-    phase = rib_phases(pair, embedding, samples)
-    assert np.all(phase[:, 1] == 0.0) and 0.0 <= phase.min() and phase.max() < 1.0
+    phase = known_phases(pair, embedding, samples)
+    assert np.all(phase[:, [1, 2, 4, 5]] == 0.0) and 0.0 <= phase[:, :3].min() and phase[:, :3].max() < 1.0
+    # Corduroy's ribs wander a little.
+    assert np.median(phase[:, 3]) == pytest.approx(condition.rib_rates_hz[0], rel=5e-3)
     turned = np.diff(np.unwrap(2.0 * np.pi * phase[:, 0])).mean() * 2000.0 / (2.0 * np.pi)
     assert turned == pytest.approx(condition.rib_rates_hz[0], rel=1e-3)
     swing = [
@@ -179,6 +184,9 @@ def test_recordings_are_made_anew_where_the_recorder_s_code_has_changed(
     again = subject.reference_set(tmp_path / "cache.npz", 1, counted.append)
     assert (tmp_path / "cache.npz").stat().st_mtime_ns == written and counted == [1, 1]
     np.testing.assert_array_equal(first[0].recorded, again[0].recorded)
+    for name in ("independent", "other_specimen", "wander_turns"):
+        np.testing.assert_array_equal(getattr(first[0], name), getattr(again[0], name))
+    assert not np.array_equal(first[0].other_specimen, first[0].independent)
     assert again[0].start_mm == pytest.approx(first[0].start_mm) and again[0].condition == condition
     monkeypatch.setattr(subject, "_recorder_crc32", lambda: "other")
     subject.reference_set(tmp_path / "cache.npz", 1, counted.append)

@@ -12,7 +12,7 @@ import torch
 from test_trainer import ALONE, _config
 from training_fixtures import make_store
 
-from haptoflow_training.models.label_embedding import LabelEmbedding, rib_frequencies_hz, rib_phase
+from haptoflow_training.models.label_embedding import LabelEmbedding, rib_frequencies_hz, surface_phases
 from haptoflow_training.models.rib_comb import GAINS, PARTIALS, RibComb, spread_gains
 from haptoflow_training.models.velocity_field import VelocityField
 from haptoflow_training.recordings.synthetic.carriers import MAXIMUM_SPEED_MMPS, guided_ride
@@ -108,7 +108,8 @@ def test_a_reversed_stroke_meets_the_same_ribs_in_reverse() -> None:
     against[:, 3 * PARTIALS : 4 * PARTIALS] *= -1.0
     silence = torch.zeros(1, 1, 200)
     position_mm = 7.31
-    turn = rib_phase(EMBEDDING(torch.tensor([0])), torch.tensor([[position_mm, 0.0]]))[0, 0].item()
+    place = EMBEDDING(torch.tensor([0])), torch.zeros(1, 3), torch.tensor([[position_mm, 0.0]]), torch.zeros(1, 6)
+    turn = surface_phases(*place)[0, 0].item()
     there = _comb(silence, 0, 0.2, gains, (turn, 0.0))[0, 4]
     # The way back starts where the way there ended with its last sample.
     end = (turn + 0.4 * 200.0 * 199.0 / 2000.0) % 1.0
@@ -154,8 +155,10 @@ def test_without_a_past_the_wandering_profile_stays_near_the_rib_phase() -> None
 
 def test_a_rib_phase_counts_ribs_from_position_zero_after_metres_as_after_millimetres() -> None:
     mesh = EMBEDDING(torch.tensor([1, 1, 2]))
-    found = rib_phase(mesh, torch.tensor([[10.0, -1.0], [12000.25, 3.0], [4.0, 4.0]]))
-    torch.testing.assert_close(found, torch.tensor([[0.0, 0.2], [0.2, 0.4], [0.0, 0.0]]), rtol=0.0, atol=2e-3)
+    places_mm = torch.tensor([[10.0, -1.0], [12000.25, 3.0], [4.0, 4.0]])
+    found = surface_phases(mesh, torch.zeros(3, 3), places_mm, torch.zeros(3, 6))
+    turns = torch.tensor([[0.0, 0.2], [0.2, 0.4], [0.0, 0.0]])
+    torch.testing.assert_close(found[:, :2], turns, rtol=0.0, atol=2e-3)
 
 
 def test_the_comb_s_waves_are_cosines_and_sines_of_every_harmonic_counted_from_the_seam() -> None:

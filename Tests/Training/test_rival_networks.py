@@ -15,12 +15,7 @@ import torch
 from torch import Tensor
 
 from haptoflow_paper.rivals import ARCHITECTURES, Rival, build_rival
-from haptoflow_paper.rivals.autoregressive import (
-    ORDER,
-    AllPoleFilter,
-    AutoregressiveRival,
-    step_up,
-)
+from haptoflow_paper.rivals.autoregressive import ORDER, AutoregressiveRival
 from haptoflow_paper.rivals.segment_network import INPUTS, SegmentNetworkGraph
 from haptoflow_paper.rivals.spsi import SinglePassInversion, SpsiRival, magnitude_spectrum
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE
@@ -45,12 +40,14 @@ Batch = Callable[[int], tuple[Tensor, Tensor]]
 
 def _inputs(batch: int) -> dict[str, Tensor]:
     generator = torch.Generator().manual_seed(5)
+    # Ribs must pass fast enough for the past to hold their partials.
+    turns, rates_hz = torch.rand(2, batch, 3, generator=generator).unbind()
     return {
         "noisy": torch.randn(batch, 1, 200, generator=generator),
         "previous": torch.randn(batch, 1, 200, generator=generator),
         "embedding": torch.randn(batch, EMBEDDING_SIZE, generator=generator),
         "motion": 0.2 * torch.rand(batch, 3, generator=generator),
-        "rib_phase": torch.rand(batch, 2, generator=generator),
+        "phases": torch.cat([turns, 20.0 + 40.0 * rates_hz], dim=1),
     }
 
 
@@ -64,9 +61,9 @@ def _built(form: str) -> Rival:
 
 
 def _one_condition(batch: int) -> tuple[Tensor, Tensor, Tensor]:
-    """Embedding, motion and rib phase."""
+    """Embedding, motion and phases."""
     motion = torch.tensor([[0.06, 0.0, 1.0]]).expand(batch, -1)
-    return torch.full((batch, EMBEDDING_SIZE), 0.3), motion, torch.zeros(batch, 2)
+    return torch.full((batch, EMBEDDING_SIZE), 0.3), motion, torch.zeros(batch, 6)
 
 
 def _train(baseline: Rival, draw: Batch, steps: int, rate: float) -> list[float]:
@@ -232,25 +229,6 @@ def test_spsi_has_a_gradient_where_a_valley_is_as_deep_as_its_floor_and_one_high
     magnitudes.requires_grad_()
     SinglePassInversion()(magnitudes, torch.zeros(1, 101)).square().sum().backward()
     assert torch.isfinite(magnitudes.grad).all()
-
-
-def test_the_block_filter_agrees_with_a_sample_by_sample_filter() -> None:
-    generator = torch.Generator().manual_seed(7)
-    coefficients = step_up(0.8 * torch.tanh(torch.randn(5, ORDER, generator=generator)))
-    drive, past = torch.randn(5, 200, generator=generator), torch.randn(5, ORDER, generator=generator)
-    wave = AllPoleFilter()(drive, coefficients, past)
-    for row in range(5):
-        denominator = np.concatenate([[1.0], coefficients[row].double().numpy()])
-        state = scipy.signal.lfiltic([1.0], denominator, past[row].flip(0).double().numpy())
-        expected = scipy.signal.lfilter([1.0], denominator, drive[row].double().numpy(), zi=state)[0]
-        assert np.abs(wave[row].numpy() - expected).max() < 1e-4 * max(1.0, np.abs(expected).max())
-
-
-def test_step_up_puts_every_pole_inside_the_unit_circle() -> None:
-    generator = torch.Generator().manual_seed(8)
-    reflection = torch.tanh(torch.randn(20, ORDER, generator=generator, dtype=torch.float64))
-    for coefficients in step_up(reflection).numpy():
-        assert np.abs(np.roots(np.concatenate([[1.0], coefficients]))).max() < 1.0
 
 
 @pytest.mark.parametrize("seed", [None, 0, 1, 2, 3], ids=str)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 import torch
 
-from haptoflow_training.models.rung_impulses import ATOMS, GAINS, RUNGS, TAPS, RungImpulses
+from haptoflow_training.models.rung_impulses import ATOMS, GAINS, RUNGS, TAIL_RUNGS, TAPS, RungImpulses, TailImpulses
 from haptoflow_training.models.velocity_field import VelocityField
 
 
@@ -57,3 +57,31 @@ def test_a_field_starts_without_impulses_and_learns_those_of_its_condition() -> 
         field.impulse_gains.bias[0] = 0.5
     made = field(*arguments)[0, 0]
     assert (made != 0.0).sum().item() == (noise.abs() > RUNGS[0]).sum().item()
+
+
+def _tail_gains(seed: int) -> torch.Tensor:
+    return torch.randn(1, 2, len(TAIL_RUNGS), ATOMS, generator=torch.Generator().manual_seed(seed))
+
+
+@pytest.mark.parametrize(("excess", "tail"), [(4.5, 0), (-4.5, 1)])
+def test_each_tail_rings_with_its_own_kernels(excess: float, tail: int) -> None:
+    impulses, gains = TailImpulses(), _tail_gains(3)
+    noise = torch.zeros(1, 1, 200)
+    noise[0, 0, 60] = excess
+    size = (abs(excess) - torch.tensor(TAIL_RUNGS)) * impulses.scales.flatten()[: len(TAIL_RUNGS)]
+    ring = (size.unsqueeze(1) * (gains[0, tail] @ impulses.atoms)).sum(dim=0) * (1.0 if excess > 0.0 else -1.0)
+    expected = torch.zeros(200)
+    expected[60 : 60 + TAPS] = ring
+    torch.testing.assert_close(impulses(noise, gains.reshape(1, -1))[0, 0], expected, rtol=1e-4, atol=1e-4)
+    other = gains.clone()
+    other[0, 1 - tail] = 0.0
+    assert torch.equal(impulses(noise, gains.reshape(1, -1)), impulses(noise, other.reshape(1, -1)))
+
+
+def test_tails_with_equal_kernels_are_the_impulses_of_a_network() -> None:
+    noise = 1.6 * torch.randn(4, 1, 200, generator=torch.Generator().manual_seed(5))
+    same = torch.randn(1, GAINS, generator=torch.Generator().manual_seed(6))
+    network = RungImpulses()(noise, same.expand(4, -1))
+    both = TailImpulses(rungs=RUNGS)(noise, same.repeat(4, 2))
+    torch.testing.assert_close(both, network, rtol=1e-4, atol=1e-4)
+    assert network.square().mean() > 0.1

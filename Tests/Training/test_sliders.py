@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from training_fixtures import still_surfaces
 
 from haptoflow_benchmark.engine.engine_library import default_engine
 from haptoflow_benchmark.metrics.temporal_metrics import rib_modulation_depth
@@ -48,8 +49,9 @@ def rendered(embeddings: list[np.ndarray], velocity: tuple[float, float]) -> np.
     motion = np.tile(np.array([*velocity, 1.0], dtype=np.float32), (len(embeddings), 4400, 1))
     with EngineGenerator(default_engine(ROOT), DEFAULT) as source:
         run = run_closed_loop(
-            source, np.stack(embeddings).astype(np.float32), motion, update_rate_hz=UPDATE_RATE_HZ, seed=3
-        )
+            source, np.stack(embeddings).astype(np.float32), motion, np.arange(len(embeddings)),
+            still_surfaces(len(embeddings)), update_rate_hz=UPDATE_RATE_HZ, seed=3,
+        )  # fmt: skip
     return run.waves[:, 400:]
 
 

@@ -49,9 +49,8 @@ def _ribs(material: Material, ruling: Ruling, number: int, *, specimen: int) -> 
 def test_another_specimen_has_another_random_surface_and_other_asperities() -> None:
     heights = [random_height(MATERIALS["stone"], _path(), specimen=each)[0] for each in (0, 1, HELD_OUT_SPECIMEN)]
     assert np.abs(np.corrcoef(np.diff(heights, axis=1))[np.triu_indices(3, 1)]).max() < 0.15
-    struck = [
-        impact_acceleration(MATERIALS["stone"], _path(), SIMULATION_RATE_HZ, specimen=each) != 0.0 for each in (0, 4)
-    ]
+    impulses = [impact_acceleration(MATERIALS["stone"], _path(), SIMULATION_RATE_HZ, specimen=each) for each in (0, 4)]
+    struck = [each != np.median(each) for each in impulses]
     assert np.mean(struck[0][struck[1]]) < 0.1
 
 
@@ -89,21 +88,6 @@ def test_the_phase_of_ribs_is_the_wave_vector_times_the_recorded_position_on_eve
     assert np.abs(np.angle(np.array(turns) / np.mean(turns))).max() < 0.3, np.angle(turns)
 
 
-def test_specimens_of_a_label_have_its_level() -> None:
-    def rms(specimen: int) -> float:
-        levels = []
-        for seed in range(3):
-            recording = record_condition(
-                MATERIALS["plastic"], velocity_mps=(0.1, 0.03), force_newtons=1.0, duration_seconds=2.0, seed=seed,
-                specimen=specimen,
-            )  # fmt: skip
-            levels.append(np.var(recording.acceleration_g[1200:], axis=0).sum())
-        return float(np.sqrt(np.mean(levels)))
-
-    levels_db = 20.0 * np.log10([rms(specimen) for specimen in (*TRAINING_SPECIMENS, HELD_OUT_SPECIMEN)])
-    assert np.ptp(levels_db) < 1.0
-
-
 def test_no_recording_of_the_default_training_is_of_the_held_out_specimen(monkeypatch: pytest.MonkeyPatch) -> None:
     counted: Counter[int] = Counter()
     for ride in ("machine_pass", "hand_ride", "guided_ride"):
@@ -113,14 +97,13 @@ def test_no_recording_of_the_default_training_is_of_the_held_out_specimen(monkey
     for recording in recordings:
         recording.load()
     assert counted.total() == len(recordings) > 1000
-    assert HELD_OUT_SPECIMEN not in counted
     assert set(counted) == set(TRAINING_SPECIMENS)
     assert max(counted.values()) < 1.3 * min(counted.values())
 
 
 def test_recordings_state_their_specimen_which_follows_from_their_identity() -> None:
     materials = list(MATERIALS.values())
-    hand = list(record_hand(materials, seed=1, labels=["glass"], recordings_per_label=5, duration_seconds=2.0))
+    hand = list(record_hand(materials, seed=1, labels=["glass"], recordings_per_label=8, duration_seconds=2.0))
     machine = list(record_machine(materials, seed=1, labels=["glass"], speeds_mmps=[60], forces_millinewtons=[500]))
     for recording in hand + machine:
         assert recording.specimen == training_specimen(recording.identity)
@@ -144,10 +127,10 @@ def test_a_stroke_or_pass_on_a_chosen_specimen_follows_the_same_motion_over_anot
         record_machine_condition(MATERIALS["wood"], RecordingIdentity(0, 0, 60, 500, 0), seed=1, specimen=each)
         for each in (None, HELD_OUT_SPECIMEN)
     ]
-    assert [each.specimen for each in passes] == [0, HELD_OUT_SPECIMEN]
+    assert [each.specimen for each in passes] == [training_specimen(passes[0].identity), HELD_OUT_SPECIMEN]
 
 
-def test_every_specimen_has_guided_and_free_strokes_slow_and_fast_ones_and_both_ways_of_a_pass() -> None:
+def test_every_specimen_has_guided_and_free_strokes_slow_and_fast_ones_and_every_condition_of_a_pass() -> None:
     identities = hand_conditions(MATERIALS["wood"], seed=1, recordings=60)
     for share in (0.25, 0.5, 0.85):
         for guided in (True, False):
@@ -159,8 +142,23 @@ def test_every_specimen_has_guided_and_free_strokes_slow_and_fast_ones_and_both_
             assert met == set(TRAINING_SPECIMENS)
     for specimen in TRAINING_SPECIMENS:
         speeds = [each.speed_mmps for each in identities if training_specimen(each) == specimen]
-        assert min(speeds) < 12 and max(speeds) > 600
+        assert min(speeds) < 12 and max(speeds) > 400
     passes = machine_conditions(MATERIALS["wood"])
+    data = load_config(CONFIGURATIONS / "default" / "standard.toml").data
+    used = machine_conditions(
+        MATERIALS["wood"],
+        directions=data.machine_directions,
+        speeds_mmps=data.machine_speeds_mmps,
+        forces_millinewtons=data.machine_forces_millinewtons,
+        repeats=data.machine_repeats,
+    )
     for specimen in TRAINING_SPECIMENS:
-        directions = {each.direction_degrees for each in passes if training_specimen(each) == specimen}
-        assert len(directions) == 4
+        own = [each for each in passes if training_specimen(each) == specimen]
+        assert len({each.direction_degrees for each in own}) == 8
+        assert {each.speed_mmps for each in own} == {20, 30, 40, 50, 60}
+        of_default = [each for each in used if training_specimen(each) == specimen]
+        assert len({each.direction_degrees for each in of_default}) >= 5
+        assert {each.speed_mmps for each in of_default} == {10, 20, 60}
+        assert {each.force_millinewtons for each in of_default} == {500, 1000}
+    for one, other in zip(passes[::2], passes[1::2], strict=True):
+        assert one.repeat != other.repeat and training_specimen(one) != training_specimen(other)

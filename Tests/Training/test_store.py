@@ -148,7 +148,7 @@ def test_two_workers_make_the_same_store_as_one(tmp_path: Path) -> None:
     entries = [OnDemand(f"1_{direction}_40_500_0", "wood") for direction in range(0, 360, 45)]
     alone = prepare_store(entries, LABELS, tmp_path / "one", SETTINGS, seed=2, progress=False)
     shared = prepare_store(entries, LABELS, tmp_path / "two", SETTINGS, seed=2, progress=False, workers=2)
-    for name in ("store.json", "waveform.f32", "motion.f32", "position.f32"):
+    for name in ("store.json", "waveform.f32", "motion.f32", "position.f32", "wander.f32"):
         assert (alone.path / name).read_bytes() == (shared.path / name).read_bytes()
 
 
@@ -242,9 +242,10 @@ def test_an_older_store_is_replaced_but_a_folder_of_other_files_is_not(tmp_path:
         (lambda root: (root / "motion.f32").write_bytes(b"1234"), "motion.f32: 4 bytes long, expected"),
         (lambda root: (root / "position.f32").unlink(), "position.f32: missing, expected"),
         (lambda root: (root / "waveform.f32").unlink(), "waveform.f32: missing"),
+        (lambda root: (root / "wander.f32").unlink(), "wander.f32: missing"),
         (lambda root: (root / "store.json").write_text("{"), "not readable as JSON"),
-        (lambda root: (root / "store.json").write_text('{"version": 99}'), "store version 99, expected 2"),
-        (lambda root: (root / "store.json").write_text('{"version": 1}'), "damaged"),
+        (lambda root: (root / "store.json").write_text('{"version": 99}'), "store version 99, expected 3"),
+        (lambda root: (root / "store.json").write_text('{"version": 2}'), "store version 2, expected 3"),
         (lambda root: [path.unlink() for path in root.iterdir()], "not a store"),
     ],
 )

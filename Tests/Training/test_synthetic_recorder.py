@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 from synthetic_samples import record_hand, record_machine
 
+from haptoflow_training.preprocessing.pipeline import preprocess_recording
+from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.recordings.recording import STANDARD_GRAVITY_MPS2, RecordingIdentity
 from haptoflow_training.recordings.synthetic import (
     hand_conditions,
@@ -18,6 +20,7 @@ from haptoflow_training.recordings.synthetic import (
     record_machine_condition,
 )
 from haptoflow_training.recordings.synthetic.contact import SIMULATION_RATE_HZ, tool_vibration
+from haptoflow_training.recordings.synthetic.features import impact_acceleration
 from haptoflow_training.recordings.synthetic.surface import TipPath, random_height
 
 MATERIALS = {material.label: material for material in load_materials()}
@@ -144,6 +147,77 @@ def test_impacts_give_concrete_heavier_tails_than_the_same_surface_without_them(
     concrete = MATERIALS["concrete"]
     assert kurtosis(concrete) > 4.0
     assert kurtosis(replace(concrete, impact_strength=0.0)) < 3.7
+
+
+def _prepared_wave(label, *, material=None, speed=0.03, seconds=6.0, seeds=range(6), accelerometer_noise=False):
+    waves = []
+    for seed in seeds:
+        heading = 0.2 + seed
+        recording = record_condition(
+            material or MATERIALS[label],
+            velocity_mps=(speed * np.cos(heading), speed * np.sin(heading)),
+            force_newtons=1.0,
+            duration_seconds=seconds,
+            seed=seed,
+            accelerometer_noise=accelerometer_noise,
+        )
+        waves.append(preprocess_recording(recording, PreprocessingSettings()).waveform_mps2.astype(float))
+    return np.concatenate(waves)
+
+
+@pytest.mark.parametrize("label", ["concrete", "stone", "brick", "sandpaper"])
+def test_asperities_that_mostly_push_up_skew_the_vibration_of_rough_stone_upwards(label):
+    def skewness(material):
+        wave = _prepared_wave(label, material=material)
+        return np.mean((wave - wave.mean()) ** 3) / np.std(wave) ** 3
+
+    rough = MATERIALS[label]
+    assert rough.impact_upward_share == 0.85
+    assert skewness(rough) > 0.05
+    assert skewness(replace(rough, impact_upward_share=0.15)) < -0.05
+
+
+def test_asperities_do_not_lift_the_tip_on_average():
+    count = 40 * int(SIMULATION_RATE_HZ)
+    for label in ("concrete", "sandpaper"):
+        path = _straight([0.0, 0.0], 0.3, 300.0, count)
+        impulses = impact_acceleration(MATERIALS[label], path, SIMULATION_RATE_HZ, specimen=1)
+        assert abs(impulses.mean()) < 0.1 * np.abs(impulses).mean()
+    rest = TipPath(np.zeros((100, 2)), np.zeros((100, 2)))
+    assert not np.any(impact_acceleration(MATERIALS["concrete"], rest, SIMULATION_RATE_HZ, specimen=1))
+
+
+def test_without_the_accelerometer_s_noise_rest_is_digital_silence_and_the_other_sensors_stay_as_they_are():
+    clean, noisy = (
+        record_condition(
+            MATERIALS["wood"], velocity_mps=(0.0, 0.0), force_newtons=1.0, duration_seconds=2.0, seed=4,
+            accelerometer_noise=noise,
+        )
+        for noise in (False, True)
+    )  # fmt: skip
+    assert np.all(clean.vibration_g == 0.0) and np.any(noisy.vibration_g != 0.0)
+    for name in ("acceleration_time_seconds", "force_time_seconds", "force_newtons", "position_mm"):
+        assert np.array_equal(getattr(clean, name), getattr(noisy, name))
+    assert not np.any(preprocess_recording(clean, PreprocessingSettings()).waveform_mps2)
+
+
+def test_clean_creeping_wood_is_quieter_than_with_noise_by_the_power_of_the_noise():
+    clean, noisy = (
+        _prepared_wave("wood", speed=0.005, seeds=range(3), accelerometer_noise=noise) for noise in (False, True)
+    )
+    hiss = _prepared_wave("wood", speed=0.0, seeds=range(3), accelerometer_noise=True)
+    expected_db = 10.0 * np.log10(1.0 + np.var(hiss) / np.var(clean))
+    assert 20.0 * np.log10(np.std(noisy) / np.std(clean)) == pytest.approx(expected_db, abs=0.2)
+    assert expected_db > 3.0
+
+
+def test_a_hand_that_rests_on_a_clean_recording_is_prepared_like_any_other():
+    identity = RecordingIdentity(0, None, 100, 800, 1)
+    recording = record_hand_condition(
+        MATERIALS["wood"], identity, seed=1, duration_seconds=3.0, guided_share=1.0, accelerometer_noise=False
+    )
+    prepared = preprocess_recording(recording, replace(PreprocessingSettings(), trim_seconds=0.1))
+    assert np.abs(prepared.waveform_mps2[:100]).max() < 1e-3 < 0.05 < np.std(prepared.waveform_mps2)
 
 
 def test_stick_slip_vibrates_along_the_movement_and_vanishes_at_speed():

@@ -27,7 +27,7 @@ from haptoflow_training.training.recordings_source import open_source
 
 SETTINGS = PreprocessingSettings()
 # Of the same store's waveform: its RMS, and the sum of every 500th sample's magnitude.
-WAVEFORM_RMS, WAVEFORM_SUM = 0.0990999, 2.916954
+WAVEFORM_RMS, WAVEFORM_SUM = 0.1121996, 3.370311
 # Name, split, start, length, silence before and after, as in stores before short recordings were trimmed less.
 BEFORE = [
     ("0_0_60_500_0", "train", 0, 3759, 400, 0),

@@ -135,6 +135,7 @@ def test_a_run_that_cannot_begin_is_refused_before_recordings_are_prepared(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], words: list[str],
     configuration: str, said: str,
 ) -> None:  # fmt: skip
+    import importlib
     from contextlib import contextmanager
 
     from haptoflow_training.commands import train
@@ -147,6 +148,8 @@ def test_a_run_that_cannot_begin_is_refused_before_recordings_are_prepared(
     def refused(*arguments: object) -> None:
         raise AssertionError("recordings were prepared")
 
+    # A budget is a key of the evaluation's configurations.
+    importlib.import_module("haptoflow_paper")
     monkeypatch.setattr(train, "join_processes", two_processes)
     monkeypatch.setattr(train, "open_source", refused)
     (tmp_path / "run.toml").write_text(f'name = "run"\n{configuration}\n', encoding="utf-8")

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from haptoflow_training.closed_loop.level_calibration import closed_loop_levels, offsets_db
+from haptoflow_training.closed_loop.phase_track import SurfaceStatistics
 from haptoflow_training.training.held_out import HeldOut
 
 RATE_HZ = 2000
@@ -22,6 +23,7 @@ class FakeRecording:
     split: str
     start: int
     length: int
+    specimen: int | None = None
 
 
 @dataclass(frozen=True)
@@ -33,6 +35,11 @@ class FakeStore:
     labels: list[str]
     recordings: list[FakeRecording]
     skipped: tuple[object, ...] = ()
+    wander_turns: NDArray[np.float32] = field(default_factory=lambda: np.zeros((0, 3), np.float32))
+
+    def __post_init__(self) -> None:
+        if not len(self.wander_turns):
+            object.__setattr__(self, "wander_turns", np.zeros((len(self.waveform), 3), np.float32))
 
 
 def travelled_mm(motion: NDArray[np.floating]) -> NDArray[np.float32]:
@@ -72,6 +79,11 @@ def make_store(*, seconds: float = 4.0, recordings_per_split: int = 2, seed: int
     )
 
 
+def still_surfaces(labels: int) -> SurfaceStatistics:
+    """Surfaces whose ribs do not wander and that do not slip."""
+    return SurfaceStatistics.of_entries([{}] * labels)
+
+
 def level_offsets_db(
     source: Any,
     embeddings: NDArray[np.float32],
@@ -80,5 +92,6 @@ def level_offsets_db(
     advance: Callable[[int], None] = lambda count: None,
 ) -> list[float]:
     """For each label, the level that the source generates over the recorded one in dB, in closed loop."""
-    levels = closed_loop_levels(source, embeddings, store, held_out, advance)  # type: ignore[arg-type]
+    still = still_surfaces(len(store.labels))
+    levels = closed_loop_levels(source, embeddings, store, still, held_out, advance)  # type: ignore[arg-type]
     return offsets_db(levels, len(store.labels))

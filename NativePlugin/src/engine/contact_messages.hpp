@@ -7,6 +7,7 @@
 #include "engine/level_request.hpp"
 #include "engine/range_law.hpp"
 #include "engine/rib_phase.hpp"
+#include "engine/wave_statistics.hpp"
 #include "engine/waveform_timeline.hpp"
 #include "inference/segment_generator.hpp"
 
@@ -63,6 +64,7 @@ struct AudioMessage {
 struct WorkerMessage {
     PublishedContact contact;
     std::array<float, inference::embeddingSize> embedding{};
+    WaveStatistics waves;
     LevelRequest level;
     BlendParts blend;
 };

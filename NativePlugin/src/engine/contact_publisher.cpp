@@ -110,6 +110,7 @@ void ContactPublisher::postToWorker(const Ingredients& ingredients, const Materi
     WorkerMessage& message = channels_.toWorker.draft();
     message.contact = contact_;
     message.embedding = material.embedding;
+    message.waves = waveStatisticsOf(ingredients, waveVectorsOf(material.embedding));
     message.level = requestLevel(ingredients, contact_.ranged);
     message.blend.count = 0;
     if (ingredients.isBlend()) {

@@ -1,7 +1,6 @@
 #include "engine/segment_planner.hpp"
 
 #include "inference/gaussian_noise.hpp"
-#include "inference/rib_rates.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -68,7 +67,7 @@ bool SegmentPlanner::wake() noexcept {
     settledSlides_ = contact.slides;
     polls_ = 0;
     if (isNewStream) {
-        ribs_.begin(playhead.streamStart, playhead.seedRibs);
+        phases_.begin(playhead.streamStart, playhead.seedRibs);
         places_.begin();
     }
     if (!replaces) {
@@ -153,9 +152,8 @@ void SegmentPlanner::prepare(std::int64_t start) noexcept {
     balance_.follow(channels_.toWorker.current().blend, request_.motion, start);
     mirror_.history(start, history_);
     stretch_ = places_.at(channels_.toWorker.current().contact, start, secondsAhead(start));
-    const WaveVectors vectors = waveVectorsOf(request_.embedding);
-    ribPhase_ = stretch_.ribPlaceMetres ? ribs_.at(start, vectors, *stretch_.ribPlaceMetres) : ribs_.at(start, vectors);
-    request_.phases = inference::phasesOf(request_.embedding, request_.motion, toNetwork(ribPhase_));
+    request_.phases =
+        phases_.at(start, request_.embedding, request_.motion, channels_.toWorker.current().waves, stretch_);
     if (!inference::fillSurfaceNoise(stretch_.surface, stretch_.path, noise_)) {
         inference::fillStandardNormal({.seed = settings_.seed, .voice = settings_.voice, .segment = segments_}, noise_);
     }
@@ -192,9 +190,7 @@ bool SegmentPlanner::deliver(std::span<float, inference::segmentSamples> segment
     }
     mirror_.commit(plannedStart_, sent.segment.samplesMps2);
     places_.add(plannedStart_, stretch_);
-    ribs_.add(plannedStart_, waveVectorsOf(request_.embedding), ribPhase_,
-              ribTurnsPerSample(request_.embedding, static_cast<double>(request_.motion[0]),
-                                static_cast<double>(request_.motion[1])));
+    phases_.add();
 
     const std::int64_t head = playhead.timeline.head;
     const auto lead = static_cast<double>(leadSamples(playhead.blockAdvance, contact.ranged.readingRate));

@@ -3,7 +3,7 @@
 #include "engine/blend_balance.hpp"
 #include "engine/lead_estimator.hpp"
 #include "engine/place_track.hpp"
-#include "engine/rib_phase.hpp"
+#include "engine/surface_phases.hpp"
 #include "engine/voice_channels.hpp"
 #include "engine/waveform_timeline.hpp"
 #include "inference/segment_generator.hpp"
@@ -72,12 +72,11 @@ private:
     LeadEstimator lead_;
     // The callback's timeline as it will be after it has taken all segments sent.
     WaveformTimeline mirror_;
-    // Rib phases of the present stream.
-    RibTrack ribs_;
+    // Of the present stream.
+    SurfacePhases phases_;
     PlaceTrack places_;
     // Of the requested segment.
     SurfaceStretch stretch_;
-    RibTurns ribPhase_{};
     BlendBalance balance_;
 
     struct Sent {

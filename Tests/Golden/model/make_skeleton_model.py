@@ -1,5 +1,5 @@
-"""Writes skeleton.haptoflow, a small model with an untrained skeleton and an untrained refinement, and skeleton.parity.json:
-what PyTorch makes of it, step by step, which native code must reproduce.
+"""Writes skeleton.haptoflow, a small model with an untrained skeleton and an untrained refinement, and
+skeleton.parity.json: what PyTorch makes of it, step by step, which native code must reproduce.
 
     PYTHONPATH=Training /usr/bin/python3 Tests/Golden/model/make_skeleton_model.py
 """
@@ -29,8 +29,8 @@ WAVE_VECTORS: tuple[tuple[tuple[float, float], ...], ...] = ((), ((0.8, 0.0), (0
 
 
 def build() -> tuple[SkeletonModel, SkeletonModel]:
-    """The sketch and its refinement over the same embedding, level and skeleton. Weights are large enough for every part
-    to be heard."""
+    """The sketch and its refinement over the same embedding, level and skeleton. Weights are large enough for every
+    part to be heard."""
     torch.manual_seed(30)
     sketch = SkeletonModel(
         wave_vectors=WAVE_VECTORS, level=LevelModel(hidden=HIDDEN), skeleton=Skeleton(HIDDEN), specimens=SPECIMENS

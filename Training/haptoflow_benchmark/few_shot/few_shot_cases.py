@@ -64,7 +64,11 @@ def study_materials(count: int, seed: int) -> tuple[Material, ...]:
 
 
 def make_case(material: Material, seed: int, longest_seconds: float = SECONDS[-1]) -> FewShotCase:
-    """The case of a material; deterministic by material and seed."""
+    """The case of a material; deterministic by material and seed.
+
+    All pieces are typical: how pieces differ says nothing about a learner, who gets one of them.
+    """
+    material = material.without_spread
     rides = make_rides(material, seed, max(2, round(longest_seconds / RIDE_SECONDS)))
     settings = PreprocessingSettings()
     return FewShotCase(

@@ -102,7 +102,9 @@ def _prepared(material: Material, recordings: int, seed: int) -> list[tuple[str,
         (
             identity.name,
             preprocess_recording(
-                record_hand_condition(material, identity, seed=seed, specimen=HELD_OUT_SPECIMEN),
+                record_hand_condition(
+                    material, identity, seed=seed, specimen=HELD_OUT_SPECIMEN, accelerometer_noise=False
+                ),
                 PreprocessingSettings(),
             ),
         )

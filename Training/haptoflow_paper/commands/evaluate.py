@@ -219,8 +219,9 @@ def _write(
         steady = [pair for pair in pairs if pair.condition.is_steady]
         with generator_of(place, standard, standard.seeds[0]) as generator:
             made = accuracy.generate_set(
-                generator, generator.embeddings, generator.statistics, steady, update_rate_hz=UPDATE_RATE_HZ, seed=31, open_loop=False
-            )
+                generator, generator.embeddings, generator.statistics, steady,
+                update_rate_hz=UPDATE_RATE_HZ, seed=31, open_loop=False,
+            )  # fmt: skip
         draw_spectra(steady, made.closed, images / "label-spectra.png", sha256_of(model))
     write_document(result, options.document, images, True, standard is not None)
     print(f"evaluate: {out} and {options.document}")

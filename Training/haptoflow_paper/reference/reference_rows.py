@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from haptoflow_benchmark.metrics.waveform_metrics import power_spectrum
 from haptoflow_paper.reference.reference_set import ReferencePair
 
-REFERENCE_ROWS = ("independent-draw", "mean-spectrum", "white-noise", "silence")
+REFERENCE_ROWS = ("independent-draw", "another-specimen", "mean-spectrum", "white-noise", "silence")
 # The recordings encoded and decoded by the small codec: the best that a row in its latents can score.
 CODEC_ROW = "small-codec-reconstruction"
 _ENVELOPE_SAMPLES = 200
@@ -33,15 +33,24 @@ def _shaped_noise(spectrum: NDArray[np.float64], samples: int, generator: np.ran
     return np.asarray(shaped / np.sqrt(np.square(shaped).mean() + 1e-30))
 
 
+def _of_another_specimen(pair: ReferencePair) -> _Floats:
+    if pair.other_specimen is None:
+        raise ValueError(f"{pair.condition}: nothing was recorded of another specimen")
+    return pair.other_specimen
+
+
 def reference_waves(name: str, pairs: list[ReferencePair], seed: int) -> list[_Floats]:
     """One waveform for each pair, as long as its recording, m/s^2.
 
-    independent-draw: another recording of the same condition. mean-spectrum: noise with the label's mean spectrum over
-    all its conditions, at the recording's own level. white-noise: at that level too.
+    independent-draw: another recording of the same condition, on the same specimen. another-specimen: on another piece
+    of the material. mean-spectrum: noise with the label's mean spectrum over all its conditions, at the recording's own
+    level. white-noise: at that level too.
     """
     generator = np.random.default_rng(seed)
     if name == "independent-draw":
         return [pair.independent for pair in pairs]
+    if name == "another-specimen":
+        return [_of_another_specimen(pair) for pair in pairs]
     if name == "silence":
         return [np.zeros_like(pair.recorded) for pair in pairs]
     if name == "white-noise":

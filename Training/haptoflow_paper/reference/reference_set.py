@@ -1,7 +1,7 @@
-"""The reference recordings of the evaluation: outside all training, each with an independent second one.
+"""The reference recordings of the evaluation: outside all training, each with two further ones of the same motion.
 
-Both of a pair follow the same motion on different places of the held-out specimen. The second one, an independent draw
-of the true process, is the best that any generator can score.
+The independent one is of another place on the held-out specimen: a draw of the true process, the best that any
+generator can score. The third is of another specimen of the label: what two pieces of one material differ by.
 """
 
 from __future__ import annotations
@@ -22,20 +22,24 @@ from haptoflow_training import preprocessing
 from haptoflow_training.preprocessing.pipeline import PreparedRecording, preprocess_recording
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.recordings import synthetic
-from haptoflow_training.recordings.synthetic import HELD_OUT_SPECIMEN, Material, load_materials, record_condition
+from haptoflow_training.recordings.synthetic import (
+    FURTHER_SPECIMENS,
+    HELD_OUT_SPECIMEN,
+    Material,
+    load_materials,
+    record_condition,
+)
 from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 _Floats = NDArray[np.float32]
 
 _INDEPENDENT_SEED = 100_000
-# Whole turns do not matter; a float keeps the rest.
-_WRAP = 1.0
 
 
 @dataclass(frozen=True)
 class ReferencePair:
-    """recorded and independent [n] in m/s^2; motion [n, 3] of both. start_mm: the place on the surface where
-    `recorded` begins. wander_turns [n, 3]: of its waves, as a store has them (preprocessing/store.py)."""
+    """recorded, independent and other_specimen [n] in m/s^2; motion [n, 3] of all. start_mm: the place on the surface
+    where `recorded` begins. wander_turns [n, 3]: of its waves, as a store has them (preprocessing/store.py)."""
 
     condition: Condition
     recorded: _Floats
@@ -43,10 +47,11 @@ class ReferencePair:
     motion: _Floats
     start_mm: tuple[float, float] = (0.0, 0.0)
     wander_turns: _Floats | None = None
+    other_specimen: _Floats | None = None
 
 
-def _record(material: Material, motion: NDArray[np.float64], seed: int) -> PreparedRecording:
-    """One recording of the motion [n, 3] at 2 kHz on the held-out specimen, trimmed like every recording, without the
+def _record(material: Material, motion: NDArray[np.float64], seed: int, specimen: int) -> PreparedRecording:
+    """One recording of the motion [n, 3] at 2 kHz on a specimen, trimmed like every recording, without the
     accelerometer's noise: nobody should be asked to reproduce it."""
     recording = record_condition(
         material,
@@ -54,7 +59,7 @@ def _record(material: Material, motion: NDArray[np.float64], seed: int) -> Prepa
         force_newtons=motion[:, 2],
         duration_seconds=len(motion) / SAMPLE_RATE_HZ,
         seed=seed,
-        specimen=HELD_OUT_SPECIMEN,
+        specimen=specimen,
         accelerometer_noise=False,
     )
     return preprocess_recording(recording, PreprocessingSettings())
@@ -65,24 +70,32 @@ def record_pair(task: tuple[Condition, Material, Material]) -> ReferencePair:
     condition, material, other = task
     trim = PreprocessingSettings().trim_seconds
     motion = motion_of(condition, material, trim)
-    prepared = [_record(material, motion, condition.seed + repeat) for repeat in (0, _INDEPENDENT_SEED)]
+    further = FURTHER_SPECIMENS[condition.seed % len(FURTHER_SPECIMENS)]
+    takes = [
+        (condition.seed, HELD_OUT_SPECIMEN),
+        (condition.seed + _INDEPENDENT_SEED, HELD_OUT_SPECIMEN),
+        (condition.seed + 2 * _INDEPENDENT_SEED, further),
+    ]
+    prepared = [_record(material, motion, *take) for take in takes]
     waves = [entry.waveform_mps2 for entry in prepared]
     lead = round(trim * SAMPLE_RATE_HZ)
     length = min(len(motion) - 2 * lead, *(len(wave) for wave in waves))
     if condition.kind == "change":
         elsewhere = is_on_other_label(length)
-        for number, repeat in enumerate((0, _INDEPENDENT_SEED)):
-            there = _record(other, motion, condition.seed + repeat).waveform_mps2[:length]
+        for number, take in enumerate(takes):
+            there = _record(other, motion, *take).waveform_mps2[:length]
             waves[number] = np.where(elsewhere, there, waves[number][:length])
     # The motion is prescribed and known exactly; the sensors' noise on it is not measured.
     known_motion = motion[lead : lead + length].astype(np.float32)
     travelled = _travelled_mm(known_motion)
     # Averaged over the recording, because a single reading is off by up to 0.1 mm.
     start = (prepared[0].position_mm[:length] - travelled).mean(axis=0)
-    wander = np.mod(prepared[0].wander_turns[:length], _WRAP).astype(np.float32)
+    # Whole turns do not matter; a float keeps the rest.
+    wander = np.mod(prepared[0].wander_turns[:length], 1.0).astype(np.float32)
     return ReferencePair(
-        condition, waves[0][:length], waves[1][:length], known_motion, (float(start[0]), float(start[1])), wander
-    )
+        condition, waves[0][:length], waves[1][:length], known_motion, (float(start[0]), float(start[1])), wander,
+        waves[2][:length],
+    )  # fmt: skip
 
 
 def _travelled_mm(motion: _Floats) -> NDArray[np.float64]:
@@ -130,6 +143,7 @@ def reference_set(
                     ReferencePair(
                         entry, stored[f"recorded{i}"], stored[f"independent{i}"], stored[f"motion{i}"],
                         (float(stored["starts_mm"][i, 0]), float(stored["starts_mm"][i, 1])), stored[f"wander{i}"],
+                        stored[f"other{i}"],
                     )
                     for i, entry in enumerate(wanted)
                 ]  # fmt: skip
@@ -145,7 +159,7 @@ def reference_set(
     }  # fmt: skip
     for i, pair in enumerate(pairs):
         arrays |= {f"recorded{i}": pair.recorded, f"independent{i}": pair.independent, f"motion{i}": pair.motion}
-        arrays[f"wander{i}"] = pair.wander_turns
+        arrays |= {f"wander{i}": pair.wander_turns, f"other{i}": pair.other_specimen}
     temporary = cache.with_suffix(".part.npz")
     np.savez(temporary, **arrays)
     temporary.replace(cache)

@@ -28,7 +28,7 @@ class SegmentNetwork(nn.Module):
 
     def forward(self, noisy: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, phases: Tensor) -> Tensor:
         """Segment [B, 1, 200] from standard normal noise and previous waveform [B, 1, 200], embedding [B, 64],
-        motion [B, 3] (vx, vy in m/s, force in N) and rib phase [B, 2] (turns)."""
+        motion [B, 3] (vx, vy in m/s, force in N) and phases [B, 6] (models/surface_waves.py)."""
         raise NotImplementedError
 
     def loss(

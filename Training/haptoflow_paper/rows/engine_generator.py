@@ -11,10 +11,11 @@ from numpy.typing import NDArray
 
 from haptoflow_benchmark.engine.engine_library import EngineLibrary
 from haptoflow_training.closed_loop.phase_track import SurfaceStatistics
+from haptoflow_training.models.label_embedding import WAVE_VECTORS
+from haptoflow_training.models.surface_waves import PHASES
 from haptoflow_training.native_library import NativeModel, options_of
 from haptoflow_training.waveform import SEGMENT_SAMPLES
 
-RIB_COUNT = 2
 MAXIMUM_BATCH = 256
 SOLVERS = {"tier": 0, "euler": 1, "midpoint": 2, "heun": 3}
 
@@ -100,10 +101,11 @@ class EngineGenerator:
     ) -> _Floats:
         """Segments [n, 200] in m/s^2 from embeddings [n, 64], motions [n, 3], previous and noise [n, 200].
 
-        phases: [n, 2], turns along the embedding's wave vectors at each segment's first sample; zeros if None.
+        phases: [n, 6] (models/surface_waves.py) at each segment's first sample, of which the library reads the turns of
+        both rib families; zeros if None.
         """
-        phases = np.zeros((len(embeddings), RIB_COUNT), dtype=np.float32) if phases is None else phases
-        given = (embeddings, motions, previous_mps2, noise, phases)
+        phases = np.zeros((len(embeddings), PHASES), dtype=np.float32) if phases is None else phases
+        given = (embeddings, motions, previous_mps2, noise, phases[:, :WAVE_VECTORS])
         arrays = [np.ascontiguousarray(array, dtype=np.float32) for array in given]
         count = len(arrays[0])
         pointers = [array.ctypes.data_as(_pointer) for array in arrays]

@@ -181,11 +181,15 @@ def _engine_figures(place: Workplace, yardstick: Yardstick, row: PlannedRow, see
 
 
 def _sizes(generator: EngineGenerator, row: PlannedRow) -> dict[str, int]:
-    """Parameters of the network, and bytes of all graphs that generate a segment."""
+    """Parameters of the network, and bytes of all graphs and tensors that generate a segment."""
     header = generator.header
     tier = next(entry for entry in header["tiers"] if entry["name"] == (row.tier or header["default_tier"]))
     names = [tier[key] for key in ("field", "level", "encoder", "decoder") if key in tier]
-    size = sum(blob["bytes"] for blob in header["blobs"] if blob["name"] in names)
+    has_skeleton = tier["kind"] in ("skeleton", "refine")
+    natively = ("skeleton.", "level.", f"{tier['name']}.condition.") if has_skeleton else ()
+    size = sum(
+        blob["bytes"] for blob in header["blobs"] if blob["name"] in names or blob["name"].startswith(natively)
+    )
     return {"parameters": tier["parameters"], "bytes": size}
 
 
@@ -195,8 +199,9 @@ def _fast_speeds(generator: EngineGenerator, pairs: list[ReferencePair]) -> list
     fast = [pair for pair in pairs if _is_fast(pair)]
     for rate in UPDATE_RATES_HZ:
         made = accuracy.generate_set(
-            generator, generator.embeddings, generator.statistics, fast, update_rate_hz=rate, seed=_SEED, open_loop=False
-        )
+            generator, generator.embeddings, generator.statistics, fast,
+            update_rate_hz=rate, seed=_SEED, open_loop=False,
+        )  # fmt: skip
         rows = accuracy.measure(fast, made)
         for speed in FAST_SPEEDS_MPS:
             chosen = [entry for entry in rows if entry["speed_mps"] == speed]

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from haptoflow_training.closed_loop.render import SegmentSource
+from haptoflow_training.models.surface_waves import PHASES
 
 _WARM_UP_RUNS = 20
 
@@ -34,7 +35,7 @@ def _once(source: SegmentSource, generator: np.random.Generator) -> float:
     previous = generator.standard_normal((1, 200)).astype(np.float32)
     noise = generator.standard_normal((1, 200)).astype(np.float32)
     motion = np.array([[0.1 + 0.4 * generator.random(), 0.0, 1.0]], dtype=np.float32)
-    phases = generator.random((1, 2)).astype(np.float32)
+    phases = generator.random((1, PHASES)).astype(np.float32)
     begin = time.perf_counter()
     source.generate(embedding, motion, previous, noise, phases)
     return 1e3 * (time.perf_counter() - begin)

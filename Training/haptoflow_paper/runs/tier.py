@@ -15,6 +15,7 @@ from haptoflow_paper.runs.networks import EvaluatedModel
 from haptoflow_training.export.onnx_graphs import example_inputs, export_graph, export_network
 from haptoflow_training.export.trained_tier import TrainedTier
 from haptoflow_training.models.haptoflow_model import Condition
+from haptoflow_training.models.surface_waves import PHASES
 
 
 class _AverageVelocity(nn.Module):
@@ -41,7 +42,7 @@ def network_graph(model: EvaluatedModel, kind: str) -> bytes:
     """As `export_network`, for a rival and for tiers of `kind` "average-velocity" too."""
     wave, conditions = example_inputs(model)
     if isinstance(model.field, SegmentNetwork):
-        examples = {"noisy": wave, **conditions, "phases": torch.full((len(wave), 2), 0.25)}
+        examples = {"noisy": wave, **conditions, "phases": torch.full((len(wave), PHASES), 0.25)}
         inputs = {name: examples[name] for name in model.field.inputs}
         return export_graph(SegmentNetworkGraph(model.field), inputs, "segment")
     if kind == "average-velocity":
@@ -52,13 +53,15 @@ def network_graph(model: EvaluatedModel, kind: str) -> bytes:
 
 
 class EvaluatedTier(TrainedTier):
-    """kind: of a rival `direct`, of MeanFlow `average-velocity`. A latent tier has an encoder and a decoder."""
+    """kind: of a rival `direct`, of MeanFlow `average-velocity`. A latent tier has an encoder and a decoder. A tier
+    with a skeleton is as the product's."""
 
     config: EvaluatedConfig
-    model: EvaluatedModel
 
     @property
     def kind(self) -> str:
+        if not isinstance(self.model, EvaluatedModel):
+            return super().kind
         if isinstance(self.model.field, SegmentNetwork):
             return "direct"
         return "average-velocity" if self.config.recipe.objective == "average-velocity" else super().kind
@@ -69,6 +72,8 @@ class EvaluatedTier(TrainedTier):
         return super().evaluate(noisy, time, interval, condition)
 
     def graphs(self) -> dict[str, bytes]:
+        if not isinstance(self.model, EvaluatedModel):
+            return super().graphs()
         graphs = {f"{self.name}.field": network_graph(self.model, self.kind)}
         if self.model.representation.is_latent:
             with tempfile.TemporaryDirectory() as folder:
@@ -80,7 +85,7 @@ class EvaluatedTier(TrainedTier):
 
     def header_entry(self) -> dict[str, Any]:
         entry = super().header_entry()
-        if self.model.representation.is_latent:
+        if isinstance(self.model, EvaluatedModel) and self.model.representation.is_latent:
             entry |= {"representation": "latent", "latent_shape": list(self.model.representation.shape)}
             entry |= {name: f"{self.name}.{name}" for name in ("encoder", "decoder")}
         return entry

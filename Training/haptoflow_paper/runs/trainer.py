@@ -18,9 +18,11 @@ from haptoflow_paper.runs.configuration import EvaluatedConfig
 from haptoflow_paper.runs.losses import EvaluatedLosses
 from haptoflow_paper.runs.networks import AverageVelocityField, ConstantLevel, DeafVelocityField, EvaluatedModel
 from haptoflow_training.errors import InputError
+from haptoflow_training.models.haptoflow_model import HaptoFlowModel
 from haptoflow_training.models.level_model import LevelModel
 from haptoflow_training.models.velocity_field import VelocityField
 from haptoflow_training.training.budget import Budget
+from haptoflow_training.training.losses import Losses
 from haptoflow_training.training.processes import Processes
 from haptoflow_training.training.trainer import Phase, TimeLimit, Trainer, WaveVectors
 
@@ -39,15 +41,20 @@ class EvaluatedTrainer(Trainer):
         self._pair_count = self._config.recipe.reflow_pairs
 
     @staticmethod
-    def losses_of(config: EvaluatedConfig) -> type[EvaluatedLosses]:  # type: ignore[override]
-        return EvaluatedLosses
+    def losses_of(config: EvaluatedConfig) -> type[Losses]:  # type: ignore[override]
+        # A run with a skeleton is as the product's.
+        return EvaluatedLosses if config.model.network == "field" else Trainer.losses_of(config)
 
     @staticmethod
     def build_model(  # type: ignore[override]
         config: EvaluatedConfig, wave_vectors: WaveVectors, specimens: int = 0
-    ) -> EvaluatedModel:
+    ) -> HaptoFlowModel:
         shape = config.model
+        if shape.network != "field":
+            return Trainer.build_model(config, wave_vectors, specimens)
         representation = build_representation(shape.representation)
+        # In the product's order, so that the same seed gives the same weights.
+        level = LevelModel() if shape.level == "law" else ConstantLevel()
         if shape.architecture == "unet":
             channels, positions = representation.shape
             averages, hears = config.recipe.objective == "average-velocity", shape.hears_previous
@@ -58,12 +65,15 @@ class EvaluatedTrainer(Trainer):
             )  # fmt: skip
         else:
             field = build_rival(shape.architecture, ribs=shape.ribs, sampled=shape.sampled)
-        level = LevelModel() if shape.level == "law" else ConstantLevel()
-        return EvaluatedModel(wave_vectors=wave_vectors, representation=representation, level=level, field=field, specimens=specimens)
+        return EvaluatedModel(
+            wave_vectors=wave_vectors, representation=representation, level=level, field=field, specimens=specimens
+        )
 
     @staticmethod
     def possible_phases(config: EvaluatedConfig) -> list[Phase]:  # type: ignore[override]
-        level, field, energy, forced, polish = Trainer.possible_phases(config)
+        if config.model.network != "field":
+            return Trainer.possible_phases(config)
+        level, _, field, energy, forced, polish = Trainer.possible_phases(config)
         recipe = config.recipe
         objective = "own" if config.model.architecture != "unet" else recipe.objective
         reflow = Phase("reflow", "reflow", recipe.reflow_steps, recipe.reflow_learning_rate, field.batch_size)

@@ -80,7 +80,8 @@ def closed_loop_levels(
     labels_wanted: frozenset[int] | None = None,
 ) -> ClosedLoopLevels:
     """The levels that `source` generates for the motion of training recordings in closed loop at 72 Hz, with the
-    recorded ones. embeddings [labels, 64]; statistics: of the surfaces, by label. labels_wanted: only these label indices; None for all.
+    recorded ones. embeddings [labels, 64]; statistics: of the surfaces, by label. labels_wanted: only
+    these label indices; None for all.
 
     Recordings of the test split are not used, and windows with a sample in a held-out band are not compared.
     """

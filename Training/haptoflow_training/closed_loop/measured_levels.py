@@ -42,7 +42,9 @@ def measured_levels(folder: Path, source: Source, extent: Extent = Extent()) -> 
         made = TierSource(tier, tables)
         wanted = frozenset(tables) or None
         with tqdm(total=hops(source.store, extent), unit="hop", desc="levels") as bar:
-            return closed_loop_levels(made, made.embeddings, source.store, statistics, held_out, bar.update, extent, wanted)
+            return closed_loop_levels(
+                made, made.embeddings, source.store, statistics, held_out, bar.update, extent, wanted
+            )
 
     levels = measure({})
     offsets = offsets_db(levels, len(source.labels))

@@ -31,8 +31,8 @@ _WAVES, _OCTAVES = 12, 0.5
 
 @dataclass(frozen=True)
 class SurfaceStatistics:
-    """By label. slips_per_mm [L]: at 1 N, 0 for none. wander [L, 3]: of both rib families in turns, and the logarithm of
-    the stick-slip's rate; wavelengths_mm [L, 3] of the fields that they follow."""
+    """By label. slips_per_mm [L]: at 1 N, 0 for none. wander [L, 3]: of both rib families in turns, and of the logarithm
+    of the stick-slip's rate; wavelengths_mm [L, 3]: of the fields that they follow."""
 
     slips_per_mm: _Doubles
     wander: _Doubles

@@ -68,8 +68,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )  # fmt: skip
     parser.add_argument("--seed", type=int, help="in place of the configuration's seed")
     parser.add_argument(
-        "--base", type=Path, metavar="FOLDER", help="finished run whose embedding and level a further tier keeps"
-    )
+        "--base", type=Path, metavar="FOLDER",
+        help="finished run whose embedding, level and skeleton a further tier keeps",
+    )  # fmt: skip
     parser.add_argument(
         "--from", type=Path, dest="start", metavar="FOLDER",
         help="finished run of the same labels and [model] to begin from, for a further round or recordings of your own",

@@ -23,9 +23,9 @@ CONFIGURATIONS = Path(__file__).resolve().parents[2] / "configs" / "default"
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     parser.description = (
-        "Trains what the tiers share (embedding, level model), then the tiers, --lanes of them at a time, each on "
-        "one core, corrects the level error of the default tier for each label, and writes one model "
-        "file. Run it again to resume after an interruption."
+        "Trains what the tiers share (embedding, level model and, if base.toml says so, the skeleton, which is a tier "
+        "of its own), then the networks, --lanes of them at a time, each on one core, corrects the level error of the "
+        "default tier for each label, and writes one model file. Run it again to resume after an interruption."
     )
     parser.epilog = (
         "example:\n"
@@ -64,6 +64,8 @@ def run(options: argparse.Namespace) -> int:
     default = options.out / "standard" if options.out / "standard" in folders else folders[0]
     levels = MeasuredLevels(measured_levels(default, source).offsets_db)
     further = [folder for folder in folders if folder != default]
+    if config.model.network == "skeleton":
+        further.append(base)
     write_model(default, source, options.export, options.parity, levels, further, options.out / "export.json")
     return 0
 

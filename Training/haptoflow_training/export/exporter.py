@@ -178,7 +178,7 @@ def export_run(
     else:
         header["skeleton"] = skeleton_header(default.skeleton)
         tensors |= skeleton_tensors(model.level, default.skeleton)
-        if model.embedding.pieces.shape[1]:
+        if model.embedding.specimens:
             tensors["pieces"] = model.embedding.offsets.detach().numpy().copy()
     file = ModelFile(header=header, tensors=tensors, graphs=graphs)
     checksum = write_model_file(out, file)

@@ -12,6 +12,7 @@ from torch import Tensor, nn
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE
 from haptoflow_training.models.haptoflow_model import FieldModel, HaptoFlowModel
 from haptoflow_training.models.refiner import ENTERING, Refiner
+from haptoflow_training.models.surface_waves import PHASES
 from haptoflow_training.waveform import SEGMENT_SAMPLES
 
 OPSET = 16
@@ -89,7 +90,7 @@ def example_inputs(model: HaptoFlowModel) -> tuple[Tensor, dict[str, Tensor]]:
         "motion": torch.full((batch, 3), 0.1),
     }
     if model.comb is not None:
-        conditions["phases"] = torch.full((batch, 2), 0.25)
+        conditions["phases"] = torch.full((batch, PHASES), 0.25)
     return wave, conditions
 
 

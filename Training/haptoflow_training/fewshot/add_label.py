@@ -25,9 +25,15 @@ def with_label(model: ModelFile, material: dict[str, Any]) -> ModelFile:
     require_new_name(model, name)
     rows, bank = model.tensors["embedding"], model.header["seed_bank"]
     label = {key: value for key, value in material.items() if key not in _NOT_OF_A_LABEL}
-    added = {"embedding": [material["embedding"]], bank["tensor"]: [seed["samples"] for seed in material["seeds"]]}
+    added: dict[str, Any] = {
+        "embedding": [material["embedding"]],
+        bank["tensor"]: [seed["samples"] for seed in material["seeds"]],
+    }
+    if "pieces" in model.tensors:
+        # One piece of the material is known: the label itself.
+        added["pieces"] = np.zeros((1, *model.tensors["pieces"].shape[1:]))
     tensors = {
-        key: np.concatenate([tensor, np.array(added[key], dtype=np.float32)]) if added.get(key) else tensor
+        key: np.concatenate([tensor, np.array(added[key], dtype=np.float32)]) if len(added.get(key, ())) else tensor
         for key, tensor in model.tensors.items()
     }
     seeds = [

@@ -100,16 +100,16 @@ class PredictedFilter(nn.Module):
     drives it.
 
     The last prediction is the RMS of the waveform; that of the noise follows from it, sigma_e^2 = sigma_x^2 prod(1 -
-    k_i^2), so that the waveform stays bounded however much the filter resonates. Damping multiplies the impulse
-    response's n-th sample by 0.998^n, which can only lower the level.
+    k_i^2), so that the waveform stays bounded however much the filter resonates. pole_damping: a factor on every pole's
+    radius; it multiplies the impulse response's n-th sample by its n-th power, which can only lower the level.
     """
 
     damping: Tensor
 
-    def __init__(self, order: int) -> None:
+    def __init__(self, order: int, pole_damping: float = POLE_DAMPING) -> None:
         super().__init__()
         self.order = order
-        damping = POLE_DAMPING ** torch.arange(1.0, order + 1.0).unsqueeze(0)
+        damping = pole_damping ** torch.arange(1.0, order + 1.0).unsqueeze(0)
         self.register_buffer("damping", damping, persistent=False)
 
     def forward(self, raw: Tensor) -> tuple[Tensor, Tensor]:

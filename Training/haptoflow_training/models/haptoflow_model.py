@@ -1,4 +1,4 @@
-"""The modules that are trained together: embedding, level model, velocity field."""
+"""The modules that are trained together: embedding, level model, and what makes the waveform."""
 
 from __future__ import annotations
 
@@ -13,7 +13,6 @@ from haptoflow_training.models.label_embedding import LabelEmbedding
 from haptoflow_training.models.rib_comb import RibComb
 from haptoflow_training.models.velocity_field import VelocityField
 from haptoflow_training.waveform import SEGMENT_SAMPLES
-
 
 # What a segment is generated under: previous waveform [B, *shape] in unit scale, embedding [B, 64], motion [B, 3] and
 # phases [B, 6] (models/surface_waves.py).
@@ -62,10 +61,6 @@ class HaptoFlowModel(nn.Module):
         """The segment [B, 1, 200] of a network trained to produce it in one step; all waveforms in unit scale. phases
         [B, 6] at the segment's first sample."""
         raise NotImplementedError
-
-    def log_level(self, label: Tensor, motion: Tensor) -> Tensor:
-        """[B, 1]: natural logarithm of the RMS in m/s^2 expected for label [B] and motion [B, 3]."""
-        return self.level(self.embedding(label), motion)
 
 
 class FieldModel(HaptoFlowModel):

@@ -14,8 +14,6 @@ from torch import Tensor, nn
 
 WAVE_VECTORS = 2
 WAVE_NUMBERS = 2 * WAVE_VECTORS
-
-
 # How many numbers tell the specimens of a label apart, and the initial size of their directions in the embedding.
 _SPREAD_DIRECTIONS, _INITIAL_SPREAD = 4, 0.1
 
@@ -34,8 +32,13 @@ class LabelEmbedding(nn.Module):
     ) -> None:
         super().__init__()
         self.learnt = nn.Embedding(len(wave_vectors), size - WAVE_NUMBERS)
-        self.pieces = nn.Parameter(torch.zeros(len(wave_vectors), specimens, _SPREAD_DIRECTIONS))
-        self.directions = nn.Parameter(_INITIAL_SPREAD * torch.randn(_SPREAD_DIRECTIONS, size - WAVE_NUMBERS))
+        self.specimens = specimens
+        # Processes that train together cannot share parameters of size 0.
+        self.pieces: nn.Parameter | None = None
+        self.directions: nn.Parameter | None = None
+        if specimens:
+            self.pieces = nn.Parameter(torch.zeros(len(wave_vectors), specimens, _SPREAD_DIRECTIONS))
+            self.directions = nn.Parameter(_INITIAL_SPREAD * torch.randn(_SPREAD_DIRECTIONS, size - WAVE_NUMBERS))
         known = torch.zeros(len(wave_vectors), WAVE_NUMBERS)
         for row, vectors in enumerate(wave_vectors):
             for place, (x, y) in enumerate(vectors[:WAVE_VECTORS]):
@@ -50,12 +53,14 @@ class LabelEmbedding(nn.Module):
     @property
     def offsets(self) -> Tensor:
         """[labels, specimens, 60]: of each specimen from its label."""
+        if self.pieces is None or self.directions is None:
+            return self.learnt.weight.new_zeros(len(self.wave_numbers), 0, self.learnt.embedding_dim)
         return (self.pieces - self.pieces.mean(dim=1, keepdim=True)) @ self.directions
 
     def forward(self, label: Tensor, specimen: Tensor | None = None) -> Tensor:
         """specimen [B]: the piece, -1 for the label itself, as without it."""
         learnt = self.learnt(label)
-        if specimen is not None and self.pieces.shape[1]:
+        if specimen is not None and self.specimens:
             known = (specimen >= 0).to(learnt.dtype).unsqueeze(1)
             learnt = learnt + known * self.offsets[label, specimen.clamp(min=0)]
         return torch.cat([learnt, self.wave_numbers[label]], dim=1)
@@ -86,4 +91,6 @@ def surface_phases(embedding: Tensor, motion: Tensor, position_mm: Tensor, wande
     nothing = torch.zeros(len(embedding), 1)
     turns = torch.cat([placed, nothing.double()], dim=1) + wander[:, : WAVE_VECTORS + 1].double()
     rates = torch.cat([crossed, nothing], dim=1) + wander[:, WAVE_VECTORS + 1 :]
-    return torch.cat([(turns - turns.floor()).to(rates.dtype), rates], dim=1)
+    wrapped = (turns - turns.floor()).to(rates.dtype)
+    # Rounding could lift a phase just below one turn to 1.
+    return torch.cat([wrapped - wrapped.floor(), rates], dim=1)

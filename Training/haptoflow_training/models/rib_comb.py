@@ -203,8 +203,8 @@ class RibComb(nn.Module):
         return ahead, across
 
     def forward(self, mirrored: Tensor, embedding: Tensor, motion: Tensor, rib_phase: Tensor, gains: Tensor) -> Tensor:
-        """[B, 5, N]: four channels and the lines, from the mirrored past [B, 1, N], rib phase [B, 2] and gains [B,
-        228].
+        """[B, 5, N]: four channels and the lines, from the mirrored past [B, 1, N], rib phase as of `ribs` and
+        gains [B, 228].
 
         Channels: for each wave vector the continued past, then pulses, one for each rib that passes. Lines: the
         weighted sum of all partials: the continued past (limited to unit power), the same at unit amplitude, the

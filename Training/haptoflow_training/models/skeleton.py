@@ -14,17 +14,22 @@ import torch
 from torch import Tensor, nn
 
 from haptoflow_training.models.all_pole_filter import AllPoleFilter, PredictedFilter, prediction_errors
+from haptoflow_training.models.burg import burg_reflection
 from haptoflow_training.models.condition_perceptron import ConditionPerceptron
 from haptoflow_training.models.level_model import PREVIOUS_LIMIT
 from haptoflow_training.models.rung_impulses import ATOMS, TailImpulses, TAIL_RUNGS
 from haptoflow_training.models.surface_waves import FAMILIES, SurfaceWaves
 
 ORDER = 24
+# The longest response falls to 1/e in 33 ms, a resonance 10 Hz wide. A sharper one would be a line, and lines are made
+# elsewhere; a likelihood, which hardly notices a false peak where little was recorded, would leave some.
+_POLE_DAMPING = 0.985
 SWING_HARMONICS = 5
 LINE_HARMONICS = 14
 _MAXIMUM_SWING_HZ, _MAXIMUM_LINE_HZ = 700.0, 960.0
 # Bounds of what the perceptron predicts, so that no material, blend or motion drives the output out of range.
 _SWING_LIMIT, _LINE_LIMIT, _RUNG_LIMIT = 2.0, 3.0, 8.0
+_MAXIMUM_REFLECTION = 0.999
 SWING_GAINS = FAMILIES * 2 * SWING_HARMONICS
 LINE_GAINS = FAMILIES * 2 * LINE_HARMONICS
 RUNG_GAINS = 2 * len(TAIL_RUNGS) * ATOMS
@@ -63,7 +68,7 @@ class Skeleton(nn.Module):
         super().__init__()
         self.perceptron = ConditionPerceptron(sum(OUTPUTS), hidden)
         self.filter = AllPoleFilter(ORDER)
-        self.predicted = PredictedFilter(ORDER)
+        self.predicted = PredictedFilter(ORDER, _POLE_DAMPING)
         self.impulses = TailImpulses()
         self.swing_waves = SurfaceWaves(SWING_HARMONICS, _MAXIMUM_SWING_HZ)
         self.line_waves = SurfaceWaves(LINE_HARMONICS, _MAXIMUM_LINE_HZ, first_sample=-ORDER)
@@ -95,13 +100,26 @@ class Skeleton(nn.Module):
     def forward(self, noise: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, phases: Tensor) -> Tensor:
         return self.parts(noise, previous, self.gains(embedding, motion), phases).begun
 
-    def likelihood(self, segment: Tensor, previous: Tensor, gains: SkeletonGains, phases: Tensor) -> Tensor:
-        """[B]: Gaussian negative log-likelihood per sample of the one-step prediction errors of a recorded segment and
-        its past [B, 1, 200], without the lines."""
+    def likelihood(self, segment: Tensor, gains: SkeletonGains, phases: Tensor) -> Tensor:
+        """[B]: Gaussian negative log-likelihood per sample of the one-step prediction errors of a recorded segment [B,
+        1, 200] without its lines, from the filter's 25th sample on. What was before the segment, which may be silence
+        or another material, is no part of it: errors there would be a hundred times as large and flatten the filter."""
         log_gain = gains.log_gain + self._swung(gains, self.swing_waves(phases))
-        wave = torch.cat([previous[:, 0, -ORDER:], segment[:, 0]], dim=1) - self._lines(gains, phases)
-        error = prediction_errors(wave, gains.coefficients)
-        return (log_gain + 0.5 * error.square() * torch.exp(-2.0 * log_gain)).mean(dim=1)
+        error = prediction_errors(segment[:, 0] - self._lines(gains, phases)[:, ORDER:], gains.coefficients)
+        known = log_gain[:, ORDER:]
+        return (known + 0.5 * error.square() * torch.exp(-2.0 * known)).mean(dim=1)
+
+    def filter_distance(self, segment: Tensor, embedding: Tensor, motion: Tensor) -> Tensor:
+        """[B]: the squared distance of the predicted filter from Burg's of a recorded segment [B, 1, 200], in the
+        arguments of the reflection coefficients, and of the predicted level from that of unit scale.
+
+        The mean of short estimates is not the best filter, but near it, and there is one way there: a likelihood alone,
+        from a random start, often ends with a false peak near the band's end.
+        """
+        raw = self.perceptron(embedding, motion)[:, : ORDER + 1]
+        reflection = burg_reflection(segment[:, 0], ORDER).clamp(-_MAXIMUM_REFLECTION, _MAXIMUM_REFLECTION)
+        wanted = torch.cat([torch.atanh(reflection), torch.zeros_like(raw[:, :1])], dim=1)
+        return (raw - wanted).square().sum(dim=1)
 
     def _lines(self, gains: SkeletonGains, phases: Tensor) -> Tensor:
         """[B, 24 + 200]: the lines, from the filter's memory on."""

@@ -16,6 +16,8 @@ from haptoflow_training.models.label_embedding import WAVE_VECTORS
 from haptoflow_training.waveform import SAMPLE_RATE_HZ, SEGMENT_SAMPLES
 
 FAMILIES = WAVE_VECTORS + 1
+# Turns and rates.
+PHASES = 2 * FAMILIES
 # Below this rate a family stands still.
 MINIMUM_HZ = 0.5
 

@@ -34,7 +34,7 @@ class VelocityField(PatchUnet):
     noisy and previous: [B, C, N] with C channels of the representation (1 for raw samples) and N positions (200); time:
     [B, 1], or [1, 1] for all; embedding: [B, 64]; motion: [B, 3]. Returns [B, C, N]. N must be a multiple of `patch`.
     With `ribs` (raw samples only), the rib comb predicts the partials of a ruled surface from the past and from
-    phases [B, 2] in turns. With `impulses` (raw samples only), rare events come from the tails of the noise.
+    phases [B, 6] (surface_waves.py). With `impulses` (raw samples only), rare events come from the tails of the noise.
     levels: 2 for a U-Net whose second level has half the positions; 1 for its first block alone, in less than half the
     time.
     """
@@ -110,7 +110,7 @@ class VelocityField(PatchUnet):
         entering, added = [noisy], []
         if self.comb is not None:
             if phases is None:
-                raise ValueError("a field with ribs needs the rib phase")
+                raise ValueError("a field with ribs needs the phases")
             combed = self.comb(mirrored, embedding, motion, phases, line_gains)
             entering.append(combed)
             added.append(combed[:, -1:])

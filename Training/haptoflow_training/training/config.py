@@ -128,6 +128,7 @@ class RecipeConfig:
     """The training recipe after conditional flow matching (`optimiser.steps`), phase after phase; a phase of 0 steps is
     left out.
 
+    filter_steps: before it, fits a skeleton's filter to Burg's estimates from single segments.
     energy_steps: one-step fine-tuning by a spectral energy distance; afterwards the network is a `direct` tier.
     self_forcing_steps: the objective of the phase before, on the network's own output as previous waveform.
     shares_base: keep the embedding and level model of another run (`--base`), as further tiers of a file do.
@@ -135,6 +136,7 @@ class RecipeConfig:
     default model.
     """
 
+    filter_steps: int = 0
     energy_steps: int = 0
     energy_batch_size: int = 48
     energy_learning_rate: float = 5e-4
@@ -221,6 +223,11 @@ class TrainingConfig:
                 config.model.network in ("field", "skeleton", "refinement"),
                 "model.network",
                 "'field', 'skeleton' or 'refinement'",
+            ),
+            (
+                config.model.network == "skeleton" or config.recipe.filter_steps == 0,
+                "recipe.filter_steps",
+                "0 for a network: only a skeleton has a filter",
             ),
             (config.model.network != "refinement" or config.recipe.shares_base, "recipe.shares_base", "true"),
             (config.model.hidden >= 8, "model.hidden", "at least 8"),

@@ -100,8 +100,8 @@ def trainer_of(config: TrainingConfig) -> type[Trainer]:
 
 
 def build_model(config: TrainingConfig, wave_vectors: WaveVectors, specimens: int = 0) -> HaptoFlowModel:
-    """The untrained model of `config`. wave_vectors: of each label's ribs, empty for none. specimens: recorded pieces of
-    each label, 0 if they are not told apart."""
+    """The untrained model of `config`. wave_vectors: of each label's ribs, empty for none. specimens: recorded
+    pieces of each label, 0 if they are not told apart."""
     return trainer_of(config).build_model(config, wave_vectors, specimens)
 
 
@@ -194,6 +194,7 @@ class Trainer:
         fitted = "likelihood" if config.model.network == "skeleton" else "flow"
         return [
             Phase("level", "level", level_steps, rate, 8 * batch),
+            Phase("filter", "filter", recipe.filter_steps, rate, batch),
             Phase("field", fitted, optimiser.steps, rate, batch),
             Phase("energy", "energy", recipe.energy_steps, recipe.energy_learning_rate, energy_batch),
             forced,
@@ -592,7 +593,8 @@ def load_trained(folder: Path) -> tuple[TrainingConfig, list[str], HaptoFlowMode
             f"{folder}` and its configuration first"
         )
     config = config_from_dict(content["config"], folder / "checkpoint.pt")
-    specimens = content["average"]["module"]["embedding.pieces"].shape[1]
+    weights = content["average"]["module"]
+    specimens = weights["embedding.pieces"].shape[1] if "embedding.pieces" in weights else 0
     model = build_model(config, [()] * len(content["labels"]), specimens)
-    model.load_state_dict(content["average"]["module"])
+    model.load_state_dict(weights)
     return config, content["labels"], model.eval().requires_grad_(False)

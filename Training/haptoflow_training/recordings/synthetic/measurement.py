@@ -9,6 +9,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import welch
+from scipy.stats import skew
 
 from haptoflow_training.preprocessing.pipeline import preprocess_recording
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
@@ -40,12 +41,13 @@ class Design:
 class Measurement(Targets):
     """The result in the terms of `Targets`, with the spectrum at the reference condition.
 
-    frequency_hz [n]; spectrum [n] in (m/s^2)^2/Hz; crest: the 99.9th percentile of |a| over its RMS. centroid_exponent:
-    the centroid grows as speed^this over the design's speeds; fast_centroid_exponent: from the fastest of these to the
-    fastest of all, None without fast speeds.
+    frequency_hz [n]; spectrum [n] in (m/s^2)^2/Hz; crest: the 99.9th percentile of |a| over its RMS; skewness: 0 if the
+    vibration goes up as strongly as down. centroid_exponent: the centroid grows as speed^this over the design's speeds;
+    fast_centroid_exponent: from the fastest of these to the fastest of all, None without fast speeds.
     """
 
     crest: float
+    skewness: float
     centroid_exponent: float
     fast_centroid_exponent: float | None
     frequency_hz: NDArray[np.float64]
@@ -92,12 +94,12 @@ def measure(
     piece. The sensor's own noise, measured at rest, is subtracted as power. p and q are a least-squares fit of log RMS over
     all conditions; k, centroid, slope are those of the reference condition, 100 mm/s and 1 N.
     """
-    record = partial(_waveforms, material.without_spread, design, specimens)
-    resting = _spectrum(record(0.0, 1.0, seed, 1))
+    record = partial(recorded_waveforms, material.without_spread, design, specimens)
+    resting = mean_spectrum(record(0.0, 1.0, seed, 1))
     rows, levels, centroids = [], [], []
     for speed in design.speeds_mmps:
         for force in design.forces_newtons:
-            frequency, power = _spectrum(record(speed, force, seed, 1))
+            frequency, power = mean_spectrum(record(speed, force, seed, 1))
             rows.append([1.0, np.log(speed / REFERENCE_SPEED_MMPS), np.log(force / REFERENCE_FORCE_NEWTONS)])
             texture = np.maximum(power - resting[1], _SPECTRUM_FLOOR)
             levels.append(np.log(band_level(frequency, texture)))
@@ -106,12 +108,13 @@ def measure(
     _, centroid_exponent, _ = np.linalg.lstsq(np.array(rows), np.array(centroids), rcond=None)[0]
 
     waveforms = record(REFERENCE_SPEED_MMPS, REFERENCE_FORCE_NEWTONS, seed + 1000, design.reference_repeats)
-    frequency, power = _spectrum(waveforms)
+    frequency, power = mean_spectrum(waveforms)
     power = np.maximum(power - resting[1], _SPECTRUM_FLOOR)
     crest = float(np.mean([np.percentile(np.abs(each), 99.9) / np.std(each) for each in waveforms]))
+    skewness = float(np.mean([skew(each) for each in waveforms]))
     return Measurement(
         band_level(frequency, power), float(p), float(q), centroid_hz(frequency, power),
-        slope_db_per_octave(frequency, power), crest, float(centroid_exponent),
+        slope_db_per_octave(frequency, power), crest, skewness, float(centroid_exponent),
         _fast_centroid_exponent(record, design, resting[1], seed), frequency, power,
     )
 
@@ -127,7 +130,7 @@ def _fast_centroid_exponent(
     speeds = (max(design.speeds_mmps), *design.fast_speeds_mmps)
     centroids = []
     for speed in speeds:
-        frequency, power = _spectrum(record(speed, REFERENCE_FORCE_NEWTONS, seed, 1))
+        frequency, power = mean_spectrum(record(speed, REFERENCE_FORCE_NEWTONS, seed, 1))
         centroids.append(centroid_hz(frequency, np.maximum(power - resting, _SPECTRUM_FLOOR)))
     return float(np.polyfit(np.log(speeds), np.log(centroids), 1)[0])
 
@@ -158,7 +161,7 @@ def slope_db_per_octave(frequency_hz: NDArray[np.float64], spectrum: NDArray[np.
     return float(np.polyfit(octaves, 10.0 * np.log10(means), 1)[0])
 
 
-def _waveforms(
+def recorded_waveforms(
     material: Material,
     design: Design,
     specimens: Sequence[int],
@@ -167,6 +170,7 @@ def _waveforms(
     seed: int,
     repeats: int,
 ) -> list[NDArray[np.float64]]:
+    """Prepared recordings [n] of one condition, direction by direction within each repeat."""
     waveforms = []
     for repeat in range(repeats):
         for number, degrees in enumerate(design.directions_degrees):
@@ -184,7 +188,8 @@ def _waveforms(
     return waveforms
 
 
-def _spectrum(waveforms: list[NDArray[np.float64]]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def mean_spectrum(waveforms: Sequence[NDArray[np.float64]]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Frequencies [n] in Hz and the mean density [n] in (m/s^2)^2/Hz."""
     rate = PreprocessingSettings().sample_rate_hz
     size = int(rate / _RESOLUTION_HZ)
     spectra = [welch(waveform, rate, nperseg=size)[1] for waveform in waveforms]

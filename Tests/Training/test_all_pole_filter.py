@@ -1,0 +1,107 @@
+"""All-pole filters from predictions: exact, continuing a past, stable, of limited resonance whatever is predicted."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+import torch
+
+from haptoflow_training.models.all_pole_filter import (
+    LOG_RESONANCE_LIMIT,
+    AllPoleFilter,
+    PredictedFilter,
+    prediction_errors,
+    step_up,
+)
+
+
+def _filters(rows: int, order: int, seed: int) -> torch.Tensor:
+    """Coefficients [rows, order] of stable filters."""
+    generator = torch.Generator().manual_seed(seed)
+    return step_up(0.7 * torch.tanh(torch.randn(rows, order, generator=generator)))
+
+
+def _sample_by_sample(drive: np.ndarray, coefficients: np.ndarray, past: np.ndarray) -> np.ndarray:
+    """x_t = drive_t - sum a_i x_(t-i), of one row, in double precision."""
+    wave = list(past)
+    for now in drive:
+        wave.append(now - sum(a * wave[-i] for i, a in enumerate(coefficients, start=1)))
+    return np.array(wave[len(past) :])
+
+
+@pytest.mark.parametrize("order", [1, 16, 24, 25])
+def test_the_block_filter_is_a_loop_over_samples_that_continues_the_past(order: int) -> None:
+    generator = torch.Generator().manual_seed(7)
+    coefficients = _filters(4, order, 6)
+    drive, past = torch.randn(4, 200, generator=generator), torch.randn(4, order, generator=generator)
+    wave = AllPoleFilter(order)(drive, coefficients, past)
+    for row in range(4):
+        expected = _sample_by_sample(*(part[row].double().numpy() for part in (drive, coefficients, past)))
+        assert np.abs(wave[row].numpy() - expected).max() < 1e-4 * max(1.0, np.abs(expected).max())
+    assert (wave - AllPoleFilter(order)(drive, coefficients, torch.zeros_like(past)))[:, 0].abs().min() > 1e-4
+
+
+@pytest.mark.parametrize("order", [0, 26])
+def test_an_order_that_no_block_holds_is_refused(order: int) -> None:
+    with pytest.raises(ValueError, match=f"order {order}: expected 1 to 25"):
+        AllPoleFilter(order)
+
+
+def test_step_up_puts_every_pole_inside_the_unit_circle() -> None:
+    generator = torch.Generator().manual_seed(8)
+    reflection = torch.tanh(torch.randn(20, 24, generator=generator, dtype=torch.float64))
+    for coefficients in step_up(reflection).numpy():
+        assert np.abs(np.roots(np.concatenate([[1.0], coefficients]))).max() < 1.0
+
+
+def test_step_up_is_levinson_s_recursion() -> None:
+    # By hand: a1 = k1; then a1 + k2 a1, k2.
+    torch.testing.assert_close(step_up(torch.tensor([[0.5, -0.2]])), torch.tensor([[0.4, -0.2]]))
+
+
+def test_noise_and_waveform_differ_by_50_db_at_most_and_a_mild_filter_is_left_as_it_is() -> None:
+    predicted = PredictedFilter(24)
+    mild, wild = torch.zeros(1, 25), torch.full((1, 25), 30.0)
+    mild[0, :2] = torch.tensor([0.8, -0.4])
+    coefficients, log_gain = predicted(torch.cat([mild, wild]))
+    decibels = 20.0 / math.log(10.0)
+    over_the_noise_db = decibels * (2.0 * math.tanh(15.0) - log_gain[1].item())
+    assert over_the_noise_db <= 50.0, "without a limit it would be 648 dB"
+    assert LOG_RESONANCE_LIMIT * decibels == pytest.approx(50.0)
+    reflection = torch.zeros(1, 24)
+    reflection[0, :2] = torch.tanh(mild[0, :2])
+    damped = step_up(reflection) * 0.998 ** torch.arange(1.0, 25.0)
+    torch.testing.assert_close(coefficients[:1], damped)
+    assert log_gain[0].item() == pytest.approx(-math.log(math.cosh(0.8) * math.cosh(0.4)), abs=1e-5)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_the_last_prediction_is_the_level_of_the_waveform_which_damping_only_lowers(seed: int) -> None:
+    generator = torch.Generator().manual_seed(seed)
+    raw = 0.3 * torch.randn(1, 25, generator=generator)
+    raw[0, 24] = 0.3
+    predicted, all_pole = PredictedFilter(24), AllPoleFilter(24)
+    coefficients, log_gain = predicted(raw)
+
+    def rms(filtering: torch.Tensor) -> float:
+        wave, power = torch.zeros(64, 200), []
+        for _ in range(12):
+            noise = torch.randn(64, 200, generator=generator)
+            wave = all_pole(noise * log_gain.exp(), filtering.expand(64, -1), wave[:, -24:])
+            power.append(wave.square().mean().item())
+        return math.sqrt(np.mean(power[2:]))
+
+    level = math.exp(2.0 * math.tanh(0.15))
+    assert rms(coefficients / predicted.damping) == pytest.approx(level, rel=0.03)
+    assert 0.7 * level < rms(coefficients) < level
+
+
+def test_prediction_errors_are_the_drive_that_made_the_waveform() -> None:
+    generator = torch.Generator().manual_seed(9)
+    coefficients = _filters(3, 24, 5)
+    drive, past = torch.randn(3, 200, generator=generator), torch.randn(3, 24, generator=generator)
+    wave = AllPoleFilter(24)(drive, coefficients, past)
+    errors = prediction_errors(torch.cat([past, wave], dim=1), coefficients)
+    torch.testing.assert_close(errors, drive, rtol=0.0, atol=1e-3 * wave.abs().max().item())

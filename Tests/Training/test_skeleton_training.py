@@ -1,0 +1,282 @@
+"""Training of a skeleton and of its refinement: losses, phases, resuming, the files that they become."""
+
+from __future__ import annotations
+
+import argparse
+import dataclasses
+import json
+import zlib
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import onnx
+import pytest
+import torch
+from test_export import INFOS, PROVENANCE
+from test_trainer import ALONE, _config, ask_to_stop_after
+from training_fixtures import FakeStore, make_store
+
+from haptoflow_training.closed_loop.level_calibration import TierSource
+from haptoflow_training.closed_loop.phase_track import SurfaceStatistics
+from haptoflow_training.closed_loop.render import run_closed_loop
+from haptoflow_training.commands import train_tiers
+from haptoflow_training.errors import InputError
+from haptoflow_training.export.exporter import export_run
+from haptoflow_training.export.level_table import MeasuredLevels
+from haptoflow_training.export.model_file import ModelFile, model_space, read_model_file
+from haptoflow_training.export.trained_tier import load_tiers
+from haptoflow_training.models.skeleton_model import SkeletonModel
+from haptoflow_training.recordings.wander import RibWander, StickSlip
+from haptoflow_training.training import skeleton_losses
+from haptoflow_training.training.batches import SegmentBatches
+from haptoflow_training.training.config import BatchConfig, ModelConfig, RecipeConfig, TrainingConfig
+from haptoflow_training.training.recordings_source import Source
+from haptoflow_training.training.skeleton_losses import SkeletonLosses
+from haptoflow_training.training.trainer import Trainer, TrainingStopped, build_model, load_trained
+
+WAVE_VECTORS = [[(0.5, 0.0)], []]
+WANDERING = [
+    dataclasses.replace(INFOS[0], wave_vectors_per_mm=((0.5, 0.0),), rib_wander=(RibWander(0.1, 0.014),)),
+    dataclasses.replace(INFOS[1], stick_slip=StickSlip(0.0011, 0.25, 0.004)),
+]
+
+
+def _store() -> FakeStore:
+    """Recordings of three specimens of each label."""
+    store = make_store(seconds=6.0, recordings_per_split=4)
+    told = [dataclasses.replace(each, specimen=number % 3) for number, each in enumerate(store.recordings)]
+    return dataclasses.replace(store, recordings=told)
+
+
+def _sketch(steps: int = 6) -> TrainingConfig:
+    recipe = RecipeConfig(energy_steps=4, energy_batch_size=6, self_forcing_steps=2)
+    return dataclasses.replace(
+        _config(steps=steps), tier="sketch", model=ModelConfig(network="skeleton", hidden=16), recipe=recipe
+    )
+
+
+def _refinement(tier: str = "standard", levels: int = 2) -> TrainingConfig:
+    config = _sketch(steps=0)
+    return dataclasses.replace(
+        config,
+        tier=tier,
+        model=ModelConfig(network="refinement", hidden=16, width=16, previous_width=8, levels=levels),
+        recipe=dataclasses.replace(config.recipe, shares_base=True),
+    )
+
+
+@pytest.fixture(scope="module")
+def store() -> FakeStore:
+    return _store()
+
+
+@pytest.fixture(scope="module")
+def runs(tmp_path_factory: pytest.TempPathFactory, store: FakeStore) -> Path:
+    """A folder with runs of a sketch, a draft and a standard tier."""
+    folder = tmp_path_factory.mktemp("runs")
+    Trainer(_sketch(), store, folder / "sketch", ALONE, wave_vectors=WAVE_VECTORS).run()
+    for tier, levels in (("draft", 1), ("standard", 2)):
+        config = _refinement(tier, levels)
+        Trainer(config, store, folder / tier, ALONE, folder / "sketch", WAVE_VECTORS).run()
+    return folder
+
+
+@pytest.fixture(scope="module")
+def exported(runs: Path, store: FakeStore) -> ModelFile:
+    source = Source(store, WANDERING, PROVENANCE)  # type: ignore[arg-type]
+    further = [runs / "sketch", runs / "draft"]
+    export_run(runs / "standard", source, runs / "m.haptoflow", runs / "parity.json", further)
+    return read_model_file(runs / "m.haptoflow")
+
+
+def test_a_skeleton_is_fitted_by_likelihood_then_by_energy_and_a_refinement_by_energy_alone(runs: Path) -> None:
+    phases = [[phase.objective for phase in Trainer.phases(config)] for config in (_sketch(), _refinement())]
+    assert phases == [["level", "likelihood", "energy", "energy", "level"], ["energy", "energy"]]
+    for tier in ("sketch", "draft"):
+        assert json.loads((runs / tier / "run.json").read_text(encoding="utf-8"))["steps"] > 0
+
+
+def test_training_moves_the_skeleton_and_its_specimens_and_a_refinement_leaves_both_as_they_are(runs: Path) -> None:
+    sketch, standard = (load_trained(runs / name)[2] for name in ("sketch", "standard"))
+    assert isinstance(sketch, SkeletonModel) and isinstance(standard, SkeletonModel)
+    assert sketch.embedding.pieces is not None and sketch.embedding.pieces.abs().max() > 0.0
+    assert sketch.skeleton.perceptron.layers[-1].weight[60:].abs().max() > 0.0, "lines and rungs began at zero"
+    for part in ("embedding", "level", "skeleton"):
+        own, base = (getattr(model, part).state_dict() for model in (standard, sketch))
+        assert all(torch.equal(own[name], base[name]) for name in base), part
+    assert standard.refiner is not None and standard.refiner.leave.weight.abs().max() > 0.0
+
+
+def test_the_likelihood_falls_while_a_skeleton_is_trained(tmp_path: Path, store: FakeStore) -> None:
+    config = dataclasses.replace(_sketch(steps=60), recipe=RecipeConfig())
+    trainer = Trainer(config, store, tmp_path, ALONE, wave_vectors=WAVE_VECTORS)
+    untrained = {name: value.clone() for name, value in trainer.averaged_model.network.state_dict().items()}
+    trainer.run()
+    phase = next(each for each in trainer.phases(config) if each.objective == "likelihood")
+    fitted = trainer.validate(phase)[1]
+    trainer.averaged_model.network.load_state_dict(untrained)
+    assert fitted < trainer.validate(phase)[1] - 0.05
+
+
+@pytest.mark.parametrize("tier", ["sketch", "standard"])
+def test_a_resumed_run_ends_with_the_weights_of_an_uninterrupted_one(
+    tier: str, runs: Path, store: FakeStore, tmp_path: Path
+) -> None:
+    config, base = (_sketch(), None) if tier == "sketch" else (_refinement(), runs / "sketch")
+
+    def trainer() -> Trainer:
+        return Trainer(config, store, tmp_path, ALONE, base, WAVE_VECTORS)
+
+    interrupted = trainer()
+    ask_to_stop_after(interrupted, 29 if tier == "sketch" else 3)
+    with pytest.raises(TrainingStopped):
+        interrupted.run()
+    trainer().run()
+    whole, halves = (load_trained(folder)[2].state_dict() for folder in (runs / tier, tmp_path))
+    for name, weights in whole.items():
+        torch.testing.assert_close(halves[name], weights, msg=name)
+
+
+def test_a_base_without_a_skeleton_is_refused_for_a_refinement_with_the_remedy(
+    tmp_path: Path, store: FakeStore
+) -> None:
+    Trainer(_config(steps=2), store, tmp_path / "field", ALONE).run()
+    with pytest.raises(InputError, match="field: has no skeleton; name a run whose model.network is 'skeleton'"):
+        Trainer(_refinement(), store, tmp_path / "run", ALONE, tmp_path / "field")
+
+
+def test_tiers_with_and_without_a_skeleton_do_not_share_a_file(runs: Path, tmp_path: Path, store: FakeStore) -> None:
+    config = dataclasses.replace(_config(steps=2), tier="fine")
+    Trainer(config, store, tmp_path / "field", ALONE, wave_vectors=WAVE_VECTORS).run()
+    with pytest.raises(InputError, match="with a skeleton and tiers without do not share a file"):
+        load_tiers([runs / "sketch", tmp_path / "field"])
+
+
+def test_refinements_of_another_skeleton_do_not_share_a_file(runs: Path, tmp_path: Path, store: FakeStore) -> None:
+    other = dataclasses.replace(_sketch(steps=2), seed=2, recipe=RecipeConfig())
+    Trainer(other, store, tmp_path / "other", ALONE, wave_vectors=WAVE_VECTORS).run()
+    with pytest.raises(InputError, match="does not share labels, embedding and level.*--base"):
+        load_tiers([tmp_path / "other", runs / "standard"])
+
+
+def test_the_sketch_comes_first_and_tiers_state_their_kinds(exported: ModelFile) -> None:
+    tiers = exported.header["tiers"]
+    assert [(tier["name"], tier["kind"]) for tier in tiers] == [
+        ("sketch", "skeleton"), ("draft", "refine"), ("standard", "refine"),
+    ]  # fmt: skip
+    assert set(tiers[0]) == {"name", "kind", "parameters", "accuracy", "cost"}
+    assert tiers[1]["field"] == "draft.field" and "level" not in tiers[1] and "solver" not in tiers[1]
+    assert exported.header["default_tier"] == "standard"
+    assert exported.header["skeleton"]["parameters"] == tiers[0]["parameters"]
+
+
+def test_the_file_of_a_skeleton_has_its_tensors_and_no_level_graph(exported: ModelFile) -> None:
+    layers = [f"{layer}.{kind}" for layer in (0, 2, 4) for kind in ("weight", "bias")]
+    perceptrons = ("level.correction", "skeleton", "draft.condition", "standard.condition")
+    assert set(exported.tensors) == {
+        "embedding", "seeds", "pieces", "level.law.weight", "level.law.bias",
+        *(f"{name}.{layer}" for name in perceptrons for layer in layers),
+    }  # fmt: skip
+    assert exported.tensors["pieces"].shape == (2, 3, 60)
+    assert set(exported.graphs) == {"draft.field", "standard.field"}
+    graph = onnx.load_from_string(exported.graphs["draft.field"])
+    assert [value.name for value in graph.graph.input] == ["entering", "past", "film"]
+    assert [value.name for value in graph.graph.output] == ["correction"]
+
+
+def test_the_space_of_a_model_with_a_skeleton_follows_its_perceptron(exported: ModelFile) -> None:
+    before = model_space(exported)
+    tensors = {**exported.tensors, "skeleton.4.weight": exported.tensors["skeleton.4.weight"] * 2.0}
+    assert model_space(ModelFile(exported.header, tensors, exported.graphs)) != before
+    tensors = {**exported.tensors, "embedding": exported.tensors["embedding"] * 2.0}
+    assert model_space(ModelFile(exported.header, tensors, exported.graphs)) == before
+
+
+def test_labels_state_how_their_ribs_wander_and_how_they_slip(exported: ModelFile) -> None:
+    ruled, slipping = exported.header["labels"]
+    assert ruled["rib_wander"] == [{"turns": 0.1, "wavelength_metres": 0.014}] and "stick_slip" not in ruled
+    assert slipping["stick_slip"] == {"length_metres": 0.0011, "wander": 0.25, "wander_metres": 0.004}
+    assert "rib_wander" not in slipping
+    of_file = SurfaceStatistics.of_entries(exported.header["labels"])
+    of_labels = SurfaceStatistics.of_labels(WANDERING)
+    for one, other in zip(dataclasses.astuple(of_file), dataclasses.astuple(of_labels), strict=True):
+        np.testing.assert_allclose(one, other)
+
+
+def test_golden_vectors_have_a_case_of_every_tier_with_phases(runs: Path, exported: ModelFile) -> None:
+    golden = json.loads((runs / "parity.json").read_text(encoding="utf-8"))
+    assert golden["model_crc32"] == f"{zlib.crc32((runs / 'm.haptoflow').read_bytes()):08x}"
+    assert {case["tier"] for case in golden["cases"]} == {tier["name"] for tier in exported.header["tiers"]}
+    assert all(len(case["phases"]) == 6 and np.abs(case["segment"]).max() > 0.0 for case in golden["cases"])
+
+
+@pytest.mark.parametrize("name", ["sketch", "standard"])
+def test_a_skeleton_and_a_refinement_sound_in_closed_loop(name: str, runs: Path) -> None:
+    source = TierSource(load_tiers([runs / name])[0])
+    motions = np.tile(np.array([0.1, 0.0, 1.0], dtype=np.float32), (2, 1000, 1))
+    labels, statistics = np.arange(2), SurfaceStatistics.of_labels(WANDERING)
+    run = run_closed_loop(source, source.embeddings, motions, labels, statistics, update_rate_hz=72.0, seed=1)
+    assert np.isfinite(run.waves).all() and (run.waves.std(axis=1) > 0.0).all()
+
+
+def _shift_loss(monkeypatch: pytest.MonkeyPatch, store: FakeStore, *, trained: bool) -> float:
+    """What the term for shifts adds to the loss of a refinement over a skeleton with swing and lines, without rungs."""
+    torch.manual_seed(4)
+    model = build_model(_refinement(), WAVE_VECTORS, specimens=3)
+    assert isinstance(model, SkeletonModel) and model.refiner is not None
+    torch.nn.init.normal_(model.skeleton.perceptron.layers[-1].bias[25:139], std=0.3)
+    if trained:
+        torch.nn.init.normal_(model.refiner.leave.weight, std=0.2)
+    losses = SkeletonLosses(model, _refinement().solver, train_level=False)
+    batch = SegmentBatches(store, "train", BatchConfig(), 5).draw(8)  # type: ignore[arg-type]
+    found = []
+    for weight in (0.0, 1.0):
+        monkeypatch.setattr(skeleton_losses, "_SHIFT_WEIGHT", weight)
+        found.append(losses(batch, "energy", torch.Generator().manual_seed(6))[1].item())
+    return found[1] - found[0]
+
+
+def test_the_term_for_shifts_is_zero_for_a_skeleton_alone_and_positive_for_a_network_of_patches(
+    monkeypatch: pytest.MonkeyPatch, store: FakeStore
+) -> None:
+    assert _shift_loss(monkeypatch, store, trained=False) == pytest.approx(0.0, abs=5e-3)
+    assert _shift_loss(monkeypatch, store, trained=True) > 0.1
+
+
+def test_a_skeleton_keeps_its_likelihood_in_the_energy_phase(monkeypatch: pytest.MonkeyPatch, store: FakeStore) -> None:
+    torch.manual_seed(4)
+    model = build_model(_sketch(), WAVE_VECTORS, specimens=3)
+    assert isinstance(model, SkeletonModel)
+    losses = SkeletonLosses(model, _sketch().solver)
+    batch = SegmentBatches(store, "train", BatchConfig(), 5).draw(8)  # type: ignore[arg-type]
+    filtering = slice(0, 25)
+    for objective in ("likelihood", "energy"):
+        model.zero_grad()
+        losses(batch, objective, torch.Generator().manual_seed(6))[1].backward()
+        weight = model.skeleton.perceptron.layers[-1].weight
+        assert weight.grad is not None and weight.grad[filtering].abs().max() > 0.0
+        # The untrained rungs do nothing to a likelihood.
+        assert (weight.grad[139:].abs().max() > 0.0) == (objective == "energy")
+
+
+def test_the_default_model_s_base_is_its_sketch_and_becomes_a_tier_of_the_file(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    trained: list[str] = []
+    written: list[Path] = []
+
+    def write(*given: Any) -> None:
+        folder, _, _, _, _, further, _ = given
+        written.extend([folder, *further])
+
+    monkeypatch.setattr(train_tiers, "open_source", lambda *_: None)
+    monkeypatch.setattr(train_tiers, "_train_all", lambda files, *_: trained.extend(path.stem for path in files))
+    monkeypatch.setattr(train_tiers, "measured_levels", lambda *_: MeasuredLevels())
+    monkeypatch.setattr(train_tiers, "write_model", write)
+    parser = argparse.ArgumentParser()
+    train_tiers.add_options(parser)
+    words = ["--out", str(tmp_path), "--export", str(tmp_path / "m.haptoflow")]
+    assert train_tiers.run(parser.parse_args(words)) == 0
+    assert trained == ["base", "standard", "draft"]
+    assert written[0].name == "standard" and sorted(folder.name for folder in written) == ["base", "draft", "standard"]
