@@ -96,12 +96,15 @@ protected:
     model::ModelFile model_ = ribModel();
     FakeGenerator generator_{[this](const SegmentRequest& request, std::span<float> segment) {
         phases_.push_back({request.phases[0], request.phases[1]});
+        ratesHz_.push_back({request.phases[3], request.phases[4], request.phases[5]});
         speedsMps_.push_back(request.motion[0]);
         turns_.push_back(turnsPerSample(std::span(request.embedding).subspan(60, 2), request.motion));
         ribsOf(request, segment);
     }};
     // The phases of each request.
     std::vector<std::array<float, 2>> phases_;
+    // Of both families of ribs and of stick-slip.
+    std::vector<std::array<float, 3>> ratesHz_;
     std::vector<float> speedsMps_;
     std::vector<double> turns_;
 
@@ -167,6 +170,18 @@ TEST_F(RibPhaseTest, PhasesAreInTheRangeFromZeroToBelowOne) {
     for (const auto& phase : phases_) {
         EXPECT_GE(std::min(phase[0], phase[1]), 0.0F);
         EXPECT_LT(std::max(phase[0], phase[1]), 1.0F);
+    }
+}
+
+TEST_F(RibPhaseTest, RatesBelongToEmbeddingAndMotionAndAreNegativeBackwards) {
+    SimulatedDevice device(model_, generator_);
+    device.run(3.0, [](double t) { return onLabel(0, t < 1.5 ? 0.37F : -0.29F); });
+    ASSERT_GT(ratesHz_.size(), 100U);
+    for (std::size_t i = 0; i < ratesHz_.size(); ++i) {
+        EXPECT_NEAR(ratesHz_[i][0], 2000.0 * turns_[i], 1e-3);
+        EXPECT_EQ(ratesHz_[i][0] < 0.0F, speedsMps_[i] < 0.0F);
+        EXPECT_EQ(ratesHz_[i][1], 0.0F) << "the tip moves along the second family's ribs";
+        EXPECT_EQ(ratesHz_[i][2], 0.0F);
     }
 }
 
