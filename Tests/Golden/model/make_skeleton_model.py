@@ -113,7 +113,7 @@ def golden_case(sketch: SkeletonModel, refined: SkeletonModel, number: int) -> d
     motion, phases, previous, noise = (each.double() for each in (motion, phases, previous, noise))
     log_level = sketch.level(embedding, motion)
     scaled = scaled_previous(previous, log_level)
-    gains = sketch.skeleton.gains(embedding, motion)
+    gains = sketch.skeleton.gains(embedding, motion, phases)
     parts = sketch.skeleton.parts(noise, scaled, gains, phases)
     gain = torch.exp(log_level).unsqueeze(-1)
     refiner = refined.refiner
@@ -121,7 +121,7 @@ def golden_case(sketch: SkeletonModel, refined: SkeletonModel, number: int) -> d
     values: dict[str, Tensor] = {
         "embedding": embedding, "motion": motion, "phases": phases, "previous": previous, "noise": noise,
         "log_level": log_level, "coefficients": gains.coefficients, "log_gain": gains.log_gain,
-        "struck": parts.struck, "begun": parts.begun, "film": refiner.film(embedding, motion),
+        "struck": parts.struck, "begun": parts.begun, "film": refiner.film(embedding, motion, phases),
         "entering": refiner.entering(parts),
         "sketch_segment": parts.begun * gain,
         "standard_segment": refined.one_step(noise, scaled, embedding, motion, phases) * gain,

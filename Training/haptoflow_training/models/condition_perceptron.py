@@ -1,4 +1,4 @@
-"""A perceptron of material and motion: what native code evaluates in place of a graph."""
+"""A perceptron of material, motion and rib rates: what native code evaluates in place of a graph."""
 
 from __future__ import annotations
 
@@ -9,18 +9,20 @@ from haptoflow_training.models.conditioning import EMBEDDING_SIZE, MotionFeature
 
 
 class ConditionPerceptron(nn.Module):
-    """Embedding [B, 64] and motion features through two hidden layers to [B, outputs]."""
+    """Embedding [B, 64] and motion features, and `further` numbers [B, F] if any, through two hidden layers to
+    [B, outputs]."""
 
-    def __init__(self, outputs: int, hidden: int = 256) -> None:
+    def __init__(self, outputs: int, hidden: int = 256, further: int = 0) -> None:
         super().__init__()
         self.features = MotionFeatures()
         self.layers = nn.Sequential(
-            nn.Linear(EMBEDDING_SIZE + self.features.size, hidden),
+            nn.Linear(EMBEDDING_SIZE + self.features.size + further, hidden),
             nn.SiLU(),
             nn.Linear(hidden, hidden),
             nn.SiLU(),
             nn.Linear(hidden, outputs),
         )
 
-    def forward(self, embedding: Tensor, motion: Tensor) -> Tensor:
-        return self.layers(torch.cat([embedding, self.features(motion)], dim=1))
+    def forward(self, embedding: Tensor, motion: Tensor, further: Tensor | None = None) -> Tensor:
+        given = [embedding, self.features(motion)] + ([] if further is None else [further])
+        return self.layers(torch.cat(given, dim=1))

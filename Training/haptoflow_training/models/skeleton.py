@@ -1,7 +1,7 @@
 """The skeleton: what sounds without a network.
 
-Noise drives a small filter that continues the previous waveform; the drive swings with the ribs; rib lines and rare
-impulses are added. One perceptron of material and motion gives every coefficient. Native code computes the same
+A small filter continues the previous waveform. It is driven by noise, which swings with the ribs, by the ribs' own lines
+and by rare impulses: all that a tip meets passes through the contact's resonance. One perceptron of material and motion gives every coefficient. Native code computes the same
 (src/skeleton), so a segment costs microseconds. Kin: autoregressive rendering of textures after Culbertson et al. 2014;
 as the start of a network's refinement, PriorGrad (Lee et al. 2022) and SpecGrad (Koizumi et al. 2022).
 """
@@ -18,7 +18,7 @@ from haptoflow_training.models.burg import burg_reflection
 from haptoflow_training.models.condition_perceptron import ConditionPerceptron
 from haptoflow_training.models.level_model import PREVIOUS_LIMIT
 from haptoflow_training.models.rung_impulses import ATOMS, TailImpulses, TAIL_RUNGS
-from haptoflow_training.models.surface_waves import FAMILIES, SurfaceWaves
+from haptoflow_training.models.surface_waves import FAMILIES, RATE_FEATURES, SurfaceWaves, rate_features
 
 ORDER = 24
 # The longest response falls to 1/e in 33 ms, a resonance 10 Hz wide. A sharper one would be a line, and lines are made
@@ -28,7 +28,7 @@ SWING_HARMONICS = 5
 LINE_HARMONICS = 14
 _MAXIMUM_SWING_HZ, _MAXIMUM_LINE_HZ = 700.0, 960.0
 # Bounds of what the perceptron predicts, so that no material, blend or motion drives the output out of range.
-_SWING_LIMIT, _LINE_LIMIT, _RUNG_LIMIT = 2.0, 3.0, 8.0
+_SWING_LIMIT, _LINE_LIMIT, _RUNG_LIMIT = 2.0, 30.0, 8.0
 _MAXIMUM_REFLECTION = 0.999
 SWING_GAINS = FAMILIES * 2 * SWING_HARMONICS
 LINE_GAINS = FAMILIES * 2 * LINE_HARMONICS
@@ -37,8 +37,8 @@ OUTPUTS = (ORDER + 1, SWING_GAINS, LINE_GAINS, RUNG_GAINS)
 
 
 class SkeletonParts(NamedTuple):
-    """begun, struck [B, 1, 200]: the skeleton's segment, and the impulses in it. cosines, sines [B, 3, 5, 200]: the
-    waves that swing the drive."""
+    """begun, struck [B, 1, 200]: the skeleton's segment, and the impulses that drove it. cosines, sines [B, 3, 5, 200]:
+    the waves that swing the drive."""
 
     begun: Tensor
     struck: Tensor
@@ -48,7 +48,7 @@ class SkeletonParts(NamedTuple):
 
 class SkeletonGains(NamedTuple):
     """What the perceptron says of a condition. coefficients [B, 24] and log_gain [B, 1] of the filter; swing [B, 3, 2,
-    5, 1], lines [B, 3, 2, 14, 1]: of cosines and sines; rungs [B, 130]."""
+    5, 1], lines [B, 3, 2, 14, 1]: of cosines and sines; rungs [B, 130]; lines and rungs relative to the noise."""
 
     coefficients: Tensor
     log_gain: Tensor
@@ -66,19 +66,20 @@ class Skeleton(nn.Module):
 
     def __init__(self, hidden: int = 160) -> None:
         super().__init__()
-        self.perceptron = ConditionPerceptron(sum(OUTPUTS), hidden)
+        self.perceptron = ConditionPerceptron(sum(OUTPUTS), hidden, RATE_FEATURES)
         self.filter = AllPoleFilter(ORDER)
         self.predicted = PredictedFilter(ORDER, _POLE_DAMPING)
         self.impulses = TailImpulses()
         self.swing_waves = SurfaceWaves(SWING_HARMONICS, _MAXIMUM_SWING_HZ)
-        self.line_waves = SurfaceWaves(LINE_HARMONICS, _MAXIMUM_LINE_HZ, first_sample=-ORDER)
+        self.line_waves = SurfaceWaves(LINE_HARMONICS, _MAXIMUM_LINE_HZ)
         last = self.perceptron.layers[-1]
         with torch.no_grad():
             last.weight[ORDER + 1 :] = 0.0
             last.bias[ORDER + 1 :] = 0.0
 
-    def gains(self, embedding: Tensor, motion: Tensor) -> SkeletonGains:
-        filtering, swing, lines, rungs = self.perceptron(embedding, motion).split(list(OUTPUTS), dim=1)
+    def gains(self, embedding: Tensor, motion: Tensor, phases: Tensor) -> SkeletonGains:
+        predicted = self.perceptron(embedding, motion, rate_features(phases))
+        filtering, swing, lines, rungs = predicted.split(list(OUTPUTS), dim=1)
         return SkeletonGains(
             *self.predicted(filtering),
             swing.reshape(-1, FAMILIES, 2, SWING_HARMONICS, 1),
@@ -89,40 +90,39 @@ class Skeleton(nn.Module):
     def parts(self, noise: Tensor, previous: Tensor, gains: SkeletonGains, phases: Tensor) -> SkeletonParts:
         """The segment of noise and previous waveform [B, 1, 200]. Only the likelihood fits the filter; the energy
         distance, which trains all else, would only blur it."""
-        lines = self._lines(gains, phases)
         waves = self.swing_waves(phases)
-        drive = noise[:, 0] * (gains.log_gain.detach() + self._swung(gains, waves)).exp()
-        rest = previous[:, 0, -ORDER:] - lines[:, :ORDER]
-        filtered = self.filter(drive, gains.coefficients.detach(), rest).clamp(-PREVIOUS_LIMIT, PREVIOUS_LIMIT)
-        struck = self.impulses(noise, gains.rungs)
-        return SkeletonParts((lines[:, ORDER:] + filtered).unsqueeze(1) + struck, struck, *waves)
+        gain = gains.log_gain.detach().exp()
+        struck = gain.unsqueeze(2) * self.impulses(noise, gains.rungs)
+        drive = gain * (noise[:, 0] * self._swung(gains, waves).exp() + self._lines(gains, phases)) + struck[:, 0]
+        filtered = self.filter(drive, gains.coefficients.detach(), previous[:, 0, -ORDER:])
+        return SkeletonParts(filtered.clamp(-PREVIOUS_LIMIT, PREVIOUS_LIMIT).unsqueeze(1), struck, *waves)
 
     def forward(self, noise: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, phases: Tensor) -> Tensor:
-        return self.parts(noise, previous, self.gains(embedding, motion), phases).begun
+        return self.parts(noise, previous, self.gains(embedding, motion, phases), phases).begun
 
     def likelihood(self, segment: Tensor, gains: SkeletonGains, phases: Tensor) -> Tensor:
         """[B]: Gaussian negative log-likelihood per sample of the one-step prediction errors of a recorded segment [B,
-        1, 200] without its lines, from the filter's 25th sample on. What was before the segment, which may be silence
-        or another material, is no part of it: errors there would be a hundred times as large and flatten the filter."""
-        log_gain = gains.log_gain + self._swung(gains, self.swing_waves(phases))
-        error = prediction_errors(segment[:, 0] - self._lines(gains, phases)[:, ORDER:], gains.coefficients)
-        known = log_gain[:, ORDER:]
-        return (known + 0.5 * error.square() * torch.exp(-2.0 * known)).mean(dim=1)
+        1, 200] beyond the lines, from the filter's 25th sample on. What was before the segment, which may be silence or
+        another material, is no part of it: errors there would be a hundred times as large and flatten the filter."""
+        swing = self._swung(gains, self.swing_waves(phases))[:, ORDER:]
+        driven = prediction_errors(segment[:, 0], gains.coefficients) * torch.exp(-gains.log_gain)
+        beyond = (driven - self._lines(gains, phases)[:, ORDER:]) * torch.exp(-swing)
+        return (gains.log_gain + swing + 0.5 * beyond.square()).mean(dim=1)
 
-    def filter_distance(self, segment: Tensor, embedding: Tensor, motion: Tensor) -> Tensor:
+    def filter_distance(self, segment: Tensor, embedding: Tensor, motion: Tensor, phases: Tensor) -> Tensor:
         """[B]: the squared distance of the predicted filter from Burg's of a recorded segment [B, 1, 200], in the
         arguments of the reflection coefficients, and of the predicted level from that of unit scale.
 
         The mean of short estimates is not the best filter, but near it, and there is one way there: a likelihood alone,
         from a random start, often ends with a false peak near the band's end.
         """
-        raw = self.perceptron(embedding, motion)[:, : ORDER + 1]
+        raw = self.perceptron(embedding, motion, rate_features(phases))[:, : ORDER + 1]
         reflection = burg_reflection(segment[:, 0], ORDER).clamp(-_MAXIMUM_REFLECTION, _MAXIMUM_REFLECTION)
         wanted = torch.cat([torch.atanh(reflection), torch.zeros_like(raw[:, :1])], dim=1)
         return (raw - wanted).square().sum(dim=1)
 
     def _lines(self, gains: SkeletonGains, phases: Tensor) -> Tensor:
-        """[B, 24 + 200]: the lines, from the filter's memory on."""
+        """[B, 200]: what the ribs themselves add to the drive, relative to its noise."""
         cosines, sines = self.line_waves(phases)
         return (gains.lines[:, :, 0] * cosines + gains.lines[:, :, 1] * sines).sum(dim=(1, 2))
 

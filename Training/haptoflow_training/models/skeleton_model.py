@@ -38,7 +38,7 @@ class SkeletonModel(HaptoFlowModel):
         return self.skeleton if self.refiner is None else self.refiner
 
     def one_step(self, noise: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, phases: Tensor) -> Tensor:
-        parts = self.skeleton.parts(noise, previous, self.skeleton.gains(embedding, motion), phases)
+        parts = self.skeleton.parts(noise, previous, self.skeleton.gains(embedding, motion, phases), phases)
         if self.refiner is None:
             return parts.begun
-        return parts.begun + self.refiner(parts, previous, embedding, motion)
+        return parts.begun + self.refiner(parts, previous, embedding, motion, phases)

@@ -25,16 +25,15 @@ MINIMUM_HZ = 0.5
 class SurfaceWaves(nn.Module):
     """Cosines and sines of the harmonics of each family, zero where the harmonic lies outside the band.
 
-    first_sample: of what `forward` computes, relative to the segment; negative for samples before it. The phase is
-    counted in the direction of motion, so that a stroke that turns back meets the same ribs backwards.
+    The phase is counted in the direction of motion, so that a stroke that turns back meets the same ribs backwards.
     """
 
     seconds: Tensor
 
-    def __init__(self, harmonics: int, maximum_hz: float, first_sample: int = 0) -> None:
+    def __init__(self, harmonics: int, maximum_hz: float) -> None:
         super().__init__()
         self.harmonics, self.maximum_hz = harmonics, maximum_hz
-        samples = torch.arange(float(first_sample), float(SEGMENT_SAMPLES))
+        samples = torch.arange(float(SEGMENT_SAMPLES))
         self.register_buffer("seconds", ((samples + 0.5) / SAMPLE_RATE_HZ).reshape(1, 1, -1), persistent=False)
 
     @torch.no_grad()
@@ -58,6 +57,18 @@ class SurfaceWaves(nn.Module):
                 turned_sine * cosine + turned_cosine * sine,
             )
         return torch.stack(cosines, dim=2), torch.stack(sines, dim=2)
+
+
+# Numbers that `rate_features` makes of the phases.
+RATE_FEATURES = 2 * FAMILIES
+_TURNING_HZ = 20.0
+
+
+def rate_features(phases: Tensor) -> Tensor:
+    """[B, 6]: of each family's rate the size on a logarithmic scale, and the direction, which turns smoothly through
+    rest. What a surface's waves sound like depends on their rates, not on the speed alone."""
+    rates = phases[:, FAMILIES:].detach()
+    return torch.cat([0.25 * torch.log1p(rates.abs()), rates / (rates.abs() + _TURNING_HZ)], dim=1)
 
 
 def advanced(phases: Tensor, samples: int) -> Tensor:

@@ -37,7 +37,7 @@ class SkeletonLosses(Losses):
 
     def _skeleton_loss(self, given: ScaledBatch, objective: str, generator: torch.Generator) -> Tensor:
         skeleton = self.model.skeleton
-        condition = given.embedding, given.batch.motion
+        condition = given.embedding, given.batch.motion, given.phases
         segment = given.segment + _FLOOR * self._noise(given, generator)
         if objective == "filter":
             # Burg's method takes lines for resonances.
