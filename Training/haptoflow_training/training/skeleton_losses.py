@@ -5,8 +5,10 @@ from __future__ import annotations
 import torch
 from torch import Tensor
 
+from haptoflow_training.models.label_embedding import surface_path
 from haptoflow_training.models.skeleton_model import SkeletonModel
-from haptoflow_training.models.surface_waves import FAMILIES, MINIMUM_HZ, advanced
+from haptoflow_training.models.surface_waves import FAMILIES, MINIMUM_HZ, advanced, with_path
+from haptoflow_training.training.batches import SegmentBatch
 from haptoflow_training.training.losses import Losses, ScaledBatch
 
 # Samples by which the second pass of the shift's loss is begun later: up to the hop of an update at 72 Hz.
@@ -32,6 +34,10 @@ class SkeletonLosses(Losses):
             return self._skeleton_loss(given, objective, generator)
         return self._refinement_loss(given, generator)
 
+    def phases(self, batch: SegmentBatch, embedding: Tensor) -> Tensor:
+        path = surface_path(embedding, batch.position_path_mm, batch.wander_path)
+        return with_path(super().phases(batch, embedding), path)
+
     def drawn(self, objective: str, noise: Tensor, condition: tuple[Tensor, Tensor, Tensor, Tensor]) -> Tensor:
         return self.model.one_step(noise, *condition)
 
@@ -41,7 +47,7 @@ class SkeletonLosses(Losses):
         segment = given.segment + _FLOOR * self._noise(given, generator)
         if objective == "filter":
             # Burg's method takes lines for resonances.
-            still = (given.phases[:, FAMILIES:].abs() <= MINIMUM_HZ).all(dim=1).to(segment.dtype)
+            still = (given.phases[:, FAMILIES : 2 * FAMILIES].abs() <= MINIMUM_HZ).all(dim=1).to(segment.dtype)
             return _mean(skeleton.filter_distance(segment, *condition), self._audible(given) * still)
         gains = skeleton.gains(*condition)
         likelihood = _mean(skeleton.likelihood(segment, gains, given.phases), self._audible(given))
