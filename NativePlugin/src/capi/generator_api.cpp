@@ -111,7 +111,7 @@ haptoflow_status haptoflow_generator_create(const haptoflow_generator_options* o
         const uint32_t batch = given.maximum_batch != 0 ? given.maximum_batch : defaultBatch;
         auto loaded =
             inference::makeGenerator(runtime, open->model, tier, solverSettings(given.solver, given.steps, tierSolver),
-                                     batch, loadLimits(given.cancellation, given.probe_limit_ms));
+                                     batch, loadLimits(given.cancellation, given.probe_limit_ms), open->native);
         *generator =
             generators().open(std::shared_ptr<OpenGenerator>(new OpenGenerator{{}, tierSolver, std::move(loaded)}));
     });

@@ -39,12 +39,14 @@ inference::LoadLimits loadLimits(const haptoflow_cancellation* cancellation, dou
 std::unique_ptr<inference::SegmentGenerator> TierLoader::load(std::size_t tier,
                                                               const inference::LoadLimits& limits) const {
     const model::Tier& wanted = model->model.header().tiers.at(tier);
-    return inference::makeGenerator(runtime, model->model, wanted, inference::defaultSolver(wanted), batch, limits);
+    return inference::makeGenerator(runtime, model->model, wanted, inference::defaultSolver(wanted), batch, limits,
+                                    model->native);
 }
 
 std::unique_ptr<inference::LevelEstimator> TierLoader::loadLevels(std::size_t tier,
                                                                   const inference::LoadLimits& limits) const {
-    return inference::makeLevelEstimator(runtime, model->model, model->model.header().tiers.at(tier), limits);
+    return inference::makeLevelEstimator(runtime, model->model, model->model.header().tiers.at(tier), limits,
+                                         model->native);
 }
 
 haptoflow_label_info describe(const model::Label& label) {

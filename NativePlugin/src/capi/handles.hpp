@@ -8,6 +8,7 @@
 #include "inference/tier_generator.hpp"
 #include "model/material_file.hpp"
 #include "model/model_file.hpp"
+#include "skeleton/skeleton_tensors.hpp"
 
 #include <cstddef>
 #include <memory>
@@ -19,9 +20,14 @@ namespace haptoflow::capi {
 
 struct OpenModel {
     explicit OpenModel(model::ModelFile file)
-        : model(std::move(file)), headerText(model.headerText()), space(model::spaceOf(model.header())) {}
+        : model(std::move(file)),
+          native(skeleton::readNativeParts(model)),
+          headerText(model.headerText()),
+          space(model::spaceOf(model.header())) {}
 
     model::ModelFile model;
+    /// Shared by all generators of the model.
+    skeleton::NativeParts native;
     /// The file's header with a final zero byte, which the file itself does not have.
     std::string headerText;
     std::string space;

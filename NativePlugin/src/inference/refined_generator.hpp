@@ -18,18 +18,22 @@ namespace haptoflow::inference {
 class RefinedGenerator final : public TierGenerator {
 public:
     /// Throws what makeGenerator throws.
-    RefinedGenerator(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model, const model::Tier& tier,
-                     SolverSettings solver, std::size_t maximumBatch, const LoadLimits& limits = {});
+    RefinedGenerator(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model,
+                     skeleton::NativeParts native, const model::Tier& tier, SolverSettings solver,
+                     std::size_t maximumBatch, const LoadLimits& limits = {});
 
     void setSolver(SolverSettings solver) override;
     void generate(std::span<const SegmentRequest> requests, std::span<float> segments) override;
+    void generateFromSketches(std::span<const SegmentRequest> requests, std::span<float> segments,
+                              const Sketched& sketched) override;
     void levels(std::span<const SegmentRequest> requests, std::span<float> levelsMps2) override;
 
     /// Number of runs of the graph; tests use it to show that nothing is computed needlessly.
     [[nodiscard]] std::uint64_t graphRuns() const noexcept { return graph_.runs(); }
 
 private:
-    void generateBatch(std::span<const SegmentRequest> requests, std::span<float> segments);
+    void sketchBatch(std::span<const SegmentRequest> requests, std::span<float> segments);
+    void refineBatch(std::span<float> segments);
 
     std::size_t maximumBatch_;
     SkeletonLevelEstimator level_;

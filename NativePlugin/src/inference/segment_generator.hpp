@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 
@@ -67,6 +68,15 @@ public:
     /// Writes requests.size() segments of 200 samples in m/s^2, one after the other, into `segments`
     /// (requests.size() * 200 floats). Throws InferenceError if a graph fails; `segments` is then unspecified.
     virtual void generate(std::span<const SegmentRequest> requests, std::span<float> segments) = 0;
+
+    /// Receives finished sketches in m/s^2, one after the other, of the requests from `first` on. On the generating
+    /// thread, before the network refines them; the span is valid during the call.
+    using Sketched = std::function<void(std::size_t first, std::span<const float> sketches)>;
+    /// Generates the same segments as `generate`, and tells `sketched` of each batch if they are made from sketches.
+    virtual void generateFromSketches(std::span<const SegmentRequest> requests, std::span<float> segments,
+                                      [[maybe_unused]] const Sketched& sketched) {
+        generate(requests, segments);
+    }
 };
 
 }  // namespace haptoflow::inference

@@ -4,16 +4,16 @@
 #include "inference/level_rules.hpp"
 #include "inference/solver.hpp"
 #include "skeleton/condition.hpp"
-#include "skeleton/skeleton_tensors.hpp"
 #include "skeleton/unit_scale.hpp"
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace haptoflow::inference {
 
-SkeletonLevelEstimator::SkeletonLevelEstimator(const model::ModelFile& model)
-    : level_(skeleton::readLevelModel(model)) {}
+SkeletonLevelEstimator::SkeletonLevelEstimator(std::shared_ptr<const skeleton::LevelModel> level)
+    : level_(std::move(level)) {}
 
 void SkeletonLevelEstimator::levels(std::span<const SegmentRequest> requests, std::span<float> levelsMps2) {
     requireRoomForLevels(requests, levelsMps2);
@@ -34,9 +34,9 @@ skeleton::Moment momentOf(const SegmentRequest& request, float levelMps2,
             .noise = request.noise};
 }
 
-SkeletonGenerator::SkeletonGenerator(const model::ModelFile& model, SolverSettings solver, std::size_t maximumBatch,
+SkeletonGenerator::SkeletonGenerator(skeleton::NativeParts native, SolverSettings solver, std::size_t maximumBatch,
                                      const LoadLimits& limits)
-    : level_(model), skeleton_(skeleton::readSkeleton(model)), levelsMps2_(requireBatch(maximumBatch)) {
+    : level_(std::move(native.level)), skeleton_(std::move(native.skeleton)), levelsMps2_(requireBatch(maximumBatch)) {
     limits.check();
     setSolver(solver);
 }
@@ -58,7 +58,7 @@ void SkeletonGenerator::generate(std::span<const SegmentRequest> requests, std::
         const std::span<float, segmentSamples> segment(segments.data() + row * segmentSamples, segmentSamples);
         std::array<float, segmentSamples> previous{};
         const skeleton::Moment moment = momentOf(requests[row], levelsMps2[row], previous);
-        skeleton_->sketch(moment, skeleton::conditionOf(moment.embedding, moment.motion), segment);
+        skeleton_->sketch(moment, skeleton::conditionOf(moment.embedding, moment.motion, moment.phases), segment);
         std::ranges::for_each(segment, [level = levelsMps2[row]](float& sample) { sample *= level; });
     }
     requireFinite(segments, "skeleton");

@@ -2,9 +2,9 @@
 
 #include "inference/load_limits.hpp"
 #include "inference/tier_generator.hpp"
-#include "model/model_file.hpp"
 #include "skeleton/level_model.hpp"
 #include "skeleton/skeleton.hpp"
+#include "skeleton/skeleton_tensors.hpp"
 
 #include <cstddef>
 #include <memory>
@@ -16,8 +16,7 @@ namespace haptoflow::inference {
 /// The levels of a model with a skeleton, computed natively. Any thread; no allocation.
 class SkeletonLevelEstimator final : public LevelEstimator {
 public:
-    /// Throws model::ModelError (inconsistent) that names a tensor.
-    explicit SkeletonLevelEstimator(const model::ModelFile& model);
+    explicit SkeletonLevelEstimator(std::shared_ptr<const skeleton::LevelModel> level);
 
     /// Throws InferenceError for an impossible level, std::invalid_argument if the spans differ in size.
     void levels(std::span<const SegmentRequest> requests, std::span<float> levelsMps2) override;
@@ -34,7 +33,7 @@ private:
 class SkeletonGenerator final : public TierGenerator {
 public:
     /// Throws what makeGenerator throws.
-    SkeletonGenerator(const model::ModelFile& model, SolverSettings solver, std::size_t maximumBatch,
+    SkeletonGenerator(skeleton::NativeParts native, SolverSettings solver, std::size_t maximumBatch,
                       const LoadLimits& limits = {});
 
     void setSolver(SolverSettings solver) override;

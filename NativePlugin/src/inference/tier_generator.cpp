@@ -20,17 +20,21 @@ std::shared_ptr<const Runtime> requireRuntime(std::shared_ptr<const Runtime> run
     return runtime;
 }
 
+skeleton::NativeParts partsOf(const model::ModelFile& model, const skeleton::NativeParts& native) {
+    return native.skeleton != nullptr ? native : skeleton::readNativeParts(model);
+}
+
 }  // namespace
 
 std::unique_ptr<TierGenerator> makeGenerator(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model,
                                              const model::Tier& tier, SolverSettings solver, std::size_t maximumBatch,
-                                             const LoadLimits& limits) {
+                                             const LoadLimits& limits, const skeleton::NativeParts& native) {
     switch (tier.kind) {
         case model::TierKind::skeleton:
-            return std::make_unique<SkeletonGenerator>(model, solver, maximumBatch, limits);
+            return std::make_unique<SkeletonGenerator>(partsOf(model, native), solver, maximumBatch, limits);
         case model::TierKind::refine:
-            return std::make_unique<RefinedGenerator>(requireRuntime(std::move(runtime), tier), model, tier, solver,
-                                                      maximumBatch, limits);
+            return std::make_unique<RefinedGenerator>(requireRuntime(std::move(runtime), tier), model,
+                                                      partsOf(model, native), tier, solver, maximumBatch, limits);
         default:
             return std::make_unique<OnnxSegmentGenerator>(requireRuntime(std::move(runtime), tier), model, tier.name,
                                                           solver, maximumBatch, limits);
@@ -39,9 +43,9 @@ std::unique_ptr<TierGenerator> makeGenerator(std::shared_ptr<const Runtime> runt
 
 std::unique_ptr<LevelEstimator> makeLevelEstimator(std::shared_ptr<const Runtime> runtime,
                                                    const model::ModelFile& model, const model::Tier& tier,
-                                                   const LoadLimits& limits) {
+                                                   const LoadLimits& limits, const skeleton::NativeParts& native) {
     if (tier.usesSkeleton()) {
-        return std::make_unique<SkeletonLevelEstimator>(model);
+        return std::make_unique<SkeletonLevelEstimator>(partsOf(model, native).level);
     }
     return std::make_unique<OnnxLevelEstimator>(requireRuntime(std::move(runtime), tier), model, tier, limits);
 }

@@ -262,8 +262,10 @@ LearntMaterial learnMaterial(const recordings::Recording& recording, const model
                              const model::Tier& tier, std::shared_ptr<const inference::Runtime> runtime,
                              const LearningSettings& settings, const inference::LoadLimits& limits) {
     constexpr std::size_t batchOfFit = 64;
+    const auto native = skeleton::readNativeParts(model);
     const auto open = [&](const model::Tier& each) {
-        return inference::makeGenerator(runtime, model, each, inference::defaultSolver(each), batchOfFit, limits);
+        return inference::makeGenerator(runtime, model, each, inference::defaultSolver(each), batchOfFit, limits,
+                                        native);
     };
     std::vector<OtherTier> others;
     for (const model::Tier& each : model.header().tiers) {

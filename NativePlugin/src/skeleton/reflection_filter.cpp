@@ -11,7 +11,9 @@ namespace {
 constexpr double largestReflection = 3.8;
 /// 50 dB as a natural logarithm.
 constexpr double largestResonance = 2.5 * std::numbers::ln10;
-constexpr double poleRadius = 0.998;
+// The longest response falls to 1/e in 33 ms, a resonance 10 Hz wide. A sharper one would be a line, which the waves
+// make.
+constexpr double poleRadius = 0.985;
 // The newest samples stay in registers: a vector that is read right after its parts were written waits for them.
 constexpr std::size_t newest = 4;
 
@@ -53,7 +55,7 @@ ReflectionFilter ReflectionFilter::of(std::span<const float, filterOrder> reflec
     return filter;
 }
 
-void ReflectionFilter::run(std::span<const float, filterOrder> rest, Segment drive,
+void ReflectionFilter::run(std::span<const float, filterOrder> past, Segment drive,
                            std::span<float, segmentSamples> filtered) const noexcept {
     constexpr std::size_t older = filterOrder - newest;
     // In the order of time, as the samples lie.
@@ -62,7 +64,7 @@ void ReflectionFilter::run(std::span<const float, filterOrder> rest, Segment dri
         olderTaps[i] = coefficients[filterOrder - 1 - i];
     }
     std::array<double, filterOrder + segmentSamples> wave{};
-    std::ranges::copy(rest, wave.begin());
+    std::ranges::copy(past, wave.begin());
     std::array<double, newest> last{wave[filterOrder - 1], wave[filterOrder - 2], wave[filterOrder - 3],
                                     wave[filterOrder - 4]};
     for (std::size_t n = 0; n < segmentSamples; ++n) {
@@ -73,9 +75,9 @@ void ReflectionFilter::run(std::span<const float, filterOrder> rest, Segment dri
                 sums[lane] += olderTaps[i + lane] * samples[i + lane];
             }
         }
-        const double past = (sums[0] + sums[2]) + (sums[1] + sums[3]) + coefficients[3] * last[3] +
-                            coefficients[2] * last[2] + coefficients[1] * last[1];
-        const double y = (static_cast<double>(drive[n]) - past) - coefficients[0] * last[0];
+        const double earlier = (sums[0] + sums[2]) + (sums[1] + sums[3]) + coefficients[3] * last[3] +
+                               coefficients[2] * last[2] + coefficients[1] * last[1];
+        const double y = (static_cast<double>(drive[n]) - earlier) - coefficients[0] * last[0];
         last = {y, last[0], last[1], last[2]};
         wave[filterOrder + n] = y;
         filtered[n] = std::clamp(static_cast<float>(y), -unitLimit, unitLimit);

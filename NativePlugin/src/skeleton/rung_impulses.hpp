@@ -18,7 +18,7 @@ public:
 
     RungImpulses();
 
-    /// Writes the impulses of `noise` in unit scale. `gains` are outputs of the perceptron. No allocation.
+    /// Writes the impulses of `noise`, relative to it. `gains` are outputs of the perceptron. No allocation.
     void strike(Segment noise, std::span<const float, gainCount> gains,
                 std::span<float, segmentSamples> struck) const noexcept;
 

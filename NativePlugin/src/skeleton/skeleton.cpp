@@ -26,17 +26,20 @@ FamilyGains gainsOf(std::span<const float, 2 * (swingHarmonics + lineHarmonics)>
     return gains;
 }
 
-/// The noise with the gain that the filter and the waves give it.
-std::array<float, segmentSamples> driveOf(Segment noise, double logGain, const SurfaceWaves& waves) noexcept {
-    const auto gain = static_cast<float>(std::exp(logGain));
+/// What drives the filter: the noise, which swings with the waves, the waves' lines, both times `gain`, and the
+/// impulses.
+std::array<float, segmentSamples> driveOf(Segment noise, Segment struck, float gain,
+                                          const SurfaceWaves& waves) noexcept {
     std::array<float, segmentSamples> drive{};
     if (!waves.isHeard()) {
-        std::ranges::transform(noise, drive.begin(), [gain](float sample) { return gain * sample; });
+        std::ranges::transform(noise, struck, drive.begin(),
+                               [gain](float sample, float impulse) { return gain * sample + impulse; });
         return drive;
     }
-    std::ranges::transform(noise, waves.swing(), drive.begin(), [gain](float sample, float swing) {
-        return sample * gain * std::exp(largestSwing * std::tanh(swing / largestSwing));
-    });
+    for (std::size_t n = 0; n < segmentSamples; ++n) {
+        const float swing = largestSwing * std::tanh(waves.swing()[n] / largestSwing);
+        drive[n] = gain * (noise[n] * std::exp(swing) + waves.lines()[n]) + struck[n];
+    }
     return drive;
 }
 
@@ -88,16 +91,12 @@ void Skeleton::begin(const Moment& moment, const Condition& condition, std::span
                       pulses != nullptr ? &pulses->sines : nullptr);
         }
     }
-    std::array<float, filterOrder> rest{};
-    std::ranges::transform(moment.previous.last<filterOrder>(), waves.lines(), rest.begin(), std::minus<>());
     std::array<float, segmentSamples> noise{};
     std::ranges::transform(moment.noise, noise.begin(), [](float sample) { return limitedOrZero(sample, noiseLimit); });
-    parameters.filter.run(rest, driveOf(noise, parameters.filter.logGain, waves), begun);
+    const auto gain = static_cast<float>(std::exp(parameters.filter.logGain));
     impulses_.strike(noise, parameters.rungs, struck);
-    const auto lines = std::span(waves.lines()).last<segmentSamples>();
-    for (std::size_t n = 0; n < segmentSamples; ++n) {
-        begun[n] += lines[n] + struck[n];
-    }
+    std::ranges::for_each(struck, [gain](float& impulse) { impulse *= gain; });
+    parameters.filter.run(moment.previous.last<filterOrder>(), driveOf(noise, struck, gain, waves), begun);
 }
 
 void Skeleton::sketch(const Moment& moment, const Condition& condition,

@@ -43,9 +43,9 @@ struct SegmentParameters {
     std::array<float, RungImpulses::gainCount> rungs{};
 };
 
-/// What sounds without a graph: noise through a filter that continues the previous waveform, lines of ribs and
-/// stick-slip, and impulses. Immutable, so that any number of threads may use it; allocates nothing while it runs. The
-/// result is finite and bounded for any argument.
+/// What sounds without a graph: a filter continues the previous waveform, driven by noise, by the lines of ribs and
+/// stick-slip, and by impulses. Immutable, so that any number of threads may use it; allocates nothing while it runs.
+/// The result is finite for any argument, and the segment within +-16.
 class Skeleton {
 public:
     /// Channels of what the refining graph sees.
@@ -60,8 +60,8 @@ public:
     /// Writes the segment in unit scale.
     void sketch(const Moment& moment, const Condition& condition,
                 std::span<float, segmentSamples> begun) const noexcept;
-    /// Writes what the refining graph sees, one channel after the other: the segment, its impulses, and the cosines and
-    /// then the sines of the first five harmonics, summed over the families.
+    /// Writes what the refining graph sees, one channel after the other: the segment, the impulses that drove it, and
+    /// the cosines and then the sines of the first five harmonics, summed over the families.
     void enter(const Moment& moment, const Condition& condition,
                std::span<float, enteringChannels * segmentSamples> entering) const noexcept;
 

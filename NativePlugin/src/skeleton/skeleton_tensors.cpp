@@ -110,7 +110,7 @@ std::shared_ptr<const LevelModel> readLevelModel(const model::ModelFile& model) 
 }
 
 std::shared_ptr<const Skeleton> readSkeleton(const model::ModelFile& model) {
-    HiddenLayers hidden = readHidden(model, "skeleton", embeddingSize + fineFeatures);
+    HiddenLayers hidden = readHidden(model, "skeleton", Condition{}.size());
     const Tensor weight = readTensor(model, "skeleton.4.weight", output::count, hidden.outputs());
     const Tensor bias = readTensor(model, "skeleton.4.bias", output::count, std::nullopt);
     const auto family = [&](std::size_t index) {
@@ -127,8 +127,15 @@ std::shared_ptr<const Skeleton> readSkeleton(const model::ModelFile& model) {
                      .rungs = Rows(weight, bias).add(output::rungs, RungImpulses::gainCount).layer()});
 }
 
+NativeParts readNativeParts(const model::ModelFile& model) {
+    if (!model.header().skeleton) {
+        return {};
+    }
+    return {.level = readLevelModel(model), .skeleton = readSkeleton(model)};
+}
+
 Perceptron readConditioning(const model::ModelFile& model, std::string_view tier) {
-    return readPerceptron(model, std::string(tier) + ".condition", embeddingSize + fineFeatures, std::nullopt);
+    return readPerceptron(model, std::string(tier) + ".condition", Condition{}.size(), std::nullopt);
 }
 
 }  // namespace haptoflow::skeleton

@@ -9,9 +9,9 @@ namespace {
 constexpr double slowestHz = 0.5;
 constexpr double highestSwingHz = 700.0;
 constexpr double highestLineHz = 960.0;
-constexpr float largestLine = 3.0F;
+constexpr float largestLine = 30.0F;
 
-using Wave = std::array<float, SurfaceWaves::lineSamples>;
+using Wave = std::array<float, segmentSamples>;
 
 /// Cosine and sine of an angle that grows evenly from sample to sample.
 struct Rotation {
@@ -23,12 +23,11 @@ struct Rotation {
 /// precision, so that the error does not grow over the segment.
 Rotation firstHarmonic(double turns, double turnsPerSample) noexcept {
     constexpr std::size_t lanes = 8;
-    static_assert(SurfaceWaves::lineSamples % lanes == 0);
+    static_assert(segmentSamples % lanes == 0);
     std::array<double, lanes> cosine{};
     std::array<double, lanes> sine{};
     for (std::size_t lane = 0; lane < lanes; ++lane) {
-        const double sample = static_cast<double>(lane) - static_cast<double>(filterOrder) + 0.5;
-        const double angle = turns + turnsPerSample * sample;
+        const double angle = turns + turnsPerSample * (static_cast<double>(lane) + 0.5);
         const double radians = 2.0 * std::numbers::pi * (angle - std::round(angle));
         cosine[lane] = std::cos(radians);
         sine[lane] = std::sin(radians);
@@ -91,17 +90,15 @@ void SurfaceWaves::add(const FamilyPhase& phase, const FamilyGains& gains, Pulse
         if (index >= swingHarmonics || harmonicHz >= highestSwingHz) {
             continue;
         }
-        const float* cosine = rotation.cosine.data() + filterOrder;
-        const float* sine = rotation.sine.data() + filterOrder;
         const float swingCosine = gains.swingCosine[index];
         const float swingSine = gains.swingSine[index];
         for (std::size_t n = 0; n < segmentSamples; ++n) {
-            swing_[n] += swingCosine * cosine[n] + swingSine * sine[n];
+            swing_[n] += swingCosine * rotation.cosine[n] + swingSine * rotation.sine[n];
         }
         if (cosines != nullptr && sines != nullptr) {
             for (std::size_t n = 0; n < segmentSamples; ++n) {
-                (*cosines)[index][n] += cosine[n];
-                (*sines)[index][n] += sine[n];
+                (*cosines)[index][n] += rotation.cosine[n];
+                (*sines)[index][n] += rotation.sine[n];
             }
         }
     }

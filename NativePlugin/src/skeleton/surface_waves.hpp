@@ -27,10 +27,9 @@ struct FamilyGains {
 };
 
 /// Waves whose phase the place on the surface fixes: lines, and the swing of the noise's gain. Samples are at (n + 0.5)
-/// / 2000 s; the lines begin filterOrder samples before the segment.
+/// / 2000 s.
 class SurfaceWaves {
 public:
-    static constexpr std::size_t lineSamples = filterOrder + segmentSamples;
     /// Cosines or sines of the swing's harmonics, summed over the families.
     using Pulses = std::array<std::array<float, segmentSamples>, swingHarmonics>;
 
@@ -38,16 +37,16 @@ public:
     void add(const FamilyPhase& phase, const FamilyGains& gains, Pulses* cosines = nullptr,
              Pulses* sines = nullptr) noexcept;
 
-    /// Lines in unit scale from 24 samples before the segment to its end.
-    [[nodiscard]] const std::array<float, lineSamples>& lines() const noexcept { return lines_; }
-    /// What is added to the natural logarithm of the drive's gain, before its limit.
+    /// What is added to the drive, relative to its noise.
+    [[nodiscard]] const std::array<float, segmentSamples>& lines() const noexcept { return lines_; }
+    /// What is added to the natural logarithm of the noise's gain, before its limit.
     [[nodiscard]] const std::array<float, segmentSamples>& swing() const noexcept { return swing_; }
     /// True if a family was added.
     [[nodiscard]] bool isHeard() const noexcept { return isHeard_; }
 
 private:
     bool isHeard_ = false;
-    std::array<float, lineSamples> lines_{};
+    std::array<float, segmentSamples> lines_{};
     std::array<float, segmentSamples> swing_{};
 };
 

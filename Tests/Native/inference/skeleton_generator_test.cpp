@@ -95,13 +95,49 @@ TEST_F(SkeletonGeneratorTest, TheRefinedSegmentAgreesWithPyTorchInBatchesOfEvery
 }
 
 TEST_F(SkeletonGeneratorTest, ABatchNeedsOneRunOfTheRefiningGraph) {
-    RefinedGenerator generator(testRuntime(), skeletonModel(), tierNamed("standard"), {}, 4);
+    RefinedGenerator generator(testRuntime(), skeletonModel(), skeleton::readNativeParts(skeletonModel()),
+                               tierNamed("standard"), {}, 4);
     EXPECT_EQ(generator.graphRuns(), 0U);
     (void)generate(generator);
     EXPECT_EQ(generator.graphRuns(), 2U) << "seven requests in batches of four";
     std::vector<float> levels(requests_.size());
     generator.levels(requests_, levels);
     EXPECT_EQ(generator.graphRuns(), 2U) << "levels need no graph";
+}
+
+TEST_F(SkeletonGeneratorTest, ARefinedTierTellsTheSketchOfEachBatchBeforeItsGraphRuns) {
+    RefinedGenerator generator(testRuntime(), skeletonModel(), skeleton::readNativeParts(skeletonModel()),
+                               tierNamed("standard"), {}, 4);
+    std::vector<float> sketches;
+    std::vector<std::uint64_t> runsBefore;
+    std::vector<float> segments(requests_.size() * segmentSamples);
+    generator.generateFromSketches(requests_, segments, [&](std::size_t first, std::span<const float> batch) {
+        EXPECT_EQ(first * segmentSamples, sketches.size());
+        sketches.insert(sketches.end(), batch.begin(), batch.end());
+        runsBefore.push_back(generator.graphRuns());
+    });
+    expectGolden(sketches, "sketch_segment");
+    expectGolden(segments, "standard_segment");
+    EXPECT_EQ(runsBefore, (std::vector<std::uint64_t>{0, 1}));
+}
+
+TEST_F(SkeletonGeneratorTest, ATierWithoutARefinementGeneratesTheSameAndTellsNoSketch) {
+    const auto generator = openTier("sketch");
+    std::vector<float> segments(requests_.size() * segmentSamples);
+    generator->generateFromSketches(requests_, segments,
+                                    [](std::size_t, std::span<const float>) { ADD_FAILURE() << "told"; });
+    EXPECT_EQ(segments, generate(*generator));
+}
+
+TEST_F(SkeletonGeneratorTest, AllTiersShareTheGivenParts) {
+    const auto native = skeleton::readNativeParts(skeletonModel());
+    const auto sketch = inference::makeGenerator(nullptr, skeletonModel(), tierNamed("sketch"), {}, 1, {}, native);
+    const auto refined =
+        inference::makeGenerator(testRuntime(), skeletonModel(), tierNamed("standard"), {}, 1, {}, native);
+    const auto levels = makeLevelEstimator(nullptr, skeletonModel(), tierNamed("standard"), {}, native);
+    EXPECT_EQ(native.skeleton.use_count(), 3);
+    EXPECT_EQ(native.level.use_count(), 4);
+    EXPECT_EQ(skeleton::readNativeParts(tinyModel()).skeleton, nullptr);
 }
 
 TEST_F(SkeletonGeneratorTest, LevelsAgreeWithPyTorchAndNeedNoOnnxRuntime) {

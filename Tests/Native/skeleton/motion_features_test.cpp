@@ -47,16 +47,29 @@ TEST(MotionFeaturesTest, RestAndANegativeForceAreFinite) {
     EXPECT_NEAR(logarithms.force, std::log(0.02), 1e-6);
 }
 
+TEST(ConditionTest, TheRatesEndItAsSizeAndDirectionAndTheTurnsDoNotMatter) {
+    const std::array<float, embeddingSize> embedding{};
+    const Motion motion{0.03F, -0.04F, 1.0F};
+    const Condition condition = conditionOf(embedding, motion, {0.1F, 0.2F, 0.3F, 60.0F, -20.0F, 0.0F});
+    const std::array<double, rateFeatures> expected{0.25 * std::log(61.0), 0.25 * std::log(21.0), 0.0, 0.75, -0.5, 0.0};
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        EXPECT_NEAR(condition.at(embeddingSize + fineFeatures + i), expected.at(i), 1e-6) << i;
+    }
+    EXPECT_EQ(condition, conditionOf(embedding, motion, {0.9F, 0.0F, 0.5F, 60.0F, -20.0F, 0.0F}));
+}
+
 TEST(ConditionTest, NumbersThatAreNotFiniteCountAsZero) {
     std::array<float, embeddingSize> embedding{};
     embedding[3] = std::numeric_limits<float>::quiet_NaN();
     embedding[4] = std::numeric_limits<float>::infinity();
     embedding[5] = 2.0F;
     const Motion broken{std::numeric_limits<float>::quiet_NaN(), 0.1F, std::numeric_limits<float>::infinity()};
-    const Condition condition = conditionOf(embedding, broken);
+    const Phases phases{
+        0.0F, 0.0F, 0.0F, std::numeric_limits<float>::quiet_NaN(), -std::numeric_limits<float>::infinity(), 60.0F};
+    const Condition condition = conditionOf(embedding, broken, phases);
     std::array<float, embeddingSize> clean{};
     clean[5] = 2.0F;
-    EXPECT_EQ(condition, conditionOf(clean, {0.0F, 0.1F, 0.0F}));
+    EXPECT_EQ(condition, conditionOf(clean, {0.0F, 0.1F, 0.0F}, {0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 60.0F}));
 }
 
 }  // namespace

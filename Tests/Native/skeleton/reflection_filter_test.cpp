@@ -34,8 +34,8 @@ TEST(ReflectionFilterTest, TwoReflectionsGiveTheCoefficientsWorkedOutByHand) {
     const auto filter = ReflectionFilter::of(outputs, 0.8F);
     const double k1 = std::tanh(0.5);
     const double k2 = std::tanh(-0.25);
-    EXPECT_NEAR(filter.coefficients[0], (k1 + k2 * k1) * 0.998, 1e-7);
-    EXPECT_NEAR(filter.coefficients[1], k2 * 0.998 * 0.998, 1e-7);
+    EXPECT_NEAR(filter.coefficients[0], (k1 + k2 * k1) * 0.985, 1e-7);
+    EXPECT_NEAR(filter.coefficients[1], k2 * 0.985 * 0.985, 1e-7);
     EXPECT_EQ(filter.coefficients[2], 0.0);
     EXPECT_NEAR(filter.logGain, 2.0 * std::tanh(0.4) - logCosh(0.5) - logCosh(0.25), 1e-7);
 }
@@ -47,9 +47,9 @@ TEST(ReflectionFilterTest, ThreeReflectionsAreReversedAtEachStep) {
     const double k2 = std::tanh(-0.25);
     const double k3 = std::tanh(0.75);
     const double first = k1 + k2 * k1;
-    EXPECT_NEAR(filter.coefficients[0], (first + k3 * k2) * 0.998, 1e-7);
-    EXPECT_NEAR(filter.coefficients[1], (k2 + k3 * first) * 0.998 * 0.998, 1e-7);
-    EXPECT_NEAR(filter.coefficients[2], k3 * 0.998 * 0.998 * 0.998, 1e-7);
+    EXPECT_NEAR(filter.coefficients[0], (first + k3 * k2) * 0.985, 1e-7);
+    EXPECT_NEAR(filter.coefficients[1], (k2 + k3 * first) * 0.985 * 0.985, 1e-7);
+    EXPECT_NEAR(filter.coefficients[2], k3 * 0.985 * 0.985 * 0.985, 1e-7);
 }
 
 TEST(ReflectionFilterTest, ResonanceBeyondFiftyDecibelsIsScaledDown) {
@@ -60,25 +60,25 @@ TEST(ReflectionFilterTest, ResonanceBeyondFiftyDecibelsIsScaledDown) {
     ASSERT_GT(resonance, limit);
     const auto filter = ReflectionFilter::of(outputs, 0.0F);
     const double scaled = 2.0 * limit / resonance;
-    EXPECT_NEAR(filter.coefficients.back(), std::tanh(scaled) * std::pow(0.998, 24), 1e-7);
+    EXPECT_NEAR(filter.coefficients.back(), std::tanh(scaled) * std::pow(0.985, 24), 1e-7);
     EXPECT_NEAR(filter.logGain, -24.0 * logCosh(scaled), 1e-6);
 }
 
 TEST(ReflectionFilterTest, OneReflectionIsLimitedTo3Point8) {
     Reflections outputs{};
     outputs[0] = -1e6F;
-    EXPECT_NEAR(ReflectionFilter::of(outputs, 0.0F).coefficients[0], -std::tanh(3.8) * 0.998, 1e-7);
+    EXPECT_NEAR(ReflectionFilter::of(outputs, 0.0F).coefficients[0], -std::tanh(3.8) * 0.985, 1e-7);
 }
 
 TEST(ReflectionFilterTest, TheSegmentContinuesItsPast) {
     Reflections outputs{};
     outputs[0] = -1.0F;
     const auto filter = ReflectionFilter::of(outputs, 0.0F);
-    std::array<float, filterOrder> rest{};
-    rest.back() = 2.0F;
+    std::array<float, filterOrder> past{};
+    past.back() = 2.0F;
     Wave filtered{};
-    filter.run(rest, Wave{}, filtered);
-    const double ratio = std::tanh(1.0) * 0.998;
+    filter.run(past, Wave{}, filtered);
+    const double ratio = std::tanh(1.0) * 0.985;
     EXPECT_NEAR(filtered[0], 2.0 * ratio, 1e-6);
     EXPECT_NEAR(filtered[9], 2.0 * std::pow(ratio, 10), 1e-6);
 }
@@ -87,15 +87,15 @@ TEST(ReflectionFilterTest, EveryTapReachesItsOwnSample) {
     std::mt19937 random(3);
     std::normal_distribution<float> normal;
     Reflections outputs{};
-    std::array<float, filterOrder> rest{};
+    std::array<float, filterOrder> past{};
     Wave drive{};
     std::ranges::generate(outputs, [&] { return 0.4F * normal(random); });
-    std::ranges::generate(rest, [&] { return normal(random); });
+    std::ranges::generate(past, [&] { return normal(random); });
     std::ranges::generate(drive, [&] { return 0.2F * normal(random); });
     const auto filter = ReflectionFilter::of(outputs, 0.0F);
     Wave filtered{};
-    filter.run(rest, drive, filtered);
-    std::vector<double> wave(rest.begin(), rest.end());
+    filter.run(past, drive, filtered);
+    std::vector<double> wave(past.begin(), past.end());
     for (std::size_t n = 0; n < segmentSamples; ++n) {
         double y = drive[n];
         for (std::size_t i = 0; i < filterOrder; ++i) {
@@ -114,7 +114,7 @@ TEST(ReflectionFilterTest, OnlyTheOutputIsLimitedNotTheRecursion) {
     drive[0] = 40.0F;
     Wave filtered{};
     filter.run(std::array<float, filterOrder>{}, drive, filtered);
-    const double ratio = std::tanh(1.0) * 0.998;
+    const double ratio = std::tanh(1.0) * 0.985;
     EXPECT_EQ(filtered[0], 16.0F);
     EXPECT_EQ(filtered[1], 16.0F);
     EXPECT_NEAR(filtered[5], 40.0 * std::pow(ratio, 5), 1e-5);
@@ -128,14 +128,14 @@ TEST(ReflectionFilterTest, AnyReflectionsDecayAndResonateAtMostFiftyDecibelsAbov
         Reflections outputs{};
         std::ranges::generate(outputs, [&] { return strength * normal(random); });
         const auto filter = ReflectionFilter::of(outputs, 0.0F);
-        std::array<float, filterOrder> rest{};
-        rest.back() = 1.0F;
+        std::array<float, filterOrder> past{};
+        past.back() = 1.0F;
         Wave filtered{};
         double largest = 0.0;
         double energy = 0.0;
         for (int segment = 0; segment < 100; ++segment) {
-            filter.run(rest, Wave{}, filtered);
-            std::ranges::copy(std::span(filtered).last<filterOrder>(), rest.begin());
+            filter.run(past, Wave{}, filtered);
+            std::ranges::copy(std::span(filtered).last<filterOrder>(), past.begin());
             energy = 0.0;
             for (const float sample : filtered) {
                 ASSERT_TRUE(std::isfinite(sample));

@@ -80,8 +80,8 @@ TEST_F(SkeletonGoldenTest, LevelsAgree) {
 
 TEST_F(SkeletonGoldenTest, FiltersAgree) {
     forEveryCase([&](const nlohmann::json& row, const Moment& moment) {
-        const auto parameters =
-            skeleton_->parametersFor(conditionOf(moment.embedding, moment.motion), Skeleton::familiesOf(moment.phases));
+        const auto parameters = skeleton_->parametersFor(conditionOf(moment.embedding, moment.motion, moment.phases),
+                                                         Skeleton::familiesOf(moment.phases));
         const auto expected = numbers(row, "coefficients");
         expectNear(parameters.filter.coefficients, expected, rmsOf(expected), "coefficients");
         EXPECT_NEAR(parameters.filter.logGain, number(row, "log_gain"), tolerance);
@@ -91,7 +91,7 @@ TEST_F(SkeletonGoldenTest, FiltersAgree) {
 TEST_F(SkeletonGoldenTest, WhatTheRefiningGraphSeesAgrees) {
     forEveryCase([&](const nlohmann::json& row, const Moment& moment) {
         std::array<float, Skeleton::enteringChannels * segmentSamples> entering{};
-        skeleton_->enter(moment, conditionOf(moment.embedding, moment.motion), entering);
+        skeleton_->enter(moment, conditionOf(moment.embedding, moment.motion, moment.phases), entering);
         const auto begun = numbers(row, "begun");
         const double scale = rmsOf(begun);
         expectNear(std::span(entering).first<segmentSamples>(), begun, scale, "begun");
@@ -107,7 +107,7 @@ TEST_F(SkeletonGoldenTest, TheConditioningOfTheRefinementAgrees) {
     const Perceptron conditioning = readConditioning(model_, refining->name);
     forEveryCase([&](const nlohmann::json& row, const Moment& moment) {
         std::vector<float> film(conditioning.outputs());
-        conditioning.run(conditionOf(moment.embedding, moment.motion), film);
+        conditioning.run(conditionOf(moment.embedding, moment.motion, moment.phases), film);
         const auto expected = numbers(row, "film");
         expectNear(film, expected, rmsOf(expected), "film");
     });

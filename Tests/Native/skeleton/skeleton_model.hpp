@@ -59,7 +59,7 @@ inline model::testing::ModelBuilder skeletonModel(const ModelStyle& style = {}) 
     add("level.law.weight", {3, 64}, 0.02F);
     add("level.law.bias", {3}, 0.3F);
     addPerceptron("level.correction", 76, 1);
-    addPerceptron("skeleton", 82, 269);
+    addPerceptron("skeleton", 88, 269);
     return builder;
 }
 

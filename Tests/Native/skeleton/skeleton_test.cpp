@@ -33,7 +33,7 @@ protected:
         Wave begun{};
         skeleton_->sketch(
             {.embedding = embedding_, .motion = motion_, .phases = phases, .previous = previous, .noise = noise},
-            conditionOf(embedding_, motion_), begun);
+            conditionOf(embedding_, motion_, phases), begun);
         return begun;
     }
 
@@ -45,29 +45,27 @@ protected:
     const Phases ruled_{0.25F, 0.5F, 0.0F, 60.0F, -130.0F, 0.0F};
 };
 
-TEST_F(SkeletonTest, ASegmentIsLinesAndFilteredNoiseAndImpulses) {
-    const Condition condition = conditionOf(embedding_, motion_);
+TEST_F(SkeletonTest, NoiseLinesAndImpulsesAllPassThroughTheFilter) {
+    const Condition condition = conditionOf(embedding_, motion_, ruled_);
     const auto phases = Skeleton::familiesOf(ruled_);
     const SegmentParameters parameters = skeleton_->parametersFor(condition, phases);
     SurfaceWaves waves;
     waves.add(phases[0], parameters.families[0]);
     waves.add(phases[1], parameters.families[1]);
-    std::array<float, filterOrder> rest{};
-    for (std::size_t j = 0; j < filterOrder; ++j) {
-        rest[j] = previous_[segmentSamples - filterOrder + j] - waves.lines()[j];
-    }
+    Wave struck{};
+    RungImpulses().strike(noise_, parameters.rungs, struck);
     Wave drive{};
     for (std::size_t n = 0; n < segmentSamples; ++n) {
         const double swing = 2.0 * std::tanh(0.5 * static_cast<double>(waves.swing()[n]));
-        drive[n] = noise_[n] * static_cast<float>(std::exp(parameters.filter.logGain + swing));
+        const double drawn = static_cast<double>(noise_[n]) * std::exp(swing) + static_cast<double>(waves.lines()[n]) +
+                             static_cast<double>(struck[n]);
+        drive[n] = static_cast<float>(std::exp(parameters.filter.logGain) * drawn);
     }
     Wave filtered{};
-    parameters.filter.run(rest, drive, filtered);
-    Wave struck{};
-    RungImpulses().strike(noise_, parameters.rungs, struck);
+    parameters.filter.run(std::span(previous_).last<filterOrder>(), drive, filtered);
     const Wave begun = sketchOf(ruled_, previous_, noise_);
     for (std::size_t n = 0; n < segmentSamples; ++n) {
-        EXPECT_NEAR(begun[n], waves.lines()[filterOrder + n] + filtered[n] + struck[n], 1e-5) << n;
+        EXPECT_NEAR(begun[n], filtered[n], 1e-5) << n;
     }
 }
 
@@ -79,7 +77,7 @@ TEST_F(SkeletonTest, WhatTheRefiningGraphSeesBeginsWithTheSketch) {
     Entering entering{};
     const Moment moment{
         .embedding = embedding_, .motion = motion_, .phases = ruled_, .previous = previous_, .noise = noise_};
-    skeleton_->enter(moment, conditionOf(embedding_, motion_), entering);
+    skeleton_->enter(moment, conditionOf(embedding_, motion_, ruled_), entering);
     const Wave begun = sketchOf(ruled_, previous_, noise_);
     EXPECT_TRUE(std::ranges::equal(std::span(entering).first<segmentSamples>(), begun));
     // Cosines of the first harmonic of both families at the first sample, .25 ms into the segment.
@@ -90,9 +88,10 @@ TEST_F(SkeletonTest, WhatTheRefiningGraphSeesBeginsWithTheSketch) {
     EXPECT_NEAR(entering[7 * segmentSamples], std::sin(angle(0.25, 60.0)) + std::sin(angle(-0.5, 130.0)), 1e-5);
 }
 
-TEST_F(SkeletonTest, AnUnruledSurfaceHasNoWavesAndItsPhasesDoNotMatter) {
+TEST_F(SkeletonTest, AnUnruledSurfaceHasNoWavesAndItsTurnsDoNotMatter) {
     const Phases still{0.7F, 0.2F, 0.9F, 0.0F, 0.4F, -0.5F};
-    EXPECT_EQ(sketchOf(still, previous_, noise_), sketchOf({}, previous_, noise_));
+    const Phases other{0.0F, 0.0F, 0.0F, 0.0F, 0.4F, -0.5F};
+    EXPECT_EQ(sketchOf(still, previous_, noise_), sketchOf(other, previous_, noise_));
 }
 
 TEST_F(SkeletonTest, SamplesThatAreNotNumbersCountAsZero) {

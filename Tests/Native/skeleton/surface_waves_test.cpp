@@ -40,29 +40,26 @@ void expectDefinition(const FamilyPhase& phase) {
     SurfaceWaves::Pulses cosines{};
     SurfaceWaves::Pulses sines{};
     waves.add(phase, gains, &cosines, &sines);
-    for (std::size_t at = 0; at < SurfaceWaves::lineSamples; ++at) {
-        const double n = static_cast<double>(at) - 24.0;
+    for (std::size_t n = 0; n < segmentSamples; ++n) {
         double line = 0.0;
         double swing = 0.0;
         for (std::size_t h = 1; h <= lineHarmonics; ++h) {
-            const double angle = theta(phase, h, n);
+            const double angle = theta(phase, h, static_cast<double>(n));
             const double harmonicHz = static_cast<double>(h) * std::fabs(phase.rateHz);
             if (harmonicHz < 960.0) {
-                line += 3.0 * std::tanh(gains.lineCosine[h - 1] / 3.0) * std::cos(angle) +
-                        3.0 * std::tanh(gains.lineSine[h - 1] / 3.0) * std::sin(angle);
+                line += 30.0 * std::tanh(gains.lineCosine[h - 1] / 30.0) * std::cos(angle) +
+                        30.0 * std::tanh(gains.lineSine[h - 1] / 30.0) * std::sin(angle);
             }
-            if (h <= swingHarmonics && at >= 24) {
+            if (h <= swingHarmonics) {
                 const bool isHeard = harmonicHz < 700.0;
                 swing += isHeard ? gains.swingCosine[h - 1] * std::cos(angle) + gains.swingSine[h - 1] * std::sin(angle)
                                  : 0.0;
-                ASSERT_NEAR(cosines[h - 1][at - 24], isHeard ? std::cos(angle) : 0.0, 3e-6) << h << ' ' << at;
-                ASSERT_NEAR(sines[h - 1][at - 24], isHeard ? std::sin(angle) : 0.0, 3e-6) << h << ' ' << at;
+                ASSERT_NEAR(cosines[h - 1][n], isHeard ? std::cos(angle) : 0.0, 3e-6) << h << ' ' << n;
+                ASSERT_NEAR(sines[h - 1][n], isHeard ? std::sin(angle) : 0.0, 3e-6) << h << ' ' << n;
             }
         }
-        ASSERT_NEAR(waves.lines()[at], line, 2e-5) << at;
-        if (at >= 24) {
-            ASSERT_NEAR(waves.swing()[at - 24], swing, 2e-5) << at;
-        }
+        ASSERT_NEAR(waves.lines()[n], line, 2e-5) << n;
+        ASSERT_NEAR(waves.swing()[n], swing, 2e-5) << n;
     }
 }
 
@@ -102,7 +99,7 @@ TEST(SurfaceWavesTest, FamiliesAddUp) {
     first.add(one, randomGains(1));
     SurfaceWaves second;
     second.add(other, randomGains(2));
-    for (std::size_t n = 0; n < SurfaceWaves::lineSamples; ++n) {
+    for (std::size_t n = 0; n < segmentSamples; ++n) {
         EXPECT_NEAR(both.lines()[n], first.lines()[n] + second.lines()[n], 1e-5);
     }
     EXPECT_FALSE(SurfaceWaves().isHeard());
