@@ -487,7 +487,9 @@ enum {
     /* The tier "standard", or the model's default tier if it has no such tier. */
     HAPTOFLOW_QUALITY_STANDARD = 2,
     /* The tier "fine", or the model's most accurate tier if it has no such tier. */
-    HAPTOFLOW_QUALITY_FINE = 3
+    HAPTOFLOW_QUALITY_FINE = 3,
+    /* The tier "sketch", which plays without a network, or the model's first tier if it has no such tier. */
+    HAPTOFLOW_QUALITY_SKETCH = 4
 };
 
 typedef struct haptoflow_engine_options {

@@ -121,6 +121,7 @@ TEST_F(LoadingApiTest, AQualityWithoutATierOfItsNameUsesTheFirstTheDefaultOrTheM
     EXPECT_EQ(tierFor(HAPTOFLOW_QUALITY_DRAFT), 0U);
     EXPECT_EQ(tierFor(HAPTOFLOW_QUALITY_STANDARD), 1U);
     EXPECT_EQ(tierFor(HAPTOFLOW_QUALITY_FINE), 1U);
+    EXPECT_EQ(tierFor(HAPTOFLOW_QUALITY_SKETCH), 0U);
     keepTiers({1.0, 2.0}, {"draft", "standard"});
     EXPECT_EQ(tierFor(HAPTOFLOW_QUALITY_FINE), 0U) << "chosen by its figures, not by its position";
     keepTiers({2.0, 3.0, 1.0}, {"small", "medium", "large"});

@@ -80,8 +80,7 @@ TEST_F(SkeletonApiTest, TheKindsOfTheTiersAreTold) {
 }
 
 TEST_F(SkeletonApiTest, ASketchLoadsAndPlaysWithoutOnnxRuntime) {
-    // The model has no tier "draft", so that this is the first one.
-    ASSERT_EQ(createEngine(HAPTOFLOW_QUALITY_DRAFT), HAPTOFLOW_OK) << message();
+    ASSERT_EQ(createEngine(HAPTOFLOW_QUALITY_SKETCH), HAPTOFLOW_OK) << message();
     for (const uint32_t label : {0U, 1U}) {
         const std::vector<float> sound = slide(label);
         EXPECT_TRUE(allFinite(sound));

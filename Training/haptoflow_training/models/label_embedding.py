@@ -79,6 +79,19 @@ def rib_frequencies_hz(embedding: Tensor, motion: Tensor) -> Tensor:
     return signed_rib_frequencies_hz(embedding, motion).abs()
 
 
+def surface_path(embedding: Tensor, position_mm: Tensor, wander_turns: Tensor) -> Tensor:
+    """[B, 3, N]: the turns of each family in the middle of N samples, from the places [B, N + 1, 2] and the wander [B, N
+    + 1, 3] at their beginnings and at the end; whole turns at the first sample are left out."""
+    vectors = embedding[:, -WAVE_NUMBERS:].detach().double().reshape(-1, WAVE_VECTORS, 2)
+    placed = position_mm.double() @ vectors.transpose(1, 2)
+    slips = wander_turns[:, :, WAVE_VECTORS:].double()
+    steps = slips[:, 1:] - slips[:, :-1]
+    slipped = torch.cat([slips[:, :1], slips[:, :1] + (steps - steps.round()).cumsum(dim=1)], dim=1)
+    turns = torch.cat([placed + wander_turns[:, :, :WAVE_VECTORS].double(), slipped], dim=2)
+    turns = turns - turns[:, :1].floor()
+    return (0.5 * (turns[:, 1:] + turns[:, :-1])).transpose(1, 2).to(embedding.dtype)
+
+
 def surface_phases(embedding: Tensor, motion: Tensor, position_mm: Tensor, wander: Tensor) -> Tensor:
     """[B, 6]: the phases (models/surface_waves.py) at position_mm [B, 2], for embedding [B, 64] and motion [B, 3].
 

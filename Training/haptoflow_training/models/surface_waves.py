@@ -3,6 +3,8 @@
 A surface has up to three families: ribs or threads along two wave vectors, and the relaxation oscillation of a tip that
 sticks and slips. `phases` [B, 6] says where each is at a segment's first sample, in turns, and then how fast each
 advances, in Hz and with sign. A recorder that knows its ribs states true phases; at run time the engine adds them up.
+In training, `phases` [B, 6 + 3 * 200] also says where each family is at every sample of the segment: a hand changes its
+speed within 100 ms, and ribs would blur if they were fitted at places where they are not.
 """
 
 from __future__ import annotations
@@ -39,10 +41,10 @@ class SurfaceWaves(nn.Module):
     @torch.no_grad()
     def forward(self, phases: Tensor) -> tuple[Tensor, Tensor]:
         """phases [B, 6] to cosines and sines [B, 3, H, N], without gradient: where ribs are is not learnt."""
-        turns, rates = phases.reshape(-1, 2, FAMILIES, 1).unbind(dim=1)
+        turns, rates = phases[:, : 2 * FAMILIES].reshape(-1, 2, FAMILIES, 1).unbind(dim=1)
         size = rates.abs()
-        ahead = torch.where(rates < 0.0, -turns, turns)
-        angle = 2.0 * math.pi * (ahead + size * self.seconds)
+        path = turns + rates * self.seconds if phases.shape[1] == 2 * FAMILIES else path_of(phases)
+        angle = 2.0 * math.pi * torch.where(rates < 0.0, -path, path)
         alive = (size > MINIMUM_HZ).to(phases.dtype)
         # Harmonics by rotation: cosines and sines of angles themselves take most of a training step.
         cosine, sine = torch.cos(angle), torch.sin(angle)
@@ -67,12 +69,28 @@ _TURNING_HZ = 20.0
 def rate_features(phases: Tensor) -> Tensor:
     """[B, 6]: of each family's rate the size on a logarithmic scale, and the direction, which turns smoothly through
     rest. What a surface's waves sound like depends on their rates, not on the speed alone."""
-    rates = phases[:, FAMILIES:].detach()
+    rates = phases[:, FAMILIES : 2 * FAMILIES].detach()
     return torch.cat([0.25 * torch.log1p(rates.abs()), rates / (rates.abs() + _TURNING_HZ)], dim=1)
 
 
+def path_of(phases: Tensor) -> Tensor:
+    """[B, 3, 200]: the turns of each family at every sample, of phases that have them."""
+    return phases[:, 2 * FAMILIES :].reshape(-1, FAMILIES, SEGMENT_SAMPLES)
+
+
+def with_path(phases: Tensor, path: Tensor) -> Tensor:
+    """Phases [B, 6] with the turns [B, 3, 200] of each family at every sample."""
+    return torch.cat([phases, path.flatten(1)], dim=1)
+
+
 def advanced(phases: Tensor, samples: int) -> Tensor:
-    """The phases [B, 6] of a segment that begins `samples` later at the same rates."""
-    turns, rates = phases.chunk(2, dim=1)
+    """The phases of a segment that begins `samples` later, at the same rates."""
+    turns, rates = phases[:, : 2 * FAMILIES].chunk(2, dim=1)
     later = turns + rates * (samples / SAMPLE_RATE_HZ)
-    return torch.cat([later - later.floor(), rates], dim=1)
+    moved = torch.cat([later - later.floor(), rates], dim=1)
+    if phases.shape[1] == 2 * FAMILIES:
+        return moved
+    path = path_of(phases)
+    beyond = torch.arange(1.0, samples + 1.0) / SAMPLE_RATE_HZ
+    ahead = path[:, :, -1:] + rates.unsqueeze(2) * beyond
+    return with_path(moved, torch.cat([path[:, :, samples:], ahead], dim=2))

@@ -44,8 +44,9 @@ class SegmentBatch:
     motion [B, 3]: the condition.
 
     position_mm [B, 2]: where the segment begins. wander [B, 6]: by how much the surface's waves are displaced from that
-    place, and how fast (models/label_embedding.py, `surface_phases`). motion_path [B, 11, 3]: the motion at evenly
-    spaced samples of the segment, its ends included.
+    place, and how fast (models/label_embedding.py, `surface_phases`). position_path_mm [B, 201, 2] and wander_path [B,
+    201, 3]: place and displacement at every sample of the segment and at its end. motion_path [B, 11, 3]: the motion at
+    evenly spaced samples of the segment, its ends included.
     level_motion [B, 3] and level_mean_square_mps2 [B, 1]: a 50 ms window for the level model.
     """
 
@@ -56,6 +57,8 @@ class SegmentBatch:
     motion: Tensor
     position_mm: Tensor
     wander: Tensor
+    position_path_mm: Tensor
+    wander_path: Tensor
     motion_path: Tensor
     level_motion: Tensor
     level_mean_square_mps2: Tensor
@@ -213,6 +216,7 @@ class SegmentBatches:
         inside = np.arange(SEGMENT_SAMPLES)[None, :] < hop[:, None]
         motion = (motions * inside[:, :, None]).sum(axis=1) / hop[:, None]
 
+        path = split_point[:, None] + np.arange(SEGMENT_SAMPLES + 1)[None, :]
         previous = waves[:, :SEGMENT_SAMPLES].copy()
         switched = np.flatnonzero(generator.random(count) < config.switch_probability)
         if len(switched):
@@ -229,6 +233,8 @@ class SegmentBatches:
             motion=torch.from_numpy(motion.astype(np.float32)),
             position_mm=torch.from_numpy(self._store.position_mm[split_point]),
             wander=torch.from_numpy(self._wander(split_point, hop)),
+            position_path_mm=torch.from_numpy(self._store.position_mm[path]),
+            wander_path=torch.from_numpy(self._store.wander_turns[path]),
             motion_path=torch.from_numpy(motions[:, _KNOTS].astype(np.float32)),
             level_motion=torch.from_numpy(level_motion.astype(np.float32)),
             level_mean_square_mps2=torch.from_numpy(

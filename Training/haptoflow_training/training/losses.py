@@ -115,10 +115,14 @@ class Losses(nn.Module):
             segment=segment,
             previous=model.encode(previous),
             recorded_previous=recorded_previous,
-            phases=surface_phases(embedding, batch.motion, batch.position_mm, batch.wander),
+            phases=self.phases(batch, embedding),
             power=power,
             unsteadiness=unsteadiness,
         )
+
+    def phases(self, batch: SegmentBatch, embedding: Tensor) -> Tensor:
+        """The phases of the batch's segments, as the network is given them."""
+        return surface_phases(embedding, batch.motion, batch.position_mm, batch.wander)
 
     def field_loss(self, given: ScaledBatch, objective: str, generator: torch.Generator) -> Tensor:
         """The network's loss by one objective, a scalar."""

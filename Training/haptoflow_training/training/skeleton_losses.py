@@ -5,8 +5,10 @@ from __future__ import annotations
 import torch
 from torch import Tensor
 
+from haptoflow_training.models.label_embedding import surface_path
 from haptoflow_training.models.skeleton_model import SkeletonModel
-from haptoflow_training.models.surface_waves import FAMILIES, advanced
+from haptoflow_training.models.surface_waves import FAMILIES, advanced, with_path
+from haptoflow_training.training.batches import SegmentBatch
 from haptoflow_training.training.filter_fitting import audible, weighted_mean, with_floor, without_waves
 from haptoflow_training.training.losses import Losses, ScaledBatch
 
@@ -28,6 +30,10 @@ class SkeletonLosses(Losses):
             return self._skeleton_loss(given, objective, generator)
         return self._refinement_loss(given, generator)
 
+    def phases(self, batch: SegmentBatch, embedding: Tensor) -> Tensor:
+        path = surface_path(embedding, batch.position_path_mm, batch.wander_path)
+        return with_path(super().phases(batch, embedding), path)
+
     def drawn(self, objective: str, noise: Tensor, condition: tuple[Tensor, Tensor, Tensor, Tensor]) -> Tensor:
         return self.model.one_step(noise, *condition)
 
@@ -36,7 +42,7 @@ class SkeletonLosses(Losses):
         condition = given.embedding, given.batch.motion, given.phases
         segment, weight = with_floor(given.segment, generator), audible(given.log_level)
         if objective == "filter":
-            still = without_waves(given.phases[:, FAMILIES:])
+            still = without_waves(given.phases[:, FAMILIES : 2 * FAMILIES])
             return weighted_mean(skeleton.filter_distance(segment, *condition), weight * still)
         gains = skeleton.gains(*condition)
         likelihood = weighted_mean(skeleton.likelihood(segment, gains, given.phases), weight)

@@ -14,8 +14,8 @@ namespace HaptoFlow.Editor
         /// <summary>The words under which the search box of Project Settings finds the page.</summary>
         public static readonly string[] Keywords =
         {
-            "HaptoFlow", "haptic", "texture", "model", "quality", "draft", "standard", "fine", "update rate", "display",
-            "ceiling", "full scale", "material map", "rules",
+            "HaptoFlow", "haptic", "texture", "model", "quality", "sketch", "draft", "standard", "fine", "update rate",
+            "display", "ceiling", "full scale", "material map", "rules",
         };
 
         public static void Draw(SerializedObject settings)

@@ -120,11 +120,12 @@ namespace HaptoFlow.Preview
         /// <exception cref="HaptoFlowException">No quality has the name of this tier.</exception>
         private static HapticQuality QualityOf(string tier) => tier switch
         {
+            "sketch" => HapticQuality.Sketch,
             "draft" => HapticQuality.Draft,
             "standard" => HapticQuality.Standard,
             "fine" => HapticQuality.Fine,
             _ => throw new HaptoFlowException(HaptoFlowStatus.InvalidArgument,
-                $"tier \"{tier}\" cannot be previewed; expected draft, standard or fine"),
+                $"tier \"{tier}\" cannot be previewed; expected sketch, draft, standard or fine"),
         };
 
         /// <summary>True if the sounds of a request can be used for another one, as far as they do not depend on the

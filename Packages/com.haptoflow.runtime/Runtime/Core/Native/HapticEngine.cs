@@ -21,6 +21,10 @@ namespace HaptoFlow
 
         /// <summary>The tier "fine"; where the model has none, its most accurate.</summary>
         Fine = 3,
+
+        /// <summary>The tier "sketch", which plays without a network, for machines that are too slow for one; where the
+        /// model has none, its first tier.</summary>
+        Sketch = 4,
     }
 
     /// <summary>Options of an engine. Zeros select the native library's defaults.</summary>
