@@ -49,6 +49,21 @@ def test_an_independent_draw_of_eight_seconds_stays_within_a_decibel_of_spectral
     assert metrics.log_spectral_distance_db(_noise(8.0, 1), _noise(8.0, 2)) < 1.0
 
 
+def test_nobody_feels_the_spectra_of_two_recordings_below_a_white_vibration_of_a_hundredth() -> None:
+    faint = 1e-3 * _noise(8.0, 1)
+    assert metrics.log_spectral_distance_db(0.01 * faint, faint) < 0.1
+    # At the floor itself, twice its power: 3 dB.
+    silent = metrics.log_spectral_distance_db(np.zeros(16_000), 0.01 * _noise(8.0, 1))
+    assert silent == pytest.approx(3.0, abs=0.15)
+
+
+def test_a_band_that_a_recording_lacks_is_compared_with_the_floor_and_not_with_its_numbers_last_digits() -> None:
+    tone = _tone(100.0, 8.0)
+    # 7 bins of 126 hold the tone and its window; the rest is noise of 0.1 over the floor: 20 dB.
+    distance = metrics.log_spectral_distance_db(tone + 0.1 * _noise(8.0, 4), tone)
+    assert distance == pytest.approx(20.0, abs=1.0)
+
+
 def test_the_fundamental_is_found_between_bins() -> None:
     wave = _tone(123.4, 4.0) + 0.3 * _noise(4.0, 3)
     assert metrics.fundamental_hz(wave, 120.0) == pytest.approx(123.4, rel=0.002)

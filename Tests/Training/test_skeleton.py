@@ -1,13 +1,17 @@
-"""The skeleton: noise through a filter that continues the past, a drive that swings with the ribs, lines, impulses."""
+"""The skeleton: noise that swings with the ribs, lines and impulses drive a filter that continues the past."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
+import numpy as np
 import pytest
+import scipy.signal
 import torch
 
 from haptoflow_training.models.all_pole_filter import PredictedFilter
+from haptoflow_training.models.burg import burg_reflection
 from haptoflow_training.models.level_model import PREVIOUS_LIMIT, LevelModel
 from haptoflow_training.models.refiner import ENTERING, Refiner
 from haptoflow_training.models.skeleton import (
@@ -87,14 +91,11 @@ def test_a_segment_begun_later_says_the_same_of_the_same_samples(later: int) -> 
 def _line(gains: SkeletonGains, phases: torch.Tensor) -> torch.Tensor:
     """[200]: the lines alone."""
     silence = torch.zeros(1, 1, 200)
-    # The past is the line, too, as it would be after a while.
-    before = SKELETON._lines(gains, phases)[:, :ORDER]
-    previous = torch.cat([silence[:, 0, ORDER:], before], dim=1).unsqueeze(1)
-    return SKELETON.parts(silence, previous, gains, phases).begun[0, 0]
+    return SKELETON.parts(silence, silence, gains, phases).begun[0, 0]
 
 
 def test_lines_are_fixed_to_the_place_in_every_pass_and_met_backwards_on_the_way_back() -> None:
-    gains = _gains()
+    gains = _nothing()
     gains.lines[0, 0, COSINE, :4, 0] = torch.tensor([0.8, -0.5, 0.3, 0.2])
     first = _line(gains, _phases((40.0, 0.0, 0.0), (0.3, 0.0, 0.0)))
     # The segments of another pass begin elsewhere: here 27 samples further on and whole ribs later.
@@ -107,7 +108,7 @@ def test_lines_are_fixed_to_the_place_in_every_pass_and_met_backwards_on_the_way
 
 
 def test_a_line_s_sine_lies_behind_the_rib_whichever_way_the_tip_moves() -> None:
-    gains = _gains()
+    gains = _nothing()
     gains.lines[0, 1, SINE, 0, 0] = 0.7
     there = _line(gains, _phases((0.0, 50.0, 0.0)))
     back = _line(gains, _phases((0.0, -50.0, 0.0)))
@@ -116,13 +117,78 @@ def test_a_line_s_sine_lies_behind_the_rib_whichever_way_the_tip_moves() -> None
     assert there.argmax().item() == pytest.approx(9.5, abs=1.0)
 
 
-def test_the_filter_does_not_continue_the_lines_of_the_past() -> None:
-    gains, phases = _with_ribs(6)._replace(swing=_gains().swing), _phases((40.0, -25.0, 66.0), (0.1, 0.7, 0.4))
-    silence = torch.zeros(1, 1, 200)
-    alone = SKELETON._lines(gains, phases)
-    torch.testing.assert_close(_line(gains, phases), alone[0, ORDER:], rtol=0.0, atol=1e-4)
-    from_silence = SKELETON.parts(silence, silence, gains, phases).begun[0, 0]
-    assert (from_silence - alone[0, ORDER:])[:10].abs().max() > 0.05, "a past without the lines is something else"
+@pytest.mark.parametrize("rate_hz", [60.0, -60.0])
+@pytest.mark.parametrize("order", [1, 3, 14])
+def test_a_line_at_the_output_has_amplitude_and_phase_of_the_filter_s_frequency_response(
+    rate_hz: float, order: int
+) -> None:
+    gains = _gains()
+    gains.lines[0, 1, COSINE, order - 1, 0], gains.lines[0, 1, SINE, order - 1, 0] = 1.5, -0.7
+    made, phases, silence = torch.zeros(1, 1, 200), _phases((0.0, rate_hz, 0.0), (0.0, 0.3, 0.0)), torch.zeros(1, 1, 200)
+    for _ in range(4):
+        # The last of these begins when what the filter did at first has faded.
+        phases = advanced(phases, 200)
+        made = SKELETON.parts(silence, made, gains, phases).begun
+    frequency = order * 60.0 / 2000.0
+    _, response = scipy.signal.freqz(1.0, np.concatenate([[1.0], gains.coefficients[0]]), worN=[2.0 * np.pi * frequency])
+    ahead = math.copysign(phases[0, 1].item(), rate_hz) * order
+    angle = 2.0 * np.pi * (ahead + frequency * (np.arange(200) + 0.5))
+    driven = (1.5 + 0.7j) * np.exp(1j * angle)
+    expected = gains.log_gain.exp().item() * (response[0] * driven).real
+    assert np.abs(expected).max() > 0.1 and abs(np.angle(response[0])) > 0.05
+    np.testing.assert_allclose(made[0, 0].numpy(), expected, atol=5e-3)
+
+
+def test_the_impulses_drive_the_filter_beside_the_noise_and_relative_to_it() -> None:
+    gains, phases = _gains(), _phases((0.0, 0.0, 0.0))
+    noise, silence = _noise(1, 31).clamp(-1.9, 1.9), torch.zeros(1, 1, 200)
+    noise[0, 0, 40] = 4.5
+    gains.rungs[0, 0] = 0.2
+    with_impulse = SKELETON.parts(noise, silence, gains, phases)
+    without = SKELETON.parts(noise, silence, gains._replace(rungs=torch.zeros(1, RUNG_GAINS)), phases)
+    assert with_impulse.struck.nonzero()[:, 2].tolist() == [40]
+    response = scipy.signal.lfilter([1.0], np.concatenate([[1.0], gains.coefficients[0]]), with_impulse.struck[0, 0])
+    difference = (with_impulse.begun - without.begun)[0, 0].numpy()
+    np.testing.assert_allclose(difference, response, atol=1e-4)
+    louder = SKELETON.parts(noise, silence, gains._replace(log_gain=gains.log_gain + math.log(2.0)), phases)
+    torch.testing.assert_close(louder.struck, 2.0 * with_impulse.struck)
+
+
+@pytest.fixture
+def exact_skeleton() -> Iterator[Skeleton]:
+    """In double precision, in which the same sum in another order differs by nothing."""
+    torch.set_default_dtype(torch.float64)
+    yield Skeleton(hidden=16).eval().requires_grad_(False)
+    torch.set_default_dtype(torch.float32)
+
+
+@pytest.mark.parametrize("bare", [True, False], ids=["impulses of one sample", "ringing impulses that have faded"])
+def test_a_hand_over_with_the_same_noise_and_past_is_exact_although_lines_and_impulses_run(
+    bare: bool, exact_skeleton: Skeleton
+) -> None:
+    later, generator = 90, torch.Generator().manual_seed(32)
+    gains, phases = _with_ribs(2), _phases((40.0, -25.0, 66.0), (0.1, 0.7, 0.4))
+    rungs = torch.randn(1, 10, 13, generator=generator)
+    noise = torch.randn(1, 1, 200, generator=generator)
+    if bare:
+        rungs[:, :, 1:] = 0.0
+    else:
+        noise[:, :, later - 64 : later] = noise[:, :, later - 64 : later].clamp(-1.9, 1.9)
+    noise[0, 0, 10], noise[0, 0, 130] = 4.4, -3.7
+    gains = SkeletonGains(*(part.double() for part in gains))
+    gains = gains._replace(swing=0.3 * gains.swing, lines=0.2 * gains.lines, rungs=0.04 * rungs.flatten(1))
+    phases = phases.double()
+    previous = torch.randn(1, 1, 200, generator=generator)
+    first = exact_skeleton.parts(noise, previous, gains, phases)
+    second = exact_skeleton.parts(
+        torch.cat([noise[:, :, later:], noise[:, :, :later]], dim=2),
+        torch.cat([previous[:, :, later:], first.begun[:, :, :later]], dim=2),
+        gains,
+        advanced(phases, later),
+    )
+    assert first.struck[:, :, :later].abs().max() > 0.05 and first.struck[:, :, later:].abs().max() > 0.05
+    assert first.begun.abs().max() < PREVIOUS_LIMIT
+    torch.testing.assert_close(second.begun[:, :, : 200 - later], first.begun[:, :, later:], rtol=0.0, atol=1e-9)
 
 
 def test_the_swing_modulates_the_drive_within_its_limit() -> None:
@@ -145,12 +211,15 @@ def test_a_loud_past_is_bounded() -> None:
     assert torch.isfinite(made).all() and made.abs().max() <= PREVIOUS_LIMIT
 
 
+STILL = _phases((0.0, 0.0, 0.0)).expand(2, 6)
+
+
 def _own_condition() -> tuple[torch.Tensor, torch.Tensor]:
     return torch.randn(2, 64, generator=torch.Generator().manual_seed(10)), torch.tensor([[0.1, 0.0, 1.0]] * 2)
 
 
 def test_an_untrained_skeleton_has_a_filter_and_neither_swing_lines_nor_rungs() -> None:
-    gains = Skeleton(hidden=16).gains(*_own_condition())
+    gains = Skeleton(hidden=16).gains(*_own_condition(), STILL)
     assert gains.coefficients.abs().max() > 0.0
     assert all(part.abs().max() == 0.0 for part in (gains.swing, gains.lines, gains.rungs))
 
@@ -159,20 +228,20 @@ def test_predicted_lines_and_rungs_are_limited() -> None:
     skeleton = Skeleton(hidden=16)
     with torch.no_grad():
         skeleton.perceptron.layers[-1].bias.fill_(1000.0)
-        gains = skeleton.gains(*_own_condition())
-    assert gains.lines.abs().max() == pytest.approx(3.0) and gains.rungs.abs().max() == pytest.approx(8.0)
+        gains = skeleton.gains(*_own_condition(), STILL)
+    assert gains.lines.abs().max() == pytest.approx(30.0) and gains.rungs.abs().max() == pytest.approx(8.0)
 
 
 def test_the_waveform_trains_lines_swing_and_rungs_and_only_the_likelihood_trains_the_filter() -> None:
     skeleton, filtering = Skeleton(hidden=16), OUTPUTS[0]
     phases = _phases((40.0, 25.0, 66.0)).expand(2, 6)
     weight = skeleton.perceptron.layers[-1].weight
-    parts = skeleton.parts(2.0 * _noise(2, 11), _noise(2, 12), skeleton.gains(*_own_condition()), phases)
+    parts = skeleton.parts(2.0 * _noise(2, 11), _noise(2, 12), skeleton.gains(*_own_condition(), phases), phases)
     (weighed,) = torch.autograd.grad(parts.begun.square().sum(), weight)
     assert weighed[:filtering].abs().max() == 0.0
     swing, lines, rungs = weighed[filtering:].split(OUTPUTS[1:])
     assert all(part.abs().max() > 0.0 for part in (swing, lines, rungs))
-    likelihood = skeleton.likelihood(_noise(2, 13), skeleton.gains(*_own_condition()), phases)
+    likelihood = skeleton.likelihood(_noise(2, 13), skeleton.gains(*_own_condition(), phases), phases)
     (weighed,) = torch.autograd.grad(likelihood.sum(), weight)
     assert weighed[:filtering].abs().max() > 0.0
 
@@ -204,13 +273,40 @@ def test_the_likelihood_is_best_at_the_true_filter_level_and_swing() -> None:
         assert likelihood(gains) > best + 0.003, name
 
 
-def test_the_likelihood_ignores_the_lines() -> None:
+def test_lines_in_a_recording_do_not_count_as_errors_of_prediction() -> None:
     phases, gains = _phases((40.0, -25.0, 66.0), (0.1, 0.7, 0.4)), _with_ribs(2)
-    plain = gains._replace(lines=torch.zeros_like(gains.lines))
-    segment, lines = _recorded(plain, phases, 4), SKELETON._lines(gains, phases)
-    with_lines = SKELETON.likelihood(segment + lines[:, None, ORDER:], gains, phases.expand(4, 6))
-    without = SKELETON.likelihood(segment, plain, phases.expand(4, 6))
-    torch.testing.assert_close(with_lines, without, rtol=0.0, atol=1e-4)
+    gains, plain = (gains._replace(swing=0.3 * gains.swing, lines=share * gains.lines) for share in (0.2, 0.0))
+    many = phases.expand(4, 6)
+    with_lines, without = (SKELETON.parts(_noise(4, 22), _noise(4, 21), each, many).begun for each in (gains, plain))
+    assert (with_lines - without).abs().max() > 0.5 and with_lines.abs().max() < PREVIOUS_LIMIT
+    found = SKELETON.likelihood(with_lines, gains, many)
+    torch.testing.assert_close(found, SKELETON.likelihood(without, plain, many), rtol=0.0, atol=1e-4)
+    assert (SKELETON.likelihood(with_lines, plain, many) > found + 0.1).all()
+
+
+def test_the_distance_of_a_filter_is_zero_at_burg_s_estimate_and_the_level_of_unit_scale_and_no_other() -> None:
+    skeleton, segment = Skeleton(hidden=16).requires_grad_(False), _noise(2, 33)
+    given = segment, *_own_condition(), _phases((0.0, 0.0, 0.0)).expand(2, 6)
+    last = skeleton.perceptron.layers[-1]
+    last.weight.zero_()
+    last.bias.zero_()
+    last.bias[:ORDER] = torch.atanh(burg_reflection(segment[:1, 0], ORDER)[0])
+    own, other = skeleton.filter_distance(*given)
+    assert own == pytest.approx(0.0, abs=1e-6) and other > 0.05
+    last.bias[ORDER] = 0.5
+    assert skeleton.filter_distance(*given)[0] == pytest.approx(0.25, abs=1e-3)
+
+
+def test_the_rates_of_the_surface_s_waves_change_every_gain_and_the_film() -> None:
+    alone, refined = _refined(trained=False)
+    given = _own_condition()
+    phases = [_phases((rate_hz, 0.0, 0.0), (turn, 0.0, 0.0)).expand(2, 6) for rate_hz, turn in ((40, 0), (90, 0), (40, 0.5))]
+    slow, fast, elsewhere = (alone.skeleton.gains(*given, each) for each in phases)
+    assert all((one - other).abs().max() > 1e-4 for one, other in zip(slow, fast, strict=True))
+    assert all(torch.equal(one, other) for one, other in zip(slow, elsewhere, strict=True)), "the place is not a feature"
+    assert refined.refiner is not None
+    film = [refined.refiner.film(*given, each) for each in phases]
+    assert (film[0] - film[1]).abs().max() > 1e-4 and torch.equal(film[0], film[2])
 
 
 def test_the_likelihood_does_not_depend_on_what_was_before_the_segment() -> None:
@@ -249,15 +345,16 @@ def test_an_untrained_refinement_is_the_skeleton_and_a_trained_one_is_not() -> N
 def test_every_input_affects_the_refinement() -> None:
     _, model = _refined(trained=True)
     noise, previous, embedding, motion, phases = _given()
-    parts = model.skeleton.parts(noise, previous, model.skeleton.gains(embedding, motion), phases)
+    parts = model.skeleton.parts(noise, previous, model.skeleton.gains(embedding, motion, phases), phases)
     assert model.refiner is not None
-    before = model.refiner(parts, previous, embedding, motion)
-    changed = [model.refiner(parts._replace(**{name: getattr(parts, name) + 0.3}), previous, embedding, motion)
+    before = model.refiner(parts, previous, embedding, motion, phases)
+    changed = [model.refiner(parts._replace(**{name: getattr(parts, name) + 0.3}), previous, embedding, motion, phases)
                for name in parts._fields]  # fmt: skip
     changed += [
-        model.refiner(parts, previous + 0.3, embedding, motion),
-        model.refiner(parts, previous, embedding + 0.3, motion),
-        model.refiner(parts, previous, embedding, motion + 0.1),
+        model.refiner(parts, previous + 0.3, embedding, motion, phases),
+        model.refiner(parts, previous, embedding + 0.3, motion, phases),
+        model.refiner(parts, previous, embedding, motion + 0.1, phases),
+        model.refiner(parts, previous, embedding, motion, 1.3 * phases),
     ]
     assert all(not torch.allclose(after, before, atol=1e-5) for after in changed)
 
@@ -265,7 +362,7 @@ def test_every_input_affects_the_refinement() -> None:
 def test_a_refinement_sees_segment_impulses_and_the_harmonics_of_all_families_added() -> None:
     _, model = _refined(trained=True)
     noise, previous, embedding, motion, phases = _given()
-    parts = model.skeleton.parts(noise, previous, model.skeleton.gains(embedding, motion), phases)
+    parts = model.skeleton.parts(noise, previous, model.skeleton.gains(embedding, motion, phases), phases)
     seen = Refiner.entering(parts)
     assert seen.shape == (2, ENTERING, 200)
     torch.testing.assert_close(seen[:, :2], torch.cat([parts.begun, parts.struck], dim=1))

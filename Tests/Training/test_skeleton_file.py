@@ -20,6 +20,7 @@ from haptoflow_training.export.skeleton_tensors import condition_tensors, skelet
 from haptoflow_training.fewshot.add_label import with_label
 from haptoflow_training.models.conditioning import MotionFeatures
 from haptoflow_training.models.rung_impulses import TAIL_RUNGS
+from haptoflow_training.models.surface_waves import rate_features
 
 GOLDEN = Path(__file__).parents[1] / "Golden" / "model"
 sys.path.insert(0, str(GOLDEN))
@@ -56,11 +57,17 @@ def _condition(case: dict[str, Any], harmonics: tuple[float, ...]) -> _Floats:
     return np.concatenate([np.array(case["embedding"], np.float32), features])
 
 
+def _moving_condition(case: dict[str, Any]) -> _Floats:
+    """With the rates of the surface's waves."""
+    rates = rate_features(torch.tensor([case["phases"]]))[0].numpy()
+    return np.concatenate([_condition(case, FINE), rates])
+
+
 FINE, SMOOTH = (0.5, 1.0, 2.0, 4.0, 8.0), (0.5, 1.0)
 
 
 def test_pytorch_still_makes_the_golden_vectors(cases: list[dict[str, Any]]) -> None:
-    sketch, refined = make_skeleton_model.build()
+    sketch, refined = make_skeleton_model.exact(*make_skeleton_model.build())
     assert len(cases) == len(make_skeleton_model.CASES)
     for number, case in enumerate(cases):
         made = make_skeleton_model.golden_case(sketch, refined, number)
@@ -99,8 +106,8 @@ def test_tensors_have_the_shapes_of_the_format(file: ModelFile) -> None:
     shapes = {name: values.shape for name, values in file.tensors.items()}
     assert shapes["level.law.weight"] == (3, 64) and shapes["level.law.bias"] == (3,)
     assert shapes["level.correction.0.weight"][1] == 64 + 12 and shapes["level.correction.4.weight"][0] == 1
-    assert shapes["skeleton.0.weight"] == (hidden, 64 + 18) and shapes["skeleton.4.weight"] == (269, hidden)
-    assert shapes["standard.condition.0.weight"] == (128, 64 + 18)
+    assert shapes["skeleton.0.weight"] == (hidden, 64 + 18 + 6) and shapes["skeleton.4.weight"] == (269, hidden)
+    assert shapes["standard.condition.0.weight"] == (128, 64 + 18 + 6)
     assert shapes["standard.condition.4.weight"] == (films, 128)
     assert shapes["embedding"] == (2, 64) and shapes["pieces"] == (2, make_skeleton_model.SPECIMENS, 60)
 
@@ -117,13 +124,13 @@ def test_the_tensors_alone_give_level_filter_and_the_film_with_its_factors(
         level = law[0] + law[1:] @ logarithms + 0.9 * np.tanh(correction)
         assert level == pytest.approx(case["log_level"][0], abs=1e-4)
 
-        outputs = _perceptron(file, "skeleton", _condition(case, FINE))
+        outputs = _perceptron(file, "skeleton", _moving_condition(case))
         log_cosh = [np.log(np.cosh(argument)) for argument in np.clip(outputs[:24], -3.8, 3.8)]
         assert sum(log_cosh) < np.log(10.0**2.5), "below the limit of resonance, so that no argument is scaled"
         log_gain = 2.0 * np.tanh(outputs[24] / 2.0) - sum(log_cosh)
         assert log_gain == pytest.approx(case["log_gain"][0], abs=1e-4)
 
-        film = _perceptron(file, "standard.condition", _condition(case, FINE))
+        film = _perceptron(file, "standard.condition", _moving_condition(case))
         np.testing.assert_allclose(film, case["film"], atol=1e-4)
 
 

@@ -12,10 +12,11 @@ from typing import Any
 import numpy as np
 import onnx
 import pytest
+import scipy.signal
 import torch
 from test_export import PROVENANCE
 from test_trainer import ALONE, _config, ask_to_stop_after
-from training_fixtures import FakeStore, make_store
+from training_fixtures import FakeStore, make_store, travelled_mm
 
 from haptoflow_training.closed_loop.level_calibration import TierSource
 from haptoflow_training.closed_loop.phase_track import SurfaceStatistics
@@ -28,10 +29,12 @@ from haptoflow_training.export.level_table import MeasuredLevels
 from haptoflow_training.export.model_file import ModelFile, model_space, read_model_file
 from haptoflow_training.export.trained_tier import load_tiers
 from haptoflow_training.models.skeleton_model import SkeletonModel
+from haptoflow_training.models.surface_waves import path_of
 from haptoflow_training.recordings.wander import RibWander, StickSlip
 from haptoflow_training.training import skeleton_losses
-from haptoflow_training.training.batches import SegmentBatches
+from haptoflow_training.training.batches import SegmentBatch, SegmentBatches
 from haptoflow_training.training.config import BatchConfig, ModelConfig, RecipeConfig, TrainingConfig
+from haptoflow_training.training.filter_fitting import audible, with_floor
 from haptoflow_training.training.recordings_source import Source
 from haptoflow_training.training.skeleton_losses import SkeletonLosses
 from haptoflow_training.training.trainer import Trainer, TrainingStopped, build_model, load_trained
@@ -51,7 +54,7 @@ def _store() -> FakeStore:
 
 
 def _sketch(steps: int = 6) -> TrainingConfig:
-    recipe = RecipeConfig(energy_steps=4, energy_batch_size=6, self_forcing_steps=2)
+    recipe = RecipeConfig(filter_steps=3, energy_steps=4, energy_batch_size=6, self_forcing_steps=2)
     return dataclasses.replace(
         _config(steps=steps), tier="sketch", model=ModelConfig(network="skeleton", hidden=16), recipe=recipe
     )
@@ -63,7 +66,7 @@ def _refinement(tier: str = "standard", levels: int = 2) -> TrainingConfig:
         config,
         tier=tier,
         model=ModelConfig(network="refinement", hidden=16, width=16, previous_width=8, levels=levels),
-        recipe=dataclasses.replace(config.recipe, shares_base=True),
+        recipe=dataclasses.replace(config.recipe, filter_steps=0, shares_base=True),
     )
 
 
@@ -91,9 +94,9 @@ def exported(runs: Path, store: FakeStore) -> ModelFile:
     return read_model_file(runs / "m.haptoflow")
 
 
-def test_a_skeleton_is_fitted_by_likelihood_then_by_energy_and_a_refinement_by_energy_alone(runs: Path) -> None:
+def test_a_skeleton_is_fitted_by_burg_s_estimates_likelihood_and_energy_and_a_refinement_by_energy_alone(runs: Path) -> None:
     phases = [[phase.objective for phase in Trainer.phases(config)] for config in (_sketch(), _refinement())]
-    assert phases == [["level", "likelihood", "energy", "energy", "level"], ["energy", "energy"]]
+    assert phases == [["level", "filter", "likelihood", "energy", "energy", "level"], ["energy", "energy"]]
     for tier in ("sketch", "draft"):
         assert json.loads((runs / tier / "run.json").read_text(encoding="utf-8"))["steps"] > 0
 
@@ -243,6 +246,130 @@ def test_the_term_for_shifts_is_zero_for_a_skeleton_alone_and_positive_for_a_net
 ) -> None:
     assert _shift_loss(monkeypatch, store, trained=False) == pytest.approx(0.0, abs=5e-3)
     assert _shift_loss(monkeypatch, store, trained=True) > 0.1
+
+
+# Two resonances, at 180 and 520 Hz.
+RINGING = np.poly([0.9 * np.exp(0.18j * np.pi), 0.9 * np.exp(-0.18j * np.pi),
+                   0.8 * np.exp(0.52j * np.pi), 0.8 * np.exp(-0.52j * np.pi)]).real  # fmt: skip
+
+
+def _ringing_store() -> FakeStore:
+    """The label without ribs rings, at one speed and force; the other label, whose ribs move, is white noise."""
+    store, generator = _store(), np.random.default_rng(11)
+    waveform, motion = store.waveform.copy(), np.zeros_like(store.motion)
+    motion[:] = (0.1, 0.0, 1.0)
+    for each in store.recordings:
+        noise = generator.standard_normal(each.length + 500)
+        wave = noise[500:] if each.label_index == 0 else scipy.signal.lfilter([1.0], RINGING, noise)[500:]
+        waveform[each.start : each.start + each.length] = wave / wave.std() / store.peak_mps2
+    return dataclasses.replace(store, waveform=waveform, motion=motion, position_mm=travelled_mm(motion))
+
+
+def _response_db(numerator: float, coefficients: np.ndarray) -> np.ndarray:
+    return np.asarray(20.0 * np.log10(np.abs(scipy.signal.freqz([numerator], coefficients, 128)[1])))
+
+
+def _spectrum_error_db(model: SkeletonModel) -> float:
+    """Mean distance of the spectrum of the label without ribs from that of its recordings."""
+    with torch.no_grad():
+        given = model.embedding(torch.tensor([1])), torch.tensor([[0.1, 0.0, 1.0]]), torch.zeros(1, 6)
+        gains = model.skeleton.gains(*given)
+    coefficients = np.concatenate([[1.0], gains.coefficients[0].double().numpy()])
+    made, true = _response_db(gains.log_gain.exp().item(), coefficients), _response_db(1.0, RINGING)
+    level = 10.0 * np.log10(np.mean(10.0 ** (true / 10.0)))
+    return float(np.abs(made - (true - level)).mean())
+
+
+def test_the_phase_filter_moves_a_random_skeleton_to_the_spectrum_of_an_all_pole_recording(tmp_path: Path) -> None:
+    config = _sketch(steps=0)
+    config = dataclasses.replace(
+        config,
+        recipe=RecipeConfig(filter_steps=250),
+        optimiser=dataclasses.replace(
+            config.optimiser, level_steps=100, level_polish_steps=0, batch_size=16, learning_rate=5e-3
+        ),
+    )
+    trainer = Trainer(config, _ringing_store(), tmp_path, ALONE, wave_vectors=WAVE_VECTORS)
+    untrained = _spectrum_error_db(trainer.model)
+    trainer.run()
+    assert [phase.name for phase in trainer.phases(config)] == ["level", "filter"]
+    # Means of estimates from 100 ms are flatter than the recording's spectrum.
+    assert _spectrum_error_db(load_trained(tmp_path)[2]) < 1.5 < 3.0 < untrained
+
+
+def _losses_and_batch(store: FakeStore) -> tuple[SkeletonModel, SkeletonLosses, SegmentBatch]:
+    torch.manual_seed(4)
+    model = build_model(_sketch(), WAVE_VECTORS, specimens=3)
+    assert isinstance(model, SkeletonModel)
+    batch = SegmentBatches(store, "train", BatchConfig(), 5).draw(16)  # type: ignore[arg-type]
+    return model, SkeletonLosses(model, _sketch().solver), batch
+
+
+def _loss(losses: SkeletonLosses, batch: SegmentBatch, objective: str) -> float:
+    return losses(batch, objective, torch.Generator().manual_seed(6))[1].item()
+
+
+def _with_noise(batch: SegmentBatch, rows: torch.Tensor) -> SegmentBatch:
+    """The batch with noise of another spectrum in these rows, about as loud."""
+    other = 0.7 * batch.segment.roll(1, dims=2) - 0.5 * batch.segment.roll(3, dims=2)
+    return dataclasses.replace(batch, segment=torch.where(rows[:, None, None], other, batch.segment))
+
+
+def test_the_phase_filter_leaves_out_rows_whose_ribs_move(store: FakeStore) -> None:
+    _, losses, batch = _losses_and_batch(store)
+    ribbed = batch.label == 0
+    assert ribbed.any() and not ribbed.all()
+    known = _loss(losses, batch, "filter")
+    assert known > 0.0 and _loss(losses, _with_noise(batch, ribbed), "filter") == pytest.approx(known, rel=1e-6)
+    assert _loss(losses, _with_noise(batch, ~ribbed), "filter") != pytest.approx(known, rel=1e-3)
+    likelihood = _loss(losses, batch, "likelihood")
+    assert _loss(losses, _with_noise(batch, ribbed), "likelihood") != pytest.approx(likelihood, rel=1e-5)
+
+
+@pytest.mark.parametrize("objective", ["filter", "likelihood"])
+def test_silence_has_no_weight_in_the_fit_of_a_filter(objective: str, store: FakeStore) -> None:
+    model, losses, batch = _losses_and_batch(store)
+    with torch.no_grad():
+        # Nothing at rest.
+        model.level.power_law.weight.zero_()
+        model.level.power_law.bias.copy_(torch.tensor([3.0, 4.0, 0.0]))
+    moving = torch.arange(16) % 4 != 0
+    moving[torch.where(batch.label == 1)[0][0]] = False
+    assert (moving & (batch.label == 1)).any()
+    share = moving.to(batch.motion.dtype)
+    still = dataclasses.replace(
+        batch,
+        motion=batch.motion * share[:, None],
+        motion_path=batch.motion_path * share[:, None, None],
+        segment=torch.where(moving[:, None, None], batch.segment, 1e-6 * batch.segment),
+    )
+    known = _loss(losses, still, objective)
+    assert _loss(losses, _with_noise(still, ~moving), objective) == pytest.approx(known, rel=1e-4)
+    assert _loss(losses, _with_noise(still, moving), objective) != pytest.approx(known, rel=1e-2)
+
+
+@pytest.mark.parametrize(("rms_mps2", "weight"), [(1e-4, 0.0), (0.03, 0.5), (1.0, 1.0), (30.0, 1.0)])
+def test_what_can_be_felt_weighs_alike_however_loud_and_what_cannot_nothing(rms_mps2: float, weight: float) -> None:
+    found = audible(torch.tensor([[rms_mps2]]).log().requires_grad_())
+    assert found.item() == pytest.approx(weight, abs=1e-3) and not found.requires_grad
+
+
+def test_a_filter_is_fitted_to_recordings_over_a_noise_floor_of_45_db() -> None:
+    floor = with_floor(torch.zeros(64, 1, 200), torch.Generator().manual_seed(1))
+    assert 20.0 * np.log10(floor.std().item()) == pytest.approx(-45.0, abs=0.3)
+
+
+def test_in_training_ribs_are_where_they_are_at_every_sample(store: FakeStore) -> None:
+    model, losses, batch = _losses_and_batch(store)
+    phases = losses.phases(batch, model.embedding(batch.label))
+    ribbed = torch.where(batch.label == 0)[0]
+    middle = 0.5 * (batch.position_path_mm[:, 1:] + batch.position_path_mm[:, :-1])
+    turns = 0.5 * middle[ribbed, :, 0].double()
+    away = path_of(phases)[ribbed, 0].double() - turns
+    assert (away - away.round()).abs().max() < 2e-3, "whole turns are left out"
+    assert (away.round() == away.round()[:, :1]).all(), "at the beginning only"
+    steady = phases[ribbed, :1] + phases[ribbed, 3:4] * (torch.arange(200) + 0.5) / 2000.0
+    assert (path_of(phases)[ribbed, 0, 0] - steady[:, 0]).abs().max() < 0.02
 
 
 def test_a_skeleton_keeps_its_likelihood_in_the_energy_phase(monkeypatch: pytest.MonkeyPatch, store: FakeStore) -> None:

@@ -7,7 +7,13 @@ import math
 import pytest
 import torch
 
-from haptoflow_training.models.surface_waves import SurfaceWaves, advanced
+from haptoflow_training.models.surface_waves import (
+    RATE_FEATURES,
+    SurfaceWaves,
+    advanced,
+    rate_features,
+    with_path,
+)
 
 
 def _phases(turns: tuple[float, float, float], rates_hz: tuple[float, float, float]) -> torch.Tensor:
@@ -49,12 +55,47 @@ def test_harmonics_at_or_above_the_band_are_silent_and_those_below_it_are_not() 
     assert alive.sum(dim=1).tolist() == [3, 2, 0]
 
 
-def test_samples_before_the_segment_belong_to_the_same_waves() -> None:
-    phases = _phases((0.15, 0.6, 0.9), (35.0, -60.0, 20.0))
-    alone, before = SurfaceWaves(4, 960.0)(phases), SurfaceWaves(4, 960.0, first_sample=-24)(phases)
-    for short, long in zip(alone, before, strict=True):
-        assert long.shape[-1] == 224
-        torch.testing.assert_close(long[..., 24:], short)
+def test_the_place_at_every_sample_replaces_that_at_a_steady_rate() -> None:
+    waves, phases = SurfaceWaves(4, 960.0), _phases((0.15, 0.6, 0.9), (35.0, -60.0, 20.0))
+    seconds = (torch.arange(200) + 0.5) / 2000.0
+    steady = phases[:, :3, None] + phases[:, 3:, None] * seconds
+    for expected, found in zip(waves(phases), waves(with_path(phases, steady)), strict=True):
+        torch.testing.assert_close(found, expected, rtol=0.0, atol=1e-4)
+    slowing = steady - 30.0 * torch.tensor([1.0, -1.0, 1.0]).reshape(1, 3, 1) * seconds.square()
+    cosines, sines = waves(with_path(phases, slowing))
+    for family, sign in enumerate((1.0, -1.0, 1.0)):
+        angle = 2.0 * math.pi * 2.0 * sign * slowing[0, family]
+        torch.testing.assert_close(cosines[0, family, 1], angle.cos(), rtol=0.0, atol=1e-4)
+        torch.testing.assert_close(sines[0, family, 1], angle.sin(), rtol=0.0, atol=1e-4)
+
+
+@pytest.mark.parametrize("samples", [1, 27, 150])
+def test_advanced_places_at_every_sample_are_those_of_a_segment_that_begins_later(samples: int) -> None:
+    waves, phases = SurfaceWaves(4, 960.0), _phases((0.15, 0.6, 0.9), (35.0, -60.0, 20.0))
+    bent = phases[:, :3, None] + torch.linspace(0.0, 3.0, 200).square()
+    first, later = with_path(phases, bent), advanced(with_path(phases, bent), samples)
+    assert torch.equal(later[:, :6], advanced(phases, samples))
+    for one, other in zip(waves(first), waves(later), strict=True):
+        torch.testing.assert_close(other[..., : 200 - samples], one[..., samples:], rtol=0.0, atol=1e-5)
+        # Beyond the segment, at the rate.
+        assert (other[..., -1] - other[..., -2]).abs().max() < 14 * 2.0 * math.pi * 60.0 / 2000.0
+
+
+def test_rate_features_are_zero_at_rest_and_tell_how_fast_and_which_way() -> None:
+    assert rate_features(_phases((0.1, 0.2, 0.3), (0.0, 0.0, 0.0))).abs().max() == 0.0
+    there, back = (rate_features(_phases((0.1, 0.2, 0.3), (sign * 5.0, 40.0, -sign * 300.0))) for sign in (1.0, -1.0))
+    assert there.shape == (1, RATE_FEATURES)
+    sizes, directions = there.chunk(2, dim=1)
+    torch.testing.assert_close(back, torch.cat([sizes, directions * torch.tensor([-1.0, 1.0, -1.0])], dim=1))
+    assert (sizes[0].diff() > 0.0).all() and (directions[0] * torch.tensor([1.0, 1.0, -1.0]) > 0.0).all()
+    assert there.abs().max() < 2.0
+    assert torch.equal(there, rate_features(_phases((0.7, 0.0, 0.0), (5.0, 40.0, -300.0)))), "no place"
+
+
+def test_rate_features_do_not_jump_where_a_motion_turns_back_through_rest() -> None:
+    rates = torch.linspace(-2.0, 2.0, 401)
+    features = rate_features(torch.cat([torch.zeros(401, 3), rates[:, None].expand(-1, 3)], dim=1))
+    assert features.diff(dim=0).abs().max() < 0.004
 
 
 @pytest.mark.parametrize("samples", [1, 27, 150])

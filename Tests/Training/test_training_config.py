@@ -8,8 +8,9 @@ import pytest
 
 from haptoflow_paper.rows.row_plan import load_plan
 from haptoflow_training.errors import InputError
+from haptoflow_training.models.haptoflow_model import FieldModel
 from haptoflow_training.training.config import TrainingConfig, config_from_dict, load_config
-from haptoflow_training.training.trainer import planned_steps
+from haptoflow_training.training.trainer import Trainer, build_model, planned_steps
 
 TRAINING = Path(__file__).parents[2] / "Training"
 CONFIGURATIONS = TRAINING / "configs"
@@ -33,6 +34,27 @@ TRAININGS = sorted(
 @pytest.mark.parametrize("name", TRAININGS)
 def test_the_shipped_configurations_load_and_plan_steps(name: str) -> None:
     assert sum(planned_steps(load_config(TRAINING / name))) > 0
+
+
+@pytest.mark.parametrize("name", ["own", "cluster"])
+def test_recordings_of_one_s_own_and_the_cluster_train_a_field_without_a_filter(name: str) -> None:
+    config = load_config(CONFIGURATIONS / f"{name}.toml")
+    assert config.model.network == "field" and isinstance(build_model(config, [(), ()]), FieldModel)
+    objectives = [phase.objective for phase in Trainer.phases(config)]
+    assert objectives[:2] == ["level", "flow"] and "filter" not in objectives
+
+
+def test_a_skeleton_s_filter_is_fitted_before_its_likelihood_and_a_refinement_has_none() -> None:
+    base, standard = (load_config(CONFIGURATIONS / "default" / f"{name}.toml") for name in ("base", "standard"))
+    objectives = [[phase.objective for phase in Trainer.phases(config)] for config in (base, standard)]
+    assert objectives == [["level", "filter", "likelihood", "energy", "energy"], ["energy", "energy"]]
+
+
+@pytest.mark.parametrize("network", ["field", "refinement"])
+def test_a_network_has_no_filter_to_fit(network: str, tmp_path: Path) -> None:
+    text = f'[model]\nnetwork = "{network}"\n[recipe]\nfilter_steps = 5\nshares_base = true\n'
+    with pytest.raises(InputError, match="recipe.filter_steps.*which has no filter"):
+        _load(tmp_path, text)
 
 
 def test_a_configuration_takes_what_it_does_not_set_from_the_one_it_extends(tmp_path: Path) -> None:

@@ -14,6 +14,7 @@ from torch import Tensor
 
 from haptoflow_paper.rivals.rival import Rival, reads
 from haptoflow_training.models.all_pole_filter import AllPoleFilter, PredictedFilter, prediction_errors
+from haptoflow_training.models.burg import burg_distance
 from haptoflow_training.models.condition_perceptron import ConditionPerceptron
 from haptoflow_training.models.level_model import PREVIOUS_LIMIT
 
@@ -55,8 +56,13 @@ class AutoregressiveRival(Rival):
         phases: Tensor,
         generator: torch.Generator,
     ) -> Tensor:
-        """[B]: Gaussian negative log-likelihood per sample of the one-step prediction errors, without the rib lines."""
+        """[B]: Gaussian negative log-likelihood per sample of the one-step prediction errors, without the rib lines, from
+        the filter's 17th sample on: what was before the segment may be silence or another material."""
         coefficients, log_gain = self.process(embedding, motion)
-        rest, past = self.rest(segment, previous, embedding, motion, phases)
-        error = prediction_errors(torch.cat([past[:, 0, -ORDER:], rest[:, 0]], dim=1), coefficients)
+        rest, _ = self.rest(segment, previous, embedding, motion, phases)
+        error = prediction_errors(rest[:, 0], coefficients)
         return (log_gain + 0.5 * error.square() * torch.exp(-2.0 * log_gain)).mean(dim=1)
+
+    def filter_distance(self, segment: Tensor, embedding: Tensor, motion: Tensor) -> Tensor:
+        """[B]: of the predicted filter from Burg's of a recorded segment [B, 1, 200] (models/burg.py)."""
+        return burg_distance(self.perceptron(embedding, motion), segment[:, 0])

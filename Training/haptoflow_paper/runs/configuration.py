@@ -34,6 +34,10 @@ class EvaluatedModelConfig(ModelConfig):
         """Whether the network works on samples."""
         return bool(self.representation.get("kind", "raw") == "raw")
 
+    @property
+    def has_filter(self) -> bool:
+        return super().has_filter or (self.network == "field" and self.architecture == "autoregressive")
+
 
 @dataclass(frozen=True)
 class EvaluatedOptimiserConfig(OptimiserConfig):

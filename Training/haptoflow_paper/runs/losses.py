@@ -1,4 +1,5 @@
-"""Further objectives: `own` (a rival's published training loss), `average-velocity` (MeanFlow) and `reflow`."""
+"""Further objectives: `own` (a rival's published training loss), `average-velocity` (MeanFlow) and `reflow`; and `filter`
+of the autoregressive rival."""
 
 from __future__ import annotations
 
@@ -7,8 +8,12 @@ from torch import Tensor
 
 from haptoflow_paper.objectives.mean_flow import AverageField, mean_flow_loss
 from haptoflow_paper.objectives.reflow import ReflowPairs
+from haptoflow_paper.rivals.autoregressive import AutoregressiveRival
 from haptoflow_training.models.haptoflow_model import Condition
+from haptoflow_training.models.label_embedding import WAVE_VECTORS
+from haptoflow_training.models.surface_waves import FAMILIES
 from haptoflow_training.training.batches import SegmentBatch
+from haptoflow_training.training.filter_fitting import audible, weighted_mean, with_floor, without_waves
 from haptoflow_training.training.losses import Losses, ScaledBatch
 
 
@@ -27,6 +32,8 @@ class EvaluatedLosses(Losses):
 
     def field_loss(self, given: ScaledBatch, objective: str, generator: torch.Generator) -> Tensor:
         field, motion = self.model.field, given.batch.motion
+        if isinstance(field, AutoregressiveRival) and objective in ("filter", "own"):
+            return self._filter_loss(field, given, objective, generator)
         if objective == "own":
             own = field.loss(given.segment, given.previous, given.embedding, motion, given.phases, generator)
             # A likelihood weighs all segments alike: weighting down unpredictable ones would bias it towards too little
@@ -46,6 +53,19 @@ class EvaluatedLosses(Losses):
 
             return mean_flow_loss(bound, given.segment, generator, 1.0 / given.power)
         return super().field_loss(given, objective, generator)
+
+    @staticmethod
+    def _filter_loss(
+        field: AutoregressiveRival, given: ScaledBatch, objective: str, generator: torch.Generator
+    ) -> Tensor:
+        """As of the product's skeleton (training/skeleton_losses.py)."""
+        segment, weight, motion = with_floor(given.segment, generator), audible(given.log_level), given.batch.motion
+        if objective == "own":
+            own = field.loss(segment, given.previous, given.embedding, motion, given.phases, generator)
+            return weighted_mean(own, weight)
+        if field.lines is not None:
+            weight = weight * without_waves(given.phases[:, FAMILIES : FAMILIES + WAVE_VECTORS])
+        return weighted_mean(field.filter_distance(segment, given.embedding, motion), weight)
 
     def drawn(self, objective: str, noise: Tensor, condition: Condition) -> Tensor:
         if objective == "average-velocity":

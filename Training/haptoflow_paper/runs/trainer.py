@@ -73,13 +73,14 @@ class EvaluatedTrainer(Trainer):
     def possible_phases(config: EvaluatedConfig) -> list[Phase]:  # type: ignore[override]
         if config.model.network != "field":
             return Trainer.possible_phases(config)
-        level, _, field, energy, forced, polish = Trainer.possible_phases(config)
+        level, fitted_filter, field, energy, forced, polish = Trainer.possible_phases(config)
         recipe = config.recipe
         objective = "own" if config.model.architecture != "unet" else recipe.objective
         reflow = Phase("reflow", "reflow", recipe.reflow_steps, recipe.reflow_learning_rate, field.batch_size)
         if not energy.steps:
             forced = dataclasses.replace(forced, objective=reflow.objective if reflow.steps else objective)
-        return [level, dataclasses.replace(field, objective=objective), reflow, energy, forced, polish]
+        field = dataclasses.replace(field, objective=objective)
+        return [level, fitted_filter, field, reflow, energy, forced, polish]
 
     @staticmethod
     def check_start(config: EvaluatedConfig, processes: Processes, base: Path | None) -> None:  # type: ignore[override]

@@ -6,6 +6,7 @@ import torch
 from torch import Tensor
 
 _SMALL = 1e-9
+_MAXIMUM_REFLECTION = 0.999
 
 
 def burg_reflection(waves: Tensor, order: int) -> Tensor:
@@ -20,3 +21,15 @@ def burg_reflection(waves: Tensor, order: int) -> Tensor:
         column = reflection.unsqueeze(1)
         forward, backward = ahead + column * behind, behind + column * ahead
     return torch.stack(found, dim=1)
+
+
+def burg_distance(raw: Tensor, waves: Tensor) -> Tensor:
+    """[B]: the squared distance of predictions [B, M + 1] for `PredictedFilter` from Burg's estimates of recorded
+    segments [B, N], in the arguments of the reflection coefficients, and of the predicted level from that of unit scale.
+
+    The mean of short estimates is not the best filter, but near it, and there is one way there: a likelihood alone,
+    from a random start, often ends with a false peak near the band's end.
+    """
+    reflection = burg_reflection(waves, raw.shape[1] - 1).clamp(-_MAXIMUM_REFLECTION, _MAXIMUM_REFLECTION)
+    wanted = torch.cat([torch.atanh(reflection), torch.zeros_like(raw[:, :1])], dim=1)
+    return (raw - wanted).square().sum(dim=1)

@@ -39,8 +39,8 @@ class Refiner(PatchUnet):
 
     @staticmethod
     def entering(parts: SkeletonParts) -> Tensor:
-        """What the network sees, [B, 12, 200]: the skeleton, the impulses that drove it, and the harmonics of the surface's
-        waves, those of all families added."""
+        """What the network sees, [B, 12, 200]: the skeleton, the impulses that drove it, and the harmonics of the
+        surface's waves, those of all families added."""
         waves = torch.cat([parts.cosines.sum(dim=1), parts.sines.sum(dim=1)], dim=1)
         return torch.cat([parts.begun, parts.struck, waves], dim=1)
 
@@ -48,4 +48,5 @@ class Refiner(PatchUnet):
         self, parts: SkeletonParts, previous: Tensor, embedding: Tensor, motion: Tensor, phases: Tensor
     ) -> Tensor:
         mirrored = previous[:, :, self.newest_first]
-        return self.through(self.entering(parts).unsqueeze(2), mirrored.unsqueeze(2), self.film(embedding, motion, phases))
+        film = self.film(embedding, motion, phases)
+        return self.through(self.entering(parts).unsqueeze(2), mirrored.unsqueeze(2), film)

@@ -1,9 +1,10 @@
 """The skeleton: what sounds without a network.
 
-A small filter continues the previous waveform. It is driven by noise, which swings with the ribs, by the ribs' own lines
-and by rare impulses: all that a tip meets passes through the contact's resonance. One perceptron of material and motion gives every coefficient. Native code computes the same
-(src/skeleton), so a segment costs microseconds. Kin: autoregressive rendering of textures after Culbertson et al. 2014;
-as the start of a network's refinement, PriorGrad (Lee et al. 2022) and SpecGrad (Koizumi et al. 2022).
+A small filter continues the previous waveform. It is driven by noise, which swings with the ribs, by the ribs' own
+lines and by rare impulses: all that a tip meets passes through the contact's resonance. One perceptron of material,
+motion and rib rates gives every coefficient. Native code computes the same (src/skeleton), so a segment costs
+microseconds. Kin: autoregressive rendering of textures after Culbertson et al. 2014; as the start of a network's
+refinement, PriorGrad (Lee et al. 2022) and SpecGrad (Koizumi et al. 2022).
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ import torch
 from torch import Tensor, nn
 
 from haptoflow_training.models.all_pole_filter import AllPoleFilter, PredictedFilter, prediction_errors
-from haptoflow_training.models.burg import burg_reflection
+from haptoflow_training.models.burg import burg_distance
 from haptoflow_training.models.condition_perceptron import ConditionPerceptron
 from haptoflow_training.models.level_model import PREVIOUS_LIMIT
 from haptoflow_training.models.rung_impulses import ATOMS, TailImpulses, TAIL_RUNGS
@@ -29,7 +30,6 @@ LINE_HARMONICS = 14
 _MAXIMUM_SWING_HZ, _MAXIMUM_LINE_HZ = 700.0, 960.0
 # Bounds of what the perceptron predicts, so that no material, blend or motion drives the output out of range.
 _SWING_LIMIT, _LINE_LIMIT, _RUNG_LIMIT = 2.0, 30.0, 8.0
-_MAXIMUM_REFLECTION = 0.999
 SWING_GAINS = FAMILIES * 2 * SWING_HARMONICS
 LINE_GAINS = FAMILIES * 2 * LINE_HARMONICS
 RUNG_GAINS = 2 * len(TAIL_RUNGS) * ATOMS
@@ -110,16 +110,9 @@ class Skeleton(nn.Module):
         return (gains.log_gain + swing + 0.5 * beyond.square()).mean(dim=1)
 
     def filter_distance(self, segment: Tensor, embedding: Tensor, motion: Tensor, phases: Tensor) -> Tensor:
-        """[B]: the squared distance of the predicted filter from Burg's of a recorded segment [B, 1, 200], in the
-        arguments of the reflection coefficients, and of the predicted level from that of unit scale.
-
-        The mean of short estimates is not the best filter, but near it, and there is one way there: a likelihood alone,
-        from a random start, often ends with a false peak near the band's end.
-        """
+        """[B]: of the predicted filter from Burg's of a recorded segment [B, 1, 200] (models/burg.py)."""
         raw = self.perceptron(embedding, motion, rate_features(phases))[:, : ORDER + 1]
-        reflection = burg_reflection(segment[:, 0], ORDER).clamp(-_MAXIMUM_REFLECTION, _MAXIMUM_REFLECTION)
-        wanted = torch.cat([torch.atanh(reflection), torch.zeros_like(raw[:, :1])], dim=1)
-        return (raw - wanted).square().sum(dim=1)
+        return burg_distance(raw, segment[:, 0])
 
     def _lines(self, gains: SkeletonGains, phases: Tensor) -> Tensor:
         """[B, 200]: what the ribs themselves add to the drive, relative to its noise."""

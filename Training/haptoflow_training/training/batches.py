@@ -45,8 +45,8 @@ class SegmentBatch:
 
     position_mm [B, 2]: where the segment begins. wander [B, 6]: by how much the surface's waves are displaced from that
     place, and how fast (models/label_embedding.py, `surface_phases`). position_path_mm [B, 201, 2] and wander_path [B,
-    201, 3]: place and displacement at every sample of the segment and at its end. motion_path [B, 11, 3]: the motion at evenly
-    spaced samples of the segment, its ends included.
+    201, 3]: place and displacement at every sample of the segment and at its end. motion_path [B, 11, 3]: the motion at
+    evenly spaced samples of the segment, its ends included.
     level_motion [B, 3] and level_mean_square_mps2 [B, 1]: a 50 ms window for the level model.
     """
 

@@ -76,6 +76,11 @@ class ModelConfig:
     previous_width: int = 32
     levels: int = 2
 
+    @property
+    def has_filter(self) -> bool:
+        """Whether an all-pole filter is trained."""
+        return self.network == "skeleton"
+
 
 @dataclass(frozen=True)
 class OptimiserConfig:
@@ -128,7 +133,7 @@ class RecipeConfig:
     """The training recipe after conditional flow matching (`optimiser.steps`), phase after phase; a phase of 0 steps is
     left out.
 
-    filter_steps: before it, fits a skeleton's filter to Burg's estimates from single segments.
+    filter_steps: before it, fits an all-pole filter to Burg's estimates from single segments.
     energy_steps: one-step fine-tuning by a spectral energy distance; afterwards the network is a `direct` tier.
     self_forcing_steps: the objective of the phase before, on the network's own output as previous waveform.
     shares_base: keep the embedding and level model of another run (`--base`), as further tiers of a file do.
@@ -225,9 +230,9 @@ class TrainingConfig:
                 "'field', 'skeleton' or 'refinement'",
             ),
             (
-                config.model.network == "skeleton" or config.recipe.filter_steps == 0,
+                config.model.has_filter or config.recipe.filter_steps == 0,
                 "recipe.filter_steps",
-                "0 for a network: only a skeleton has a filter",
+                "0 for a network, which has no filter",
             ),
             (config.model.network != "refinement" or config.recipe.shares_base, "recipe.shares_base", "true"),
             (config.model.hidden >= 8, "model.hidden", "at least 8"),

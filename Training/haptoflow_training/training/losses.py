@@ -26,13 +26,14 @@ _LOUD_PAST, _UNSTEADY_LOG_LEVEL = 4.0, 0.4
 class ScaledBatch:
     """A batch in unit scale, as the model encodes it.
 
-    segment and previous [B, *shape]; recorded_previous: [B, 1, 200], which `previous` is but for a chain of the
+    log_level [B, 1]: of the condition, without gradient. segment and previous [B, *shape]; recorded_previous: [B, 1, 200], which `previous` is but for a chain of the
     network's own output; phases [B, 6]; power [B]: mean square of the segment, at least 1; unsteadiness
     [B]: the largest deviation of the log level within the segment from that of the condition.
     """
 
     batch: SegmentBatch
     embedding: Tensor
+    log_level: Tensor
     segment: Tensor
     previous: Tensor
     recorded_previous: Tensor
@@ -110,6 +111,7 @@ class Losses(nn.Module):
         return ScaledBatch(
             batch=batch,
             embedding=embedding,
+            log_level=log_level,
             segment=segment,
             previous=model.encode(previous),
             recorded_previous=recorded_previous,

@@ -7,19 +7,15 @@ from torch import Tensor
 
 from haptoflow_training.models.label_embedding import surface_path
 from haptoflow_training.models.skeleton_model import SkeletonModel
-from haptoflow_training.models.surface_waves import FAMILIES, MINIMUM_HZ, advanced, with_path
+from haptoflow_training.models.surface_waves import FAMILIES, advanced, with_path
 from haptoflow_training.training.batches import SegmentBatch
+from haptoflow_training.training.filter_fitting import audible, weighted_mean, with_floor, without_waves
 from haptoflow_training.training.losses import Losses, ScaledBatch
 
 # Samples by which the second pass of the shift's loss is begun later: up to the hop of an update at 72 Hz.
 _MAXIMUM_SHIFT = 27
 _SHIFT_WEIGHT = 1.0
 _SMALL = 1e-6
-# Noise added to recordings before a filter is fitted, in unit scale: 45 dB below the level, where nothing is felt, a
-# filter has better uses for its poles.
-_FLOOR = 10.0 ** (-45.0 / 20.0)
-# A vibration of this RMS weighs half.
-_FAINT_MPS2 = 0.03
 
 
 class SkeletonLosses(Losses):
@@ -44,26 +40,18 @@ class SkeletonLosses(Losses):
     def _skeleton_loss(self, given: ScaledBatch, objective: str, generator: torch.Generator) -> Tensor:
         skeleton = self.model.skeleton
         condition = given.embedding, given.batch.motion, given.phases
-        segment = given.segment + _FLOOR * self._noise(given, generator)
+        segment, weight = with_floor(given.segment, generator), audible(given.log_level)
         if objective == "filter":
-            # Burg's method takes lines for resonances.
-            still = (given.phases[:, FAMILIES : 2 * FAMILIES].abs() <= MINIMUM_HZ).all(dim=1).to(segment.dtype)
-            return _mean(skeleton.filter_distance(segment, *condition), self._audible(given) * still)
+            still = without_waves(given.phases[:, FAMILIES : 2 * FAMILIES])
+            return weighted_mean(skeleton.filter_distance(segment, *condition), weight * still)
         gains = skeleton.gains(*condition)
-        likelihood = _mean(skeleton.likelihood(segment, gains, given.phases), self._audible(given))
+        likelihood = weighted_mean(skeleton.likelihood(segment, gains, given.phases), weight)
         if objective == "likelihood":
             return likelihood
         drawn = tuple(
             skeleton.parts(self._noise(given, generator), given.previous, gains, given.phases).begun for _ in range(2)
         )
         return likelihood + self.one_step_loss(given, (drawn[0], drawn[1]))
-
-    def _audible(self, given: ScaledBatch) -> Tensor:
-        """[B]: near 1 where the expected level can be felt, 0 at rest, where nothing is recorded. All other segments
-        weigh alike: weighting down unpredictable ones would bias a likelihood towards too little variance."""
-        with torch.no_grad():
-            power = self.model.level(given.embedding, given.batch.motion).squeeze(1).mul(2.0).exp()
-        return power / (power + _FAINT_MPS2**2)
 
     def _refinement_loss(self, given: ScaledBatch, generator: torch.Generator) -> Tensor:
         model = self.model
@@ -80,13 +68,9 @@ class SkeletonLosses(Losses):
             given.embedding, given.batch.motion, advanced(given.phases, later),
         )  # fmt: skip
         difference = again[:, 0, : again.shape[2] - later] - first[:, 0, later:]
-        shift = _mean((difference.square().mean(dim=1) + _SMALL).sqrt(), given.steadiness)
+        shift = weighted_mean((difference.square().mean(dim=1) + _SMALL).sqrt(), given.steadiness)
         return loss + _SHIFT_WEIGHT * shift
 
     @staticmethod
     def _noise(given: ScaledBatch, generator: torch.Generator) -> Tensor:
         return torch.randn(given.segment.shape, generator=generator)
-
-
-def _mean(values: Tensor, weight: Tensor) -> Tensor:
-    return (weight * values).sum() / (weight.sum() + _SMALL)
