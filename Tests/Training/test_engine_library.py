@@ -32,11 +32,12 @@ def test_the_engine_s_segments_equal_those_of_pytorch(engine: EngineLibrary) -> 
     model = ROOT / "Packages" / "com.haptoflow.runtime" / "Runtime" / "Models" / "default.haptoflow"
     for case in _golden_cases():
         with EngineGenerator(engine, model, str(case["tier"]), str(case["solver"]), int(str(case["steps"]))) as generator:
-            arrays = [
-                np.array([case[key], case[key]], dtype=np.float32)
-                for key in ("embedding", "motion", "previous", "noise", "rib_phase")
-            ]
-            made = generator.generate(*arrays)
+            embedding, motion, previous, noise = (
+                np.array([case[key], case[key]], dtype=np.float32) for key in ("embedding", "motion", "previous", "noise")
+            )
+            phases = np.zeros((2, 6), dtype=np.float32)
+            phases[:, :2] = case["rib_phase"]
+            made = generator.generate(embedding, motion, previous, noise, phases)
         tolerance = 1e-4 * float(np.exp(float(str(case["log_level"]))))
         np.testing.assert_allclose(made[0], np.array(case["segment"]), atol=tolerance)
         np.testing.assert_allclose(made[1], made[0], atol=1e-6)

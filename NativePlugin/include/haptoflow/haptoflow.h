@@ -496,8 +496,8 @@ typedef struct haptoflow_engine_options {
     uint32_t struct_size;
     /* Only the tier of this quality is loaded. HAPTOFLOW_QUALITY_AUTO loads every tier of the model. */
     haptoflow_quality quality;
-    /* Null where there is no ONNX Runtime: then only tiers of kind "skeleton" can be used, and HAPTOFLOW_QUALITY_AUTO uses
-     * the most accurate of those. */
+    /* Null where there is no ONNX Runtime: then only tiers of kind "skeleton" can be used, and HAPTOFLOW_QUALITY_AUTO
+     * uses the most accurate of those. */
     const haptoflow_runtime* runtime;
     const haptoflow_model* model;
     /* Contact states per second, 1 to 10000; 0 for 72. Determines the budget and how fast tiers are measured. */

@@ -137,8 +137,8 @@ protected:
             input<haptoflow_generator_options>("haptoflow_generator_options", "haptoflow_generator_create",
                                                offsetof(haptoflow_generator_options, steps), generatorOptions_,
                                                opening(haptoflow_generator_create, haptoflow_generator_close)),
-            input<haptoflow_batch>("haptoflow_batch", "haptoflow_generator_generate",
-                                   offsetof(haptoflow_batch, phases), batch_,
+            input<haptoflow_batch>("haptoflow_batch", "haptoflow_generator_generate", offsetof(haptoflow_batch, phases),
+                                   batch_,
                                    [this](const haptoflow_batch* batch) {
                                        return haptoflow_generator_generate(generator_, batch, segment_.data());
                                    }),

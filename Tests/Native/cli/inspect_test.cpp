@@ -55,7 +55,7 @@ private:
 TEST(InspectTest, ASkeletonItsTiersAndTheWavesOfLabelsAreShown) {
     const Finished run = inspect(HAPTOFLOW_TEST_GOLDEN_DIR "/model/skeleton.haptoflow");
     EXPECT_EQ(run.exitCode, 0) << run.output;
-    for (const char* part : {"skeleton", "9317 weights, 24 hidden units", "stick-slip mm", "1.1", "rib wander turns",
+    for (const char* part : {"skeleton", "9461 weights, 24 hidden units", "stick-slip mm", "1.1", "rib wander turns",
                              "0.12, 0", "sketch", "refine", "standard (default)"}) {
         EXPECT_THAT(run.output, HasSubstr(part));
     }
