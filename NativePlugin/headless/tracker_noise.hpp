@@ -8,9 +8,9 @@ namespace haptoflow::headless {
 
 /// How noisy a tracker's places are, from the places themselves.
 ///
-/// A hand moves smoothly over four measurements, so that their third difference is mostly noise. Sudden movements of
-/// the hand make it larger now and then; therefore the estimate follows a low quantile of it, by small steps (Robbins
-/// and Monro 1951).
+/// A hand moves smoothly over four measurements, so that their third difference is mostly noise. A sudden movement
+/// makes it larger for a moment. The estimate therefore follows a low quantile, which such moments hardly change, by
+/// small steps (Robbins and Monro 1951).
 class TrackerNoise {
 public:
     /// On each axis.

@@ -128,7 +128,8 @@ template <typename Table>
     return lastingTable<MaterialTable>("material");
 }
 
-/// The runtime of a handle; null for null. Throws std::invalid_argument for a handle that is not open.
+/// The runtime that a handle stands for, and null for a null handle. Throws std::invalid_argument for a handle that is
+/// not open.
 [[nodiscard]] std::shared_ptr<const inference::Runtime> runtimeOf(const haptoflow_runtime* runtime);
 
 /// The tier of this name, or the model's default tier if `name` is null. Throws std::invalid_argument for an unknown

@@ -37,7 +37,7 @@ public:
         }
         return pieces_[newest];
     }
-    /// True until a piece follows that of `begin`.
+    /// True while the stream has no piece but that of `begin`.
     [[nodiscard]] bool hasOnlyOne() const noexcept { return count_ == 1; }
 
 private:

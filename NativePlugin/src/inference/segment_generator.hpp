@@ -43,7 +43,7 @@ struct SegmentRequest {
     /// in [0, 1), then the signed rates in Hz. Graphs with the input `rib_phase` instead of `phases` read the first two
     /// numbers.
     skeleton::Phases phases{};
-    /// RMS in m/s^2 that replaces the model's; empty for the model's.
+    /// RMS in m/s^2 to use instead of the model's level; if empty, the model's level is used.
     std::optional<float> levelMps2{};
     /// The motion for the model's level where it differs from `motion`, and a gain on the model's level.
     std::optional<std::array<float, 3>> levelMotion{};

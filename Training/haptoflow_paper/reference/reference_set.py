@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from haptoflow_paper.reference.reference_conditions import Condition, conditions, is_on_other_label, motion_of
 from haptoflow_training import preprocessing
+from haptoflow_training.closed_loop.phase_track import phases_of
 from haptoflow_training.preprocessing.pipeline import PreparedRecording, preprocess_recording
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.recordings import synthetic
@@ -117,8 +118,7 @@ def known_phases(pair: ReferencePair, embedding: _Floats, samples: NDArray[np.in
     steps = np.diff(turns, axis=0, append=turns[-1:])
     advanced = np.concatenate([np.zeros((1, 3)), np.cumsum(steps - np.rint(steps), axis=0)])
     rates = (advanced[last] - advanced[samples]) * (SAMPLE_RATE_HZ / np.maximum(last - samples, 1))[:, None]
-    wrapped = np.mod(np.mod(turns[samples], 1.0).astype(np.float32), np.float32(1.0))
-    return np.concatenate([wrapped, rates.astype(np.float32)], axis=1)
+    return phases_of(turns[samples], rates)
 
 
 def _recorder_crc32() -> str:

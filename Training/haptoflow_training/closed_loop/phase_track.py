@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from haptoflow_training.models.label_embedding import WAVE_NUMBERS, WAVE_VECTORS
+from haptoflow_training.recordings.synthetic.features import LIGHTEST_SLIP_NEWTONS, SLIP_FORCE_EXPONENT
 from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 if TYPE_CHECKING:
@@ -23,8 +24,6 @@ if TYPE_CHECKING:
 _Doubles = NDArray[np.float64]
 _FAMILIES = WAVE_VECTORS + 1
 _SLIP = WAVE_VECTORS
-# The stretch before a slip grows with the force to this power; lighter forces count as the lightest.
-SLIP_FORCE_EXPONENT, LIGHTEST_SLIP_NEWTONS = 0.4, 0.05
 # A field is a sum of plane waves, whose wavelengths lie within half an octave of the field's.
 _WAVES, _OCTAVES = 12, 0.5
 
@@ -60,6 +59,13 @@ class SurfaceStatistics:
                 slips[row] = 1e-3 / slip["length_metres"]
                 wander[row, _SLIP], wavelengths[row, _SLIP] = slip["wander"], 1e3 * slip["wander_metres"]
         return cls(slips, wander, wavelengths)
+
+
+def phases_of(turns: _Doubles, rates_hz: _Doubles) -> NDArray[np.float32]:
+    """Turns and rates [n, 3] as phases [n, 6]."""
+    # Rounding could lift a phase just below one turn to 1.
+    wrapped = np.mod(np.mod(turns, 1.0).astype(np.float32), np.float32(1.0))
+    return np.concatenate([wrapped, rates_hz.astype(np.float32)], axis=1)
 
 
 class PhaseTrack:
@@ -99,9 +105,7 @@ class PhaseTrack:
         turns, rates = self._turns.copy(), self._rates.copy()
         turns[:, :_SLIP] += (wander * field)[:, :_SLIP]
         rates[:, :_SLIP] += (wander * along)[:, :_SLIP]
-        # Rounding could lift a phase just below one turn to 1.
-        wrapped = np.mod(np.mod(turns, 1.0).astype(np.float32), np.float32(1.0))
-        return np.concatenate([wrapped, rates.astype(np.float32)], axis=1)
+        return phases_of(turns, rates)
 
     def _field(self, wavelengths_mm: _Doubles, velocity_mmps: _Doubles) -> tuple[_Doubles, _Doubles]:
         """The smooth fields of RMS 1, [rows, 3], and their change per second along the path."""

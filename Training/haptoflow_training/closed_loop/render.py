@@ -69,8 +69,8 @@ def run_closed_loop(
     seed: int,
     advance: Callable[[int], None] = lambda count: None,
 ) -> ClosedLoopRun:
-    """Render `motions` [n, samples, 3] from silence for `embeddings` [labels, 64] and label indices [n], or [n, hops]
-    where labels change.
+    """Renders n waveforms from silence, one for each of `motions` [n, samples, 3]. labels: for each an index into
+    `embeddings` [labels, 64], [n]; or [n, hops] where a waveform changes its label.
 
     The condition of each segment is the mean motion of the hop before it, because a tracker knows no more. The phases
     are integrated from the same motions, as in the engine; statistics: of the surfaces, by label.

@@ -228,9 +228,9 @@ def _spread_section(rows: list[Row]) -> list[str]:
             f"| {spread.place_db:.2f} | {spread.mean_db:+.2f} |\n"
         )
     lines.append(
-        "\nThe phases that do not follow from the place are exact in every recording: by how much ribs and threads lie "
-        "beside even ones, and where stick and slip are in their cycle. Recordings can be made without the accelerometer's "
-        "noise, so that a model does not learn the noise as part of every material.\n"
+        "\nEvery recording also states two things that its positions do not tell: how far ribs and threads are displaced "
+        "from an even spacing, and where the tip is in its cycle of sticking and slipping. Recordings can be made without "
+        "the accelerometer's noise; a model would learn the noise as part of every material.\n"
     )
     return lines
 

@@ -126,14 +126,18 @@ class Losses(nn.Module):
 
     def field_loss(self, given: ScaledBatch, objective: str, generator: torch.Generator) -> Tensor:
         """The network's loss by one objective, a scalar."""
-        segment = given.segment
         if objective == "flow":
-            return flow_matching_loss(self._field(given.condition), segment, generator, 1.0 / given.power)
-        # Both draws in one pass: few large matrix products are faster than many small ones.
-        noise = torch.randn(2 * len(segment), *segment.shape[1:], generator=generator)
+            return flow_matching_loss(self._field(given.condition), given.segment, generator, 1.0 / given.power)
+        _, first, second = self.two_draws(given, generator)
+        return self.one_step_loss(given, (first, second))
+
+    def two_draws(self, given: ScaledBatch, generator: torch.Generator) -> tuple[Tensor, Tensor, Tensor]:
+        """The noise of the first of two independent segments of one step, and both segments."""
+        # Both in one pass: few large matrix products are faster than many small ones.
+        noise = torch.randn(2 * len(given.segment), *given.segment.shape[1:], generator=generator)
         condition = [torch.cat([part, part]) for part in given.condition]
         first, second = self.model.one_step(noise, *condition).chunk(2)
-        return self.one_step_loss(given, (first, second))
+        return noise[: len(first)], first, second
 
     def one_step_loss(self, given: ScaledBatch, drawn: tuple[Tensor, Tensor]) -> Tensor:
         """The energy loss of a recording and two draws, [B, 1, 200] each, in unit scale."""

@@ -55,11 +55,7 @@ class SkeletonLosses(Losses):
 
     def _refinement_loss(self, given: ScaledBatch, generator: torch.Generator) -> Tensor:
         model = self.model
-        noise = self._noise(given, generator)
-        # Both draws in one pass: few large matrix products are faster than many small ones.
-        both = torch.cat([noise, self._noise(given, generator)])
-        condition = [torch.cat([part, part]) for part in given.condition]
-        first, second = model.one_step(both, *condition).chunk(2)
+        noise, first, second = self.two_draws(given, generator)
         loss = self.one_step_loss(given, (first, second))
         later = int(torch.randint(1, _MAXIMUM_SHIFT + 1, (1,), generator=generator))
         again = model.one_step(

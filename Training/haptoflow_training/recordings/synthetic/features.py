@@ -20,7 +20,7 @@ _SLIP_HARMONICS = 6
 JITTER_WAVELENGTHS = 7.0
 # The stretch before a slip varies by this (SD of its logarithm) over this distance, and grows as force^this.
 SLIP_WANDER, SLIP_WANDER_MM = 0.25, 4.0
-_SLIP_FORCE_EXPONENT, _LIGHTEST_SLIP_NEWTONS = 0.4, 0.05
+SLIP_FORCE_EXPONENT, LIGHTEST_SLIP_NEWTONS = 0.4, 0.05
 
 
 def rib_wander_turns(
@@ -132,7 +132,7 @@ def slips_of(
     if material.stick_slip_strength <= 0.0:
         return None
     wander = RandomField(material.surface_seed, specimen, _SLIP_WANDER, SLIP_WANDER_MM).at(path.position_mm)
-    pressed = np.maximum(force_newtons, _LIGHTEST_SLIP_NEWTONS) ** _SLIP_FORCE_EXPONENT
+    pressed = np.maximum(force_newtons, LIGHTEST_SLIP_NEWTONS) ** SLIP_FORCE_EXPONENT
     length_mm = material.stick_slip_length_mm * np.exp(SLIP_WANDER * wander) * pressed
     rate = np.hypot(*path.velocity_mmps.T) / length_mm
     return Slips(rate, np.cumsum(rate) / rate_hz)

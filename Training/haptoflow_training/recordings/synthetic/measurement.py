@@ -170,7 +170,7 @@ def recorded_waveforms(
     seed: int,
     repeats: int,
 ) -> list[NDArray[np.float64]]:
-    """Prepared recordings [n] of one condition, direction by direction within each repeat."""
+    """The prepared waveforms of one condition: in each repeat, one for each direction."""
     waveforms = []
     for repeat in range(repeats):
         for number, degrees in enumerate(design.directions_degrees):

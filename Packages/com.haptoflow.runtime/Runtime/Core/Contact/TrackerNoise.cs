@@ -5,9 +5,9 @@ using HaptoFlow.Numerics;
 namespace HaptoFlow.Contact
 {
     /// <summary>How noisy a tracker's places are, from the places themselves.</summary>
-    /// <remarks>A hand moves smoothly over four measurements, so that their third difference is mostly noise. Sudden
-    /// movements of the hand make it larger now and then; therefore the estimate follows a low quantile of it, by small
-    /// steps (Robbins and Monro 1951).</remarks>
+    /// <remarks>A hand moves smoothly over four measurements, so that their third difference is mostly noise. A sudden
+    /// movement makes it larger for a moment. The estimate therefore follows a low quantile, which such moments hardly
+    /// change, by small steps (Robbins and Monro 1951).</remarks>
     internal sealed class TrackerNoise
     {
         private const int Needed = 4;
