@@ -2,8 +2,8 @@
 
 #include "bench/bench_plan.hpp"
 #include "inference/gaussian_noise.hpp"
-#include "inference/rib_rates.hpp"
 #include "inference/tier_graphs.hpp"
+#include "skeleton/rib_rates.hpp"
 
 #include <algorithm>
 #include <random>
@@ -91,7 +91,7 @@ RandomRequests::RandomRequests(const model::ModelFile& model, std::size_t count,
             .previous = Wave(waves, inference::segmentSamples),
             .noise = Wave(waves + inference::segmentSamples, inference::segmentSamples)};
         std::ranges::copy(model.embedding(label(generator)), request.embedding.begin());
-        request.phases = inference::phasesOf(request.embedding, request.motion, {});
+        request.phases = skeleton::phasesOf(request.embedding, request.motion, {});
         requests_.push_back(request);
     }
 }

@@ -6,6 +6,7 @@ import math
 
 import pytest
 import torch
+from torch import Tensor
 
 from haptoflow_training.models.band_limit import BandLimit
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE, MotionFeatures
@@ -122,7 +123,31 @@ def test_the_level_model_learns_a_power_law_of_speed_and_force() -> None:
     motion = torch.tensor([[0.05, 0.0, 1.0], [0.3, 0.0, 0.5], [0.5, 0.0, 2.5]])
     expected = torch.log(2.0 * motion[:, 0] * motion[:, 2] ** 0.3)
     error_decibels = 8.686 * (model(embedding.expand(3, -1), motion)[:, 0] - expected).abs()
-    assert error_decibels.max() < 0.7
+    assert error_decibels.max() < 0.7, error_decibels
+
+
+def test_the_level_of_a_mesh_is_known_in_a_direction_that_was_left_out() -> None:
+    torch.manual_seed(0)
+    model = LevelModel()
+    embedding = torch.randn(1, EMBEDDING_SIZE)
+    embedding[0, -4:] = torch.tensor([0.7, 0.0, 0.0, 0.7])
+
+    def log_level(motion: Tensor) -> Tensor:
+        """Threads that sound louder the faster the second family is crossed."""
+        return 0.8 * torch.log(0.01 + motion[:, 0:1].abs() + 3.0 * motion[:, 1:2].abs())
+
+    optimiser = torch.optim.Adam(model.parameters(), lr=3e-3)
+    for _ in range(600):
+        angle = math.radians(45.0) * torch.randint(6, 13, (96,))
+        speed = 0.02 * 30.0 ** torch.rand(96)
+        motion = torch.stack([speed * angle.cos(), speed * angle.sin(), torch.ones(96)], dim=1)
+        loss = level_loss(model(embedding.expand(96, -1), motion), (2.0 * log_level(motion)).exp())
+        optimiser.zero_grad()
+        loss.backward()
+        optimiser.step()
+    left_out = torch.tensor([[-0.05, -0.05, 1.0], [-0.2, -0.2, 1.0]])
+    error_decibels = 8.686 * (model(embedding.expand(2, -1), left_out) - log_level(left_out)).abs()
+    assert error_decibels.max() < 0.7, error_decibels
 
 
 def test_unit_scale_divides_by_the_level() -> None:

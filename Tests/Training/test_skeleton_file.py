@@ -105,7 +105,7 @@ def test_tensors_have_the_shapes_of_the_format(file: ModelFile) -> None:
     hidden, films = file.header["skeleton"]["hidden"], file.tensors["standard.condition.4.bias"].size
     shapes = {name: values.shape for name, values in file.tensors.items()}
     assert shapes["level.law.weight"] == (3, 64) and shapes["level.law.bias"] == (3,)
-    assert shapes["level.correction.0.weight"][1] == 64 + 12 and shapes["level.correction.4.weight"][0] == 1
+    assert shapes["level.correction.0.weight"][1] == 64 + 12 + 2 and shapes["level.correction.4.weight"][0] == 1
     assert shapes["skeleton.0.weight"] == (hidden, 64 + 18 + 6) and shapes["skeleton.4.weight"] == (269, hidden)
     assert shapes["standard.condition.0.weight"] == (128, 64 + 18 + 6)
     assert shapes["standard.condition.4.weight"] == (films, 128)
@@ -120,7 +120,8 @@ def test_the_tensors_alone_give_level_filter_and_the_film_with_its_factors(
         velocity, force = np.array(case["motion"][:2]), case["motion"][2]
         logarithms = np.log([(np.hypot(*velocity) + 0.0005) / 0.06, max(force, 0.0) + 0.02])
         law = file.tensors["level.law.weight"] @ embedding + file.tensors["level.law.bias"]
-        correction = _perceptron(file, "level.correction", _condition(case, SMOOTH))[0]
+        crossing = 0.25 * np.log1p(1000.0 * np.abs(embedding[-4:].reshape(2, 2) @ velocity))
+        correction = _perceptron(file, "level.correction", np.concatenate([_condition(case, SMOOTH), crossing]))[0]
         level = law[0] + law[1:] @ logarithms + 0.9 * np.tanh(correction)
         assert level == pytest.approx(case["log_level"][0], abs=1e-4)
 

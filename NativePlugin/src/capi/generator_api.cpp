@@ -1,6 +1,6 @@
 #include "capi/handles.hpp"
-#include "inference/rib_rates.hpp"
 #include "inference/tier_graphs.hpp"
+#include "skeleton/rib_rates.hpp"
 
 #include <algorithm>
 #include <array>
@@ -83,7 +83,7 @@ std::vector<inference::SegmentRequest> requestsOf(const haptoflow_batch* batch, 
                     request.embedding.begin());
         std::copy_n(given.motions + index * motionSize, motionSize, request.motion.begin());
         if (withWaveforms) {
-            request.phases = inference::phasesOf(request.embedding, request.motion, {});
+            request.phases = skeleton::phasesOf(request.embedding, request.motion, {});
             if (given.phases != nullptr) {
                 std::copy_n(given.phases + index * request.phases.size(), request.phases.size(),
                             request.phases.begin());

@@ -1,7 +1,7 @@
 #include "engine/blend_balance.hpp"
 
 #include "inference/gaussian_noise.hpp"
-#include "inference/rib_rates.hpp"
+#include "skeleton/rib_rates.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -81,7 +81,7 @@ void BlendBalance::request(std::vector<inference::SegmentRequest>& requests) {
         inference::fillStandardNormal(key, shadow.noise);
         inference::SegmentRequest request{
             .embedding = shadow.part.embedding, .motion = motion_, .previous = shadow.previous, .noise = shadow.noise};
-        request.phases = inference::phasesOf(request.embedding, motion_, toNetwork(shadow.phase));
+        request.phases = skeleton::phasesOf(request.embedding, motion_, toNetwork(shadow.phase));
         request.levelMps2 = 1.0F;
         requests.push_back(request);
         ++requested_;

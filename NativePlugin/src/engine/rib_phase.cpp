@@ -1,6 +1,6 @@
 #include "engine/rib_phase.hpp"
 
-#include "inference/rib_rates.hpp"
+#include "skeleton/rib_rates.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -74,7 +74,7 @@ RibTurns phasesFor(const WaveVectors& vectors, const WaveVectors& from, const Ri
 
 RibTurns ribTurnsPerSample(std::span<const float, inference::embeddingSize> embedding, double vxMps,
                            double vyMps) noexcept {
-    RibTurns turns = inference::ribRatesHz(embedding, vxMps, vyMps);
+    RibTurns turns = skeleton::ribRatesHz(embedding, vxMps, vyMps);
     std::ranges::for_each(turns, [](double& each) { each /= inference::waveformRateHz; });
     return turns;
 }

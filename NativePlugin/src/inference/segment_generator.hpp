@@ -16,9 +16,7 @@ using dsp::segmentSamples;
 using dsp::waveformRateHz;
 using model::embeddingSize;
 using model::SolverKind;
-/// Number of wave vectors in an embedding. Their x and y components, in cycles per millimetre, are the embedding's last
-/// 2 * ribCount numbers; they are zero for a material without ribs.
-inline constexpr std::size_t ribCount = 2;
+using skeleton::ribCount;
 /// Largest magnitude of the natural logarithm of a level in m/s^2. A quieter level cannot be felt, a louder one exceeds
 /// every limiter.
 inline constexpr double maximumLogLevel = 20.0;

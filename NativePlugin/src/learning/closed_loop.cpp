@@ -1,7 +1,7 @@
 #include "learning/closed_loop.hpp"
 
 #include "inference/gaussian_noise.hpp"
-#include "inference/rib_rates.hpp"
+#include "skeleton/rib_rates.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -93,7 +93,7 @@ std::vector<float> ClosedLoop::run(std::span<const Embedding> embeddings, std::s
                 const auto phase = static_cast<float>(each);
                 return phase < 1.0F ? phase : 0.0F;
             });
-            requests[c].phases = inference::phasesOf(requests[c].embedding, requests[c].motion, turns);
+            requests[c].phases = skeleton::phasesOf(requests[c].embedding, requests[c].motion, turns);
             inference::fillStandardNormal(
                 {.seed = settings.seed, .voice = chains[c].noise, .segment = settings.round * 4096 + hop},
                 at(noise, c));
@@ -112,8 +112,8 @@ std::vector<float> ClosedLoop::run(std::span<const Embedding> embeddings, std::s
                 splice(running, successor);
             }
             const auto& motion = requests[c].motion;
-            const auto ratesHz = inference::ribRatesHz(requests[c].embedding, static_cast<double>(motion[0]),
-                                                       static_cast<double>(motion[1]));
+            const auto ratesHz = skeleton::ribRatesHz(requests[c].embedding, static_cast<double>(motion[0]),
+                                                      static_cast<double>(motion[1]));
             for (std::size_t rib = 0; rib < ratesHz.size(); ++rib) {
                 const double phase = phases[c][rib] + ratesHz[rib] / inference::waveformRateHz *
                                                           static_cast<double>(settings.hopSamples);

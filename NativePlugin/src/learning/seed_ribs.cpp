@@ -1,7 +1,7 @@
 #include "learning/seed_ribs.hpp"
 
 #include "inference/gaussian_noise.hpp"
-#include "inference/rib_rates.hpp"
+#include "skeleton/rib_rates.hpp"
 
 #include <algorithm>
 #include <array>
@@ -69,7 +69,7 @@ private:
             std::array<float, inference::ribCount> turns{};
             std::ranges::transform(known, turns.begin(), asPhase);
             turns[rib] = static_cast<float>(tried(k / draws));
-            request.phases = inference::phasesOf(request.embedding, request.motion, turns);
+            request.phases = skeleton::phasesOf(request.embedding, request.motion, turns);
             requests.push_back(request);
         }
         std::vector<float> made(requests.size() * half);

@@ -13,6 +13,10 @@ constexpr double turningHz = 20.0;
 
 }  // namespace
 
+float rateSize(double rateHz) noexcept {
+    return static_cast<float>(0.25 * std::log1p(std::fabs(rateHz)));
+}
+
 Condition conditionOf(std::span<const float, embeddingSize> embedding, const Motion& motion,
                       const Phases& phases) noexcept {
     Condition condition{};
@@ -22,7 +26,7 @@ Condition conditionOf(std::span<const float, embeddingSize> embedding, const Mot
     const auto rates = std::span(condition).last<rateFeatures>();
     for (std::size_t family = 0; family < familyCount; ++family) {
         const auto rateHz = static_cast<double>(finiteOrZero(phases[familyCount + family]));
-        rates[family] = static_cast<float>(0.25 * std::log1p(std::fabs(rateHz)));
+        rates[family] = rateSize(rateHz);
         rates[familyCount + family] = static_cast<float>(rateHz / (std::fabs(rateHz) + turningHz));
     }
     return condition;

@@ -17,6 +17,9 @@ inline constexpr std::size_t rateFeatures = 2 * familyCount;
 /// those of the rates.
 using Condition = std::array<float, embeddingSize + fineFeatures + rateFeatures>;
 
+/// How the size of a rate in Hz enters a perceptron: 0.25 ln(1 + |rate|).
+[[nodiscard]] float rateSize(double rateHz) noexcept;
+
 /// Of `phases` only the rates count. Numbers that are not finite count as 0. No allocation.
 [[nodiscard]] Condition conditionOf(std::span<const float, embeddingSize> embedding, const Motion& motion,
                                     const Phases& phases) noexcept;

@@ -1,5 +1,8 @@
 #include "skeleton/level_model.hpp"
 
+#include "skeleton/condition.hpp"
+#include "skeleton/rib_rates.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,9 +22,11 @@ float LevelModel::logLevel(std::span<const float, model::embeddingSize> embeddin
                            const Motion& motion) const noexcept {
     std::array<float, 3> law{};
     law_.apply(embedding, law);
-    std::array<float, model::embeddingSize + smoothFeatures> given{};
-    std::ranges::copy(embedding, given.begin());
-    std::ranges::copy(smoothFeaturesOf(motion), given.begin() + model::embeddingSize);
+    std::array<float, correctionInputs> given{};
+    auto next = std::ranges::copy(embedding, given.begin()).out;
+    next = std::ranges::copy(smoothFeaturesOf(motion), next).out;
+    const auto ratesHz = ribRatesHz(embedding, static_cast<double>(motion[0]), static_cast<double>(motion[1]));
+    std::ranges::transform(ratesHz, next, rateSize);
     std::array<float, 1> correction{};
     correction_.run(given, correction);
     const LogMotion logarithms = logMotionOf(motion);

@@ -17,8 +17,11 @@ inline constexpr std::size_t filterOrder = model::SkeletonHeader::order;
 inline constexpr std::size_t lineHarmonics = model::SkeletonHeader::harmonics;
 inline constexpr std::size_t swingHarmonics = model::SkeletonHeader::swingHarmonics;
 inline constexpr std::size_t rungCount = model::SkeletonHeader::rungs.size();
+/// Number of wave vectors in an embedding. Their x and y components, in cycles per millimetre, are the embedding's last
+/// 2 * ribCount numbers; they are zero for a material without ribs.
+inline constexpr std::size_t ribCount = 2;
 /// Families of waves that the surface's place drives: two of ribs and stick-slip.
-inline constexpr std::size_t familyCount = 3;
+inline constexpr std::size_t familyCount = ribCount + 1;
 /// Kernels that a rung's impulses are made of.
 inline constexpr std::size_t atomCount = 13;
 

@@ -106,7 +106,7 @@ private:
 std::shared_ptr<const LevelModel> readLevelModel(const model::ModelFile& model) {
     return std::make_shared<const LevelModel>(
         readLayer(model, "level.law", 3, embeddingSize),
-        readPerceptron(model, "level.correction", embeddingSize + smoothFeatures, 1));
+        readPerceptron(model, "level.correction", LevelModel::correctionInputs, 1));
 }
 
 std::shared_ptr<const Skeleton> readSkeleton(const model::ModelFile& model) {

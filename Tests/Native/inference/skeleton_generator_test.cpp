@@ -1,9 +1,9 @@
 #include "inference/skeleton_generator.hpp"
 #include "inference/refined_generator.hpp"
-#include "inference/rib_rates.hpp"
 #include "inference/tier_graphs.hpp"
 #include "model/model_error.hpp"
 #include "rebuilt_model.hpp"
+#include "skeleton/rib_rates.hpp"
 #include "tiny_model.hpp"
 
 #include <gmock/gmock.h>
@@ -261,7 +261,7 @@ TEST(RibRatesTest, RatesAreWaveVectorTimesVelocityWithTheirSign) {
     embedding[60] = 0.5F;
     embedding[61] = -0.25F;
     embedding[63] = 2.0F;
-    const auto found = phasesOf(embedding, {0.1F, 0.2F, 1.0F}, {0.25F, 0.75F});
+    const auto found = skeleton::phasesOf(embedding, {0.1F, 0.2F, 1.0F}, {0.25F, 0.75F});
     EXPECT_EQ(found[0], 0.25F);
     EXPECT_EQ(found[1], 0.75F);
     EXPECT_EQ(found[2], 0.0F);
@@ -269,7 +269,7 @@ TEST(RibRatesTest, RatesAreWaveVectorTimesVelocityWithTheirSign) {
     EXPECT_NEAR(found[3], 0.0, 1e-4);
     EXPECT_NEAR(found[4], 400.0, 1e-3);
     EXPECT_EQ(found[5], 0.0F);
-    EXPECT_NEAR(phasesOf(embedding, {-0.1F, 0.0F, 1.0F}, {})[3], -50.0, 1e-4);
+    EXPECT_NEAR(skeleton::phasesOf(embedding, {-0.1F, 0.0F, 1.0F}, {})[3], -50.0, 1e-4);
 }
 
 }  // namespace

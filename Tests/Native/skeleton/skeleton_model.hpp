@@ -58,7 +58,7 @@ inline model::testing::ModelBuilder skeletonModel(const ModelStyle& style = {}) 
     };
     add("level.law.weight", {3, 64}, 0.02F);
     add("level.law.bias", {3}, 0.3F);
-    addPerceptron("level.correction", 76, 1);
+    addPerceptron("level.correction", 78, 1);
     addPerceptron("skeleton", 88, 269);
     return builder;
 }

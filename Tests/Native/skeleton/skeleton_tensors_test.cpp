@@ -60,7 +60,7 @@ TEST(SkeletonTensorsTest, MoreHiddenUnitsThanTheBuffersHoldAreRefused) {
     for (const std::string part : {"weight", "bias"}) {
         auto& blob = blobOf(builder, "level.correction.0." + part);
         blob.shape[0] = 513;
-        blob.bytes.resize(513 * (part == "weight" ? 76 : 1) * sizeof(float));
+        blob.bytes.resize(513 * (part == "weight" ? LevelModel::correctionInputs : 1) * sizeof(float));
     }
     EXPECT_THAT(refusalOf(builder), HasSubstr("blob \"level.correction.0.weight\" has 513 rows; expected at most 512"));
     EXPECT_EQ(refusalOf(skeletonModel({.hidden = 512})), "it was accepted");

@@ -131,12 +131,30 @@ TEST(LevelModelTest, TheLawIsLinearInTheLogarithmsAndTheCorrectionIsLimited) {
     law[0] = 2.0F;
     const std::array<float, 3> bias{0.5F, 0.75F, 0.25F};
     std::vector<float> one{1e6F};
-    const Perceptron correction({{zeros(76), std::array<float, 1>{10.0F}}, {std::array<float, 1>{1.0F}, zeros(1)}},
-                                {one, zeros(1)});
+    const Perceptron correction(
+        {{zeros(LevelModel::correctionInputs), std::array<float, 1>{10.0F}}, {std::array<float, 1>{1.0F}, zeros(1)}},
+        {one, zeros(1)});
     const LevelModel level({law, bias}, correction);
     const std::array<float, embeddingSize> embedding{0.5F};
     const double expected = 1.0 + 0.5 + 0.75 * std::log(0.0605 / 0.06) + 0.25 * std::log(2.02) + 0.9;
     EXPECT_NEAR(level.logLevel(embedding, {0.0F, 0.06F, 2.0F}), expected, 1e-6);
+}
+
+TEST(LevelModelTest, TheCorrectionSeesHowFastTheTipCrossesRibs) {
+    const auto zeros = [](std::size_t count) { return std::vector<float>(count); };
+    // SiLU(20 + x) - 20 = x: the hidden units hand on the rate of the second family.
+    std::vector<float> first = zeros(LevelModel::correctionInputs);
+    first.back() = 1.0F;
+    const std::vector<float> one{1.0F};
+    const Perceptron correction({{first, std::array<float, 1>{20.0F}}, {one, zeros(1)}},
+                                {one, std::array<float, 1>{-20.0F}});
+    const LevelModel level({zeros(3 * embeddingSize), zeros(3)}, correction);
+    std::array<float, embeddingSize> embedding{};
+    embedding[embeddingSize - 1] = 0.5F;
+    const auto expected = [](double rateHz) { return 0.9 * std::tanh(0.25 * std::log1p(rateHz)); };
+    EXPECT_NEAR(level.logLevel(embedding, {0.3F, -0.1F, 1.0F}), expected(50.0), 1e-5);
+    EXPECT_NEAR(level.logLevel(embedding, {0.3F, 0.0F, 1.0F}), 0.0, 1e-5);
+    EXPECT_NEAR(level.logLevel(std::array<float, embeddingSize>{}, {0.3F, 0.1F, 1.0F}), 0.0, 1e-5);
 }
 
 }  // namespace

@@ -15,6 +15,8 @@ from haptoflow_training.models.conditioning import (
     MotionFeatures,
     speed_and_force,
 )
+from haptoflow_training.models.label_embedding import WAVE_VECTORS, rib_frequencies_hz
+from haptoflow_training.models.surface_waves import rate_sizes
 
 _CORRECTION_LIMIT = 0.9
 # Vibration below 0.01 m/s^2 cannot be felt. Without a floor, digital silence at rest would pull the law towards minus
@@ -29,7 +31,8 @@ class LevelModel(nn.Module):
     """log level [B, 1] (natural log of the RMS in m/s^2) from embedding [B, 64] and motion [B, 3].
 
     A power law of speed and force for each material, RMS = k v^p F^q (as measured on the published textures), plus a
-    bounded learnt correction. The law's three coefficients are linear in the embedding, so labels can be blended.
+    bounded learnt correction. The law's three coefficients are linear in the embedding, so labels can be blended. The
+    correction also knows how fast the tip crosses ribs: along a mesh's thread or aslant, the same speed sounds otherwise.
     """
 
     def __init__(self, hidden: int = 96) -> None:
@@ -37,7 +40,7 @@ class LevelModel(nn.Module):
         self.power_law = nn.Linear(EMBEDDING_SIZE, 3)
         self.features = MotionFeatures(SMOOTH_LOG_SPEED_HARMONICS)
         self.correction = nn.Sequential(
-            nn.Linear(EMBEDDING_SIZE + self.features.size, hidden),
+            nn.Linear(EMBEDDING_SIZE + self.features.size + WAVE_VECTORS, hidden),
             nn.SiLU(),
             nn.Linear(hidden, hidden),
             nn.SiLU(),
@@ -48,7 +51,8 @@ class LevelModel(nn.Module):
 
     def forward(self, embedding: Tensor, motion: Tensor) -> Tensor:
         law = self.power_law(embedding)
-        correction = self.correction(torch.cat([embedding, self.features(motion)], dim=1))
+        crossing = rate_sizes(rib_frequencies_hz(embedding, motion).squeeze(2))
+        correction = self.correction(torch.cat([embedding, self.features(motion), crossing], dim=1))
         return (
             law[:, 0:1]
             + (law[:, 1:3] * self.features.logarithms(speed_and_force(motion))).sum(dim=1, keepdim=True)

@@ -70,7 +70,12 @@ def rate_features(phases: Tensor) -> Tensor:
     """[B, 6]: of each family's rate the size on a logarithmic scale, and the direction, which turns smoothly through
     rest. What a surface's waves sound like depends on their rates, not on the speed alone."""
     rates = phases[:, FAMILIES : 2 * FAMILIES].detach()
-    return torch.cat([0.25 * torch.log1p(rates.abs()), rates / (rates.abs() + _TURNING_HZ)], dim=1)
+    return torch.cat([rate_sizes(rates), rates / (rates.abs() + _TURNING_HZ)], dim=1)
+
+
+def rate_sizes(rates_hz: Tensor) -> Tensor:
+    """The sizes of rates on a logarithmic scale, about 0 to 2."""
+    return 0.25 * torch.log1p(rates_hz.abs())
 
 
 def path_of(phases: Tensor) -> Tensor:

@@ -1,8 +1,8 @@
-#include "inference/rib_rates.hpp"
+#include "skeleton/rib_rates.hpp"
 
 #include <algorithm>
 
-namespace haptoflow::inference {
+namespace haptoflow::skeleton {
 namespace {
 
 constexpr double millimetresPerMetre = 1000.0;
@@ -21,14 +21,13 @@ std::array<double, ribCount> ribRatesHz(std::span<const float, embeddingSize> em
     return rates;
 }
 
-skeleton::Phases phasesOf(std::span<const float, embeddingSize> embedding, const std::array<float, 3>& motion,
-                          const std::array<float, ribCount>& turns) noexcept {
-    skeleton::Phases phases{};
+Phases phasesOf(std::span<const float, embeddingSize> embedding, const Motion& motion,
+                const std::array<float, ribCount>& turns) noexcept {
+    Phases phases{};
     std::ranges::copy(turns, phases.begin());
     std::ranges::transform(ribRatesHz(embedding, static_cast<double>(motion[0]), static_cast<double>(motion[1])),
-                           phases.begin() + skeleton::familyCount,
-                           [](double rateHz) { return static_cast<float>(rateHz); });
+                           phases.begin() + familyCount, [](double rateHz) { return static_cast<float>(rateHz); });
     return phases;
 }
 
-}  // namespace haptoflow::inference
+}  // namespace haptoflow::skeleton

@@ -1,11 +1,12 @@
 #pragma once
 
-#include "inference/segment_generator.hpp"
+#include "skeleton/motion_features.hpp"
+#include "skeleton/skeleton_layout.hpp"
 
 #include <array>
 #include <span>
 
-namespace haptoflow::inference {
+namespace haptoflow::skeleton {
 
 /// Signed rates in Hz at which a tip crosses the ribs of an embedding, one for each wave vector: k . v.
 [[nodiscard]] std::array<double, ribCount> ribRatesHz(std::span<const float, embeddingSize> embedding, double vxMps,
@@ -13,8 +14,7 @@ namespace haptoflow::inference {
 
 /// Phases of a request: the turns of the two families of ribs, and the rates of the embedding at the motion. The third
 /// family stands still.
-[[nodiscard]] skeleton::Phases phasesOf(std::span<const float, embeddingSize> embedding,
-                                        const std::array<float, 3>& motion,
-                                        const std::array<float, ribCount>& turns) noexcept;
+[[nodiscard]] Phases phasesOf(std::span<const float, embeddingSize> embedding, const Motion& motion,
+                              const std::array<float, ribCount>& turns) noexcept;
 
-}  // namespace haptoflow::inference
+}  // namespace haptoflow::skeleton
