@@ -112,7 +112,8 @@ haptoflow_status haptoflow_engine_create(const haptoflow_engine_options* options
         if (batch > HAPTOFLOW_MAXIMUM_VOICES) {
             throw std::invalid_argument("options: batch_voices is " + std::to_string(batch) + "; expected 1 to 64");
         }
-        const auto settings = engineSettings(given, header);
+        auto settings = engineSettings(given, header);
+        settings.native = open->native;
         const inference::LoadLimits limits = loadLimits(given.cancellation, given.probe_limit_ms);
         TierLoader loader{runtime, open, batch};
         engine::EngineTiers tiers(header.tiers.size());

@@ -114,15 +114,16 @@ float BlendBalance::gain() const noexcept {
         std::exp(std::clamp(0.5 * (target - blend_.logarithm()), -maximumLogGain, maximumLogGain)));
 }
 
-void BlendBalance::level(std::span<float, inference::segmentSamples> segmentMps2, float levelMps2) noexcept {
+float BlendBalance::level(std::span<float, inference::segmentSamples> segmentMps2, float levelMps2) noexcept {
     if (count_ == 0 || !(levelMps2 > 0.0F)) {
-        return;
+        return 1.0F;
     }
     const double power = meanSquare(segmentMps2) / (static_cast<double>(levelMps2) * static_cast<double>(levelMps2));
     blend_.add(power, secondsOf(std::clamp<std::int64_t>(sample_ - lastLevelled_, 0, stepSamples)));
     lastLevelled_ = sample_;
     const float factor = gain();
     std::ranges::for_each(segmentMps2, [factor](float& sample) { sample *= factor; });
+    return factor;
 }
 
 }  // namespace haptoflow::engine

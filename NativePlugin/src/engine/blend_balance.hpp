@@ -46,8 +46,9 @@ public:
     [[nodiscard]] std::size_t requested() const noexcept { return requested_; }
     /// Takes the requested segments, one after the other.
     void take(std::span<const float> segments) noexcept;
-    /// Measures a segment of the blend that was generated for `levelMps2` and applies the gain to it.
-    void level(std::span<float, inference::segmentSamples> segmentMps2, float levelMps2) noexcept;
+    /// Measures a segment of the blend that was generated for `levelMps2` and applies the gain to it. Returns the gain; 1
+    /// for a single material.
+    float level(std::span<float, inference::segmentSamples> segmentMps2, float levelMps2) noexcept;
 
 private:
     /// Mean square, over the last seconds, of a signal with a nominal mean square of 1.

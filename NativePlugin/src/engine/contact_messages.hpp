@@ -37,6 +37,13 @@ struct PublishedContact {
     double publishedSeconds = 0.0;
 };
 
+/// What skeleton and networks are told of a contact's materials.
+struct MaterialInputs {
+    std::array<float, inference::embeddingSize> embedding{};
+    WaveStatistics waves;
+    LevelRequest level;
+};
+
 /// A seed, ready to be played.
 struct OnsetSeed {
     std::array<float, WaveformTimeline::seedSamples> samplesMps2{};
@@ -48,8 +55,10 @@ struct OnsetSeed {
 struct AudioMessage {
     PublishedContact contact;
     /// The seed for the newest sliding state. Every message contains it, so that an onset is not lost if its message is
-    /// replaced, and a touch resumes with the seed of the state with which it resumes.
+    /// replaced, and a touch resumes with the seed of the state with which it resumes. Silent for a model with a
+    /// skeleton, which needs none.
     OnsetSeed seed;
+    MaterialInputs material;
     /// The blows that the callback had not taken when the message was written, so that no blow is lost if its message
     /// is replaced.
     BlowList blows;
@@ -63,9 +72,7 @@ struct AudioMessage {
 /// past and the noise, which only the worker knows.
 struct WorkerMessage {
     PublishedContact contact;
-    std::array<float, inference::embeddingSize> embedding{};
-    WaveStatistics waves;
-    LevelRequest level;
+    MaterialInputs material;
     BlendParts blend;
 };
 

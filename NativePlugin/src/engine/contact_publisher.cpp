@@ -80,12 +80,16 @@ ContactAction ContactPublisher::publish(ContactState state) noexcept {
     }
 
     channels_.publishedTouch.store(contact_.touch, std::memory_order_release);
-    postToAudio(ingredients, hasSignal);
-    postToWorker(ingredients, material);
+    const MaterialInputs inputs{.embedding = material.embedding,
+                                .waves = waveStatisticsOf(ingredients, waveVectorsOf(material.embedding)),
+                                .level = requestLevel(ingredients, contact_.ranged)};
+    postToAudio(ingredients, inputs, hasSignal);
+    postToWorker(ingredients, inputs);
     return action;
 }
 
-void ContactPublisher::postToAudio(const Ingredients& ingredients, bool hasSignal) noexcept {
+void ContactPublisher::postToAudio(const Ingredients& ingredients, const MaterialInputs& inputs,
+                                   bool hasSignal) noexcept {
     const ContactState& state = contact_.state;
     const auto& motion = contact_.ranged.motion;
     std::optional<dsp::ToneCepstrum> tone;
@@ -100,18 +104,17 @@ void ContactPublisher::postToAudio(const Ingredients& ingredients, bool hasSigna
     AudioMessage& message = channels_.toAudio.draft();
     message.contact = contact_;
     message.seed = seed_;
+    message.material = inputs;
     message.blows = blows_.untaken();
     message.tone = tone ? std::optional(dsp::toneKernel(*tone)) : std::nullopt;
     message.movingSinceSeconds = movingSinceSeconds_;
     channels_.toAudio.post();
 }
 
-void ContactPublisher::postToWorker(const Ingredients& ingredients, const Material& material) noexcept {
+void ContactPublisher::postToWorker(const Ingredients& ingredients, const MaterialInputs& inputs) noexcept {
     WorkerMessage& message = channels_.toWorker.draft();
     message.contact = contact_;
-    message.embedding = material.embedding;
-    message.waves = waveStatisticsOf(ingredients, waveVectorsOf(material.embedding));
-    message.level = requestLevel(ingredients, contact_.ranged);
+    message.material = inputs;
     message.blend.count = 0;
     if (ingredients.isBlend()) {
         const double total = ingredients.totalWeight();

@@ -20,8 +20,8 @@ public:
     ContactAction publish(ContactState state) noexcept;
 
 private:
-    void postToAudio(const Ingredients& ingredients, bool hasSignal) noexcept;
-    void postToWorker(const Ingredients& ingredients, const Material& material) noexcept;
+    void postToAudio(const Ingredients& ingredients, const MaterialInputs& inputs, bool hasSignal) noexcept;
+    void postToWorker(const Ingredients& ingredients, const MaterialInputs& inputs) noexcept;
 
     const MaterialLibrary& library_;
     VoiceChannels& channels_;

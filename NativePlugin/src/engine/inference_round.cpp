@@ -1,5 +1,6 @@
 #include "engine/inference_round.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <exception>
@@ -11,10 +12,12 @@ namespace {
 /// Runs the generator and returns the time it took. If it fails, returns nothing and sets `failure` to the reason.
 std::optional<std::uint64_t> nanosecondsOf(inference::SegmentGenerator& generator,
                                            std::span<const inference::SegmentRequest> requests,
-                                           std::span<float> segments, std::string& failure) {
+                                           std::span<float> segments,
+                                           const inference::SegmentGenerator::Sketched& sketched,
+                                           std::string& failure) {
     const auto began = std::chrono::steady_clock::now();
     try {
-        generator.generate(requests, segments);
+        generator.generateFromSketches(requests, segments, sketched);
     } catch (const std::exception& error) {
         failure = error.what();
         return std::nullopt;
@@ -22,6 +25,8 @@ std::optional<std::uint64_t> nanosecondsOf(inference::SegmentGenerator& generato
     const auto spent = std::chrono::steady_clock::now() - began;
     return static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(spent).count());
 }
+
+void noSketches(std::size_t, std::span<const float>) {}
 
 }  // namespace
 
@@ -59,7 +64,7 @@ void InferenceRound::balanceBlends(inference::SegmentGenerator& generator) {
     }
     segments_.resize(requests_.size() * inference::segmentSamples);
     std::string failure;
-    if (!nanosecondsOf(generator, requests_, segments_, failure)) {
+    if (!nanosecondsOf(generator, requests_, segments_, noSketches, failure)) {
         // The segments of the parts are not played, so a failure only leaves the gains unchanged.
         return;
     }
@@ -78,7 +83,18 @@ void InferenceRound::generate(inference::SegmentGenerator& generator, RoundResul
         requests_.push_back(voice->planner.request());
     }
     segments_.resize(requests_.size() * inference::segmentSamples);
-    const std::optional<std::uint64_t> together = nanosecondsOf(generator, requests_, segments_, result.failure);
+    sketches_.resize(segments_.size());
+    isSketched_.assign(requests_.size(), false);
+    std::size_t firstRow = 0;
+    const inference::SegmentGenerator::Sketched keep = [this, &firstRow](std::size_t first,
+                                                                         std::span<const float> sketches) {
+        for (std::size_t row = 0; row * inference::segmentSamples < sketches.size(); ++row) {
+            isSketched_[firstRow + first + row] = true;
+        }
+        std::ranges::copy(sketches, std::span(sketches_).subspan((firstRow + first) * inference::segmentSamples).begin());
+    };
+    const std::optional<std::uint64_t> together =
+        nanosecondsOf(generator, requests_, segments_, keep, result.failure);
     std::size_t kept = 0;
     for (std::size_t i = 0; i < pending_.size(); ++i) {
         const std::span<float, inference::segmentSamples> segment(segments_.data() + i * inference::segmentSamples,
@@ -87,17 +103,20 @@ void InferenceRound::generate(inference::SegmentGenerator& generator, RoundResul
         if (spent) {
             *spent /= pending_.size();
         } else if (pending_.size() > 1) {
-            spent = nanosecondsOf(generator, std::span(requests_).subspan(i, 1), segment, result.failure);
+            firstRow = i;
+            spent = nanosecondsOf(generator, std::span(requests_).subspan(i, 1), segment, keep, result.failure);
         }
         if (!spent) {
-            // No segment is sent; the running one plays to its end and fades there.
+            // No segment is sent; the skeleton goes on alone, or the running segment plays to its end and fades there.
             pending_[i]->planner.fail();
             result.failed = true;
             continue;
         }
         pending_[i]->channels.counters.inferenceNanoseconds.fetch_add(*spent, std::memory_order_relaxed);
         ++result.segments;
-        if (pending_[i]->planner.deliver(segment)) {
+        const auto sketch = std::span<const float>(sketches_).subspan(
+            i * inference::segmentSamples, isSketched_[i] ? inference::segmentSamples : 0);
+        if (pending_[i]->planner.deliver(segment, sketch)) {
             pending_[kept] = pending_[i];
             ++kept;
         }

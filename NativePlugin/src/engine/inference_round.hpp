@@ -39,6 +39,9 @@ private:
     std::vector<LiveVoice*> balancing_;
     std::vector<inference::SegmentRequest> requests_;
     std::vector<float> segments_;
+    // Of the segments that are refined from sketches.
+    std::vector<float> sketches_;
+    std::vector<bool> isSketched_;
 };
 
 }  // namespace haptoflow::engine

@@ -71,6 +71,9 @@ LiveEngine::LiveEngine(std::shared_ptr<const model::ModelFile> model, EngineTier
       settings_(checked(settings)),
       library_(std::make_unique<MaterialLibrary>(*model_, firstLoaded(tiers_), limits)),
       quality_(tiers_.size(), settings.quality, startTier, settings.tiersByAccuracy) {
+    if (settings_.native.skeleton == nullptr) {
+        settings_.native = skeleton::readNativeParts(*model_);
+    }
     if (!isLoaded(settings_.quality)) {
         throw std::invalid_argument("quality: the tier is not loaded");
     }
@@ -103,6 +106,7 @@ std::shared_ptr<LiveVoice> LiveEngine::addVoice(double outputRateHz) {
     settings.outputRateHz = outputRateHz;
     settings.fullScaleMps2 = settings_.fullScaleMps2;
     settings.isRealTime = settings_.hasWorker;
+    settings.native = settings_.native;
     auto voice = std::make_shared<LiveVoice>(*library_, figures_.workerAlive, settings);
     const std::lock_guard lock(voicesMutex_);
     voices_.push_back(voice);

@@ -35,6 +35,8 @@ struct LiveEngineSettings {
     std::optional<double> fixedLeadMs;
     /// Without a worker, the caller calls `step`.
     bool hasWorker = true;
+    /// The skeleton of the model, to be shared with its generators; empty, it is read from the model.
+    skeleton::NativeParts native{};
 };
 
 /// Throws std::invalid_argument for automatic quality without a worker, which alone measures the tiers: an engine

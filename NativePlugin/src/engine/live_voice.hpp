@@ -4,7 +4,11 @@
 #include "engine/contact_publisher.hpp"
 #include "engine/segment_planner.hpp"
 #include "engine/voice_channels.hpp"
+#include "engine/sketcher.hpp"
 #include "engine/voice_renderer.hpp"
+#include "skeleton/skeleton_tensors.hpp"
+
+#include <memory>
 
 namespace haptoflow::engine {
 
@@ -14,6 +18,8 @@ struct LiveVoiceSettings {
     float fullScaleMps2 = dsp::SoftLimiter::defaultFullScaleMps2;
     /// VoiceChannels::isRealTime.
     bool isRealTime = true;
+    /// The model's skeleton, if it has one.
+    skeleton::NativeParts native{};
 };
 
 /// The voice of one stylus tip: a publisher for the main thread, a renderer for the audio callback, a planner for the
@@ -22,7 +28,8 @@ struct LiveVoice {
     /// Throws std::invalid_argument for settings out of range.
     LiveVoice(const MaterialLibrary& library, const std::atomic<bool>& workerAlive, const LiveVoiceSettings& settings)
         : publisher(library, channels),
-          renderer(channels, workerAlive, settings.outputRateHz, settings.fullScaleMps2),
+          renderer(channels, workerAlive, settings.outputRateHz, settings.fullScaleMps2,
+                   {settings.planner.seed, settings.planner.voice}, sketcherFor(settings)),
           planner(channels, settings.planner) {
         channels.isRealTime = settings.isRealTime;
     }
@@ -31,6 +38,14 @@ struct LiveVoice {
     ContactPublisher publisher;
     VoiceRenderer renderer;
     SegmentPlanner planner;
+
+private:
+    [[nodiscard]] static std::unique_ptr<Sketcher> sketcherFor(const LiveVoiceSettings& settings) {
+        if (settings.native.skeleton == nullptr) {
+            return nullptr;
+        }
+        return std::make_unique<Sketcher>(settings.native, settings.planner.seed, settings.planner.voice);
+    }
 };
 
 }  // namespace haptoflow::engine

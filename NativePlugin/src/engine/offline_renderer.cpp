@@ -90,7 +90,7 @@ private:
     OfflineRender& render_;
 };
 
-LiveVoiceSettings voiceSettings(const OfflineSettings& settings) {
+LiveVoiceSettings voiceSettings(const model::ModelFile& model, const OfflineSettings& settings) {
     LiveVoiceSettings voice;
     voice.planner.seed = settings.seed;
     voice.planner.fixedLeadSamples = LeadEstimator::samplesOf(settings.leadMs);
@@ -99,6 +99,7 @@ LiveVoiceSettings voiceSettings(const OfflineSettings& settings) {
     voice.outputRateHz = settings.outputRateHz;
     voice.fullScaleMps2 = settings.fullScaleMps2;
     voice.isRealTime = false;
+    voice.native = skeleton::readNativeParts(model);
     return voice;
 }
 
@@ -111,7 +112,7 @@ public:
           settings_(settings),
           sink_(sink),
           library_(model, generator),
-          voice_(library_, workerAlive_, voiceSettings(settings)) {
+          voice_(library_, workerAlive_, voiceSettings(model, settings)) {
         for (const model::MaterialFile& material : settings.materials) {
             (void)library_.add(material, [&generator]() -> inference::LevelEstimator& { return generator; });
         }
@@ -225,6 +226,7 @@ private:
         figures_.skipped = counters.skipped;
         figures_.failures = counters.failures;
         figures_.underruns = counters.underruns;
+        figures_.sketched = counters.sketched;
         figures_.nonFinite = counters.nonFiniteSamples;
         figures_.limited = counters.limitedSamples;
         for (std::size_t kind = 0; kind < effects::effectKinds; ++kind) {

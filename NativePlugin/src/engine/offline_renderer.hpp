@@ -55,6 +55,7 @@ struct OfflineFigures {
     std::uint64_t skipped = 0;
     std::uint64_t failures = 0;
     std::uint64_t underruns = 0;
+    std::uint64_t sketched = 0;
     std::uint64_t sanitised = 0;
     std::uint64_t nonFinite = 0;
     std::uint64_t limited = 0;

@@ -85,15 +85,19 @@ std::uint64_t PlaceTrack::keyOf(const PublishedContact& contact) const noexcept 
 }
 
 bool PlaceTrack::isFlat(const ContactState& state) noexcept {
+    const Anchor here{.surfaceSeed = state.surfaceSeed,
+                      .placeMetres = state.placeMetres,
+                      .firstAxis = state.firstAxis,
+                      .secondAxis = state.secondAxis};
     if (!anchor_) {
-        anchor_ = state;
+        anchor_ = here;
         isFlat_ = true;
         return true;
     }
     const bool hasTurned = difference(anchor_->firstAxis, state.firstAxis) > steadyTurn ||
                            difference(anchor_->secondAxis, state.secondAxis) > steadyTurn;
     if (hasTurned || anchor_->surfaceSeed != state.surfaceSeed) {
-        anchor_ = state;
+        anchor_ = here;
         isFlat_ = false;
     } else if (difference(anchor_->placeMetres, state.placeMetres) > flatMetres) {
         isFlat_ = true;

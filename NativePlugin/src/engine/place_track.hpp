@@ -21,7 +21,7 @@ struct SurfaceStretch {
 };
 
 /// Tells where on its surface the tip will be when a segment sounds. Where the caller says no place, adds up velocities
-/// from the touch-down on. Allocates nothing; used by one thread.
+/// from the touch-down on. A small value, which threads hand to each other; allocates nothing.
 class PlaceTrack {
 public:
     /// `seed` and `voice` key the noise.
@@ -48,8 +48,15 @@ private:
     std::uint64_t touch_ = 0;
     std::int64_t start_ = 0;
     inference::SurfacePath integrated_{};
-    // The contact since which the axes have not turned, and whether the surface is flat from there to here.
-    std::optional<ContactState> anchor_;
+    /// The surface and the tip's place on it, with the axes there.
+    struct Anchor {
+        std::uint32_t surfaceSeed = 0;
+        std::array<float, 3> placeMetres{};
+        std::array<float, 3> firstAxis{};
+        std::array<float, 3> secondAxis{};
+    };
+    // Since where the axes have not turned, and whether the surface is flat from there to here.
+    std::optional<Anchor> anchor_;
     bool isFlat_ = false;
 };
 

@@ -89,20 +89,19 @@ std::array<float, inference::ribCount> toNetwork(const RibTurns& phases) noexcep
 }
 
 void RibTrack::begin(std::int64_t start, const SeedRibs& seed) noexcept {
-    pieces_.begin(
-        {.start = start, .phase = seed.phase, .turnsPerSample = seed.turnsPerSample, .vectors = seed.vectors});
+    piece_ = {.start = start, .phase = seed.phase, .turnsPerSample = seed.turnsPerSample, .vectors = seed.vectors};
+    isFirst_ = true;
 }
 
 RibTurns RibTrack::at(std::int64_t sample, const WaveVectors& vectors,
                       const std::array<double, 2>& placeMetres) const noexcept {
-    const bool isFirst = pieces_.hasOnlyOne();
     RibTurns turns = at(sample, vectors);
     for (std::size_t rib = 0; rib < turns.size(); ++rib) {
         const double wanted = (static_cast<double>(vectors[rib].x) * placeMetres[0] +
                                static_cast<double>(vectors[rib].y) * placeMetres[1]) *
                               millimetresPerMetre;
         const double missing = wanted - turns[rib] - std::round(wanted - turns[rib]);
-        turns[rib] += isFirst ? missing : std::clamp(0.5 * missing, -largestCorrectionTurns, largestCorrectionTurns);
+        turns[rib] += isFirst_ ? missing : std::clamp(0.5 * missing, -largestCorrectionTurns, largestCorrectionTurns);
         turns[rib] -= std::floor(turns[rib]);
     }
     return turns;
@@ -110,18 +109,18 @@ RibTurns RibTrack::at(std::int64_t sample, const WaveVectors& vectors,
 
 void RibTrack::add(std::int64_t start, const WaveVectors& vectors, const RibTurns& phase,
                    const RibTurns& turnsPerSample) noexcept {
-    pieces_.add({.start = start, .phase = phase, .turnsPerSample = turnsPerSample, .vectors = vectors});
+    piece_ = {.start = start, .phase = phase, .turnsPerSample = turnsPerSample, .vectors = vectors};
+    isFirst_ = false;
 }
 
 RibTurns RibTrack::at(std::int64_t sample, const WaveVectors& vectors) const noexcept {
-    const Piece& piece = pieces_.at(sample);
     RibTurns turns{};
     for (std::size_t rib = 0; rib < turns.size(); ++rib) {
         const double travelled =
-            piece.phase[rib] + piece.turnsPerSample[rib] * static_cast<double>(sample - piece.start);
+            piece_.phase[rib] + piece_.turnsPerSample[rib] * static_cast<double>(sample - piece_.start);
         turns[rib] = travelled - std::floor(travelled);
     }
-    return phasesFor(vectors, piece.vectors, turns);
+    return phasesFor(vectors, piece_.vectors, turns);
 }
 
 }  // namespace haptoflow::engine

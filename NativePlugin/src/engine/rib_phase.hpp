@@ -1,6 +1,5 @@
 #pragma once
 
-#include "engine/piece_list.hpp"
 #include "inference/segment_generator.hpp"
 
 #include <array>
@@ -46,20 +45,19 @@ struct SeedRibs {
     WaveVectors vectors{};
 };
 
-/// Rib phases of a stream in waveform time. The path consists of pieces with constant motion, one per segment sent.
-/// Allocates nothing; used by one thread.
+/// Rib phases of a stream in waveform time: those of the newest piece of its path, along which the motion is constant.
+/// A small value, which threads hand to each other; allocates nothing.
 class RibTrack {
 public:
     /// Begins a stream with a seed at the sample `start`.
     void begin(std::int64_t start, const SeedRibs& seed) noexcept;
-    /// Phases of `vectors` at a sample, in turns in [0, 1), from the newest piece that starts at or before it.
+    /// Phases of `vectors` at a sample, in turns in [0, 1).
     [[nodiscard]] RibTurns at(std::int64_t sample, const WaveVectors& vectors) const noexcept;
     /// The same, drawn towards the phases of a place on the surface, so that the ribs stay where they are: at once for
     /// the first segment of a stream, then by half of the difference and at most a tenth of a turn for each.
     [[nodiscard]] RibTurns at(std::int64_t sample, const WaveVectors& vectors,
                               const std::array<double, 2>& placeMetres) const noexcept;
-    /// Adds a piece from `start` on with these phases there and this advance along these wave vectors. Removes pieces
-    /// that start there or later.
+    /// A piece begins at `start` with these phases there and this advance along these wave vectors.
     void add(std::int64_t start, const WaveVectors& vectors, const RibTurns& phase,
              const RibTurns& turnsPerSample) noexcept;
 
@@ -71,7 +69,9 @@ private:
         WaveVectors vectors{};
     };
 
-    PieceList<Piece> pieces_;
+    Piece piece_;
+    // True until the first segment of the stream.
+    bool isFirst_ = true;
 };
 
 }  // namespace haptoflow::engine

@@ -15,10 +15,6 @@ namespace {
 constexpr double reserveSamples = 40.0;
 // A tenth of a second of polling. The planner does not wait longer for a device that has stopped.
 constexpr int maximumPolls = 50;
-// A tip that has not reported for this long is not guessed any further.
-constexpr double maximumSecondsAhead = 0.25;
-// From the noise to the vibration: two samples of the resampler and one of the networks (measured).
-constexpr std::int64_t outputDelaySamples = 3;
 constexpr auto segmentLength = static_cast<std::int64_t>(inference::segmentSamples);
 
 std::int64_t scaled(std::int64_t samples, double readingRate) noexcept {
@@ -30,7 +26,7 @@ std::int64_t scaled(std::int64_t samples, double readingRate) noexcept {
 SegmentPlanner::SegmentPlanner(VoiceChannels& channels, const PlannerSettings& settings) noexcept
     : channels_(channels),
       settings_(settings),
-      places_(settings.seed, settings.voice),
+      track_(settings.seed, settings.voice),
       balance_(settings.seed, settings.voice) {}
 
 bool SegmentPlanner::wake() noexcept {
@@ -66,10 +62,6 @@ bool SegmentPlanner::wake() noexcept {
     skipUntil(contact.slides - 1);
     settledSlides_ = contact.slides;
     polls_ = 0;
-    if (isNewStream) {
-        phases_.begin(playhead.streamStart, playhead.seedRibs);
-        places_.begin();
-    }
     if (!replaces) {
         hop_ = isNewStream ? 0 : head - lastHead_;
     }
@@ -77,11 +69,12 @@ bool SegmentPlanner::wake() noexcept {
     lastHead_ = head;
     lastStart_ = start;
     channels_.counters.leadSamples.store(static_cast<std::uint32_t>(lead), std::memory_order_relaxed);
-    request_.embedding = message.embedding;
+    request_.embedding = message.material.embedding;
     request_.motion = contact.ranged.motion;
-    request_.levelMps2 = message.level.levelMps2;
-    request_.levelMotion = message.level.motion;
-    request_.levelGain = message.level.gain;
+    request_.levelMps2 = message.material.level.levelMps2;
+    request_.levelMotion = message.material.level.motion;
+    request_.levelGain = message.material.level.gain;
+    restoreTrack(start);
     prepare(start);
     return true;
 }
@@ -143,6 +136,18 @@ void SegmentPlanner::restorePast() noexcept {
     }
 }
 
+void SegmentPlanner::restoreTrack(std::int64_t start) noexcept {
+    const Playhead& playhead = channels_.playhead.current();
+    track_ = playhead.track;
+    for (std::uint64_t sequence = playhead.takenSequence + 1; sequence <= sequence_; ++sequence) {
+        const QueuedSegment& segment = sent_[sequence % sent_.size()].segment;
+        // The segment at `start` replaces those that begin later.
+        if (segment.sequence == sequence && segment.stream == playhead.stream && segment.start <= start) {
+            track_ = segment.track;
+        }
+    }
+}
+
 std::int64_t SegmentPlanner::leadSamples(std::int64_t blockAdvance, double readingRate) const noexcept {
     return scaled(settings_.fixedLeadSamples.value_or(lead_.samples(blockAdvance)), readingRate);
 }
@@ -151,26 +156,21 @@ void SegmentPlanner::prepare(std::int64_t start) noexcept {
     plannedStart_ = start;
     balance_.follow(channels_.toWorker.current().blend, request_.motion, start);
     mirror_.history(start, history_);
-    stretch_ = places_.at(channels_.toWorker.current().contact, start, secondsAhead(start));
+    const WorkerMessage& message = channels_.toWorker.current();
+    const PublishedContact& contact = message.contact;
+    const Playhead& playhead = channels_.playhead.current();
+    const double sincePublished = channels_.isRealTime ? playhead.blockSeconds - contact.publishedSeconds : 0.0;
     request_.phases =
-        phases_.at(start, request_.embedding, request_.motion, channels_.toWorker.current().waves, stretch_);
-    if (!inference::fillSurfaceNoise(stretch_.surface, stretch_.path, noise_)) {
-        inference::fillStandardNormal({.seed = settings_.seed, .voice = settings_.voice, .segment = segments_}, noise_);
-    }
+        track_.at(contact, message.material, start,
+                  secondsAhead(start - playhead.blockHead, contact.ranged.readingRate, sincePublished));
+    fillNoise(track_.stretch().surface, track_.stretch().path,
+              {.seed = settings_.seed, .voice = settings_.voice, .segment = segments_}, noise_);
     ++segments_;
 }
 
-double SegmentPlanner::secondsAhead(std::int64_t sample) const noexcept {
-    const PublishedContact& contact = channels_.toWorker.current().contact;
-    const Playhead& playhead = channels_.playhead.current();
-    const double fromBlock = static_cast<double>(sample + outputDelaySamples - playhead.blockHead) /
-                             (inference::waveformRateHz * contact.ranged.readingRate);
-    const double sincePublished = channels_.isRealTime ? playhead.blockSeconds - contact.publishedSeconds : 0.0;
-    return std::clamp(fromBlock + sincePublished, 0.0, maximumSecondsAhead);
-}
-
-bool SegmentPlanner::deliver(std::span<float, inference::segmentSamples> segmentMps2) noexcept {
-    balance_.level(segmentMps2, request_.levelMps2.value_or(0.0F));
+bool SegmentPlanner::deliver(std::span<float, inference::segmentSamples> segmentMps2,
+                             std::span<const float> sketchMps2) noexcept {
+    const float balance = balance_.level(segmentMps2, request_.levelMps2.value_or(0.0F));
     channels_.counters.inferences.fetch_add(1, std::memory_order_relaxed);
     const PublishedContact& contact = channels_.toWorker.current().contact;
     const Playhead& playhead = channels_.playhead.current();
@@ -179,8 +179,17 @@ bool SegmentPlanner::deliver(std::span<float, inference::segmentSamples> segment
     sent.segment.sequence = sequence_;
     sent.segment.stream = stream_;
     sent.segment.start = plannedStart_;
+    sent.segment.update = contact.updates;
     sent.segment.levelMps2 = contact.levelMps2;
+    sent.segment.balance = balance;
+    track_.add(plannedStart_);
+    sent.segment.track = track_;
     std::ranges::copy(segmentMps2, sent.segment.samplesMps2.begin());
+    sent.segment.hasSketch = sketchMps2.size() == segmentMps2.size();
+    if (sent.segment.hasSketch) {
+        std::ranges::transform(sketchMps2, sent.segment.sketchMps2.begin(),
+                               [balance](float sample) { return balance * sample; });
+    }
     sent.plannedHead = playhead.timeline.head;
     sent.readingRate = contact.ranged.readingRate;
     sent.observed = false;
@@ -189,9 +198,6 @@ bool SegmentPlanner::deliver(std::span<float, inference::segmentSamples> segment
         return false;
     }
     mirror_.commit(plannedStart_, sent.segment.samplesMps2);
-    places_.add(plannedStart_, stretch_);
-    phases_.add();
-
     const std::int64_t head = playhead.timeline.head;
     const auto lead = static_cast<double>(leadSamples(playhead.blockAdvance, contact.ranged.readingRate));
     const double needed = static_cast<double>(hop_) + lead + reserveSamples * contact.ranged.readingRate;

@@ -2,8 +2,7 @@
 
 #include "engine/blend_balance.hpp"
 #include "engine/lead_estimator.hpp"
-#include "engine/place_track.hpp"
-#include "engine/surface_phases.hpp"
+#include "engine/surface_track.hpp"
 #include "engine/voice_channels.hpp"
 #include "engine/waveform_timeline.hpp"
 #include "inference/segment_generator.hpp"
@@ -40,10 +39,12 @@ public:
     [[nodiscard]] bool mustPoll() noexcept;
     /// Valid until `deliver` or the next `wake`.
     [[nodiscard]] const inference::SegmentRequest& request() const noexcept { return request_; }
-    /// Sends the requested segment to the callback; adjusts the level of a blend. Returns true if the same contact
+    /// Sends the requested segment to the callback, with the sketch that it was refined from, if it was; adjusts the
+    /// level of a blend. Returns true if the same contact
     /// needs a further segment, because at a high reading rate or a low update rate one does not last until the next
     /// update.
-    [[nodiscard]] bool deliver(std::span<float, inference::segmentSamples> segmentMps2) noexcept;
+    [[nodiscard]] bool deliver(std::span<float, inference::segmentSamples> segmentMps2,
+                               std::span<const float> sketchMps2 = {}) noexcept;
     /// Level balance of the voice's blend, which needs segments of its own.
     [[nodiscard]] BlendBalance& balance() noexcept { return balance_; }
     /// Counts a failed run; no segment is sent.
@@ -62,9 +63,8 @@ private:
     void skipUntil(std::uint64_t slides) noexcept;
     void learn() noexcept;
     void restorePast() noexcept;
+    void restoreTrack(std::int64_t start) noexcept;
     void prepare(std::int64_t start) noexcept;
-    /// Time from the publishing of the newest contact to the moment when a sample sounds.
-    [[nodiscard]] double secondsAhead(std::int64_t sample) const noexcept;
     [[nodiscard]] std::int64_t leadSamples(std::int64_t blockAdvance, double readingRate) const noexcept;
 
     VoiceChannels& channels_;
@@ -72,11 +72,8 @@ private:
     LeadEstimator lead_;
     // The callback's timeline as it will be after it has taken all segments sent.
     WaveformTimeline mirror_;
-    // Of the present stream.
-    SurfacePhases phases_;
-    PlaceTrack places_;
-    // Of the requested segment.
-    SurfaceStretch stretch_;
+    // With the segments sent and the requested one.
+    SurfaceTrack track_;
     BlendBalance balance_;
 
     struct Sent {

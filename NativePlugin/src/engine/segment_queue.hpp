@@ -1,5 +1,6 @@
 #pragma once
 
+#include "engine/surface_track.hpp"
 #include "inference/segment_generator.hpp"
 
 #include <array>
@@ -17,10 +18,17 @@ struct QueuedSegment {
     std::uint64_t stream = 0;
     /// The sample in waveform time at which it takes over.
     std::int64_t start = 0;
-    /// The level that it was generated for: PublishedContact::levelMps2.
+    /// Of its contact: PublishedContact::updates and PublishedContact::levelMps2.
+    std::uint64_t update = 0;
     float levelMps2 = 1.0F;
-    /// m/s^2.
+    /// Gain that balances a blend, which is part of the samples.
+    float balance = 1.0F;
+    /// The tip's way over the surface with this segment.
+    SurfaceTrack track;
+    /// m/s^2; and the sketch that the samples were refined from, if they were.
     std::array<float, inference::segmentSamples> samplesMps2{};
+    bool hasSketch = false;
+    std::array<float, inference::segmentSamples> sketchMps2{};
 };
 
 /// A queue of segments from one writing to one reading thread, wait-free on both sides. A full queue rejects new

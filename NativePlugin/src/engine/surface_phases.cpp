@@ -41,7 +41,7 @@ float wrapped(double turns) noexcept {
 
 void SurfacePhases::begin(std::int64_t start, const SeedRibs& seed) noexcept {
     ribs_.begin(start, seed);
-    slips_.begin({.start = start});
+    slips_ = {.start = start};
 }
 
 skeleton::Phases SurfacePhases::at(std::int64_t start, std::span<const float, inference::embeddingSize> embedding,
@@ -50,8 +50,7 @@ skeleton::Phases SurfacePhases::at(std::int64_t start, std::span<const float, in
     vectors_ = waveVectorsOf(embedding);
     phase_ = stretch.ribPlaceMetres ? ribs_.at(start, vectors_, *stretch.ribPlaceMetres) : ribs_.at(start, vectors_);
     turnsPerSample_ = ribTurnsPerSample(embedding, static_cast<double>(motion[0]), static_cast<double>(motion[1]));
-    const Slips& before = slips_.at(start);
-    const double slipped = before.phase + before.turnsPerSample * static_cast<double>(start - before.start);
+    const double slipped = slips_.phase + slips_.turnsPerSample * static_cast<double>(start - slips_.start);
     slip_ = {.start = start,
              .phase = slipped - std::floor(slipped),
              .turnsPerSample = slipsPerSample(statistics.slip, motion, stretch)};
@@ -76,7 +75,7 @@ skeleton::Phases SurfacePhases::at(std::int64_t start, std::span<const float, in
 
 void SurfacePhases::add() noexcept {
     ribs_.add(slip_.start, vectors_, phase_, turnsPerSample_);
-    slips_.add(slip_);
+    slips_ = slip_;
 }
 
 }  // namespace haptoflow::engine

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "engine/piece_list.hpp"
 #include "engine/place_track.hpp"
 #include "engine/rib_phase.hpp"
 #include "engine/wave_statistics.hpp"
@@ -14,7 +13,7 @@
 namespace haptoflow::engine {
 
 /// Phases of the surface's waves along a stream in waveform time: ribs by the way along their wave vectors and by their
-/// wander from it, stick-slip by the number of slips so far. Allocates nothing; used by one thread.
+/// wander from it, stick-slip by the number of slips so far. A small value, which threads hand to each other; allocates nothing.
 class SurfacePhases {
 public:
     /// Begins a stream with a seed at the sample `start`.
@@ -34,7 +33,7 @@ private:
     };
 
     RibTrack ribs_;
-    PieceList<Slips> slips_;
+    Slips slips_;
     // Of the newest `at`.
     WaveVectors vectors_{};
     RibTurns phase_{};

@@ -5,10 +5,11 @@
 
 namespace haptoflow::engine {
 
-Voice::Voice(double outputRateHz, float fullScaleMps2, EffectFigures& figures)
+Voice::Voice(double outputRateHz, float fullScaleMps2, EffectFigures& figures, std::unique_ptr<Sketcher> sketcher)
     : output_(std::make_unique<OutputStage>(outputRateHz)),
       level_(inference::waveformRateHz),
       limiter_(fullScaleMps2),
+      sketcher_(std::move(sketcher)),
       figures_(figures) {}
 
 std::unique_ptr<OutputStage> Voice::exchangeOutput(std::unique_ptr<OutputStage> output) noexcept {
@@ -29,6 +30,36 @@ void Voice::onset(std::span<const float, WaveformTimeline::seedSamples> seedMps2
         prime();
     }
     output_->gate.open();
+}
+
+void Voice::beginSketch(float levelMps2) noexcept {
+    std::array<float, WaveformTimeline::seedSamples> seedMps2{};
+    sketcher_->begin(timeline_.head(), seedMps2);
+    onset(seedMps2, levelMps2);
+}
+
+void Voice::renewSketch(float levelMps2) noexcept {
+    sketcher_->renew(timeline_);
+    // The sketch has this level already.
+    follower_.begin(timeline_.head(), levelMps2);
+}
+
+std::int64_t Voice::take(const QueuedSegment& segment) noexcept {
+    if (sketcher_ == nullptr) {
+        return commit(segment.start, segment.samplesMps2, segment.levelMps2);
+    }
+    const Sketcher::Taken taken = sketcher_->take(timeline_, segment);
+    if (taken.use == Sketcher::Use::whole) {
+        noteTakeOver(taken.start, segment.levelMps2);
+    }
+    return taken.use == Sketcher::Use::dropped ? -1 : taken.start;
+}
+
+void Voice::noteTakeOver(std::int64_t sample, float levelMps2) noexcept {
+    follower_.takeOver(sample, levelMps2);
+    if (sink_ != nullptr) {
+        sink_->tookOver(sample);
+    }
 }
 
 void Voice::stop() noexcept {
@@ -93,10 +124,7 @@ std::int64_t Voice::commit(std::int64_t start, std::span<const float, inference:
                            float levelMps2) noexcept {
     const std::int64_t takeOver = timeline_.commit(start, segment);
     if (takeOver >= 0) {
-        follower_.takeOver(takeOver, levelMps2);
-    }
-    if (sink_ != nullptr && takeOver >= 0) {
-        sink_->tookOver(takeOver);
+        noteTakeOver(takeOver, levelMps2);
     }
     return takeOver;
 }
@@ -133,6 +161,9 @@ void Voice::applyTone(std::span<float> samplesMps2) noexcept {
 }
 
 void Voice::readWaveform(std::span<float> out) noexcept {
+    if (sketcher_ != nullptr) {
+        sketcher_->extend(timeline_, out.size());
+    }
     const std::int64_t start = timeline_.head();
     timeline_.read(out);
     follower_.process(start, out);

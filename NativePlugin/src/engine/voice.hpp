@@ -6,6 +6,7 @@
 #include "dsp/tone_filter.hpp"
 #include "engine/level_follower.hpp"
 #include "engine/output_stage.hpp"
+#include "engine/sketcher.hpp"
 #include "engine/waveform_timeline.hpp"
 
 #include <array>
@@ -37,13 +38,32 @@ public:
 /// and wait for nothing.
 class Voice {
 public:
-    /// Counts its effects in `figures`, which must outlive it. Throws std::invalid_argument for a rate outside 8-192
+    /// Counts its effects in `figures`, which must outlive it. `sketcher` is null for a model without a skeleton. Throws std::invalid_argument for a rate outside 8-192
     /// kHz or a full scale that is not above 0.
-    Voice(double outputRateHz, float fullScaleMps2, EffectFigures& figures);
+    Voice(double outputRateHz, float fullScaleMps2, EffectFigures& figures,
+          std::unique_ptr<Sketcher> sketcher = nullptr);
 
     /// Touch-down, or sliding resumed: the second half of the seed sounds from the next sample on, the first half
     /// becomes its past. `levelMps2` is the seed's.
     void onset(std::span<const float, WaveformTimeline::seedSamples> seedMps2, float levelMps2) noexcept;
+    /// True if the voice begins and goes on by itself, with sketches.
+    [[nodiscard]] bool hasSketcher() const noexcept { return sketcher_ != nullptr; }
+    /// With a sketcher only: see Sketcher::follow. A touch begins, or sliding resumes, with a sketch of this contact.
+    void follow(const PublishedContact& contact, const MaterialInputs& material, std::int64_t head,
+                double sincePublishedSeconds) noexcept {
+        sketcher_->follow(contact, material, head, sincePublishedSeconds);
+    }
+    void beginSketch(float levelMps2) noexcept;
+    /// With a sketcher only: sketches the newest contact from the next sample on.
+    void renewSketch(float levelMps2) noexcept;
+    /// Way over the surface of what is played; null without a sketcher.
+    [[nodiscard]] const SurfaceTrack* track() const noexcept { return sketcher_ ? &sketcher_->track() : nullptr; }
+    /// True if the next sample is a sketch's alone, which no segment of the network corrects.
+    [[nodiscard]] bool isOnlySketched() const noexcept {
+        return sketcher_ != nullptr && !sketcher_->isRefined(timeline_.head());
+    }
+    /// Takes a segment of the present stream. Returns the sample at which it takes over, or -1.
+    std::int64_t take(const QueuedSegment& segment) noexcept;
     /// See WaveformTimeline::commit; `levelMps2` is the level that the segment was generated for.
     std::int64_t commit(std::int64_t start, std::span<const float, inference::segmentSamples> segment,
                         float levelMps2) noexcept;
@@ -103,6 +123,7 @@ private:
     void readWaveform(std::span<float> out) noexcept;
     void applyTone(std::span<float> samplesMps2) noexcept;
     void prime() noexcept;
+    void noteTakeOver(std::int64_t sample, float levelMps2) noexcept;
 
     std::unique_ptr<OutputStage> output_;
     WaveformTimeline timeline_;
@@ -112,6 +133,7 @@ private:
     dsp::RateWarp warp_;
     dsp::SoftLimiter limiter_;
     double readingRate_ = 1.0;
+    std::unique_ptr<Sketcher> sketcher_;
     EffectFigures& figures_;
     WaveformSink* sink_ = nullptr;
 };

@@ -5,9 +5,9 @@
 #include "engine/mailbox.hpp"
 #include "engine/output_stage.hpp"
 #include "engine/processor_settings.hpp"
-#include "engine/rib_phase.hpp"
 #include "engine/segment_queue.hpp"
 #include "engine/silence.hpp"
+#include "engine/surface_track.hpp"
 #include "engine/waveform_timeline.hpp"
 
 #include <array>
@@ -26,9 +26,8 @@ struct Playhead {
     std::uint64_t stream = 0;
     /// PublishedContact::onset of the present stream.
     std::uint32_t onset = 0;
-    /// Head at the beginning of the stream, and the rib phase of its seed.
-    std::int64_t streamStart = 0;
-    SeedRibs seedRibs{};
+    /// The tip's way over the surface with what is played.
+    SurfaceTrack track;
     /// False while the waveform is not read and its clock stands still.
     bool running = false;
     /// Sequence number of the newest segment that the callback took or dropped, and the head at the time for each of
@@ -101,6 +100,9 @@ struct VoiceCounters {
     std::atomic<std::uint64_t> failures{0};
     /// Blocks in which a sounding voice needed samples that no segment covered.
     std::atomic<std::uint64_t> underruns{0};
+    /// Blocks in which a skeleton sounded without a network's segment: until the first one of a stream, and while
+    /// inference is late or fails.
+    std::atomic<std::uint64_t> sketched{0};
     /// Late segments, which took over later than planned; and dropped segments, which came too late or for an earlier
     /// touch.
     std::atomic<std::uint64_t> late{0};

@@ -16,8 +16,12 @@ void count(std::atomic<std::uint64_t>& counter, std::uint64_t by = 1) noexcept {
 }  // namespace
 
 VoiceRenderer::VoiceRenderer(VoiceChannels& channels, const std::atomic<bool>& workerAlive, double outputRateHz,
-                             float fullScaleMps2)
-    : channels_(channels), workerAlive_(workerAlive), voice_(outputRateHz, fullScaleMps2, channels.counters.effects) {}
+                             float fullScaleMps2, const SurfaceTrack& track,
+                             std::unique_ptr<Sketcher> sketcher)
+    : channels_(channels),
+      workerAlive_(workerAlive),
+      voice_(outputRateHz, fullScaleMps2, channels.counters.effects, std::move(sketcher)),
+      track_(track) {}
 
 void VoiceRenderer::render(std::span<float> out, double rateHz) noexcept {
     const dsp::ScopedFlushDenormals flush;
@@ -41,6 +45,7 @@ void VoiceRenderer::render(std::span<float> out, double rateHz) noexcept {
         takeBlows(out.size());
         readSignal();
         sounded = isSounding();
+        sketch();
         takeSegments();
         soundUntilStale(out);
     }
@@ -87,6 +92,7 @@ void VoiceRenderer::readContact() noexcept {
         hasContact_ = true;
         contactAgeFrames_ = 0;
         updates_ = contact().updates;
+        isUnsketched_ = true;
         applyContact();
     }
 }
@@ -196,8 +202,6 @@ void VoiceRenderer::begin() noexcept {
     const OnsetSeed& seed = channels_.toAudio.current().seed;
     count(contact().onset != playedOnset_ ? channels_.counters.onsets : channels_.counters.resumptions);
     ++stream_;
-    streamStart_ = voice_.timeline().head();
-    seedRibs_ = seed.ribs;
     playedOnset_ = contact().onset;
     silence_ = Silence::none;
     tapFramesLeft_ = contact().sliding ? 0 : static_cast<std::uint64_t>(tapSeconds * voice_.outputRateHz());
@@ -205,7 +209,26 @@ void VoiceRenderer::begin() noexcept {
         count(channels_.counters.taps);
     }
     applyContact();
-    voice_.onset(seed.samplesMps2, contact().levelMps2);
+    if (voice_.hasSketcher()) {
+        followContact();
+        voice_.beginSketch(contact().levelMps2);
+    } else {
+        track_.begin(voice_.timeline().head(), seed.ribs);
+        voice_.onset(seed.samplesMps2, contact().levelMps2);
+    }
+}
+
+void VoiceRenderer::followContact() noexcept {
+    const double sincePublished = channels_.isRealTime ? blockSeconds_ - contact().publishedSeconds : 0.0;
+    voice_.follow(contact(), channels_.toAudio.current().material, voice_.timeline().head(), sincePublished);
+    isUnsketched_ = false;
+}
+
+void VoiceRenderer::sketch() noexcept {
+    if (isUnsketched_ && voice_.hasSketcher() && isSounding() && contact().sliding) {
+        followContact();
+        voice_.renewSketch(contact().levelMps2);
+    }
 }
 
 void VoiceRenderer::takeBlows(std::size_t frames) noexcept {
@@ -373,7 +396,10 @@ void VoiceRenderer::takeSegments() noexcept {
         headAtTake_[takenSequence_ % headAtTake_.size()] = voice_.timeline().head();
         const bool isCurrent = isSounding() && segment->stream == stream_;
         const std::int64_t takeOver =
-            isCurrent ? voice_.commit(segment->start, segment->samplesMps2, segment->levelMps2) : -1;
+            isCurrent ? voice_.take(*segment) : -1;
+        if (takeOver >= 0) {
+            track_ = segment->track;
+        }
         if (takeOver < 0) {
             count(channels_.counters.dropped);
         } else if (takeOver > segment->start) {
@@ -448,6 +474,9 @@ void VoiceRenderer::report(std::uint64_t uncoveredBefore, bool sounded) noexcept
     if (sounded && timeline.uncoveredSamples() > uncoveredBefore) {
         count(counters.underruns);
     }
+    if (sounded && voice_.isOnlySketched()) {
+        count(counters.sketched);
+    }
     counters.nonFiniteSamples.store(voice_.limiter().nonFiniteCount(), std::memory_order_relaxed);
     counters.limitedSamples.store(voice_.limiter().limitedCount(), std::memory_order_relaxed);
     reportExposure();
@@ -460,8 +489,7 @@ void VoiceRenderer::report(std::uint64_t uncoveredBefore, bool sounded) noexcept
     Playhead& playhead = channels_.playhead.draft();
     playhead.stream = stream_;
     playhead.onset = playedOnset_;
-    playhead.streamStart = streamStart_;
-    playhead.seedRibs = seedRibs_;
+    playhead.track = voice_.hasSketcher() ? *voice_.track() : track_;
     playhead.running = running;
     playhead.takenSequence = takenSequence_;
     playhead.headAtTake = headAtTake_;

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 
@@ -25,10 +26,11 @@ public:
     /// Duration of a tap that began and ended between two states.
     static constexpr double tapSeconds = 0.01;
 
-    /// `workerAlive` becomes false when the worker thread has ended; the voice then falls silent. Allocates. Throws
+    /// `workerAlive` becomes false when the worker thread has ended; the voice then falls silent. `track` is the voice's before its first stream,
+    /// `sketcher` as for Voice. Allocates. Throws
     /// std::invalid_argument for a rate outside 8-192 kHz or a full scale that is not above 0.
-    VoiceRenderer(VoiceChannels& channels, const std::atomic<bool>& workerAlive, double outputRateHz,
-                  float fullScaleMps2);
+    VoiceRenderer(VoiceChannels& channels, const std::atomic<bool>& workerAlive, double outputRateHz, float fullScaleMps2,
+                  const SurfaceTrack& track, std::unique_ptr<Sketcher> sketcher = nullptr);
 
     /// Writes the next samples, +-1. At a new rate, the voice fades and stays silent until the worker has made an
     /// output stage; a touch that still lasts then resumes. At a rate outside 8-192 kHz it stays silent and counts the
@@ -52,6 +54,7 @@ private:
     void decide(double rateHz) noexcept;
     [[nodiscard]] Silence reportedSilence(double rateHz) const noexcept;
     void begin() noexcept;
+    void followContact() noexcept;
     void takeBlows(std::size_t frames) noexcept;
     void strikeWaiting() noexcept;
     void schedule(const Blow& blow, std::size_t frames) noexcept;
@@ -62,6 +65,7 @@ private:
     void takeProcessors() noexcept;
     void reportExposure() noexcept;
     void fallSilent(Silence reason) noexcept;
+    void sketch() noexcept;
     void takeSegments() noexcept;
     void requestOutput(double rateHz) noexcept;
     void sound(std::span<float> out) noexcept;
@@ -76,8 +80,8 @@ private:
     Silence silence_ = Silence::rest;
     // Increases by 1 at each onset and each resumption, so that segments of earlier streams are dropped.
     std::uint64_t stream_ = 0;
-    std::int64_t streamStart_ = 0;
-    SeedRibs seedRibs_{};
+    // Without a sketcher: the way over the surface of what is played.
+    SurfaceTrack track_;
     std::uint32_t playedOnset_ = 0;
     std::uint64_t tapFramesLeft_ = 0;
 
@@ -108,6 +112,8 @@ private:
     bool wasMoving_ = false;
 
     bool hasContact_ = false;
+    // A state came with this block and has not been sketched.
+    bool isUnsketched_ = false;
     std::uint64_t contactAgeFrames_ = 0;
 
     std::uint32_t seenPanics_ = 0;

@@ -46,6 +46,18 @@ std::int64_t WaveformTimeline::commit(std::int64_t start,
     return takeOver;
 }
 
+void WaveformTimeline::continueWith(std::int64_t start,
+                                    std::span<const float, inference::segmentSamples> samplesMps2) noexcept {
+    copyIn(start, samplesMps2);
+    coveredUntil_ = start + segmentLength;
+    // A segment that takes over where one did before is spliced with this wave now.
+    beforeLastSegment_ = {};
+}
+
+void WaveformTimeline::rewrite(std::int64_t start, std::span<const float> samplesMps2) noexcept {
+    copyIn(start, samplesMps2);
+}
+
 Continuation WaveformTimeline::continuationFrom(std::int64_t start) const noexcept {
     constexpr auto maximum = static_cast<std::int64_t>(dsp::Splice::correlationSamples);
     Continuation continuation;

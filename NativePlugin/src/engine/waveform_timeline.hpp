@@ -52,6 +52,11 @@ public:
     /// the past, would leave a gap or reaches beyond the capacity of a view is rejected. Returns the sample at which
     /// the segment took over, or -1.
     std::int64_t commit(std::int64_t start, std::span<const float, inference::segmentSamples> segment) noexcept;
+    /// Commits samples that continue the wave before `start` by themselves, so that nothing is spliced. They replace all
+    /// that was committed from there on. `start` lies between the head and the end of what is covered.
+    void continueWith(std::int64_t start, std::span<const float, inference::segmentSamples> samplesMps2) noexcept;
+    /// Changes committed samples from `start` on.
+    void rewrite(std::int64_t start, std::span<const float> samplesMps2) noexcept;
     /// Writes the 200 committed samples before `start`, with zeros for missing ones. `start` is within 200 of the head.
     void history(std::int64_t start, std::span<float, inference::segmentSamples> out) const noexcept;
     /// Reads and advances. After the last committed sample it reads zeros; the 5 ms before that point fade out.

@@ -64,4 +64,10 @@ void SkeletonGenerator::generate(std::span<const SegmentRequest> requests, std::
     requireFinite(segments, "skeleton");
 }
 
+void SkeletonGenerator::generateFromSketches(std::span<const SegmentRequest> requests, std::span<float> segments,
+                                             const Sketched& sketched) {
+    generate(requests, segments);
+    sketched(0, segments);
+}
+
 }  // namespace haptoflow::inference

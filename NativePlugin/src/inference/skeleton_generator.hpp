@@ -39,6 +39,8 @@ public:
     void setSolver(SolverSettings solver) override;
     /// Allocates for the largest number of requests so far.
     void generate(std::span<const SegmentRequest> requests, std::span<float> segments) override;
+    void generateFromSketches(std::span<const SegmentRequest> requests, std::span<float> segments,
+                              const Sketched& sketched) override;
     void levels(std::span<const SegmentRequest> requests, std::span<float> levelsMps2) override;
 
 private:
