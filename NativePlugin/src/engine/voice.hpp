@@ -46,6 +46,10 @@ public:
     /// Touch-down, or sliding resumed: the second half of the seed sounds from the next sample on, the first half
     /// becomes its past. `levelMps2` is the seed's.
     void onset(std::span<const float, WaveformTimeline::seedSamples> seedMps2, float levelMps2) noexcept;
+    /// Samples that an onset would read at once, because they need not wait for the resampler.
+    [[nodiscard]] std::size_t samplesReadAhead() const noexcept {
+        return isTextureSilent() ? output_->resampler.latencyInputSamples() : 0;
+    }
     /// True if the voice begins and goes on by itself, with sketches.
     [[nodiscard]] bool hasSketcher() const noexcept { return sketcher_ != nullptr; }
     /// With a sketcher only: see Sketcher::follow. A touch begins, or sliding resumes, with a sketch of this contact.

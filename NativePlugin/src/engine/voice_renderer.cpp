@@ -58,7 +58,7 @@ void VoiceRenderer::render(std::span<float> out, double rateHz) noexcept {
     count(channels_.counters.renderedFrames, out.size());
     channels_.audible.store(!voice_.isSilent(), std::memory_order_release);
     channels_.silence.store(reportedSilence(rateHz), std::memory_order_relaxed);
-    report(uncoveredBefore, sounded);
+    report(uncoveredBefore, sounded && !out.empty());
 }
 
 Silence VoiceRenderer::reportedSilence(double rateHz) const noexcept {
@@ -209,6 +209,8 @@ void VoiceRenderer::begin() noexcept {
         count(channels_.counters.taps);
     }
     applyContact();
+    // The stream's clock begins with the block.
+    blockHead_ = voice_.timeline().head() + static_cast<std::int64_t>(voice_.samplesReadAhead());
     if (voice_.hasSketcher()) {
         followContact();
         voice_.beginSketch(contact().levelMps2);
@@ -220,7 +222,7 @@ void VoiceRenderer::begin() noexcept {
 
 void VoiceRenderer::followContact() noexcept {
     const double sincePublished = channels_.isRealTime ? blockSeconds_ - contact().publishedSeconds : 0.0;
-    voice_.follow(contact(), channels_.toAudio.current().material, voice_.timeline().head(), sincePublished);
+    voice_.follow(contact(), channels_.toAudio.current().material, blockHead_, sincePublished);
     isUnsketched_ = false;
 }
 

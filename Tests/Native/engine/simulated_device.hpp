@@ -57,7 +57,7 @@ public:
         : library(model, generator),
           settings_(settings),
           generator_(generator),
-          voice_(library, workerAlive, voiceSettings(settings)) {
+          voice_(library, workerAlive, voiceSettings(model, settings)) {
         voice_.renderer.setSink(&waveform);
         if (settings.readsClock) {
             voice_.channels.isRealTime = true;
@@ -123,12 +123,13 @@ public:
 private:
     static inline double clockSeconds = 0.0;
 
-    static LiveVoiceSettings voiceSettings(const DeviceSettings& settings) {
+    static LiveVoiceSettings voiceSettings(const model::ModelFile& model, const DeviceSettings& settings) {
         LiveVoiceSettings voice;
         voice.planner.fixedLeadSamples = settings.fixedLeadSamples;
         voice.outputRateHz = settings.rateHz;
         voice.fullScaleMps2 = settings.fullScaleMps2;
         voice.isRealTime = false;
+        voice.native = skeleton::readNativeParts(model);
         return voice;
     }
 
@@ -143,21 +144,34 @@ private:
             return;
         }
         const inference::SegmentRequest& request = voice_.planner.request();
-        try {
-            generator_.generate(std::span(&request, 1), segment_);
-        } catch (const std::exception&) {
-            voice_.planner.fail();
+        if (!generate(request)) {
             return;
         }
         pending_ = true;
         pendingAt_ = now_ + settings_.latencySeconds(now_);
     }
 
+    bool generate(const inference::SegmentRequest& request) {
+        sketchSize_ = 0;
+        const auto keep = [this](std::size_t, std::span<const float> sketches) {
+            std::ranges::copy(sketches, sketch_.begin());
+            sketchSize_ = sketches.size();
+        };
+        try {
+            generator_.generateFromSketches(std::span(&request, 1), segment_, keep);
+        } catch (const std::exception&) {
+            voice_.planner.fail();
+            return false;
+        }
+        return true;
+    }
+
     void deliver() {
         pending_ = false;
-        while (voice_.planner.deliver(segment_)) {
-            const inference::SegmentRequest& request = voice_.planner.request();
-            generator_.generate(std::span(&request, 1), segment_);
+        while (voice_.planner.deliver(segment_, std::span(sketch_).first(sketchSize_))) {
+            if (!generate(voice_.planner.request())) {
+                break;
+            }
         }
         if (missedWake_) {
             missedWake_ = false;
@@ -175,6 +189,8 @@ private:
     bool missedWake_ = false;
     double pendingAt_ = 0.0;
     std::array<float, inference::segmentSamples> segment_{};
+    std::array<float, inference::segmentSamples> sketch_{};
+    std::size_t sketchSize_ = 0;
 };
 
 /// Contact state of a tip that slides over the model's first label.
