@@ -37,6 +37,7 @@ std::string renderReport(const RenderIdentity& identity, const engine::OfflineFi
         {"inference_ms", {{"p50", figures.inferenceMsMedian}, {"p99", figures.inferenceMsP99}}},
         {"nonfinite", figures.nonFinite},
         {"underruns", figures.underruns},
+        {"sketched", figures.sketched},
         {"tier", identity.tier},
         {"solver", isSolved ? nlohmann::ordered_json(identity.solver) : nlohmann::ordered_json()},
         {"steps", isSolved ? nlohmann::ordered_json(identity.steps) : nlohmann::ordered_json()},

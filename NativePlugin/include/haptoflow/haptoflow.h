@@ -750,7 +750,8 @@ typedef struct haptoflow_voice_statistics {
     /* Touches that began to sound, without resumptions, and those of them that ended within one block. */
     uint64_t onsets;
     uint64_t taps;
-    /* Blocks that needed samples that no segment provided (underruns); late segments; segments that were not used. */
+    /* Blocks that needed samples that no segment provided (underruns; none with a model that has a skeleton); late
+     * segments; segments that were not used. */
     uint64_t underruns;
     uint64_t late;
     uint64_t dropped;
@@ -782,6 +783,9 @@ typedef struct haptoflow_voice_statistics {
     uint32_t is_rate_supported;
     /* Impacts and edges that were lost, because more than 64 were published between two blocks; the strongest sound. */
     uint64_t lost_blows;
+    /* Blocks in which the skeleton sounded alone: until the network's first segment of a touch, and while inference is
+     * late or fails. 0 for a model without a skeleton. */
+    uint64_t sketched;
 } haptoflow_voice_statistics;
 
 /* Creates a voice. sample_rate_hz is that of the output, 8000 to 192000; 0 for 48000. It may change later: see

@@ -205,6 +205,7 @@ haptoflow_status haptoflow_voice_get_statistics(haptoflow_voice voice, haptoflow
         content.silence = static_cast<haptoflow_silence>(channels.silence.load());
         content.is_rate_supported = channels.isRateSupported ? 1 : 0;
         content.lost_blows = counters.lostBlows;
+        content.sketched = counters.sketched;
         writeDescriptor(statistics, content, "statistics");
     });
 }

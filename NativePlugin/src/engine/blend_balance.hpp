@@ -46,8 +46,8 @@ public:
     [[nodiscard]] std::size_t requested() const noexcept { return requested_; }
     /// Takes the requested segments, one after the other.
     void take(std::span<const float> segments) noexcept;
-    /// Measures a segment of the blend that was generated for `levelMps2` and applies the gain to it. Returns the gain; 1
-    /// for a single material.
+    /// Measures a segment of the blend that was generated for `levelMps2` and applies the gain to it. Returns the gain;
+    /// 1 for a single material.
     float level(std::span<float, inference::segmentSamples> segmentMps2, float levelMps2) noexcept;
 
 private:

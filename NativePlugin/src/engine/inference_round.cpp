@@ -91,10 +91,10 @@ void InferenceRound::generate(inference::SegmentGenerator& generator, RoundResul
         for (std::size_t row = 0; row * inference::segmentSamples < sketches.size(); ++row) {
             isSketched_[firstRow + first + row] = true;
         }
-        std::ranges::copy(sketches, std::span(sketches_).subspan((firstRow + first) * inference::segmentSamples).begin());
+        std::ranges::copy(sketches,
+                          std::span(sketches_).subspan((firstRow + first) * inference::segmentSamples).begin());
     };
-    const std::optional<std::uint64_t> together =
-        nanosecondsOf(generator, requests_, segments_, keep, result.failure);
+    const std::optional<std::uint64_t> together = nanosecondsOf(generator, requests_, segments_, keep, result.failure);
     std::size_t kept = 0;
     for (std::size_t i = 0; i < pending_.size(); ++i) {
         const std::span<float, inference::segmentSamples> segment(segments_.data() + i * inference::segmentSamples,
@@ -114,8 +114,8 @@ void InferenceRound::generate(inference::SegmentGenerator& generator, RoundResul
         }
         pending_[i]->channels.counters.inferenceNanoseconds.fetch_add(*spent, std::memory_order_relaxed);
         ++result.segments;
-        const auto sketch = std::span<const float>(sketches_).subspan(
-            i * inference::segmentSamples, isSketched_[i] ? inference::segmentSamples : 0);
+        const auto sketch = std::span<const float>(sketches_).subspan(i * inference::segmentSamples,
+                                                                      isSketched_[i] ? inference::segmentSamples : 0);
         if (pending_[i]->planner.deliver(segment, sketch)) {
             pending_[kept] = pending_[i];
             ++kept;

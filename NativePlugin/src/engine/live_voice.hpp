@@ -3,8 +3,8 @@
 #include "dsp/limiter.hpp"
 #include "engine/contact_publisher.hpp"
 #include "engine/segment_planner.hpp"
-#include "engine/voice_channels.hpp"
 #include "engine/sketcher.hpp"
+#include "engine/voice_channels.hpp"
 #include "engine/voice_renderer.hpp"
 #include "skeleton/skeleton_tensors.hpp"
 

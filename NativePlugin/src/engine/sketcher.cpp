@@ -60,9 +60,9 @@ void Sketcher::begin(std::int64_t head, std::span<float, WaveformTimeline::seedS
     }
     skeleton::Phases earlier = phases;
     for (std::size_t family = 0; family < skeleton::familyCount; ++family) {
-        const double turns = static_cast<double>(phases[family]) -
-                             static_cast<double>(phases[skeleton::familyCount + family]) *
-                                 static_cast<double>(segmentLength) / inference::waveformRateHz;
+        const double turns =
+            static_cast<double>(phases[family]) - static_cast<double>(phases[skeleton::familyCount + family]) *
+                                                      static_cast<double>(segmentLength) / inference::waveformRateHz;
         earlier[family] = static_cast<float>(turns - std::floor(turns));
     }
     sketchSegment(earlier, before, head - segmentLength);
@@ -105,8 +105,8 @@ void Sketcher::sketchSegment(const skeleton::Phases& phases, const inference::Su
                              std::int64_t start) noexcept {
     const float levelMps2 = levelOfMaterial();
     Wave noise{};
-    fillNoise(track_.stretch().surface, path,
-              {.seed = seed_, .voice = voice_, .segment = firstSegment + segments_}, noise);
+    fillNoise(track_.stretch().surface, path, {.seed = seed_, .voice = voice_, .segment = firstSegment + segments_},
+              noise);
     ++segments_;
     Wave previous{};
     for (std::int64_t back = 1; back <= static_cast<std::int64_t>(skeleton::filterOrder); ++back) {
@@ -138,8 +138,7 @@ void Sketcher::holdCorrection(const WaveformTimeline& timeline, std::int64_t sta
     for (std::int64_t index = 0; index < segmentLength; ++index) {
         float& sample = correction[static_cast<std::size_t>(index)];
         if (index < known) {
-            const float reached =
-                std::min(1.0F, static_cast<float>(index + 1) / static_cast<float>(levelRampSamples));
+            const float reached = std::min(1.0F, static_cast<float>(index + 1) / static_cast<float>(levelRampSamples));
             last = (sample - at(start + index)) * (1.0F + (ratio - 1.0F) * reached);
             sample = last;
         } else {

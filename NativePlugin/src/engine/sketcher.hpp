@@ -55,7 +55,9 @@ private:
     static constexpr std::size_t segmentSamples = inference::segmentSamples;
     using Wave = std::array<float, segmentSamples>;
 
-    [[nodiscard]] float& at(std::int64_t sample) noexcept { return ring_[static_cast<std::size_t>(sample) % ring_.size()]; }
+    [[nodiscard]] float& at(std::int64_t sample) noexcept {
+        return ring_[static_cast<std::size_t>(sample) % ring_.size()];
+    }
     [[nodiscard]] float at(std::int64_t sample) const noexcept {
         return ring_[static_cast<std::size_t>(sample) % ring_.size()];
     }

@@ -13,7 +13,8 @@
 namespace haptoflow::engine {
 
 /// Phases of the surface's waves along a stream in waveform time: ribs by the way along their wave vectors and by their
-/// wander from it, stick-slip by the number of slips so far. A small value, which threads hand to each other; allocates nothing.
+/// wander from it, stick-slip by the number of slips so far. A small value, which threads hand to each other; allocates
+/// nothing.
 class SurfacePhases {
 public:
     /// Begins a stream with a seed at the sample `start`.

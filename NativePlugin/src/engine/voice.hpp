@@ -38,8 +38,8 @@ public:
 /// and wait for nothing.
 class Voice {
 public:
-    /// Counts its effects in `figures`, which must outlive it. `sketcher` is null for a model without a skeleton. Throws std::invalid_argument for a rate outside 8-192
-    /// kHz or a full scale that is not above 0.
+    /// Counts its effects in `figures`, which must outlive it. `sketcher` is null for a model without a skeleton.
+    /// Throws std::invalid_argument for a rate outside 8-192 kHz or a full scale that is not above 0.
     Voice(double outputRateHz, float fullScaleMps2, EffectFigures& figures,
           std::unique_ptr<Sketcher> sketcher = nullptr);
 

@@ -16,8 +16,7 @@ void count(std::atomic<std::uint64_t>& counter, std::uint64_t by = 1) noexcept {
 }  // namespace
 
 VoiceRenderer::VoiceRenderer(VoiceChannels& channels, const std::atomic<bool>& workerAlive, double outputRateHz,
-                             float fullScaleMps2, const SurfaceTrack& track,
-                             std::unique_ptr<Sketcher> sketcher)
+                             float fullScaleMps2, const SurfaceTrack& track, std::unique_ptr<Sketcher> sketcher)
     : channels_(channels),
       workerAlive_(workerAlive),
       voice_(outputRateHz, fullScaleMps2, channels.counters.effects, std::move(sketcher)),
@@ -397,8 +396,7 @@ void VoiceRenderer::takeSegments() noexcept {
         takenSequence_ = segment->sequence;
         headAtTake_[takenSequence_ % headAtTake_.size()] = voice_.timeline().head();
         const bool isCurrent = isSounding() && segment->stream == stream_;
-        const std::int64_t takeOver =
-            isCurrent ? voice_.take(*segment) : -1;
+        const std::int64_t takeOver = isCurrent ? voice_.take(*segment) : -1;
         if (takeOver >= 0) {
             track_ = segment->track;
         }

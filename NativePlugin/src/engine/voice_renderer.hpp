@@ -26,11 +26,11 @@ public:
     /// Duration of a tap that began and ended between two states.
     static constexpr double tapSeconds = 0.01;
 
-    /// `workerAlive` becomes false when the worker thread has ended; the voice then falls silent. `track` is the voice's before its first stream,
-    /// `sketcher` as for Voice. Allocates. Throws
-    /// std::invalid_argument for a rate outside 8-192 kHz or a full scale that is not above 0.
-    VoiceRenderer(VoiceChannels& channels, const std::atomic<bool>& workerAlive, double outputRateHz, float fullScaleMps2,
-                  const SurfaceTrack& track, std::unique_ptr<Sketcher> sketcher = nullptr);
+    /// `workerAlive` becomes false when the worker thread has ended; the voice then falls silent. `track` is the
+    /// voice's before its first stream, `sketcher` as for Voice. Allocates. Throws std::invalid_argument for a rate
+    /// outside 8-192 kHz or a full scale that is not above 0.
+    VoiceRenderer(VoiceChannels& channels, const std::atomic<bool>& workerAlive, double outputRateHz,
+                  float fullScaleMps2, const SurfaceTrack& track, std::unique_ptr<Sketcher> sketcher = nullptr);
 
     /// Writes the next samples, +-1. At a new rate, the voice fades and stays silent until the worker has made an
     /// output stage; a touch that still lasts then resumes. At a rate outside 8-192 kHz it stays silent and counts the

@@ -52,8 +52,8 @@ public:
     /// the past, would leave a gap or reaches beyond the capacity of a view is rejected. Returns the sample at which
     /// the segment took over, or -1.
     std::int64_t commit(std::int64_t start, std::span<const float, inference::segmentSamples> segment) noexcept;
-    /// Commits samples that continue the wave before `start` by themselves, so that nothing is spliced. They replace all
-    /// that was committed from there on. `start` lies between the head and the end of what is covered.
+    /// Commits samples that continue the wave before `start` by themselves, so that nothing is spliced. They replace
+    /// all that was committed from there on. `start` lies between the head and the end of what is covered.
     void continueWith(std::int64_t start, std::span<const float, inference::segmentSamples> samplesMps2) noexcept;
     /// Changes committed samples from `start` on.
     void rewrite(std::int64_t start, std::span<const float> samplesMps2) noexcept;

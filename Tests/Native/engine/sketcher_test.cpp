@@ -91,7 +91,8 @@ protected:
 
     static std::span<const float> played(const SimulatedDevice& device, double fromSeconds, double untilSeconds) {
         const auto first = static_cast<std::size_t>(fromSeconds * 2000.0);
-        return std::span(device.waveform.samples).subspan(first, static_cast<std::size_t>(untilSeconds * 2000.0) - first);
+        return std::span(device.waveform.samples)
+            .subspan(first, static_cast<std::size_t>(untilSeconds * 2000.0) - first);
     }
     static testing::DeviceSettings slowNetwork(double seconds) {
         testing::DeviceSettings settings;
@@ -248,8 +249,8 @@ TEST_F(SketcherTest, AnythingAtEveryStateForAMinuteStaysFiniteAndEndsInSilence) 
         if (uniform(random) < 0.02F) {
             return std::nullopt;
         }
-        ContactState state = slideAt(seconds, uniform(random) < 0.1F ? 20.0F : uniform(random),
-                                     uniform(random) < 0.5F ? 0U : 1U);
+        ContactState state =
+            slideAt(seconds, uniform(random) < 0.1F ? 20.0F : uniform(random), uniform(random) < 0.5F ? 0U : 1U);
         state.forceNewtons = uniform(random) < 0.01F ? std::numeric_limits<float>::quiet_NaN() : 5.0F * uniform(random);
         state.velocityMps[1] = uniform(random) < 0.01F ? std::numeric_limits<float>::infinity() : uniform(random);
         state.touching = uniform(random) < 0.05F ? 0U : 1U;

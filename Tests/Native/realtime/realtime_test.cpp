@@ -15,6 +15,7 @@
 #include <cstdlib>
 #include <mutex>
 #include <span>
+#include <string>
 #include <thread>
 
 namespace haptoflow::realtime {
@@ -172,8 +173,9 @@ struct OutputRecord {
     }
 };
 
-TEST(RealTimeTest, NoCallbackUnderLoadAllocatesLocksOrEntersTheKernel) {
-    const OpenEngine open(capi::testing::defaultModelPath, true);
+/// Plain callbacks of a model's voice.
+void watchCallbacksOf(const std::string& modelPath) {
+    const OpenEngine open(modelPath, true, HAPTOFLOW_QUALITY_STANDARD);
     OutputRecord record;
     std::array<float, 128> block{};
     watchUnderLoad(open, [&](std::uint32_t frames, std::uint32_t rateHz) {
@@ -182,6 +184,14 @@ TEST(RealTimeTest, NoCallbackUnderLoadAllocatesLocksOrEntersTheKernel) {
     });
     EXPECT_TRUE(record.isFinite);
     EXPECT_GT(record.loudest, 0.001F);
+}
+
+TEST(RealTimeTest, NoCallbackUnderLoadAllocatesLocksOrEntersTheKernel) {
+    watchCallbacksOf(capi::testing::defaultModelPath);
+}
+
+TEST(RealTimeTest, NoCallbackThatSketchesAllocatesLocksOrEntersTheKernel) {
+    watchCallbacksOf(HAPTOFLOW_TEST_GOLDEN_DIR "/model/skeleton.haptoflow");
 }
 
 TEST(RealTimeTest, NoCallbackOfTheMixerEffectUnderLoadAllocatesLocksOrEntersTheKernel) {
