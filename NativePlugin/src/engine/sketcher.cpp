@@ -48,7 +48,7 @@ void Sketcher::follow(const PublishedContact& contact, const MaterialInputs& mat
 
 void Sketcher::begin(std::int64_t head, std::span<float, WaveformTimeline::seedSamples> seedMps2) noexcept {
     ring_.fill(0.0F);
-    refinedUntil_ = head;
+    refinedFrom_ = refinedUntil_ = head;
     hasSketch_ = true;
     correctedLevelMps2_ = contact_.levelMps2;
     track_.begin(head);
@@ -166,7 +166,7 @@ Sketcher::Taken Sketcher::take(WaveformTimeline& timeline, const QueuedSegment& 
         correctedLevelMps2_ = segment.levelMps2;
         balance_ = segment.balance;
         hasSketch_ = segment.hasSketch;
-        refinedUntil_ = std::max(refinedUntil_, end);
+        noteRefined(start, end);
         return {.use = Use::whole, .start = start};
     }
     const std::int64_t last = std::min(end, timeline.coveredUntil());
@@ -183,8 +183,15 @@ Sketcher::Taken Sketcher::take(WaveformTimeline& timeline, const QueuedSegment& 
         played += (corrected - played) * fadedIn(sample - first);
     }
     timeline.rewrite(first, std::span(waveform).first(static_cast<std::size_t>(last - first)));
-    refinedUntil_ = std::max(refinedUntil_, last);
+    noteRefined(first, last);
     return {.use = Use::correction, .start = first};
+}
+
+void Sketcher::noteRefined(std::int64_t start, std::int64_t end) noexcept {
+    if (start > refinedUntil_) {
+        refinedFrom_ = start;
+    }
+    refinedUntil_ = std::max(refinedUntil_, end);
 }
 
 float Sketcher::levelOfMaterial() const noexcept {

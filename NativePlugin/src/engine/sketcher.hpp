@@ -49,7 +49,9 @@ public:
 
     [[nodiscard]] const SurfaceTrack& track() const noexcept { return track_; }
     /// Whether a segment of the network reaches a sample.
-    [[nodiscard]] bool isRefined(std::int64_t sample) const noexcept { return sample < refinedUntil_; }
+    [[nodiscard]] bool isRefined(std::int64_t sample) const noexcept {
+        return sample >= refinedFrom_ && sample < refinedUntil_;
+    }
 
 private:
     static constexpr std::size_t segmentSamples = inference::segmentSamples;
@@ -64,6 +66,7 @@ private:
     [[nodiscard]] float levelOfMaterial() const noexcept;
     void sketch(WaveformTimeline& timeline, std::int64_t start) noexcept;
     void sketchSegment(const skeleton::Phases& phases, const inference::SurfacePath& path, std::int64_t start) noexcept;
+    void noteRefined(std::int64_t start, std::int64_t end) noexcept;
     void holdCorrection(const WaveformTimeline& timeline, std::int64_t start, Wave& correction) const noexcept;
     [[nodiscard]] double secondsAheadOf(std::int64_t sample) const noexcept;
 
@@ -83,6 +86,7 @@ private:
     // Level of the contact for which the correction is scaled.
     float correctedLevelMps2_ = 1.0F;
     float balance_ = 1.0F;
+    std::int64_t refinedFrom_ = 0;
     std::int64_t refinedUntil_ = 0;
     bool hasSketch_ = true;
 };

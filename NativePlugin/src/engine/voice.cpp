@@ -108,6 +108,8 @@ void Voice::prime() noexcept {
     std::array<float, inference::segmentSamples> waveform{};
     timeline_.history(timeline_.head(), waveform);
     applyTone(waveform);
+    highPass_.reset();
+    highPass_.process(waveform);
     level_.process(waveform);
     // Read ahead by the resampler's delay, so that the seed's first sample is the next to sound.
     const std::size_t ahead = output_->resampler.latencyInputSamples();
@@ -171,6 +173,7 @@ void Voice::readWaveform(std::span<float> out) noexcept {
     if (sink_ != nullptr && !out.empty()) {
         sink_->played(start, out);
     }
+    highPass_.process(out);
     level_.process(out);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "dsp/high_pass.hpp"
 #include "dsp/level_smoother.hpp"
 #include "dsp/limiter.hpp"
 #include "dsp/rate_warp.hpp"
@@ -29,9 +30,9 @@ public:
     virtual void tookOver(std::int64_t sample) noexcept = 0;
 };
 
-/// The signal of one stylus tip. Its stages in order: timeline, level of the newest state, tone, range law, reading
-/// rate, output rate, gate, blows and signal, delay, compensation, strength, exposure guard, the gate of all effects,
-/// limiter.
+/// The signal of one stylus tip. Its stages in order: timeline, level of the newest state, tone, high-pass, range law,
+/// reading rate, output rate, gate, blows and signal, delay, compensation, strength, exposure guard, the gate of all
+/// effects, limiter.
 ///
 /// While the texture's gate is closed, the waveform is not read and its clock stands still. If no effect sounds either,
 /// `render` writes zeros. Used by one thread. Construction excepted, all functions take bounded time, allocate nothing
@@ -133,6 +134,7 @@ private:
     WaveformTimeline timeline_;
     LevelFollower follower_;
     dsp::ToneFilter tone_;
+    dsp::HighPass highPass_;
     dsp::LevelSmoother level_;
     dsp::RateWarp warp_;
     dsp::SoftLimiter limiter_;

@@ -72,6 +72,15 @@ TEST_F(LiveVoiceTest, TheSeedSoundsUntilTheFirstSegmentArrives) {
     EXPECT_GT(device.counters().inferences, 5U);
 }
 
+TEST_F(LiveVoiceTest, WhatLiesBelowTheRecordingsBandIsNotSentToTheActuator) {
+    FakeGenerator constant(
+        [](const inference::SegmentRequest&, std::span<float> segment) { std::ranges::fill(segment, 20.0F); });
+    SimulatedDevice device(model_, constant);
+    device.run(1.0, slide);
+    EXPECT_EQ(device.waveform.samples.back(), 20.0F);
+    EXPECT_LT(testing::peak(std::span<const float>(device.output).last(4800)), 0.02F / 60.0F);
+}
+
 TEST_F(LiveVoiceTest, ATapBetweenTwoBlocksSoundsForTenMilliseconds) {
     SimulatedDevice device(model_, tone_);
     device.run(0.1, [](double) { return testing::lifted(0); });
