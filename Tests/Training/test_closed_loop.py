@@ -17,6 +17,7 @@ class Probe:
         self.motions: list[np.ndarray] = []
         self.pasts: list[np.ndarray] = []
         self.phases: list[np.ndarray] = []
+        self.noises: list[np.ndarray] = []
 
     def generate(
         self,
@@ -29,6 +30,7 @@ class Probe:
         self.phases.append(phases.copy())
         self.motions.append(motions.copy())
         self.pasts.append(previous_mps2.copy())
+        self.noises.append(noise.copy())
         return np.tile(1000.0 * len(self.pasts) + np.arange(200), (len(embeddings), 1)).astype(np.float32)
 
 
@@ -48,6 +50,18 @@ def test_each_past_is_the_two_hundred_samples_before_the_segment(rate_hz: float)
     padded = np.concatenate([np.zeros((2, 200), np.float32), run.waves], axis=1)
     for start, past in zip(run.hop_starts, probe.pasts, strict=True):
         np.testing.assert_array_equal(past, padded[:, start : start + 200])
+
+
+def test_segments_that_overlap_have_the_same_noise_because_it_belongs_to_the_place() -> None:
+    probe = Probe()
+    run = run_closed_loop(
+        probe, np.zeros((2, 64), np.float32), np.zeros((2, 1500, 3), np.float32), np.arange(2), still_surfaces(2),
+        update_rate_hz=72.0, seed=1,
+    )  # fmt: skip
+    hops = np.diff(run.hop_starts)
+    for hop, before, after in zip(hops, probe.noises, probe.noises[1:], strict=False):
+        np.testing.assert_array_equal(before[:, hop:], after[:, : 200 - hop])
+        assert not np.isclose(before[0], before[1]).any(), "each row has its own"
 
 
 def test_the_condition_of_a_segment_is_the_motion_before_it_and_not_the_motion_after_it() -> None:

@@ -73,7 +73,8 @@ def run_closed_loop(
     `embeddings` [labels, 64], [n]; or [n, hops] where a waveform changes its label.
 
     The condition of each segment is the mean motion of the hop before it, because a tracker knows no more. The phases
-    are integrated from the same motions, as in the engine; statistics: of the surfaces, by label.
+    are integrated from the same motions, as in the engine; statistics: of the surfaces, by label. Segments that overlap
+    have the same noise there, because in the engine it belongs to the place.
     """
     rows, samples, _ = motions.shape
     # The waveform is preceded by silence, long enough to be the first segment's previous waveform.
@@ -81,6 +82,7 @@ def run_closed_loop(
     wave = out[:, SEGMENT_SAMPLES:]
     starts = hop_positions(samples, update_rate_hz)
     generator = np.random.default_rng(seed)
+    surface_noise = generator.standard_normal((rows, samples + SEGMENT_SAMPLES), dtype=np.float32)
     track = PhaseTrack(statistics, rows, seed)
     condition = np.zeros((rows, 3), dtype=np.float32)
     before = 0
@@ -90,7 +92,7 @@ def run_closed_loop(
         embedding = embeddings[label]
         known = motions[:, before:start] if start > before else motions[:, :1]
         past = out[:, start : start + SEGMENT_SAMPLES].copy()
-        noise = generator.standard_normal((rows, SEGMENT_SAMPLES)).astype(np.float32)
+        noise = surface_noise[:, start : start + SEGMENT_SAMPLES].copy()
         condition = known.mean(axis=1).astype(np.float32)
         segment = source.generate(embedding, condition, past, noise, track.at(embedding, label, condition))
         if start > 0:

@@ -22,6 +22,9 @@ from haptoflow_training.models.rung_impulses import ATOMS, TailImpulses, TAIL_RU
 from haptoflow_training.models.surface_waves import FAMILIES, RATE_FEATURES, SurfaceWaves, rate_features
 
 ORDER = 24
+# The likelihood's part of a segment ends here, 44 ms from its beginning. Over a whole segment a hand changes its speed so
+# much that the filter would fit a mean of powers, 5 dB too strong where a surface has little power.
+LIKELIHOOD_END = 88
 # The longest response falls to 1/e in 33 ms, a resonance 10 Hz wide. A sharper one would be a line, and lines are made
 # elsewhere; a likelihood, which hardly notices a false peak where little was recorded, would leave some.
 _POLE_DAMPING = 0.985
@@ -102,11 +105,13 @@ class Skeleton(nn.Module):
 
     def likelihood(self, segment: Tensor, gains: SkeletonGains, phases: Tensor) -> Tensor:
         """[B]: Gaussian negative log-likelihood per sample of the one-step prediction errors of a recorded segment [B,
-        1, 200] beyond the lines, from the filter's 25th sample on. What was before the segment, which may be silence or
-        another material, is no part of it: errors there would be a hundred times as large and flatten the filter."""
-        swing = self._swung(gains, self.swing_waves(phases))[:, ORDER:]
-        driven = prediction_errors(segment[:, 0], gains.coefficients) * torch.exp(-gains.log_gain)
-        beyond = (driven - self._lines(gains, phases)[:, ORDER:]) * torch.exp(-swing)
+        1, 200] beyond the lines, from the filter's 25th sample on, for as long as a hand's motion hardly changes. What was
+        before the segment, which may be silence or another material, is no part of it: errors there would be a hundred
+        times as large and flatten the filter."""
+        heard = slice(ORDER, LIKELIHOOD_END)
+        swing = self._swung(gains, self.swing_waves(phases))[:, heard]
+        driven = prediction_errors(segment[:, 0, :LIKELIHOOD_END], gains.coefficients) * torch.exp(-gains.log_gain)
+        beyond = (driven - self._lines(gains, phases)[:, heard]) * torch.exp(-swing)
         return (gains.log_gain + swing + 0.5 * beyond.square()).mean(dim=1)
 
     def filter_distance(self, segment: Tensor, embedding: Tensor, motion: Tensor, phases: Tensor) -> Tensor:

@@ -83,6 +83,13 @@ def path_of(phases: Tensor) -> Tensor:
     return phases[:, 2 * FAMILIES :].reshape(-1, FAMILIES, SEGMENT_SAMPLES)
 
 
+def with_rates_at(phases: Tensor, sample: int) -> Tensor:
+    """Phases that know their path, with the rates that each family has at a sample of it."""
+    path = path_of(phases)
+    rates = (path[:, :, sample + 1] - path[:, :, sample - 1]) * (0.5 * SAMPLE_RATE_HZ)
+    return torch.cat([phases[:, :FAMILIES], rates, phases[:, 2 * FAMILIES :]], dim=1)
+
+
 def with_path(phases: Tensor, path: Tensor) -> Tensor:
     """Phases [B, 6] with the turns [B, 3, 200] of each family at every sample."""
     return torch.cat([phases, path.flatten(1)], dim=1)

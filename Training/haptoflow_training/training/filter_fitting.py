@@ -9,16 +9,18 @@ from torch import Tensor
 from haptoflow_training.models.surface_waves import MINIMUM_HZ
 
 _SMALL = 1e-6
-# Noise added to recordings before a filter is fitted, in unit scale: 45 dB below the level, where nothing is felt, a
-# filter has better uses for its poles.
-_FLOOR = 10.0 ** (-45.0 / 20.0)
+# Noise added to recordings before a filter is fitted. Where nothing is felt, a filter has better uses for its poles.
+_FLOOR_MPS2 = 0.005
+# In unit scale at most this: 45 dB below the level.
+_LARGEST_FLOOR = 10.0 ** (-45.0 / 20.0)
 # A vibration of this RMS weighs half.
 _FAINT_MPS2 = 0.03
 
 
-def with_floor(segment: Tensor, generator: torch.Generator) -> Tensor:
-    """Segments [B, 1, 200] in unit scale over the noise floor."""
-    return segment + _FLOOR * torch.randn(segment.shape, generator=generator)
+def with_floor(segment: Tensor, log_level: Tensor, generator: torch.Generator) -> Tensor:
+    """Segments [B, 1, 200] in unit scale, of the level exp(log_level) [B, 1] in m/s^2, over the noise floor."""
+    floor = (_FLOOR_MPS2 * torch.exp(-log_level.detach())).clamp(max=_LARGEST_FLOOR).unsqueeze(2)
+    return segment + floor * torch.randn(segment.shape, generator=generator)
 
 
 def audible(log_level: Tensor) -> Tensor:

@@ -7,10 +7,12 @@ from torch import Tensor
 
 from haptoflow_training.models.label_embedding import surface_path
 from haptoflow_training.models.skeleton_model import SkeletonModel
-from haptoflow_training.models.surface_waves import FAMILIES, advanced, with_path
+from haptoflow_training.models.skeleton import LIKELIHOOD_END, ORDER
+from haptoflow_training.models.surface_waves import FAMILIES, advanced, with_path, with_rates_at
 from haptoflow_training.training.batches import SegmentBatch
 from haptoflow_training.training.filter_fitting import audible, weighted_mean, with_floor, without_waves
 from haptoflow_training.training.losses import Losses, ScaledBatch
+from haptoflow_training.waveform import SEGMENT_SAMPLES
 
 # Samples by which the second pass of the shift's loss is begun later: up to the hop of an update at 72 Hz.
 _MAXIMUM_SHIFT = 27
@@ -40,14 +42,16 @@ class SkeletonLosses(Losses):
     def _skeleton_loss(self, given: ScaledBatch, objective: str, generator: torch.Generator) -> Tensor:
         skeleton = self.model.skeleton
         condition = given.embedding, given.batch.motion, given.phases
-        segment, weight = with_floor(given.segment, generator), audible(given.log_level)
+        segment, weight = with_floor(given.segment, given.log_level, generator), audible(given.log_level)
         if objective == "filter":
             still = without_waves(given.phases[:, FAMILIES : 2 * FAMILIES])
-            return weighted_mean(skeleton.filter_distance(segment, *condition), weight * still)
-        gains = skeleton.gains(*condition)
-        likelihood = weighted_mean(skeleton.likelihood(segment, gains, given.phases), weight)
+            amid = self._condition_at(given, SEGMENT_SAMPLES // 2)
+            return weighted_mean(skeleton.filter_distance(segment, *amid), weight * still)
+        amid = self._condition_at(given, (ORDER + LIKELIHOOD_END) // 2)
+        likelihood = weighted_mean(skeleton.likelihood(segment, skeleton.gains(*amid), given.phases), weight)
         if objective == "likelihood":
             return likelihood
+        gains = skeleton.gains(*condition)
         drawn = tuple(
             skeleton.parts(self._noise(given, generator), given.previous, gains, given.phases).begun for _ in range(2)
         )
@@ -66,6 +70,13 @@ class SkeletonLosses(Losses):
         difference = again[:, 0, : again.shape[2] - later] - first[:, 0, later:]
         shift = weighted_mean((difference.square().mean(dim=1) + _SMALL).sqrt(), given.steadiness)
         return loss + _SHIFT_WEIGHT * shift
+
+    @staticmethod
+    def _condition_at(given: ScaledBatch, sample: int) -> tuple[Tensor, Tensor, Tensor]:
+        """Embedding, motion and phases as they are at a sample of the segment."""
+        motions = given.batch.motion_path
+        knot = round(sample * (motions.shape[1] - 1) / (SEGMENT_SAMPLES - 1))
+        return given.embedding, motions[:, knot], with_rates_at(given.phases, sample)
 
     @staticmethod
     def _noise(given: ScaledBatch, generator: torch.Generator) -> Tensor:
