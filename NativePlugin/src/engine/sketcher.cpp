@@ -11,7 +11,7 @@ namespace haptoflow::engine {
 namespace {
 
 constexpr auto segmentLength = static_cast<std::int64_t>(inference::segmentSamples);
-// 5 ms, as a splice.
+// 5 ms.
 constexpr std::int64_t fadeSamples = 10;
 constexpr std::int64_t levelRampSamples = 8;
 // A correction is not raised by more than 12 dB.
