@@ -31,7 +31,7 @@ nlohmann::ordered_json goals() {
             {"callback_events_us", "at most twice an ordinary block of the same row, p50 to p50"},
             {"effects", "no run without a request"},
             {"onset_ms", "one block; with bursts, one burst"},
-            {"contact_to_sound_ms", "the voice's lead, one block and 1 ms; the delay of the output's filters is added"},
+            {"contact_to_sound_ms", "one block, the delay of the output's filter, and 1.5 ms"},
             {"stop_ms", "one block and 5 ms"},
             {"noise_us", "at most 5 % of standard, paced, more for the surface's than for that of time"},
             {"speedup_vs_paper_architecture", "at least 60, hot"},
@@ -63,7 +63,7 @@ nlohmann::ordered_json notesFor(const nlohmann::ordered_json& report, const Subj
             "`npm run bench` builds one, --paper-model names one");
     }
     if (report.contains("onset_ms") && !report.contains("contact_to_sound_ms")) {
-        notes.push_back("contact_to_sound_ms was not measured: it needs a model with seeds of two labels");
+        notes.push_back("contact_to_sound_ms was not measured: it needs a model with a skeleton and two labels");
     }
     return notes;
 }

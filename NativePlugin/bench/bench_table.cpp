@@ -142,20 +142,19 @@ std::string deviceOf(const Json& entry) {
 }
 
 void printLatency(std::ostream& stream, const std::string& title, const Json& section) {
-    const bool hasLead = section.contains("lead");
+    const bool hasFilter = section.contains("filter_delay");
     std::vector<Row> table{
         {"block", "events", "p50", "p99", "worst", "goal", "p99 / goal", "within %", "missed", "late calls"}};
-    if (hasLead) {
-        table[0].insert(table[0].end(), {"lead p50", "filters", "within % with filters"});
+    if (hasFilter) {
+        table[0].emplace_back("filter");
     }
     for (const Json& entry : section["rows"]) {
         Row row{deviceOf(entry), figure(entry["count"])};
         appendRanks(row, entry);
         row.insert(row.end(), {figure(entry["goal"]), figure(entry["ratio"]), percent(entry["within_goal"]),
                                figure(entry["missed"]), figure(entry["late_calls"])});
-        if (hasLead) {
-            row.insert(row.end(), {figure(entry["lead"]["p50"]), figure(entry["filter_delay"]),
-                                   percent(entry["within_goal_and_filters"])});
+        if (hasFilter) {
+            row.push_back(figure(entry["filter_delay"]));
         }
         table.push_back(row);
     }

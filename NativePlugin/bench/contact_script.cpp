@@ -11,6 +11,7 @@ namespace {
 constexpr double updateSeconds = 1.0 / updateRateHz;
 // Silence before a script begins, until its device has started.
 constexpr double quietSeconds = 0.05;
+constexpr std::size_t stepsOfAStroke = 6;
 // A state closer to the end than this would be published twice.
 constexpr double minimumSeconds = 1e-4;
 
@@ -52,7 +53,8 @@ TouchScript touchScript(const Hand& hand, const DeviceShape& shape, std::size_t 
 
 StepScript stepScript(const Hand& hand, const DeviceShape& shape, std::size_t steps, std::uint32_t firstTouch,
                       std::mt19937_64& random) {
-    const auto updates = std::max(2.0, std::ceil(1.5 * shape.periodSeconds() / updateSeconds));
+    // A change must have sounded before the next one.
+    const auto updates = std::max(4.0, std::ceil((2.0 * shape.periodSeconds() + 0.03) / updateSeconds));
     const double holdSeconds = updates * updateSeconds;
     std::uniform_real_distribution<double> phase(0.0, updateSeconds);
     StepScript script;
@@ -61,21 +63,15 @@ StepScript stepScript(const Hand& hand, const DeviceShape& shape, std::size_t st
     hold(script.states, Hand::lifted(counter - 1), now, quietSeconds);
     now = quietSeconds;
     while (script.steps.size() < steps) {
-        // The first label of a stroke lasts until the seed has ended. Times are whole updates, because a hand's states
-        // come at the update rate throughout a touch.
-        const double firstSeconds = std::ceil(0.15 / updateSeconds) * updateSeconds;
-        for (std::size_t place = 0; place < hand.labelCount(); ++place) {
-            if (place > 0) {
-                script.steps.push_back({script.states.size(), place});
+        // Times are whole updates, because a hand's states come at the update rate throughout a touch.
+        for (std::size_t change = 0; change < 2 * stepsOfAStroke; ++change) {
+            const std::size_t place = change % 2;
+            if (place == 1) {
+                script.steps.push_back(script.states.size());
             }
-            const double seconds = place == 0 ? firstSeconds : holdSeconds;
-            hold(script.states, hand.sliding(counter, place), now, now + seconds);
-            now += seconds;
+            hold(script.states, hand.sliding(counter, place), now, now + holdSeconds);
+            now += holdSeconds;
         }
-        // The last step must sound before the tip is lifted.
-        const double tailSeconds = std::ceil((2.0 * shape.periodSeconds() + 0.06) / updateSeconds) * updateSeconds;
-        hold(script.states, hand.sliding(counter, hand.labelCount() - 1), now, now + tailSeconds);
-        now += tailSeconds;
         // Strokes begin at any phase of the device's blocks.
         const double pauseSeconds = shape.periodSeconds() + 0.02 + phase(random);
         hold(script.states, Hand::lifted(counter), now, now + pauseSeconds);
@@ -86,15 +82,14 @@ StepScript stepScript(const Hand& hand, const DeviceShape& shape, std::size_t st
     return script;
 }
 
-std::vector<Published> playScript(engine::LiveEngine& engine, engine::LiveVoice& voice,
-                                  const std::vector<TimedState>& states) {
-    std::vector<Published> published;
+std::vector<double> playScript(engine::LiveEngine& engine, engine::LiveVoice& voice,
+                               const std::vector<TimedState>& states) {
+    std::vector<double> published;
     published.reserve(states.size());
     const double start = nowSeconds();
     for (const TimedState& timed : states) {
         sleepUntil(start + timed.seconds);
-        const std::uint32_t lead = voice.channels.counters.leadSamples.load(std::memory_order_relaxed);
-        published.push_back({nowSeconds(), lead});
+        published.push_back(nowSeconds());
         engine.publish(voice, timed.state);
     }
     return published;

@@ -15,12 +15,6 @@ struct TimedState {
     engine::ContactState state;
 };
 
-/// The time at which a state of a script was published, and the voice's lead at that time.
-struct Published {
-    double seconds = 0.0;
-    std::uint32_t leadSamples = 0;
-};
-
 /// The states of a script at which a touch begins and ends.
 struct Touch {
     std::size_t down = 0;
@@ -32,15 +26,10 @@ struct TouchScript {
     std::vector<Touch> touches;
 };
 
-/// The state of a script at which the label changes to the next one.
-struct LabelStep {
-    std::size_t index = 0;
-    std::size_t place = 0;
-};
-
+/// `steps`: the states at which the label changes from the hand's first to its second.
 struct StepScript {
     std::vector<TimedState> states;
-    std::vector<LabelStep> steps;
+    std::vector<std::size_t> steps;
 };
 
 /// Touches of random length with random pauses, at any phase of the device's blocks, with states at the update rate
@@ -48,13 +37,13 @@ struct StepScript {
 [[nodiscard]] TouchScript touchScript(const Hand& hand, const DeviceShape& shape, std::size_t touches,
                                       std::uint32_t firstTouch, std::mt19937_64& random);
 
-/// Strokes over all labels of the hand in turn, until there are at least `steps` changes of label. Each label lasts
-/// longer than the device's period.
+/// Strokes over the hand's first two labels in turn, until there are at least `steps` changes from the first to the
+/// second. Each label lasts longer than the device's period.
 [[nodiscard]] StepScript stepScript(const Hand& hand, const DeviceShape& shape, std::size_t steps,
                                     std::uint32_t firstTouch, std::mt19937_64& random);
 
-/// Publishes the states at their times on this thread, and returns the actual times.
-[[nodiscard]] std::vector<Published> playScript(engine::LiveEngine& engine, engine::LiveVoice& voice,
-                                                const std::vector<TimedState>& states);
+/// Publishes the states at their times on this thread, and returns the actual times in seconds.
+[[nodiscard]] std::vector<double> playScript(engine::LiveEngine& engine, engine::LiveVoice& voice,
+                                             const std::vector<TimedState>& states);
 
 }  // namespace haptoflow::bench

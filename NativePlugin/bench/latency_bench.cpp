@@ -1,8 +1,8 @@
 #include "bench/latency_bench.hpp"
 
 #include "bench/distribution.hpp"
+#include "bench/marking.hpp"
 #include "bench/real_time_device.hpp"
-#include "bench/watched_generators.hpp"
 #include "dsp/waveform_resampler.hpp"
 
 #include <algorithm>
@@ -18,7 +18,6 @@ constexpr std::size_t spareRounds = 3;
 struct DeviceRun {
     DeviceShape shape;
     Latencies latencies;
-    std::vector<double> leadSeconds;
     std::size_t lateCalls = 0;
 };
 
@@ -34,8 +33,8 @@ public:
     explicit Rig(std::unique_ptr<engine::LiveEngine> engine)
         : engine_(std::move(engine)), voice_(engine_->addVoice(outputRateHz)) {}
 
-    [[nodiscard]] std::pair<Recording, std::vector<Published>> play(const DeviceShape& shape,
-                                                                    const std::vector<TimedState>& states) {
+    [[nodiscard]] std::pair<Recording, std::vector<double>> play(const DeviceShape& shape,
+                                                                 const std::vector<TimedState>& states) {
         // Room for a machine that is late.
         RealTimeDevice device(shape, states.back().seconds + 2.0,
                               [this](std::span<float> block) { voice_->renderer.render(block, outputRateHz); });
@@ -67,7 +66,7 @@ void measureTouches(const Subjects& subjects, const DeviceShape& shape, std::siz
     Rig rig(subjects.standardEngine(true));
     std::mt19937_64 random(subjects.seed);
     std::uint32_t firstTouch = 1;
-    DeviceRun onsets{.shape = shape, .latencies = {}, .leadSeconds = {}};
+    DeviceRun onsets{.shape = shape, .latencies = {}};
     DeviceRun stops = onsets;
     inRounds(
         events, "touch",
@@ -85,33 +84,28 @@ void measureTouches(const Subjects& subjects, const DeviceShape& shape, std::siz
     measured.stops.push_back(std::move(stops));
 }
 
+double filterDelaySeconds() {
+    const dsp::WaveformResampler resampler(outputRateHz);
+    constexpr double lowFrequencyHz = 50.0;
+    return resampler.groupDelaySeconds(lowFrequencyHz);
+}
+
 void measureSteps(const Subjects& subjects, const DeviceShape& shape, std::size_t events, Measured& measured) {
     const Hand hand(*subjects.model);
-    std::vector<std::uint32_t> labels;
-    for (std::size_t place = 0; place < hand.labelCount(); ++place) {
-        labels.push_back(hand.label(place));
-    }
+    const skeleton::NativeParts marking = markingParts(*subjects.model, hand.label(0), hand.label(1));
     auto standard = subjects.generator(*subjects.model, subjects.standard(), 1);
-    Rig rig(
-        subjects.engineWith(std::make_unique<MarkingGenerator>(std::move(standard), *subjects.model, labels), true));
+    Rig rig(subjects.engineWith(std::make_unique<MarkingGenerator>(std::move(standard), marking), true, marking));
     std::mt19937_64 random(subjects.seed);
     std::uint32_t firstTouch = 1;
-    DeviceRun steps{.shape = shape, .latencies = {}, .leadSeconds = {}};
-    bool learns = true;
+    DeviceRun steps{.shape = shape, .latencies = {}};
     inRounds(
         events, "label step",
         [&](std::size_t count) {
             const StepScript script = stepScript(hand, shape, count, firstTouch, random);
             firstTouch += static_cast<std::uint32_t>(script.states.size());
             const auto [recording, published] = rig.play(shape, script.states);
-            // In the first round the voice learns its lead.
-            if (std::exchange(learns, false)) {
-                return;
-            }
-            findSteps(recording, published, script, shape, engine::LiveEngineSettings{}.fullScaleMps2, steps.latencies);
-            for (const LabelStep& step : script.steps) {
-                steps.leadSeconds.push_back(published[step.index + 1].leadSamples / inference::waveformRateHz);
-            }
+            findSteps(recording, published, script, shape, filterDelaySeconds(),
+                      engine::LiveEngineSettings{}.fullScaleMps2, steps.latencies);
             steps.lateCalls += recording.lateCalls;
         },
         [&] { return steps.latencies.seconds.size(); });
@@ -146,25 +140,16 @@ nlohmann::ordered_json sectionOf(const std::vector<nlohmann::ordered_json>& rows
     return section;
 }
 
-double filterDelaySeconds() {
-    const dsp::WaveformResampler resampler(outputRateHz);
-    constexpr double lowFrequencyHz = 50.0;
-    return resampler.groupDelaySeconds(lowFrequencyHz);
-}
-
-nlohmann::ordered_json stepRow(const DeviceRun& run, double filterSeconds) {
+nlohmann::ordered_json stepRow(const DeviceRun& run) {
     nlohmann::ordered_json row = rowOf(run);
-    const Distribution lead = distributionOf(run.leadSeconds);
-    row["lead"] = {{"p50", rounded(lead.p50 * milliseconds)}, {"worst", rounded(lead.worst * milliseconds)}};
-    row["filter_delay"] = rounded(filterSeconds * milliseconds);
-    row["within_goal_and_filters"] = rounded(shareWithin(run.latencies, filterSeconds));
+    row["filter_delay"] = rounded(filterDelaySeconds() * milliseconds);
     return row;
 }
 
 }  // namespace
 
 nlohmann::ordered_json measureLatency(const Subjects& subjects, const BenchPlan& plan, const Advance& advance) {
-    const bool canStep = Hand(*subjects.model).labelCount() > 1;
+    const bool canStep = subjects.model->header().skeleton && Hand(*subjects.model).labelCount() > 1;
     Measured measured;
     double done = 0.0;
     const auto share = 1.0 / static_cast<double>(2 * plan.devices.size());
@@ -184,9 +169,7 @@ nlohmann::ordered_json measureLatency(const Subjects& subjects, const BenchPlan&
     nlohmann::ordered_json report;
     report["onset_ms"] = sectionOf(rowsOf(measured.onsets, rowOf));
     if (canStep) {
-        const double filterSeconds = filterDelaySeconds();
-        report["contact_to_sound_ms"] =
-            sectionOf(rowsOf(measured.steps, [=](const DeviceRun& run) { return stepRow(run, filterSeconds); }));
+        report["contact_to_sound_ms"] = sectionOf(rowsOf(measured.steps, stepRow));
     }
     report["stop_ms"] = sectionOf(rowsOf(measured.stops, rowOf));
     return report;

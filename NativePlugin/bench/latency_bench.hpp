@@ -17,22 +17,22 @@ namespace haptoflow::bench {
 /// one.
 struct Latencies {
     std::vector<double> seconds;
-    /// The goal for each time, which depends on the device and the lead.
+    /// The goal for each time, which depends on the device.
     std::vector<double> goalSeconds;
     std::size_t missed = 0;
 };
 
 /// Onset: from publishing a touch-down to the first sample within 60 dB of the touch's peak.
-void findOnsets(const Recording& recording, const std::vector<Published>& published, const TouchScript& script,
+void findOnsets(const Recording& recording, const std::vector<double>& published, const TouchScript& script,
                 const DeviceShape& shape, Latencies& onsets);
 /// Stop: from publishing a lift-off to the end of the last sample within 60 dB of the touch's peak.
-void findStops(const Recording& recording, const std::vector<Published>& published, const TouchScript& script,
+void findStops(const Recording& recording, const std::vector<double>& published, const TouchScript& script,
                const DeviceShape& shape, Latencies& stops);
-/// Contact to sound: from publishing a change of label to the first sample that is nearer to the new label's marking
-/// level than to the old one's. `fullScaleMps2` is the acceleration at +-1 of the recording. Each goal uses the lead
-/// recorded with the next state.
-void findSteps(const Recording& recording, const std::vector<Published>& published, const StepScript& script,
-               const DeviceShape& shape, float fullScaleMps2, Latencies& steps);
+/// Contact to sound: from publishing a change from the quiet to the loud label of markingParts to the first sample that
+/// only the loud one has. The goal is a period, the delay of the output's filter, and 1.5 ms. `fullScaleMps2` is the
+/// acceleration at +-1 of the recording.
+void findSteps(const Recording& recording, const std::vector<double>& published, const StepScript& script,
+               const DeviceShape& shape, double filterSeconds, float fullScaleMps2, Latencies& steps);
 
 /// "onset_ms", "contact_to_sound_ms" and "stop_ms", with a row for each device. Uses real threads: the engine's worker,
 /// a device's thread, and this one, which publishes. Throws MeasurementError if nothing sounds.

@@ -1,17 +1,16 @@
 #include "bench/latency_bench.hpp"
-#include "bench/watched_generators.hpp"
+#include "bench/marking.hpp"
 
 namespace haptoflow::bench {
 namespace {
 
 constexpr float minus60Db = 1e-3F;
 constexpr double releaseSeconds = 0.005;
-constexpr double takingOverSeconds = 0.001;
+constexpr double soundingSeconds = 0.0015;
 
 /// The time at which the next touch begins, or the end of the script after the last touch.
-double nextDown(const std::vector<Published>& published, const TouchScript& script, std::size_t touch) {
-    return touch + 1 < script.touches.size() ? published[script.touches[touch + 1].down].seconds
-                                             : published.back().seconds;
+double nextDown(const std::vector<double>& published, const TouchScript& script, std::size_t touch) {
+    return touch + 1 < script.touches.size() ? published[script.touches[touch + 1].down] : published.back();
 }
 
 void note(std::optional<double> sounded, double published, double goalSeconds, Latencies& latencies) {
@@ -25,10 +24,10 @@ void note(std::optional<double> sounded, double published, double goalSeconds, L
 
 }  // namespace
 
-void findOnsets(const Recording& recording, const std::vector<Published>& published, const TouchScript& script,
+void findOnsets(const Recording& recording, const std::vector<double>& published, const TouchScript& script,
                 const DeviceShape& shape, Latencies& onsets) {
     for (std::size_t touch = 0; touch < script.touches.size(); ++touch) {
-        const double down = published[script.touches[touch].down].seconds;
+        const double down = published[script.touches[touch].down];
         const double end = nextDown(published, script, touch);
         const float peak = recording.peak(down, end);
         note(peak > 0.0F ? recording.first(peak * minus60Db, down, end) : std::nullopt, down, shape.periodSeconds(),
@@ -36,11 +35,11 @@ void findOnsets(const Recording& recording, const std::vector<Published>& publis
     }
 }
 
-void findStops(const Recording& recording, const std::vector<Published>& published, const TouchScript& script,
+void findStops(const Recording& recording, const std::vector<double>& published, const TouchScript& script,
                const DeviceShape& shape, Latencies& stops) {
     for (std::size_t touch = 0; touch < script.touches.size(); ++touch) {
-        const double down = published[script.touches[touch].down].seconds;
-        const double lift = published[script.touches[touch].lift].seconds;
+        const double down = published[script.touches[touch].down];
+        const double lift = published[script.touches[touch].lift];
         const double end = nextDown(published, script, touch);
         const float peak = recording.peak(down, end);
         auto last = peak > 0.0F ? recording.last(peak * minus60Db, lift, end) : std::nullopt;
@@ -51,18 +50,16 @@ void findStops(const Recording& recording, const std::vector<Published>& publish
     }
 }
 
-void findSteps(const Recording& recording, const std::vector<Published>& published, const StepScript& script,
-               const DeviceShape& shape, float fullScaleMps2, Latencies& steps) {
-    for (const LabelStep& step : script.steps) {
-        const double stepped = published[step.index].seconds;
-        const float before = MarkingGenerator::markMps2(step.place - 1);
-        const float after = MarkingGenerator::markMps2(step.place);
-        const float midway = 0.5F * (before + after) / fullScaleMps2;
-        // Longer than any lead and any period of a device: after this time the change of label was lost.
-        constexpr double maximumSeconds = 0.3;
-        const double lead = published[step.index + 1].leadSamples / inference::waveformRateHz;
-        note(recording.first(midway, stepped, stepped + maximumSeconds), stepped,
-             lead + shape.periodSeconds() + takingOverSeconds, steps);
+void findSteps(const Recording& recording, const std::vector<double>& published, const StepScript& script,
+               const DeviceShape& shape, double filterSeconds, float fullScaleMps2, Latencies& steps) {
+    // A tenth of the loud label's RMS: nearly every sample of its noise exceeds it, and none of the quiet one's.
+    constexpr float recognised = 0.1F * loudMps2;
+    // Longer than any period of a device: after this time the change of label was lost.
+    constexpr double maximumSeconds = 0.3;
+    for (const std::size_t step : script.steps) {
+        const double stepped = published[step];
+        note(recording.first(recognised / fullScaleMps2, stepped, stepped + maximumSeconds), stepped,
+             shape.periodSeconds() + filterSeconds + soundingSeconds, steps);
     }
 }
 

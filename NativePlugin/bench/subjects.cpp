@@ -29,12 +29,13 @@ std::unique_ptr<inference::TierGenerator> Subjects::generator(const model::Model
 }
 
 std::unique_ptr<engine::LiveEngine> Subjects::engineWith(std::unique_ptr<inference::SegmentGenerator> generator,
-                                                         bool hasWorker) const {
+                                                         bool hasWorker, const skeleton::NativeParts& native) const {
     engine::LiveEngineSettings settings;
     settings.quality.fixedTier = 0;
     settings.updateRateHz = updateRateHz;
     settings.seed = seed;
     settings.hasWorker = hasWorker;
+    settings.native = native;
     engine::EngineTiers tiers;
     tiers.push_back(std::move(generator));
     return std::make_unique<engine::LiveEngine>(model, std::move(tiers), 0, settings);

@@ -38,9 +38,10 @@ struct Subjects {
     /// A tier of `file` with its own solver.
     [[nodiscard]] std::unique_ptr<inference::TierGenerator> generator(const model::ModelFile& file,
                                                                       const model::Tier& tier, std::size_t batch) const;
-    /// An engine with a single fixed tier.
+    /// An engine with a single fixed tier, and with another skeleton than the model's if one is given.
     [[nodiscard]] std::unique_ptr<engine::LiveEngine> engineWith(std::unique_ptr<inference::SegmentGenerator> generator,
-                                                                 bool hasWorker) const;
+                                                                 bool hasWorker,
+                                                                 const skeleton::NativeParts& native = {}) const;
     /// An engine with the tier "standard" for `defaultBatch` voices.
     [[nodiscard]] std::unique_ptr<engine::LiveEngine> standardEngine(bool hasWorker) const;
 };
