@@ -37,8 +37,6 @@ public:
         }
         return pieces_[newest];
     }
-    /// True while the stream has no piece but that of `begin`.
-    [[nodiscard]] bool hasOnlyOne() const noexcept { return count_ == 1; }
 
 private:
     // Only pieces ahead of the read head can be removed. A timeline reaches 600 samples ahead and a hop takes at least

@@ -21,8 +21,7 @@ namespace haptoflow::engine {
 /// newest state replaces both; one of an earlier state, which came late, only its correction. A correction lasts as
 /// long as its segment, and afterwards the skeleton sounds alone, as long as contact states come.
 ///
-/// Used by one thread. Construction excepted, all functions take bounded time (about 40 us for a sketch), allocate
-/// nothing and wait for nothing.
+/// Used by one thread. Construction excepted, all functions take bounded time, allocate nothing and wait for nothing.
 class Sketcher {
 public:
     /// `native` is complete. `seed` and `voice` key the noise.
