@@ -120,5 +120,22 @@ TEST(PreparationTest, AFrozenSensorIsExcluded) {
     EXPECT_EQ(recording.isUsable[7000], 1);
 }
 
+TEST(PreparationTest, TheSensorsNoiseIsFoundAtRestAndRemovedFromOneAxisAndFromThree) {
+    for (const std::size_t axes : {1U, 3U}) {
+        const recordings::PreparedRecording recording =
+            recordings::prepareRecording(testing::noisy(MadeRecording({}, {}), axes).view());
+        EXPECT_EQ(recording.noise.source, recordings::NoiseSource::rest);
+        // Half of the power of 4 kHz lies above 1 kHz; the combined axis has the power of all.
+        EXPECT_NEAR(recording.noise.rmsMps2, 0.04 * std::sqrt(0.5 * static_cast<double>(axes)), 0.004) << axes;
+        EXPECT_LT(rmsInside(std::span(recording.wave).first(1800)), 0.012 * std::sqrt(static_cast<double>(axes)));
+    }
+}
+
+TEST(PreparationTest, AConstantVelocityShowsNoRestSoThatNothingIsRemoved) {
+    MadeRecording made = testing::noisy(MadeRecording({}, {}));
+    made.velocity.clear();
+    EXPECT_EQ(recordings::prepareRecording(made.view()).noise.source, recordings::NoiseSource::none);
+}
+
 }  // namespace
 }  // namespace haptoflow::learning
