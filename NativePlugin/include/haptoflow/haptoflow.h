@@ -1086,8 +1086,8 @@ HAPTOFLOW_API haptoflow_status haptoflow_recording_get_info(const haptoflow_reco
 
 /* Combines sample_count * axis_count numbers, as in haptoflow_learning_options, into one axis of 10 to 1000 Hz at 2000
  * Hz, as learning does before it removes the noise. Writes wave_count samples in m/s^2, zeros beyond the end of the
- * recording. Errors:
- * INVALID_ARGUMENT, OUT_OF_MEMORY. [any-thread] Never blocks; allocates; takes about 10 ms per second of recording. */
+ * recording. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. [any-thread] Never blocks; allocates; takes about 10 ms per second
+ * of recording. */
 HAPTOFLOW_API haptoflow_status haptoflow_recording_wave(const float* acceleration_mps2, uint64_t sample_count,
                                                         uint32_t axis_count, double sample_rate_hz, float* wave_mps2,
                                                         uint64_t wave_count);

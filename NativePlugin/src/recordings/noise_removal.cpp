@@ -11,7 +11,7 @@ constexpr std::size_t bins = ShortTimeSpectrum::bins;
 constexpr std::size_t narrowFrames = 2;
 constexpr std::size_t wideFrames = 16;
 constexpr std::size_t neighbourBins = 2;
-/// The mean of noise over the narrow neighbourhood exceeds its expectation by this factor once in ten thousand cells.
+/// White and coloured noise exceed their expectation by this factor, over the narrow neighbourhood, in 0.3 % of cells.
 constexpr double clearRatio = 1.9;
 constexpr double lowestPowerGain = 0.01;
 

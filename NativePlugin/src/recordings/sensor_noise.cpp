@@ -22,7 +22,7 @@ constexpr double knockRatio = 3.0;
 constexpr double slidingMps = 0.004;
 /// Fewer say nothing of what is quiet.
 constexpr std::size_t minimumSlidingFrames = 20;
-/// Noise alone is never further above the quietest tenth of its own means over five frames.
+/// Noise alone is up to 1.7 times as strong as the quietest tenth of its own means over five frames.
 constexpr double quietestTenth = 0.1;
 constexpr double aboveQuietest = 2.0;
 /// A recording whose loud parts are hardly louder than its rest is nothing but noise.
