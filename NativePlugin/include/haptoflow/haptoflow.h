@@ -1086,8 +1086,8 @@ HAPTOFLOW_API haptoflow_status haptoflow_recording_get_info(const haptoflow_reco
 
 /* Combines sample_count * axis_count numbers, as in haptoflow_learning_options, into one axis of 10 to 1000 Hz at 2000
  * Hz, as learning does before it removes the noise. Writes wave_count samples in m/s^2, zeros beyond the end of the
- * recording. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. [any-thread] Never blocks; allocates; takes about 10 ms per second
- * of recording. */
+ * recording. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. [any-thread] Never blocks; allocates; takes about 10 ms per
+ * second of recording. */
 HAPTOFLOW_API haptoflow_status haptoflow_recording_wave(const float* acceleration_mps2, uint64_t sample_count,
                                                         uint32_t axis_count, double sample_rate_hz, float* wave_mps2,
                                                         uint64_t wave_count);
@@ -1108,7 +1108,7 @@ enum {
  * separates two recordings of one sensor. velocity_mps: vx and vy for each sample; force_newtons: one for each. Sets
  * *source, and *noise_mps2 to the RMS of what was removed. Errors: INVALID_ARGUMENT, RECORDING_UNUSABLE (nothing but
  * noise: no stronger where the tip slides than where it rests), OUT_OF_MEMORY.
- * [any-thread] Never blocks; allocates; takes about 1 ms per second of recording. */
+ * [any-thread] Never blocks; allocates; takes about 0.5 ms per second of recording. */
 HAPTOFLOW_API haptoflow_status haptoflow_recording_remove_noise(float* vibration_mps2, const float* velocity_mps,
                                                                 const float* force_newtons, uint64_t sample_count,
                                                                 haptoflow_noise_source* source, double* noise_mps2);
