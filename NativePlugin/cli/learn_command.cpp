@@ -94,6 +94,19 @@ std::string inMillimetres(double mps) {
     return fixedDecimals(1000.0 * mps, 0);
 }
 
+std::string noiseOf(const learning::LearningReport& report) {
+    const std::string found = recordings::plainNumber(report.noiseMps2) + " m/s^2 RMS, removed; found ";
+    switch (report.noiseSource) {
+        case recordings::NoiseSource::rest:
+            return found + "where the tip rests";
+        case recordings::NoiseSource::quietPart:
+            return found + "where the tip is slowest";
+        case recordings::NoiseSource::none:
+            break;
+    }
+    return "none found, so nothing was removed";
+}
+
 void tell(const learning::LearningReport& report, const std::string& name, const fs::path& output) {
     std::cout << "Learnt " << name << " from " << fixedDecimals(report.slidingSeconds, 1) << " s of sliding in "
               << fixedDecimals(report.seconds, 1) << " s: " << model::printable(output.string()) << '\n'
@@ -102,6 +115,7 @@ void tell(const learning::LearningReport& report, const std::string& name, const
               << fixedDecimals(report.spectralDistanceDb, 1) << " dB between the mean spectra behind the tone)\n"
               << "  nearest label      " << report.nearestLabel << '\n'
               << "  level error        " << fixedDecimals(report.levelErrorDb, 2) << " dB at most over the speeds\n"
+              << "  sensor noise       " << noiseOf(report) << '\n'
               << "  speed              " << inMillimetres(report.speedMps[0]) << " to "
               << inMillimetres(report.speedMps[1]) << " mm/s, level as speed^" << fixedDecimals(report.speedExponent, 2)
               << '\n'

@@ -1089,11 +1089,33 @@ HAPTOFLOW_API haptoflow_status haptoflow_recording_get_info(const haptoflow_reco
                                                             haptoflow_recording_info* info);
 
 /* Combines sample_count * axis_count numbers, as in haptoflow_learning_options, into one axis of 10 to 1000 Hz at 2000
- * Hz, as learning does. Writes wave_count samples in m/s^2, zeros beyond the end of the recording. Errors:
- * INVALID_ARGUMENT, OUT_OF_MEMORY. [any-thread] Never blocks; allocates; takes about 10 ms per second of recording. */
+ * Hz, as learning does before it removes the noise. Writes wave_count samples in m/s^2, zeros beyond the end of the
+ * recording. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. [any-thread] Never blocks; allocates; takes about 10 ms per
+ * second of recording. */
 HAPTOFLOW_API haptoflow_status haptoflow_recording_wave(const float* acceleration_mps2, uint64_t sample_count,
                                                         uint32_t axis_count, double sample_rate_hz, float* wave_mps2,
                                                         uint64_t wave_count);
+
+/* Where the noise of a recording's sensor was found. */
+typedef int32_t haptoflow_noise_source;
+enum {
+    /* No part of the recording shows it, or it is too weak to matter. */
+    HAPTOFLOW_NOISE_NONE = 0,
+    /* Where the tip rests for 0.2 s or more, on the surface or in the air. */
+    HAPTOFLOW_NOISE_REST = 1,
+    /* Where the tip moves so slowly that the level no longer follows the speed. */
+    HAPTOFLOW_NOISE_QUIET_PART = 2
+};
+
+/* Removes the noise of the sensor from a wave of one axis at 2 kHz in m/s^2, in place, as learning does: its power is
+ * subtracted at every time and frequency. The wave keeps every bit where no noise is found. A number that is not finite
+ * separates two recordings of one sensor. velocity_mps: vx and vy for each sample; force_newtons: one for each. Sets
+ * *source, and *noise_mps2 to the RMS of what was removed. Errors: INVALID_ARGUMENT, RECORDING_UNUSABLE (nothing but
+ * noise: no stronger where the tip slides than where it rests), OUT_OF_MEMORY.
+ * [any-thread] Never blocks; allocates; takes about 0.5 ms per second of recording. */
+HAPTOFLOW_API haptoflow_status haptoflow_recording_remove_noise(float* vibration_mps2, const float* velocity_mps,
+                                                                const float* force_newtons, uint64_t sample_count,
+                                                                haptoflow_noise_source* source, double* noise_mps2);
 
 /* Resamples a waveform without delay: flat to 95 % of half of the lower rate, -66 dB 5 % above it. Both rates: 1000 to
  * 192000 Hz. Writes wave_count samples, zeros beyond the end. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY.
@@ -1160,9 +1182,9 @@ typedef struct haptoflow_learning_options {
 } haptoflow_learning_options;
 
 /* Learns a material and returns when it is done. Close *learning with haptoflow_learning_close. Errors:
- * INVALID_ARGUMENT, RECORDING_UNUSABLE (too short, silent, clipped, not finite, no motion, or a speed, force or level
- * that no hand reaches: the message says which), CANCELLED, MODEL_INCONSISTENT, INFERENCE_FAILED, TIER_TOO_SLOW,
- * OUT_OF_MEMORY. [loader-thread] Blocks for seconds; allocates. */
+ * INVALID_ARGUMENT, RECORDING_UNUSABLE (too short, silent, nothing but noise, clipped, not finite, no motion, or a
+ * speed, force or level that no hand reaches: the message says which), CANCELLED, MODEL_INCONSISTENT, INFERENCE_FAILED,
+ * TIER_TOO_SLOW, OUT_OF_MEMORY. [loader-thread] Blocks for seconds; allocates. */
 HAPTOFLOW_API haptoflow_status haptoflow_learn_material(const haptoflow_learning_options* options,
                                                         haptoflow_learning** learning);
 
@@ -1175,8 +1197,9 @@ HAPTOFLOW_API haptoflow_status haptoflow_learning_material(const haptoflow_learn
  * fitted_distance_db, spectral_distance_db, other_tiers (the same distance on each other tier, and whether it is
  * further_off), level_error_db, sliding_seconds, speed_mps, force_newtons, level_exponents, wave_vectors, turn_degrees
  * (from the recording's first axis to the material's first axis, which is perpendicular to its most distinct ribs),
- * seeds, segments, seconds, stopped_early, warnings and more. It is valid until the learning is closed. Errors:
- * INVALID_ARGUMENT. [any-thread] Blocks while another thread opens or closes a handle. */
+ * sensor_noise (mps2, and from: "rest", "quiet part" or "none"; it was removed before), seeds, segments, seconds,
+ * stopped_early, warnings and more. It is valid until the learning is closed. Errors: INVALID_ARGUMENT. [any-thread]
+ * Blocks while another thread opens or closes a handle. */
 HAPTOFLOW_API haptoflow_status haptoflow_learning_report(const haptoflow_learning* learning, const char** json);
 
 /* Closes *learning and sets it to null; a null handle is allowed. Errors: INVALID_ARGUMENT.

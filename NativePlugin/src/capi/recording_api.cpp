@@ -1,16 +1,21 @@
 #include "capi/handles.hpp"
+#include "recordings/noise_removal.hpp"
 #include "recordings/prepared_recording.hpp"
 #include "recordings/recording_reader.hpp"
 #include "recordings/resampling.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 using namespace haptoflow;
 using namespace haptoflow::capi;
@@ -96,6 +101,18 @@ haptoflow_recording_info infoOf(const OpenRecording& open) {
     return info;
 }
 
+haptoflow_noise_source sourceOf(recordings::NoiseSource source) {
+    switch (source) {
+        case recordings::NoiseSource::rest:
+            return HAPTOFLOW_NOISE_REST;
+        case recordings::NoiseSource::quietPart:
+            return HAPTOFLOW_NOISE_QUIET_PART;
+        case recordings::NoiseSource::none:
+            break;
+    }
+    return HAPTOFLOW_NOISE_NONE;
+}
+
 template <typename Number>
 void writeWave(const std::vector<Number>& wave, std::span<float> written) {
     std::ranges::fill(written, 0.0F);
@@ -144,6 +161,34 @@ haptoflow_status haptoflow_recording_wave(const float* acceleration_mps2, uint64
             .rateHz = sample_rate_hz, .axisCount = axis_count, .accelerationMps2 = acceleration};
         recordings::checkSizes(recording);
         writeWave(recordings::prepareRecording(recording).wave, wave);
+    });
+}
+
+haptoflow_status haptoflow_recording_remove_noise(float* vibration_mps2, const float* velocity_mps,
+                                                  const float* force_newtons, uint64_t sample_count,
+                                                  haptoflow_noise_source* source, double* noise_mps2) {
+    return guarded([&] {
+        const std::size_t count = countOf(sample_count, "sample_count");
+        const std::span wave(require(vibration_mps2, "vibration_mps2"), count);
+        const std::span velocity(require(velocity_mps, "velocity_mps"), 2 * count);
+        const std::span force(require(force_newtons, "force_newtons"), count);
+        (void)require(source, "source");
+        (void)require(noise_mps2, "noise_mps2");
+        std::vector<float> known(count);
+        std::vector<std::array<float, 3>> motion(count);
+        std::vector<std::uint8_t> isUsable(count);
+        for (std::size_t i = 0; i < count; ++i) {
+            motion[i] = {velocity[2 * i], velocity[2 * i + 1], force[i]};
+            isUsable[i] = std::isfinite(wave[i]) &&
+                          std::ranges::all_of(motion[i], [](float value) { return std::isfinite(value); });
+            known[i] = isUsable[i] != 0 ? wave[i] : 0.0F;
+        }
+        const recordings::SensorNoise noise = recordings::removeSensorNoise(known, motion, isUsable);
+        for (std::size_t i = 0; i < count; ++i) {
+            wave[i] = isUsable[i] != 0 ? known[i] : wave[i];
+        }
+        *source = sourceOf(noise.source);
+        *noise_mps2 = noise.rmsMps2;
     });
 }
 

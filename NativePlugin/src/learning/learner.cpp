@@ -127,6 +127,8 @@ private:
 
     void describe() {
         report_.slidingSeconds = sliding_.seconds;
+        report_.noiseSource = recording_.noise.source;
+        report_.noiseMps2 = recording_.noise.rmsMps2;
         report_.speedMps = {sliding_.speedMps[0], sliding_.speedMps[2]};
         report_.forceNewtons = {sliding_.forceNewtons[0], sliding_.forceNewtons[2]};
         if (sliding_.seconds < fewSeconds) {

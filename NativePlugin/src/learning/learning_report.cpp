@@ -17,6 +17,7 @@ std::string reportJson(const LearningReport& report) {
                          {"spectral_distance_db", rounded(each.spectralDistanceDb, 1e3)},
                          {"further_off", each.isFurtherOff}});
     }
+    const Json noise{{"mps2", rounded(report.noiseMps2, 1e5)}, {"from", recordings::nameOf(report.noiseSource)}};
     const Json json{{"start_label", report.startLabel},
                     {"start_distance_db", rounded(report.startDistanceDb, 1e3)},
                     {"nearest_label", report.nearestLabel},
@@ -25,6 +26,7 @@ std::string reportJson(const LearningReport& report) {
                     {"other_tiers", tiers},
                     {"level_error_db", rounded(report.levelErrorDb, 1e3)},
                     {"sliding_seconds", rounded(report.slidingSeconds, 1e2)},
+                    {"sensor_noise", noise},
                     {"speed_mps", roundedNumbers(report.speedMps, 1e5)},
                     {"force_newtons", roundedNumbers(report.forceNewtons, 1e4)},
                     {"level_exponents",

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "learning/wave_vectors.hpp"
+#include "recordings/sensor_noise.hpp"
 
 #include <array>
 #include <cstdint>
@@ -34,6 +35,9 @@ struct LearningReport {
     double levelErrorDb = 0.0;
     /// Duration of the sliding that was used.
     double slidingSeconds = 0.0;
+    /// What was removed from the recording before anything was learnt.
+    recordings::NoiseSource noiseSource = recordings::NoiseSource::none;
+    double noiseMps2 = 0.0;
     std::array<double, 2> speedMps{};
     std::array<double, 2> forceNewtons{};
     double speedExponent = 0.0;

@@ -2,6 +2,7 @@
 
 #include "dsp/sample_rates.hpp"
 #include "recordings/dft321.hpp"
+#include "recordings/noise_removal.hpp"
 #include "recordings/resampling.hpp"
 
 #include <algorithm>
@@ -168,6 +169,10 @@ PreparedRecording prepareRecording(const Recording& recording) {
     fill(0, recording.velocityMps, 2, 0, recording.constantVelocityMps[0]);
     fill(1, recording.velocityMps, 2, 1, recording.constantVelocityMps[1]);
     fill(2, recording.forceNewtons, 1, 0, recording.constantForceNewtons);
+    const bool showsRest = !recording.velocityMps.empty();
+    if (showsRest) {
+        prepared.noise = removeSensorNoise(prepared.wave, prepared.motion, prepared.isUsable);
+    }
     return prepared;
 }
 

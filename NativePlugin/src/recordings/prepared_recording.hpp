@@ -1,6 +1,7 @@
 #pragma once
 
 #include "recordings/recording.hpp"
+#include "recordings/sensor_noise.hpp"
 
 #include <array>
 #include <cstddef>
@@ -19,12 +20,15 @@ struct PreparedRecording {
     std::vector<std::uint8_t> isUsable;
     /// Upper end of the recording's band, 475 to 950 Hz.
     double bandwidthHz = 0.0;
+    /// What was removed from the wave; never found where the velocity is constant.
+    SensorNoise noise;
 
     [[nodiscard]] double speedMps(std::size_t sample) const;
 };
 
-/// Resamples (windowed sinc), combines three axes (DFT321) and filters without phase shift, as in training. Uses the
-/// first `maximumSeconds`. Call `checkRecording` first.
+/// Resamples (windowed sinc), combines three axes (DFT321), filters without phase shift and removes the sensor's noise,
+/// as in training. Uses the first `maximumSeconds`. Call `checkRecording` first. Throws RecordingUnusable if the
+/// recording is nothing but noise.
 [[nodiscard]] PreparedRecording prepareRecording(const Recording& recording);
 
 }  // namespace haptoflow::recordings

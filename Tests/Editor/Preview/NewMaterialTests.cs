@@ -188,6 +188,12 @@ namespace HaptoFlow.PreviewTests
             Assert.That(LearningReportText.TurnDegrees(""), Is.Zero);
         }
 
+        [TestCase("{\"mps2\": 0.0382, \"from\": \"rest\"}", "; 0.038 m/s^2 of the sensor's noise removed")]
+        [TestCase("{\"mps2\": 0, \"from\": \"none\"}", "")]
+        public void TheReportStatesTheNoiseThatWasRemoved(string noise, string text) => Assert.That(
+            LearningReportText.Of("{\"nearest_label\": \"wood\", \"sensor_noise\": " + noise + "}"),
+            Is.EqualTo("Learnt. Nearest label: wood" + text + "."));
+
         [Test]
         public void CancellingKeepsTheMaterialLearntBefore()
         {

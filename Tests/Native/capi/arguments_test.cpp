@@ -157,6 +157,12 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
     ASSERT_EQ(haptoflow_material_read(learnt, std::strlen(learnt), &material), HAPTOFLOW_OK) << message();
     haptoflow_wave_frame frame{};
     std::array<double, 4> waveVectors{};
+    haptoflow_noise_source noiseSource = HAPTOFLOW_NOISE_NONE;
+    double noise = 0.0;
+    const auto removeNoise = [](float* wave, const float* velocity, const float* force, haptoflow_noise_source* source,
+                                double* rms) {
+        return haptoflow_recording_remove_noise(wave, velocity, force, 1, source, rms);
+    };
     haptoflow_voice noVoice = 0;
     uint32_t count = 0;
     const char* text = nullptr;
@@ -317,6 +323,12 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
         {"haptoflow_recording_wave",
          {[&] { return haptoflow_recording_wave(nullptr, 1, 1, 2000.0, numbers.data(), 1); },
           [&] { return haptoflow_recording_wave(numbers.data(), 1, 1, 2000.0, nullptr, 1); }}},
+        {"haptoflow_recording_remove_noise",
+         {[&] { return removeNoise(nullptr, numbers.data(), numbers.data(), &noiseSource, &noise); },
+          [&] { return removeNoise(numbers.data(), nullptr, numbers.data(), &noiseSource, &noise); },
+          [&] { return removeNoise(numbers.data(), numbers.data(), nullptr, &noiseSource, &noise); },
+          [&] { return removeNoise(numbers.data(), numbers.data(), numbers.data(), nullptr, &noise); },
+          [&] { return removeNoise(numbers.data(), numbers.data(), numbers.data(), &noiseSource, nullptr); }}},
         {"haptoflow_resample",
          {[&] { return haptoflow_resample(nullptr, 1, 2000.0, numbers.data(), 1, 8000.0); },
           [&] { return haptoflow_resample(numbers.data(), 1, 2000.0, nullptr, 1, 8000.0); }}},

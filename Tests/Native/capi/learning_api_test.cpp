@@ -1,4 +1,5 @@
 // Learning through the C interface: a material's text, progress, cancellation, unusable recordings.
+#include "inference/gaussian_noise.hpp"
 #include "learning_options.hpp"
 #include "open_engine.hpp"
 
@@ -9,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -188,6 +190,50 @@ TEST(RecordingWaveTest, AToneOnOneOfThreeAxesKeepsItsWaveWithoutGravity) {
         EXPECT_NEAR(wave[i], tone(static_cast<double>(i) / waveHz), 0.05) << i;
     }
     EXPECT_EQ(wave.back(), 0.0F) << "beyond the recording's end";
+}
+
+struct RecordedNoise {
+    static constexpr std::size_t samples = 8000;
+    std::vector<float> wave = std::vector<float>(samples);
+    std::vector<float> velocity = std::vector<float>(2 * samples);
+    std::vector<float> force = std::vector<float>(samples, 1.0F);
+    haptoflow_noise_source source = HAPTOFLOW_NOISE_QUIET_PART;
+    double noiseMps2 = 0.0;
+
+    /// At rest in the first half, sliding in the second.
+    explicit RecordedNoise(float slidingGain) {
+        inference::fillStandardNormal({.seed = 5, .voice = 0, .segment = 0}, wave);
+        for (std::size_t i = 0; i < samples; ++i) {
+            const bool slides = i >= samples / 2;
+            wave[i] *= slides ? 0.04F * slidingGain : 0.04F;
+            velocity[2 * i] = slides ? 0.1F : 0.0F;
+        }
+    }
+
+    haptoflow_status remove() {
+        return haptoflow_recording_remove_noise(wave.data(), velocity.data(), force.data(), wave.size(), &source,
+                                                &noiseMps2);
+    }
+};
+
+TEST(RecordingNoiseTest, TheNoiseAtRestIsRemovedAndTold) {
+    RecordedNoise recorded(10.0F);
+    recorded.wave[1000] = std::numeric_limits<float>::quiet_NaN();
+    ASSERT_EQ(recorded.remove(), HAPTOFLOW_OK) << message();
+    EXPECT_EQ(recorded.source, HAPTOFLOW_NOISE_REST);
+    EXPECT_NEAR(recorded.noiseMps2, 0.04, 0.003);
+    EXPECT_TRUE(std::isnan(recorded.wave[1000])) << "the mark between two recordings stays";
+    double squares = 0.0;
+    for (std::size_t i = 2000; i < 3500; ++i) {
+        squares += static_cast<double>(recorded.wave[i]) * recorded.wave[i] / 1500.0;
+    }
+    EXPECT_LT(std::sqrt(squares), 0.012);
+}
+
+TEST(RecordingNoiseTest, ARecordingOfNothingElseIsRefused) {
+    RecordedNoise recorded(1.0F);
+    EXPECT_EQ(recorded.remove(), HAPTOFLOW_RECORDING_UNUSABLE);
+    EXPECT_THAT(message(), ::testing::HasSubstr("no stronger where the tip slides"));
 }
 
 TEST(RecordingWaveTest, AnotherNumberOfAxesAndUnknownRatesAreRefusedByName) {

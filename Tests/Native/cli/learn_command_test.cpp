@@ -98,6 +98,25 @@ TEST_F(LearnCommandTest, ATableGivesAMaterialFileAndAReportWithEqualBytesEachTim
     EXPECT_EQ(read("denim.haptomaterial"), before);
 }
 
+TEST_F(LearnCommandTest, TheSensorsNoiseIsRemovedAndReported) {
+    write("noisy.csv", csvOf(learning::testing::noisy(made_)));
+    const Finished finished = learn("noisy.csv --report noisy.report.json --quiet");
+    ASSERT_EQ(finished.exitCode, 0) << finished.errors;
+    EXPECT_THAT(finished.output, HasSubstr("m/s^2 RMS, removed; found where the tip rests"));
+    const nlohmann::json noise = nlohmann::json::parse(read("noisy.report.json"))["sensor_noise"];
+    EXPECT_EQ(noise["from"], "rest");
+    EXPECT_NEAR(noise["mps2"].get<double>(), 0.028, 0.003);
+    write("clean.csv", csv_);
+    EXPECT_THAT(learn("clean.csv --quiet").output, HasSubstr("sensor noise       none found, so nothing was removed"));
+}
+
+TEST_F(LearnCommandTest, ARecordingOfNothingButNoiseIsRefused) {
+    MadeRecording silent = made_;
+    std::ranges::fill(silent.acceleration, 0.0F);
+    write("silent.csv", csvOf(learning::testing::noisy(silent)));
+    expectRefused("silent.csv", "silent.csv: the acceleration is no stronger where the tip slides than where it rests");
+}
+
 TEST_F(LearnCommandTest, TheDistanceOfRibsAndTheAngleOfTheMaterialAreReported) {
     write("ribbed.csv", csvOf(MadeRecording({.ribs = {0.8, 0.45}, .ribShare = 0.5}, {})));
     const Finished finished = learn("ribbed.csv --report ribbed.report.json --quiet");

@@ -111,4 +111,22 @@ private:
     double rateHz_;
 };
 
+/// What a sensor with noise of 0.04 m/s^2 RMS on each axis measures at 4 kHz; the tip rests for the first second.
+inline MadeRecording noisy(const MadeRecording& made, std::size_t axes = 1) {
+    MadeRecording noisy = made;
+    noisy.axisCount = axes;
+    noisy.acceleration.resize(axes * made.acceleration.size());
+    inference::fillStandardNormal({.seed = 12, .voice = 0, .segment = 0}, noisy.acceleration);
+    for (std::size_t i = 0; i < made.acceleration.size(); ++i) {
+        const bool rests = i < 4000;
+        for (std::size_t axis = 0; axis < axes; ++axis) {
+            float& value = noisy.acceleration[i * axes + axis];
+            value = 0.04F * value + (axis == 0 && !rests ? made.acceleration[i] : 0.0F);
+        }
+        noisy.velocity[2 * i] *= rests ? 0.0F : 1.0F;
+        noisy.velocity[2 * i + 1] *= rests ? 0.0F : 1.0F;
+    }
+    return noisy;
+}
+
 }  // namespace haptoflow::learning::testing

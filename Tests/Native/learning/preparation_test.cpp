@@ -120,5 +120,25 @@ TEST(PreparationTest, AFrozenSensorIsExcluded) {
     EXPECT_EQ(recording.isUsable[7000], 1);
 }
 
+TEST(PreparationTest, TheSensorsNoiseIsFoundAtRestAndRemovedFromOneAxisAndFromThree) {
+    for (const std::size_t axes : {1U, 3U}) {
+        const recordings::PreparedRecording recording =
+            recordings::prepareRecording(testing::noisy(MadeRecording({}, {}), axes).view());
+        EXPECT_EQ(recording.noise.source, recordings::NoiseSource::rest);
+        // Half of the power of 4 kHz lies above 1 kHz; three axes give theirs but for 1 dB, where frames of them
+        // cancel.
+        const double found = recording.noise.rmsMps2 / (0.04 * std::sqrt(0.5 * static_cast<double>(axes)));
+        EXPECT_GT(found, axes == 1 ? 0.95 : 0.87);
+        EXPECT_LT(found, 1.05);
+        EXPECT_LT(rmsInside(std::span(recording.wave).first(1800)), 0.012 * std::sqrt(static_cast<double>(axes)));
+    }
+}
+
+TEST(PreparationTest, AConstantVelocityShowsNoRestSoThatNothingIsRemoved) {
+    MadeRecording made = testing::noisy(MadeRecording({}, {}));
+    made.velocity.clear();
+    EXPECT_EQ(recordings::prepareRecording(made.view()).noise.source, recordings::NoiseSource::none);
+}
+
 }  // namespace
 }  // namespace haptoflow::learning

@@ -161,6 +161,9 @@ def _report(out: Path, name: str, report: dict[str, Any]) -> None:
         f"  recorded {slow:.0f}-{fast:.0f} mm/s, {light:.2f}-{firm:.2f} N; level grows as "
         f"speed^{exponents['speed']:.2f} force^{exponents['force']:.2f}"
     )
+    noise = report["sensor_noise"]
+    if noise["from"] != "none":
+        print(f"  the sensor's noise, {noise['mps2']:.2g} m/s^2 RMS by the {noise['from']}, was removed")
     ribs = [math.hypot(each["x_cycles_per_mm"], each["y_cycles_per_mm"]) for each in report["wave_vectors"]]
     if ribs:
         found = ", ".join(f"{1.0 / length:.2f} mm" for length in ribs)

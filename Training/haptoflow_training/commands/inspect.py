@@ -77,6 +77,7 @@ def _lines(report: dict[str, Any], problems: list[str]) -> Iterator[str]:
             f"  {quantity:<14}{found['low']:.3g} to {found['high']:.3g} {found['unit']}, "
             f"median {found['middle']:.3g} {found['unit']}"
         )
+    yield from _noise_lines(report["sensor_noise"])
     yield f"  audio         {report['audio_files']} files (not used)"
     if report["unlabelled"]:
         yield f"  unlabelled    {report['unlabelled']} recordings that no label names"
@@ -88,6 +89,18 @@ def _lines(report: dict[str, Any], problems: list[str]) -> Iterator[str]:
     if problems:
         yield f"{len(problems)} problems:"
         yield from (f"  {problem}" for problem in problems)
+
+
+def _noise_lines(noise: dict[str, Any]) -> Iterator[str]:
+    if not noise["from"]:
+        return
+    where = ", ".join(f"{count} from {source}" for source, count in noise["from"].items() if source != "none")
+    nowhere = noise["from"].get("none", 0)
+    if noise["mps2"]:
+        low, middle, high = noise["mps2"]
+        yield f"  sensor noise  {low:.2g} to {high:.2g} m/s^2 RMS, median {middle:.2g}; removed ({where})"
+    if nowhere:
+        yield f"  sensor noise  none found in {nowhere} recordings"
 
 
 def _coverage_table(rows: list[dict[str, object]]) -> Iterator[str]:

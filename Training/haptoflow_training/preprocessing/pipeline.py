@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,6 +14,7 @@ from haptoflow_training.preprocessing import filters, motion
 from haptoflow_training.preprocessing.dft321 import dft321
 from haptoflow_training.preprocessing.gaps import parts_between_gaps
 from haptoflow_training.preprocessing.plausibility import implausible
+from haptoflow_training.preprocessing.sensor_noise import NO_NOISE, SensorNoise, remove_sensor_noise
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.recordings.recording import STANDARD_GRAVITY_MPS2, Recording
 
@@ -25,13 +27,24 @@ _MAXIMUM_TRIM_SHARE = 0.2
 class PreparedRecording:
     """waveform_mps2: [n] float32, m/s^2. motion: [n, 3] float32: vx, vy in m/s, force in N. position_mm: [n, 2] float32:
     where the tip is on the surface. wander_turns: [n, 3] float64, as of Wander (recording.py), zero for files. All
-    finite, n > 0.
+    finite, n > 0. noise: what was removed from the waveform.
     """
 
     waveform_mps2: NDArray[np.float32]
     motion: NDArray[np.float32]
     position_mm: NDArray[np.float32]
     wander_turns: NDArray[np.float64]
+    noise: SensorNoise = NO_NOISE
+
+    def part(self, samples: slice) -> PreparedRecording:
+        """Some of its samples."""
+        return PreparedRecording(
+            self.waveform_mps2[samples],
+            self.motion[samples],
+            self.position_mm[samples],
+            self.wander_turns[samples],
+            self.noise,
+        )
 
 
 def preprocess_recording(recording: Recording, settings: PreprocessingSettings) -> PreparedRecording:
@@ -39,7 +52,8 @@ def preprocess_recording(recording: Recording, settings: PreprocessingSettings) 
     _require_usable(recording)
     _require_plausible(recording)
     _require_no_gap(recording, settings)
-    return _prepared(recording, settings)
+    (prepared,) = _without_noise(recording, [_prepared(recording, settings)])
+    return prepared
 
 
 def preprocess_parts(recording: Recording, settings: PreprocessingSettings) -> list[PreparedRecording]:
@@ -47,7 +61,7 @@ def preprocess_parts(recording: Recording, settings: PreprocessingSettings) -> l
     samples near it. Stretches that are too short are left out; InputError if none is long enough."""
     _require_usable(recording)
     _require_plausible(recording)
-    prepared: list[PreparedRecording] = []
+    prepared: list[_Untrimmed] = []
     problems: list[InputError] = []
     for part in parts_between_gaps(recording, settings.longest_gap_seconds):
         try:
@@ -58,10 +72,34 @@ def preprocess_parts(recording: Recording, settings: PreprocessingSettings) -> l
         # If there are gaps, they are the reason why every part is too short; report them.
         _require_no_gap(recording, settings)
         raise problems[0]
-    return prepared
+    return _without_noise(recording, prepared)
 
 
-def _prepared(recording: Recording, settings: PreprocessingSettings) -> PreparedRecording:
+@dataclass(frozen=True)
+class _Untrimmed:
+    """A stretch with a little of what is trimmed at both ends, and the samples that are kept."""
+
+    whole: PreparedRecording
+    kept: slice
+
+
+def _without_noise(recording: Recording, stretches: list[_Untrimmed]) -> list[PreparedRecording]:
+    """The noise is that of the sensor, so that all stretches of a recording show it together."""
+    if not recording.has_sensor_noise:
+        return [each.whole.part(each.kept) for each in stretches]
+    try:
+        waves, noise = remove_sensor_noise(
+            [each.whole.waveform_mps2 for each in stretches], [each.whole.motion for each in stretches]
+        )
+    except InputError as error:
+        raise InputError(f"recording {recording.identity.name}: {error}") from error
+    return [
+        dataclasses.replace(each.whole, waveform_mps2=wave, noise=noise).part(each.kept)
+        for each, wave in zip(stretches, waves, strict=True)
+    ]
+
+
+def _prepared(recording: Recording, settings: PreprocessingSettings) -> _Untrimmed:
     start, stop = _common_span(recording)
     # The filters run over a little of what is trimmed, so that they do not ring at the cut.
     trim = min(settings.trim_seconds, _MAXIMUM_TRIM_SHARE * (stop - start))
@@ -91,13 +129,13 @@ def _prepared(recording: Recording, settings: PreprocessingSettings) -> Prepared
     force = motion.force_newtons(
         recording.force_time_seconds, recording.force_newtons, grid, settings.force_low_pass_hz
     )
-    middle = slice(lead, lead + kept)
-    return PreparedRecording(
-        waveform[middle].astype(np.float32),
-        np.column_stack([velocity, force])[middle].astype(np.float32),
-        position[middle].astype(np.float32),
-        motion.wander_turns_on_grid(recording.wander, grid[middle]),
+    whole = PreparedRecording(
+        waveform.astype(np.float32),
+        np.column_stack([velocity, force]).astype(np.float32),
+        position.astype(np.float32),
+        motion.wander_turns_on_grid(recording.wander, grid),
     )
+    return _Untrimmed(whole, slice(lead, lead + kept))
 
 
 def _waveform(

@@ -59,13 +59,7 @@ def _fewest(split: Split, settings: PreprocessingSettings) -> int:
 
 def cut(prepared: PreparedRecording, part: TimePart) -> PreparedRecording:
     """The samples of a part."""
-    samples = slice(part.start, part.stop)
-    return PreparedRecording(
-        prepared.waveform_mps2[samples],
-        prepared.motion[samples],
-        prepared.position_mm[samples],
-        prepared.wander_turns[samples],
-    )
+    return prepared.part(slice(part.start, part.stop))
 
 
 def labels_without_a_split(

@@ -9,11 +9,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from haptoflow_training.errors import InputError
+from haptoflow_training.preprocessing.pipeline import preprocess_parts
 from haptoflow_training.preprocessing.plausibility import implausible
+from haptoflow_training.preprocessing.sensor_noise import SensorNoise
+from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.recordings.cluster_dataset_files import DatasetFileError
 from haptoflow_training.recordings.dataset import Dataset
 from haptoflow_training.recordings.open_recordings import RecordingFile
-from haptoflow_training.recordings.recording import RecordingIdentity
+from haptoflow_training.recordings.recording import Recording, RecordingIdentity
 
 _GRID = ("speed_mmps", "direction_degrees", "force_millinewtons", "repeat")
 _UNITS = {"vibration": "g", "force": "N", "speed": "mm/s"}
@@ -31,6 +35,7 @@ def inspect_dataset(dataset: Dataset, recordings: Iterable[RecordingFile] | None
     durations: list[float] = []
     clocks: dict[str, list[tuple[float, float]]] = defaultdict(list)
     quantiles: dict[str, list[NDArray[np.float64]]] = defaultdict(list)
+    noises: list[SensorNoise] = []
     problems = list(dataset.problems)
     for entry in dataset if recordings is None else recordings:
         try:
@@ -40,6 +45,8 @@ def inspect_dataset(dataset: Dataset, recordings: Iterable[RecordingFile] | None
             continue
         for one in implausible(recording):
             problems.append(DatasetFileError(entry.path_of(one.sensor), f"{one.sensor} {one.found}", one.expected))
+        if recording.has_sensor_noise:
+            noises += _noise_of(recording)
         readable.append(entry)
         durations.append(recording.duration_seconds)
         clocks["acceleration"].append(_clock(recording.acceleration_time_seconds))
@@ -62,6 +69,7 @@ def inspect_dataset(dataset: Dataset, recordings: Iterable[RecordingFile] | None
             for sensor, found in clocks.items()
         },
         "ranges": {quantity: _range(_UNITS[quantity], np.array(found)) for quantity, found in quantiles.items()},
+        "sensor_noise": _noise_report(noises),
         "duration_seconds": {
             "total": float(np.sum(durations)),
             **{
@@ -75,6 +83,21 @@ def inspect_dataset(dataset: Dataset, recordings: Iterable[RecordingFile] | None
             {"file": str(problem.path), "found": problem.found, "expected": problem.expected} for problem in problems
         ],
     }
+
+
+def _noise_of(recording: Recording) -> list[SensorNoise]:
+    """What training will remove; nothing for a recording that it will leave out."""
+    try:
+        return [preprocess_parts(recording, PreprocessingSettings())[0].noise]
+    except InputError:
+        return []
+
+
+def _noise_report(noises: list[SensorNoise]) -> dict[str, Any]:
+    """Recordings by where their noise was found; and the least, the median and the most of it."""
+    found = [noise.rms_mps2 for noise in noises if noise.source != "none"]
+    levels = np.quantile(found, (0.0, 0.5, 1.0)).tolist() if found else None
+    return {"from": dict(Counter(noise.source for noise in noises)), "mps2": levels}
 
 
 def _counts(readable: list[RecordingFile]) -> dict[str, dict[str, int]]:

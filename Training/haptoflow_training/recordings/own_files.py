@@ -122,7 +122,7 @@ def _recording(read: NativeRecording, identity: RecordingIdentity, label: str) -
     time, values = _band_limited(read.acceleration)
     return Recording(
         identity, label, time, values / STANDARD_GRAVITY_MPS2, force.time_seconds, force.values[:, 0], position_time,
-        position_mm, velocity_mps=velocity,
+        position_mm, velocity_mps=velocity, has_sensor_noise=read.motion is not None,
     )  # fmt: skip
 
 

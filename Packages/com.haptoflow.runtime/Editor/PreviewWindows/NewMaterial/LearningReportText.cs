@@ -25,6 +25,11 @@ namespace HaptoFlow.Editor
             Add(parts, report, "spectral_distance_db", "spectra within {0:0.0} dB");
             Add(parts, report, "level_error_db", "levels within {0:0.0} dB");
             Add(parts, report, "sliding_seconds", "{0:0.0} s of sliding");
+            if (report.Find("sensor_noise")?.Find("mps2")?.Number is { } noise && noise > 0.0)
+            {
+                parts.Add(string.Format(CultureInfo.InvariantCulture,
+                    "{0:0.000} m/s^2 of the sensor's noise removed", noise));
+            }
             if (report.Find("turn_degrees")?.Number is { } turn && Math.Abs(turn) >= 0.5)
             {
                 parts.Add(string.Format(CultureInfo.InvariantCulture,

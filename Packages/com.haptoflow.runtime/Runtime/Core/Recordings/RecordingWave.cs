@@ -4,7 +4,7 @@ using HaptoFlow.Native;
 
 namespace HaptoFlow.Recordings
 {
-    /// <summary>A recording as learning hears it. Any thread.</summary>
+    /// <summary>A recording as learning hears it, with the sensor's noise that learning removes. Any thread.</summary>
     internal static unsafe class RecordingWave
     {
         /// <summary>Sample rate in Hz.</summary>
