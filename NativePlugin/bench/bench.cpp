@@ -63,7 +63,8 @@ nlohmann::ordered_json notesFor(const nlohmann::ordered_json& report, const Subj
             "`npm run bench` builds one, --paper-model names one");
     }
     if (report.contains("onset_ms") && !report.contains("contact_to_sound_ms")) {
-        notes.push_back("contact_to_sound_ms was not measured: it needs a model with seeds of two labels");
+        notes.push_back(
+            "contact_to_sound_ms was not measured: it needs a model with a skeleton or seeds for two labels");
     }
     return notes;
 }
