@@ -47,14 +47,19 @@ std::unique_ptr<engine::LiveEngine> Subjects::standardEngine(bool hasWorker) con
 
 Hand::Hand(const model::ModelFile& model)
     : speedMps_(model.header().speedMps), forceNewtons_(model.header().forceNewtons) {
-    for (const model::SeedEntry& seed : model.header().seeds) {
-        const auto label = static_cast<std::uint32_t>(seed.label);
+    const auto add = [this](std::size_t index) {
+        const auto label = static_cast<std::uint32_t>(index);
         if (labels_.size() < maximumLabels && std::ranges::find(labels_, label) == labels_.end()) {
             labels_.push_back(label);
         }
+    };
+    if (model.header().skeleton) {
+        for (std::size_t label = 0; label < model.header().labels.size(); ++label) {
+            add(label);
+        }
     }
-    if (labels_.empty()) {
-        throw MeasurementError("the model has no seed: no touch-down sounds before the first segment");
+    for (const model::SeedEntry& seed : model.header().seeds) {
+        add(seed.label);
     }
     std::ranges::sort(labels_);
 }

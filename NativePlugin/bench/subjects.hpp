@@ -49,7 +49,8 @@ struct Subjects {
 /// The contact states of a tip that slides over a model's labels in the middle of its recorded range.
 class Hand {
 public:
-    /// Only this many of the labels with a seed are used, in the model's order; at least one.
+    /// Only this many of the labels from which a touch can begin are used, in the model's order: all labels of a model
+    /// with a skeleton, else those with a seed.
     static constexpr std::size_t maximumLabels = 16;
 
     explicit Hand(const model::ModelFile& model);

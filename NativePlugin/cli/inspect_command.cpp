@@ -87,7 +87,7 @@ void printGeneral(std::ostream& stream, const std::string& path, const model::Mo
                         {"trained speed", interval(header.speedMps) + " m/s"},
                         {"trained force", interval(header.forceNewtons) + " N"},
                         {"peak", shortNumber(header.peakMps2) + " m/s^2"},
-                        {"seeds", std::to_string(header.seeds.size())},
+                        {"seeds", header.seeds.empty() ? "-" : std::to_string(header.seeds.size())},
                         {"skeleton", skeletonOf(header)},
                         {"space", model::spaceOf(header) + ": material files of this space work with the model"}});
 }
@@ -195,7 +195,7 @@ void printMaterial(std::ostream& stream, const std::string& path, const model::M
                 {"wavelength", label.wavelengthMetres ? shortNumber(*label.wavelengthMetres * 1000.0) + " mm" : "-"},
                 {"stiffness", shortNumber(label.stiffnessNewtonsPerMetre) + " N/m"},
                 {"friction", shortNumber(label.frictionCoefficient)},
-                {"seeds", std::to_string(material.seeds.size())}});
+                {"seeds", material.seeds.empty() ? "-" : std::to_string(material.seeds.size())}});
 }
 
 void inspectMaterial(const InspectOptions& options) {

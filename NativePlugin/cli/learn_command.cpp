@@ -134,7 +134,10 @@ void tell(const learning::LearningReport& report, const std::string& name, const
         std::cout << "; the material's first axis lies across them, " << fixedDecimals(report.turnDegrees, 0)
                   << " degrees from the recording's";
     }
-    std::cout << '\n' << "  seeds              " << report.seeds << '\n';
+    std::cout << '\n';
+    if (report.seeds) {
+        std::cout << "  seeds              " << *report.seeds << '\n';
+    }
     for (const learning::TierDistance& each : report.otherTiers) {
         if (each.isFurtherOff) {
             std::cout << "  tier " << each.tier << " is further off: " << fixedDecimals(each.spectralDistanceDb, 1)

@@ -2,6 +2,7 @@
 
 #include "dsp/fourier_transform.hpp"
 #include "dsp/waveform_resampler.hpp"
+#include "label_textures.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -48,20 +49,16 @@ struct LabelSpectra {
     std::vector<double> compensated;
 };
 
-LabelSpectra spectraOf(const model::ModelFile& model, std::size_t label, const effects::ActuatorProfile& profile,
-                       effects::Compensation& compensation) {
+LabelSpectra spectraOf(const std::string& label, const std::vector<TextureExcerpt>& excerpts,
+                       const effects::ActuatorProfile& profile, effects::Compensation& compensation) {
     Spectrum wanted(window / 2);
     Spectrum compensated(window / 2);
-    for (std::size_t seed = 0; seed < model.header().seeds.size(); ++seed) {
-        if (model.header().seeds[seed].label != label) {
-            continue;
-        }
-        const std::span<const float, model::seedSamples> waveform = model.seed(seed);
+    for (const TextureExcerpt& excerpt : excerpts) {
         dsp::WaveformResampler resampler(rateHz);
         // Played twice: the filters settle during the first time.
-        std::vector<float> texture(2 * static_cast<std::size_t>(4 * model::seedSamples));
+        std::vector<float> texture(2 * 4 * excerpt.size());
         for (std::size_t turn = 0; turn < 2; ++turn) {
-            resampler.process(waveform, std::span(texture).subspan(turn * texture.size() / 2, texture.size() / 2));
+            resampler.process(excerpt, std::span(texture).subspan(turn * texture.size() / 2, texture.size() / 2));
         }
         std::vector<float> played = texture;
         compensation.reset();
@@ -70,7 +67,7 @@ LabelSpectra spectraOf(const model::ModelFile& model, std::size_t label, const e
         addPower(wanted, {texture.begin() + half, texture.end()});
         addPower(compensated, {played.begin() + half, played.end()});
     }
-    LabelSpectra spectra{.label = model.header().labels[label].name, .uncompensated = {}, .compensated = {}};
+    LabelSpectra spectra{.label = label, .uncompensated = {}, .compensated = {}};
     const double loudest = std::ranges::max(wanted);
     for (std::size_t bin = 0; bin < wanted.size(); ++bin) {
         if (hzOf(bin) < lowestHz || hzOf(bin) > highestHz ||
@@ -112,9 +109,10 @@ double distance(const LabelSpectra& label, Differences differences, double stren
 std::vector<TextureDistance> textureDistances(const model::ModelFile& model, const effects::ActuatorProfile& profile,
                                               const effects::CompensationSettings& settings) {
     effects::Compensation compensation(profile, rateHz, settings);
+    const LabelTextures textures(model);
     std::vector<LabelSpectra> labels;
     for (std::size_t label = 0; label < model.header().labels.size(); ++label) {
-        LabelSpectra spectra = spectraOf(model, label, profile, compensation);
+        LabelSpectra spectra = spectraOf(model.header().labels[label].name, textures.of(label), profile, compensation);
         if (!spectra.compensated.empty()) {
             labels.push_back(std::move(spectra));
         }

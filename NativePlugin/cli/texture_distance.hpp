@@ -17,7 +17,7 @@ struct TextureDistance {
     double compensatedDecibels = 0.0;
 };
 
-/// The distance for every label of a model, over its recorded seeds. One gain, the best for all labels together, is
+/// The distance for every label of a model, over its LabelTextures. One gain, the best for all labels together, is
 /// used with compensation and one without, like the setting of an amplifier. Bins more than 30 dB below a label's
 /// maximum are ignored. The actuator is modelled by the magnitude of its profile.
 [[nodiscard]] std::vector<TextureDistance> textureDistances(const model::ModelFile& model,

@@ -55,6 +55,7 @@ def test_the_header_says_origin_labels_range_and_tier(exported: tuple[Path, Mode
     assert header["labels"][0]["periodic"] and not header["labels"][1]["periodic"]
     assert 0.55 < header["range"]["speed_mps"][1] <= 0.61
     assert header["tiers"][0]["kind"] == "flow"
+    assert len(header["seed_bank"]["entries"]) == len(exported[1].tensors["seeds"]) and "skeleton" not in header
     assert header["measurements"]["steps"] == 60
 
 

@@ -12,6 +12,7 @@ import pytest
 
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.model_file import (
+    VERSION,
     ModelFile,
     encode_model_file,
     model_space,
@@ -29,6 +30,10 @@ MODEL = ModelFile(
 )
 
 
+def _of_version(version: int, content: bytes) -> bytes:
+    return content[:8] + struct.pack("<I", version) + content[12:]
+
+
 def test_what_is_written_is_read_back(tmp_path: Path) -> None:
     path = tmp_path / "model.haptoflow"
     checksum = write_model_file(path, MODEL)
@@ -42,7 +47,7 @@ def test_what_is_written_is_read_back(tmp_path: Path) -> None:
 def test_the_preamble_holds_magic_version_lengths_and_checksums() -> None:
     content = encode_model_file(MODEL)
     magic, version, header_length, total, header_crc, own_crc = struct.unpack_from("<8sIIQII", content)
-    assert (magic, version, total) == (b"HAPTFLOW", 1, len(content))
+    assert (magic, version, total) == (b"HAPTFLOW", VERSION, len(content))
     assert zlib.crc32(content[32 : 32 + header_length]) == header_crc
     assert zlib.crc32(content[:28]) == own_crc
 
@@ -63,11 +68,12 @@ def test_header_and_blobs_end_and_start_on_multiples_of_64(tmp_path: Path) -> No
     [
         (lambda content: content[:-1], "truncated"),
         (lambda content: b"NOTAMODL" + content[8:], "not a .haptoflow file"),
-        (lambda content: content[:8] + b"\x02" + content[9:], "version 2"),
+        (lambda content: _of_version(VERSION + 1, content), f"version {VERSION + 1}, expected {VERSION}: update"),
+        (lambda content: _of_version(VERSION - 1, content), f"{VERSION - 1}, expected {VERSION}: .*training export"),
         (lambda content: content[:40] + b"#" + content[41:], "header"),
         (lambda content: content[:-3] + b"#" + content[-2:], "'level'"),
     ],
-    ids=["truncated", "other magic", "newer", "header", "blob"],
+    ids=["truncated", "other magic", "newer", "older", "header", "blob"],
 )
 def test_damage_is_named(tmp_path: Path, damage: object, complaint: str) -> None:
     path = tmp_path / "broken.haptoflow"

@@ -84,9 +84,17 @@ def test_the_file_is_that_of_the_model_which_made_the_golden_vectors(file: Model
         "embedding": sketch.embedding.weight.numpy(), "pieces": sketch.embedding.offsets.numpy(),
         **skeleton_tensors(sketch.level, sketch.skeleton), **condition_tensors("standard", refined.refiner),
     }  # fmt: skip
-    assert written.keys() == file.tensors.keys() - {"seeds"}
+    assert written.keys() == file.tensors.keys()
     for name, values in written.items():
         np.testing.assert_allclose(values, file.tensors[name], rtol=1e-6, atol=1e-7, err_msg=name)
+
+
+def test_a_further_label_of_a_model_with_a_skeleton_leaves_the_seeds_of_its_material_out(file: ModelFile) -> None:
+    seed = {"samples": [1.0] * 400, "velocity_mps": [0.1, 0.0], "force_newtons": 1.0}
+    material = {"name": "learnt", "space": model_space(file), "embedding": [0.1] * 64, "seeds": [seed]}
+    larger = with_label(file, material)
+    assert larger.tensors.keys() == file.tensors.keys() and "seed_bank" not in larger.header
+    assert "seeds" not in larger.header["labels"][-1]
 
 
 def test_the_header_states_the_skeleton_and_its_tiers(file: ModelFile) -> None:
@@ -138,13 +146,13 @@ def test_the_tensors_alone_give_level_filter_and_the_film_with_its_factors(
 def test_a_further_label_of_a_model_with_specimens_has_the_offsets_of_the_label_itself(file: ModelFile) -> None:
     material = {
         "name": "learnt", "space": model_space(file), "category": "own", "embedding": [0.1] * 64,
-        "seeds": [{"samples": [1.0] * 400, "velocity_mps": [0.1, 0.0], "force_newtons": 1.0}],
     }  # fmt: skip
     larger = with_label(file, material)
     assert larger.tensors["embedding"].shape == (3, 64)
     assert larger.tensors["pieces"].shape == (3, make_skeleton_model.SPECIMENS, 60)
     assert not larger.tensors["pieces"][2].any() and larger.tensors["pieces"].dtype == np.float32
     np.testing.assert_array_equal(larger.tensors["pieces"][:2], file.tensors["pieces"])
+    assert "seeds" not in larger.tensors and "seed_bank" not in larger.header
 
 
 def test_the_bytes_of_a_tier_are_its_graph_and_all_tensors_that_native_code_computes_with(file: ModelFile) -> None:

@@ -179,9 +179,10 @@ def test_the_file_of_a_skeleton_has_its_tensors_and_no_level_graph(exported: Mod
     layers = [f"{layer}.{kind}" for layer in (0, 2, 4) for kind in ("weight", "bias")]
     perceptrons = ("level.correction", "skeleton", "draft.condition", "standard.condition")
     assert set(exported.tensors) == {
-        "embedding", "seeds", "pieces", "level.law.weight", "level.law.bias",
+        "embedding", "pieces", "level.law.weight", "level.law.bias",
         *(f"{name}.{layer}" for name in perceptrons for layer in layers),
     }  # fmt: skip
+    assert "seed_bank" not in exported.header
     assert exported.tensors["pieces"].shape == (2, 3, 60)
     assert set(exported.graphs) == {"draft.field", "standard.field"}
     graph = onnx.load_from_string(exported.graphs["draft.field"])

@@ -72,9 +72,12 @@ public:
         report_.generations = fitted.generations;
         say(0.9, "tone");
         const ToneFit tone = fitTones(fit, embedding);
-        std::vector<LearntSeed> seeds = chooseSeeds(recording_, sliding_, unitWave_, tone.tone);
-        placeRibs(seeds, loop, embedding, settings_.seed);
-        report_.seeds = seeds.size();
+        std::vector<LearntSeed> seeds;
+        if (!model_.header().skeleton) {
+            seeds = chooseSeeds(recording_, sliding_, unitWave_, tone.tone);
+            placeRibs(seeds, loop, embedding, settings_.seed);
+            report_.seeds = seeds.size();
+        }
         report_.toneSpeeds = tone.tone.speedsMps.size();
         report_.speedExponent = level_.speedExponent;
         report_.forceExponent = level_.table.forceExponent;

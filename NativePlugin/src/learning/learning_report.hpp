@@ -4,7 +4,9 @@
 #include "recordings/sensor_noise.hpp"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,7 +48,8 @@ struct LearningReport {
     std::vector<WaveVector> waveVectors;
     /// Angle from the recording's first axis to the material's; 0 without ribs.
     double turnDegrees = 0.0;
-    std::size_t seeds = 0;
+    /// Empty for a model with a skeleton, whose touches need no seeds.
+    std::optional<std::size_t> seeds;
     std::size_t toneSpeeds = 0;
     std::uint64_t segments = 0;
     std::uint64_t generations = 0;

@@ -83,7 +83,9 @@ std::string materialText(const model::ModelFile& model, const MaterialContent& c
     if (!content.tone.speedsMps.empty()) {
         json["tone"] = toneJson(content.tone);
     }
-    json["seeds"] = seedsJson(content.seeds);
+    if (!content.seeds.empty()) {
+        json["seeds"] = seedsJson(content.seeds);
+    }
     return json.dump() + "\n";
 }
 

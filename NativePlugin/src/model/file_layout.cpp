@@ -36,12 +36,13 @@ void checkPrefix(std::span<const std::byte> file) {
         throw ModelError(ModelStatus::damaged, "bytes 0 to 27 do not match their checksum at byte 28: get it again");
     }
     const std::uint64_t version = readUnsigned(file, 8, 4);
-    if (version > formatVersion) {
-        throw ModelError(ModelStatus::tooNew, "format version " + std::to_string(version) +
-                                                  " at byte 8; this reader knows version 1: update HaptoFlow");
-    }
     if (version != formatVersion) {
-        throw ModelError(ModelStatus::inconsistent, "format version 0 at byte 8; expected 1");
+        const bool isNewer = version > formatVersion;
+        throw ModelError(isNewer ? ModelStatus::tooNew : ModelStatus::inconsistent,
+                         "format version " + std::to_string(version) + " at byte 8; this reader knows version " +
+                             std::to_string(formatVersion) + ": " +
+                             (isNewer ? "update HaptoFlow"
+                                      : "make the file again from its training run with `haptoflow-training export`"));
     }
 }
 

@@ -12,7 +12,7 @@
 
 namespace haptoflow::model {
 
-/// A `.haptoflow` file of version 1 in memory, with all of its bytes verified. Immutable, so that any number of threads
+/// A `.haptoflow` file in memory, with all of its bytes verified. Immutable, so that any number of threads
 /// may read it at once. Spans and views are valid as long as the object.
 class ModelFile {
 public:

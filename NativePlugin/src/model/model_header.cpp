@@ -84,6 +84,41 @@ const Blob& requireMatrix(const HeaderNode& node, const std::string& name, const
     return *blob;
 }
 
+void readSeedBank(const HeaderNode& bank, const NameIndex& labelNames, ModelHeader& header) {
+    (void)bank.at("samples").integer(seedSamples, seedSamples);
+    header.seedTensor = bank.at("tensor").name(nameBytes);
+    const Blob& seeds = requireMatrix(bank.at("tensor"), header.seedTensor, header.blobs, seedSamples);
+    for (const HeaderNode& node : bank.at("entries").elements(1, maximumSeeds)) {
+        header.seeds.push_back(readSeed(node, labelNames));
+    }
+    if (seeds.shape[0] != static_cast<std::int64_t>(header.seeds.size())) {
+        bank.at("entries").refuse("as many entries as the seed tensor has rows (" + std::to_string(seeds.shape[0]) +
+                                  ')');
+    }
+}
+
+/// Reads what touches begin with: a skeleton or a seed bank, of which a file has one.
+void readBeginnings(const HeaderNode& root, const NameIndex& labelNames, ModelHeader& header) {
+    const auto skeleton = root.find("skeleton");
+    const auto bank = root.find("seed_bank");
+    if (!skeleton && std::ranges::any_of(header.tiers, &Tier::usesSkeleton)) {
+        root.refuse(
+            "a member \"skeleton\", which tiers of kind \"skeleton\" and \"refine\" need: export the model again");
+    }
+    if (skeleton && bank) {
+        bank->refuse("no seed bank beside a skeleton: export the model again");
+    }
+    if (skeleton) {
+        header.skeleton = readSkeleton(*skeleton);
+        (void)requireMatrix(root.at("blobs"), std::string(skeletonTensor), header.blobs,
+                            static_cast<std::size_t>(header.skeleton->hidden));
+    } else if (bank) {
+        readSeedBank(*bank, labelNames, header);
+    } else {
+        root.refuse("a member \"seed_bank\" or \"skeleton\", from which touches begin: export the model again");
+    }
+}
+
 }  // namespace
 
 std::string spaceOf(const ModelHeader& header) {
@@ -131,23 +166,7 @@ ModelHeader readHeader(std::string_view text) {
     }
     header.defaultTier = tierNames.at(root.at("default_tier"), "tier");
 
-    if (std::ranges::any_of(header.tiers, &Tier::usesSkeleton)) {
-        header.skeleton = readSkeleton(root.at("skeleton"));
-        (void)requireMatrix(root.at("blobs"), std::string(skeletonTensor), header.blobs,
-                            static_cast<std::size_t>(header.skeleton->hidden));
-    }
-
-    const HeaderNode bank = root.at("seed_bank");
-    (void)bank.at("samples").integer(seedSamples, seedSamples);
-    header.seedTensor = bank.at("tensor").name(nameBytes);
-    const Blob& seeds = requireMatrix(bank.at("tensor"), header.seedTensor, header.blobs, seedSamples);
-    for (const HeaderNode& node : bank.at("entries").elements(1, maximumSeeds)) {
-        header.seeds.push_back(readSeed(node, labelNames));
-    }
-    if (seeds.shape[0] != static_cast<std::int64_t>(header.seeds.size())) {
-        bank.at("entries").refuse("as many entries as the seed tensor has rows (" + std::to_string(seeds.shape[0]) +
-                                  ')');
-    }
+    readBeginnings(root, labelNames, header);
     if (const auto measurements = root.find("measurements")) {
         (void)measurements->objectText();
     }

@@ -197,7 +197,7 @@ struct ModelHeader {
     std::vector<Tier> tiers;
     /// Index in `tiers`.
     std::size_t defaultTier = 0;
-    /// Set if a tier uses it.
+    /// What touches begin with: either a skeleton, or seeds in the tensor of this name.
     std::optional<SkeletonHeader> skeleton;
     std::string seedTensor;
     std::vector<SeedEntry> seeds;

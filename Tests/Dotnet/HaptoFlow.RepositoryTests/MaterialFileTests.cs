@@ -35,6 +35,19 @@ namespace HaptoFlow.RepositoryTests
             Assert.Throws<ArgumentException>(() => model.NearestLabel(new double[MaterialFile.TextureNumbers]));
         }
 
+        [TestCase("smooth", "stick_slip")]
+        [TestCase("ruled", "rib_wander")]
+        public void ALabelOfAModelWithASkeletonKeepsTheWavesOfItsSurfaceAndHasNoSeeds(string label, string key)
+        {
+            byte[] file = File.ReadAllBytes(RepositoryFiles.In("Tests", "Golden", "model", "skeleton.haptoflow"));
+            JObject material = JObject.Parse(MaterialText.OfLabel(file, label));
+            using HapticModel model = HapticModel.Open(file);
+            JToken stated = JObject.Parse(model.HeaderJson())["labels"]!.Single(each => (string?)each["name"] == label);
+            Assert.That(JToken.DeepEquals(material[key], stated[key]), material.ToString());
+            Assert.That(material.ContainsKey("seeds"), Is.False);
+            Assert.That(MaterialFile.Read(material.ToString()).Name, Is.EqualTo(label));
+        }
+
         [TestCase("denim")]
         [TestCase("plain-twin")]
         [TestCase("ribbed")]

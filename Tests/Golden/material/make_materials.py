@@ -131,7 +131,7 @@ def material(
         "embedding": [float(value) for value in embedding],
         "range": {"speed_mps": speeds, "force_newtons": forces},
         **{key: label[key] for key in order if key in label},
-        "seeds": keys.get("seeds", []),
+        **({"seeds": keys["seeds"]} if keys.get("seeds") else {}),
     }
 
 
@@ -163,7 +163,7 @@ def materials(tiny: ModelFile, default: ModelFile) -> dict[str, dict[str, Any]]:
         "denim": material(
             default, "denim", denim, [0.02, 0.18], [0.4, 2.0], category="cloth", provenance=PROVENANCE,
             level_exponents={"speed": 0.9, "force": 0.2}, frequency_exponent=0.2, friction_coefficient=0.5,
-            **tables, seeds=[seed([0.08, 0.0], 1.0, 3, False)],
+            **tables, seeds=[seed([0.08, 0.0], 1.0, 3, False)] if "seed_bank" in default.header else [],
         ),
     }  # fmt: skip
 

@@ -83,10 +83,6 @@ def header(tiers: list[TrainedTier], skeleton: Skeleton) -> dict[str, Any]:
         ],
         "tiers": [tier.header_entry() for tier in tiers],
         "default_tier": "standard",
-        "seed_bank": {
-            "samples": 400, "tensor": "seeds",
-            "entries": [{"label": name, "velocity_mps": [0.1, 0.0], "force_newtons": 1.0} for name in LABELS],
-        },
         "skeleton": skeleton_header(skeleton),
     }  # fmt: skip
 
@@ -146,13 +142,10 @@ def main() -> None:
         TrainedTier(TrainingConfig(tier=name), list(LABELS), model)
         for name, model in (("sketch", sketch), ("standard", refined))
     ]
-    seeds = torch.randn(len(LABELS), 400, generator=torch.Generator().manual_seed(31))
-    seeds = seeds / seeds.square().mean(dim=1, keepdim=True).sqrt()
     file = ModelFile(
         header=header(tiers, sketch.skeleton),
         tensors={
-            "embedding": sketch.embedding.weight.numpy().copy(), "seeds": seeds.numpy(),
-            "pieces": sketch.embedding.offsets.numpy().copy(),
+            "embedding": sketch.embedding.weight.numpy().copy(), "pieces": sketch.embedding.offsets.numpy().copy(),
             **skeleton_tensors(sketch.level, sketch.skeleton), **tiers[1].tensors(),
         },
         graphs=tiers[1].graphs(),

@@ -157,6 +157,17 @@ TEST(TextureDistanceTest, CompensationReducesTheDistanceOfEveryLabelOfTheShipped
     }
 }
 
+TEST(TextureDistanceTest, AModelWithASkeletonHasADistanceForEveryLabel) {
+    const auto model = model::ModelFile::read(HAPTOFLOW_TEST_GOLDEN_DIR "/model/skeleton.haptoflow");
+    const std::vector<TextureDistance> distances =
+        textureDistances(model, *effects::ActuatorProfile::builtIn("voice-coil"), {});
+    ASSERT_EQ(distances.size(), model.header().labels.size());
+    for (const TextureDistance& each : distances) {
+        EXPECT_GT(each.uncompensatedDecibels, 2.0) << each.label;
+        EXPECT_LT(each.compensatedDecibels, each.uncompensatedDecibels) << each.label;
+    }
+}
+
 TEST(TextureDistanceTest, AFlatActuatorHasNoDistance) {
     const model::ModelFile model = model::ModelFile::read(HAPTOFLOW_TEST_DEFAULT_MODEL);
     for (const TextureDistance& each : textureDistances(model, *effects::ActuatorProfile::builtIn("flat"), {})) {

@@ -205,6 +205,11 @@ TEST(BenchCommandTest, LatenciesHaveARowForEachDeviceWithItsGoalAfterTheDefaultB
     }
 }
 
+TEST(BenchCommandTest, EveryLabelOfAModelWithASkeletonIsSlidOver) {
+    const auto model = model::ModelFile::read(HAPTOFLOW_TEST_GOLDEN_DIR "/model/skeleton.haptoflow");
+    EXPECT_EQ(bench::Hand(model).labelCount(), model.header().labels.size());
+}
+
 TEST(BenchCommandTest, AStrokeWithLabelChangesIsPublishedAtTheUpdateRateWhileItTouches) {
     const bench::Hand hand(model::ModelFile::read(HAPTOFLOW_TEST_DEFAULT_MODEL));
     std::mt19937_64 random(5);

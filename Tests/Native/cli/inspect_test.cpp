@@ -16,6 +16,7 @@
 namespace haptoflow::cli {
 namespace {
 
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 
 using testing::Finished;
@@ -55,6 +56,7 @@ private:
 TEST(InspectTest, ASkeletonItsTiersAndTheWavesOfLabelsAreShown) {
     const Finished run = inspect(HAPTOFLOW_TEST_GOLDEN_DIR "/model/skeleton.haptoflow");
     EXPECT_EQ(run.exitCode, 0) << run.output;
+    EXPECT_THAT(run.output, ContainsRegex("\n  seeds +-\n"));
     for (const char* part : {"skeleton", "9461 weights, 24 hidden units", "stick-slip mm", "1.1", "rib wander turns",
                              "0.12, 0", "sketch", "refine", "standard (default)"}) {
         EXPECT_THAT(run.output, HasSubstr(part));
@@ -64,6 +66,7 @@ TEST(InspectTest, ASkeletonItsTiersAndTheWavesOfLabelsAreShown) {
 TEST(InspectTest, ProvenanceLabelsAndTiersAreShownAsText) {
     const Finished run = inspect(tinyModel);
     EXPECT_EQ(run.exitCode, 0) << run.output;
+    EXPECT_THAT(run.output, ContainsRegex("\n  seeds +2\n"));
     for (const char* part :
          {"tiny\n", "not trained: written by hand for the tests", "all checksums verified", "Labels (2)", "ruled",
           "600", "Tiers (5)", "average-velocity", "standard (default)", "midpoint", "267", "not measured"}) {

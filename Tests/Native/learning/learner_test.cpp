@@ -1,7 +1,5 @@
 #include "learning/learner.hpp"
 
-#include "dsp/tone_cepstrum.hpp"
-#include "inference/gaussian_noise.hpp"
 #include "inference/inference_error.hpp"
 #include "inference/onnx_runtime.hpp"
 #include "inference/onnx_segment_generator.hpp"
@@ -18,10 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <complex>
 #include <limits>
-#include <numbers>
-#include <span>
 
 namespace haptoflow::learning {
 namespace {
@@ -46,43 +41,12 @@ protected:
         return settings;
     }
 
-    /// The segment that the network generates after a seed's first 200 samples, at the seed's own motion.
-    std::vector<float> continuation(const model::MaterialFile& material, const model::MaterialSeed& seed,
-                                    std::uint32_t draw) {
-        constexpr std::size_t half = inference::segmentSamples;
-        std::vector<float> noise(half);
-        std::vector<float> played(half);
-        inference::fillStandardNormal({.seed = 5, .voice = draw, .segment = 0}, noise);
-        const std::array<inference::SegmentRequest, 1> request{
-            {{material.embedding,
-              {static_cast<float>(seed.velocityMps[0]), static_cast<float>(seed.velocityMps[1]),
-               static_cast<float>(seed.forceNewtons)},
-              std::span<const float, half>(seed.samples.data(), half),
-              std::span<const float, half>(noise.data(), half),
-              {static_cast<float>(seed.ribPhase[0]), static_cast<float>(seed.ribPhase[1])},
-              1.0F,
-              {}}}};
-        generator_.generate(request, played);
-        return played;
-    }
-
     model::ModelFile model_ = model::ModelFile::read(HAPTOFLOW_TEST_DEFAULT_MODEL);
     inference::OnnxSegmentGenerator generator_{
         inference::Runtime::open(HAPTOFLOW_TEST_ONNXRUNTIME), model_,
         model_.header().tiers[model_.header().defaultTier].name,
         inference::defaultSolver(model_.header().tiers[model_.header().defaultTier]), 64};
 };
-
-/// Fundamental of the ribs along the material's first axis, in consecutive samples at the seed's speed.
-std::complex<double> fundamentalOf(std::span<const float> wave, const model::MaterialFile& material,
-                                   const model::MaterialSeed& seed) {
-    const double turns = 1000.0 / inference::waveformRateHz * material.embedding[60] * seed.velocityMps[0];
-    std::complex<double> sum = 0.0;
-    for (std::size_t i = 0; i < wave.size(); ++i) {
-        sum += static_cast<double>(wave[i]) * std::polar(1.0, -2.0 * std::numbers::pi * turns * static_cast<double>(i));
-    }
-    return sum;
-}
 
 TEST_F(LearnerTest, TheMaterialIsAMaterialFileOfTheModelsSpace) {
     const MadeRecording made({}, {});
@@ -93,7 +57,6 @@ TEST_F(LearnerTest, TheMaterialIsAMaterialFileOfTheModelsSpace) {
     EXPECT_EQ(material.provenance.licence, "unknown");
     EXPECT_EQ(material.provenance.recordings, "made.csv");
     EXPECT_NEAR(material.provenance.seconds, 10.0, 0.5);
-    EXPECT_EQ(material.seeds.size(), 8U);
     EXPECT_NEAR(material.speedMps[0], 0.03, 0.005);
     EXPECT_NEAR(material.speedMps[1], 0.25, 0.03);
     EXPECT_TRUE(learnt.report.waveVectors.empty());
@@ -120,44 +83,6 @@ TEST_F(LearnerTest, TheFitImprovesOnTheNearestLabelAndTheToneOnTheFit) {
     EXPECT_GT(report.generations, 5U);
 }
 
-TEST_F(LearnerTest, ASeedWithTheToneEqualsTheRecording) {
-    const MadeRecording made({.resonanceHz = 90.0}, {}, 2000.0);
-    const LearntMaterial learnt = learn(made.view(), brief());
-    const model::MaterialFile material = model::parseMaterial(learnt.materialJson);
-    const nlohmann::json json = nlohmann::json::parse(learnt.materialJson);
-    model::ToneTable tone;
-    tone.speedsMps = json["tone"]["speeds_mps"].get<std::vector<double>>();
-    tone.frequenciesHz = json["tone"]["frequencies_hz"].get<std::vector<double>>();
-    tone.gainsDb = json["tone"]["gains_db"].get<std::vector<std::vector<double>>>();
-    const model::MaterialSeed& seed = material.seeds[0];
-    const double speed = std::hypot(seed.velocityMps[0], seed.velocityMps[1]);
-    const dsp::ToneKernel kernel =
-        dsp::toneKernel(dsp::toneCepstrum([&](double hertz) { return tone.gainDb(speed, std::max(hertz, 1.0)); }));
-    std::vector<double> heard;
-    for (std::size_t i = dsp::toneTaps; i < seed.samples.size(); ++i) {
-        double sum = 0.0;
-        for (std::size_t tap = 0; tap < kernel.size(); ++tap) {
-            sum += static_cast<double>(kernel[tap]) * seed.samples[i - tap];
-        }
-        heard.push_back(sum);
-    }
-    // The same wave must occur somewhere in the recording.
-    double best = 0.0;
-    for (std::size_t start = 0; start + heard.size() <= made.acceleration.size(); ++start) {
-        double product = 0.0;
-        double one = 0.0;
-        double other = 0.0;
-        for (std::size_t i = 0; i < heard.size(); ++i) {
-            const double value = made.acceleration[start + i];
-            product += heard[i] * value;
-            one += heard[i] * heard[i];
-            other += value * value;
-        }
-        best = std::max(best, product / std::sqrt(one * other));
-    }
-    EXPECT_GT(best, 0.97);
-}
-
 TEST_F(LearnerTest, RibsAreAcrossTheMaterialsFirstAxisAndMakeItPeriodic) {
     const MadeRecording made({.ribs = {0.8, 0.45}, .ribShare = 0.5}, {});
     const LearntMaterial learnt = learn(made.view(), brief());
@@ -169,43 +94,6 @@ TEST_F(LearnerTest, RibsAreAcrossTheMaterialsFirstAxisAndMakeItPeriodic) {
     ASSERT_TRUE(material.label.wavelengthMetres.has_value());
     EXPECT_NEAR(*material.label.wavelengthMetres, 1e-3 / length, 3e-5);
     EXPECT_DOUBLE_EQ(material.label.frequencyExponent, 1.0);
-}
-
-TEST_F(LearnerTest, ATouchThatStartsFromASeedContinuesTheRibsInPhase) {
-    const MadeRecording made({.resonanceHz = 400.0, .ribs = {0.8, 0.45}, .ribShare = 0.9},
-                             {.seconds = 12.0, .minimumSpeedMps = 0.05, .maximumSpeedMps = 0.15, .strokeSeconds = 0.7});
-    const LearntMaterial learnt = learn(made.view(), brief());
-    const model::MaterialFile material = model::parseMaterial(learnt.materialJson);
-    ASSERT_GE(material.seeds.size(), 4U);
-    // Similarity of the ribs played and recorded: 1 for equal phases, -1 for a difference of half a rib.
-    const auto similarity = [&](double shiftTurns) {
-        double together = 0.0;
-        double most = 0.0;
-        for (model::MaterialSeed seed : material.seeds) {
-            const std::complex<double> recorded = fundamentalOf(std::span(seed.samples).subspan(200), material, seed);
-            seed.ribPhase[0] = std::fmod(seed.ribPhase[0] + shiftTurns, 1.0);
-            for (std::uint32_t draw = 0; draw < 16; ++draw) {
-                const std::complex<double> played = fundamentalOf(continuation(material, seed, draw), material, seed);
-                together += (played * std::conj(recorded)).real();
-                most += std::abs(played) * std::abs(recorded);
-            }
-        }
-        return together / most;
-    };
-    const double placed = similarity(0.0);
-    EXPECT_GT(placed, 0.6);
-    EXPECT_LT(similarity(0.5), 0.5 * placed) << "the network does not follow the phase";
-}
-
-TEST_F(LearnerTest, SeedsOfASurfaceWithoutRibsHaveNoPhase) {
-    const MadeRecording made({}, {});
-    LearningSettings settings = brief();
-    settings.segmentBudget = 1000;
-    const nlohmann::json json = nlohmann::json::parse(learn(made.view(), settings).materialJson);
-    ASSERT_FALSE(json.at("seeds").empty());
-    for (const nlohmann::json& seed : json.at("seeds")) {
-        EXPECT_FALSE(seed.contains("rib_phase"));
-    }
 }
 
 TEST_F(LearnerTest, GivenWaveVectorsReplaceTheEstimation) {
@@ -244,7 +132,6 @@ TEST_F(LearnerTest, AConstantMotionIsLearntWithAWarning) {
     EXPECT_THAT(learnt.report.warnings, ::testing::Contains(HasSubstr("the speed hardly changes")));
     const model::MaterialFile material = model::parseMaterial(learnt.materialJson);
     EXPECT_GT(material.label.speedLevelExponent, 0.5);
-    EXPECT_GE(material.seeds.size(), 4U);
 }
 
 TEST_F(LearnerTest, AnUnusualLevelGivesAWarningAndAnImpossibleOneIsRefused) {

@@ -1,5 +1,7 @@
 #include "refusal.hpp"
 
+#include "model/file_layout.hpp"
+
 namespace haptoflow::model::testing {
 namespace {
 
@@ -41,16 +43,23 @@ TEST(FileLayoutTest, AnAppendedByteIsRefused) {
 
 TEST(FileLayoutTest, ANewerVersionIsRefusedWithTheRemedy) {
     Bytes file = validFile();
-    writeUnsigned(file, versionOffset, 4, 2);
+    writeUnsigned(file, versionOffset, 4, formatVersion + 1);
     resealPrefix(file);
-    expectRefusal(file, ModelStatus::tooNew, "update HaptoFlow");
+    expectRefusal(file, ModelStatus::tooNew,
+                  "version " + std::to_string(formatVersion + 1) + " at byte 8; this reader knows version " +
+                      std::to_string(formatVersion) + ": update HaptoFlow");
 }
 
-TEST(FileLayoutTest, VersionZeroIsRefused) {
-    Bytes file = validFile();
-    writeUnsigned(file, versionOffset, 4, 0);
-    resealPrefix(file);
-    expectRefusal(file, ModelStatus::inconsistent, "version 0");
+TEST(FileLayoutTest, AnOlderVersionIsRefusedWithTheCommandThatMakesANewFile) {
+    for (std::uint32_t version = 0; version < formatVersion; ++version) {
+        Bytes file = validFile();
+        writeUnsigned(file, versionOffset, 4, version);
+        resealPrefix(file);
+        expectRefusal(file, ModelStatus::inconsistent,
+                      "version " + std::to_string(version) + " at byte 8; this reader knows version " +
+                          std::to_string(formatVersion) +
+                          ": make the file again from its training run with `haptoflow-training export`");
+    }
 }
 
 TEST(FileLayoutTest, AFileWithAFlippedVersionBitIsDamagedAndNotNewer) {

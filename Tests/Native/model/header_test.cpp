@@ -7,7 +7,7 @@ using Json = nlohmann::json;
 
 TEST(HeaderTest, AHeaderWithAMissingKeyIsRefused) {
     for (const char* key : {"name", "description", "provenance", "sample_rate_hz", "segment_samples", "normalisation",
-                            "range", "embedding_size", "labels", "tiers", "default_tier", "seed_bank"}) {
+                            "range", "embedding_size", "labels", "tiers", "default_tier"}) {
         expectHeaderRefusal([key](Json& header) { header.erase(key); }, '"' + std::string(key) + '"');
     }
 }
@@ -116,6 +116,19 @@ TEST(HeaderTest, AnUnknownDefaultTierIsRefused) {
 
 TEST(HeaderTest, MeasurementsThatAreNotAnObjectAreRefused) {
     expectHeaderRefusal([](Json& header) { header["measurements"] = 5; }, "measurements");
+}
+
+TEST(HeaderTest, AModelWithNeitherSeedsNorASkeletonIsRefusedWithTheRemedy) {
+    expectHeaderRefusal([](Json& header) { header.erase("seed_bank"); },
+                        "header: expected a member \"seed_bank\" or \"skeleton\", from which touches begin: export the "
+                        "model again");
+}
+
+TEST(HeaderTest, ASeedBankWithAMissingKeyIsRefused) {
+    for (const char* key : {"samples", "tensor", "entries"}) {
+        expectHeaderRefusal([key](Json& header) { header["seed_bank"].erase(key); },
+                            "header key \"seed_bank\": expected a member \"" + std::string(key) + '"');
+    }
 }
 
 TEST(HeaderTest, SeedsOfAnotherLengthAreRefused) {

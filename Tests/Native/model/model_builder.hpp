@@ -1,6 +1,7 @@
 #pragma once
 
 #include "model/crc32.hpp"
+#include "model/file_layout.hpp"
 #include "model/model_header.hpp"
 
 #include <nlohmann/json.hpp>
@@ -112,7 +113,7 @@ private:
         Bytes file(end);
         const std::string magic = "HAPTFLOW";
         std::transform(magic.begin(), magic.end(), file.begin(), [](char letter) { return std::byte(letter); });
-        writeUnsigned(file, 8, 4, 1);
+        writeUnsigned(file, 8, 4, formatVersion);
         writeUnsigned(file, 12, 4, text.size());
         writeUnsigned(file, 16, 8, end);
         std::transform(text.begin(), text.end(), file.begin() + 32, [](char letter) { return std::byte(letter); });

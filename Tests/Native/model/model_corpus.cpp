@@ -1,3 +1,4 @@
+#include "../skeleton/skeleton_model.hpp"
 #include "onnx_writer.hpp"
 
 #include <filesystem>
@@ -49,6 +50,7 @@ int main(int argc, char** argv) {
     write(folder / "plain", ModelBuilder().build());
     write(folder / "latent", latentModel().build());
     write(folder / "average_velocity", averageVelocityModel().build());
+    write(folder / "skeleton", haptoflow::skeleton::testing::refinedModel({.hidden = 2}).build());
     // For onnx_fuzzer.
     std::filesystem::create_directories(folder / "graphs");
     write(folder / "graphs" / "plain", levelGraph().apply("Identity", {"weighted"}, {"log_level"}).model().written());

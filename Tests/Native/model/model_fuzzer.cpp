@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <string>
 #include <utility>
 
 namespace {
@@ -22,10 +23,16 @@ void tryFile(Bytes file) {
             (void)model.seed(seed)[seedSamples - 1];
         }
         for (const Tier& tier : model.header().tiers) {
-            if (model.blob(tier.field).empty() || model.blob(tier.level).empty()) {
-                std::abort();
+            for (const std::string* graph : {&tier.field, &tier.level, &tier.encoder, &tier.decoder}) {
+                if (!graph->empty() && model.blob(*graph).empty()) {
+                    std::abort();
+                }
             }
         }
+        if (model.header().skeleton.has_value() == !model.header().seeds.empty()) {
+            std::abort();
+        }
+        (void)spaceOf(model.header());
     } catch (const ModelError&) {
     }
 }

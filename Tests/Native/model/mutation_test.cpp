@@ -1,11 +1,13 @@
+#include "../skeleton/skeleton_model.hpp"
 #include "random.hpp"
 #include "refusal.hpp"
 
 #include "model/file_layout.hpp"
 
-#include <bit>
+#include <array>
 #include <cstdint>
 #include <map>
+#include <string>
 
 // Deterministic mutations of a valid file. Under the sanitizers they show that invalid bytes cause no undefined
 // behaviour; otherwise, that every mutant is either refused with a ModelError or readable through every accessor.
@@ -34,8 +36,14 @@ double touchEverything(const ModelFile& model) {
         }
     }
     for (const Tier& tier : model.header().tiers) {
-        sum += static_cast<double>(model.blob(tier.field).size() + model.blob(tier.level).size());
+        for (const std::string* graph : {&tier.field, &tier.level, &tier.encoder, &tier.decoder}) {
+            sum += graph->empty() ? 0.0 : static_cast<double>(model.blob(*graph).size());
+        }
     }
+    if (model.header().skeleton) {
+        sum += static_cast<double>(model.tensor(skeletonTensor)[0]);
+    }
+    sum += static_cast<double>(spaceOf(model.header()).size());
     return sum;
 }
 
@@ -93,6 +101,7 @@ Json nastyValue(Random& random) {
                                              "oak",
                                              "field",
                                              "embedding",
+                                             "skeleton",
                                              std::string(5000, 'x'),
                                              "a\tb",
                                              Json::array(),
@@ -159,8 +168,28 @@ void mutateJson(Json& root, Random& random) {
     }
 }
 
-TEST(MutationTest, EveryChangedByteIsDetected) {
-    const Bytes valid = ModelBuilder().build();
+/// A kind of valid file: with a seed bank, or with a skeleton.
+struct Kind {
+    const char* name;
+    ModelBuilder (*builder)();
+    /// Two tensors, to change their numbers.
+    std::array<const char*, 2> tensors;
+};
+
+class MutationTest : public ::testing::TestWithParam<Kind> {
+protected:
+    [[nodiscard]] static ModelBuilder builder() { return GetParam().builder(); }
+};
+
+INSTANTIATE_TEST_SUITE_P(Kinds, MutationTest,
+                         ::testing::Values(Kind{"Seeded", [] { return ModelBuilder(); }, {"embedding", "seeds"}},
+                                           Kind{"Skeleton",
+                                                [] { return skeleton::testing::refinedModel({.hidden = 2}); },
+                                                {"embedding", "skeleton.4.weight"}}),
+                         [](const auto& kind) { return std::string(kind.param.name); });
+
+TEST_P(MutationTest, EveryChangedByteIsDetected) {
+    const Bytes valid = builder().build();
     Random random(1);
     Outcome outcome;
     constexpr int mutants = 8000;
@@ -173,8 +202,8 @@ TEST(MutationTest, EveryChangedByteIsDetected) {
     EXPECT_EQ(outcome.refusals(), mutants);
 }
 
-TEST(MutationTest, ChangedHeaderBytesWithCorrectChecksumsAreRefusedOrReadable) {
-    const Bytes valid = ModelBuilder().build();
+TEST_P(MutationTest, ChangedHeaderBytesWithCorrectChecksumsAreRefusedOrReadable) {
+    const Bytes valid = builder().build();
     const std::size_t textBytes = ModelFile::parse(valid).headerText().size();
     Random random(2);
     Outcome outcome;
@@ -190,11 +219,11 @@ TEST(MutationTest, ChangedHeaderBytesWithCorrectChecksumsAreRefusedOrReadable) {
     EXPECT_GT(outcome.refused[ModelStatus::inconsistent], 0);
 }
 
-TEST(MutationTest, ChangedHeaderValuesWithCorrectChecksumsAreRefusedOrReadable) {
+TEST_P(MutationTest, ChangedHeaderValuesWithCorrectChecksumsAreRefusedOrReadable) {
     Random random(3);
     Outcome outcome;
-    ModelBuilder builder;
-    builder.editLaidOut = [&random](Json& header) {
+    ModelBuilder mutated = builder();
+    mutated.editLaidOut = [&random](Json& header) {
         for (std::size_t change = 0; change <= random.below(3); ++change) {
             mutateJson(header, random);
         }
@@ -202,7 +231,7 @@ TEST(MutationTest, ChangedHeaderValuesWithCorrectChecksumsAreRefusedOrReadable) 
     int built = 0;
     for (int index = 0; index < 12'000; ++index) {
         try {
-            tryMutant(builder.build(), outcome);
+            tryMutant(mutated.build(), outcome);
             ++built;
         } catch (const std::length_error&) {
             // The mutant's header does not fit into the space that the builder leaves: skip it.
@@ -214,8 +243,8 @@ TEST(MutationTest, ChangedHeaderValuesWithCorrectChecksumsAreRefusedOrReadable) 
     EXPECT_GT(outcome.refused[ModelStatus::oversized], 0);
 }
 
-TEST(MutationTest, ChangedLengthsAndOffsetsWithCorrectChecksumsAreRefusedOrReadable) {
-    const Bytes valid = ModelBuilder().build();
+TEST_P(MutationTest, ChangedLengthsAndOffsetsWithCorrectChecksumsAreRefusedOrReadable) {
+    const Bytes valid = builder().build();
     Random random(4);
     Outcome outcome;
     for (int index = 0; index < 8000; ++index) {
@@ -236,14 +265,14 @@ TEST(MutationTest, ChangedLengthsAndOffsetsWithCorrectChecksumsAreRefusedOrReada
     EXPECT_GT(outcome.refused[ModelStatus::oversized], 0);
 }
 
-TEST(MutationTest, ChangedTensorsWithCorrectChecksumsAreRefusedOrReadable) {
+TEST_P(MutationTest, ChangedTensorsWithCorrectChecksumsAreRefusedOrReadable) {
     Random random(5);
     Outcome outcome;
     for (int index = 0; index < 4000; ++index) {
-        ModelBuilder builder;
-        Bytes& bytes = builder.blobs[random.below(2)].bytes;
+        ModelBuilder mutated = builder();
+        Bytes& bytes = skeleton::testing::blobOf(mutated, GetParam().tensors[random.below(2)]).bytes;
         writeUnsigned(bytes, 4 * random.below(bytes.size() / 4), 4, random.next());
-        tryMutant(builder.build(), outcome);
+        tryMutant(mutated.build(), outcome);
     }
     EXPECT_GT(outcome.accepted, 0);
     EXPECT_GT(outcome.refused[ModelStatus::inconsistent], 0);

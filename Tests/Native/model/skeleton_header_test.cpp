@@ -12,20 +12,7 @@ namespace haptoflow::model::testing {
 namespace {
 
 using Json = nlohmann::json;
-using skeleton::testing::skeletonModel;
-
-/// A model with the tiers `sketch` and, of kind `refine`, `standard`.
-ModelBuilder refinedModel() {
-    ModelBuilder builder = skeletonModel();
-    builder.blobs.push_back({"standard.field", "onnx", {}, Bytes(50, std::byte{0x11})});
-    builder.header["tiers"].push_back({{"name", "standard"},
-                                       {"kind", "refine"},
-                                       {"field", "standard.field"},
-                                       {"parameters", 777},
-                                       {"accuracy", Json::object()},
-                                       {"cost", Json::object()}});
-    return builder;
-}
+using skeleton::testing::refinedModel;
 
 void expectSkeletonRefusal(const std::function<void(ModelBuilder&)>& change, const std::string& part) {
     ModelBuilder builder = refinedModel();
@@ -56,6 +43,8 @@ TEST(SkeletonHeaderTest, TiersOfBothKindsAreRead) {
     EXPECT_EQ(model.header().skeleton->parameters, 12345);
     EXPECT_EQ(kindName(TierKind::skeleton), "skeleton");
     EXPECT_EQ(kindName(TierKind::refine), "refine");
+    EXPECT_TRUE(model.header().seeds.empty());
+    EXPECT_THROW((void)model.seed(0), std::out_of_range);
 }
 
 TEST(SkeletonHeaderTest, AModelWithoutSuchTiersNeedsNoSkeleton) {
@@ -67,6 +56,20 @@ TEST(SkeletonHeaderTest, TheSkeletonOfSuchATierIsRequired) {
     for (const char* key : {"order", "harmonics", "swing_harmonics", "rungs", "hidden", "parameters"}) {
         expectSkeletonRefusal([key](ModelBuilder& builder) { builder.header["skeleton"].erase(key); }, key);
     }
+}
+
+TEST(SkeletonHeaderTest, ASeedBankBesideASkeletonIsRefused) {
+    expectSkeletonRefusal(
+        [](ModelBuilder& builder) { builder.header["seed_bank"] = ModelBuilder().header["seed_bank"]; },
+        "header key \"seed_bank\": expected no seed bank beside a skeleton: export the model again");
+}
+
+TEST(SkeletonHeaderTest, ATierWithoutASkeletonBesideOthersWithOneNeedsNoSeeds) {
+    ModelBuilder builder = refinedModel();
+    builder.header["tiers"].push_back(ModelBuilder().header["tiers"][0]);
+    builder.blobs.push_back({"field", "onnx", {}, Bytes(10, std::byte{0x22})});
+    builder.blobs.push_back({"level", "onnx", {}, Bytes(10, std::byte{0x33})});
+    EXPECT_EQ(ModelFile::parse(builder.build()).header().tiers[2].kind, TierKind::flow);
 }
 
 TEST(SkeletonHeaderTest, OtherSizesThanTheFormatsAreRefused) {
@@ -92,7 +95,7 @@ TEST(SkeletonHeaderTest, TheTensorThatStandsForTheSkeletonIsRequired) {
 
 TEST(SkeletonHeaderTest, ARefiningTierNeedsAGraph) {
     expectSkeletonRefusal([](ModelBuilder& builder) { builder.header["tiers"][1].erase("field"); }, "field");
-    expectSkeletonRefusal([](ModelBuilder& builder) { builder.header["tiers"][1]["field"] = "seeds"; },
+    expectSkeletonRefusal([](ModelBuilder& builder) { builder.header["tiers"][1]["field"] = "embedding"; },
                           "tiers[1].field");
 }
 

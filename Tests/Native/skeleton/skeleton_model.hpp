@@ -33,7 +33,8 @@ inline model::testing::ModelBuilder skeletonModel(const ModelStyle& style = {}) 
     builder.header["skeleton"] = {{"order", 24},          {"harmonics", 14},
                                   {"swing_harmonics", 5}, {"rungs", {2.0, 2.6, 3.1, 3.5, 4.0}},
                                   {"hidden", hidden},     {"parameters", 12345}};
-    std::erase_if(builder.blobs, [](const auto& blob) { return blob.type == "onnx"; });
+    builder.header.erase("seed_bank");
+    std::erase_if(builder.blobs, [](const auto& blob) { return blob.name != "embedding"; });
     std::mt19937 random(style.seed);
     std::normal_distribution<float> normal;
     const auto add = [&](const std::string& name, std::vector<std::int64_t> shape, float deviation) {
@@ -60,6 +61,19 @@ inline model::testing::ModelBuilder skeletonModel(const ModelStyle& style = {}) 
     add("level.law.bias", {3}, 0.3F);
     addPerceptron("level.correction", 78, 1);
     addPerceptron("skeleton", 88, 269);
+    return builder;
+}
+
+/// The same with a second tier, `standard`, of kind `refine`, whose graph no runtime could load.
+inline model::testing::ModelBuilder refinedModel(const ModelStyle& style = {}) {
+    model::testing::ModelBuilder builder = skeletonModel(style);
+    builder.blobs.push_back({"standard.field", "onnx", {}, model::testing::Bytes(50, std::byte{0x11})});
+    builder.header["tiers"].push_back({{"name", "standard"},
+                                       {"kind", "refine"},
+                                       {"field", "standard.field"},
+                                       {"parameters", 777},
+                                       {"accuracy", nlohmann::json::object()},
+                                       {"cost", nlohmann::json::object()}});
     return builder;
 }
 

@@ -46,8 +46,8 @@ same for one recording.
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     parser.description = (
-        "Fit the embedding, level, tone and seeds of one material to its recordings. The networks of the model and all of "
-        "its labels stay as they are."
+        "Fit the embedding, level and tone of one material to its recordings; for a model without a skeleton, seeds, too. "
+        "The networks of the model and all of its labels stay as they are."
     )
     parser.epilog = _EXAMPLES
     parser.add_argument("--model", required=True, type=Path, help=".haptoflow file")

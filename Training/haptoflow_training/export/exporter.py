@@ -1,4 +1,4 @@
-"""Writes a trained run as a `.haptoflow` file: header, embeddings, seed bank, graphs."""
+"""Writes a trained run as a `.haptoflow` file: header, embeddings, skeleton or seed bank, graphs."""
 
 from __future__ import annotations
 
@@ -90,7 +90,6 @@ def _header(
     config: TrainingConfig,
     tiers: Sequence[TrainedTier],
     source: Source,
-    seed_entries: list[dict[str, object]],
     measurements: dict[str, Any],
     level_tables: Mapping[int, LevelTable],
 ) -> dict[str, Any]:
@@ -119,7 +118,6 @@ def _header(
         ],
         "tiers": [tier.header_entry() for tier in tiers],
         "default_tier": config.tier,
-        "seed_bank": {"samples": SEED_SAMPLES, "tensor": "seeds", "entries": seed_entries},
         "measurements": measurements,
     }
 
@@ -162,19 +160,21 @@ def export_run(
     config, model = default.config, default.model
     if [info.name for info in infos] != default.labels:
         raise InputError(f"{folder}: trained on labels {default.labels}, described are {[info.name for info in infos]}")
-    wave_numbers = model.embedding.wave_numbers.numpy()
-    bank = build_seed_bank(store, wave_numbers, seed=config.seed, held_out=HeldOut.of(config.batch))
     run_file = folder / "run.json"
     measurements = json.loads(run_file.read_text(encoding="utf-8")) if run_file.exists() else {}
     measurements.pop("configuration", None)
     if levels.offsets_db is not None:
         measurements["level_offsets_db"] = [round(offset, 3) for offset in levels.offsets_db]
-    header = _header(config, tiers, source, bank.entries, measurements, levels.tables)
+    header = _header(config, tiers, source, measurements, levels.tables)
     graphs = {name: graph for tier in tiers for name, graph in tier.graphs().items()}
     tensors = {name: values for tier in tiers for name, values in tier.tensors().items()}
-    tensors |= {"embedding": model.embedding.weight.detach().numpy().copy(), "seeds": bank.waves}
+    tensors["embedding"] = model.embedding.weight.detach().numpy().copy()
     if default.skeleton is None:
         graphs["level"] = export_level_model(model.level)
+        wave_numbers = model.embedding.wave_numbers.numpy()
+        bank = build_seed_bank(store, wave_numbers, seed=config.seed, held_out=HeldOut.of(config.batch))
+        header["seed_bank"] = {"samples": SEED_SAMPLES, "tensor": "seeds", "entries": bank.entries}
+        tensors["seeds"] = bank.waves
     else:
         header["skeleton"] = skeleton_header(default.skeleton)
         tensors |= skeleton_tensors(model.level, default.skeleton)

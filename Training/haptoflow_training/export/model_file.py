@@ -96,7 +96,12 @@ def read_model_file(path: Path) -> ModelFile:
         raise InputError(f"{path}: is not a .haptoflow file")
     _, version, header_length, total, header_crc = _PREAMBLE.unpack_from(content)
     if version != VERSION:
-        raise InputError(f"{path}: format version {version}, expected {VERSION}")
+        remedy = (
+            "update HaptoFlow"
+            if version > VERSION
+            else "make the file again from its training run with `haptoflow-training export`"
+        )
+        raise InputError(f"{path}: format version {version}, expected {VERSION}: {remedy}")
     if total != len(content):
         raise InputError(f"{path}: {len(content)} bytes long, the file says {total}: truncated or damaged")
     header_bytes = content[_PREAMBLE_BYTES : _PREAMBLE_BYTES + header_length]

@@ -1,4 +1,5 @@
-"""The seed bank: recorded waveforms from which the first previous waveform of a touch is retrieved.
+"""The seed bank of a model without a skeleton: recorded waveforms from which the first previous waveform of a touch is
+retrieved.
 
 HaptoFlow (paper, section 4.1): when the buffer is empty, a waveform with matching conditions is retrieved from the
 training recordings.

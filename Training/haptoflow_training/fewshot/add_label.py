@@ -14,8 +14,8 @@ _NOT_OF_A_LABEL = ("format", "version", "space", "name", "description", "embeddi
 
 
 def with_label(model: ModelFile, material: dict[str, Any]) -> ModelFile:
-    """The model with a further label at the end: an embedding row, seeds and a header entry. material: the content of a
-    material file. InputError if it is of another space or a label has its name."""
+    """The model with a further label at the end: an embedding row, a header entry and, if the model has a seed bank,
+    seeds. material: the content of a material file. InputError if it is of another space or a label has its name."""
     name, space = material["name"], model_space(model)
     if material["space"] != space:
         raise InputError(
@@ -23,26 +23,21 @@ def with_label(model: ModelFile, material: dict[str, Any]) -> ModelFile:
             "it from its recording under this model"
         )
     require_new_name(model, name)
-    rows, bank = model.tensors["embedding"], model.header["seed_bank"]
+    rows = model.tensors["embedding"]
     label = {key: value for key, value in material.items() if key not in _NOT_OF_A_LABEL}
-    added: dict[str, Any] = {
-        "embedding": [material["embedding"]],
-        bank["tensor"]: [seed["samples"] for seed in material["seeds"]],
-    }
+    header = {**model.header, "labels": [*model.header["labels"], {"name": name, "embedding_row": len(rows), **label}]}
+    added: dict[str, Any] = {"embedding": [material["embedding"]]}
     if "pieces" in model.tensors:
         # One piece of the material is known: the label itself.
         added["pieces"] = np.zeros((1, *model.tensors["pieces"].shape[1:]))
+    bank, seeds = model.header.get("seed_bank"), material.get("seeds", [])
+    if bank is not None:
+        added[bank["tensor"]] = [seed["samples"] for seed in seeds]
+        entries = [{"label": name, **{key: value for key, value in seed.items() if key != "samples"}} for seed in seeds]
+        header["seed_bank"] = {**bank, "entries": [*bank["entries"], *entries]}
     tensors = {
         key: np.concatenate([tensor, np.array(added[key], dtype=np.float32)]) if len(added.get(key, ())) else tensor
         for key, tensor in model.tensors.items()
-    }
-    seeds = [
-        {"label": name, **{key: value for key, value in seed.items() if key != "samples"}} for seed in material["seeds"]
-    ]
-    header = {
-        **model.header,
-        "labels": [*model.header["labels"], {"name": name, "embedding_row": len(rows), **label}],
-        "seed_bank": {**bank, "entries": [*bank["entries"], *seeds]},
     }
     return ModelFile(header, tensors, model.graphs)
 

@@ -12,9 +12,10 @@ namespace HaptoFlow.Model
         {
             "name", "category", "level_exponents", "frequency_exponent", "periodic", "wavelength_metres",
             "stiffness_newtons_per_metre", "friction_coefficient", "impact", "level", "tone", "level_offset_db",
+            "stick_slip", "rib_wander",
         };
 
-        /// <summary>The material file of a label, without seeds: the model's seeds apply.</summary>
+        /// <summary>The material file of a label. It has no seeds: if the model needs seeds, its own apply.</summary>
         /// <param name="file">The whole .haptoflow file.</param>
         /// <exception cref="HaptoFlowException">The bytes are not a model, or it has no such label.</exception>
         public static string OfLabel(byte[] file, string label)
@@ -23,7 +24,7 @@ namespace HaptoFlow.Model
             return OfLabel(model, label);
         }
 
-        /// <summary>The material file of a label, without seeds: the model's seeds apply.</summary>
+        /// <summary>The material file of a label. It has no seeds: if the model needs seeds, its own apply.</summary>
         /// <exception cref="HaptoFlowException">The model has no such label.</exception>
         public static string OfLabel(HapticModel model, string label)
         {
@@ -64,7 +65,6 @@ namespace HaptoFlow.Model
                     members[key] = value;
                 }
             }
-            members["seeds"] = new object?[0];
             return JsonText.Of(members);
         }
 

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "model/model_file.hpp"
+#include "skeleton/skeleton_tensors.hpp"
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace haptoflow::cli {
+
+/// 200 ms of a texture at 2 kHz, of unit level.
+using TextureExcerpt = std::array<float, model::seedSamples>;
+
+/// What the labels of a model sound like without its networks: their recorded seeds, or what its skeleton makes of the
+/// usual speeds and forces.
+class LabelTextures {
+public:
+    /// The model must outlive it. Throws model::ModelError if its skeleton is incomplete.
+    explicit LabelTextures(const model::ModelFile& model);
+
+    /// The excerpts of a label; equal calls give equal excerpts.
+    [[nodiscard]] std::vector<TextureExcerpt> of(std::size_t label) const;
+
+private:
+    const model::ModelFile& model_;
+    skeleton::NativeParts native_;
+};
+
+}  // namespace haptoflow::cli
