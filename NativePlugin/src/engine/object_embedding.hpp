@@ -18,7 +18,7 @@ struct ObjectIdentity {
 /// The embedding of a material for one object: the material's own plus an offset drawn by the seed, so that objects
 /// have the mean and, at a variation of 1, the covariance of the recorded pieces. With the offsets e_s of S pieces,
 /// which add up to zero, that is variation * sum_s n_s e_s / sqrt(S - 1), where n_s are independent numbers of mean 0
-/// and variance 1: normal ones, limited so that no object is a freak. The same seed draws the same numbers for every
+/// and variance 1: normal ones, limited so that freaks are rare. The same seed draws the same numbers for every
 /// label and on every platform. Wave vectors have no offset; a material without recorded pieces, or with a single
 /// one, has none at all.
 ///

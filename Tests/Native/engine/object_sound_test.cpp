@@ -75,7 +75,7 @@ protected:
         for (int update = 0; update < 36; ++update) {
             states.push_back(slideAt(update / 72.0, seed, variation));
         }
-        return renderOffline(model, generator, states).samples;
+        return renderOffline(model, generator, states, {}).samples;
     }
 
     /// What the worker is told of a state.
