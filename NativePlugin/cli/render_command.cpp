@@ -118,7 +118,7 @@ inference::SolverSettings chooseSolver(const model::Tier& tier, const std::strin
     return {.kind = solverNames().at(solver), .steps = *steps};
 }
 
-/// A state with the material, feature scale and tone of each surface, in the scene's order.
+/// A state with the material, feature scale, tone and variation of each surface, in the scene's order.
 std::vector<engine::ContactState> propertiesOf(const headless::Scene& scene, const SceneMaterials& materials,
                                                const std::string& scenePath) {
     std::vector<engine::ContactState> surfaces;
@@ -131,6 +131,7 @@ std::vector<engine::ContactState> propertiesOf(const headless::Scene& scene, con
         engine::ContactState& properties = surfaces.emplace_back();
         properties.spatialScale = static_cast<float>(surface.spatialScale);
         properties.toneDbPerOctave = static_cast<float>(surface.toneDbPerOctave);
+        properties.variation = static_cast<float>(surface.variation);
         properties.surfaceSeed = surface.seed;
         for (const auto& [name, weight] : surface.material) {
             properties.material.add(materials.indexOf(name), static_cast<float>(weight));

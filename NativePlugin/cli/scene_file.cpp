@@ -270,7 +270,7 @@ std::uint32_t hashOf(std::string_view text) {
 
 headless::SceneSurface readSurface(const Node& node) {
     node.requireObject({"name", "shape", "position", "rotation", "motion", "material", "stiffness", "grain",
-                        "spatial_scale", "tone_db_per_octave", "seed"});
+                        "spatial_scale", "tone_db_per_octave", "variation", "seed"});
     headless::SceneSurface surface;
     surface.name = node.at("name").text("a name");
     surface.shape = readShape(node.at("shape"));
@@ -291,6 +291,9 @@ headless::SceneSurface readSurface(const Node& node) {
     }
     if (node.has("tone_db_per_octave")) {
         surface.toneDbPerOctave = node.at("tone_db_per_octave").number(-12.0, 12.0, "dB from -12 to 12");
+    }
+    if (node.has("variation")) {
+        surface.variation = node.at("variation").number(0.0, 1.0, "a number from 0 to 1");
     }
     surface.seed = hashOf(surface.name);
     if (node.has("seed")) {

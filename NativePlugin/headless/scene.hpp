@@ -28,7 +28,9 @@ struct SceneSurface {
     /// Size of the surface's features relative to the material's, and tilt of its spectrum in dB per octave.
     double spatialScale = 1.0;
     double toneDbPerOctave = 0.0;
-    /// Names the surface: another number has another field of asperities.
+    /// How much the object differs from others with the same labels, 0 to 1: which one it is, its seed says.
+    double variation = 0.0;
+    /// Names the surface: another number has another field of asperities and, with a variation, is another object.
     std::uint32_t seed = 0;
 
     [[nodiscard]] Pose poseAt(double timeSeconds) const noexcept {

@@ -722,6 +722,11 @@ typedef struct haptoflow_contact_state {
     /* The two axes of velocity_mps in that frame, of length 1. */
     float first_axis[3];
     float second_axis[3];
+    /* How much this object differs from other objects with the same labels, 0 to 1: at 0 all of them are the labels'
+     * mean, at 1 they differ as the recorded pieces of the labels did. surface_seed, with or without a place, says
+     * which of the possible objects this one is, the same in every session. Without effect on registered materials and
+     * with models that do not tell pieces apart. A single label changes in spectrum and level, a blend in spectrum. */
+    float variation;
 } haptoflow_contact_state;
 
 /* The work of one effect for a voice. All values are 0 for an effect that was never requested. */

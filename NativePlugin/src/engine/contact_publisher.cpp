@@ -15,6 +15,10 @@ using effects::EffectKind;
 constexpr effects::EffectMask surfaceEffects =
     effects::maskOf(EffectKind::texture) | effects::maskOf(EffectKind::impact) | effects::maskOf(EffectKind::edge);
 
+ObjectIdentity objectOf(const ContactState& state) noexcept {
+    return {.surfaceSeed = state.surfaceSeed, .variation = state.variation};
+}
+
 /// The heaviest material's seed that is nearest to a motion, scaled to the level of that motion; silence if the
 /// material has no seed.
 OnsetSeed seedFor(const Ingredients& ingredients, const Material& material, const RangedMotion& ranged,
@@ -56,7 +60,7 @@ ContactAction ContactPublisher::publish(ContactState state) noexcept {
     const bool isNewTouch = follower_.touches() != contact_.touch;
     const MaterialLibrary::ReadScope reading(library_);
     const Ingredients ingredients = reading.ingredients(state.material);
-    const Material material = resolveMaterial(ingredients, isNewTouch ? WaveVectors{} : ribs_);
+    const Material material = resolveMaterial(ingredients, isNewTouch ? WaveVectors{} : ribs_, objectOf(state));
     if (state.touching != 0) {
         ribs_ = waveVectorsOf(material.embedding);
     }
@@ -121,7 +125,7 @@ void ContactPublisher::postToWorker(const Ingredients& ingredients, const Materi
         for (const Ingredient& each : ingredients.all()) {
             BlendParts::Part& part = message.blend.parts[message.blend.count];
             part.share = static_cast<float>(each.weight / total);
-            std::ranges::copy(each.material->embedding, part.embedding.begin());
+            part.embedding = embeddingOf(*each.material, objectOf(contact_.state));
             ++message.blend.count;
         }
     }

@@ -59,6 +59,9 @@ struct ContactState {
     std::array<float, 3> placeMetres{};
     std::array<float, 3> firstAxis{};
     std::array<float, 3> secondAxis{};
+    /// How much the object that surfaceSeed names differs from the mean of its labels: 0, as every other object of
+    /// them, to 1, as the recorded pieces differ. Independent of hasPlace.
+    float variation = 0.0F;
 
     [[nodiscard]] bool hasEffect(effects::EffectKind kind) const noexcept {
         return (effects & effects::maskOf(kind)) != 0;
@@ -79,8 +82,8 @@ struct ContactState {
 }
 
 /// Makes every number finite and clamps it: speeds to +-20 m/s, force to 0-1,000 N, weights to 0-1, edge height to 0-1
-/// m, scale to 0.25-4, tilt to +-12 dB/octave. A place or axes of no use make the place unknown. Returns the number of
-/// changed fields.
+/// m, scale to 0.25-4, tilt to +-12 dB/octave, variation to 0-1. A place or axes of no use make the place unknown.
+/// Returns the number of changed fields.
 inline std::uint32_t sanitise(ContactState& state) noexcept {
     constexpr float maximumMps = 20.0F;
     std::uint32_t changes = 0;
@@ -108,6 +111,7 @@ inline std::uint32_t sanitise(ContactState& state) noexcept {
     }
     limit(state.spatialScale, 0.25F, 4.0F, 1.0F);
     limit(state.toneDbPerOctave, -12.0F, 12.0F);
+    limit(state.variation, 0.0F, 1.0F);
     if (state.hasPlace != 0 && !hasUsablePlace(state)) {
         state.hasPlace = 0;
         ++changes;

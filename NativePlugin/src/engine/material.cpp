@@ -6,13 +6,14 @@
 
 namespace haptoflow::engine {
 
-Material resolveMaterial(const Ingredients& ingredients, const WaveVectors& before) noexcept {
+Material resolveMaterial(const Ingredients& ingredients, const WaveVectors& before, ObjectIdentity object) noexcept {
     Material material;
     std::array<double, model::embeddingSize> embedding{};
     for (const Ingredient& each : ingredients.all()) {
         const model::Label& label = *each.material->label;
+        const auto own = embeddingOf(*each.material, object);
         for (std::size_t j = 0; j < embedding.size(); ++j) {
-            embedding[j] += each.weight * static_cast<double>(each.material->embedding[j]);
+            embedding[j] += each.weight * static_cast<double>(own[j]);
         }
         material.speedLevelExponent += each.weight * label.speedLevelExponent;
         material.forceLevelExponent += each.weight * each.material->forceExponent();

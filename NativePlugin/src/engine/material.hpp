@@ -2,6 +2,7 @@
 
 #include "dsp/tone_cepstrum.hpp"
 #include "engine/material_library.hpp"
+#include "engine/object_embedding.hpp"
 #include "engine/rib_phase.hpp"
 #include "model/model_file.hpp"
 
@@ -19,8 +20,10 @@ struct Material {
     double frequencyExponent = 0.0;
 };
 
-/// `before` holds the wave vectors of the voice's last material; wave vectors that occur in both keep their slots.
-[[nodiscard]] Material resolveMaterial(const Ingredients& ingredients, const WaveVectors& before = {}) noexcept;
+/// `before` holds the wave vectors of the voice's last material; wave vectors that occur in both keep their slots. Of
+/// `object` every ingredient has its own offset, by its weight.
+[[nodiscard]] Material resolveMaterial(const Ingredients& ingredients, const WaveVectors& before = {},
+                                       ObjectIdentity object = {}) noexcept;
 
 /// The wave vectors of a material or blend, one per slot. A blend takes whole wave vectors of its materials in the
 /// order of their weights until all slots are used; a mean of two wave vectors would be ribs with another pitch. A wave

@@ -54,6 +54,7 @@ PreparedMaterial MaterialLibrary::prepareLabel(std::size_t label) const {
     const model::Label& entry = model_.header().labels[label];
     PreparedMaterial known{.label = &entry,
                            .embedding = model_.embedding(label),
+                           .pieceOffsets = model_.pieceOffsets(label),
                            .grid = &levels_.grid(),
                            .graphLevels = levels_.table(label),
                            .tone = {},

@@ -35,6 +35,8 @@ private:
 struct PreparedMaterial {
     const model::Label* label = nullptr;
     std::span<const float, model::embeddingSize> embedding = noEmbedding;
+    /// ModelFile::pieceOffsets; empty for a registered material.
+    std::span<const float> pieceOffsets;
     const LevelGrid* grid = nullptr;
     /// The level graph's levels; empty if the label states its own level.
     std::optional<LevelGrid::Table> graphLevels;

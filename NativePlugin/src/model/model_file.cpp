@@ -58,6 +58,9 @@ ModelFile ModelFile::parse(std::vector<std::byte> bytes) {
         std::vector<float> values = readTensor(model.bytes_, blob);
         if (blob.name == "embedding") {
             model.embeddings_ = std::move(values);
+        } else if (blob.name == piecesTensor) {
+            model.pieces_ = std::move(values);
+            model.piecesPerLabel_ = static_cast<std::size_t>(blob.shape[1]);
         } else if (blob.name == model.header_.seedTensor) {
             checkSeedRows(values);
             model.seeds_ = std::move(values);
@@ -111,6 +114,11 @@ std::vector<float> ModelFile::tensor(std::string_view name) const {
 std::span<const float, embeddingSize> ModelFile::embedding(std::size_t label) const {
     const std::size_t row = header_.labels.at(label).embeddingRow;
     return std::span(embeddings_).subspan(row * embeddingSize).first<embeddingSize>();
+}
+
+std::span<const float> ModelFile::pieceOffsets(std::size_t label) const {
+    const std::size_t count = piecesPerLabel_ * textureSize;
+    return std::span(pieces_).subspan(header_.labels.at(label).embeddingRow * count, count);
 }
 
 std::size_t ModelFile::nearestLabel(std::span<const float, embeddingSize> embedding) const {

@@ -45,6 +45,9 @@ public:
     [[nodiscard]] std::span<const std::byte> blob(std::string_view name) const;
     /// The material embedding of header().labels[label].
     [[nodiscard]] std::span<const float, embeddingSize> embedding(std::size_t label) const;
+    /// Of every recorded piece of header().labels[label], one after the other: how far its embedding is from the
+    /// label's, without the wave vectors (60 numbers). Empty for a model that does not tell pieces apart.
+    [[nodiscard]] std::span<const float> pieceOffsets(std::size_t label) const;
     /// Index of the label whose embedding is nearest, wave vectors ignored: they are not part of the similarity of
     /// materials. The model needs a label.
     [[nodiscard]] std::size_t nearestLabel(std::span<const float, embeddingSize> embedding) const;
@@ -59,6 +62,8 @@ private:
     std::size_t headerTextBytes_ = 0;
     ModelHeader header_;
     std::vector<float> embeddings_;
+    std::vector<float> pieces_;
+    std::size_t piecesPerLabel_ = 0;
     std::vector<float> seeds_;
 };
 

@@ -119,6 +119,22 @@ void readBeginnings(const HeaderNode& root, const NameIndex& labelNames, ModelHe
     }
 }
 
+/// The blob "pieces" may be missing.
+void checkPieces(const HeaderNode& node, const std::vector<Blob>& blobs, std::int64_t rows) {
+    const auto blob = std::ranges::find(blobs, piecesTensor, &Blob::name);
+    if (blob == blobs.end()) {
+        return;
+    }
+    const std::vector<std::int64_t>& shape = blob->shape;
+    const auto isWithin = [](std::int64_t count) { return count <= static_cast<std::int64_t>(maximumPieces); };
+    if (shape.size() != 3 || shape[0] != rows || !isWithin(shape[1]) ||
+        shape[2] != static_cast<std::int64_t>(textureSize)) {
+        node.refuse("a blob \"" + std::string(piecesTensor) + "\" of type \"float32\" and shape [" +
+                    std::to_string(rows) + ", 1 to " + std::to_string(maximumPieces) + ", " +
+                    std::to_string(textureSize) + "], or none");
+    }
+}
+
 }  // namespace
 
 std::string spaceOf(const ModelHeader& header) {
@@ -152,6 +168,7 @@ ModelHeader readHeader(std::string_view text) {
         blobNames.add(node, header.blobs.back().name, header.blobs.size() - 1);
     }
     const Blob& embedding = requireMatrix(root.at("blobs"), "embedding", header.blobs, embeddingSize);
+    checkPieces(root.at("blobs"), header.blobs, embedding.shape[0]);
 
     NameIndex labelNames;
     for (const HeaderNode& node : root.at("labels").elements(1, maximumLabels)) {

@@ -17,6 +17,8 @@ inline constexpr std::size_t maximumLabels = 4096;
 inline constexpr std::size_t maximumTiers = 64;
 inline constexpr std::size_t maximumBlobs = 1024;
 inline constexpr std::size_t maximumSeeds = 65'536;
+/// Recorded pieces of a label.
+inline constexpr std::size_t maximumPieces = 256;
 inline constexpr std::size_t embeddingSize = 64;
 /// Numbers of an embedding that describe the texture; the last four are the components of two wave vectors.
 inline constexpr std::size_t textureSize = 60;
@@ -157,6 +159,8 @@ struct SkeletonHeader {
     std::int64_t hidden = 0;
     std::int64_t parameters = 0;
 };
+/// The tensor of ModelFile::pieceOffsets.
+inline constexpr std::string_view piecesTensor = "pieces";
 /// The tensor that stands for the skeleton in the model's space.
 inline constexpr std::string_view skeletonTensor = "skeleton.4.weight";
 

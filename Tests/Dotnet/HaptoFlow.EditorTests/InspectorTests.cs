@@ -111,6 +111,20 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
+        public void UndoRestoresTheVariationOfASurface()
+        {
+            HapticSurface table = Tagged("Table", "wood");
+            Assert.That(table.Variation, Is.Zero, "all objects of a label are alike by default");
+            Assert.That(Draw(table).Single(item => item.Label == "Variation").Tooltip, Does.EndWith("."));
+            Undo.IncrementCurrentGroup();
+            EditorScreen.Enter("Variation", 0.75f);
+            Draw(table);
+            Assert.That(table.Variation, Is.EqualTo(0.75f));
+            Undo.PerformUndo();
+            Assert.That(table.Variation, Is.Zero);
+        }
+
+        [Test]
         public void AMaterialFileShowsItsRecordingAndADamagedOneItsKey()
         {
             LogAssert.ignoreFailingMessages = true;

@@ -172,6 +172,7 @@ private:
         state.force_newtons = wildFloat();
         state.spatial_scale = wildFloat();
         state.tone_db_per_octave = wildFloat();
+        state.variation = wildFloat();
         state.has_place = next() % 3;
         state.surface_seed = next() % 4;
         for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <random>
 #include <string>
 #include <vector>
@@ -40,11 +42,15 @@ protected:
     }
 
     /// Slides over a label for half a second; returns the sound after the first tenth.
-    std::vector<float> slide(uint32_t label) {
+    std::vector<float> slide(uint32_t label, float variation = 0.0F, uint32_t surfaceSeed = 0,
+                             uint32_t structSize = sizeof(haptoflow_contact_state)) {
         haptoflow_voice voice = 0;
         EXPECT_EQ(haptoflow_voice_create(engine_, 48000.0, &voice), HAPTOFLOW_OK) << message();
         haptoflow_contact_state state = slidingState();
         state.labels[0] = label;
+        state.struct_size = structSize;
+        state.surface_seed = surfaceSeed;
+        state.variation = variation;
         std::vector<float> sound;
         for (int update = 0; update < 36; ++update) {
             EXPECT_EQ(haptoflow_voice_publish(voice, &state), HAPTOFLOW_OK) << message();
@@ -61,12 +67,15 @@ protected:
         EXPECT_EQ(haptoflow_voice_get_statistics(voice, &statistics), HAPTOFLOW_OK);
         EXPECT_EQ(statistics.inferences, 36U);
         EXPECT_EQ(statistics.underruns, 0U);
+        sanitised_ = statistics.sanitised;
+        EXPECT_EQ(haptoflow_voice_destroy(&voice), HAPTOFLOW_OK);
         return sound;
     }
 
     haptoflow_model* model_ = nullptr;
     haptoflow_engine* engine_ = nullptr;
     haptoflow_generator* generator_ = nullptr;
+    uint64_t sanitised_ = 0;
 };
 
 TEST_F(SkeletonApiTest, TheKindsOfTheTiersAreTold) {
@@ -86,6 +95,27 @@ TEST_F(SkeletonApiTest, ASketchLoadsAndPlaysWithoutOnnxRuntime) {
         EXPECT_TRUE(allFinite(sound));
         EXPECT_GT(peak(sound), 1e-4F) << label;
     }
+}
+
+TEST_F(SkeletonApiTest, AVariationMakesObjectsOfOneLabelDifferByTheirSeed) {
+    const auto sound = [this](float variation, uint32_t seed, uint32_t size = sizeof(haptoflow_contact_state)) {
+        // An engine of its own: the noise of a voice depends on the voices before it.
+        EXPECT_EQ(createEngine(HAPTOFLOW_QUALITY_SKETCH), HAPTOFLOW_OK) << message();
+        std::vector<float> samples = slide(0, variation, seed, size);
+        EXPECT_EQ(haptoflow_engine_close(&engine_), HAPTOFLOW_OK);
+        return samples;
+    };
+    const std::vector<float> mean = sound(0.0F, 1);
+    EXPECT_EQ(sound(0.0F, 2), mean);
+    const std::vector<float> first = sound(1.0F, 1);
+    EXPECT_EQ(sanitised_, 0U);
+    EXPECT_EQ(sound(1.0F, 1), first);
+    EXPECT_NE(first, mean);
+    EXPECT_NE(sound(1.0F, 2), first);
+    // A caller of an earlier header does not set the field.
+    EXPECT_EQ(sound(1.0F, 1, offsetof(haptoflow_contact_state, variation)), mean);
+    EXPECT_EQ(sound(std::nanf(""), 1), mean);
+    EXPECT_EQ(sanitised_, 36U);
 }
 
 TEST_F(SkeletonApiTest, AutomaticQualityWithoutOnnxRuntimeTakesTheSketch) {

@@ -94,6 +94,24 @@ TEST_F(RenderCommandTest, TiersWithASkeletonRenderAndTakeNoSolver) {
     }
 }
 
+TEST_F(RenderCommandTest, AVariationMakesSurfacesOfOneLabelDifferByTheirSeed) {
+    const auto rendered = [this](const std::string& seed, const std::string& variation) {
+        write("ruled.json", R"({"surfaces": [{"name": "floor", "shape": {"plane": {}}, "material": "ruled", "seed": )" +
+                                seed + R"(, "variation": )" + variation + "}]}");
+        const Finished done =
+            run("render ruled.json --stroke stroke.csv -o felt.wav --report felt.json --quality sketch "
+                "--model '" HAPTOFLOW_TEST_GOLDEN_DIR "/model/skeleton.haptoflow'");
+        EXPECT_EQ(done.exitCode, 0) << done.errors;
+        return nlohmann::json::parse(read("felt.json")).at("rms_mps2").get<double>();
+    };
+    const double mean = rendered("1", "0");
+    EXPECT_EQ(rendered("1", "0.0"), mean);
+    const double first = rendered("1", "1");
+    EXPECT_EQ(rendered("1", "1"), first);
+    EXPECT_NE(first, mean);
+    EXPECT_NE(rendered("2", "1"), first);
+}
+
 TEST_F(RenderCommandTest, TwoOutputsWithOneNameAreRefused) {
     expectUsage("-o felt.wav --waveform felt.wav", "--waveform felt.wav: is the same file as -o felt.wav");
     expectUsage("-o felt.wav --report ./felt.wav", "--report ./felt.wav: is the same file as -o felt.wav");

@@ -24,7 +24,7 @@ json goodScene() {
     return json::parse(R"({
         "surfaces": [
             {"name": "desk", "shape": {"box": {"size": [0.4, 0.02, 0.3]}}, "position": [0.1, 0.2, 0.3],
-             "rotation": [0, 0, 0, 2], "material": "wood", "stiffness": 800, "grain": [0, 0, 1]},
+             "rotation": [0, 0, 0, 2], "material": "wood", "stiffness": 800, "grain": [0, 0, 1], "variation": 0.4},
             {"name": "ball", "shape": {"sphere": {"radius": 0.05}}, "material": {"cork": 3, "wood": 1},
              "motion": {"loop": true, "keyframes": [{"t": 0}, {"t": 1, "position": [1, 0, 0]}]}},
             {"name": "pill", "shape": {"capsule": {"radius": 0.02, "height": 0.1}}, "material": "wood"},
@@ -101,6 +101,8 @@ TEST(SceneFileTest, EveryKeyOfASceneIsRead) {
     EXPECT_EQ(desk.pose.positionMetres, glm::dvec3(0.1, 0.2, 0.3));
     EXPECT_EQ(desk.pose.rotation, glm::dquat(1.0, 0.0, 0.0, 0.0));
     EXPECT_EQ(desk.grain, glm::dvec3(0.0, 0.0, 1.0));
+    EXPECT_DOUBLE_EQ(desk.variation, 0.4);
+    EXPECT_DOUBLE_EQ(scene.surfaces[1].variation, 0.0);
     EXPECT_DOUBLE_EQ(desk.stiffnessNewtonsPerMetre.value_or(0.0), 800.0);
     EXPECT_EQ(desk.material, (std::vector<std::pair<std::string, double>>{{"wood", 1.0}}));
     const headless::SceneSurface& ball = scene.surfaces[1];
@@ -138,6 +140,8 @@ TEST(SceneFileTest, ErrorsForWrongValuesNameFilePathAndExpectedValue) {
         {"/surfaces/0/rotation", {0, 0, 0}, "surfaces[0].rotation", "quaternion"},
         {"/surfaces/0/grain", {0, 0, 0}, "surfaces[0].grain", "direction"},
         {"/surfaces/0/stiffness", -1, "surfaces[0].stiffness", "N/m"},
+        {"/surfaces/0/variation", 1.1, "surfaces[0].variation", "from 0 to 1"},
+        {"/surfaces/0/variation", "much", "surfaces[0].variation", "from 0 to 1"},
         {"/surfaces/0/name", "", "surfaces[0].name", "a name"},
         {"/surfaces/1/name", "desk", "surfaces[1].name", "all other surfaces"},
         {"/surfaces/0/material", 3, "surfaces[0].material", "a label"},

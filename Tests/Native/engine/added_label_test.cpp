@@ -34,6 +34,10 @@ model::ModelFile withDenim(const model::ModelFile& shipped) {
             content.bytes.insert(content.bytes.end(), added.begin(), added.end());
             ++content.shape[0];
         }
+        if (blob.name == "pieces") {
+            content.bytes.resize(content.bytes.size() + bytes.size() / static_cast<std::size_t>(content.shape[0]));
+            ++content.shape[0];
+        }
         builder.blobs.push_back(content);
     }
     nlohmann::json denim = model::testing::validMaterial("00000000");

@@ -112,6 +112,22 @@ TEST(BlobTest, AModelWithoutAnEmbeddingIsRefused) {
     expectBlobRefusal([](Json& blobs) { blobs[0]["name"] = "embeddings"; }, "\"embedding\"");
 }
 
+TEST(BlobTest, PiecesOfAnotherShapeThanTheEmbeddingsAreRefused) {
+    const std::vector<std::vector<std::int64_t>> shapes{{3, 1, 60}, {1, 1, 60}, {2, 257, 60}, {2, 1, 64}, {2, 60}};
+    for (const std::vector<std::int64_t>& shape : shapes) {
+        std::size_t count = 1;
+        for (const std::int64_t dimension : shape) {
+            count *= static_cast<std::size_t>(dimension);
+        }
+        ModelBuilder builder;
+        builder.blobs.push_back({"pieces", "float32", shape, bytesOf(std::vector<float>(count))});
+        expectRefusal(builder.build(), ModelStatus::inconsistent, "shape [2, 1 to 256, 60]");
+    }
+    ModelBuilder graph;
+    graph.blobs.push_back({"pieces", "onnx", {}, Bytes(10, std::byte{1})});
+    expectRefusal(graph.build(), ModelStatus::inconsistent, "\"pieces\" of type \"float32\"");
+}
+
 TEST(TensorTest, NumbersThatAreNotFiniteAreRefused) {
     for (const float value : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
                               -std::numeric_limits<float>::infinity(), 1e7F}) {

@@ -84,6 +84,21 @@ TEST(ModelFileTest, ALabelsEmbeddingIsTheRowThatItNames) {
     EXPECT_THROW((void)model.embedding(2), std::out_of_range);
 }
 
+TEST(ModelFileTest, TheOffsetsOfRecordedPiecesAreThoseOfTheRowThatALabelNames) {
+    EXPECT_TRUE(ModelFile::parse(ModelBuilder().build()).pieceOffsets(1).empty());
+    ModelBuilder builder;
+    builder.header["labels"][0]["embedding_row"] = 1;
+    std::vector<float> offsets(2 * 3 * textureSize);
+    offsets[3 * textureSize] = 0.25F;
+    offsets.back() = -0.5F;
+    builder.blobs.push_back({"pieces", "float32", {2, 3, 60}, bytesOf(offsets)});
+    const ModelFile model = ModelFile::parse(builder.build());
+    ASSERT_EQ(model.pieceOffsets(0).size(), 3 * textureSize);
+    EXPECT_EQ(model.pieceOffsets(0).front(), 0.25F);
+    EXPECT_EQ(model.pieceOffsets(0).back(), -0.5F);
+    EXPECT_THROW((void)model.pieceOffsets(2), std::out_of_range);
+}
+
 TEST(ModelFileTest, SeedsAreReturnedRowByRow) {
     ModelBuilder builder;
     std::vector<float> seeds(3 * seedSamples, 1.0F);

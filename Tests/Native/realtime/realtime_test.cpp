@@ -47,6 +47,8 @@ void disturb(haptoflow_voice voice, Pace& pace) {
         // Tone, feature scale and blend change.
         state.tone_db_per_octave = update % 5 == 0 ? 0.0F : static_cast<float>(update % 9) - 4.0F;
         state.spatial_scale = 0.5F + static_cast<float>(update % 4);
+        state.variation = 0.25F * static_cast<float>(update / 3 % 5);
+        state.surface_seed = update / 7;
         state.label_count = 1 + update % 2;
         state.labels[1] = (update / 2) % 3;
         state.weights[1] = 0.5F;

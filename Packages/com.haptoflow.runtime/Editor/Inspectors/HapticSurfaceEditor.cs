@@ -38,6 +38,7 @@ namespace HaptoFlow.Editor
             EditorGUILayout.PropertyField(serializedObject.FindProperty("includeChildren"));
             EditorGUILayout.PropertyField(serializedObject.FindProperty("feelOwnMotion"));
             EditorGUILayout.PropertyField(serializedObject.FindProperty("grain"));
+            EditorGUILayout.PropertyField(serializedObject.FindProperty("variation"));
             EditorGUILayout.PropertyField(serializedObject.FindProperty("seed"));
             if (serializedObject.ApplyModifiedProperties())
             {

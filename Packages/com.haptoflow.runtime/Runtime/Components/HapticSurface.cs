@@ -41,6 +41,10 @@ namespace HaptoFlow
             "differ. At 0 the object's place in the hierarchy decides.")]
         private uint seed;
 
+        [SerializeField, Range(0f, 1f), Tooltip("The variation is how much this object differs from other objects " +
+            "with the same label, at most as much as the recorded pieces did. The seed says in what it differs.")]
+        private float variation;
+
         private readonly List<Collider> registered = new List<Collider>();
         private bool isStale;
         private readonly MaterialLookUp ownLookUp = new MaterialLookUp();
@@ -97,6 +101,12 @@ namespace HaptoFlow
 
         /// <summary>A texture that blends in further materials at the touched place; null for none.</summary>
         public HapticMaskMap? Mask { get => mask; set => mask = value; }
+
+        /// <summary>How much this object differs from other objects with the same label, 0 to 1: at 0 all of them are
+        /// the label's mean, at 1 they differ as the recorded pieces of that label did. The seed says which object this
+        /// is, the same in every session; of a surface with colliders on several objects, each is one of its own. It
+        /// has no effect on learnt materials and with a model that does not tell pieces apart.</summary>
+        public float Variation { get => variation; set => variation = Mathf.Clamp01(value); }
 
         /// <summary>Says where the surface's asperities lie: the same place of surfaces with the same number and
         /// material feels the same, in every session, and surfaces with different numbers differ. At 0, the value of
@@ -164,7 +174,12 @@ namespace HaptoFlow
         internal ResolvedMaterial At(in TouchedPlace place, HapticSession session)
         {
             ResolvedMaterial whole = ResolvedMaterial.Of(SharedDescription, LookUp(session));
-            return mask != null && mask.TryFeel(place, whole, session, this, out ResolvedMaterial felt) ? felt : whole;
+            if (mask != null && mask.TryFeel(place, whole, session, this, out ResolvedMaterial felt))
+            {
+                whole = felt;
+            }
+            whole.Variation = variation;
+            return whole;
         }
 
         private MaterialLookUp LookUp(HapticSession session) => sharedMaterial != null

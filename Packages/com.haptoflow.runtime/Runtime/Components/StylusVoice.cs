@@ -80,6 +80,7 @@ namespace HaptoFlow
                 state.Effects = felt.Effects;
                 state.SpatialScale = felt.FeatureScale;
                 state.ToneDbPerOctave = felt.ToneDbPerOctave;
+                state.Variation = felt.Variation;
                 SetStrength(felt.Strength * stylus.Strength * output!.Strength);
             }
             bool moves = motion.Update(reading.TimeSeconds, reading.State.Touching, reading.PointMetres);

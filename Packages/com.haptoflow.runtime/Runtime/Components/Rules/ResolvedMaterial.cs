@@ -15,6 +15,9 @@ namespace HaptoFlow
 
         public float ToneDbPerOctave;
 
+        /// <summary>Of the object, not of its material.</summary>
+        public float Variation;
+
         public HapticEffects Effects;
 
         /// <summary>Stiffness in N/m; 0 for the contact model's default.</summary>

@@ -73,6 +73,13 @@ namespace HaptoFlow
         /// <summary>The second axis of the velocity in that frame, of length 1.</summary>
         public PlaceVector SecondAxis;
 
+        /// <summary>How much this object differs from other objects with the same labels, 0 to 1: at 0 all of them are
+        /// the labels' mean, at 1 they differ as the recorded pieces of the labels did. <see cref="SurfaceSeed"/>, with
+        /// or without a place, says which of the possible objects this one is. Without effect on learnt materials and
+        /// with models that do not tell pieces apart. A single label changes in spectrum and level, a blend in
+        /// spectrum.</summary>
+        public float Variation;
+
         /// <summary>True where <see cref="PlaceMetres"/> and the axes say where the tip is. Where they do not, the voice
         /// adds up the velocity from the touch-down on, and a place feels the same within one touch only.</summary>
         public bool HasPlace

@@ -1,0 +1,70 @@
+using System.IO;
+using System.Linq;
+using HaptoFlow.Tests;
+using HaptoFlow.Tests.Support;
+using NUnit.Framework;
+using UnityEngine;
+using UnityShim;
+
+namespace HaptoFlow.ShimTests
+{
+    /// <summary>Objects of one label, with a model that tells its recorded pieces apart.</summary>
+    public sealed class VariationTests : SceneTest
+    {
+        [Test]
+        public void AnObjectWithAVariationDiffersFromItsLabelAndIsTheSameInEverySession()
+        {
+            float[] mean = Stroke(0f, 7);
+            float[] varied = Stroke(1f, 7);
+            Assert.That(mean.Max(), Is.GreaterThan(0f));
+            Assert.That(varied, Is.Not.EqualTo(mean));
+            Assert.That(Stroke(1f, 7), Is.EqualTo(varied));
+            Assert.That(Stroke(0f, 7), Is.EqualTo(mean));
+        }
+
+        [Test]
+        public void TwoObjectsOfOneLabelDifferInLevelOnlyIfTheyVary()
+        {
+            float[] levels = { Level(Stroke(0f, 7)), Level(Stroke(0f, 8)), Level(Stroke(1f, 7)), Level(Stroke(1f, 8)) };
+            float alike = System.Math.Abs(levels[1] / levels[0] - 1f);
+            float unlike = System.Math.Abs(levels[3] / levels[2] - 1f);
+            Assert.That(unlike, Is.GreaterThan(3f * alike));
+        }
+
+        [Test]
+        public void TheVariationIsLimitedToZeroToOne()
+        {
+            HapticSurface board = Board();
+            board.Variation = 7f;
+            Assert.That(board.Variation, Is.EqualTo(1f));
+            board.Variation = -1f;
+            Assert.That(board.Variation, Is.Zero);
+        }
+
+        private static float Level(float[] samples) => Mathf.Sqrt(samples.Sum(each => each * each) / samples.Length);
+
+        /// <summary>The output of a stroke in a scene of its own.</summary>
+        private float[] Stroke(float variation, uint seed)
+        {
+            EndScene();
+            BeginScene();
+            HaptoFlowSettings.Active.Model = HapticModelAsset.Create(
+                File.ReadAllBytes(RepositoryFiles.In("Tests", "Golden", "model", "skeleton.haptoflow")));
+            FinishLoading();
+            HapticSurface board = Tagged<BoxCollider>("smooth", box =>
+            {
+                box.size = new Vector3(2f, 0.02f, 2f);
+                box.center = new Vector3(0f, -0.01f, 0f);
+            });
+            board.Variation = variation;
+            board.Seed = seed;
+            Output(out _);
+            StylusAlong(seconds => new Vector3(0.15f * (float)seconds - 0.5f, 0.001f, 0f));
+            World.Frames((int)(0.5 * World.FrameRateHz));
+            AudioDevice.Forget();
+            World.Frames((int)(1.0 * World.FrameRateHz));
+            return Enumerable.Range(0, AudioDevice.RecordedFrames)
+                .Select(frame => (float)AudioDevice.Sample(frame, 0)).ToArray();
+        }
+    }
+}
