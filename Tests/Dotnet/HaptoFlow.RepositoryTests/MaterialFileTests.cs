@@ -43,10 +43,14 @@ namespace HaptoFlow.RepositoryTests
             JObject material = JObject.Parse(MaterialText.OfLabel(file, label));
             using HapticModel model = HapticModel.Open(file);
             JToken stated = JObject.Parse(model.HeaderJson())["labels"]!.Single(each => (string?)each["name"] == label);
-            Assert.That(JToken.DeepEquals(material[key], stated[key]), material.ToString());
+            Assert.That(NumbersOf(material[key]!), Is.EqualTo(NumbersOf(stated[key]!)).And.Not.Empty);
             Assert.That(material.ContainsKey("seeds"), Is.False);
             Assert.That(MaterialFile.Read(material.ToString()).Name, Is.EqualTo(label));
         }
+
+        /// <summary>The numbers of a token with their paths in it: 0 and 0.0 are equal.</summary>
+        private static (string, double)[] NumbersOf(JToken token) => ((JContainer)token).Descendants().OfType<JValue>()
+            .Select(number => (number.Path.Substring(token.Path.Length), (double)number)).ToArray();
 
         [TestCase("denim")]
         [TestCase("plain-twin")]

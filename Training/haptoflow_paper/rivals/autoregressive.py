@@ -17,6 +17,7 @@ from haptoflow_training.models.all_pole_filter import AllPoleFilter, PredictedFi
 from haptoflow_training.models.burg import burg_distance
 from haptoflow_training.models.condition_perceptron import ConditionPerceptron
 from haptoflow_training.models.level_model import PREVIOUS_LIMIT
+from haptoflow_training.models.skeleton import LIKELIHOOD_END
 
 ORDER = 16
 
@@ -26,6 +27,9 @@ class AutoregressiveRival(Rival):
 
     With ribs, it continues the previous waveform without its rib lines, and the lines are added.
     """
+
+    # Amid the samples of a segment that the likelihood counts.
+    middle = (ORDER + LIKELIHOOD_END) // 2
 
     def __init__(self, *, ribs: bool = False) -> None:
         super().__init__(ribs=ribs)
@@ -57,10 +61,11 @@ class AutoregressiveRival(Rival):
         generator: torch.Generator,
     ) -> Tensor:
         """[B]: Gaussian negative log-likelihood per sample of the one-step prediction errors, without the rib lines, from
-        the filter's 17th sample on: what was before the segment may be silence or another material."""
+        the filter's 17th sample to its 88th, as of the product's skeleton: what was before the segment may be silence or
+        another material, and later a hand moves otherwise."""
         coefficients, log_gain = self.process(embedding, motion)
         rest, _ = self.rest(segment, previous, embedding, motion, phases)
-        error = prediction_errors(rest[:, 0], coefficients)
+        error = prediction_errors(rest[:, 0, :LIKELIHOOD_END], coefficients)
         return (log_gain + 0.5 * error.square() * torch.exp(-2.0 * log_gain)).mean(dim=1)
 
     def filter_distance(self, segment: Tensor, embedding: Tensor, motion: Tensor) -> Tensor:

@@ -13,8 +13,9 @@ from haptoflow_training.models.haptoflow_model import Condition
 from haptoflow_training.models.label_embedding import WAVE_VECTORS
 from haptoflow_training.models.surface_waves import FAMILIES
 from haptoflow_training.training.batches import SegmentBatch
-from haptoflow_training.training.filter_fitting import audible, weighted_mean, with_floor, without_waves
+from haptoflow_training.training.filter_fitting import audible, motion_at, weighted_mean, with_floor, without_waves
 from haptoflow_training.training.losses import Losses, ScaledBatch
+from haptoflow_training.waveform import SEGMENT_SAMPLES
 
 
 class EvaluatedLosses(Losses):
@@ -59,12 +60,14 @@ class EvaluatedLosses(Losses):
         field: AutoregressiveRival, given: ScaledBatch, objective: str, generator: torch.Generator
     ) -> Tensor:
         """As of the product's skeleton (training/skeleton_losses.py)."""
-        segment, weight, motion = with_floor(given.segment, generator), audible(given.log_level), given.batch.motion
+        segment, weight = with_floor(given.segment, given.log_level, generator), audible(given.log_level)
         if objective == "own":
+            motion = motion_at(given.batch.motion_path, field.middle)
             own = field.loss(segment, given.previous, given.embedding, motion, given.phases, generator)
             return weighted_mean(own, weight)
         if field.lines is not None:
             weight = weight * without_waves(given.phases[:, FAMILIES : FAMILIES + WAVE_VECTORS])
+        motion = motion_at(given.batch.motion_path, SEGMENT_SAMPLES // 2)
         return weighted_mean(field.filter_distance(segment, given.embedding, motion), weight)
 
     def drawn(self, objective: str, noise: Tensor, condition: Condition) -> Tensor:

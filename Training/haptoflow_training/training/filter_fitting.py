@@ -7,6 +7,7 @@ import torch
 from torch import Tensor
 
 from haptoflow_training.models.surface_waves import MINIMUM_HZ
+from haptoflow_training.waveform import SEGMENT_SAMPLES
 
 _SMALL = 1e-6
 # Noise added to recordings before a filter is fitted. Where nothing is felt, a filter has better uses for its poles.
@@ -21,6 +22,12 @@ def with_floor(segment: Tensor, log_level: Tensor, generator: torch.Generator) -
     """Segments [B, 1, 200] in unit scale, of the level exp(log_level) [B, 1] in m/s^2, over the noise floor."""
     floor = (_FLOOR_MPS2 * torch.exp(-log_level.detach())).clamp(max=_LARGEST_FLOOR).unsqueeze(2)
     return segment + floor * torch.randn(segment.shape, generator=generator)
+
+
+def motion_at(motion_path: Tensor, sample: int) -> Tensor:
+    """[B, 3]: the motion at about a sample of segments whose motions are known at evenly spaced samples [B, K, 3], from
+    the first to the last."""
+    return motion_path[:, round(sample * (motion_path.shape[1] - 1) / (SEGMENT_SAMPLES - 1))]
 
 
 def audible(log_level: Tensor) -> Tensor:

@@ -10,7 +10,7 @@ from haptoflow_training.models.skeleton_model import SkeletonModel
 from haptoflow_training.models.skeleton import LIKELIHOOD_END, ORDER
 from haptoflow_training.models.surface_waves import FAMILIES, advanced, with_path, with_rates_at
 from haptoflow_training.training.batches import SegmentBatch
-from haptoflow_training.training.filter_fitting import audible, weighted_mean, with_floor, without_waves
+from haptoflow_training.training.filter_fitting import audible, motion_at, weighted_mean, with_floor, without_waves
 from haptoflow_training.training.losses import Losses, ScaledBatch
 from haptoflow_training.waveform import SEGMENT_SAMPLES
 
@@ -74,9 +74,7 @@ class SkeletonLosses(Losses):
     @staticmethod
     def _condition_at(given: ScaledBatch, sample: int) -> tuple[Tensor, Tensor, Tensor]:
         """Embedding, motion and phases as they are at a sample of the segment."""
-        motions = given.batch.motion_path
-        knot = round(sample * (motions.shape[1] - 1) / (SEGMENT_SAMPLES - 1))
-        return given.embedding, motions[:, knot], with_rates_at(given.phases, sample)
+        return given.embedding, motion_at(given.batch.motion_path, sample), with_rates_at(given.phases, sample)
 
     @staticmethod
     def _noise(given: ScaledBatch, generator: torch.Generator) -> Tensor:

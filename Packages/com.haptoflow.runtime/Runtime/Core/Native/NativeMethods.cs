@@ -246,6 +246,10 @@ namespace HaptoFlow.Native
         public static extern int RecordingWave(float* accelerationMps2, ulong sampleCount, uint axisCount,
             double sampleRateHz, float* waveMps2, ulong waveCount);
 
+        [DllImport(Library, EntryPoint = "haptoflow_recording_remove_noise")]
+        public static extern int RecordingRemoveNoise(float* vibrationMps2, float* velocityMps, float* forceNewtons,
+            ulong sampleCount, int* source, double* noiseMps2);
+
         [DllImport(Library, EntryPoint = "haptoflow_resample")]
         public static extern int Resample(float* samples, ulong sampleCount, double sampleRateHz, float* wave,
             ulong waveCount, double waveRateHz);
