@@ -10,6 +10,7 @@
 #include "engine/wave_statistics.hpp"
 #include "engine/waveform_timeline.hpp"
 #include "inference/segment_generator.hpp"
+#include "skeleton/skeleton.hpp"
 
 #include <array>
 #include <cstdint>
@@ -44,6 +45,13 @@ struct MaterialInputs {
     LevelRequest level;
 };
 
+/// What a skeleton makes of a contact: its parameters, and the level before a blend's balance. The publisher prepares
+/// it, because the weights would push the callback's own data out of the cache. Empty for a model without a skeleton.
+struct PreparedSketch {
+    skeleton::SegmentParameters parameters;
+    float levelMps2 = 0.0F;
+};
+
 /// A seed, ready to be played.
 struct OnsetSeed {
     std::array<float, WaveformTimeline::seedSamples> samplesMps2{};
@@ -59,6 +67,8 @@ struct AudioMessage {
     /// skeleton, which needs none.
     OnsetSeed seed;
     MaterialInputs material;
+    /// That of the newest sliding state, as the seed.
+    PreparedSketch sketch;
     /// The blows that the callback had not taken when the message was written, so that no blow is lost if its message
     /// is replaced.
     BlowList blows;

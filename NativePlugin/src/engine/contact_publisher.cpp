@@ -2,10 +2,14 @@
 
 #include "engine/level_request.hpp"
 #include "engine/seed_retrieval.hpp"
+#include "engine/surface_phases.hpp"
+#include "skeleton/condition.hpp"
+#include "skeleton/rib_rates.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace haptoflow::engine {
 namespace {
@@ -39,8 +43,9 @@ OnsetSeed seedFor(const Ingredients& ingredients, const Material& material, cons
 
 }  // namespace
 
-ContactPublisher::ContactPublisher(const MaterialLibrary& library, VoiceChannels& channels)
-    : library_(library), channels_(channels), blows_(channels) {}
+ContactPublisher::ContactPublisher(const MaterialLibrary& library, VoiceChannels& channels,
+                                   skeleton::NativeParts native)
+    : library_(library), channels_(channels), native_(std::move(native)), blows_(channels) {}
 
 ContactAction ContactPublisher::publish(ContactState state) noexcept {
     VoiceCounters& counters = channels_.counters;
@@ -73,10 +78,17 @@ ContactAction ContactPublisher::publish(ContactState state) noexcept {
     contact_.slides += contact_.sliding ? 1 : 0;
     contact_.ranged =
         applyRangeLaw(library_.model().header(), material, state.velocityMps, state.forceNewtons, state.spatialScale);
-    // Every sliding state carries a seed, because the callback may resume with any of them.
+    const MaterialInputs inputs{.embedding = material.embedding,
+                                .waves = waveStatisticsOf(ingredients, waveVectorsOf(material.embedding)),
+                                .level = requestLevel(ingredients, contact_.ranged)};
+    // Every sliding state carries a seed or a sketch, because the callback may resume with any of them.
     if (contact_.sliding || action == ContactAction::tap) {
         contact_.levelMps2 = ingredients.levelMps2(contact_.ranged.levelMotion);
-        seed_ = seedFor(ingredients, material, contact_.ranged, contact_.levelMps2);
+        if (native_.skeleton != nullptr) {
+            prepareSketch(inputs);
+        } else {
+            seed_ = seedFor(ingredients, material, contact_.ranged, contact_.levelMps2);
+        }
     }
     blows_.follow(contact_, ingredients, reading.ingredients(blows_.touched().material));
     if (action == ContactAction::rest && state.touching != 0) {
@@ -84,12 +96,26 @@ ContactAction ContactPublisher::publish(ContactState state) noexcept {
     }
 
     channels_.publishedTouch.store(contact_.touch, std::memory_order_release);
-    const MaterialInputs inputs{.embedding = material.embedding,
-                                .waves = waveStatisticsOf(ingredients, waveVectorsOf(material.embedding)),
-                                .level = requestLevel(ingredients, contact_.ranged)};
     postToAudio(ingredients, inputs, hasSignal);
     postToWorker(ingredients, inputs);
     return action;
+}
+
+void ContactPublisher::prepareSketch(const MaterialInputs& inputs) noexcept {
+    const std::array<float, 3>& motion = contact_.ranged.motion;
+    skeleton::Phases phases = skeleton::phasesOf(inputs.embedding, motion, {});
+    phases.back() = static_cast<float>(slipsPerSample(inputs.waves.slip, motion, 0.0) * inference::waveformRateHz);
+    sketch_.parameters = native_.skeleton->parametersFor(skeleton::conditionOf(inputs.embedding, motion, phases),
+                                                         skeleton::Skeleton::familiesOf(phases));
+    if (inputs.level.levelMps2) {
+        sketch_.levelMps2 = *inputs.level.levelMps2;
+        return;
+    }
+    const float logLevel = native_.level->logLevel(inputs.embedding, inputs.level.motion);
+    constexpr auto limit = static_cast<float>(inference::maximumLogLevel);
+    // What is not a number is silent.
+    const float limited = std::isfinite(logLevel) ? std::clamp(logLevel, -limit, limit) : -limit;
+    sketch_.levelMps2 = std::exp(limited) * inputs.level.gain;
 }
 
 void ContactPublisher::postToAudio(const Ingredients& ingredients, const MaterialInputs& inputs,
@@ -109,6 +135,7 @@ void ContactPublisher::postToAudio(const Ingredients& ingredients, const Materia
     message.contact = contact_;
     message.seed = seed_;
     message.material = inputs;
+    message.sketch = sketch_;
     message.blows = blows_.untaken();
     message.tone = tone ? std::optional(dsp::toneKernel(*tone)) : std::nullopt;
     message.movingSinceSeconds = movingSinceSeconds_;

@@ -27,7 +27,7 @@ struct LiveVoiceSettings {
 struct LiveVoice {
     /// Throws std::invalid_argument for settings out of range.
     LiveVoice(const MaterialLibrary& library, const std::atomic<bool>& workerAlive, const LiveVoiceSettings& settings)
-        : publisher(library, channels),
+        : publisher(library, channels, settings.native),
           renderer(channels, workerAlive, settings.outputRateHz, settings.fullScaleMps2,
                    {settings.planner.seed, settings.planner.voice}, sketcherFor(settings)),
           planner(channels, settings.planner) {
@@ -44,7 +44,7 @@ private:
         if (settings.native.skeleton == nullptr) {
             return nullptr;
         }
-        return std::make_unique<Sketcher>(settings.native, settings.planner.seed, settings.planner.voice);
+        return std::make_unique<Sketcher>(settings.native.skeleton, settings.planner.seed, settings.planner.voice);
     }
 };
 

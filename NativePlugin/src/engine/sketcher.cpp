@@ -1,6 +1,5 @@
 #include "engine/sketcher.hpp"
 
-#include "skeleton/condition.hpp"
 #include "skeleton/unit_scale.hpp"
 
 #include <algorithm>
@@ -32,16 +31,16 @@ float levelRatio(float newMps2, float oldMps2) noexcept {
 
 }  // namespace
 
-Sketcher::Sketcher(skeleton::NativeParts native, std::uint64_t seed, std::uint32_t voice) noexcept
-    : native_(std::move(native)), seed_(seed), voice_(voice), track_(seed, voice) {}
+Sketcher::Sketcher(std::shared_ptr<const skeleton::Skeleton> skeleton, std::uint64_t seed, std::uint32_t voice) noexcept
+    : skeleton_(std::move(skeleton)), seed_(seed), voice_(voice), track_(seed, voice) {}
 
-void Sketcher::follow(const PublishedContact& contact, const MaterialInputs& material, std::int64_t head,
-                      double sincePublishedSeconds) noexcept {
-    contact_ = contact;
-    material_ = material;
+void Sketcher::follow(const AudioMessage& message, std::int64_t head, double sincePublishedSeconds) noexcept {
+    contact_ = message.contact;
+    material_ = message.material;
+    prepared_ = message.sketch;
     contactHead_ = head;
     sincePublishedSeconds_ = sincePublishedSeconds;
-    if (contact.state.material.count < 2) {
+    if (contact_.state.material.count < 2) {
         balance_ = 1.0F;
     }
 }
@@ -103,7 +102,7 @@ void Sketcher::sketch(WaveformTimeline& timeline, std::int64_t start) noexcept {
 
 void Sketcher::sketchSegment(const skeleton::Phases& phases, const inference::SurfacePath& path,
                              std::int64_t start) noexcept {
-    const float levelMps2 = levelOfMaterial();
+    const float levelMps2 = prepared_.levelMps2 * balance_;
     Wave noise{};
     fillNoise(track_.stretch().surface, path, {.seed = seed_, .voice = voice_, .segment = firstSegment + segments_},
               noise);
@@ -119,7 +118,7 @@ void Sketcher::sketchSegment(const skeleton::Phases& phases, const inference::Su
                                   .previous = previous,
                                   .noise = noise};
     Wave segment{};
-    native_.skeleton->sketch(moment, skeleton::conditionOf(moment.embedding, moment.motion, moment.phases), segment);
+    skeleton_->sketch(moment, prepared_.parameters, segment);
     for (std::size_t index = 0; index < segment.size(); ++index) {
         at(start + static_cast<std::int64_t>(index)) = segment[index] * levelMps2;
     }
@@ -192,18 +191,6 @@ void Sketcher::noteRefined(std::int64_t start, std::int64_t end) noexcept {
         refinedFrom_ = start;
     }
     refinedUntil_ = std::max(refinedUntil_, end);
-}
-
-float Sketcher::levelOfMaterial() const noexcept {
-    const LevelRequest& level = material_.level;
-    if (level.levelMps2) {
-        return *level.levelMps2 * balance_;
-    }
-    const float logLevel = native_.level->logLevel(material_.embedding, level.motion);
-    constexpr auto limit = static_cast<float>(inference::maximumLogLevel);
-    // What is not a number is silent.
-    const float limited = std::isfinite(logLevel) ? std::clamp(logLevel, -limit, limit) : -limit;
-    return std::exp(limited) * level.gain * balance_;
 }
 
 double Sketcher::secondsAheadOf(std::int64_t sample) const noexcept {

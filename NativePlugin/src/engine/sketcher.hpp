@@ -4,11 +4,12 @@
 #include "engine/segment_queue.hpp"
 #include "engine/surface_track.hpp"
 #include "engine/waveform_timeline.hpp"
-#include "skeleton/skeleton_tensors.hpp"
+#include "skeleton/skeleton.hpp"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 
 namespace haptoflow::engine {
@@ -24,12 +25,11 @@ namespace haptoflow::engine {
 /// Used by one thread. Construction excepted, all functions take bounded time, allocate nothing and wait for nothing.
 class Sketcher {
 public:
-    /// `native` is complete. `seed` and `voice` key the noise.
-    Sketcher(skeleton::NativeParts native, std::uint64_t seed, std::uint32_t voice) noexcept;
+    /// `skeleton` is not null. `seed` and `voice` key the noise.
+    Sketcher(std::shared_ptr<const skeleton::Skeleton> skeleton, std::uint64_t seed, std::uint32_t voice) noexcept;
 
     /// The newest contact, in a block that begins at `head` and began `sincePublishedSeconds` after the publishing.
-    void follow(const PublishedContact& contact, const MaterialInputs& material, std::int64_t head,
-                double sincePublishedSeconds) noexcept;
+    void follow(const AudioMessage& message, std::int64_t head, double sincePublishedSeconds) noexcept;
     /// Begins a stream at `head`: writes the waveform that would have led there, and the one that follows from there.
     void begin(std::int64_t head, std::span<float, WaveformTimeline::seedSamples> seedMps2) noexcept;
     /// Sketches the newest contact from the head on, unless a segment without a sketch is played.
@@ -62,20 +62,20 @@ private:
     [[nodiscard]] float at(std::int64_t sample) const noexcept {
         return ring_[static_cast<std::size_t>(sample) % ring_.size()];
     }
-    [[nodiscard]] float levelOfMaterial() const noexcept;
     void sketch(WaveformTimeline& timeline, std::int64_t start) noexcept;
     void sketchSegment(const skeleton::Phases& phases, const inference::SurfacePath& path, std::int64_t start) noexcept;
     void noteRefined(std::int64_t start, std::int64_t end) noexcept;
     void holdCorrection(const WaveformTimeline& timeline, std::int64_t start, Wave& correction) const noexcept;
     [[nodiscard]] double secondsAheadOf(std::int64_t sample) const noexcept;
 
-    skeleton::NativeParts native_;
+    std::shared_ptr<const skeleton::Skeleton> skeleton_;
     std::uint64_t seed_;
     std::uint32_t voice_;
     std::uint64_t segments_ = 0;
 
     PublishedContact contact_;
     MaterialInputs material_;
+    PreparedSketch prepared_;
     std::int64_t contactHead_ = 0;
     double sincePublishedSeconds_ = 0.0;
 

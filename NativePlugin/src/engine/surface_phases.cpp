@@ -20,16 +20,8 @@ WanderPoint wanderOf(std::size_t family, double wavelengthMetres, const SurfaceS
     return surfaceWander(stretch.surface + step * (family + 1U), wavelengthMetres, stretch.path);
 }
 
-double slipsPerSample(const model::StickSlip& slip, const std::array<float, 3>& motion,
-                      const SurfaceStretch& stretch) noexcept {
-    if (!(slip.lengthMetres > 0.0)) {
-        return 0.0;
-    }
-    const double pressed = std::pow(std::max(static_cast<double>(motion[2]), lightestSlipNewtons), slipForceExponent);
-    const double wander = slip.wanderMetres > 0.0 ? wanderOf(slipFamily, slip.wanderMetres, stretch).value : 0.0;
-    const double wayMetres = slip.lengthMetres * pressed * std::exp(slip.wander * wander);
-    const double speedMps = std::hypot(static_cast<double>(motion[0]), static_cast<double>(motion[1]));
-    return speedMps / (wayMetres * inference::waveformRateHz);
+double slipWander(const model::StickSlip& slip, const SurfaceStretch& stretch) noexcept {
+    return slip.wanderMetres > 0.0 ? wanderOf(slipFamily, slip.wanderMetres, stretch).value : 0.0;
 }
 
 float wrapped(double turns) noexcept {
@@ -38,6 +30,16 @@ float wrapped(double turns) noexcept {
 }
 
 }  // namespace
+
+double slipsPerSample(const model::StickSlip& slip, const std::array<float, 3>& motion, double wander) noexcept {
+    if (!(slip.lengthMetres > 0.0)) {
+        return 0.0;
+    }
+    const double pressed = std::pow(std::max(static_cast<double>(motion[2]), lightestSlipNewtons), slipForceExponent);
+    const double wayMetres = slip.lengthMetres * pressed * std::exp(slip.wander * wander);
+    const double speedMps = std::hypot(static_cast<double>(motion[0]), static_cast<double>(motion[1]));
+    return speedMps / (wayMetres * inference::waveformRateHz);
+}
 
 void SurfacePhases::begin(std::int64_t start, const SeedRibs& seed) noexcept {
     ribs_.begin(start, seed);
@@ -53,7 +55,7 @@ skeleton::Phases SurfacePhases::at(std::int64_t start, std::span<const float, in
     const double slipped = slips_.phase + slips_.turnsPerSample * static_cast<double>(start - slips_.start);
     slip_ = {.start = start,
              .phase = slipped - std::floor(slipped),
-             .turnsPerSample = slipsPerSample(statistics.slip, motion, stretch)};
+             .turnsPerSample = slipsPerSample(statistics.slip, motion, slipWander(statistics.slip, stretch))};
 
     skeleton::Phases phases{};
     const auto set = [&phases](std::size_t family, double turns, double turnsPerSample) {

@@ -12,6 +12,11 @@
 
 namespace haptoflow::engine {
 
+/// Slips in a sample of waveform time for the network's motion (m/s along both axes, N); 0 for a material that does not
+/// slip. `wander`: by how many deviations the way from slip to slip differs from its mean.
+[[nodiscard]] double slipsPerSample(const model::StickSlip& slip, const std::array<float, 3>& motion,
+                                    double wander) noexcept;
+
 /// Phases of the surface's waves along a stream in waveform time: ribs by the way along their wave vectors and by their
 /// wander from it, stick-slip by the number of slips so far. A small value, which threads hand to each other; allocates
 /// nothing.

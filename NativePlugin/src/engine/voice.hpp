@@ -54,9 +54,8 @@ public:
     /// True if the voice begins and goes on by itself, with sketches.
     [[nodiscard]] bool hasSketcher() const noexcept { return sketcher_ != nullptr; }
     /// With a sketcher only: see Sketcher::follow. A touch begins, or sliding resumes, with a sketch of this contact.
-    void follow(const PublishedContact& contact, const MaterialInputs& material, std::int64_t head,
-                double sincePublishedSeconds) noexcept {
-        sketcher_->follow(contact, material, head, sincePublishedSeconds);
+    void follow(const AudioMessage& message, std::int64_t head, double sincePublishedSeconds) noexcept {
+        sketcher_->follow(message, head, sincePublishedSeconds);
     }
     void beginSketch(float levelMps2) noexcept;
     /// With a sketcher only: sketches the newest contact from the next sample on.

@@ -221,7 +221,7 @@ void VoiceRenderer::begin() noexcept {
 
 void VoiceRenderer::followContact() noexcept {
     const double sincePublished = channels_.isRealTime ? blockSeconds_ - contact().publishedSeconds : 0.0;
-    voice_.follow(contact(), channels_.toAudio.current().material, blockHead_, sincePublished);
+    voice_.follow(channels_.toAudio.current(), blockHead_, sincePublished);
     isUnsketched_ = false;
 }
 

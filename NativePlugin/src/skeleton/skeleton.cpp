@@ -80,10 +80,9 @@ SegmentParameters Skeleton::parametersFor(const Condition& condition,
     return parameters;
 }
 
-void Skeleton::begin(const Moment& moment, const Condition& condition, std::span<float, segmentSamples> begun,
+void Skeleton::begin(const Moment& moment, const SegmentParameters& parameters, std::span<float, segmentSamples> begun,
                      std::span<float, segmentSamples> struck, Pulses* pulses) const noexcept {
     const auto phases = familiesOf(moment.phases);
-    const SegmentParameters parameters = parametersFor(condition, phases);
     SurfaceWaves waves;
     for (std::size_t family = 0; family < familyCount; ++family) {
         if (phases[family].isHeard()) {
@@ -101,15 +100,20 @@ void Skeleton::begin(const Moment& moment, const Condition& condition, std::span
 
 void Skeleton::sketch(const Moment& moment, const Condition& condition,
                       std::span<float, segmentSamples> begun) const noexcept {
+    sketch(moment, parametersFor(condition, familiesOf(moment.phases)), begun);
+}
+
+void Skeleton::sketch(const Moment& moment, const SegmentParameters& parameters,
+                      std::span<float, segmentSamples> begun) const noexcept {
     std::array<float, segmentSamples> struck{};
-    begin(moment, condition, begun, struck, nullptr);
+    begin(moment, parameters, begun, struck, nullptr);
 }
 
 void Skeleton::enter(const Moment& moment, const Condition& condition,
                      std::span<float, enteringChannels * segmentSamples> entering) const noexcept {
     Pulses pulses;
-    begin(moment, condition, entering.first<segmentSamples>(), entering.subspan<segmentSamples, segmentSamples>(),
-          &pulses);
+    begin(moment, parametersFor(condition, familiesOf(moment.phases)), entering.first<segmentSamples>(),
+          entering.subspan<segmentSamples, segmentSamples>(), &pulses);
     auto next = entering.begin() + 2 * segmentSamples;
     for (const SurfaceWaves::Pulses* each : {&pulses.cosines, &pulses.sines}) {
         for (const auto& harmonic : *each) {

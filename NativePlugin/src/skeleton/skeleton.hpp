@@ -60,6 +60,9 @@ public:
     /// Writes the segment in unit scale.
     void sketch(const Moment& moment, const Condition& condition,
                 std::span<float, segmentSamples> begun) const noexcept;
+    /// The same with parameters that are known; of the moment only phases, previous waveform and noise count.
+    void sketch(const Moment& moment, const SegmentParameters& parameters,
+                std::span<float, segmentSamples> begun) const noexcept;
     /// Writes what the refining graph sees, one channel after the other: the segment, the impulses that drove it, and
     /// the cosines and then the sines of the first five harmonics, summed over the families.
     void enter(const Moment& moment, const Condition& condition,
@@ -67,7 +70,7 @@ public:
 
 private:
     struct Pulses;
-    void begin(const Moment& moment, const Condition& condition, std::span<float, segmentSamples> begun,
+    void begin(const Moment& moment, const SegmentParameters& parameters, std::span<float, segmentSamples> begun,
                std::span<float, segmentSamples> struck, Pulses* pulses) const noexcept;
 
     HiddenLayers hidden_;
