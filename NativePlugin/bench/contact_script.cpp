@@ -63,7 +63,7 @@ StepScript stepScript(const Hand& hand, const DeviceShape& shape, std::size_t st
     hold(script.states, Hand::lifted(counter - 1), now, quietSeconds);
     now = quietSeconds;
     while (script.steps.size() < steps) {
-        // Times are whole updates, because a hand's states come at the update rate throughout a touch.
+        // A hand publishes at the update rate throughout a touch, so each label lasts a whole number of updates.
         for (std::size_t change = 0; change < 2 * stepsOfAStroke; ++change) {
             const std::size_t place = change % 2;
             if (place == 1) {

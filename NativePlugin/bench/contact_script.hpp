@@ -37,8 +37,8 @@ struct StepScript {
 [[nodiscard]] TouchScript touchScript(const Hand& hand, const DeviceShape& shape, std::size_t touches,
                                       std::uint32_t firstTouch, std::mt19937_64& random);
 
-/// Strokes over the hand's first two labels in turn, until there are at least `steps` changes from the first to the
-/// second. Each label lasts longer than the device's period.
+/// Strokes that alternate between the hand's first two labels. Returns at least `steps` changes from the first to the
+/// second. Each label lasts longer than the device's period, so that every change is heard before the next.
 [[nodiscard]] StepScript stepScript(const Hand& hand, const DeviceShape& shape, std::size_t steps,
                                     std::uint32_t firstTouch, std::mt19937_64& random);
 

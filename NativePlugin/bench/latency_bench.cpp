@@ -98,14 +98,15 @@ void measureSteps(const Subjects& subjects, const DeviceShape& shape, std::size_
     std::mt19937_64 random(subjects.seed);
     std::uint32_t firstTouch = 1;
     DeviceRun steps{.shape = shape, .latencies = {}};
+    const double filterSeconds = filterDelaySeconds();
     inRounds(
         events, "label step",
         [&](std::size_t count) {
             const StepScript script = stepScript(hand, shape, count, firstTouch, random);
             firstTouch += static_cast<std::uint32_t>(script.states.size());
             const auto [recording, published] = rig.play(shape, script.states);
-            findSteps(recording, published, script, shape, filterDelaySeconds(),
-                      engine::LiveEngineSettings{}.fullScaleMps2, steps.latencies);
+            findSteps(recording, published, script, shape, filterSeconds, engine::LiveEngineSettings{}.fullScaleMps2,
+                      steps.latencies);
             steps.lateCalls += recording.lateCalls;
         },
         [&] { return steps.latencies.seconds.size(); });

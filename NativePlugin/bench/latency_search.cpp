@@ -52,7 +52,8 @@ void findStops(const Recording& recording, const std::vector<double>& published,
 
 void findSteps(const Recording& recording, const std::vector<double>& published, const StepScript& script,
                const DeviceShape& shape, double filterSeconds, float fullScaleMps2, Latencies& steps) {
-    // A tenth of the loud label's RMS: nearly every sample of its noise exceeds it, and none of the quiet one's.
+    // A tenth of the loud label's RMS. Nearly every sample of the loud label exceeds it, no sample of the quiet one
+    // does.
     constexpr float recognised = 0.1F * loudMps2;
     // Longer than any period of a device: after this time the change of label was lost.
     constexpr double maximumSeconds = 0.3;

@@ -21,7 +21,7 @@ inline constexpr float loudMps2 = 10.0F;
 [[nodiscard]] skeleton::NativeParts markingParts(const model::ModelFile& model, std::uint32_t quiet,
                                                  std::uint32_t loud);
 
-/// Takes as long as another generator, then returns what the marking skeleton makes.
+/// Runs another generator, so that it takes as long, and returns the marking skeleton's segments in place of its own.
 class MarkingGenerator final : public inference::SegmentGenerator {
 public:
     MarkingGenerator(std::unique_ptr<inference::SegmentGenerator> behind, const skeleton::NativeParts& marking)

@@ -19,7 +19,7 @@ public:
     /// The model must outlive it. Throws model::ModelError if its skeleton is incomplete.
     explicit LabelTextures(const model::ModelFile& model);
 
-    /// The excerpts of a label; equal calls give equal excerpts.
+    /// Makes the excerpts of a label. Its noise is fixed, so a label has the same excerpts in every call.
     [[nodiscard]] std::vector<TextureExcerpt> of(std::size_t label) const;
 
 private:

@@ -755,8 +755,8 @@ typedef struct haptoflow_voice_statistics {
     /* Touches that began to sound, without resumptions, and those of them that ended within one block. */
     uint64_t onsets;
     uint64_t taps;
-    /* Blocks that needed samples that no segment provided (underruns; none with a model that has a skeleton); late
-     * segments; segments that were not used. */
+    /* Underruns: blocks for which no segment provided the samples; a model with a skeleton has none. Late segments.
+     * Segments that were not used. */
     uint64_t underruns;
     uint64_t late;
     uint64_t dropped;
@@ -1115,8 +1115,9 @@ enum {
 /* Removes the noise of the sensor from a wave of one axis at 2 kHz in m/s^2, in place, as learning does: its power is
  * subtracted at every time and frequency. The wave keeps every bit where no noise is found. A number that is not finite
  * separates two recordings of one sensor. velocity_mps: vx and vy for each sample; force_newtons: one for each. Sets
- * *source, and *noise_mps2 to the RMS of what was removed. Errors: INVALID_ARGUMENT, RECORDING_UNUSABLE (nothing but
- * noise: no stronger where the tip slides than where it rests), OUT_OF_MEMORY.
+ * *source to where the noise was found, and *noise_mps2 to the RMS of what was removed. Errors: INVALID_ARGUMENT,
+ * RECORDING_UNUSABLE (the wave is no stronger where the tip slides than where it rests, so it holds only noise),
+ * OUT_OF_MEMORY.
  * [any-thread] Never blocks; allocates; takes about 0.5 ms per second of recording. */
 HAPTOFLOW_API haptoflow_status haptoflow_recording_remove_noise(float* vibration_mps2, const float* velocity_mps,
                                                                 const float* force_newtons, uint64_t sample_count,

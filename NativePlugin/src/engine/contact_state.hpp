@@ -59,8 +59,9 @@ struct ContactState {
     std::array<float, 3> placeMetres{};
     std::array<float, 3> firstAxis{};
     std::array<float, 3> secondAxis{};
-    /// How much the object that surfaceSeed names differs from the mean of its labels: 0, as every other object of
-    /// them, to 1, as the recorded pieces differ. Independent of hasPlace.
+    /// How much this object differs from the mean of its labels. At 0 all objects of a label are alike; at 1 they
+    /// differ as much as the recorded pieces do. surfaceSeed tells the objects apart, whether the place is known or
+    /// not.
     float variation = 0.0F;
 
     [[nodiscard]] bool hasEffect(effects::EffectKind kind) const noexcept {

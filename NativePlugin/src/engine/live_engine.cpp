@@ -71,9 +71,7 @@ LiveEngine::LiveEngine(std::shared_ptr<const model::ModelFile> model, EngineTier
       settings_(checked(settings)),
       library_(std::make_unique<MaterialLibrary>(*model_, firstLoaded(tiers_), limits)),
       quality_(tiers_.size(), settings.quality, startTier, settings.tiersByAccuracy) {
-    if (settings_.native.skeleton == nullptr) {
-        settings_.native = skeleton::readNativeParts(*model_);
-    }
+    settings_.native = skeleton::sharedOrRead(settings_.native, *model_);
     if (!isLoaded(settings_.quality)) {
         throw std::invalid_argument("quality: the tier is not loaded");
     }

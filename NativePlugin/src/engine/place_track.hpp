@@ -55,7 +55,8 @@ private:
         std::array<float, 3> firstAxis{};
         std::array<float, 3> secondAxis{};
     };
-    // Since where the axes have not turned, and whether the surface is flat from there to here.
+    // The place from which on the axes have kept their direction, and whether the surface is flat between there and
+    // here.
     std::optional<Anchor> anchor_;
     bool isFlat_ = false;
 };

@@ -18,7 +18,8 @@ struct QueuedSegment {
     std::uint64_t stream = 0;
     /// The sample in waveform time at which it takes over.
     std::int64_t start = 0;
-    /// Of its contact: PublishedContact::updates and PublishedContact::levelMps2.
+    /// The contact state that it was made for (PublishedContact::updates), and that state's level
+    /// (PublishedContact::levelMps2).
     std::uint64_t update = 0;
     float levelMps2 = 1.0F;
     /// Gain that balances a blend, which is part of the samples.

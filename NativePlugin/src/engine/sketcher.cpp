@@ -147,28 +147,33 @@ void Sketcher::holdCorrection(const WaveformTimeline& timeline, std::int64_t sta
 }
 
 Sketcher::Taken Sketcher::take(WaveformTimeline& timeline, const QueuedSegment& segment) noexcept {
-    const std::int64_t end = segment.start + segmentLength;
-    const std::int64_t first = std::max(segment.start, timeline.head());
     const bool isNewest = segment.update == contact_.updates;
-    if (isNewest || !segment.hasSketch) {
-        const std::int64_t covered = timeline.coveredUntil();
-        const std::int64_t start = timeline.commit(segment.start, segment.samplesMps2);
-        if (start < 0) {
-            return {};
-        }
-        const auto& sketched = segment.hasSketch ? segment.sketchMps2 : segment.samplesMps2;
-        for (std::int64_t sample = start; sample < end; ++sample) {
-            const float weight = sample < covered ? fadedIn(sample - start) : 1.0F;
-            at(sample) += (sketched[static_cast<std::size_t>(sample - segment.start)] - at(sample)) * weight;
-        }
-        track_ = segment.track;
-        correctedLevelMps2_ = segment.levelMps2;
-        balance_ = segment.balance;
-        hasSketch_ = segment.hasSketch;
-        noteRefined(start, end);
-        return {.use = Use::whole, .start = start};
+    return isNewest || !segment.hasSketch ? takeWhole(timeline, segment) : takeCorrection(timeline, segment);
+}
+
+Sketcher::Taken Sketcher::takeWhole(WaveformTimeline& timeline, const QueuedSegment& segment) noexcept {
+    const std::int64_t covered = timeline.coveredUntil();
+    const std::int64_t start = timeline.commit(segment.start, segment.samplesMps2);
+    if (start < 0) {
+        return {};
     }
-    const std::int64_t last = std::min(end, timeline.coveredUntil());
+    const std::int64_t end = segment.start + segmentLength;
+    const auto& sketched = segment.hasSketch ? segment.sketchMps2 : segment.samplesMps2;
+    for (std::int64_t sample = start; sample < end; ++sample) {
+        const float weight = sample < covered ? fadedIn(sample - start) : 1.0F;
+        at(sample) += (sketched[static_cast<std::size_t>(sample - segment.start)] - at(sample)) * weight;
+    }
+    track_ = segment.track;
+    correctedLevelMps2_ = segment.levelMps2;
+    balance_ = segment.balance;
+    hasSketch_ = segment.hasSketch;
+    noteRefined(start, end);
+    return {.use = Use::whole, .start = start};
+}
+
+Sketcher::Taken Sketcher::takeCorrection(WaveformTimeline& timeline, const QueuedSegment& segment) noexcept {
+    const std::int64_t first = std::max(segment.start, timeline.head());
+    const std::int64_t last = std::min(segment.start + segmentLength, timeline.coveredUntil());
     if (first >= last || !hasSketch_) {
         return {};
     }

@@ -64,6 +64,8 @@ private:
     }
     void sketch(WaveformTimeline& timeline, std::int64_t start) noexcept;
     void sketchSegment(const skeleton::Phases& phases, const inference::SurfacePath& path, std::int64_t start) noexcept;
+    Taken takeWhole(WaveformTimeline& timeline, const QueuedSegment& segment) noexcept;
+    Taken takeCorrection(WaveformTimeline& timeline, const QueuedSegment& segment) noexcept;
     void noteRefined(std::int64_t start, std::int64_t end) noexcept;
     void holdCorrection(const WaveformTimeline& timeline, std::int64_t start, Wave& correction) const noexcept;
     [[nodiscard]] double secondsAheadOf(std::int64_t sample) const noexcept;

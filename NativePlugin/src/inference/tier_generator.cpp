@@ -20,10 +20,6 @@ std::shared_ptr<const Runtime> requireRuntime(std::shared_ptr<const Runtime> run
     return runtime;
 }
 
-skeleton::NativeParts partsOf(const model::ModelFile& model, const skeleton::NativeParts& native) {
-    return native.skeleton != nullptr ? native : skeleton::readNativeParts(model);
-}
-
 }  // namespace
 
 std::unique_ptr<TierGenerator> makeGenerator(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model,
@@ -31,10 +27,12 @@ std::unique_ptr<TierGenerator> makeGenerator(std::shared_ptr<const Runtime> runt
                                              const LoadLimits& limits, const skeleton::NativeParts& native) {
     switch (tier.kind) {
         case model::TierKind::skeleton:
-            return std::make_unique<SkeletonGenerator>(partsOf(model, native), solver, maximumBatch, limits);
+            return std::make_unique<SkeletonGenerator>(skeleton::sharedOrRead(native, model), solver, maximumBatch,
+                                                       limits);
         case model::TierKind::refine:
             return std::make_unique<RefinedGenerator>(requireRuntime(std::move(runtime), tier), model,
-                                                      partsOf(model, native), tier, solver, maximumBatch, limits);
+                                                      skeleton::sharedOrRead(native, model), tier, solver, maximumBatch,
+                                                      limits);
         default:
             return std::make_unique<OnnxSegmentGenerator>(requireRuntime(std::move(runtime), tier), model, tier.name,
                                                           solver, maximumBatch, limits);
@@ -45,7 +43,7 @@ std::unique_ptr<LevelEstimator> makeLevelEstimator(std::shared_ptr<const Runtime
                                                    const model::ModelFile& model, const model::Tier& tier,
                                                    const LoadLimits& limits, const skeleton::NativeParts& native) {
     if (tier.usesSkeleton()) {
-        return std::make_unique<SkeletonLevelEstimator>(partsOf(model, native).level);
+        return std::make_unique<SkeletonLevelEstimator>(skeleton::sharedOrRead(native, model).level);
     }
     return std::make_unique<OnnxLevelEstimator>(requireRuntime(std::move(runtime), tier), model, tier, limits);
 }

@@ -134,6 +134,10 @@ NativeParts readNativeParts(const model::ModelFile& model) {
     return {.level = readLevelModel(model), .skeleton = readSkeleton(model)};
 }
 
+NativeParts sharedOrRead(const NativeParts& shared, const model::ModelFile& model) {
+    return shared.skeleton != nullptr ? shared : readNativeParts(model);
+}
+
 Perceptron readConditioning(const model::ModelFile& model, std::string_view tier) {
     return readPerceptron(model, std::string(tier) + ".condition", Condition{}.size(), std::nullopt);
 }

@@ -22,6 +22,8 @@ struct NativeParts {
 };
 /// Both null for a model without a skeleton.
 [[nodiscard]] NativeParts readNativeParts(const model::ModelFile& model);
+/// The parts that others of the model already use, or else those of the file.
+[[nodiscard]] NativeParts sharedOrRead(const NativeParts& shared, const model::ModelFile& model);
 
 /// The perceptron `<tier>.condition` of a tier of kind `refine`.
 [[nodiscard]] Perceptron readConditioning(const model::ModelFile& model, std::string_view tier);

@@ -112,7 +112,7 @@ TEST_F(SkeletonApiTest, AVariationMakesObjectsOfOneLabelDifferByTheirSeed) {
     EXPECT_EQ(sound(1.0F, 1), first);
     EXPECT_NE(first, mean);
     EXPECT_NE(sound(1.0F, 2), first);
-    // A caller of an earlier header does not set the field.
+    // A caller that was built with an earlier header does not have the field, so it counts as 0.
     EXPECT_EQ(sound(1.0F, 1, offsetof(haptoflow_contact_state, variation)), mean);
     EXPECT_EQ(sound(std::nanf(""), 1), mean);
     EXPECT_EQ(sanitised_, 36U);

@@ -32,14 +32,7 @@ protected:
         return learnMaterial(recording, model_, generator_, settings);
     }
 
-    static LearningSettings brief() {
-        LearningSettings settings;
-        settings.name = "made surface";
-        settings.recordings = "made.csv";
-        settings.secondsLimit = 600.0;
-        settings.segmentBudget = 5000;
-        return settings;
-    }
+    static LearningSettings brief() { return testing::briefSettings(5000); }
 
     model::ModelFile model_ = model::ModelFile::read(HAPTOFLOW_TEST_DEFAULT_MODEL);
     inference::OnnxSegmentGenerator generator_{

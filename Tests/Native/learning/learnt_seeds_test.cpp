@@ -57,14 +57,7 @@ class LearntSeedsTest : public ::testing::Test {
 protected:
     LearntMaterial learn(const MadeRecording& made) { return learnMaterial(made.view(), model_, generator_, brief()); }
 
-    static LearningSettings brief() {
-        LearningSettings settings;
-        settings.name = "made surface";
-        settings.recordings = "made.csv";
-        settings.secondsLimit = 600.0;
-        settings.segmentBudget = 1000;
-        return settings;
-    }
+    static LearningSettings brief() { return testing::briefSettings(1000); }
 
     /// The segment that the generator makes after a seed's first 200 samples, at the seed's own motion.
     std::vector<float> continuation(const model::MaterialFile& material, const model::MaterialSeed& seed,

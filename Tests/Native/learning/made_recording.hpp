@@ -1,11 +1,13 @@
 #pragma once
 
 #include "inference/gaussian_noise.hpp"
+#include "learning/learning_settings.hpp"
 #include "recordings/recording.hpp"
 
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <vector>
 
@@ -127,6 +129,16 @@ inline MadeRecording noisy(const MadeRecording& made, std::size_t axes = 1) {
         noisy.velocity[2 * i + 1] *= rests ? 0.0F : 1.0F;
     }
     return noisy;
+}
+
+/// A search that ends with its segments and not with its time.
+inline LearningSettings briefSettings(std::uint64_t segmentBudget) {
+    LearningSettings settings;
+    settings.name = "made surface";
+    settings.recordings = "made.csv";
+    settings.secondsLimit = 600.0;
+    settings.segmentBudget = segmentBudget;
+    return settings;
 }
 
 }  // namespace haptoflow::learning::testing

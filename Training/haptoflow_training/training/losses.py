@@ -132,7 +132,7 @@ class Losses(nn.Module):
         return self.one_step_loss(given, (first, second))
 
     def two_draws(self, given: ScaledBatch, generator: torch.Generator) -> tuple[Tensor, Tensor, Tensor]:
-        """The noise of the first of two independent segments of one step, and both segments."""
+        """Generates two independent segments for each row, in one step each. Returns the noise of the first, then both."""
         # Both in one pass: few large matrix products are faster than many small ones.
         noise = torch.randn(2 * len(given.segment), *given.segment.shape[1:], generator=generator)
         condition = [torch.cat([part, part]) for part in given.condition]
