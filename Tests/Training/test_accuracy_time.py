@@ -97,15 +97,15 @@ def test_a_rival_is_judged_against_its_named_row_and_not_judged_if_that_row_is_u
     pairs: list[ReferencePair],
 ) -> None:
     measured = _measured(pairs)
-    measured["standard-same-time"] = measured["rival"]
+    measured["sketch-same-time"] = measured["rival"]
     plan = [
-        PlannedRow("standard", "ours", model="m"), PlannedRow("standard-same-time", "ours", model="t"),
-        PlannedRow("rival", "as-published", model="r", against="standard-same-time"),
+        PlannedRow("standard", "ours", model="m"), PlannedRow("sketch-same-time", "ours", model="t"),
+        PlannedRow("rival", "as-published", model="r", against="sketch-same-time"),
     ]  # fmt: skip
     rows = {row["name"]: row for row in table(plan, measured)["rows"]}
-    assert rows["rival"]["against"] == "standard-same-time" and set(rows["rival"]["verdict"].values()) == {"even"}
-    assert rows["standard-same-time"]["against"] == "standard" and rows["standard-same-time"]["verdict"]["lsd_db"] == "ahead"
-    del measured["standard-same-time"]
+    assert rows["rival"]["against"] == "sketch-same-time" and set(rows["rival"]["verdict"].values()) == {"even"}
+    assert rows["sketch-same-time"]["against"] == "standard" and rows["sketch-same-time"]["verdict"]["lsd_db"] == "ahead"
+    del measured["sketch-same-time"]
     assert "verdict" not in {row["name"]: row for row in table(plan, measured)["rows"]}["rival"]
 
 
@@ -125,6 +125,20 @@ def test_every_row_has_spreads_of_the_temporal_figures_and_a_verdict(
     assert set(rows["independent-draw"]["verdict"].values()) == {"even"} and "verdict" not in rows["standard"]
     assert set(rows["standard"]["by_label"]) == {"a", "b"} and len(rows["rival"]["worst_cells"]) == 3
     json.dumps(rows)
+
+
+def test_the_page_says_what_the_network_adds_to_the_skeleton_and_how_much_longer_it_takes(
+    pairs: list[ReferencePair], tmp_path: Path
+) -> None:
+    measured = _measured(pairs)
+    plan = [PLAN[0], PlannedRow("sketch", "ours", model="m", tier="sketch")]
+    times = {name: {"ms_paced": {"p50": ms, "p99": ms}} for name, ms in (("standard", 0.6), ("sketch", 0.05))}
+    made = table(plan, {**measured, "sketch": measured["rival"]})
+    result = {**made, "model_sha256": "a" * 64, "rows": [{**row, "ms_per_segment": None, **times[row["name"]]} for row in made["rows"]]}
+    write_document(result, tmp_path / "page.md", tmp_path, False, False)
+    line = next(line for line in (tmp_path / "page.md").read_text().splitlines() if line.startswith("**What the network adds**"))
+    assert "ahead in level, GFC (goodness of fit of the spectra), LSD" in line and "behind in nothing" in line
+    assert line.endswith("It takes 12 times as long at the pace of use.")
 
 
 def test_the_page_covers_the_measured_rows_and_starts_with_who_is_ahead(

@@ -12,7 +12,7 @@ from test_trainer import _config
 
 from haptoflow_paper.rows.row_plan import load_plan
 from haptoflow_paper.rows.workplace import Workplace
-from haptoflow_paper.runs.networks import AverageVelocityField, ConstantLevel, DeafVelocityField
+from haptoflow_paper.runs.networks import AverageVelocityField
 from haptoflow_paper.runs.trainer import EvaluatedTrainer
 from haptoflow_training.models.velocity_field import VelocityField
 from haptoflow_training.training.config import TrainingConfig, config_from_dict, load_config
@@ -38,7 +38,7 @@ def test_every_stored_row_was_measured_with_the_present_configuration_of_its_mod
                 continue
             assert stored["configuration_crc32"] == place.configuration_crc32(row, seed), f"{row.name}, seed {seed}"
             checked += bool(stored["configuration_crc32"])
-    assert checked > 50 or excused > 50
+    assert checked > 30 or excused > 30
 
 
 def test_the_published_page_says_that_recordings_and_configurations_have_changed_while_rows_are_excused() -> None:
@@ -56,14 +56,6 @@ def _moved(field: torch.nn.Module) -> torch.nn.Module:
     return field.eval()
 
 
-@pytest.mark.parametrize(("kind", "hears"), [(DeafVelocityField, False), (AverageVelocityField, True)])
-def test_only_the_deaf_field_gives_the_same_for_another_previous_waveform(kind: type, hears: bool) -> None:
-    field = _moved(kind(width=16, previous_width=8))
-    noise, time = torch.randn(2, 1, 200), torch.zeros(2, 1)
-    made = [field(noise, time, previous, *CONDITION) for previous in (torch.zeros(2, 1, 200), torch.ones(2, 1, 200))]
-    assert torch.equal(*made) != hears
-
-
 def test_an_average_velocity_depends_on_its_interval_and_is_the_velocity_without_one() -> None:
     field = _moved(AverageVelocityField(width=16, previous_width=8))
     given = (torch.randn(2, 1, 200), torch.zeros(2, 1), torch.zeros(2, 1, 200), *CONDITION)
@@ -75,11 +67,9 @@ def test_an_average_velocity_depends_on_its_interval_and_is_the_velocity_without
 
 
 def test_a_configuration_names_the_classes_that_train_and_export_it() -> None:
-    deaf = evaluated(_config(), model={"hears_previous": False, "level": "constant"})
-    built = build_model(deaf, [(), ()])
-    assert isinstance(built.field, DeafVelocityField) and isinstance(built.level, ConstantLevel)
+    averaging = evaluated(_config(), recipe={"objective": "average-velocity"})
+    assert isinstance(build_model(averaging, [(), ()]).field, AverageVelocityField)
     assert type(build_model(_config(), [(), ()])).__name__ == "FieldModel"
-    assert not deaf.calibrates_level
 
 
 def test_an_evaluated_run_with_no_key_of_its_own_has_the_weights_and_phases_of_the_product() -> None:
@@ -95,8 +85,8 @@ def test_an_evaluated_run_with_no_key_of_its_own_has_the_weights_and_phases_of_t
 
 
 def test_an_ablation_is_a_patch_of_few_keys_of_the_recipe_that_it_extends() -> None:
-    ours = load_config(PAPER / "configs" / "standard.toml").to_dict()
-    for file in sorted((PAPER / "configs").glob("one-step-*.toml")):
+    ours = load_config(PAPER / "configs" / "sketch.toml").to_dict()
+    for file in sorted((PAPER / "configs").glob("sketch-*.toml")):
         ablation = load_config(file).to_dict()
         changed = {
             (section, key)

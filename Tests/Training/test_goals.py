@@ -17,12 +17,12 @@ def _spread(value: float) -> dict[str, float]:
 
 def _good() -> dict[str, Any]:
     return {
-        "level_error_db": -0.3, "gfc_recording": 0.991, "gfc_label_worst": 0.96, "lsd_db": 1.2, "drift_db_per_min": 0.02,
-        "told_apart_percent": {"median": 60.0, "p90": 70.0, "worst": 79.0},
-        "cells": {"level_error_db": _spread(1.0), "gfc_recording": _spread(0.98), "lsd_db": _spread(2.0),
+        "level_error_db": -0.2, "gfc_recording": 0.991, "gfc_label_worst": 0.96, "lsd_db": 0.8, "drift_db_per_min": 0.02,
+        "told_apart_percent": {"median": 58.0, "p90": 65.0, "worst": 69.0},
+        "cells": {"level_error_db": _spread(0.6), "gfc_recording": _spread(0.98), "lsd_db": _spread(1.7),
                   "f0_error_percent": _spread(0.5), "harmonic_share": _spread(0.9)},
-        "special": {"slow_level_error_db": _spread(2.0), "ruled_lsd_db": _spread(1.9), "nap_error_db": 0.5,
-                    "impact_kurtosis_log_ratio": _spread(0.4), "impact_crest_error_db": _spread(1.2),
+        "special": {"slow_level_error_db": _spread(2.0), "ruled_lsd_db": _spread(1.3), "nap_error_db": 0.5,
+                    "impact_kurtosis_log_ratio": _spread(0.45), "impact_crest_error_db": _spread(1.2),
                     "rib_modulation_error_db": _spread(2.0), "rib_coherence": _spread(0.9),
                     "straight_lsd_db": 1.0, "oblique_lsd_db": 1.4},
     }  # fmt: skip
@@ -33,16 +33,19 @@ def _row(name: str, block: str, hot: float | None, paced: float | None = None, *
     return {"name": name, "block": block, "rival": name, "ms_per_segment": times[0], "ms_paced": times[1], **figures}
 
 
+_EARNED = dict.fromkeys(
+    ("lsd_db", "gfc_recording", "told_apart_percent", "rib_modulation_error_db", "kurtosis_log_ratio"), "ahead"
+)
+
+
 def _table(**standard: Any) -> dict[str, Any]:
-    verdicts = {"level_error_db": "ahead", "lsd_db": "even"}
-    rival = {"verdict": verdicts, **_good()}
+    rival = {"verdict": {"level_error_db": "ahead", "lsd_db": "even"}, **_good()}
     return {
         "model_bytes": 9 * 2**20,
         "rows": [
             _row("standard", "ours", 0.2, 0.5, fast=[_FAST, _FAST], **{**_good(), **standard}),
-            _row("draft", "ours", 0.1, 0.3, **rival),
-            _row("fine", "ours", 0.4, 0.9, **{**rival, "verdict": {"lsd_db": "behind"}}),
-            _row("eight-step", "ablation", 4.0, 5.0, **{**_good(), "gfc_recording": 0.995, "lsd_db": 1.0}),
+            _row("draft", "ours", 0.1, 0.3, verdict=dict(_EARNED), **_good()),
+            _row("sketch", "ours", 0.05, 0.08, verdict=dict(_EARNED), **_good()),
             _row("ar", "as-published", 0.4, 0.9, **rival),
             _row("ar-ribs", "given-the-same", 0.4, 0.9, **rival),
             _row("paper-codec-size", "as-published", 31.0, 32.0),
@@ -51,38 +54,41 @@ def _table(**standard: Any) -> dict[str, Any]:
 
 
 def _named(goals: list[Goal], beginning: str) -> Goal:
-    found = [goal for goal in goals if goal.what.startswith(beginning)]
+    """The goal of this name, or the only one that begins so."""
+    found = [goal for goal in goals if goal.what == beginning] or [
+        goal for goal in goals if goal.what.startswith(beginning)
+    ]
     assert len(found) == 1, [goal.what for goal in goals]
     return found[0]
 
 
 def test_a_table_that_reaches_every_goal_meets_all_of_them() -> None:
     goals = judge(_table())
-    assert len(goals) == 32 and all(goal.holds for goal in goals), [goal for goal in goals if not goal.holds]
+    assert len(goals) == 37 and all(goal.holds for goal in goals), [goal for goal in goals if not goal.holds]
 
 
 @pytest.mark.parametrize(
     ("part", "figure", "value", "beginning"),
     [
-        ("", "level_error_db", -0.6, "size of the median"),
-        ("cells", "level_error_db", _spread(2.3), "level, nine"),
+        ("", "level_error_db", -0.3, "size of the median"),
+        ("cells", "level_error_db", _spread(0.8), "level, nine"),
         ("special", "slow_level_error_db", _spread(2.3), "level at 10 mm/s"),
-        ("cells", "gfc_recording", _spread(0.94), "GFC, nine"),
+        ("", "gfc_recording", 0.987, "GFC"),
         ("", "gfc_label_worst", 0.94, "GFC of the worst label"),
-        ("cells", "lsd_db", _spread(2.5), "LSD, nine"),
-        ("special", "ruled_lsd_db", _spread(2.1), "LSD of ruled"),
+        ("", "lsd_db", 0.95, "LSD, dB"),
+        ("cells", "lsd_db", _spread(1.9), "LSD, nine"),
+        ("special", "ruled_lsd_db", _spread(1.5), "LSD of ruled"),
         ("special", "oblique_lsd_db", 1.6, "LSD across ribs"),
         ("cells", "f0_error_percent", _spread(1.1), "error of the fundamental"),
         ("cells", "harmonic_share", _spread(0.7), "harmonic share"),
-        ("special", "impact_kurtosis_log_ratio", _spread(0.41), "impacts: factor of kurtosis"),
+        ("special", "impact_kurtosis_log_ratio", _spread(0.48), "impacts: factor of kurtosis"),
         ("special", "impact_crest_error_db", _spread(1.6), "impacts: crest"),
         ("special", "rib_modulation_error_db", _spread(3.1), "ribs, 0.01 to 0.5 m/s: modulation"),
         ("special", "rib_coherence", _spread(0.7), "ribs, 0.01 to 0.5 m/s: coherence"),
         ("special", "nap_error_db", 0.8, "nap"),
         ("", "drift_db_per_min", -0.2, "drift"),
-        ("", "told_apart_percent", {"median": 66.0, "p90": 70.0, "worst": 79.0}, "told apart from recordings, median"),
-        ("", "told_apart_percent", {"median": 60.0, "p90": 70.0, "worst": 81.0}, "told apart from recordings, worst"),
-        ("", "lsd_db", 1.4, "LSD above"),
+        ("", "told_apart_percent", {"median": 61.0, "p90": 65.0, "worst": 69.0}, "told apart from recordings, median"),
+        ("", "told_apart_percent", {"median": 58.0, "p90": 65.0, "worst": 71.0}, "told apart from recordings, worst"),
         ("", "fast", [_FAST, {**_FAST, "level_error_db": 0.8}], "level error, 500"),
         ("", "fast", [_FAST, {**_FAST, "gfc_recording": 0.98}], "GFC, 500"),
         ("", "fast", [_FAST, {**_FAST, "lsd_db": 2.5}], "LSD, 500"),
@@ -103,25 +109,34 @@ def test_a_figure_without_cells_is_neither_met_nor_missed(part: str) -> None:
     standard = table["rows"][0]
     standard[part] = dict.fromkeys(standard[part])
     unjudged = [goal for goal in judge(table) if goal.measured == "not measured"]
-    assert len(unjudged) >= 5 and all(goal.holds is None for goal in unjudged)
+    assert len(unjudged) >= 4 and all(goal.holds is None for goal in unjudged)
 
 
 def test_a_rival_that_wins_in_one_figure_is_named_with_that_figure() -> None:
     table = _table()
-    table["rows"][5]["verdict"] = {"level_error_db": "behind", "lsd_db": "ahead"}
+    table["rows"][4]["verdict"] = {"level_error_db": "behind", "lsd_db": "ahead"}
     goal = _named(judge(table), "behind a rival, given the same")
     assert goal.holds is False and goal.measured == "ahead 1, even 0, behind 1: ar-ribs in level"
     assert _named(judge(table), "behind a rival, as published").holds is True
 
 
-def test_a_slower_tier_that_is_behind_in_a_figure_misses_its_goal() -> None:
+def test_a_network_that_is_not_ahead_of_a_faster_tier_everywhere_misses_its_goal_with_the_figures_named() -> None:
     table = _table()
-    table["rows"][1]["verdict"] = {"lsd_db": "behind"}
-    table["rows"][2]["verdict"] = {"crest_error_db": "ahead"}
-    assert _named(judge(table), "standard behind draft").measured == "in LSD"
-    assert _named(judge(table), "fine behind standard").measured == "in crest"
-    table["rows"] = [row for row in table["rows"] if row["name"] != "fine"]
-    assert not any(goal.what.startswith("fine") for goal in judge(table)), "a tier that is gone is not judged"
+    table["rows"][2]["verdict"] = {**_EARNED, "lsd_db": "even", "kurtosis_log_ratio": "behind"}
+    goal = _named(judge(table), "standard ahead of sketch")
+    assert goal.holds is False and goal.measured == "in GFC, told apart, modulation by ribs"
+    assert _named(judge(table), "standard ahead of draft").holds is True
+    table["rows"][2]["verdict"] = dict.fromkeys(_EARNED, "even")
+    assert _named(judge(table), "standard ahead of sketch").measured == "in none"
+
+
+@pytest.mark.parametrize(("row", "lsd_db", "told"), [("draft", 1.06, 63.0), ("sketch", 1.21, 69.0)])
+def test_a_faster_tier_has_goals_of_its_own(row: str, lsd_db: float, told: float) -> None:
+    table = _table()
+    figures = next(entry for entry in table["rows"] if entry["name"] == row)
+    figures["lsd_db"], figures["told_apart_percent"]["median"] = lsd_db, told
+    missed = [goal.what for goal in judge(table) if goal.holds is False]
+    assert missed == [f"LSD of {row}, dB", f"told apart, {row}, median label, %"]
 
 
 def test_goals_of_time_are_ratios_in_one_run_hot_and_at_live_pace() -> None:
@@ -139,7 +154,7 @@ def test_a_file_above_twelve_mebibytes_misses_its_goal() -> None:
 def test_missing_rows_leave_their_goals_unjudged() -> None:
     alone = judge({"rows": [row for row in _table()["rows"] if row["name"] == "standard"]})
     for beginning in (
-        "standard behind draft", "GFC below our", "LSD above it", "behind a rival, as", "behind a rival, given",
+        "standard ahead of draft", "standard ahead of sketch", "LSD of sketch", "behind a rival, as", "behind a rival, given",
         "times faster than the paper's sizes, hot: standard", "times faster than the paper's sizes, hot: draft",
         "size of the model",
     ):  # fmt: skip

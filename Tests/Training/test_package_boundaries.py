@@ -62,7 +62,6 @@ def _alone(tmp_path: Path, *words: str) -> subprocess.CompletedProcess[str]:
     ("configuration", "key"),
     [
         ("spsi", "model.architecture"), ("mean-flow", "optimiser.budget_seconds"), ("paper-codec", "model.patch"),
-        ("one-step-deaf", "model.hears_previous"),
     ],
 )  # fmt: skip
 def test_the_training_program_refuses_a_row_of_the_evaluation_and_names_the_other_program(
@@ -85,7 +84,7 @@ for path in sys.argv[1:]:
     assert type(load_config(Path(path))) is TrainingConfig
 
 old = {
-    "model": {"architecture": "unet", "sampled": False, "hears_previous": True, "level": "law", "patch": 8,
+    "model": {"architecture": "unet", "sampled": False, "patch": 8,
               "representation": {"kind": "raw"}, "width": 48},
     "optimiser": {"budget_seconds": 0.0},
     "recipe": {"objective": "flow", "reflow_steps": 0, "reflow_pairs": 36000, "reflow_learning_rate": 4e-4},
@@ -93,7 +92,7 @@ old = {
 read = config_from_dict(old, Path("checkpoint.pt"))
 assert read == config_from_dict({"model": {"width": 48}}, Path("checkpoint.pt"))
 own = {name for table in (read.to_dict()[section] for section in old) for name in table}
-changed = {"architecture": "spsi", "sampled": True, "hears_previous": False, "level": "constant", "patch": 5,
+changed = {"architecture": "spsi", "sampled": True, "patch": 5,
            "representation": {"kind": "encodec"}, "budget_seconds": 5.0, "objective": "average-velocity",
            "reflow_steps": 3, "reflow_pairs": 1, "reflow_learning_rate": 1.0}
 for section, keys in old.items():

@@ -24,7 +24,7 @@ _LEGEND = {
 _NAMED = {
     "draft": "draft",
     "standard": "standard",
-    "fine": "fine",
+    "sketch": "sketch",
     "plain-euler-1": "1 Euler step",
     "plain-euler-16": "16 Euler steps",
     "ar": "AR",

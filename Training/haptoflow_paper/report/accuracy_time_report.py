@@ -53,9 +53,9 @@ def write_document(table: dict[str, Any], out: Path, images: Path, picture: bool
 
 
 def _outcome(table: Mapping[str, Any]) -> list[str]:
-    """Two lines at the top of the page: which rivals `standard` is ahead of, even with and behind, and where a rival
-    wins."""
-    lines = []
+    """The lines at the top of the page: what the network adds to the skeleton; which rivals we are ahead of, even with
+    and behind, and where a rival wins."""
+    lines = _network_adds(table["rows"])
     for block in RIVAL_BLOCKS:
         title = block.replace("-", " ").capitalize()
         found = rivals(table["rows"], (block,))
@@ -69,6 +69,25 @@ def _outcome(table: Mapping[str, Any]) -> list[str]:
         words = f"ahead in {counts[AHEAD]}, even in {counts[EVEN]}, behind in {counts[BEHIND]}"
         lines += [f"**{title}**, {many}: {ours} is {words}. {_wins(found)}", ""]
     return _explained(lines)
+
+
+def _network_adds(rows: Sequence[_Row]) -> list[str]:
+    """Two sentences on `standard` beside `sketch`, which is the same skeleton without a network."""
+    by_name = {row["name"]: row for row in rows}
+    standard, sketch = by_name.get("standard"), by_name.get("sketch")
+    if standard is None or sketch is None or "verdict" not in sketch:
+        return []
+    parts = []
+    for outcome in (AHEAD, EVEN, BEHIND):
+        names = [BY_KEY[key].words for key, found in sketch["verdict"].items() if found == outcome]
+        parts.append(f"{outcome} in {', '.join(names) or 'nothing'}")
+    times = [row["ms_paced"] and row["ms_paced"]["p50"] for row in (standard, sketch)]
+    cost = f" It takes {times[0] / times[1]:.0f} times as long at the pace of use." if all(times) else ""
+    return [
+        f"**What the network adds**: `standard`, which corrects the skeleton, is beside `sketch`, the skeleton alone, "
+        f"{'; '.join(parts)}.{cost}",
+        "",
+    ]
 
 
 _MEANINGS = {
@@ -208,7 +227,7 @@ def _goal_table(table: dict[str, Any]) -> list[str]:
     if not goals:
         return []
     verdicts = {True: "yes", False: "**no**", None: "not judged"}
-    lines = ["## Goals of the default tier", ""]
+    lines = ["## Goals", ""]
     lines += ["| figure | goal | measured | holds |", "|---|---|---|---|"]
     lines += [f"| {goal.what} | {goal.wanted} | {goal.measured} | {verdicts[goal.holds]} |" for goal in goals]
     return [*lines, ""]

@@ -27,7 +27,7 @@ BLOCK_TITLES = {
     "ours": "Ours",
     "as-published": "As published: each rival in its published form",
     "given-the-same": "Given the same: rivals with our inputs, level model and training time",
-    "ablation": "Ablations: our recipe without one part",
+    "ablation": "Ablations: the skeleton's recipe without one part, and a network without the skeleton",
     "reference": "References",
 }
 
@@ -48,13 +48,13 @@ for band errors, fundamentals and harmonics the median over cells. `median`, `p9
 errors over cells: nine cells in ten are at least as good as p90. For told apart they are over labels. Intervals in the
 JSON are 95 % bootstrap intervals over recordings, drawn within labels.
 
-**Ahead, even, behind.** Rivals and ablations are judged against `standard-same-time`, which is `standard`'s recipe at
-their own time of one core, 500 seconds; the shipped `standard` was trained longer, and is judged beside our own rows. Two
+**Ahead, even, behind.** Rivals and ablations are judged against `sketch-same-time`, which is the recipe of `sketch` at
+their own time of one core, 500 seconds; the shipped tiers were trained longer, and are judged beside each other. Two
 rows are compared on the same recordings: the size of the rival's error less that of ours, the mean over labels of each
 label's mean. Ahead means that its 95 % bootstrap interval lies above zero, behind that it lies below, even that it holds
 zero. Rows of one network at several numbers of steps are one rival; each figure is compared by the best of them. Rows of
 more than one evaluation a segment are measured on every fourth recording (¼), and judged against ours on the same ones,
-`standard-same-time-quarter`.
+`sketch-same-time-quarter`.
 
 | figure | definition |
 |---|---|

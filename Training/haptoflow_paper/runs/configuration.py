@@ -17,15 +17,11 @@ class EvaluatedModelConfig(ModelConfig):
     impulses: raw samples only.
     sampled: a rival that predicts the mean as published (transformer, dstn, spsi) draws its segment.
     representation: table for `build_representation`.
-    hears_previous: false removes the previous waveform's effect;
-    level: `law` or `constant` (one level for everything); both are ablations.
     patch: how many positions of the representation are one of the field.
     """
 
     architecture: str = "unet"
     sampled: bool = False
-    hears_previous: bool = True
-    level: str = "law"
     patch: int = 8
     representation: dict[str, Any] = field(default_factory=lambda: {"kind": "raw"})
 
@@ -74,10 +70,6 @@ class EvaluatedConfig(TrainingConfig):
     optimiser: EvaluatedOptimiserConfig = field(default_factory=EvaluatedOptimiserConfig)
     recipe: EvaluatedRecipeConfig = field(default_factory=EvaluatedRecipeConfig)
 
-    @property
-    def calibrates_level(self) -> bool:
-        return self.model.level == "law" and super().calibrates_level
-
     def rules(self) -> tuple[Rule, ...]:
         model, recipe = self.model, self.recipe
         return (
@@ -115,12 +107,6 @@ class EvaluatedConfig(TrainingConfig):
             ),
             (not model.ribs or model.is_raw, "model.ribs", "false with a latent representation"),
             (not model.impulses or model.is_raw, "model.impulses", "false with a latent representation"),
-            (model.level in ("law", "constant"), "model.level", "'law' or 'constant'"),
-            (
-                not recipe.calibrate_level or model.level == "law",
-                "recipe.calibrate_level",
-                "false with a constant level, which has no label's level to shift",
-            ),
             (recipe.objective in ("flow", "average-velocity"), "recipe.objective", "'flow' or 'average-velocity'"),
             (
                 recipe.objective == "flow" or recipe.reflow_steps == recipe.energy_steps == 0,

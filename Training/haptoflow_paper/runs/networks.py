@@ -1,4 +1,4 @@
-"""Networks of evaluated runs: rivals and latents in a model, the average velocity, and two ablations."""
+"""Networks of evaluated runs: rivals and latents in a model, and the average velocity."""
 
 from __future__ import annotations
 
@@ -52,13 +52,6 @@ class EvaluatedModel(FieldModel):
         return super().one_step(noise, previous, embedding, motion, phases)
 
 
-class DeafVelocityField(VelocityField):
-    """A velocity field on which the previous waveform has no effect (an ablation)."""
-
-    def _heard(self, previous: Tensor) -> Tensor:
-        return super()._heard(torch.zeros_like(previous))
-
-
 class AverageVelocityField(VelocityField):
     """The average velocity over [t, t + interval] (MeanFlow), interval [B, 1]; without interval, the velocity."""
 
@@ -80,14 +73,3 @@ class AverageVelocityField(VelocityField):
         if interval is not None:
             moment = moment + self.interval(interval)
         return self.velocity(noisy, moment, previous, embedding, motion, phases)
-
-
-class ConstantLevel(nn.Module):
-    """One level for every label and motion (an ablation: no level model)."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.log_rms = nn.Parameter(torch.zeros(1))
-
-    def forward(self, embedding: Tensor, motion: Tensor) -> Tensor:
-        return self.log_rms + 0.0 * embedding[:, 0:1]

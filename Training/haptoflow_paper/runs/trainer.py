@@ -16,7 +16,7 @@ from haptoflow_paper.objectives.reflow import ReflowPairs, own_pairs
 from haptoflow_paper.rivals import build_rival
 from haptoflow_paper.runs.configuration import EvaluatedConfig
 from haptoflow_paper.runs.losses import EvaluatedLosses
-from haptoflow_paper.runs.networks import AverageVelocityField, ConstantLevel, DeafVelocityField, EvaluatedModel
+from haptoflow_paper.runs.networks import AverageVelocityField, EvaluatedModel
 from haptoflow_training.errors import InputError
 from haptoflow_training.models.haptoflow_model import HaptoFlowModel
 from haptoflow_training.models.level_model import LevelModel
@@ -54,11 +54,10 @@ class EvaluatedTrainer(Trainer):
             return Trainer.build_model(config, wave_vectors, specimens)
         representation = build_representation(shape.representation)
         # In the product's order, so that the same seed gives the same weights.
-        level = LevelModel() if shape.level == "law" else ConstantLevel()
+        level = LevelModel()
         if shape.architecture == "unet":
             channels, positions = representation.shape
-            averages, hears = config.recipe.objective == "average-velocity", shape.hears_previous
-            field_class = AverageVelocityField if averages else VelocityField if hears else DeafVelocityField
+            field_class = AverageVelocityField if config.recipe.objective == "average-velocity" else VelocityField
             field: Any = field_class(
                 channels=channels, positions=positions, patch=shape.patch, width=shape.width,
                 previous_width=shape.previous_width, ribs=shape.ribs, impulses=shape.impulses, levels=shape.levels,

@@ -20,8 +20,6 @@ _EVALUATION_KEYS: dict[str, Any] = {
     "optimiser.budget_seconds": 0.0,
     "model.architecture": "unet",
     "model.sampled": False,
-    "model.hears_previous": True,
-    "model.level": "law",
     "model.patch": 8,
     "model.representation": {"kind": "raw"},
     "recipe.objective": "flow",
