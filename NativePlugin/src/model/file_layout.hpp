@@ -8,7 +8,7 @@
 namespace haptoflow::model {
 
 inline constexpr std::string_view fileMagic = "HAPTFLOW";
-inline constexpr std::uint32_t formatVersion = 1;
+inline constexpr std::uint32_t formatVersion = 2;
 inline constexpr std::size_t prefixBytes = 32;
 inline constexpr std::size_t blobAlignment = 64;
 inline constexpr std::uint64_t maximumHeaderBytes = 4'194'304;

@@ -44,7 +44,7 @@ def write_model(path: Path, header: dict, blobs: dict[str, bytes | np.ndarray]) 
         header_end = needed
 
     text = text.ljust(header_end - PREFIX_BYTES, b" ")
-    prefix = b"HAPTFLOW" + struct.pack("<IIQI", 1, len(text), end, zlib.crc32(text))
+    prefix = b"HAPTFLOW" + struct.pack("<IIQI", 2, len(text), end, zlib.crc32(text))
     file = bytearray(prefix + struct.pack("<I", zlib.crc32(prefix)) + text)
     for entry, content in zip(entries, blobs.values()):
         file += bytes(entry["offset"] - len(file))

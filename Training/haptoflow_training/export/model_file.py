@@ -16,7 +16,7 @@ from haptoflow_training.errors import InputError
 from haptoflow_training.whole_file import write_whole
 
 MAGIC = b"HAPTFLOW"
-VERSION = 1
+VERSION = 2
 ALIGNMENT = 64
 _PREAMBLE = struct.Struct("<8sIIQI")
 _PREAMBLE_BYTES = _PREAMBLE.size + 4
