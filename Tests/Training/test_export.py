@@ -10,7 +10,7 @@ import onnx
 import pytest
 from paper_samples import evaluated
 from test_trainer import ALONE, _config
-from training_fixtures import FakeStore, make_store
+from training_fixtures import FakeRecording, FakeStore, make_store, travelled_mm
 
 from haptoflow_paper.codec.small_codec import SmallCodec, SmallCodecShape
 from haptoflow_paper.report.annotation import annotate_model
@@ -135,6 +135,20 @@ def test_exponents_are_those_of_the_recordings() -> None:
     noise = fit_exponents(store, 1, periodic=False, seed=1, held_out=HeldOut())
     assert noise.level_speed == pytest.approx(0.5, abs=0.08)
     assert noise.frequency == pytest.approx(0.0, abs=0.05)
+
+
+def test_a_surface_that_levels_off_at_high_speeds_is_extrapolated_with_the_slope_of_its_fastest_octave() -> None:
+    generator = np.random.default_rng(3)
+    speeds = np.geomspace(0.02, 1.6, 64)
+    samples = 2400
+    motion = np.zeros((len(speeds) * samples, 3), dtype=np.float32)
+    motion[:, 0], motion[:, 2] = np.repeat(speeds, samples), np.tile(np.repeat([0.5, 2.0], samples // 2), len(speeds))
+    level = np.minimum(motion[:, 0], 0.6) * motion[:, 2] ** 0.4
+    wave = (level * generator.standard_normal(len(motion))).astype(np.float32)
+    recordings = [FakeRecording(0, "hand", "train", start, samples) for start in range(0, len(motion), samples)]
+    store = FakeStore(wave, motion, travelled_mm(motion), 1.0, ["coarse"], recordings)
+    fitted = fit_exponents(store, 0, periodic=False, seed=1, held_out=HeldOut())
+    assert fitted.level_speed == pytest.approx(0.0, abs=0.05) and fitted.level_force == pytest.approx(0.4, abs=0.05)
 
 
 def test_golden_vectors_name_the_file_they_belong_to(exported: tuple[Path, ModelFile, FakeStore]) -> None:

@@ -1,5 +1,6 @@
 #include "engine/blend_balance.hpp"
 
+#include "engine/surface_phases.hpp"
 #include "inference/gaussian_noise.hpp"
 #include "skeleton/rib_rates.hpp"
 
@@ -82,6 +83,7 @@ void BlendBalance::request(std::vector<inference::SegmentRequest>& requests) {
         inference::SegmentRequest request{
             .embedding = shadow.part.embedding, .motion = motion_, .previous = shadow.previous, .noise = shadow.noise};
         request.phases = skeleton::phasesOf(request.embedding, motion_, toNetwork(shadow.phase));
+        setSlips(request.phases, shadow.slipPhase, slipsPerSample(shadow.part.slip, motion_, 0.0));
         request.levelMps2 = 1.0F;
         requests.push_back(request);
         ++requested_;
@@ -101,6 +103,9 @@ void BlendBalance::take(std::span<const float> segments) noexcept {
             const double phase = shadow.phase[rib] + turns[rib] * static_cast<double>(stepSamples);
             shadow.phase[rib] = phase - std::floor(phase);
         }
+        const double slipped =
+            shadow.slipPhase + slipsPerSample(shadow.part.slip, motion_, 0.0) * static_cast<double>(stepSamples);
+        shadow.slipPhase = slipped - std::floor(slipped);
     }
     requested_ = 0;
 }

@@ -3,6 +3,7 @@
 #include "engine/contact_state.hpp"
 #include "engine/rib_phase.hpp"
 #include "inference/segment_generator.hpp"
+#include "model/model_header.hpp"
 
 #include <array>
 #include <cstddef>
@@ -19,6 +20,8 @@ struct BlendParts {
         /// The shares of all parts add up to 1.
         float share = 0.0F;
         std::array<float, inference::embeddingSize> embedding{};
+        /// Without length for a material that does not slip.
+        model::StickSlip slip{};
     };
     std::array<Part, capacity> parts{};
     std::size_t count = 0;
@@ -65,6 +68,7 @@ private:
     struct Shadow {
         BlendParts::Part part;
         RibTurns phase{};
+        double slipPhase = 0.0;
         std::array<float, inference::segmentSamples> previous{};
         std::array<float, inference::segmentSamples> noise{};
         RunningPower power;

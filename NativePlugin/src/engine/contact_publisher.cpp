@@ -153,6 +153,7 @@ void ContactPublisher::postToWorker(const Ingredients& ingredients, const Materi
             BlendParts::Part& part = message.blend.parts[message.blend.count];
             part.share = static_cast<float>(each.weight / total);
             part.embedding = embeddingOf(*each.material, objectOf(contact_.state));
+            part.slip = each.material->label->stickSlip.value_or(model::StickSlip{});
             ++message.blend.count;
         }
     }

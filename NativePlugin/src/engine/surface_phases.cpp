@@ -29,6 +29,11 @@ float wrapped(double turns) noexcept {
     return phase < 1.0F ? phase : 0.0F;
 }
 
+void setFamily(skeleton::Phases& phases, std::size_t family, double turns, double turnsPerSample) noexcept {
+    phases[family] = wrapped(turns);
+    phases[skeleton::familyCount + family] = static_cast<float>(turnsPerSample * inference::waveformRateHz);
+}
+
 }  // namespace
 
 double slipsPerSample(const model::StickSlip& slip, const std::array<float, 3>& motion, double wander) noexcept {
@@ -39,6 +44,10 @@ double slipsPerSample(const model::StickSlip& slip, const std::array<float, 3>& 
     const double wayMetres = slip.lengthMetres * pressed * std::exp(slip.wander * wander);
     const double speedMps = std::hypot(static_cast<double>(motion[0]), static_cast<double>(motion[1]));
     return speedMps / (wayMetres * inference::waveformRateHz);
+}
+
+void setSlips(skeleton::Phases& phases, double turns, double turnsPerSample) noexcept {
+    setFamily(phases, slipFamily, turns, turnsPerSample);
 }
 
 void SurfacePhases::begin(std::int64_t start, const SeedRibs& seed) noexcept {
@@ -58,20 +67,16 @@ skeleton::Phases SurfacePhases::at(std::int64_t start, std::span<const float, in
              .turnsPerSample = slipsPerSample(statistics.slip, motion, slipWander(statistics.slip, stretch))};
 
     skeleton::Phases phases{};
-    const auto set = [&phases](std::size_t family, double turns, double turnsPerSample) {
-        phases[family] = wrapped(turns);
-        phases[skeleton::familyCount + family] = static_cast<float>(turnsPerSample * inference::waveformRateHz);
-    };
     for (std::size_t family = 0; family < inference::ribCount; ++family) {
         const model::RibWander& wander = statistics.ribs[family];
         WanderPoint point;
         if (wander.turns > 0.0 && wander.wavelengthMetres > 0.0) {
             point = wanderOf(family, wander.wavelengthMetres, stretch);
         }
-        set(family, phase_[family] + wander.turns * point.value,
-            turnsPerSample_[family] + wander.turns * point.changePerSample);
+        setFamily(phases, family, phase_[family] + wander.turns * point.value,
+                  turnsPerSample_[family] + wander.turns * point.changePerSample);
     }
-    set(slipFamily, slip_.phase, slip_.turnsPerSample);
+    setSlips(phases, slip_.phase, slip_.turnsPerSample);
     return phases;
 }
 

@@ -17,6 +17,9 @@ namespace haptoflow::engine {
 [[nodiscard]] double slipsPerSample(const model::StickSlip& slip, const std::array<float, 3>& motion,
                                     double wander) noexcept;
 
+/// Sets the phase and the rate of stick-slip, which phases in turns and slips in a sample give.
+void setSlips(skeleton::Phases& phases, double turns, double turnsPerSample) noexcept;
+
 /// Phases of the surface's waves along a stream in waveform time: ribs by the way along their wave vectors and by their
 /// wander from it, stick-slip by the number of slips so far. A small value, which threads hand to each other; allocates
 /// nothing.

@@ -272,8 +272,8 @@ namespace HaptoFlow.PreviewTests
         {
             Window.Finish();
             Enter("Quality", 0);
-            Assert.That(State.Tier, Is.EqualTo("draft"));
-            Assert.That(Screen().Single(item => item.Label == "Quality").Value, Is.EqualTo("draft"));
+            Assert.That(State.Tier, Is.EqualTo("sketch"));
+            Assert.That(Screen().Single(item => item.Label == "Quality").Value, Is.EqualTo("sketch"));
         }
 
         [Test]

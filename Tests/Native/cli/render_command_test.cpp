@@ -239,7 +239,7 @@ TEST_F(RenderCommandTest, AMisspeltCommandOptionOrQualityIsRefusedWithASuggestio
                                      Not(HasSubstr("did you mean"))));
     expectUsage("-o felt.wav --sede 4", "There is no option '--sede'; did you mean '--seed'?");
     expectUsage("-o felt.wav --qualty=fine", "did you mean '--quality'?");
-    expectUsage("-o felt.wav --quality Standart", "did you mean 'standard'? This model has draft, standard");
+    expectUsage("-o felt.wav --quality Standart", "did you mean 'standard'? This model has sketch, draft, standard");
 }
 
 TEST_F(RenderCommandTest, AnUnknownLabelIsRefusedWithTheNearestThreeAndTheListOfAll) {

@@ -1,10 +1,9 @@
 // A label with its own level and tone is added to the shipped model.
 #include "engine/offline_renderer.hpp"
-#include "inference/onnx_runtime.hpp"
-#include "inference/onnx_segment_generator.hpp"
 #include "model/material_builder.hpp"
 #include "model/model_builder.hpp"
 #include "model/model_file.hpp"
+#include "support/model_generator.hpp"
 #include "support/wave_measures.hpp"
 
 #include <gtest/gtest.h>
@@ -49,8 +48,7 @@ model::ModelFile withDenim(const model::ModelFile& shipped) {
 class AddedLabelTest : public ::testing::Test {
 protected:
     static std::vector<float> rendered(const model::ModelFile& model, std::uint32_t first, std::uint32_t second) {
-        inference::OnnxSegmentGenerator generator(inference::Runtime::open(HAPTOFLOW_TEST_ONNXRUNTIME), model, "draft",
-                                                  {inference::SolverKind::euler, 1}, 4);
+        const auto generator = haptoflow::testing::generatorOf(model, 4, "draft");
         std::vector<TimedContactState> states;
         for (int update = 0; update < 72; ++update) {
             TimedContactState state;
@@ -62,7 +60,7 @@ protected:
             state.material.add(update < 36 ? first : second, 1.0F);
             states.push_back(state);
         }
-        return renderOffline(model, generator, states, {}).samples;
+        return renderOffline(model, *generator, states, {}).samples;
     }
 
     model::ModelFile shipped_ = model::ModelFile::read(HAPTOFLOW_TEST_DEFAULT_MODEL);

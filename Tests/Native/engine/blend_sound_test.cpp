@@ -1,8 +1,7 @@
 // Blends of the shipped model, rendered in closed loop.
 #include "engine/offline_renderer.hpp"
-#include "inference/onnx_runtime.hpp"
-#include "inference/onnx_segment_generator.hpp"
 #include "model/model_file.hpp"
+#include "support/model_generator.hpp"
 #include "support/wave_measures.hpp"
 
 #include <gtest/gtest.h>
@@ -11,6 +10,7 @@
 #include <cmath>
 #include <complex>
 #include <initializer_list>
+#include <memory>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -37,7 +37,7 @@ protected:
     }
     std::vector<float> render(const std::vector<TimedContactState>& states) {
         std::vector<float> wave =
-            renderOffline(model_, generator_, states, {.fullScaleMps2 = 1e5F, .tailSeconds = 0.0}).waveformMps2;
+            renderOffline(model_, *generator_, states, {.fullScaleMps2 = 1e5F, .tailSeconds = 0.0}).waveformMps2;
         wave.erase(wave.begin(), wave.begin() + 400);
         return wave;
     }
@@ -72,8 +72,7 @@ protected:
     }
 
     model::ModelFile model_ = model::ModelFile::read(HAPTOFLOW_TEST_DEFAULT_MODEL);
-    inference::OnnxSegmentGenerator generator_{
-        inference::Runtime::open(HAPTOFLOW_TEST_ONNXRUNTIME), model_, "draft", {inference::SolverKind::euler, 1}, 4};
+    std::unique_ptr<inference::TierGenerator> generator_ = haptoflow::testing::generatorOf(model_, 4, "draft");
 };
 
 TEST_F(BlendSoundTest, EveryBlendLiesWithinHalfADecibelOfItsLabels) {

@@ -2,14 +2,14 @@
 // range.
 #include "engine/material.hpp"
 #include "engine/range_law.hpp"
-#include "inference/onnx_runtime.hpp"
-#include "inference/onnx_segment_generator.hpp"
 #include "model/model_file.hpp"
+#include "support/model_generator.hpp"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -34,7 +34,7 @@ protected:
             result.push_back(20.0 * std::log10(ranged.levelGain));
         }
         std::vector<float> found(requests.size());
-        generator_.levels(requests, found);
+        generator_->levels(requests, found);
         for (std::size_t i = 0; i < found.size(); ++i) {
             result[i] += 20.0 * std::log10(static_cast<double>(found[i]));
         }
@@ -65,12 +65,8 @@ protected:
     static constexpr double largestAllowedKink = 2.5;
 
     model::ModelFile model_ = model::ModelFile::read(HAPTOFLOW_TEST_DEFAULT_MODEL);
-    inference::OnnxSegmentGenerator generator_{inference::Runtime::open(HAPTOFLOW_TEST_ONNXRUNTIME),
-                                               model_,
-                                               model_.header().tiers[model_.header().defaultTier].name,
-                                               {inference::SolverKind::euler, 1},
-                                               256};
-    MaterialLibrary library_{model_, generator_};
+    std::unique_ptr<inference::TierGenerator> generator_ = haptoflow::testing::generatorOf(model_, 256);
+    MaterialLibrary library_{model_, *generator_};
 };
 
 TEST_F(RangeSweepTest, FromStandstillToTwoMetresASecondTheLevelHasNeitherAStepNorAKink) {

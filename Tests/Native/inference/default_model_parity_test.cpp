@@ -1,4 +1,4 @@
-#include "inference/onnx_segment_generator.hpp"
+#include "support/model_generator.hpp"
 #include "tiny_model.hpp"
 
 #include <gtest/gtest.h>
@@ -30,14 +30,12 @@ protected:
     void forEveryCase(Compare compare) {
         for (const auto& row : haptoflow::testing::goldenRows(golden_, "cases")) {
             const auto tier = row.at("tier").get<std::string>();
-            const SolverSettings solver{solverNamed(row.at("solver")), row.at("steps").get<int>()};
-            SCOPED_TRACE(tier + ' ' + row.at("solver").get<std::string>() + ' ' + std::to_string(solver.steps));
+            SCOPED_TRACE(tier);
             RequestBatch batch;
             batch.add(row.at("embedding"), row.at("motion"), row.at("previous"), row.at("noise"),
-                      row.value("rib_phase", std::array<float, ribCount>{}));
-            const auto requests = batch.requests();
-            OnnxSegmentGenerator generator(testRuntime(), *model_, tier, solver, 1);
-            compare(row, requests, generator);
+                      row.at("phases").get<skeleton::Phases>());
+            const auto generator = haptoflow::testing::generatorOf(*model_, 1, tier);
+            compare(row, batch.requests(), *generator);
         }
     }
 
@@ -56,24 +54,15 @@ protected:
 };
 
 TEST_F(DefaultModelParityTest, LevelsAgreeWithPython) {
-    forEveryCase([](const auto& row, const auto& requests, OnnxSegmentGenerator& generator) {
+    forEveryCase([](const auto& row, const auto& requests, TierGenerator& generator) {
         std::vector<float> level(1);
         generator.levels(requests, level);
         EXPECT_NEAR(std::log(static_cast<double>(level[0])), row.at("log_level").template get<double>(), tolerance);
     });
 }
 
-TEST_F(DefaultModelParityTest, TheFieldAtTheNoiseAgreesWithPython) {
-    forEveryCase([](const auto& row, const auto& requests, OnnxSegmentGenerator& generator) {
-        std::vector<float> velocity(segmentSamples);
-        const float interval = 1.0F / row.at("steps").template get<float>();
-        generator.evaluateField(requests, 0.0F, interval, velocity);
-        EXPECT_LE(largestDifference(velocity, row.at("field_at_start"), 1.0), tolerance);
-    });
-}
-
 TEST_F(DefaultModelParityTest, SegmentsAgreeWithPython) {
-    forEveryCase([](const auto& row, const auto& requests, OnnxSegmentGenerator& generator) {
+    forEveryCase([](const auto& row, const auto& requests, TierGenerator& generator) {
         std::vector<float> segment(segmentSamples);
         generator.generate(requests, segment);
         const double level = std::exp(row.at("log_level").template get<double>());

@@ -41,12 +41,12 @@ inline SolverKind solverNamed(const std::string& name) {
 class RequestBatch {
 public:
     void add(const std::vector<float>& embedding, const std::vector<float>& motion, const std::vector<float>& previous,
-             const std::vector<float>& noise, const std::array<float, ribCount>& ribPhase = {}) {
+             const std::vector<float>& noise, const skeleton::Phases& phases = {}) {
         if (embedding.size() != embeddingSize || motion.size() != 3 || previous.size() != segmentSamples ||
             noise.size() != segmentSamples) {
             throw std::runtime_error("a golden request has the wrong sizes");
         }
-        rows_.push_back(std::make_unique<Row>(Row{embedding, motion, previous, noise, ribPhase}));
+        rows_.push_back(std::make_unique<Row>(Row{embedding, motion, previous, noise, phases}));
     }
 
     [[nodiscard]] std::vector<SegmentRequest> requests() const {
@@ -58,7 +58,7 @@ public:
                                    std::span<const float>(row->noise).first<segmentSamples>()};
             std::ranges::copy(row->embedding, request.embedding.begin());
             std::ranges::copy(row->motion, request.motion.begin());
-            std::ranges::copy(row->ribPhase, request.phases.begin());
+            request.phases = row->phases;
             result.push_back(request);
         }
         return result;
@@ -70,7 +70,7 @@ private:
         std::vector<float> motion;
         std::vector<float> previous;
         std::vector<float> noise;
-        std::array<float, ribCount> ribPhase;
+        skeleton::Phases phases;
     };
 
     std::vector<std::unique_ptr<Row>> rows_;

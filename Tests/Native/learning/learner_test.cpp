@@ -1,13 +1,11 @@
 #include "learning/learner.hpp"
 
 #include "inference/inference_error.hpp"
-#include "inference/onnx_runtime.hpp"
-#include "inference/onnx_segment_generator.hpp"
-#include "inference/tier_graphs.hpp"
 #include "learning/made_recording.hpp"
 #include "learning/tone_fit.hpp"
 #include "model/material_file.hpp"
 #include "model/model_file.hpp"
+#include "support/model_generator.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,6 +15,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 namespace haptoflow::learning {
 namespace {
@@ -29,16 +28,13 @@ using ::testing::ThrowsMessage;
 class LearnerTest : public ::testing::Test {
 protected:
     [[nodiscard]] LearntMaterial learn(const recordings::Recording& recording, const LearningSettings& settings) {
-        return learnMaterial(recording, model_, generator_, settings);
+        return learnMaterial(recording, model_, *generator_, settings);
     }
 
     static LearningSettings brief() { return testing::briefSettings(5000); }
 
     model::ModelFile model_ = model::ModelFile::read(HAPTOFLOW_TEST_DEFAULT_MODEL);
-    inference::OnnxSegmentGenerator generator_{
-        inference::Runtime::open(HAPTOFLOW_TEST_ONNXRUNTIME), model_,
-        model_.header().tiers[model_.header().defaultTier].name,
-        inference::defaultSolver(model_.header().tiers[model_.header().defaultTier]), 64};
+    std::unique_ptr<inference::TierGenerator> generator_ = haptoflow::testing::generatorOf(model_, 64);
 };
 
 TEST_F(LearnerTest, TheMaterialIsAMaterialFileOfTheModelsSpace) {
@@ -185,13 +181,11 @@ TEST_F(LearnerTest, InvalidNamesAreRefusedBeforeLearning) {
 
 TEST_F(LearnerTest, AModelWithThreeLabelsIsEnough) {
     const model::ModelFile tiny = model::ModelFile::read(HAPTOFLOW_TEST_GOLDEN_DIR "/model/tiny.haptoflow");
-    const model::Tier& tier = tiny.header().tiers[tiny.header().defaultTier];
-    inference::OnnxSegmentGenerator generator(inference::Runtime::open(HAPTOFLOW_TEST_ONNXRUNTIME), tiny, tier.name,
-                                              inference::defaultSolver(tier), 64);
+    const auto generator = haptoflow::testing::generatorOf(tiny, 64);
     const MadeRecording made({}, {});
     LearningSettings settings = brief();
     settings.segmentBudget = 2000;
-    const LearntMaterial learnt = learnMaterial(made.view(), tiny, generator, settings);
+    const LearntMaterial learnt = learnMaterial(made.view(), tiny, *generator, settings);
     EXPECT_NO_THROW(model::requireSpace(model::parseMaterial(learnt.materialJson), tiny.header()));
 }
 

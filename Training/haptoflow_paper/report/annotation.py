@@ -17,8 +17,9 @@ _ACCURACY = ("level_error_db", "level_error_p90_db", "gfc_recording", "lsd_db", 
 def annotate_model(path: Path, machine: str, rows: Mapping[str, Mapping[str, Any]], parity: Path | None = None) -> int:
     """Write `accuracy` and `cost` of the tiers named in `rows` (rows of accuracy-time.json by tier) into the file.
 
-    Returns the file's new CRC-32, which is also written to the golden vectors `parity`, because they name their model
-    file.
+    A tier keeps the cost of its first timing while its accuracy is the same, so that a later evaluation of more rivals
+    leaves the file as it is, and every page that names it. Returns the file's CRC-32, which is also written to the golden
+    vectors `parity`, because they name their model file.
     """
     file = read_model_file(path)
     header = json.loads(json.dumps(file.header))
@@ -26,7 +27,10 @@ def annotate_model(path: Path, machine: str, rows: Mapping[str, Mapping[str, Any
         row = rows.get(tier["name"])
         if row is None:
             continue
-        tier["accuracy"] = {key: row[key] for key in _ACCURACY if row.get(key) is not None}
+        accuracy = {key: row[key] for key in _ACCURACY if row.get(key) is not None}
+        if tier.get("accuracy") == accuracy and "ms_p50" in tier.get("cost", {}):
+            continue
+        tier["accuracy"] = accuracy
         hot, live = row.get("ms_per_segment"), row.get("ms_paced")
         tier["cost"] = {"machine": machine}
         if hot is not None and live is not None:

@@ -12,6 +12,7 @@ from haptoflow_training.training.held_out import HeldOut
 from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 _SLIDING_MPS = 0.008
+_ENOUGH_WINDOWS = 60
 
 
 @dataclass(frozen=True)
@@ -35,13 +36,17 @@ def _centroid_hz(waves: np.ndarray, rate_hz: float) -> np.ndarray:
 def fit_exponents(
     store: SegmentStore, label_index: int, *, periodic: bool, seed: int, held_out: HeldOut
 ) -> LabelExponents:
-    """Least squares of log RMS over log speed and log force in the upper half of the recorded speeds, because the
-    law is extrapolated from there. The frequency exponent of a periodic label is 1 (frequency = v / wavelength); for
+    """Least squares of log RMS over log speed and log force in the fastest octave of the recordings, or in the upper half
+    of their windows where that is faster or holds too few: the law is extrapolated from there, and coarse surfaces, whose
+    vibration leaves the band, level off at high speeds. The frequency exponent of a periodic label is 1 (frequency = v / wavelength); for
     other labels it is the slope of the log spectral centroid."""
     windows = draw_windows(store, label_index, samples=400, count=3000, seed=seed, held_out=held_out)
     sliding = (windows.speed_mps > _SLIDING_MPS) & (windows.unsteadiness < 0.35) & (windows.motion[:, 2] > 0.05)
     if sliding.sum() >= 40:
-        sliding &= windows.speed_mps >= np.median(windows.speed_mps[sliding])
+        octave, half = (0.5 * np.max(windows.speed_mps[sliding]), np.median(windows.speed_mps[sliding]))
+        fastest = windows.speed_mps >= max(octave, half)
+        is_enough = (sliding & fastest).sum() >= _ENOUGH_WINDOWS
+        sliding &= fastest if is_enough else windows.speed_mps >= half
     if sliding.sum() < 20:
         return LabelExponents(0.0, 0.0, 1.0 if periodic else 0.0)
     speed = np.log(windows.speed_mps[sliding])

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import copy
+import dataclasses
 from pathlib import Path
 from typing import Any
 
 import torch
+from torch import Tensor
 
 from haptoflow_training.export.trained_tier import TrainedTier
-from haptoflow_training.models.label_embedding import WAVE_VECTORS, surface_phases
+from haptoflow_training.models.label_embedding import surface_phases
 from haptoflow_training.models.level_model import scaled_previous
 from haptoflow_training.training.batches import SegmentBatch
 from haptoflow_training.training.run_log import write_json
@@ -22,13 +25,24 @@ _SOLVERS = {
 }
 
 
+def _in_double(batch: SegmentBatch) -> SegmentBatch:
+    parts = {field.name: getattr(batch, field.name) for field in dataclasses.fields(batch)}
+    return dataclasses.replace(
+        batch, **{name: part.double() for name, part in parts.items() if isinstance(part, Tensor) and part.is_floating_point()}
+    )
+
+
 @torch.no_grad()
 def write_parity(
     path: Path, tiers: list[TrainedTier], batch: SegmentBatch, *, model_crc32: int, seed: int
 ) -> None:
     """Write one case for each row of `batch`, cycling through tiers and solvers; the previous waveforms are recorded
-    ones."""
+    ones. Computed in double precision: an all-pole filter at single precision is no reference."""
     generator = torch.Generator().manual_seed(seed)
+    tiers = [copy.deepcopy(tier) for tier in tiers]
+    for tier in tiers:
+        tier.model.double()
+    batch = _in_double(batch)
     cases: list[dict[str, Any]] = []
     for row in range(batch.label.shape[0]):
         tier = tiers[row % len(tiers)]
@@ -39,8 +53,7 @@ def write_parity(
         phases = surface_phases(embedding, motion, *where)
         log_level = tier.model.level(embedding, motion)
         condition = scaled_previous(previous, log_level), embedding, motion, phases
-        noise = torch.randn(1, 1, 200, generator=generator)
-        start, interval = torch.zeros(1, 1), torch.full((1, 1), 1.0 / steps)
+        noise = torch.randn(1, 1, 200, generator=generator).double()
         segment = tier.generate(noise, condition, kind, steps) * torch.exp(log_level).unsqueeze(-1)
         cases.append(
             {
@@ -50,11 +63,9 @@ def write_parity(
                 "embedding": embedding.flatten().tolist(),
                 "motion": motion.flatten().tolist(),
                 "phases": phases.flatten().tolist(),
-                "rib_phase": phases[0, :WAVE_VECTORS].tolist(),
                 "previous": previous.flatten().tolist(),
                 "noise": noise.flatten().tolist(),
                 "log_level": log_level.item(),
-                "field_at_start": tier.evaluate(noise, start, interval, condition).flatten().tolist(),
                 "segment": segment.flatten().tolist(),
             }
         )
