@@ -35,8 +35,7 @@ def test_the_engine_s_segments_equal_those_of_pytorch(engine: EngineLibrary) -> 
             embedding, motion, previous, noise = (
                 np.array([case[key], case[key]], dtype=np.float32) for key in ("embedding", "motion", "previous", "noise")
             )
-            phases = np.zeros((2, 6), dtype=np.float32)
-            phases[:, :2] = case["rib_phase"]
+            phases = np.array([case["phases"], case["phases"]], dtype=np.float32)
             made = generator.generate(embedding, motion, previous, noise, phases)
         tolerance = 1e-4 * float(np.exp(float(str(case["log_level"]))))
         np.testing.assert_allclose(made[0], np.array(case["segment"]), atol=tolerance)

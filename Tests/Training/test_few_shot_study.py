@@ -151,7 +151,7 @@ def test_a_whole_study_of_one_material_measures_every_row(tmp_path: Path) -> Non
     plan = StudyPlan(DEFAULT, ENGINE, tmp_path, 3, seconds=(3.0, 10.0), seconds_limit=1.0)
     made = cells_of(plan, read_model_file(DEFAULT), study_materials(1, 3)[0], lambda: None)
     wanted = {f"{row} {seconds:g}" for row in ROWS for seconds in (3.0, 10.0)}
-    assert set(made["rows"]) == wanted | {"draft 10", OTHER_DRAW}
+    assert set(made["rows"]) == wanted | {"sketch 10", "draft 10", OTHER_DRAW}
     assert all(len(cells) == 6 for cells in made["rows"].values())
     assert all(np.isfinite(value) for cells in made["rows"].values() for each in cells for value in each.values())
     assert (tmp_path / "unseen-01-10.haptomaterial").exists()

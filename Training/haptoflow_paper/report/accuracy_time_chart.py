@@ -205,7 +205,7 @@ _NAME_PLACES = {
     ("told_apart_percent", "dstn"): (14.0, -16.0, "left"),
     ("told_apart_percent", "ar"): (-8.0, 0.0, "right"),
     ("lsd_db", "draft"): (2.0, -14.0, "right"),
-    ("lsd_db", "standard"): (12.0, 5.0, "left"),
+    ("lsd_db", "standard"): (12.0, 12.0, "left"),
     ("lsd_db", "plain-euler-1"): (-8.0, -3.0, "right"),
     ("lsd_db", "ar"): (-8.0, 4.0, "right"),
     ("lsd_db", "ar-ribs"): (-10.0, 30.0, "left"),
