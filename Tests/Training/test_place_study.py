@@ -114,8 +114,8 @@ def test_the_page_says_met_and_missed() -> None:
          "hand_overs": {"wood": [{"swing": 2.0, "chance": 0.6, "burst": 0.4, "burst_chance": 0.2}]},
          "held": [{"diameter_mm": 0.7, "peak_mps2": 0.0}, {"diameter_mm": 1.4, "peak_mps2": 0.2}]}
     )  # fmt: skip
-    assert "| same direction and speed | 0.62 (0.62 to 0.62) | 0.65: missed |" in words
-    assert "| backwards | 0.62 (0.62 to 0.62) | 0.6: met |" in words
+    assert "| same direction and speed | 0.62 (0.62 to 0.62) | 0.97: missed |" in words
+    assert "| backwards | 0.62 (0.62 to 0.62) | 0.68: missed |" in words
     assert "| 1 mm beside | 0.10 (0.10 to 0.10) | chance: met |" in words
     assert "next pass has 4 within a millimetre" in words
     assert "1 are exactly silent" in words and "heard are 1.40 mm (goal missed)" in words

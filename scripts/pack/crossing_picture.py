@@ -1,13 +1,11 @@
-"""Draws Documentation~/images/crossing-lag.png: the crossing of the demo, the pen's speed and the vibration's level, by
-this engine and by an older one.
+"""Draws Documentation~/images/crossing-lag.png: the crossing of the demo, the pen's speed and the vibration's level.
 
 Run from the repository's root, after `npm run build`:
 
-    /usr/bin/python3 scripts/pack/crossing_picture.py --baseline older/build/native/haptoflow
+    /usr/bin/python3 scripts/pack/crossing_picture.py
 
 The level is that of windows of 10 ms over 16 renders with other seeds. The lag is the shift at which log level and log
-speed correlate best, over all of the stroke that touches. The older engine may have to be told where ONNX Runtime lies
-(HAPTOFLOW_ONNXRUNTIME).
+speed correlate best, over all of the stroke that touches.
 """
 
 from __future__ import annotations
@@ -18,7 +16,6 @@ from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
-import renders
 from renders import MODEL, ROOT, SAMPLES, contacts_of, read_wave, render_file, save
 from scipy.ndimage import uniform_filter1d
 
@@ -32,9 +29,8 @@ FLOOR_MPS = 0.01
 FULL_SCALE_MPS2 = 200.0
 
 
-def levels_db(engine: Path) -> np.ndarray:
+def levels_db() -> np.ndarray:
     """Level [n] in dB re 1 m/s^2 at RATE_HZ."""
-    renders.ENGINE = engine
     power = []
     with tempfile.TemporaryDirectory() as folder:
         for seed in SEEDS:
@@ -67,31 +63,27 @@ def lag_ms(times: np.ndarray, speed: np.ndarray, level_db: np.ndarray, touching:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--baseline", type=Path, required=True, help="command line of an older engine")
-    baseline = parser.parse_args().baseline
+    argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter).parse_args()
     times, speed = true_speed()
-    engine = renders.ENGINE
     contacts = contacts_of(SCENE, STROKE)
     touches = [float(row["touching"]) for row in contacts]
     # Landings and lift-offs have levels of their own.
     touching = uniform_filter1d(np.interp(times, [float(row["t"]) for row in contacts], touches), 201) > 0.99
-    figure, axes = plt.subplots(2, 1, figsize=(9.0, 5.2), sharex=True, layout="constrained")
-    for axis, (name, program) in zip(axes, (("before", baseline), ("now", engine)), strict=True):
-        level = levels_db(program)
-        lag = lag_ms(times, speed, level, touching)
-        print(f"{name}: {lag:.1f} ms")
-        axis.plot(times, 1000.0 * speed, color="#8fa3b8", label="speed of the pen, mm/s")
-        axis.set_ylabel("mm/s")
-        other = axis.twinx()
-        other.plot(np.arange(len(level)) / RATE_HZ, level, color="#b4533c", label="level of the vibration, dB")
-        other.set_ylim(-30.0, 30.0)
-        other.set_ylabel("dB re 1 m/s²")
-        axis.set_title(f"{name}: the level follows the speed {lag:.0f} ms later", loc="left", fontsize=11)
-        lines = [*axis.lines, *other.lines]
-        axis.legend(lines, [str(line.get_label()) for line in lines], loc="upper right", fontsize=9)
-    axes[1].set_xlim(*SHOWN_SECONDS)
-    axes[1].set_xlabel("s")
+    figure, axis = plt.subplots(figsize=(9.0, 2.9), layout="constrained")
+    level = levels_db()
+    lag = lag_ms(times, speed, level, touching)
+    print(f"{lag:.1f} ms")
+    axis.plot(times, 1000.0 * speed, color="#8fa3b8", label="speed of the pen, mm/s")
+    axis.set_ylabel("mm/s")
+    other = axis.twinx()
+    other.plot(np.arange(len(level)) / RATE_HZ, level, color="#b4533c", label="level of the vibration, dB")
+    other.set_ylim(-30.0, 30.0)
+    other.set_ylabel("dB re 1 m/s²")
+    axis.set_title(f"the level follows the speed {lag:.0f} ms later", loc="left", fontsize=11)
+    lines = [*axis.lines, *other.lines]
+    axis.legend(lines, [str(line.get_label()) for line in lines], loc="upper right", fontsize=9)
+    axis.set_xlim(*SHOWN_SECONDS)
+    axis.set_xlabel("s")
     save(figure, PICTURE)
 
 
