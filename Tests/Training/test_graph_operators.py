@@ -44,7 +44,7 @@ def _check(graph: bytes) -> None:
 
 @pytest.mark.parametrize("kind", ["flow", "average-velocity", "direct"])
 def test_every_kind_of_field_uses_only_listed_operators(kind: str) -> None:
-    base = load_config(ROOT / "Training" / "haptoflow_paper" / "configs" / "standard.toml")
+    base = load_config(ROOT / "Training" / "haptoflow_paper" / "configs" / "field.toml")
     for levels in (1, 2):
         config = dataclasses.replace(base, model=dataclasses.replace(base.model, levels=levels))
         if kind == "average-velocity":

@@ -39,11 +39,11 @@ def test_the_report_gives_inference_at_the_pace_of_use_and_latencies_by_block(tm
 def test_the_published_tables_are_read_with_every_quality_and_block() -> None:
     bench = read_bench(PUBLISHED)
     text = PUBLISHED.read_text(encoding="utf-8")
-    assert {"draft", "standard", "the paper's architecture"} <= set(bench.inference_ms)
+    assert {"sketch", "draft", "standard", "the paper's architecture"} <= set(bench.inference_ms)
     assert {str(block) for block in bench.onset_ms} == {"128", "256", "512", "1024", "2 x 256", "2 x 1024"}
     assert set(bench.stop_ms) == set(bench.onset_ms) and bench.rate_hz == 48000.0
     assert f"`{bench.model_sha256}`" in text
-    line = next(line for line in text.splitlines() if line.strip().startswith("standard ") and "direct" in line)
+    line = next(line for line in text.splitlines() if line.strip().startswith("standard ") and "refine" in line)
     assert f"{bench.inference_ms['standard'].p99:g}" in line.split()[-3:]
 
 

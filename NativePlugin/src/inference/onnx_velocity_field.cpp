@@ -31,7 +31,6 @@ std::span<float> OnnxVelocityField::motions() {
 }
 
 void OnnxVelocityField::setPhases(std::size_t request, const skeleton::Phases& phases) {
-    std::copy_n(phases.begin(), ribCount, field_.input(field_input::ribPhase).subspan(request * ribCount).begin());
     std::ranges::copy(phases, field_.input(field_input::phases).subspan(request * phases.size()).begin());
 }
 

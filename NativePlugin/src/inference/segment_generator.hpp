@@ -38,8 +38,7 @@ struct SegmentRequest {
     /// Standard normal noise, the solver's starting point.
     std::span<const float, segmentSamples> noise;
     /// For the ribs along each wave vector of the embedding and for stick-slip, the turns at the segment's first sample
-    /// in [0, 1), then the signed rates in Hz. Graphs with the input `rib_phase` instead of `phases` read the first two
-    /// numbers.
+    /// in [0, 1), then the signed rates in Hz.
     skeleton::Phases phases{};
     /// RMS in m/s^2 to use instead of the model's level; if empty, the model's level is used.
     std::optional<float> levelMps2{};

@@ -12,7 +12,6 @@ namespace {
 const std::vector<std::int64_t> waveformShape{1, static_cast<std::int64_t>(segmentSamples)};
 const TensorSignature embedding{"embedding", {static_cast<std::int64_t>(embeddingSize)}};
 const TensorSignature motion{"motion", {3}};
-const TensorSignature ribPhase{"rib_phase", {static_cast<std::int64_t>(ribCount)}};
 const TensorSignature phases{"phases", {static_cast<std::int64_t>(skeleton::Phases{}.size())}};
 
 const std::vector<std::int64_t>& pointShape(const model::Tier& tier) {
@@ -39,7 +38,6 @@ OnnxGraph loadField(std::shared_ptr<const Runtime> runtime, const model::ModelFi
                               {"previous", pointShape(tier)},
                               embedding,
                               motion,
-                              ribPhase,
                               phases},
                              {direct ? "segment" : "velocity", pointShape(tier)}};
     if (tier.kind == model::TierKind::averageVelocity) {

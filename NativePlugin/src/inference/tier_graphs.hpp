@@ -16,10 +16,9 @@ inline constexpr std::size_t time = 1;
 inline constexpr std::size_t previous = 2;
 inline constexpr std::size_t embedding = 3;
 inline constexpr std::size_t motion = 4;
-inline constexpr std::size_t ribPhase = 5;
-inline constexpr std::size_t phases = 6;
+inline constexpr std::size_t phases = 5;
 /// Only in tiers of kind `average-velocity`.
-inline constexpr std::size_t interval = 7;
+inline constexpr std::size_t interval = 6;
 }  // namespace field_input
 namespace refinement_input {
 inline constexpr std::size_t entering = 0;

@@ -13,10 +13,10 @@ namespace haptoflow::inference::testing {
 inline constexpr float firstRibWeight = 0.5F;
 inline constexpr float secondRibWeight = -0.25F;
 
-/// A field graph with the single input `rib_phase`. Every element of its output point has the value first phase *
+/// A field graph with the single input `phases`. Every element of its output point has the value first phase *
 /// firstRibWeight + second phase * secondRibWeight.
 inline model::testing::Bytes ribField(std::string_view output, const model::testing::Dimensions& shape,
-                                      std::size_t phases = 2) {
+                                      std::size_t phases = 6) {
     using namespace model::testing;
     std::size_t size = 1;
     Dimensions reshaped{-1};
@@ -26,14 +26,14 @@ inline model::testing::Bytes ribField(std::string_view output, const model::test
     }
     std::vector<float> weights(phases * size);
     for (std::size_t i = 0; i < weights.size(); ++i) {
-        weights[i] = i < size ? firstRibWeight : secondRibWeight;
+        weights[i] = i < size ? firstRibWeight : i < 2 * size ? secondRibWeight : 0.0F;
     }
     OnnxWriter writer;
-    writer.input("rib_phase", {static_cast<std::int64_t>(phases)}).output(output, shape);
+    writer.input("phases", {static_cast<std::int64_t>(phases)}).output(output, shape);
     writer.constant(
         floatTensor("weights", {static_cast<std::int64_t>(phases), static_cast<std::int64_t>(size)}, weights));
     writer.constant(integerTensor("shape", reshaped));
-    writer.apply("MatMul", {"rib_phase", "weights"}, {"flat"});
+    writer.apply("MatMul", {"phases", "weights"}, {"flat"});
     return writer.apply("Reshape", {"flat", "shape"}, {std::string(output)}).model().written();
 }
 

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-// Tests of the optional input "rib_phase" of a field graph.
+// Tests of the optional input "phases" of a field graph.
 
 namespace haptoflow::inference::testing {
 namespace {
@@ -94,7 +94,7 @@ TEST(RibPhaseInputTest, TheErrorForAnotherShapeNamesTierGraphAndShape) {
         } catch (const model::ModelError& error) {
             EXPECT_EQ(error.status(), model::ModelStatus::inconsistent);
             EXPECT_EQ(std::string(error.what()), std::string("tier \"") + tier + "\", graph \"" + blob +
-                                                     "\": input \"rib_phase\" has the shape [?,3]; expected [B,2]");
+                                                     "\": input \"phases\" has the shape [?,3]; expected [B,6]");
         }
     }
 }
