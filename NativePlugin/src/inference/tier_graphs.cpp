@@ -33,13 +33,9 @@ std::size_t pointSize(const model::Tier& tier) {
 OnnxGraph loadField(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model, const model::Tier& tier,
                     std::size_t maximumBatch, const LoadLimits& limits) {
     const bool direct = tier.kind == model::TierKind::direct;
-    GraphSignature signature{{{"noisy", pointShape(tier)},
-                              {"time", {1}},
-                              {"previous", pointShape(tier)},
-                              embedding,
-                              motion,
-                              phases},
-                             {direct ? "segment" : "velocity", pointShape(tier)}};
+    GraphSignature signature{
+        {{"noisy", pointShape(tier)}, {"time", {1}}, {"previous", pointShape(tier)}, embedding, motion, phases},
+        {direct ? "segment" : "velocity", pointShape(tier)}};
     if (tier.kind == model::TierKind::averageVelocity) {
         signature.inputs.push_back({"interval", {1}});
     }
