@@ -44,6 +44,15 @@ def test_the_rib_frequency_is_the_speed_across_the_ribs_over_their_wavelength() 
     torch.testing.assert_close(rib_frequencies_hz(mesh, motion).squeeze(2), torch.tensor([expected]))
 
 
+def _phases(
+    embedding: torch.Tensor, motion: torch.Tensor, turns: tuple[float, float] = (0.0, 0.0)
+) -> torch.Tensor:
+    """[B, 6]: the phases of even ribs that are `turns` along their wave vectors."""
+    phases = surface_phases(embedding, motion, torch.zeros(len(embedding), 2), torch.zeros(len(embedding), 6))
+    phases[:, :2] = torch.tensor(turns)
+    return phases
+
+
 def _comb(
     past: torch.Tensor,
     label: int,
@@ -55,9 +64,9 @@ def _comb(
     count = len(past)
     motion = torch.tensor([[speed_mps, 0.0, 1.0]] * count)
     embedding = EMBEDDING(torch.tensor([label] * count))
-    phase = torch.tensor([turns] * count)
+    phases = _phases(embedding, motion, turns)
     spread = (torch.zeros(1, GAINS) if gains is None else gains)[:, spread_gains()]
-    return RibComb()(torch.flip(past, [2]), embedding, motion, phase, spread)
+    return RibComb()(torch.flip(past, [2]), phases, spread)
 
 
 @pytest.mark.parametrize("speed_mps", [0.1, 0.237, 0.9])
@@ -163,7 +172,8 @@ def test_a_rib_phase_counts_ribs_from_position_zero_after_metres_as_after_millim
 
 def test_the_comb_s_waves_are_cosines_and_sines_of_every_harmonic_counted_from_the_seam() -> None:
     motion = torch.tensor([[0.11, 0.0, 1.0]])
-    waves = RibComb().ribs(EMBEDDING(torch.tensor([0])), motion, torch.zeros(1, 2)).waves
+    embedding = EMBEDDING(torch.tensor([0]))
+    waves = RibComb().ribs(_phases(embedding, motion)).waves
     time = (torch.arange(200) + 0.5) / 2000.0
     for order in (1, 2, 7, 12):
         angle = 2.0 * math.pi * 44.0 * order * time
@@ -176,7 +186,7 @@ def test_an_untrained_network_adds_no_lines_and_unit_gains_continue_the_past() -
     motion = torch.tensor([[0.5, 0.0, 1.0]])
     past = _wave([200.0], -200, 0)
     embedding = EMBEDDING(torch.tensor([0]))
-    arguments = (torch.zeros(1, 1, 200), torch.zeros(1, 1), past, embedding, motion, torch.zeros(1, 2))
+    arguments = (torch.zeros(1, 1, 200), torch.zeros(1, 1), past, embedding, motion, _phases(embedding, motion))
     assert field(*arguments).abs().max().item() == 0.0
     assert field.line_gains is not None
     with torch.no_grad():
@@ -221,7 +231,7 @@ def test_a_segment_s_partials_relative_to_the_surface_do_not_depend_on_the_place
     for turns in (0.0, 0.21, 0.8):
         phase = 2.0 * math.pi * (turns + 200.0 * torch.arange(200) / 2000.0)
         segments = torch.stack([phase.cos(), phase.sin(), (2.0 * phase).cos()]).unsqueeze(0)
-        seen, resolved = comb.profile(embedding, motion, torch.tensor([[turns, 0.0]]), segments)
+        seen, resolved = comb.profile(_phases(embedding, motion, (turns, 0.0)), segments)
         expected = torch.zeros(3, 2, PARTIALS)
         expected[0, 0, 0] = expected[1, 1, 0] = expected[2, 0, 1] = 1.0
         torch.testing.assert_close(seen[0], expected, rtol=0.0, atol=0.02)

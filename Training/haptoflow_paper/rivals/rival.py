@@ -34,7 +34,7 @@ class RibLines(nn.Module):
     def forward(self, previous: Tensor, embedding: Tensor, motion: Tensor, phases: Tensor) -> tuple[Tensor, Tensor]:
         """The lines of the segment, and the previous waveform without its lines, [B, 1, 200] each, in unit scale."""
         mirrored = torch.flip(previous, dims=[2])
-        ribs = self.comb.ribs(embedding, motion, phases)
+        ribs = self.comb.ribs(phases)
         gains = torch.index_select(self.gains(embedding, motion), 1, self.spread)
         lines = self.comb.partials(ribs, mirrored, gains)[1] * ribs.sounding
         rest = mirrored - (lines * self.comb.mirror).reshape(-1, 1, 2 * PARTIALS) @ ribs.waves

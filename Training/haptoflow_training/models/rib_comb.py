@@ -16,7 +16,7 @@ from typing import NamedTuple
 import torch
 from torch import Tensor, nn
 
-from haptoflow_training.models.label_embedding import WAVE_VECTORS, signed_rib_frequencies_hz
+from haptoflow_training.models.label_embedding import WAVE_VECTORS
 from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 # At very low speeds a pulse train has its power far above the fundamental.
@@ -133,14 +133,9 @@ class RibComb(nn.Module):
         nearness = (_NEARNESS * offsets.cos()).float().reshape(1, 1, 1, -1)
         self.register_buffer("nearness", nearness, persistent=False)
 
-    def ribs(self, embedding: Tensor, motion: Tensor, rib_phase: Tensor) -> Ribs:
-        """The ribs for embedding [B, 64], motion [B, 3] and rib phase [B, 2] in turns at the segment's first sample;
-        without gradient, because wave vectors are not learnt. Phases [B, 6] (models/surface_waves.py) state the rates,
-        too."""
-        if rib_phase.shape[1] == WAVE_VECTORS:
-            signed = signed_rib_frequencies_hz(embedding.detach(), motion).reshape(-1, WAVE_VECTORS)
-        else:
-            rib_phase, signed = rib_phase[:, :WAVE_VECTORS], rib_phase[:, WAVE_VECTORS + 1 : 2 * WAVE_VECTORS + 1]
+    def ribs(self, phases: Tensor) -> Ribs:
+        """The ribs for phases [B, 6] (models/surface_waves.py)."""
+        rib_phase, signed = phases[:, :WAVE_VECTORS], phases[:, WAVE_VECTORS + 1 : 2 * WAVE_VECTORS + 1]
         # Count the phase in the direction of motion.
         place = torch.cat([signed.abs(), torch.sign(signed) * rib_phase], dim=1)
         angles, limits = torch.addmm(self.bias, place, self.weight).split([self.sines, 4 * PARTIALS], dim=1)
@@ -156,18 +151,18 @@ class RibComb(nn.Module):
             *inside.reshape(-1, 2, WAVE_VECTORS, _PAIRS).split(1, dim=1),
         )
 
-    def profile(self, embedding: Tensor, motion: Tensor, rib_phase: Tensor, segments: Tensor) -> tuple[Tensor, Tensor]:
+    def profile(self, phases: Tensor, segments: Tensor) -> tuple[Tensor, Tensor]:
         """The partials of S segments [B, S, N] relative to the surface: [B, S, 2, 28], in phase with the rib phase
         and a quarter turn behind; and a mask [B, 28] of those that can be resolved."""
-        ribs = self.ribs(embedding, motion, rib_phase)
-        fundamental = signed_rib_frequencies_hz(embedding.detach(), motion).abs().unsqueeze(1)
-        resolved = (fundamental > _MINIMUM_RESOLVED_HZ).to(motion.dtype) * ribs.sounding
+        ribs = self.ribs(phases)
+        fundamental = phases[:, WAVE_VECTORS + 1 : 2 * WAVE_VECTORS + 1].abs().reshape(-1, 1, WAVE_VECTORS, 1)
+        resolved = (fundamental > _MINIMUM_RESOLVED_HZ).to(phases.dtype) * ribs.sounding
         projected = segments * self.even @ ribs.waves.transpose(1, 2)
-        amplitudes = projected.reshape(len(motion), -1, WAVE_VECTORS, _PAIRS)
+        amplitudes = projected.reshape(len(phases), -1, WAVE_VECTORS, _PAIRS)
         # Turn back by the surface's phase, which negates the terms in `across`.
         seen = (amplitudes * ribs.ahead - self._swapped(amplitudes) * ribs.across) * resolved
-        in_phase_and_behind = seen.reshape(len(motion), -1, PARTIALS, 2).transpose(2, 3)
-        return in_phase_and_behind, resolved.reshape(len(motion), PARTIALS, 2)[:, :, 0]
+        in_phase_and_behind = seen.reshape(len(phases), -1, PARTIALS, 2).transpose(2, 3)
+        return in_phase_and_behind, resolved.reshape(len(phases), PARTIALS, 2)[:, :, 0]
 
     def partials(self, ribs: Ribs, mirrored: Tensor, gains: Tensor) -> tuple[Tensor, Tensor]:
         """Cosine and sine of every partial, [B, 1, 2, 28] each: of the continued past, and of the whole prediction
@@ -202,16 +197,15 @@ class RibComb(nn.Module):
         ahead, across = (likely @ self.turned_by).split(_PAIRS, dim=3)
         return ahead, across
 
-    def forward(self, mirrored: Tensor, embedding: Tensor, motion: Tensor, rib_phase: Tensor, gains: Tensor) -> Tensor:
-        """[B, 5, N]: four channels and the lines, from the mirrored past [B, 1, N], rib phase as of `ribs` and
-        gains [B, 228].
+    def forward(self, mirrored: Tensor, phases: Tensor, gains: Tensor) -> Tensor:
+        """[B, 5, N]: four channels and the lines, from the mirrored past [B, 1, N], phases [B, 6] and gains [B, 228].
 
         Channels: for each wave vector the continued past, then pulses, one for each rib that passes. Lines: the
         weighted sum of all partials: the continued past (limited to unit power), the same at unit amplitude, the
         surface's partials in phase and a quarter turn behind, and those of the wandering profile, with gains in that
         order as `spread_gains` arranges them.
         """
-        ribs = self.ribs(embedding, motion, rib_phase)
+        ribs = self.ribs(phases)
         carried, lines = self.partials(ribs, mirrored, gains)
         channels = torch.cat([carried, carried, ribs.pulses, ribs.pulses, lines], dim=1)
         rows = channels * self.families * ribs.sounding

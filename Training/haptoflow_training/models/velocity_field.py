@@ -111,7 +111,7 @@ class VelocityField(PatchUnet):
         if self.comb is not None:
             if phases is None:
                 raise ValueError("a field with ribs needs the phases")
-            combed = self.comb(mirrored, embedding, motion, phases, line_gains)
+            combed = self.comb(mirrored, phases, line_gains)
             entering.append(combed)
             added.append(combed[:, -1:])
         if self.impulses is not None:

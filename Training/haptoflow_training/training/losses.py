@@ -141,7 +141,7 @@ class Losses(nn.Module):
 
     def one_step_loss(self, given: ScaledBatch, drawn: tuple[Tensor, Tensor]) -> Tensor:
         """The energy loss of a recording and two draws, [B, 1, 200] each, in unit scale."""
-        batch, embedding, phase = given.batch, given.embedding, given.phases
+        batch, embedding = given.batch, given.embedding
         weight = given.steadiness
         recorded = given.segment
         segments = [wave.squeeze(1) for wave in (recorded, *drawn)]
@@ -150,7 +150,7 @@ class Losses(nn.Module):
         own = torch.cat([given.previous, given.previous]).squeeze(1), torch.cat(segments[1:])
         all_spectra = [spectra(*true), *halves_of(spectra(*own))]
         shapes = [envelopes(*true), *zip(*(shape.chunk(2) for shape in envelopes(*own)), strict=True)]
-        partials, audible = self._partials(batch, embedding, (recorded, *drawn), phase)
+        partials, audible = self._partials(batch, (recorded, *drawn), given.phases)
         loss = energy_distance_loss(
             all_spectra[0],
             (all_spectra[1], all_spectra[2]),
@@ -171,7 +171,7 @@ class Losses(nn.Module):
         return loss + _BALANCE_WEIGHT * balance
 
     def _partials(
-        self, batch: SegmentBatch, embedding: Tensor, segments: tuple[Tensor, ...], phase: Tensor
+        self, batch: SegmentBatch, segments: tuple[Tensor, ...], phases: Tensor
     ) -> tuple[list[Tensor], Tensor]:
         """For each segment, its partials [B, 2, P] relative to the ribs; and a mask [B, P] of those that one
         segment can resolve. Both are zero for a network without ribs."""
@@ -179,7 +179,7 @@ class Losses(nn.Module):
         if comb is None:
             nothing = torch.zeros(len(batch.label), 2, PARTIALS)
             return [nothing] * len(segments), nothing[:, 0]
-        profiles, resolved = comb.profile(embedding, batch.motion, phase, torch.cat(segments, dim=1))
+        profiles, resolved = comb.profile(phases, torch.cat(segments, dim=1))
         recorded, *drawn = profiles.unbind(dim=1)
         return [recorded.detach(), *drawn], resolved
 
