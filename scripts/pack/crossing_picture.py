@@ -81,7 +81,8 @@ def main() -> None:
     other.set_ylabel("dB re 1 m/s²")
     axis.set_title(f"the level follows the speed {lag:.0f} ms later", loc="left", fontsize=11)
     lines = [*axis.lines, *other.lines]
-    axis.legend(lines, [str(line.get_label()) for line in lines], loc="upper right", fontsize=9)
+    place = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "ncols": 2, "frameon": False, "fontsize": 9}
+    axis.legend(lines, [str(line.get_label()) for line in lines], **place)
     axis.set_xlim(*SHOWN_SECONDS)
     axis.set_xlabel("s")
     save(figure, PICTURE)
