@@ -33,6 +33,7 @@ from haptoflow_training.export.exporter import export_run
 from haptoflow_training.export.label_info import LabelInfo
 from haptoflow_training.export.level_table import MeasuredLevels
 from haptoflow_training.export.model_file import read_model_file
+from haptoflow_training.models.label_embedding import surface_phases
 from haptoflow_training.training.batches import SegmentBatch, SegmentBatches
 from haptoflow_training.training.config import BatchConfig, TrainingConfig, load_config
 from haptoflow_training.training.recordings_source import Source
@@ -134,12 +135,14 @@ def test_a_rival_without_ribs_has_no_lines_and_untrained_rib_lines_are_zero() ->
 
 
 def _condition(count: int, speed_mps: float) -> tuple[Tensor, Tensor, Tensor]:
-    """An embedding with ribs of 2 mm along x, motion across them, and the counted rib phase."""
+    """An embedding with ribs of 2 mm along x, motion across them, and the phases."""
     embedding = torch.full((1, 64), 0.3)
     embedding[:, -4:] = torch.tensor([0.5, 0.0, 0.0, 0.0])
     motion = torch.tensor([[speed_mps, 0.0, 1.0]])
-    phase = torch.stack([torch.linspace(0.0, 0.9, count), torch.zeros(count)], dim=1)
-    return embedding.expand(count, -1), motion.expand(count, -1), phase
+    embedding, motion = embedding.expand(count, -1), motion.expand(count, -1)
+    phases = surface_phases(embedding, motion, torch.zeros(count, 2), torch.zeros(count, 6))
+    phases[:, 0] = torch.linspace(0.0, 0.9, count)
+    return embedding, motion, phases
 
 
 _RINGING = np.array([1.0, -2.0 * 0.9 * math.cos(2.0 * math.pi * 0.15), 0.81])
