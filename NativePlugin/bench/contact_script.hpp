@@ -42,7 +42,7 @@ struct StepScript {
 [[nodiscard]] StepScript stepScript(const Hand& hand, const DeviceShape& shape, std::size_t steps,
                                     std::uint32_t firstTouch, std::mt19937_64& random);
 
-/// Publishes the states at their times on this thread, and returns the actual times in seconds.
+/// Publishes each state at its time, on this thread. Returns the times of the clock, in seconds, at which it did.
 [[nodiscard]] std::vector<double> playScript(engine::LiveEngine& engine, engine::LiveVoice& voice,
                                              const std::vector<TimedState>& states);
 

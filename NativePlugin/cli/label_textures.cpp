@@ -5,7 +5,6 @@
 #include "skeleton/rib_rates.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <span>
 
@@ -13,7 +12,7 @@ namespace haptoflow::cli {
 namespace {
 
 constexpr std::size_t segment = inference::segmentSamples;
-/// Segments before the excerpt, in which the filter settles.
+/// The filter starts from silence: so many segments are made before the excerpt, until its start is forgotten.
 constexpr std::size_t settlingSegments = 4;
 
 /// A sketch that slides over a label at one motion.
@@ -32,11 +31,7 @@ TextureExcerpt sketched(inference::SkeletonGenerator& sketch, std::span<const fl
         std::shift_left(excerpt.begin(), excerpt.end(), segment);
         sketch.generate(std::span(&request, 1), std::span(excerpt).last<segment>());
         std::ranges::copy(std::span(excerpt).last<segment>(), previous.begin());
-        for (std::size_t family = 0; family < skeleton::familyCount; ++family) {
-            const float turns = request.phases[family] + request.phases[skeleton::familyCount + family] *
-                                                             static_cast<float>(segment / inference::waveformRateHz);
-            request.phases[family] = turns - std::floor(turns);
-        }
+        request.phases = skeleton::advanced(request.phases, static_cast<double>(segment));
     }
     return excerpt;
 }

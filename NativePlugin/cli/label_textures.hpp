@@ -9,14 +9,14 @@
 
 namespace haptoflow::cli {
 
-/// 200 ms of a texture at 2 kHz, of unit level.
+/// 200 ms of a label's waveform at 2 kHz. Its level does not count.
 using TextureExcerpt = std::array<float, model::seedSamples>;
 
 /// What the labels of a model sound like without its networks: their recorded seeds, or what its skeleton makes of the
 /// usual speeds and forces.
 class LabelTextures {
 public:
-    /// The model must outlive it. Throws model::ModelError if its skeleton is incomplete.
+    /// Keeps a reference to the model, which must live longer. Throws model::ModelError if its skeleton is incomplete.
     explicit LabelTextures(const model::ModelFile& model);
 
     /// Makes the excerpts of a label. Its noise is fixed, so a label has the same excerpts in every call.

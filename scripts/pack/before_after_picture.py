@@ -22,7 +22,7 @@ from haptoflow_training.preprocessing.pipeline import preprocess_recording
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.recordings.synthetic import load_materials, record_condition
 
-# Label, speed in m/s, and what the picture shows of it.
+# Each column: label, speed in m/s, and what differs there between before and now.
 SHOWN = (
     ("wood", 0.01, "slow: the sensor's noise was learnt as well"),
     ("corduroy", 0.15, "ribs and their depth"),

@@ -432,8 +432,8 @@ typedef struct haptoflow_batch {
     const float* noise;
     /* count * HAPTOFLOW_PHASES numbers: for the ribs along each of the embedding's two wave vectors and for stick-slip,
      * the phase at the segment's first sample in cycles from 0 to below 1, then its signed rate in Hz for each; null
-     * for phases of zero and the rates at which the motion crosses the wave vectors. Not needed for levels. Read by
-     * graphs with the input "phases" and by tiers of the kinds "skeleton" and "refine". */
+     * for phases of zero and the rates at which the motion crosses the wave vectors. Not needed for levels. Used by
+     * tiers of the kinds "skeleton" and "refine", and by graphs that have the input "phases". */
     const float* phases;
     /* count levels above 0, RMS in m/s^2, that replace those of the level graph; null to use the level graph. */
     const float* own_levels_mps2;

@@ -55,8 +55,8 @@ private:
         std::array<float, 3> firstAxis{};
         std::array<float, 3> secondAxis{};
     };
-    // The place from which on the axes have kept their direction, and whether the surface is flat between there and
-    // here.
+    // Where the axes last turned; empty before the first place. The surface counts as flat once the tip has moved far
+    // enough from there.
     std::optional<Anchor> anchor_;
     bool isFlat_ = false;
 };

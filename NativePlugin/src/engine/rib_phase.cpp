@@ -81,10 +81,7 @@ RibTurns ribTurnsPerSample(std::span<const float, inference::embeddingSize> embe
 
 std::array<float, inference::ribCount> toNetwork(const RibTurns& phases) noexcept {
     std::array<float, inference::ribCount> rounded{};
-    std::ranges::transform(phases, rounded.begin(), [](double each) {
-        const auto phase = static_cast<float>(each);
-        return phase < 1.0F ? phase : 0.0F;
-    });
+    std::ranges::transform(phases, rounded.begin(), skeleton::wrapped);
     return rounded;
 }
 

@@ -1,5 +1,6 @@
 #include "engine/sketcher.hpp"
 
+#include "skeleton/rib_rates.hpp"
 #include "skeleton/unit_scale.hpp"
 
 #include <algorithm>
@@ -51,20 +52,13 @@ void Sketcher::begin(std::int64_t head, std::span<float, WaveformTimeline::seedS
     hasSketch_ = true;
     correctedLevelMps2_ = contact_.levelMps2;
     track_.begin(head);
-    skeleton::Phases phases = track_.at(contact_, material_, head, secondsAheadOf(head));
+    const skeleton::Phases phases = track_.at(contact_, material_, head, secondsAheadOf(head));
     const inference::SurfacePath path = track_.stretch().path;
     inference::SurfacePath before = path;
     for (std::size_t axis = 0; axis < before.startMetres.size(); ++axis) {
         before.startMetres[axis] -= before.stepMetres[axis] * static_cast<double>(segmentLength);
     }
-    skeleton::Phases earlier = phases;
-    for (std::size_t family = 0; family < skeleton::familyCount; ++family) {
-        const double turns =
-            static_cast<double>(phases[family]) - static_cast<double>(phases[skeleton::familyCount + family]) *
-                                                      static_cast<double>(segmentLength) / inference::waveformRateHz;
-        earlier[family] = static_cast<float>(turns - std::floor(turns));
-    }
-    sketchSegment(earlier, before, head - segmentLength);
+    sketchSegment(skeleton::advanced(phases, -static_cast<double>(segmentLength)), before, head - segmentLength);
     sketchSegment(phases, path, head);
     track_.add(head);
     for (std::size_t index = 0; index < seedMps2.size(); ++index) {

@@ -1,6 +1,7 @@
 #include "engine/surface_phases.hpp"
 
 #include "engine/surface_wander.hpp"
+#include "skeleton/rib_rates.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -24,13 +25,8 @@ double slipWander(const model::StickSlip& slip, const SurfaceStretch& stretch) n
     return slip.wanderMetres > 0.0 ? wanderOf(slipFamily, slip.wanderMetres, stretch).value : 0.0;
 }
 
-float wrapped(double turns) noexcept {
-    const auto phase = static_cast<float>(turns - std::floor(turns));
-    return phase < 1.0F ? phase : 0.0F;
-}
-
 void setFamily(skeleton::Phases& phases, std::size_t family, double turns, double turnsPerSample) noexcept {
-    phases[family] = wrapped(turns);
+    phases[family] = skeleton::wrapped(turns);
     phases[skeleton::familyCount + family] = static_cast<float>(turnsPerSample * inference::waveformRateHz);
 }
 

@@ -17,7 +17,7 @@ namespace haptoflow::engine {
 [[nodiscard]] double slipsPerSample(const model::StickSlip& slip, const std::array<float, 3>& motion,
                                     double wander) noexcept;
 
-/// Sets the phase and the rate of stick-slip, which phases in turns and slips in a sample give.
+/// Writes the phase of stick-slip, in turns, and its rate, from turns in a sample, into `phases`.
 void setSlips(skeleton::Phases& phases, double turns, double turnsPerSample) noexcept;
 
 /// Phases of the surface's waves along a stream in waveform time: ribs by the way along their wave vectors and by their

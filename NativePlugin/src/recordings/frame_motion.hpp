@@ -10,9 +10,9 @@ namespace haptoflow::recordings {
 
 inline constexpr double lightestTouchNewtons = 0.02;
 
-/// What the tip does during a frame of a ShortTimeSpectrum.
+/// How the tip moves during one frame of a ShortTimeSpectrum.
 struct FrameMotion {
-    /// False at the ends of the recording and where it is unknown; nothing else is then said.
+    /// False at the ends of the recording and where the motion is unknown; the other members then mean nothing.
     bool isUsable = false;
     /// The tip rests from 50 ms before the frame to 50 ms after it.
     bool isResting = false;

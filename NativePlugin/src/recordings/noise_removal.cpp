@@ -39,7 +39,7 @@ SpectrumCells sumsAround(const SpectrumCells& cells, std::size_t reach) {
     return sums;
 }
 
-/// The share of a cell's power that is not noise, between its limits.
+/// The share of a cell's power that is left without the noise: 1 where there is none, never below the lowest gain.
 double shareOf(double power, double noise) {
     return noise > 0.0 ? std::max(1.0 - noise / std::max(power, noise), lowestPowerGain) : 1.0;
 }

@@ -17,4 +17,10 @@ namespace haptoflow::skeleton {
 [[nodiscard]] Phases phasesOf(std::span<const float, embeddingSize> embedding, const Motion& motion,
                               const std::array<float, ribCount>& turns) noexcept;
 
+/// Turns as a phase in [0, 1).
+[[nodiscard]] float wrapped(double turns) noexcept;
+
+/// The phases a number of waveform samples later, or earlier for a negative number, at the same rates.
+[[nodiscard]] Phases advanced(const Phases& phases, double samples) noexcept;
+
 }  // namespace haptoflow::skeleton
