@@ -49,8 +49,8 @@ struct Subjects {
 /// The contact states of a tip that slides over a model's labels in the middle of its recorded range.
 class Hand {
 public:
-    /// The hand uses the model's first labels, at most this many. Without a skeleton a touch begins with a seed, so that
-    /// labels without one are left out.
+    /// The hand uses the model's first labels, at most this many. Without a skeleton a touch begins with a seed, so
+    /// that labels without one are left out.
     static constexpr std::size_t maximumLabels = 16;
 
     explicit Hand(const model::ModelFile& model);
