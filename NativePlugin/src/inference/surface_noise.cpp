@@ -1,6 +1,7 @@
 #include "inference/surface_noise.hpp"
 
 #include "inference/hashed_numbers.hpp"
+#include "inference/surface_noise_kernel.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -37,6 +38,12 @@ constexpr std::array<Vector, directionCount> directions{{
     {-0.05871, -0.85807, -0.51016},
 }};
 
+/// Rounded down. `divisor` is a power of two.
+constexpr std::int64_t floorDivided(std::int64_t value, std::int64_t divisor) noexcept {
+    const std::int64_t rest = value & (divisor - 1);
+    return (value - rest) / divisor;
+}
+
 /// Cells of one size. Each is divided into the eight cells of a block of the next level.
 struct Level {
     double cellMetres = 0.0;
@@ -67,33 +74,6 @@ Vector across(std::size_t k) noexcept {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// The part of a segment that is computed at once.
-constexpr std::size_t partSamples = 256;
-
-/// The cells of one length that a path along a direction passes, one for each sample's beginning.
-class CellRun {
-public:
-    /// `offset` counts in samples, `count` is at most partSamples + 1.
-    CellRun(const SurfacePath& path, const Vector& direction, double cellMetres, double offset,
-            std::size_t count) noexcept {
-        const double step = dot(path.stepMetres, direction) / cellMetres;
-        const double start = dot(path.startMetres, direction) / cellMetres + offset * step;
-        const double lowest = std::floor(start + std::min(0.0, step * static_cast<double>(count)));
-        first_ = static_cast<std::int64_t>(lowest);
-        const double from = start - lowest;
-        // Not below zero, so that truncation is the floor, which compilers do for several samples at once.
-        for (std::int32_t index = 0; index < static_cast<std::int32_t>(count); ++index) {
-            cells_[static_cast<std::size_t>(index)] =
-                static_cast<std::int32_t>(from + step * static_cast<double>(index));
-        }
-    }
-    [[nodiscard]] std::int64_t at(std::size_t index) const noexcept { return first_ + cells_[index]; }
-
-private:
-    std::int64_t first_ = 0;
-    std::array<std::int32_t, partSamples + 1> cells_;
-};
-
 /// The cells that a path is divided into along one direction: the coarsest of a level, of its pairs or of its fours
 /// that are no longer than a sample's way. They are longer than half of it, except at the deepest level.
 struct Grid {
@@ -115,49 +95,33 @@ struct Grid {
 /// One Brownian motion, read along a path.
 class BrownianMotion {
 public:
-    BrownianMotion(std::uint64_t key, const Grid& grid, std::int64_t firstPlace) noexcept
-        : key_(key), grid_(grid), here_((firstPlace * static_cast<std::int64_t>(grid.stride)) >> logCellsPerBlock) {
-        moveTo(here_);
-    }
+    explicit BrownianMotion(std::uint64_t key) noexcept : key_(key) {}
 
-    /// Value at the lower end of a cell of the grid, up to a constant. The time grows with the distance from the last.
-    [[nodiscard]] double at(std::int64_t place) noexcept {
-        const std::int64_t cell = place * static_cast<std::int64_t>(grid_.stride);
-        if (const std::int64_t block = cell >> logCellsPerBlock; block != here_) {
-            moveTo(block);
-        }
-        return base_ + blocks_[grid_.level].sums[static_cast<std::size_t>(cell) % cellsPerBlock];
+    /// Sums of the increments of a block's cells, known at multiples of `stride`.
+    template <std::size_t stride>
+    [[nodiscard]] const std::array<double, cellsPerBlock + 1>& sumsOf(std::size_t level, std::int64_t block) noexcept {
+        return blockAt<stride>(level, block).sums;
     }
 
 private:
     struct Block {
         std::int64_t index = std::numeric_limits<std::int64_t>::min();
-        /// Sum of the increments of the cells before each, and of all; known at multiples of the stride.
+        /// Before each cell, and after the last.
         std::array<double, cellsPerBlock + 1> sums{};
     };
 
-    void moveTo(std::int64_t block) noexcept {
-        while (here_ < block) {
-            base_ += blockAt(grid_.level, here_, grid_.stride).sums[cellsPerBlock];
-            ++here_;
-        }
-        while (here_ > block) {
-            --here_;
-            base_ -= blockAt(grid_.level, here_, grid_.stride).sums[cellsPerBlock];
-        }
-        (void)blockAt(grid_.level, here_, grid_.stride);
-    }
-
-    const Block& blockAt(std::size_t level, std::int64_t index, std::size_t stride) noexcept {
+    template <std::size_t stride>
+    const Block& blockAt(std::size_t level, std::int64_t index) noexcept {
         Block& block = blocks_[level];
         if (block.index != index) {
             block.index = index;
-            fill(block, level, stride);
+            fill<stride>(block, level);
         }
         return block;
     }
 
-    void fill(Block& block, std::size_t level, std::size_t stride) noexcept {
+    template <std::size_t stride>
+    void fill(Block& block, std::size_t level) noexcept {
         std::uint64_t random = mixed(key_ + static_cast<std::uint64_t>(block.index) * 0x9E3779B97F4A7C15U +
                                      static_cast<std::uint64_t>(level) * 0xD6E8FEB86659FD93U);
         // Each byte gives a number that is uniform, with mean 0 and variance 1: (256^2 - 1) / 12 is 73.9^2. The sum
@@ -175,66 +139,148 @@ private:
         const double random8 = next();
         sums[8] = level == 0 ? 2.0 * rootOfTwo * cell * random8 : parentIncrement(level, block.index);
         sums[4] = 0.5 * sums[8] + rootOfTwo * cell * next();
-        if (stride > 2) {
-            return;
+        if constexpr (stride <= 2) {
+            sums[2] = 0.5 * sums[4] + cell * next();
+            sums[6] = 0.5 * (sums[4] + sums[8]) + cell * next();
         }
-        sums[2] = 0.5 * sums[4] + cell * next();
-        sums[6] = 0.5 * (sums[4] + sums[8]) + cell * next();
-        if (stride > 1) {
-            return;
-        }
-        for (std::size_t odd = 1; odd < cellsPerBlock; odd += 2) {
-            sums[odd] = 0.5 * (sums[odd - 1] + sums[odd + 1]) + 0.5 * rootOfTwo * cell * next();
+        if constexpr (stride == 1) {
+            for (std::size_t odd = 1; odd < cellsPerBlock; odd += 2) {
+                sums[odd] = 0.5 * (sums[odd - 1] + sums[odd + 1]) + 0.5 * rootOfTwo * cell * next();
+            }
         }
     }
 
     double parentIncrement(std::size_t level, std::int64_t cell) noexcept {
-        const Block& parent = blockAt(level - 1, cell >> logCellsPerBlock, 1);
+        const Block& parent = blockAt<1>(level - 1, cell >> logCellsPerBlock);
         const std::size_t place = static_cast<std::size_t>(cell) % cellsPerBlock;
         return parent.sums[place + 1] - parent.sums[place];
     }
 
     std::uint64_t key_;
-    Grid grid_;
     std::array<Block, levels.size()> blocks_{};
-    std::int64_t here_;
-    double base_ = 0.0;
 };
 
-/// The sums over all directions for one sample.
-struct Sample {
-    double increment = 0.0;
-    double variance = 0.0;
+/// The part of a segment that is computed at once.
+constexpr std::size_t partSamples = 256;
+constexpr std::size_t partTimes = partSamples + 2 * noiseReachSamples;
+
+/// The field along a path: the increments of the cells by the time at which the path passes their middles. Each slot of
+/// a sample has a row of its own, so that the filter's sum runs over samples that lie beside each other.
+using Row = std::array<float, partTimes>;
+using Passage = std::array<Row, noiseSlotsPerSample>;
+
+/// The cells that a path passes along one direction, and what it passes across it.
+struct Crossing {
+    std::int64_t firstCell = 0;
+    std::int64_t endCell = 0;
+    /// When the middle of cell 0 of `firstCell`'s block is passed, in slots from the part's first.
+    double blockSlot = 0.0;
+    double slotsPerCell = 0.0;
+    double slots = 0.0;
+    std::int64_t lowestSheet = 0;
+    /// Above that sheet at slot 0, and for each slot.
+    double sheet = 0.0;
+    double sheetsPerSlot = 0.0;
 };
 
-using Part = std::array<Sample, partSamples>;
+template <std::size_t stride>
+void addCells(std::uint64_t key, std::size_t level, const Crossing& crossing, Passage& passage) noexcept {
+    constexpr std::int64_t perBlock = cellsPerBlock / stride;
+    BrownianMotion motion(key);
+    std::int32_t sheet = -1;
+    double sign = 1.0;
+    double blockSlot = crossing.blockSlot;
+    for (std::int64_t block = floorDivided(crossing.firstCell, perBlock); block * perBlock < crossing.endCell;
+         ++block) {
+        const auto& sums = motion.sumsOf<stride>(level, block);
+        for (std::size_t cell = 0; cell < perBlock; ++cell) {
+            const double slot = blockSlot + crossing.slotsPerCell * static_cast<double>(cell);
+            if (!(slot >= 0.0 && slot < crossing.slots)) {
+                continue;
+            }
+            if (const auto now = static_cast<std::int32_t>(crossing.sheet + crossing.sheetsPerSlot * slot);
+                now != sheet) {
+                sheet = now;
+                // The highest bit of a product depends on every bit of both factors.
+                const auto number = static_cast<std::uint64_t>(crossing.lowestSheet + sheet);
+                sign = ((number * 0x9E3779B97F4A7C15U ^ key) * 0xD6E8FEB86659FD93U) >> 63U == 0 ? 1.0 : -1.0;
+            }
+            const auto index = static_cast<std::size_t>(static_cast<std::int32_t>(slot));
+            passage[index % noiseSlotsPerSample][index / noiseSlotsPerSample] +=
+                static_cast<float>(sign * (sums[(cell + 1) * stride] - sums[cell * stride]));
+        }
+        blockSlot += crossing.slotsPerCell * static_cast<double>(perBlock);
+    }
+}
 
-void addDirection(std::uint64_t surface, std::size_t k, const SurfacePath& path, std::span<Sample> samples) noexcept {
-    const std::uint64_t key = mixed(surface * directionCount + k);
+/// `times` counts the part's samples and the filter's reach on both sides.
+void addDirection(std::uint64_t surface, std::size_t k, const SurfacePath& path, std::size_t times,
+                  Passage& passage) noexcept {
+    constexpr auto slotsPerSample = static_cast<double>(noiseSlotsPerSample);
+    // A sample's middle lies half a sample after its beginning.
+    constexpr double firstSample = 0.5 - static_cast<double>(noiseReachSamples);
     const double stepMetres = dot(path.stepMetres, directions[k]);
     const Grid grid(std::abs(stepMetres));
-    const double cellMetres = grid.cellMetres();
-    const CellRun along(path, directions[k], cellMetres, 0.0, samples.size() + 1);
-    const CellRun sheets(path, across(k), sheetMetres, 0.5, samples.size());
-    const std::uint64_t direction = stepMetres < 0.0 ? 1U : 0U;
-    std::int64_t before = along.at(0);
-    BrownianMotion motion(key, grid, before);
-    double valueBefore = motion.at(before);
-    for (std::size_t index = 0; index < samples.size(); ++index) {
-        const std::int64_t after = along.at(index + 1);
-        if (after == before) {
-            continue;
+    const double cellsPerSlot = stepMetres / (grid.cellMetres() * slotsPerSample);
+    Crossing crossing{.slotsPerCell = 1.0 / cellsPerSlot,
+                      .slots = static_cast<double>(times) * slotsPerSample,
+                      .sheetsPerSlot = dot(path.stepMetres, across(k)) / (sheetMetres * slotsPerSample)};
+    // A path across the direction passes no cell.
+    if (!(std::abs(crossing.slotsPerCell) < 1e6)) {
+        return;
+    }
+    const double start =
+        dot(path.startMetres, directions[k]) / grid.cellMetres() + firstSample * slotsPerSample * cellsPerSlot;
+    const double end = start + crossing.slots * cellsPerSlot;
+    const auto cellsOfBlock = static_cast<std::int64_t>(cellsPerBlock / grid.stride);
+    crossing.firstCell = static_cast<std::int64_t>(std::floor(std::min(start, end)));
+    crossing.endCell = static_cast<std::int64_t>(std::floor(std::max(start, end))) + 1;
+    const std::int64_t blockCell = floorDivided(crossing.firstCell, cellsOfBlock) * cellsOfBlock;
+    crossing.blockSlot = (static_cast<double>(blockCell) + 0.5 - start) * crossing.slotsPerCell;
+
+    const double sheet =
+        dot(path.startMetres, across(k)) / sheetMetres + 0.5 + firstSample * slotsPerSample * crossing.sheetsPerSlot;
+    // Counted from the lowest, so that truncation is the floor.
+    const double lowest = std::floor(sheet + std::min(0.0, crossing.sheetsPerSlot * crossing.slots));
+    crossing.lowestSheet = static_cast<std::int64_t>(lowest);
+    crossing.sheet = sheet - lowest;
+
+    const std::uint64_t key = mixed(surface * directionCount + k);
+    switch (grid.stride) {
+        case 4:
+            return addCells<4>(key, grid.level, crossing, passage);
+        case 2:
+            return addCells<2>(key, grid.level, crossing, passage);
+        default:
+            return addCells<1>(key, grid.level, crossing, passage);
+    }
+}
+
+void fillPart(std::uint64_t surface, const SurfacePath& path, std::span<float> noise) noexcept {
+    const std::size_t times = noise.size() + 2 * noiseReachSamples;
+    Passage passage;
+    for (Row& row : passage) {
+        std::fill_n(row.begin(), times, 0.0F);
+    }
+    double variance = 0.0;
+    for (std::size_t k = 0; k < directions.size(); ++k) {
+        addDirection(surface, k, path, times, passage);
+        variance += std::abs(dot(path.stepMetres, directions[k]));
+    }
+    std::ranges::fill(noise, 0.0F);
+    for (std::size_t shift = 0; shift < 2 * noiseReachSamples; ++shift) {
+        const float* const gains = noiseKernel.data() + shift * noiseSlotsPerSample;
+        for (std::size_t index = 0; index < noise.size(); ++index) {
+            float sum = noise[index];
+            for (std::size_t slot = 0; slot < noiseSlotsPerSample; ++slot) {
+                sum += gains[slot] * passage[slot][index + shift];
+            }
+            noise[index] = sum;
         }
-        // The highest bit of a product depends on every bit of both factors.
-        const std::uint64_t sheet =
-            (static_cast<std::uint64_t>(sheets.at(index)) * 0x9E3779B97F4A7C15U ^ key) * 0xD6E8FEB86659FD93U;
-        const double sign = ((sheet >> 63U) ^ direction) == 0 ? 1.0 : -1.0;
-        const double value = motion.at(after);
-        samples[index].increment += sign * (value - valueBefore);
-        samples[index].variance +=
-            cellMetres * static_cast<double>(static_cast<std::int32_t>(std::abs(after - before)));
-        valueBefore = value;
-        before = after;
+    }
+    const auto scale = static_cast<float>(1.0 / std::sqrt(variance));
+    for (float& each : noise) {
+        each *= scale;
     }
 }
 
@@ -250,22 +296,12 @@ bool fillSurfaceNoise(std::uint64_t surface, const SurfacePath& path, std::span<
         !(length <= longestStepMetres)) {
         return false;
     }
-    Part part;
-    for (std::size_t first = 0; first < noise.size(); first += part.size()) {
-        const auto samples = std::span(part).first(std::min(part.size(), noise.size() - first));
-        std::ranges::fill(samples, Sample{});
+    for (std::size_t first = 0; first < noise.size(); first += partSamples) {
         SurfacePath rest = path;
         for (std::size_t axis = 0; axis < rest.startMetres.size(); ++axis) {
             rest.startMetres[axis] += path.stepMetres[axis] * static_cast<double>(first);
         }
-        for (std::size_t k = 0; k < directions.size(); ++k) {
-            addDirection(surface, k, rest, samples);
-        }
-        for (std::size_t index = 0; index < samples.size(); ++index) {
-            const Sample& sample = samples[index];
-            noise[first + index] =
-                sample.variance > 0.0 ? static_cast<float>(sample.increment / std::sqrt(sample.variance)) : 0.0F;
-        }
+        fillPart(surface, rest, noise.subspan(first, std::min(partSamples, noise.size() - first)));
     }
     return true;
 }

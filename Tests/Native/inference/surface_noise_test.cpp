@@ -1,5 +1,7 @@
 #include "inference/surface_noise.hpp"
 
+#include "inference/surface_noise_kernel.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -138,6 +140,57 @@ TEST(SurfaceNoiseTest, TheSamePlaceReachedByAnotherPathHasTheSameNoise) {
     // Begun 3.3 mm, that is 66 samples, later.
     const std::vector<float> late = stroke(0.1, {1.0, 0.0, 0.0}, 900, {0.0163, -0.021, 0.008});
     EXPECT_GT(correlation(std::vector<float>(early.begin() + 66, early.begin() + 966), late), 0.99);
+}
+
+/// The noise below 700 Hz, `delay` samples later than asked for: a sinc with a Hann window.
+std::vector<float> delayedBelow700Hz(const std::vector<float>& noise, double delay) {
+    constexpr int reach = 48;
+    constexpr double cutOff = 0.7;
+    std::vector<float> delayed;
+    for (std::size_t index = reach; index + reach < noise.size(); ++index) {
+        double sum = 0.0;
+        for (int tap = -reach; tap <= reach; ++tap) {
+            const double time = std::numbers::pi * (static_cast<double>(tap) - delay);
+            const double sinc = std::abs(time) < 1e-9 ? cutOff : std::sin(cutOff * time) / time;
+            sum += sinc * (0.5 + 0.5 * std::cos(time / (reach + 1))) *
+                   static_cast<double>(noise[index + static_cast<std::size_t>(tap + reach) - reach]);
+        }
+        delayed.push_back(static_cast<float>(sum));
+    }
+    return delayed;
+}
+
+TEST(SurfaceNoiseTest, PathsAPartOfASampleApartHaveOneWaveBelow700Hz) {
+    for (const double speed : {0.0137, 0.1, 0.128, 0.9}) {
+        const Vector direction{0.8, 0.1, -0.6};
+        const std::vector<float> early = stroke(speed, direction, 8000);
+        for (const double offset : {0.2, 0.5, 0.77}) {
+            const Vector later = along(direction, offset * speed / 2000.0);
+            const std::vector<float> late =
+                stroke(speed, direction, 8000, {0.013 + later[0], -0.021 + later[1], 0.008 + later[2]});
+            EXPECT_GT(correlation(delayedBelow700Hz(early, offset), delayedBelow700Hz(late, 0.0)), 0.985)
+                << speed << " m/s, " << offset << " samples";
+        }
+    }
+}
+
+TEST(SurfaceNoiseTest, TheFilterIsTheRootOfARaisedCosine) {
+    double meanSquare = 0.0;
+    const auto formula = [](double samples) {
+        const double time = std::numbers::pi * samples;
+        const double slope = 4.0 * noiseRollOff * samples;
+        return (std::sin(time * (1.0 - noiseRollOff)) + slope * std::cos(time * (1.0 + noiseRollOff))) /
+               (time * (1.0 - slope * slope));
+    };
+    const auto samplesOf = [](std::size_t tap) {
+        return (static_cast<double>(tap) + 0.5) / noiseSlotsPerSample - static_cast<double>(noiseReachSamples);
+    };
+    for (std::size_t tap = 0; tap < noiseKernel.size(); ++tap) {
+        meanSquare += std::pow(formula(samplesOf(tap)), 2) / noiseSlotsPerSample;
+    }
+    for (std::size_t tap = 0; tap < noiseKernel.size(); ++tap) {
+        EXPECT_NEAR(noiseKernel[tap], formula(samplesOf(tap)) / std::sqrt(meanSquare), 1e-7) << tap;
+    }
 }
 
 TEST(SurfaceNoiseTest, ARoundOfACircleFindsItsNoiseAgain) {
