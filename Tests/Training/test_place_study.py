@@ -37,6 +37,18 @@ def test_any_pass_over_one_place_is_alike_and_in_its_place(stroke: Pass) -> None
     assert abs(found.shift_metres) <= 2.5e-5
 
 
+@pytest.mark.parametrize("earlier_metres", [0.00051, 0.00173, 0.002475])
+def test_a_pass_begun_a_part_of_a_sample_earlier_is_alike_up_to_800_hz(earlier_metres: float) -> None:
+    rng = np.random.default_rng(5)
+    frequencies_hz, turns = rng.uniform(100.0, 800.0, 40), rng.uniform(0.0, 2.0 * np.pi, 40)
+
+    def felt(stroke: Pass) -> Profile:
+        seconds = stroke.start_metres / stroke.speed_mps + np.arange(1600) / 2000.0
+        return over_place(np.sin(2.0 * np.pi * seconds[:, None] * frequencies_hz + turns).sum(axis=1), stroke)
+
+    assert likeness(felt(Pass()), felt(Pass().begun_earlier(earlier_metres)), 0.002, 0.052).correlation > 0.99
+
+
 def test_a_late_vibration_is_shifted_and_not_unlike() -> None:
     found = likeness(_felt(Pass()), _felt(Pass(), delay_seconds=0.005), 0.002, 0.052)
     assert found.correlation > 0.97
@@ -50,10 +62,10 @@ def test_another_surface_is_unlike() -> None:
 
 def test_outsized_asperities_are_found_where_they_are() -> None:
     rng = np.random.default_rng(1)
-    first = Profile(0.0, rng.standard_normal(4000))
-    first.values[[1000, 3000]] = 12.0
-    second = Profile(0.0, rng.standard_normal(4000))
-    second.values[1010] = 10.0
+    first = over_place(rng.standard_normal(4000), Pass(0.0, 0.2))
+    first.values[[8000, 24000]] = 12.0
+    second = over_place(rng.standard_normal(4000), Pass(0.0, 0.2))
+    second.values[8080] = 10.0
     places = bumps(first, 0.0, 0.19)
     assert places == pytest.approx([0.05, 0.15])
     assert found_again(places, second, 0.0, 0.19) == 1

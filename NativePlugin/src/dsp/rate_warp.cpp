@@ -74,6 +74,10 @@ double RateWarp::readPosition() const noexcept {
     return static_cast<double>(state_.whole) + state_.fraction;
 }
 
+double RateWarp::samplesAhead() const noexcept {
+    return static_cast<double>(state_.consumed) - readPosition();
+}
+
 void RateWarp::reset() noexcept {
     history_.fill(0.0F);
     state_ = State{};

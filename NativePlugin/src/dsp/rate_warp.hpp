@@ -48,6 +48,8 @@ public:
     /// The input sample, counted from 0 at construction or reset, on which the next output is centred. Negative at the
     /// start.
     [[nodiscard]] double readPosition() const noexcept;
+    /// Input samples that were consumed and are not yet played: 0 while r is 1.
+    [[nodiscard]] double samplesAhead() const noexcept;
     /// Clears the history and sets r and its target to 1.
     void reset() noexcept;
     /// Restarts as if `past` (at most `historyLength` samples, oldest first) had just been played at r = 1.

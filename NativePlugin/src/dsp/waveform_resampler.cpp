@@ -64,6 +64,11 @@ std::size_t WaveformResampler::inputNeeded(std::size_t outputCount) const noexce
     return static_cast<std::size_t>((fraction_ + static_cast<std::uint64_t>(outputCount) * step_) / period_);
 }
 
+double WaveformResampler::samplesUntilNext() const noexcept {
+    const std::uint64_t passed = fraction_ + step_;
+    return passed < period_ ? static_cast<double>(period_ - passed) / static_cast<double>(period_) : 0.0;
+}
+
 void WaveformResampler::process(std::span<const float> input, std::span<float> output) noexcept {
     std::size_t consumed = 0;
     for (float& sample : output) {

@@ -26,6 +26,8 @@ public:
     [[nodiscard]] double groupDelaySeconds(double frequencyHz) const noexcept;
     /// Number of input samples that the next `process` of `outputCount` (below 2^32) samples consumes. Audio thread.
     [[nodiscard]] std::size_t inputNeeded(std::size_t outputCount) const noexcept;
+    /// From the next output sample to the next input sample that is consumed, in input samples: 0 to 1. Audio thread.
+    [[nodiscard]] double samplesUntilNext() const noexcept;
     /// `input` holds inputNeeded(output.size()) samples; missing ones count as 0, surplus ones are ignored. The output
     /// does not depend on how the stream is cut into blocks. Audio thread: allocates nothing, waits for nothing.
     void process(std::span<const float> input, std::span<float> output) noexcept;

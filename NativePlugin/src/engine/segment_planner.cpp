@@ -160,8 +160,9 @@ void SegmentPlanner::prepare(std::int64_t start) noexcept {
     const PublishedContact& contact = message.contact;
     const Playhead& playhead = channels_.playhead.current();
     const double sincePublished = channels_.isRealTime ? playhead.blockSeconds - contact.publishedSeconds : 0.0;
-    request_.phases = track_.at(contact, message.material, start,
-                                secondsAhead(start - playhead.blockHead, contact.ranged.readingRate, sincePublished));
+    request_.phases = track_.at(
+        contact, message.material, start,
+        secondsAhead(static_cast<double>(start) - playhead.blockPosition, contact.ranged.readingRate, sincePublished));
     fillNoise(track_.stretch().surface, track_.stretch().path,
               {.seed = settings_.seed, .voice = settings_.voice, .segment = segments_}, noise_);
     ++segments_;

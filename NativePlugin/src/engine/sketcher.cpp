@@ -35,11 +35,11 @@ float levelRatio(float newMps2, float oldMps2) noexcept {
 Sketcher::Sketcher(std::shared_ptr<const skeleton::Skeleton> skeleton, std::uint64_t seed, std::uint32_t voice) noexcept
     : skeleton_(std::move(skeleton)), seed_(seed), voice_(voice), track_(seed, voice) {}
 
-void Sketcher::follow(const AudioMessage& message, std::int64_t head, double sincePublishedSeconds) noexcept {
+void Sketcher::follow(const AudioMessage& message, double blockPosition, double sincePublishedSeconds) noexcept {
     contact_ = message.contact;
     material_ = message.material;
     prepared_ = message.sketch;
-    contactHead_ = head;
+    contactPosition_ = blockPosition;
     sincePublishedSeconds_ = sincePublishedSeconds;
     if (contact_.state.material.count < 2) {
         balance_ = 1.0F;
@@ -193,7 +193,8 @@ void Sketcher::noteRefined(std::int64_t start, std::int64_t end) noexcept {
 }
 
 double Sketcher::secondsAheadOf(std::int64_t sample) const noexcept {
-    return secondsAhead(sample - contactHead_, contact_.ranged.readingRate, sincePublishedSeconds_);
+    return secondsAhead(static_cast<double>(sample) - contactPosition_, contact_.ranged.readingRate,
+                        sincePublishedSeconds_);
 }
 
 }  // namespace haptoflow::engine

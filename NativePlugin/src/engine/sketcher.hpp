@@ -28,8 +28,9 @@ public:
     /// `skeleton` is not null. `seed` and `voice` key the noise.
     Sketcher(std::shared_ptr<const skeleton::Skeleton> skeleton, std::uint64_t seed, std::uint32_t voice) noexcept;
 
-    /// The newest contact, in a block that begins at `head` and began `sincePublishedSeconds` after the publishing.
-    void follow(const AudioMessage& message, std::int64_t head, double sincePublishedSeconds) noexcept;
+    /// The newest contact, in a block that begins at the waveform sample `blockPosition`, with its fraction, and began
+    /// `sincePublishedSeconds` after the publishing.
+    void follow(const AudioMessage& message, double blockPosition, double sincePublishedSeconds) noexcept;
     /// Begins a stream at `head`: writes the waveform that would have led there, and the one that follows from there.
     void begin(std::int64_t head, std::span<float, WaveformTimeline::seedSamples> seedMps2) noexcept;
     /// Sketches the newest contact from the head on, unless a segment without a sketch is played.
@@ -78,7 +79,7 @@ private:
     PublishedContact contact_;
     MaterialInputs material_;
     PreparedSketch prepared_;
-    std::int64_t contactHead_ = 0;
+    double contactPosition_ = 0.0;
     double sincePublishedSeconds_ = 0.0;
 
     SurfaceTrack track_;

@@ -8,7 +8,7 @@ namespace haptoflow::engine {
 namespace {
 
 // From the noise to the vibration: two samples of the resampler and one of the filters (measured).
-constexpr std::int64_t outputDelaySamples = 3;
+constexpr double outputDelaySamples = 3.0;
 
 }  // namespace
 
@@ -28,9 +28,8 @@ void SurfaceTrack::add(std::int64_t start) noexcept {
     phases_.add();
 }
 
-double secondsAhead(std::int64_t samples, double readingRate, double sincePublishedSeconds) noexcept {
-    const double fromBlock =
-        static_cast<double>(samples + outputDelaySamples) / (inference::waveformRateHz * readingRate);
+double secondsAhead(double samples, double readingRate, double sincePublishedSeconds) noexcept {
+    const double fromBlock = (samples + outputDelaySamples) / (inference::waveformRateHz * readingRate);
     return std::clamp(fromBlock + sincePublishedSeconds, 0.0, SurfaceTrack::maximumSecondsAhead);
 }
 

@@ -40,7 +40,7 @@ private:
 
 /// Time from the publishing of a contact to the moment when a sample sounds that lies `samples` behind the first sample
 /// of a block; the block began `sincePublishedSeconds` after the publishing.
-[[nodiscard]] double secondsAhead(std::int64_t samples, double readingRate, double sincePublishedSeconds) noexcept;
+[[nodiscard]] double secondsAhead(double samples, double readingRate, double sincePublishedSeconds) noexcept;
 
 /// Fills `noise` with the surface's numbers along the path, or with those of `otherwise` where the tip is too slow for
 /// them.

@@ -51,11 +51,16 @@ public:
     [[nodiscard]] std::size_t samplesReadAhead() const noexcept {
         return isTextureSilent() ? output_->resampler.latencyInputSamples() : 0;
     }
+    /// The waveform sample, with its fraction, that the resampler plays with the next output sample.
+    [[nodiscard]] double playPosition() const noexcept {
+        return static_cast<double>(timeline_.head()) - warp_.samplesAhead() -
+               warp_.ratio() * output_->resampler.samplesUntilNext();
+    }
     /// True if the voice begins and goes on by itself, with sketches.
     [[nodiscard]] bool hasSketcher() const noexcept { return sketcher_ != nullptr; }
     /// With a sketcher only: see Sketcher::follow. A touch begins, or sliding resumes, with a sketch of this contact.
-    void follow(const AudioMessage& message, std::int64_t head, double sincePublishedSeconds) noexcept {
-        sketcher_->follow(message, head, sincePublishedSeconds);
+    void follow(const AudioMessage& message, double blockPosition, double sincePublishedSeconds) noexcept {
+        sketcher_->follow(message, blockPosition, sincePublishedSeconds);
     }
     void beginSketch(float levelMps2) noexcept;
     /// With a sketcher only: sketches the newest contact from the next sample on.

@@ -36,8 +36,8 @@ struct Playhead {
     std::array<std::int64_t, SegmentQueue::capacity> headAtTake{};
     /// Maximum number of waveform samples that one of the last blocks consumes at a reading rate of 1.
     std::int64_t blockAdvance = 0;
-    /// Head at the beginning of the block, and VoiceChannels::clock then.
-    std::int64_t blockHead = 0;
+    /// Voice::playPosition at the beginning of the block, and VoiceChannels::clock then.
+    double blockPosition = 0.0;
     double blockSeconds = 0.0;
     TimelineView timeline;
 };

@@ -73,7 +73,7 @@ Silence VoiceRenderer::reportedSilence(double rateHz) const noexcept {
 }
 
 void VoiceRenderer::noteBlock(std::size_t frames) noexcept {
-    blockHead_ = voice_.timeline().head();
+    blockPosition_ = voice_.playPosition();
     blockSeconds_ = channels_.clock();
     // Devices may alternate between block lengths, so the maximum decreases only after many blocks.
     constexpr int window = 64;
@@ -209,7 +209,7 @@ void VoiceRenderer::begin() noexcept {
     }
     applyContact();
     // The stream's clock begins with the block.
-    blockHead_ = voice_.timeline().head() + static_cast<std::int64_t>(voice_.samplesReadAhead());
+    blockPosition_ = static_cast<double>(voice_.timeline().head()) + static_cast<double>(voice_.samplesReadAhead());
     if (voice_.hasSketcher()) {
         followContact();
         voice_.beginSketch(contact().levelMps2);
@@ -221,7 +221,7 @@ void VoiceRenderer::begin() noexcept {
 
 void VoiceRenderer::followContact() noexcept {
     const double sincePublished = channels_.isRealTime ? blockSeconds_ - contact().publishedSeconds : 0.0;
-    voice_.follow(channels_.toAudio.current(), blockHead_, sincePublished);
+    voice_.follow(channels_.toAudio.current(), blockPosition_, sincePublished);
     isUnsketched_ = false;
 }
 
@@ -493,7 +493,7 @@ void VoiceRenderer::report(std::uint64_t uncoveredBefore, bool sounded) noexcept
     playhead.running = running;
     playhead.takenSequence = takenSequence_;
     playhead.headAtTake = headAtTake_;
-    playhead.blockHead = blockHead_;
+    playhead.blockPosition = blockPosition_;
     playhead.blockSeconds = blockSeconds_;
     playhead.blockAdvance = std::max(longestBlock_[0], longestBlock_[1]);
     timeline.view(playhead.timeline);

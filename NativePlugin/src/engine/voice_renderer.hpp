@@ -125,7 +125,7 @@ private:
     std::array<std::int64_t, SegmentQueue::capacity> headAtTake_{};
     // Longest block of the present window and of the one before, in waveform samples at a reading rate of 1.
     std::array<std::int64_t, 2> longestBlock_{};
-    std::int64_t blockHead_ = 0;
+    double blockPosition_ = 0.0;
     double blockSeconds_ = 0.0;
     int blocksNoted_ = 0;
     bool reportedRunning_ = false;

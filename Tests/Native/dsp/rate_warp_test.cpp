@@ -237,6 +237,7 @@ TEST(RateWarpTest, TheWarpConsumesAtTheRatioAndReadsTenTimesTheRatioBehind) {
     EXPECT_EQ(player.position - before, 1000U);
     // Between two outputs the read position already belongs to the next output, up to r samples ahead.
     EXPECT_NEAR(static_cast<double>(player.position) - player.warp.readPosition(), 25.0 - 1.25, 2.0);
+    EXPECT_NEAR(player.warp.samplesAhead(), static_cast<double>(player.position) - player.warp.readPosition(), 1e-9);
 }
 
 TEST(RateWarpTest, RatiosOutsideOneToFourAreClampedAndNonFiniteOnesIgnored) {

@@ -49,6 +49,14 @@ TEST(ResamplerPhaseTest, AnInputSampleIsConsumedWhenTheReadPositionReachesIt) {
         float sample = 0.0F;
         for (std::size_t n = 0; n < 5000; ++n) {
             const std::size_t needed = resampler.inputNeeded(1);
+            const double until = resampler.samplesUntilNext();
+            ASSERT_GE(until, 0.0);
+            if (n > 0) {
+                // The waveform's time of this output: what was consumed before, less what is left until the next.
+                ASSERT_NEAR(static_cast<double>(consumed) - until, static_cast<double>(n) * 2000.0 / rate,
+                            needed > 0 ? 2000.0 / rate : 1e-6)
+                    << "output " << n << " at " << rate << " Hz";
+            }
             const float zero[1] = {0.0F};
             resampler.process(std::span(zero).first(needed), std::span(&sample, 1));
             consumed += needed;

@@ -96,10 +96,10 @@ TEST_F(PlaceTest, APlaceIsHeardWhenTheTipIsThereWhateverTheDevice) {
                 settings.latencySeconds = [latency](double) { return latency; };
                 settings.readsClock = true;
                 const Match found = match(heard(settings, 0.05, 0.1), 0.05, 0.1);
-                EXPECT_GT(found.correlation, 0.6) << blockFrames << " frames, " << updateHz << " Hz, " << latency;
+                EXPECT_GT(found.correlation, 0.999) << blockFrames << " frames, " << updateHz << " Hz, " << latency;
                 // The output's delay of three samples is anticipated; two of them are the samples that the resampler
                 // reads before the first sounds.
-                EXPECT_NEAR(found.samples, 1.0, 0.75) << blockFrames << " frames, " << updateHz << " Hz, " << latency;
+                EXPECT_NEAR(found.samples, 1.0, 0.05) << blockFrames << " frames, " << updateHz << " Hz, " << latency;
             }
         }
     }

@@ -14,6 +14,9 @@ from haptoflow_training.waveform import SAMPLE_RATE_HZ
 # One sample at 100 mm/s.
 STEP_METRES = 5e-5
 SHIFT_METRES = 1e-3
+# From one value of a profile to the next: a straight line between values as far apart as samples would swallow high
+# frequencies.
+VALUE_METRES = STEP_METRES / 8.0
 _BUMP_DISTANCE_METRES = 0.003
 # Of the RMS. A Gaussian wave exceeds the first once in fifteen metres, the second twice a metre.
 _BUMP_SIZE, _FOUND_SIZE = 4.5, 3.5
@@ -21,24 +24,24 @@ _BUMP_SIZE, _FOUND_SIZE = 4.5, 3.5
 
 @dataclass(frozen=True)
 class Profile:
-    """A wave over place: values at `start_metres` + n STEP_METRES."""
+    """A wave over place: values at `start_metres` + n VALUE_METRES."""
 
     start_metres: float
     values: Doubles
 
     def between(self, low_metres: float, high_metres: float, shift_metres: float = 0.0) -> Doubles:
         places = np.arange(low_metres, high_metres, STEP_METRES) + shift_metres
-        known = self.start_metres + STEP_METRES * np.arange(len(self.values))
+        known = self.start_metres + VALUE_METRES * np.arange(len(self.values))
         return np.interp(places, known, self.values)
 
 
 def over_place(wave: Doubles, stroke: Pass) -> Profile:
     """The wave of a pass, resampled from its own samples per millimetre, in the direction of growing places."""
-    ratio = Fraction(stroke.speed_mps / SAMPLE_RATE_HZ / STEP_METRES).limit_denominator(1000)
+    ratio = Fraction(stroke.speed_mps / SAMPLE_RATE_HZ / VALUE_METRES).limit_denominator(1000)
     values = resample_poly(wave, ratio.numerator, ratio.denominator)
     if stroke.direction > 0.0:
         return Profile(stroke.start_metres, values)
-    return Profile(stroke.start_metres - STEP_METRES * (len(values) - 1), values[::-1])
+    return Profile(stroke.start_metres - VALUE_METRES * (len(values) - 1), values[::-1])
 
 
 @dataclass(frozen=True)

@@ -89,10 +89,10 @@ def _second_round(task: _Task) -> dict[str, float]:
     rounds = Rounds()
     wave = task.renderer.wave(Table(task.label), rounds, task.seeds[0])
     samples = rounds.round_seconds * SAMPLE_RATE_HZ
-    # The second half of the first round, as a profile of which one sample is one step.
+    # From the middle of each round on, as passes over a straight place.
     half, whole = round(0.5 * samples), round(samples)
-    first = Profile(0.0, wave[half:whole])
-    second = Profile(5e-5 * (whole - samples), wave[half + whole : 2 * whole])
+    first = over_place(wave[half:whole], Pass(0.0))
+    second = over_place(wave[half + whole : 2 * whole], Pass(rounds.speed_mps / SAMPLE_RATE_HZ * (whole - samples)))
     found = likeness(first, second, 0.001, 0.045)
     return {"correlation": found.correlation, "unshifted": found.unshifted, "shift_mm": 1e3 * found.shift_metres}
 
