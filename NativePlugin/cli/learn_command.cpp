@@ -135,9 +135,6 @@ void tell(const learning::LearningReport& report, const std::string& name, const
                   << " degrees from the recording's";
     }
     std::cout << '\n';
-    if (report.seeds) {
-        std::cout << "  seeds              " << *report.seeds << '\n';
-    }
     for (const learning::TierDistance& each : report.otherTiers) {
         if (each.isFurtherOff) {
             std::cout << "  tier " << each.tier << " is further off: " << fixedDecimals(each.spectralDistanceDb, 1)

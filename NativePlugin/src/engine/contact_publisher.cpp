@@ -124,8 +124,8 @@ void ContactPublisher::postToAudio(const Ingredients& ingredients, const Materia
     const auto& motion = contact_.ranged.motion;
     std::optional<dsp::ToneCepstrum> tone;
     if (!hasSignal) {
-        tone = resolveTone(ingredients, std::hypot(motion[0], motion[1]), static_cast<double>(state.toneDbPerOctave),
-                           tiltPerDecibel_);
+        tone = resolveTone(ingredients, std::hypot(motion[0], motion[1]), static_cast<double>(motion[2]),
+                           static_cast<double>(state.toneDbPerOctave), tiltPerDecibel_);
     }
     const effects::EffectMask requested =
         (state.effects & surfaceEffects) | (tone ? effects::maskOf(EffectKind::tone) : effects::EffectMask{0});

@@ -53,8 +53,8 @@ WaveVectors assignRibs(const Ingredients& ingredients, const WaveVectors& before
     return keepingSlots(chosen, before);
 }
 
-std::optional<dsp::ToneCepstrum> resolveTone(const Ingredients& ingredients, double speedMps, double tiltDbPerOctave,
-                                             const dsp::ToneCepstrum& tiltPerDecibel) noexcept {
+std::optional<dsp::ToneCepstrum> resolveTone(const Ingredients& ingredients, double speedMps, double newtons,
+                                             double tiltDbPerOctave, const dsp::ToneCepstrum& tiltPerDecibel) noexcept {
     const bool hasTone =
         std::ranges::any_of(ingredients.all(), [](const Ingredient& each) { return each.material->tone.has_value(); });
     if (!hasTone && tiltDbPerOctave == 0.0) {
@@ -68,7 +68,7 @@ std::optional<dsp::ToneCepstrum> resolveTone(const Ingredients& ingredients, dou
     const double total = ingredients.totalWeight();
     for (const Ingredient& each : ingredients.all()) {
         if (each.material->tone) {
-            add(each.material->tone->at(speedMps), each.weight / total);
+            add(each.material->tone->at(speedMps, newtons), each.weight / total);
         }
     }
     add(tiltPerDecibel, tiltDbPerOctave);

@@ -33,7 +33,7 @@ struct Material {
 /// The tone of a blend at a speed: the mean of its materials' gains in dB plus a tilt of `tiltDbPerOctave` about 150
 /// Hz. Empty if no material has a tone and the tilt is 0.
 [[nodiscard]] std::optional<dsp::ToneCepstrum> resolveTone(const Ingredients& ingredients, double speedMps,
-                                                           double tiltDbPerOctave,
+                                                           double newtons, double tiltDbPerOctave,
                                                            const dsp::ToneCepstrum& tiltPerDecibel) noexcept;
 
 /// Cepstrum of a tilt of 1 dB/octave. Allocates.

@@ -7,19 +7,19 @@
 
 namespace haptoflow::engine {
 
-ToneTable::ToneTable(const model::ToneTable& table) : speedsMps_(table.speedsMps) {
+ToneTable::ToneTable(const model::ToneTable& table) : speedsMps_(table.speedsMps), forcesNewtons_(table.forcesNewtons) {
     for (std::size_t row = 0; row < table.gainsDb.size(); ++row) {
         cepstra_.push_back(dsp::toneCepstrum([&](double frequencyHz) { return table.rowGainDb(row, frequencyHz); }));
     }
 }
 
-dsp::ToneCepstrum ToneTable::at(double speedMps) const noexcept {
-    const model::LogPlace place = model::placeInLog(speedsMps_, speedMps);
-    dsp::ToneCepstrum cepstrum = cepstra_[place.lower];
-    if (place.share > 0.0) {
-        const dsp::ToneCepstrum& upper = cepstra_[place.lower + 1];
-        std::ranges::transform(cepstrum, upper, cepstrum.begin(),
-                               [&place](double from, double to) { return std::lerp(from, to, place.share); });
+dsp::ToneCepstrum ToneTable::at(double speedMps, double newtons) const noexcept {
+    dsp::ToneCepstrum cepstrum{};
+    for (const auto& [row, weight] : model::ToneTable::rowsAround(speedsMps_, forcesNewtons_, speedMps, newtons)) {
+        if (weight > 0.0) {
+            std::ranges::transform(cepstrum, cepstra_[row], cepstrum.begin(),
+                                   [weight](double sum, double value) { return sum + weight * value; });
+        }
     }
     return cepstrum;
 }

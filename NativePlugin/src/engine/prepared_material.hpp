@@ -16,17 +16,18 @@ namespace haptoflow::engine {
 
 inline constexpr std::array<float, model::embeddingSize> noEmbedding{};
 
-/// A tone as a function of speed, stored as cepstra. Immutable.
+/// A tone as a function of speed and force, stored as cepstra. Immutable.
 class ToneTable {
 public:
-    /// Computes a cepstrum for each speed. Allocates.
+    /// Computes a cepstrum for each row. Allocates.
     explicit ToneTable(const model::ToneTable& table);
 
-    /// Interpolates the gains in dB over the logarithm of speed; constant beyond the ends.
-    [[nodiscard]] dsp::ToneCepstrum at(double speedMps) const noexcept;
+    /// Interpolates the gains in dB over the logarithms of speed and force; constant beyond the ends.
+    [[nodiscard]] dsp::ToneCepstrum at(double speedMps, double newtons) const noexcept;
 
 private:
     std::vector<double> speedsMps_;
+    std::vector<double> forcesNewtons_;
     std::vector<dsp::ToneCepstrum> cepstra_;
 };
 

@@ -57,11 +57,6 @@ std::array<float, 3> ClosedLoop::motionFrom(std::size_t first, std::size_t count
             static_cast<float>(std::clamp(mean[2], model_.forceNewtons.minimum, model_.forceNewtons.maximum))};
 }
 
-void ClosedLoop::generate(std::span<const inference::SegmentRequest> requests, std::span<float> segments) {
-    generator_.generate(requests, segments);
-    segments_ += requests.size();
-}
-
 std::vector<float> ClosedLoop::run(std::span<const Embedding> embeddings, std::span<const Chain> chains,
                                    const LoopSettings& settings) {
     const std::size_t whole = settings.warmSamples + settings.samples;
@@ -102,7 +97,8 @@ std::vector<float> ClosedLoop::run(std::span<const Embedding> embeddings, std::s
             std::copy_n(waves.begin() + static_cast<std::ptrdiff_t>(c * stride + start), segment,
                         previous.begin() + static_cast<std::ptrdiff_t>(c * segment));
         }
-        generate(requests, made);
+        generator_.generate(requests, made);
+        segments_ += requests.size();
         for (std::size_t c = 0; c < chains.size(); ++c) {
             const auto successor = at(made, c);
             const std::span<float, segment> running(waves.data() + c * stride + segment + start, segment);

@@ -45,16 +45,13 @@ public:
     [[nodiscard]] std::vector<float> run(std::span<const Embedding> embeddings, std::span<const Chain> chains,
                                          const LoopSettings& settings);
 
-    /// Mean motion of the recording's samples from `first` on, limited to the model's range.
-    [[nodiscard]] std::array<float, 3> motionFrom(std::size_t first, std::size_t count) const;
-
-    /// Generates one segment for each request. Throws inference::InferenceError.
-    void generate(std::span<const inference::SegmentRequest> requests, std::span<float> segments);
-
     /// Number of segments generated so far.
     [[nodiscard]] std::uint64_t segments() const noexcept { return segments_; }
 
 private:
+    /// Mean motion of the recording's samples from `first` on, limited to the model's range.
+    [[nodiscard]] std::array<float, 3> motionFrom(std::size_t first, std::size_t count) const;
+
     inference::SegmentGenerator& generator_;
     const model::ModelHeader& model_;
     const recordings::PreparedRecording& recording_;

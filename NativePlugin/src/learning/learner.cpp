@@ -9,7 +9,6 @@
 #include "learning/label_comparison.hpp"
 #include "learning/material_frame.hpp"
 #include "learning/material_text.hpp"
-#include "learning/seed_ribs.hpp"
 #include "learning/thread_clock.hpp"
 #include "learning/wave_vectors.hpp"
 #include "model/material_file.hpp"
@@ -29,6 +28,7 @@ constexpr double degreesPerRadian = 57.29577951308232;
 constexpr double labelShare = 0.4;
 constexpr double fitShare = 0.9;
 constexpr double noticeableDb = 0.3;
+constexpr double largeLevelErrorDb = 3.0;
 
 class Learner {
 public:
@@ -71,14 +71,8 @@ public:
         report_.fittedDistanceDb = fitted.distanceDb;
         report_.generations = fitted.generations;
         say(0.9, "tone");
-        const ToneFit tone = fitTones(fit, embedding);
-        std::vector<LearntSeed> seeds;
-        if (!model_.header().skeleton) {
-            seeds = chooseSeeds(recording_, sliding_, unitWave_, tone.tone);
-            placeRibs(seeds, loop, embedding, settings_.seed);
-            report_.seeds = seeds.size();
-        }
-        report_.toneSpeeds = tone.tone.speedsMps.size();
+        const model::ToneTable tone = fitTones(fit, embedding);
+        report_.toneSpeeds = tone.speedsMps.size();
         report_.speedExponent = level_.speedExponent;
         report_.forceExponent = level_.table.forceExponent;
         report_.segments = loop.segments();
@@ -91,10 +85,9 @@ public:
                      .start = labels[start],
                      .embedding = embedding,
                      .level = level_,
-                     .tone = tone.tone,
+                     .tone = tone,
                      .frequencyExponent = isRuled ? 1.0 : frequencyExponent(fit.bins(), fit.recorded(), labels[start]),
-                     .wavelengthMetres = wavelengthMetres(),
-                     .seeds = seeds});
+                     .wavelengthMetres = wavelengthMetres()});
         requireReadable(learnt.materialJson);
         say(1.0, "done");
         learnt.report = std::move(report_);
@@ -213,28 +206,27 @@ private:
         return metresPerMillimetre / std::hypot(report_.waveVectors[0].x, report_.waveVectors[0].y);
     }
 
-    ToneFit fitTones(TextureFit& fit, const Embedding& embedding) {
-        const std::vector<TextureFigures> generated = fit.resynthesis(embedding);
-        ToneFit tone = fitTone(fit.bins(), fit.recorded(), generated, recording_.bandwidthHz);
-        if (tone.tone.speedsMps.empty()) {
+    model::ToneTable fitTones(TextureFit& fit, const Embedding& embedding) {
+        const std::vector<SpectrumFrame> recorded = fit.recordedFrames();
+        const std::vector<SpectrumFrame> generated = fit.generatedFrames(embedding);
+        model::ToneTable tone = fitTone(recorded, generated, recording_.bandwidthHz);
+        if (tone.speedsMps.empty()) {
             return tone;
         }
-        for (std::size_t i = 0; i < level_.table.speedsMps.size(); ++i) {
-            level_.table.logLevels[i] += tone.logLevel(level_.table.speedsMps[i]);
-        }
-        report_.spectralDistanceDb = spectralDistanceDb(fit.bins(), fit.recorded(), generated, tone);
-        for (std::size_t bin = 0; bin < fit.bins().count(); ++bin) {
-            const TextureFigures& recorded = fit.recorded()[bin];
-            if (recorded.frames > 0.0 && generated[bin].frames > 0.0) {
-                report_.levelErrorDb =
-                    std::max(report_.levelErrorDb, std::abs(10.0 * std::log10(std::max(recorded.meanSquare, 1e-9))));
-            }
+        const ToneErrors errors = toneErrors(fit.bins(), recorded, generated, tone);
+        report_.spectralDistanceDb = errors.spectralDistanceDb;
+        report_.levelErrorDb = errors.levelErrorDb;
+        if (std::abs(errors.levelErrorDb) > largeLevelErrorDb) {
+            report_.warnings.push_back(
+                "at some speed the level is " + recordings::plainNumber(std::abs(errors.levelErrorDb)) + " dB " +
+                (errors.levelErrorDb > 0.0 ? "above" : "below") +
+                " the recording's: it changes there for another reason than speed and force, such as knocks, the "
+                "direction of the strokes or a motion that was measured late; record steady strokes at that speed");
         }
         for (const OtherTier& other : otherTiers_) {
             ClosedLoop loop(*other.generator, model_.header(), recording_, unitWave_);
-            TextureFit otherFit = fitOf(loop);
             const double distanceDb =
-                spectralDistanceDb(fit.bins(), fit.recorded(), otherFit.resynthesis(embedding), tone);
+                toneErrors(fit.bins(), recorded, fitOf(loop).generatedFrames(embedding), tone).spectralDistanceDb;
             report_.otherTiers.push_back({.tier = other.name,
                                           .spectralDistanceDb = distanceDb,
                                           .isFurtherOff = distanceDb > report_.spectralDistanceDb + noticeableDb});

@@ -26,10 +26,9 @@ struct OtherTier {
     std::unique_ptr<inference::SegmentGenerator> generator;
 };
 
-/// Learns a material from a recording: level law, wave vectors, embedding, tone and, for a model without a skeleton,
-/// seeds. `generator` is one of the model's tiers. Equal arguments give equal bytes. Throws
-/// recordings::RecordingUnusable, std::invalid_argument, inference::LoadCancelled and inference::InferenceError. For
-/// worker threads.
+/// Learns a material from a recording: level law, wave vectors, embedding and tone. `generator` is one of the model's
+/// tiers. Equal arguments give equal bytes. Throws recordings::RecordingUnusable, std::invalid_argument,
+/// inference::LoadCancelled and inference::InferenceError. For worker threads.
 [[nodiscard]] LearntMaterial learnMaterial(const recordings::Recording& recording, const model::ModelFile& model,
                                            inference::SegmentGenerator& generator, const LearningSettings& settings,
                                            std::span<const OtherTier> otherTiers = {});

@@ -18,30 +18,27 @@ std::string reportJson(const LearningReport& report) {
                          {"further_off", each.isFurtherOff}});
     }
     const Json noise{{"mps2", rounded(report.noiseMps2, 1e5)}, {"from", recordings::nameOf(report.noiseSource)}};
-    Json json{{"start_label", report.startLabel},
-              {"start_distance_db", rounded(report.startDistanceDb, 1e3)},
-              {"nearest_label", report.nearestLabel},
-              {"fitted_distance_db", rounded(report.fittedDistanceDb, 1e3)},
-              {"spectral_distance_db", rounded(report.spectralDistanceDb, 1e3)},
-              {"other_tiers", tiers},
-              {"level_error_db", rounded(report.levelErrorDb, 1e3)},
-              {"sliding_seconds", rounded(report.slidingSeconds, 1e2)},
-              {"sensor_noise", noise},
-              {"speed_mps", roundedNumbers(report.speedMps, 1e5)},
-              {"force_newtons", roundedNumbers(report.forceNewtons, 1e4)},
-              {"level_exponents",
-               {{"speed", rounded(report.speedExponent, 1e4)}, {"force", rounded(report.forceExponent, 1e4)}}},
-              {"wave_vectors", vectors},
-              {"turn_degrees", rounded(report.turnDegrees, 1e3)},
-              {"tone_speeds", report.toneSpeeds},
-              {"segments", report.segments},
-              {"generations", report.generations},
-              {"seconds", rounded(report.seconds, 1e2)},
-              {"stopped_early", report.stoppedEarly},
-              {"warnings", report.warnings}};
-    if (report.seeds) {
-        json["seeds"] = *report.seeds;
-    }
+    const Json json{{"start_label", report.startLabel},
+                    {"start_distance_db", rounded(report.startDistanceDb, 1e3)},
+                    {"nearest_label", report.nearestLabel},
+                    {"fitted_distance_db", rounded(report.fittedDistanceDb, 1e3)},
+                    {"spectral_distance_db", rounded(report.spectralDistanceDb, 1e3)},
+                    {"other_tiers", tiers},
+                    {"level_error_db", rounded(report.levelErrorDb, 1e3)},
+                    {"sliding_seconds", rounded(report.slidingSeconds, 1e2)},
+                    {"sensor_noise", noise},
+                    {"speed_mps", roundedNumbers(report.speedMps, 1e5)},
+                    {"force_newtons", roundedNumbers(report.forceNewtons, 1e4)},
+                    {"level_exponents",
+                     {{"speed", rounded(report.speedExponent, 1e4)}, {"force", rounded(report.forceExponent, 1e4)}}},
+                    {"wave_vectors", vectors},
+                    {"turn_degrees", rounded(report.turnDegrees, 1e3)},
+                    {"tone_speeds", report.toneSpeeds},
+                    {"segments", report.segments},
+                    {"generations", report.generations},
+                    {"seconds", rounded(report.seconds, 1e2)},
+                    {"stopped_early", report.stoppedEarly},
+                    {"warnings", report.warnings}};
     return json.dump(2) + "\n";
 }
 

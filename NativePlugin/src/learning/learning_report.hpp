@@ -6,7 +6,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,7 +32,7 @@ struct LearningReport {
     double spectralDistanceDb = 0.0;
     /// The same for each other tier of the model with this material, for which the tone was not fitted.
     std::vector<TierDistance> otherTiers;
-    /// Maximum error of the level over the speeds.
+    /// Maximum error of the level over the speeds, with its sign: below 0 the material is too quiet.
     double levelErrorDb = 0.0;
     /// Duration of the sliding that was used.
     double slidingSeconds = 0.0;
@@ -48,8 +47,6 @@ struct LearningReport {
     std::vector<WaveVector> waveVectors;
     /// Angle from the recording's first axis to the material's; 0 without ribs.
     double turnDegrees = 0.0;
-    /// Empty for a model with a skeleton, whose touches need no seeds.
-    std::optional<std::size_t> seeds;
     std::size_t toneSpeeds = 0;
     std::uint64_t segments = 0;
     std::uint64_t generations = 0;

@@ -12,14 +12,11 @@ constexpr std::size_t frameSamples = 100;
 constexpr std::size_t frameHop = 50;
 /// Standard deviations: of one frame's log RMS from the law, and of a slope between knots from the common one.
 constexpr double frameSpread = 0.35;
-constexpr double slopeSpread = 0.9;
+constexpr double slopeSpread = 0.45;
 constexpr double framesPerKnot = 14.0;
 constexpr double knotDistance = 0.22;
 constexpr std::size_t maximumKnots = 14;
 constexpr int newtonRounds = 30;
-constexpr std::size_t steadyMargin = 80;
-constexpr double maximumChange = 2.0;
-constexpr double minimumSteadyShare = 0.25;
 
 struct Frame {
     double logSpeed = 0.0;
@@ -27,23 +24,8 @@ struct Frame {
     double power = 0.0;
 };
 
-/// True if the speed changes slowly. While it changes fast, the tracker's smoothed speed does not match the wave.
-bool isSteady(const recordings::PreparedRecording& recording, std::size_t start) {
-    double lowest = recording.speedMps(start);
-    double highest = lowest;
-    const std::size_t first = start > steadyMargin ? start - steadyMargin : 0;
-    const std::size_t end = std::min(start + frameSamples + steadyMargin, recording.motion.size());
-    for (std::size_t i = first; i < end; i += 4) {
-        const double speed = recording.speedMps(i);
-        lowest = std::min(lowest, speed);
-        highest = std::max(highest, speed);
-    }
-    return highest <= maximumChange * lowest;
-}
-
 std::vector<Frame> framesOf(const recordings::PreparedRecording& recording, const Sliding& sliding) {
     std::vector<Frame> frames;
-    std::vector<Frame> steady;
     for (std::size_t start = 0; start + frameSamples <= recording.wave.size(); start += frameHop) {
         if (!sliding.holds(start, frameSamples)) {
             continue;
@@ -65,12 +47,8 @@ std::vector<Frame> framesOf(const recordings::PreparedRecording& recording, cons
         // Avoids the logarithm of digital silence: the limit is a hundredth of the detection threshold.
         frame.power = std::max(frame.power, 1e-10);
         frames.push_back(frame);
-        if (isSteady(recording, start)) {
-            steady.push_back(frame);
-        }
     }
-    return static_cast<double>(steady.size()) >= minimumSteadyShare * static_cast<double>(frames.size()) ? steady
-                                                                                                         : frames;
+    return frames;
 }
 
 /// Log speeds of the knots: evenly spaced quantiles with a minimum distance that the frames can resolve.

@@ -102,30 +102,36 @@ EigenDecomposition decompose(SymmetricMatrix matrix) {
     return result;
 }
 
-std::vector<double> solvePositive(SymmetricMatrix matrix, std::vector<double> right) {
+PositiveFactor::PositiveFactor(const SymmetricMatrix& matrix) : factor_(matrix) {
     constexpr int maximumTries = 12;
-    SymmetricMatrix factor = matrix;
     double ridge = 1e-12;
-    for (int attempt = 0; attempt < maximumTries && !factorise(factor); ++attempt) {
-        factor = matrix;
+    for (int attempt = 0; attempt < maximumTries && !factorise(factor_); ++attempt) {
+        factor_ = matrix;
         for (std::size_t i = 0; i < matrix.size; ++i) {
-            factor.at(i, i) += ridge * (1.0 + std::abs(matrix.at(i, i)));
+            factor_.at(i, i) += ridge * (1.0 + std::abs(matrix.at(i, i)));
         }
         ridge *= 10.0;
     }
-    for (std::size_t i = 0; i < matrix.size; ++i) {
+}
+
+std::vector<double> PositiveFactor::solve(std::vector<double> right) const {
+    for (std::size_t i = 0; i < factor_.size; ++i) {
         for (std::size_t k = 0; k < i; ++k) {
-            right[i] -= factor.at(i, k) * right[k];
+            right[i] -= factor_.at(i, k) * right[k];
         }
-        right[i] /= factor.at(i, i);
+        right[i] /= factor_.at(i, i);
     }
-    for (std::size_t i = matrix.size; i-- > 0;) {
-        for (std::size_t k = i + 1; k < matrix.size; ++k) {
-            right[i] -= factor.at(k, i) * right[k];
+    for (std::size_t i = factor_.size; i-- > 0;) {
+        for (std::size_t k = i + 1; k < factor_.size; ++k) {
+            right[i] -= factor_.at(k, i) * right[k];
         }
-        right[i] /= factor.at(i, i);
+        right[i] /= factor_.at(i, i);
     }
     return right;
+}
+
+std::vector<double> solvePositive(const SymmetricMatrix& matrix, std::vector<double> right) {
+    return PositiveFactor(matrix).solve(std::move(right));
 }
 
 }  // namespace haptoflow::learning

@@ -27,8 +27,19 @@ struct EigenDecomposition {
 /// By Jacobi rotations.
 [[nodiscard]] EigenDecomposition decompose(SymmetricMatrix matrix);
 
-/// Solves matrix x = right for a positive definite matrix by Cholesky decomposition; adds a small ridge if it is not
-/// positive definite.
-[[nodiscard]] std::vector<double> solvePositive(SymmetricMatrix matrix, std::vector<double> right);
+/// The Cholesky decomposition of a positive definite matrix; of one that is not, with a small ridge.
+class PositiveFactor {
+public:
+    explicit PositiveFactor(const SymmetricMatrix& matrix);
+
+    /// Solves matrix x = right.
+    [[nodiscard]] std::vector<double> solve(std::vector<double> right) const;
+
+private:
+    SymmetricMatrix factor_;
+};
+
+/// Solves matrix x = right once.
+[[nodiscard]] std::vector<double> solvePositive(const SymmetricMatrix& matrix, std::vector<double> right);
 
 }  // namespace haptoflow::learning

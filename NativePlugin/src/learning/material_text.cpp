@@ -27,22 +27,9 @@ Json toneJson(const model::ToneTable& tone) {
         rows.push_back(roundedNumbers(row, 1e3));
     }
     return {{"speeds_mps", roundedNumbers(tone.speedsMps, 1e6)},
+            {"forces_newtons", roundedNumbers(tone.forcesNewtons, 1e4)},
             {"frequencies_hz", roundedNumbers(tone.frequenciesHz, 1e3)},
             {"gains_db", rows}};
-}
-
-Json seedsJson(std::span<const LearntSeed> seeds) {
-    Json result = Json::array();
-    for (const LearntSeed& seed : seeds) {
-        Json each{{"velocity_mps", roundedNumbers(seed.velocityMps, 1e6)},
-                  {"force_newtons", rounded(seed.forceNewtons, 1e4)}};
-        if (seed.ribPhase) {
-            each["rib_phase"] = roundedNumbers(*seed.ribPhase, 1e5);
-        }
-        each["samples"] = roundedNumbers(seed.samples, 1e5);
-        result.push_back(std::move(each));
-    }
-    return result;
 }
 
 }  // namespace
@@ -82,9 +69,6 @@ std::string materialText(const model::ModelFile& model, const MaterialContent& c
                      {"force_exponent", rounded(content.level.table.forceExponent, 1e4)}};
     if (!content.tone.speedsMps.empty()) {
         json["tone"] = toneJson(content.tone);
-    }
-    if (!content.seeds.empty()) {
-        json["seeds"] = seedsJson(content.seeds);
     }
     return json.dump() + "\n";
 }

@@ -4,12 +4,10 @@
 #include "learning/learning_report.hpp"
 #include "learning/learning_settings.hpp"
 #include "learning/level_law.hpp"
-#include "learning/seed_choice.hpp"
 #include "learning/tone_fit.hpp"
 #include "model/model_file.hpp"
 
 #include <optional>
-#include <span>
 #include <string>
 
 namespace haptoflow::learning {
@@ -25,7 +23,6 @@ struct MaterialContent {
     const model::ToneTable& tone;
     double frequencyExponent = 0.0;
     std::optional<double> wavelengthMetres;
-    std::span<const LearntSeed> seeds;
 };
 
 /// The text of a `.haptomaterial` file, ending in a line feed.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <functional>
 #include <numbers>
 
 namespace haptoflow::learning {
@@ -14,6 +15,18 @@ constexpr std::array<std::size_t, 3> pieceSamples{4, 20, 60};
 constexpr double powerFloor = 1e-3;
 constexpr double samplesPerBin = 2800.0;
 constexpr double narrowestBin = 0.18;
+
+const std::array<double, spectrumSamples>& hannWindow() {
+    static const auto window = [] {
+        std::array<double, spectrumSamples> values{};
+        for (std::size_t i = 0; i < spectrumSamples; ++i) {
+            values[i] = 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * static_cast<double>(i) /
+                                             static_cast<double>(spectrumSamples));
+        }
+        return values;
+    }();
+    return window;
+}
 
 }  // namespace
 
@@ -48,27 +61,24 @@ SpeedBins SpeedBins::divide(std::vector<double> speedsMps, std::size_t most) {
     return result;
 }
 
-TextureMeter::TextureMeter(std::size_t bins) : sums_(bins) {
-    for (std::size_t i = 0; i < spectrumSamples; ++i) {
-        window_[i] = 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * static_cast<double>(i) /
-                                          static_cast<double>(spectrumSamples));
-    }
-}
-
-void TextureMeter::addSpectrum(Sums& sums, std::span<const float, spectrumSamples> wave) const {
+std::array<double, spectrumBins> powerOf(std::span<const float, spectrumSamples> wave) {
     std::vector<std::complex<double>> values(spectrumSamples);
     for (std::size_t i = 0; i < spectrumSamples; ++i) {
-        values[i] = static_cast<double>(wave[i]) * window_[i];
+        values[i] = static_cast<double>(wave[i]) * hannWindow()[i];
     }
     dsp::fourierTransform(values, dsp::Direction::forward);
     // Scales the sum of the bins to the mean square: the window's is 3/8, and inner bins represent two frequencies.
     constexpr double windowPower = 0.375;
     constexpr auto length = static_cast<double>(spectrumSamples);
+    std::array<double, spectrumBins> power{};
     for (std::size_t bin = 0; bin < spectrumBins; ++bin) {
         const double sides = bin == 0 || bin + 1 == spectrumBins ? 1.0 : 2.0;
-        sums.power[bin] += sides * std::norm(values[bin]) / (windowPower * length * length);
+        power[bin] = sides * std::norm(values[bin]) / (windowPower * length * length);
     }
+    return power;
 }
+
+TextureMeter::TextureMeter(std::size_t bins) : sums_(bins) {}
 
 void TextureMeter::addLines(Sums& sums, std::span<const float, spectrumSamples> wave,
                             std::span<const RibTravel> ribTravels) const {
@@ -85,7 +95,7 @@ void TextureMeter::addLines(Sums& sums, std::span<const float, spectrumSamples> 
         std::array<std::complex<double>, partialsOfRib> sum{};
         for (std::size_t i = 0; i < spectrumSamples; ++i) {
             const std::complex<double> turn = std::polar(1.0, -2.0 * std::numbers::pi * ribTravels[i][rib]);
-            std::complex<double> each = window_[i] * static_cast<double>(wave[i]);
+            std::complex<double> each = hannWindow()[i] * static_cast<double>(wave[i]);
             for (std::complex<double>& partial : sum) {
                 each *= turn;
                 partial += each;
@@ -104,7 +114,7 @@ void TextureMeter::addLines(Sums& sums, std::span<const float, spectrumSamples> 
 void TextureMeter::add(std::size_t bin, std::span<const float, spectrumSamples> wave,
                        std::span<const RibTravel> ribTravels) {
     Sums& sums = sums_.at(bin);
-    addSpectrum(sums, wave);
+    std::ranges::transform(sums.power, powerOf(wave), sums.power.begin(), std::plus{});
     if (!ribTravels.empty()) {
         addLines(sums, wave, ribTravels);
     }

@@ -35,6 +35,16 @@ inline constexpr std::size_t ribPartials = partialsOfRib * inference::ribCount;
 /// Phase along each wave vector since the start, in cycles.
 using RibTravel = std::array<double, inference::ribCount>;
 
+/// Power density of a Hann-windowed frame; its sum over a long wave's frames is in the mean the wave's mean square.
+[[nodiscard]] std::array<double, spectrumBins> powerOf(std::span<const float, spectrumSamples> wave);
+
+/// The power of one frame of unit level and the motion in it.
+struct SpectrumFrame {
+    double speedMps = 0.0;
+    double forceNewtons = 0.0;
+    std::array<double, spectrumBins> power{};
+};
+
 /// Statistics of a texture of unit level at one speed.
 struct TextureFigures {
     double frames = 0.0;
@@ -77,9 +87,6 @@ private:
     void addLines(Sums& sums, std::span<const float, spectrumSamples> wave,
                   std::span<const RibTravel> ribTravels) const;
 
-    void addSpectrum(Sums& sums, std::span<const float, spectrumSamples> wave) const;
-
-    std::array<double, spectrumSamples> window_{};
     std::vector<Sums> sums_;
 };
 

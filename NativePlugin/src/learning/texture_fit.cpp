@@ -132,7 +132,7 @@ TextureFit::TextureFit(ClosedLoop& loop, const recordings::PreparedRecording& re
       seed_(seed),
       bins_(SpeedBins::divide(slidingSpeeds(recording, sliding), maximumBins)) {
     TextureMeter meter(bins_.count());
-    measure(meter, unitWave, 0, frameHop);
+    measure(meter, unitWave, 0);
     recorded_ = meter.figures();
     starts_ = startsByBin(chainSamples);
     const bool hasStart =
@@ -144,19 +144,48 @@ TextureFit::TextureFit(ClosedLoop& loop, const recordings::PreparedRecording& re
     }
 }
 
-void TextureFit::measure(TextureMeter& meter, std::span<const float> wave, std::size_t start, std::size_t hop) const {
-    for (std::size_t at = 0; at + spectrumSamples <= wave.size(); at += hop) {
+template <typename Use>
+void TextureFit::forEachFrame(std::size_t samples, std::size_t start, std::size_t hop, Use use) const {
+    for (std::size_t at = 0; at + spectrumSamples <= samples; at += hop) {
         if (sliding_.holds(start + at, spectrumSamples)) {
-            double logSpeed = 0.0;
-            for (std::size_t i = start + at; i < start + at + spectrumSamples; ++i) {
-                logSpeed += std::log(recording_.speedMps(i)) / static_cast<double>(spectrumSamples);
-            }
-            const std::span<const RibTravel> ribTravels =
-                ribTravels_.empty() ? std::span<const RibTravel>()
-                                    : std::span(ribTravels_).subspan(start + at, spectrumSamples);
-            meter.add(bins_.binOf(std::exp(logSpeed)), wave.subspan(at).first<spectrumSamples>(), ribTravels);
+            use(at);
         }
     }
+}
+
+double TextureFit::meanSpeedMps(std::size_t first) const {
+    double logSpeed = 0.0;
+    for (std::size_t i = first; i < first + spectrumSamples; ++i) {
+        logSpeed += std::log(recording_.speedMps(i)) / static_cast<double>(spectrumSamples);
+    }
+    return std::exp(logSpeed);
+}
+
+void TextureFit::measure(TextureMeter& meter, std::span<const float> wave, std::size_t start) const {
+    forEachFrame(wave.size(), start, frameHop, [&](std::size_t at) {
+        const std::span<const RibTravel> ribTravels = ribTravels_.empty()
+                                                          ? std::span<const RibTravel>()
+                                                          : std::span(ribTravels_).subspan(start + at, spectrumSamples);
+        meter.add(bins_.binOf(meanSpeedMps(start + at)), wave.subspan(at).first<spectrumSamples>(), ribTravels);
+    });
+}
+
+void TextureFit::addFrames(std::vector<SpectrumFrame>& frames, std::span<const float> wave, std::size_t start) const {
+    forEachFrame(wave.size(), start, spectrumSamples / 2, [&](std::size_t at) {
+        double force = 0.0;
+        for (std::size_t i = start + at; i < start + at + spectrumSamples; ++i) {
+            force += static_cast<double>(recording_.motion[i][2]) / static_cast<double>(spectrumSamples);
+        }
+        frames.push_back({.speedMps = meanSpeedMps(start + at),
+                          .forceNewtons = force,
+                          .power = powerOf(wave.subspan(at).first<spectrumSamples>())});
+    });
+}
+
+std::vector<SpectrumFrame> TextureFit::recordedFrames() const {
+    std::vector<SpectrumFrame> frames;
+    addFrames(frames, unitWave_, 0);
+    return frames;
 }
 
 std::vector<std::vector<std::size_t>> TextureFit::startsByBin(std::size_t samples) const {
@@ -214,17 +243,17 @@ std::vector<double> TextureFit::distances(std::span<const Embedding> embeddings,
         TextureMeter meter(bins_.count());
         for (std::size_t k = 0; k < each.size(); ++k) {
             measure(meter, std::span(waves).subspan((e * each.size() + k) * chainSamples, chainSamples),
-                    each[k].start + warmSamples, frameHop);
+                    each[k].start + warmSamples);
         }
         result.push_back(textureDistance(recorded_, meter.figures(), recording_.bandwidthHz));
     }
     return result;
 }
 
-std::vector<TextureFigures> TextureFit::resynthesis(const Embedding& embedding) {
+std::vector<SpectrumFrame> TextureFit::generatedFrames(const Embedding& embedding) {
     constexpr std::size_t hopAt72Hz = 28;
-    constexpr std::size_t maximumChains = 96;
-    constexpr std::size_t defaultChains = 60;
+    constexpr std::size_t maximumChains = 192;
+    constexpr std::size_t defaultChains = 120;
     std::size_t available = 0;
     for (const auto& starts : starts_) {
         available += starts.size();
@@ -245,12 +274,11 @@ std::vector<TextureFigures> TextureFit::resynthesis(const Embedding& embedding) 
                                                 .samples = chainSamples,
                                                 .seed = seed_,
                                                 .round = 1'000'000});
-    TextureMeter meter(bins_.count());
+    std::vector<SpectrumFrame> frames;
     for (std::size_t k = 0; k < chains.size(); ++k) {
-        measure(meter, std::span(waves).subspan(k * chainSamples, chainSamples), chains[k].start + warmSamples,
-                frameHop);
+        addFrames(frames, std::span(waves).subspan(k * chainSamples, chainSamples), chains[k].start + warmSamples);
     }
-    return meter.figures();
+    return frames;
 }
 
 }  // namespace haptoflow::learning

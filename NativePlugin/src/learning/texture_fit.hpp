@@ -33,13 +33,20 @@ public:
     [[nodiscard]] std::vector<double> distances(std::span<const Embedding> embeddings, std::size_t chains,
                                                 std::uint64_t round);
 
-    /// Statistics of the waves generated for an embedding along the whole recording, several times, at 72 updates per
-    /// second.
-    [[nodiscard]] std::vector<TextureFigures> resynthesis(const Embedding& embedding);
+    /// The frames of the recording that slide, each half a frame after the last.
+    [[nodiscard]] std::vector<SpectrumFrame> recordedFrames() const;
+    /// Frames of waves generated for an embedding along the whole recording, several times, at 72 updates per second.
+    [[nodiscard]] std::vector<SpectrumFrame> generatedFrames(const Embedding& embedding);
 
 private:
     [[nodiscard]] std::vector<std::vector<std::size_t>> startsByBin(std::size_t samples) const;
-    void measure(TextureMeter& meter, std::span<const float> wave, std::size_t start, std::size_t hop) const;
+    void measure(TextureMeter& meter, std::span<const float> wave, std::size_t start) const;
+    /// Adds the frames of a wave that begins at the recording's sample `start`.
+    void addFrames(std::vector<SpectrumFrame>& frames, std::span<const float> wave, std::size_t start) const;
+    /// Calls `use(place in the wave)` for each frame that slides.
+    template <typename Use>
+    void forEachFrame(std::size_t samples, std::size_t start, std::size_t hop, Use use) const;
+    [[nodiscard]] double meanSpeedMps(std::size_t first) const;
 
     ClosedLoop& loop_;
     const recordings::PreparedRecording& recording_;

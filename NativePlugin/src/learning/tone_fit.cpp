@@ -1,186 +1,452 @@
 #include "learning/tone_fit.hpp"
 
+#include "learning/condition_basis.hpp"
+#include "learning/gamma_regression.hpp"
+#include "learning/linear_algebra.hpp"
+
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <numeric>
+#include <optional>
 
 namespace haptoflow::learning {
 namespace {
 
-constexpr double lowestHz = 20.0;
+constexpr double lowestHz = 15.0;
 constexpr double highestHz = 950.0;
-constexpr double bandOctaves = 1.0 / 3.0;
-constexpr double narrowestHz = 7.0;
-constexpr double relativeWidth = 0.12;
-constexpr double maximumGainDb = 24.0;
+constexpr std::size_t cosines = 16;
+constexpr std::size_t tableSpeeds = 8;
+constexpr std::size_t tableForces = 4;
+constexpr std::size_t tableFrequencies = model::ToneTable::maximumFrequencies;
+constexpr double maximumGainDb = 30.0;
+constexpr std::size_t minimumFrames = 8;
 /// Decibels per unit of the natural logarithm of a power.
 constexpr double decibels = 4.342944819032518;
-/// Number of overlapping frames with the information of one independent frame.
-constexpr double framesPerIndependent = 2.2;
-constexpr double commonSpreadDb = 10.0;
-constexpr double minimumFrames = 3.0;
+/// Frames overlap by half, so that each counts less than an independent one.
+constexpr double frameWeight = 0.62;
+/// Of a frame's whole power: a quarter of what white noise would give, because spectra have peaks and levels drift.
+constexpr double powerWeight = 2.0;
+constexpr double powerFloor = 1e-9;
 
-std::vector<double> bandCentres(double bandwidthHz) {
-    std::vector<double> centres;
-    const double last = std::min(highestHz, bandwidthHz);
-    for (double centre = lowestHz; centre < 0.9 * last; centre *= std::exp2(bandOctaves)) {
-        centres.push_back(centre);
+/// Prior deviations of the natural log power: of the mean, of the slopes over speed and force, and of the Gaussians.
+struct Prior {
+    double mean = 0.0;
+    double slope = 0.0;
+    double gaussian = 0.0;
+
+    [[nodiscard]] double of(std::size_t function) const {
+        return function == 0 ? mean : function < ConditionBasis::firstGaussian ? slope : gaussian;
     }
-    centres.push_back(last);
-    return centres;
+};
+constexpr Prior levelPrior{.mean = std::numbers::sqrt3, .slope = 0.2, .gaussian = 0.4};
+constexpr Prior lawPrior{.mean = 0.3, .slope = 0.05, .gaussian = 0.05};
+constexpr Prior shapePrior{.mean = 0.2, .slope = 0.1, .gaussian = 0.1};
+/// By which the deviations of shapes are multiplied; the first leaves the spectrum's shape to the network.
+constexpr std::array<double, 5> freedoms{1e-3, 0.5, 1.0, 2.0, 4.0};
+constexpr std::size_t folds = 4;
+
+double warped(double hertz) {
+    return std::log1p(hertz / 120.0);
 }
 
-struct Ratio {
-    double decibel = 0.0;
-    double variance = 0.0;
+/// The frequencies that are compared, and their cosines.
+class Spectrum {
+public:
+    explicit Spectrum(double bandwidthHz)
+        : first_(static_cast<std::size_t>(std::ceil(lowestHz / hertzPerBin))),
+          end_(std::min(spectrumBins, static_cast<std::size_t>(std::min(highestHz, bandwidthHz) / hertzPerBin) + 1)) {
+        for (std::size_t bin = first_; bin < end_; ++bin) {
+            cosines_.push_back(cosinesAt(static_cast<double>(bin) * hertzPerBin));
+        }
+    }
+
+    using Cosines = std::array<double, cosines>;
+    [[nodiscard]] std::size_t count() const { return cosines_.size(); }
+    [[nodiscard]] std::size_t bin(std::size_t index) const { return first_ + index; }
+    [[nodiscard]] const Cosines& at(std::size_t index) const { return cosines_[index]; }
+    [[nodiscard]] double highest() const { return static_cast<double>(end_ - 1) * hertzPerBin; }
+    [[nodiscard]] Cosines cosinesAt(double hertz) const {
+        const double from = warped(static_cast<double>(first_) * hertzPerBin);
+        const double place = (warped(hertz) - from) / (warped(highest()) - from);
+        Cosines values;
+        for (std::size_t k = 0; k < cosines; ++k) {
+            values[k] = std::cos(std::numbers::pi * static_cast<double>(k) * place);
+        }
+        return values;
+    }
+    /// Evenly over the warped frequency, from the first to the last.
+    [[nodiscard]] std::vector<double> tableHertz() const {
+        const double from = warped(static_cast<double>(first_) * hertzPerBin);
+        std::vector<double> hertz(tableFrequencies);
+        for (std::size_t i = 0; i < hertz.size(); ++i) {
+            const double share = static_cast<double>(i) / static_cast<double>(hertz.size() - 1);
+            hertz[i] = 120.0 * std::expm1(std::lerp(from, warped(highest()), share));
+        }
+        return hertz;
+    }
+
+private:
+    std::size_t first_;
+    std::size_t end_;
+    std::vector<Cosines> cosines_;
 };
 
-/// Ratio of recorded to generated power around a frequency.
-Ratio ratioAt(const TextureFigures& recorded, const TextureFigures& generated, double centreHz) {
-    const double width = std::max(narrowestHz, relativeWidth * centreHz);
-    double wanted = 0.0;
-    double found = 0.0;
-    double weights = 0.0;
-    double squares = 0.0;
-    for (std::size_t bin = 1; bin < spectrumBins; ++bin) {
-        const double distance = (static_cast<double>(bin) * hertzPerBin - centreHz) / width;
-        if (std::abs(distance) > 3.0) {
-            continue;
+/// The network's spectrum at any speed and force: for each frequency, a cubic of the logarithm.
+class NetworkSpectrum {
+public:
+    NetworkSpectrum(const ConditionBasis& basis, const Spectrum& spectrum, std::span<const SpectrumFrame> generated)
+        : basis_(basis), spectrum_(spectrum) {
+        constexpr std::size_t count = ConditionBasis::cubicCount;
+        constexpr std::array<double, count> deviations{8.0, 1.0, 0.5, 0.3, 0.3, 0.3, 0.15, 0.15, 0.15, 0.15};
+        std::vector<double> rows;
+        for (const SpectrumFrame& frame : generated) {
+            const auto row = basis.cubicAt(frame.speedMps, frame.forceNewtons);
+            rows.insert(rows.end(), row.begin(), row.end());
         }
-        const double weight = std::exp(-0.5 * distance * distance);
-        wanted += weight * recorded.power[bin];
-        found += weight * generated.power[bin];
-        weights += weight;
-        squares += weight * weight;
+        std::vector<double> powers(generated.size());
+        for (std::size_t index = 0; index < spectrum.count(); ++index) {
+            std::ranges::transform(generated, powers.begin(), [&](const SpectrumFrame& frame) {
+                return frame.power[spectrum.bin(index)] + powerFloor;
+            });
+            const double mean = std::accumulate(powers.begin(), powers.end(), 0.0) / static_cast<double>(powers.size());
+            for (double& power : powers) {
+                power /= mean;
+            }
+            coefficients_.push_back(gammaRegression(powers, rows, deviations, frameWeight));
+            logMeans_.push_back(std::log(mean));
+        }
     }
-    // Neighbouring bins of a Hann window are not independent.
-    const double bands = std::max(1.0, weights * weights / squares / 1.5);
-    const double independent = 1.0 / recorded.frames + 1.0 / generated.frames;
-    return {.decibel = decibels * std::log((wanted + 1e-9 * weights) / (found + 1e-9 * weights)),
-            .variance = decibels * decibels * framesPerIndependent * independent / bands};
+
+    /// Natural logarithms of the power at each frequency.
+    [[nodiscard]] std::vector<double> logPowers(double speedMps, double newtons) const {
+        const auto row = basis_.cubicAt(speedMps, newtons);
+        std::vector<double> logs(spectrum_.count());
+        for (std::size_t index = 0; index < logs.size(); ++index) {
+            logs[index] = std::inner_product(row.begin(), row.end(), coefficients_[index].begin(), logMeans_[index]);
+        }
+        return logs;
+    }
+
+private:
+    const ConditionBasis& basis_;
+    const Spectrum& spectrum_;
+    std::vector<std::vector<double>> coefficients_;
+    std::vector<double> logMeans_;
+};
+
+/// A frame of the recording, divided by the network's spectrum in its condition.
+struct Ratios {
+    std::vector<double> functions;
+    std::vector<double> networkPowers;
+    std::vector<double> ratios;
+};
+
+using Weights = std::array<double, cosines>;
+
+/// The weights of the cosines, for each function of the basis.
+class Shape {
+public:
+    explicit Shape(std::size_t functions) : coefficients_(functions * cosines) {}
+
+    [[nodiscard]] Weights weightsAt(std::span<const double> functions) const {
+        Weights weights{};
+        for (std::size_t i = 0; i < functions.size(); ++i) {
+            for (std::size_t k = 0; k < cosines; ++k) {
+                weights[k] += functions[i] * coefficients_[i * cosines + k];
+            }
+        }
+        return weights;
+    }
+    [[nodiscard]] static double logGain(const Weights& weights, const Spectrum::Cosines& at) {
+        return std::inner_product(weights.begin(), weights.end(), at.begin(), 0.0);
+    }
+    [[nodiscard]] std::vector<double>& coefficients() { return coefficients_; }
+
+private:
+    std::vector<double> coefficients_;
+};
+
+class ShapeFit {
+public:
+    ShapeFit(const Spectrum& spectrum, std::span<const Ratios> frames, std::size_t functions)
+        : spectrum_(spectrum), frames_(frames), functions_(functions), cosineProducts_(cosines) {
+        for (std::size_t index = 0; index < spectrum.count(); ++index) {
+            const auto& at = spectrum.at(index);
+            for (std::size_t k = 0; k < cosines; ++k) {
+                for (std::size_t l = 0; l < cosines; ++l) {
+                    cosineProducts_.at(k, l) += at[k] * at[l];
+                }
+            }
+        }
+    }
+
+    /// Without the frames of one fold, if there is one.
+    [[nodiscard]] Shape fit(double freedom, std::optional<std::size_t> without) const {
+        constexpr int rounds = 10;
+        constexpr double settled = 1e-3;
+        const std::vector<double> precisions = precisionsOf(freedom);
+        const PositiveFactor information(informationOf(precisions, without));
+        Shape shape(functions_);
+        for (int round = 0; round < rounds; ++round) {
+            const std::vector<double> change = information.solve(scoreOf(shape, precisions, without));
+            double largest = 0.0;
+            for (const double each : change) {
+                largest = std::max(largest, std::abs(each));
+            }
+            const double share = largest > largestLogStep ? largestLogStep / largest : 1.0;
+            for (std::size_t i = 0; i < change.size(); ++i) {
+                shape.coefficients()[i] += share * change[i];
+            }
+            if (largest < settled) {
+                break;
+            }
+        }
+        return shape;
+    }
+
+    /// Whittle's negative log likelihood of the frames of a fold.
+    [[nodiscard]] double loss(const Shape& shape, std::size_t fold) const {
+        double sum = 0.0;
+        for (std::size_t frame = 0; frame < frames_.size(); ++frame) {
+            if (foldOf(frame) == fold) {
+                const Weights weights = shape.weightsAt(frames_[frame].functions);
+                for (std::size_t index = 0; index < spectrum_.count(); ++index) {
+                    const double logGain = Shape::logGain(weights, spectrum_.at(index));
+                    sum += logGain + frames_[frame].ratios[index] * std::exp(-logGain);
+                }
+            }
+        }
+        return sum;
+    }
+
+private:
+    /// Folds are stretches of the recording, so that what is left out does not overlap what is fitted.
+    [[nodiscard]] std::size_t foldOf(std::size_t frame) const { return frame * 2 * folds / frames_.size() % folds; }
+
+    [[nodiscard]] std::vector<double> precisionsOf(double freedom) const {
+        std::vector<double> precisions;
+        for (std::size_t function = 0; function < functions_; ++function) {
+            for (std::size_t k = 0; k < cosines; ++k) {
+                const double order = 0.25 * static_cast<double>(k);
+                const double deviation = k == 0 ? levelPrior.of(function)
+                                                : freedom * shapePrior.of(function) / std::sqrt(1.0 + order * order);
+                precisions.push_back(1.0 / (deviation * deviation));
+            }
+        }
+        return precisions;
+    }
+
+    [[nodiscard]] SymmetricMatrix informationOf(std::span<const double> precisions,
+                                                std::optional<std::size_t> without) const {
+        SymmetricMatrix conditions(functions_);
+        for (std::size_t frame = 0; frame < frames_.size(); ++frame) {
+            if (foldOf(frame) != without) {
+                const std::vector<double>& functions = frames_[frame].functions;
+                for (std::size_t i = 0; i < functions_; ++i) {
+                    for (std::size_t j = 0; j < functions_; ++j) {
+                        conditions.at(i, j) += frameWeight * functions[i] * functions[j];
+                    }
+                }
+            }
+        }
+        SymmetricMatrix information(precisions.size());
+        for (std::size_t row = 0; row < precisions.size(); ++row) {
+            for (std::size_t column = 0; column < precisions.size(); ++column) {
+                information.at(row, column) = conditions.at(row / cosines, column / cosines) *
+                                              cosineProducts_.at(row % cosines, column % cosines);
+            }
+            information.at(row, row) += precisions[row];
+        }
+        return information;
+    }
+
+    [[nodiscard]] std::vector<double> scoreOf(Shape& shape, std::span<const double> precisions,
+                                              std::optional<std::size_t> without) const {
+        std::vector<double> score(precisions.size());
+        for (std::size_t i = 0; i < score.size(); ++i) {
+            score[i] = -precisions[i] * shape.coefficients()[i];
+        }
+        for (std::size_t frame = 0; frame < frames_.size(); ++frame) {
+            if (foldOf(frame) == without) {
+                continue;
+            }
+            const Weights weights = shape.weightsAt(frames_[frame].functions);
+            Weights sums{};
+            for (std::size_t index = 0; index < spectrum_.count(); ++index) {
+                const auto& at = spectrum_.at(index);
+                const double excess = frames_[frame].ratios[index] * std::exp(-Shape::logGain(weights, at)) - 1.0;
+                for (std::size_t k = 0; k < cosines; ++k) {
+                    sums[k] += frameWeight * excess * at[k];
+                }
+            }
+            for (std::size_t i = 0; i < functions_; ++i) {
+                for (std::size_t k = 0; k < cosines; ++k) {
+                    score[i * cosines + k] += frames_[frame].functions[i] * sums[k];
+                }
+            }
+        }
+        return score;
+    }
+
+    const Spectrum& spectrum_;
+    std::span<const Ratios> frames_;
+    std::size_t functions_;
+    SymmetricMatrix cosineProducts_;
+};
+
+/// The freedom with which the left-out parts are the most probable.
+double bestFreedom(const ShapeFit& fit) {
+    double best = freedoms[0];
+    double least = std::numeric_limits<double>::infinity();
+    for (const double freedom : freedoms) {
+        double loss = 0.0;
+        for (std::size_t fold = 0; fold < folds; ++fold) {
+            loss += fit.loss(fit.fit(freedom, fold), fold);
+        }
+        if (loss < least) {
+            least = loss;
+            best = freedom;
+        }
+    }
+    return best;
 }
 
-/// Shrinks one frequency's ratios at several speeds towards their mean.
-std::vector<double> shrunk(const std::vector<Ratio>& ratios) {
-    double weights = 0.0;
-    double mean = 0.0;
-    for (const Ratio& ratio : ratios) {
-        weights += 1.0 / (ratio.variance + 1.0);
-        mean += ratio.decibel / (ratio.variance + 1.0);
+/// The network's power behind the shape, from the powers at each frequency.
+double powerBehind(const Spectrum& spectrum, std::span<const double> networkPowers, const Weights& weights) {
+    double power = 0.0;
+    for (std::size_t index = 0; index < spectrum.count(); ++index) {
+        power += std::exp(Shape::logGain(weights, spectrum.at(index))) * networkPowers[index];
     }
-    mean /= weights;
-    double excess = 0.0;
-    for (const Ratio& ratio : ratios) {
-        const double away = ratio.decibel - mean;
-        excess += (away * away - ratio.variance) / static_cast<double>(ratios.size());
-    }
-    // The lower limit keeps rows from becoming identical, which as few as three numbers cannot justify.
-    const double spread = std::clamp(excess, 0.5, 100.0);
-    double meanVariance = 0.0;
-    for (const Ratio& ratio : ratios) {
-        meanVariance += ratio.variance / static_cast<double>(ratios.size() * ratios.size());
-    }
-    const double kept = commonSpreadDb * commonSpreadDb / (commonSpreadDb * commonSpreadDb + meanVariance);
-    std::vector<double> result;
-    for (const Ratio& ratio : ratios) {
-        const double share = spread / (spread + ratio.variance);
-        result.push_back(kept * mean + share * (ratio.decibel - mean));
-    }
-    return result;
+    return power;
 }
 
-double powerBehind(const TextureFigures& figures, const model::ToneTable& tone, std::size_t row) {
-    double sum = 0.0;
-    for (std::size_t bin = 1; bin < spectrumBins; ++bin) {
-        const double gain = tone.rowGainDb(row, static_cast<double>(bin) * hertzPerBin);
-        sum += figures.power[bin] * std::pow(10.0, 0.1 * gain);
+/// What the level law leaves of the recording's power: weights of the basis, in the natural logarithm.
+std::vector<double> fitLevel(const Spectrum& spectrum, std::span<const Ratios> frames, std::size_t functions) {
+    std::vector<double> values;
+    std::vector<double> rows;
+    for (const Ratios& frame : frames) {
+        double recorded = 0.0;
+        for (std::size_t index = 0; index < spectrum.count(); ++index) {
+            recorded += frame.ratios[index] * frame.networkPowers[index];
+        }
+        values.push_back(recorded);
+        rows.insert(rows.end(), frame.functions.begin(), frame.functions.end());
     }
-    return sum;
+    std::vector<double> deviations(functions);
+    for (std::size_t function = 0; function < functions; ++function) {
+        deviations[function] = lawPrior.of(function);
+    }
+    return gammaRegression(values, rows, deviations, powerWeight);
 }
 
 }  // namespace
 
-ToneFit fitTone(const SpeedBins& bins, std::span<const TextureFigures> recorded,
-                std::span<const TextureFigures> generated, double bandwidthHz) {
-    ToneFit fit;
-    std::vector<std::size_t> used;
-    for (std::size_t bin = 0; bin < bins.count(); ++bin) {
-        if (recorded[bin].frames >= minimumFrames && generated[bin].frames >= minimumFrames) {
-            used.push_back(bin);
-            fit.tone.speedsMps.push_back(bins.centresMps[bin]);
+model::ToneTable fitTone(std::span<const SpectrumFrame> recorded, std::span<const SpectrumFrame> generated,
+                         double bandwidthHz) {
+    if (recorded.size() < minimumFrames || generated.size() < minimumFrames) {
+        return {};
+    }
+    const ConditionBasis basis(recorded);
+    const Spectrum spectrum(bandwidthHz);
+    const NetworkSpectrum network(basis, spectrum, generated);
+    std::vector<Ratios> frames;
+    for (const SpectrumFrame& frame : recorded) {
+        Ratios each{.functions = basis.at(frame.speedMps, frame.forceNewtons),
+                    .networkPowers = network.logPowers(frame.speedMps, frame.forceNewtons),
+                    .ratios = std::vector<double>(spectrum.count())};
+        for (std::size_t index = 0; index < spectrum.count(); ++index) {
+            each.networkPowers[index] = std::exp(each.networkPowers[index]);
+            each.ratios[index] = (frame.power[spectrum.bin(index)] + powerFloor) / each.networkPowers[index];
+        }
+        frames.push_back(std::move(each));
+    }
+    const ShapeFit fit(spectrum, frames, basis.count());
+    const Shape shape = fit.fit(bestFreedom(fit), std::nullopt);
+    const std::vector<double> level = fitLevel(spectrum, frames, basis.count());
+
+    model::ToneTable tone{.speedsMps = basis.speedsMps(tableSpeeds),
+                          .forcesNewtons = basis.forcesNewtons(tableForces),
+                          .frequenciesHz = spectrum.tableHertz(),
+                          .gainsDb = {}};
+    for (const double force : tone.forcesNewtons) {
+        for (const double speed : tone.speedsMps) {
+            const std::vector<double> functions = basis.at(speed, force);
+            const Weights weights = shape.weightsAt(functions);
+            std::vector<double> networkPowers = network.logPowers(speed, force);
+            std::ranges::transform(networkPowers, networkPowers.begin(), [](double each) { return std::exp(each); });
+            const double common = std::inner_product(functions.begin(), functions.end(), level.begin(), 0.0) -
+                                  std::log(powerBehind(spectrum, networkPowers, weights));
+            std::vector<double> gains;
+            for (const double hertz : tone.frequenciesHz) {
+                const double gainDb = decibels * (common + Shape::logGain(weights, spectrum.cosinesAt(hertz)));
+                gains.push_back(std::clamp(gainDb, -maximumGainDb, maximumGainDb));
+            }
+            tone.gainsDb.push_back(std::move(gains));
         }
     }
-    if (used.empty()) {
-        return fit;
-    }
-    fit.tone.frequenciesHz = bandCentres(bandwidthHz);
-    fit.tone.gainsDb.assign(used.size(), std::vector<double>(fit.tone.frequenciesHz.size()));
-    for (std::size_t f = 0; f < fit.tone.frequenciesHz.size(); ++f) {
-        std::vector<Ratio> ratios;
-        for (const std::size_t bin : used) {
-            ratios.push_back(ratioAt(recorded[bin], generated[bin], fit.tone.frequenciesHz[f]));
-        }
-        const std::vector<double> gains = shrunk(ratios);
-        for (std::size_t row = 0; row < used.size(); ++row) {
-            fit.tone.gainsDb[row][f] = std::clamp(gains[row], -maximumGainDb, maximumGainDb);
-        }
-    }
-    for (std::size_t row = 0; row < used.size(); ++row) {
-        const TextureFigures& made = generated[used[row]];
-        double before = 0.0;
-        for (std::size_t bin = 1; bin < spectrumBins; ++bin) {
-            before += made.power[bin];
-        }
-        const double common = 10.0 * std::log10(powerBehind(made, fit.tone, row) / std::max(before, 1e-12));
-        for (double& gain : fit.tone.gainsDb[row]) {
-            gain = std::clamp(gain - common, -30.0, 30.0);
-        }
-        const double after = powerBehind(made, fit.tone, row);
-        fit.logLevels.push_back(-0.5 * std::log(std::max(after, 1e-9)));
-    }
-    return fit;
+    return tone;
 }
 
-double ToneFit::logLevel(double speedMps) const {
-    const std::vector<double>& speeds = tone.speedsMps;
-    if (speedMps <= speeds.front()) {
-        return logLevels.front();
-    }
-    if (speedMps >= speeds.back()) {
-        return logLevels.back();
-    }
-    const auto above = static_cast<std::size_t>(std::ranges::upper_bound(speeds, speedMps) - speeds.begin());
-    const double share = std::log(speedMps / speeds[above - 1]) / std::log(speeds[above] / speeds[above - 1]);
-    return logLevels[above - 1] + share * (logLevels[above] - logLevels[above - 1]);
-}
-
-double spectralDistanceDb(const SpeedBins& bins, std::span<const TextureFigures> recorded,
-                          std::span<const TextureFigures> generated, const ToneFit& fit) {
+ToneErrors toneErrors(const SpeedBins& bins, std::span<const SpectrumFrame> recorded,
+                      std::span<const SpectrumFrame> generated, const model::ToneTable& tone) {
     constexpr double lowestComparedHz = 20.0;
     constexpr double highestComparedHz = 450.0;
+    struct Mean {
+        double frames = 0.0;
+        double whole = 0.0;
+        std::array<double, spectrumBins> power{};
+    };
+    std::vector<Mean> wanted(bins.count());
+    std::vector<Mean> made(bins.count());
+    const auto add = [&](std::vector<Mean>& means, const SpectrumFrame& frame, bool isGenerated) {
+        Mean& mean = means[bins.binOf(frame.speedMps)];
+        mean.frames += 1.0;
+        for (std::size_t bin = 1; bin < spectrumBins; ++bin) {
+            const double gainDb =
+                isGenerated ? tone.gainDb(frame.speedMps, frame.forceNewtons, static_cast<double>(bin) * hertzPerBin)
+                            : 0.0;
+            const double power = frame.power[bin] * std::exp(gainDb / decibels);
+            mean.power[bin] += power;
+            mean.whole += power;
+        }
+    };
+    for (const SpectrumFrame& frame : recorded) {
+        add(wanted, frame, false);
+    }
+    for (const SpectrumFrame& frame : generated) {
+        add(made, frame, true);
+    }
+    ToneErrors errors;
     double total = 0.0;
     double weights = 0.0;
-    for (std::size_t bin = 0; bin < bins.count(); ++bin) {
-        if (recorded[bin].frames <= 0.0 || generated[bin].frames <= 0.0) {
+    for (std::size_t row = 0; row < bins.count(); ++row) {
+        if (wanted[row].frames <= 0.0 || made[row].frames <= 0.0) {
             continue;
         }
-        const double speed = bins.centresMps[bin];
-        const double gainDb = decibelsPerNat * fit.logLevel(speed);
+        const double scale = wanted[row].frames / made[row].frames;
+        const auto errorDb = [scale](double generatedPower, double recordedPower) {
+            return 10.0 * std::log10((scale * generatedPower + powerFloor) / (recordedPower + powerFloor));
+        };
         double squares = 0.0;
         double count = 0.0;
-        for (std::size_t i = 1; i < spectrumBins; ++i) {
-            const double hertz = static_cast<double>(i) * hertzPerBin;
+        for (std::size_t bin = 1; bin < spectrumBins; ++bin) {
+            const double hertz = static_cast<double>(bin) * hertzPerBin;
             if (hertz >= lowestComparedHz && hertz <= highestComparedHz) {
-                const double made =
-                    10.0 * std::log10(generated[bin].power[i] + 1e-12) + fit.tone.gainDb(speed, hertz) + gainDb;
-                const double difference = made - 10.0 * std::log10(recorded[bin].power[i] + 1e-12);
+                const double difference = errorDb(made[row].power[bin], wanted[row].power[bin]);
                 squares += difference * difference;
                 count += 1.0;
             }
         }
-        total += recorded[bin].frames * std::sqrt(squares / count);
-        weights += recorded[bin].frames;
+        total += wanted[row].frames * std::sqrt(squares / count);
+        weights += wanted[row].frames;
+        const double levelErrorDb = errorDb(made[row].whole, wanted[row].whole);
+        if (std::abs(levelErrorDb) > std::abs(errors.levelErrorDb)) {
+            errors.levelErrorDb = levelErrorDb;
+        }
     }
-    return weights > 0.0 ? total / weights : 0.0;
+    errors.spectralDistanceDb = weights > 0.0 ? total / weights : 0.0;
+    return errors;
 }
 
 }  // namespace haptoflow::learning

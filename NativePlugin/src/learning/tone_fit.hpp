@@ -4,28 +4,27 @@
 #include "model/material_tables.hpp"
 
 #include <span>
-#include <vector>
 
 namespace haptoflow::learning {
 
-struct ToneFit {
-    /// The filter from the network's spectrum to the recording's; without speeds if there is not enough data.
-    model::ToneTable tone;
-    /// For each speed of the tone, the natural logarithm of the recording's RMS divided by that of the network's wave,
-    /// both of unit level, after a tone that keeps the network's RMS.
-    std::vector<double> logLevels;
+/// The filter from the network's spectrum to the recording's, level included, over speed and force. Without speeds if
+/// there is not enough data.
+///
+/// The logarithm of the ratio is a sum of cosines over a warped frequency, whose weights are smooth functions of speed
+/// and force, fitted by Whittle's likelihood of the recording's frames with a prior towards no tone. How far the prior
+/// reaches is chosen by parts of the recording that the fit does not see, so that more data never make it worse. The
+/// last gain below `bandwidthHz` is used above it.
+[[nodiscard]] model::ToneTable fitTone(std::span<const SpectrumFrame> recorded,
+                                       std::span<const SpectrumFrame> generated, double bandwidthHz);
 
-    /// Interpolated over the log speed; constant beyond the tone's speeds, of which there is at least one.
-    [[nodiscard]] double logLevel(double speedMps) const;
+/// How far the network with a tone is from the recording, in dB.
+struct ToneErrors {
+    /// Root mean square difference of the mean spectra, 20 to 450 Hz, over the speeds.
+    double spectralDistanceDb = 0.0;
+    /// Maximum error of the power over the speeds, with its sign: below 0 the network is too quiet.
+    double levelErrorDb = 0.0;
 };
-
-/// The ratio of the spectra in bands of about a third of an octave. Rows with few frames are shrunk towards their mean,
-/// as far as chance explains their differences. Above `bandwidthHz` the last gain is used.
-[[nodiscard]] ToneFit fitTone(const SpeedBins& bins, std::span<const TextureFigures> recorded,
-                              std::span<const TextureFigures> generated, double bandwidthHz);
-
-/// Root mean square difference in dB of the mean spectra, 20 to 450 Hz, over the speeds, behind the tone.
-[[nodiscard]] double spectralDistanceDb(const SpeedBins& bins, std::span<const TextureFigures> recorded,
-                                        std::span<const TextureFigures> generated, const ToneFit& fit);
+[[nodiscard]] ToneErrors toneErrors(const SpeedBins& bins, std::span<const SpectrumFrame> recorded,
+                                    std::span<const SpectrumFrame> generated, const model::ToneTable& tone);
 
 }  // namespace haptoflow::learning

@@ -36,12 +36,19 @@ ToneTable readTone(const HeaderNode& node) {
     tone.speedsMps = node.at("speeds_mps").risingNumbers(1, ToneTable::maximumSpeeds, 1e-6, maximumSpeedMps);
     tone.frequenciesHz = node.at("frequencies_hz")
                              .risingNumbers(ToneTable::minimumFrequencies, ToneTable::maximumFrequencies, 10.0, 1000.0);
+    if (const auto forces = node.find("forces_newtons")) {
+        tone.forcesNewtons = forces->risingNumbers(1, ToneTable::maximumForces, 1e-6, 1e3);
+    }
     const HeaderNode gains = node.at("gains_db");
-    for (const HeaderNode& row : gains.elements(0, ToneTable::maximumSpeeds)) {
+    const std::size_t rows = tone.speedsMps.size() * tone.forcesNewtons.size();
+    for (const HeaderNode& row : gains.elements(0, ToneTable::maximumSpeeds * ToneTable::maximumForces)) {
         tone.gainsDb.push_back(row.numbers(tone.frequenciesHz.size(), -30.0, 30.0));
     }
-    if (tone.gainsDb.size() != tone.speedsMps.size()) {
-        gains.refuse("one row for each of the " + std::to_string(tone.speedsMps.size()) + " speeds");
+    if (tone.gainsDb.size() != rows) {
+        gains.refuse("one row for each of the " + std::to_string(tone.speedsMps.size()) + " speeds" +
+                     (tone.forcesNewtons.size() > 1
+                          ? " at each of the " + std::to_string(tone.forcesNewtons.size()) + " forces"
+                          : ""));
     }
     return tone;
 }

@@ -44,10 +44,29 @@ double ToneTable::rowGainDb(std::size_t row, double frequencyHz) const noexcept 
     return place.share > 0.0 ? std::lerp(gain, gains[place.lower + 1], place.share) : gain;
 }
 
-double ToneTable::gainDb(double speedMps, double frequencyHz) const noexcept {
-    const LogPlace place = placeInLog(speedsMps, speedMps);
-    const double gain = rowGainDb(place.lower, frequencyHz);
-    return place.share > 0.0 ? std::lerp(gain, rowGainDb(place.lower + 1, frequencyHz), place.share) : gain;
+std::array<ToneTable::WeightedRow, 4> ToneTable::rowsAround(std::span<const double> speedsMps,
+                                                            std::span<const double> forcesNewtons, double speedMps,
+                                                            double newtons) noexcept {
+    const LogPlace speed = placeInLog(speedsMps, speedMps);
+    const LogPlace force = placeInLog(forcesNewtons, newtons);
+    // At an end, the row beyond it would have no weight: the last one stands in its place.
+    const std::size_t faster = std::min(speed.lower + 1, speedsMps.size() - 1);
+    const std::size_t lighter = force.lower * speedsMps.size();
+    const std::size_t firmer = std::min(force.lower + 1, forcesNewtons.size() - 1) * speedsMps.size();
+    return {{{lighter + speed.lower, (1.0 - force.share) * (1.0 - speed.share)},
+             {lighter + faster, (1.0 - force.share) * speed.share},
+             {firmer + speed.lower, force.share * (1.0 - speed.share)},
+             {firmer + faster, force.share * speed.share}}};
+}
+
+double ToneTable::gainDb(double speedMps, double newtons, double frequencyHz) const noexcept {
+    double gain = 0.0;
+    for (const WeightedRow& each : rowsAround(speedsMps, forcesNewtons, speedMps, newtons)) {
+        if (each.weight > 0.0) {
+            gain += each.weight * rowGainDb(each.row, frequencyHz);
+        }
+    }
+    return gain;
 }
 
 }  // namespace haptoflow::model

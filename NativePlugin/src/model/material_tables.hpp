@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -43,17 +44,28 @@ struct ToneTable {
     static constexpr std::size_t maximumSpeeds = 8;
     static constexpr std::size_t minimumFrequencies = 2;
     static constexpr std::size_t maximumFrequencies = 32;
+    static constexpr std::size_t maximumForces = 6;
     /// Increasing; at least one.
     std::vector<double> speedsMps;
+    /// Increasing; one for a tone that is the same at every force.
+    std::vector<double> forcesNewtons{1.0};
     /// Increasing.
     std::vector<double> frequenciesHz;
-    /// The gains of each speed, one for each frequency.
+    /// Rows of gains, one for each frequency: those of all speeds at the first force, then those at the next.
     std::vector<std::vector<double>> gainsDb;
 
-    /// Gain of the row of one speed: interpolated linearly over log frequency, constant beyond the ends.
+    /// Gain of one row: interpolated linearly over log frequency, constant beyond the ends.
     [[nodiscard]] double rowGainDb(std::size_t row, double frequencyHz) const noexcept;
-    /// Gain interpolated linearly over log speed between the rows, constant beyond the ends.
-    [[nodiscard]] double gainDb(double speedMps, double frequencyHz) const noexcept;
+    /// Gain interpolated linearly over log speed and log force between the rows, constant beyond the ends.
+    [[nodiscard]] double gainDb(double speedMps, double newtons, double frequencyHz) const noexcept;
+    /// The rows around a speed and a force, and their weights, which add up to 1.
+    struct WeightedRow {
+        std::size_t row = 0;
+        double weight = 0.0;
+    };
+    [[nodiscard]] static std::array<WeightedRow, 4> rowsAround(std::span<const double> speedsMps,
+                                                               std::span<const double> forcesNewtons, double speedMps,
+                                                               double newtons) noexcept;
 };
 
 }  // namespace haptoflow::model

@@ -162,7 +162,7 @@ TEST(MaterialLibraryTest, LevelsAndKernelsMatchTheGoldenFiles) {
         }
         ASSERT_GT(expected.at("kernels").size(), 5U);
         for (const json& kernel : expected.at("kernels")) {
-            const auto tone = resolveTone(alone, kernel.at("speed_mps").get<double>(), 0.0, designTilt());
+            const auto tone = resolveTone(alone, kernel.at("speed_mps").get<double>(), 1.0, 0.0, designTilt());
             ASSERT_TRUE(tone);
             const dsp::ToneKernel found = dsp::toneKernel(*tone);
             const auto taps = kernel.at("taps").get<std::vector<double>>();
@@ -187,7 +187,7 @@ TEST(MaterialLibraryTest, ATiltAddsToTheMaterialsToneAbout150Hz) {
     SmallLibrary small;
     (void)small.library.add(materialOf(small.model), small.levels());
     const dsp::ToneCepstrum tilt = designTilt();
-    EXPECT_FALSE(resolveTone(small.ingredients({{0, 1.0F}}), 0.1, 0.0, tilt));
+    EXPECT_FALSE(resolveTone(small.ingredients({{0, 1.0F}}), 0.1, 1.0, 0.0, tilt));
     const auto responseDb = [](const dsp::ToneCepstrum& cepstrum, double frequencyHz) {
         const dsp::ToneKernel kernel = dsp::toneKernel(cepstrum);
         std::complex<double> sum = 0.0;
@@ -197,9 +197,9 @@ TEST(MaterialLibraryTest, ATiltAddsToTheMaterialsToneAbout150Hz) {
         }
         return 20.0 * std::log10(std::abs(sum));
     };
-    const auto bright = resolveTone(small.ingredients({{0, 1.0F}}), 0.1, 3.0, tilt);
-    const auto plain = resolveTone(small.ingredients({{2, 1.0F}}), 0.1, 0.0, tilt);
-    const auto both = resolveTone(small.ingredients({{2, 1.0F}}), 0.1, 3.0, tilt);
+    const auto bright = resolveTone(small.ingredients({{0, 1.0F}}), 0.1, 1.0, 3.0, tilt);
+    const auto plain = resolveTone(small.ingredients({{2, 1.0F}}), 0.1, 1.0, 0.0, tilt);
+    const auto both = resolveTone(small.ingredients({{2, 1.0F}}), 0.1, 1.0, 3.0, tilt);
     ASSERT_TRUE(bright && plain && both);
     EXPECT_NEAR(responseDb(*bright, 150.0), 0.0, 0.5);
     EXPECT_NEAR(responseDb(*bright, 600.0), 6.0, 0.5);

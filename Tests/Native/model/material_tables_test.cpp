@@ -46,13 +46,25 @@ TEST(MaterialTablesTest, ALevelOfOneSpeedFollowsAPowerLawInBothDirections) {
 TEST(MaterialTablesTest, AToneIsInterpolatedInDecibelsBetweenFourGains) {
     const ToneTable tone{
         .speedsMps = {0.05, 0.2}, .frequenciesHz = {50.0, 200.0, 800.0}, .gainsDb = {{0.0, 4.0, 6.0}, {2.0, 8.0, 0.0}}};
-    EXPECT_DOUBLE_EQ(tone.gainDb(0.05, 200.0), 4.0);
-    EXPECT_NEAR(tone.gainDb(0.1, 200.0), 6.0, 1e-12);
-    EXPECT_NEAR(tone.gainDb(0.05, 100.0), 2.0, 1e-12);
-    EXPECT_NEAR(tone.gainDb(0.1, 400.0), 0.5 * (5.0 + 4.0), 1e-12);
+    EXPECT_DOUBLE_EQ(tone.gainDb(0.05, 1.0, 200.0), 4.0);
+    EXPECT_NEAR(tone.gainDb(0.1, 1.0, 200.0), 6.0, 1e-12);
+    EXPECT_NEAR(tone.gainDb(0.05, 1.0, 100.0), 2.0, 1e-12);
+    EXPECT_NEAR(tone.gainDb(0.1, 1.0, 400.0), 0.5 * (5.0 + 4.0), 1e-12);
     EXPECT_NEAR(tone.rowGainDb(1, 400.0), 4.0, 1e-12);
-    EXPECT_DOUBLE_EQ(tone.gainDb(0.0, 0.0), 0.0);
-    EXPECT_DOUBLE_EQ(tone.gainDb(9.0, 1000.0), 0.0);
+    EXPECT_DOUBLE_EQ(tone.gainDb(0.0, 1.0, 0.0), 0.0);
+    EXPECT_DOUBLE_EQ(tone.gainDb(9.0, 1.0, 1000.0), 0.0);
+}
+
+TEST(MaterialTablesTest, AToneOverForceIsInterpolatedBetweenRowsOfBothForces) {
+    const ToneTable tone{.speedsMps = {0.05, 0.2},
+                         .forcesNewtons = {0.5, 2.0},
+                         .frequenciesHz = {50.0, 800.0},
+                         .gainsDb = {{0.0, 0.0}, {2.0, 2.0}, {4.0, 4.0}, {10.0, 10.0}}};
+    EXPECT_DOUBLE_EQ(tone.gainDb(0.2, 0.5, 100.0), 2.0);
+    EXPECT_DOUBLE_EQ(tone.gainDb(0.05, 2.0, 100.0), 4.0);
+    EXPECT_NEAR(tone.gainDb(0.1, 1.0, 100.0), 0.25 * (0.0 + 2.0 + 4.0 + 10.0), 1e-12);
+    EXPECT_DOUBLE_EQ(tone.gainDb(0.001, 0.0, 100.0), 0.0);
+    EXPECT_DOUBLE_EQ(tone.gainDb(9.0, 90.0, 100.0), 10.0);
 }
 
 }  // namespace
