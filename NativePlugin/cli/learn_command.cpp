@@ -135,6 +135,9 @@ void tell(const learning::LearningReport& report, const std::string& name, const
                   << " degrees from the recording's";
     }
     std::cout << '\n';
+    if (!report.recordNext.empty()) {
+        std::cout << "  to gain most       " << report.recordNext << '\n';
+    }
     for (const learning::TierDistance& each : report.otherTiers) {
         if (each.isFurtherOff) {
             std::cout << "  tier " << each.tier << " is further off: " << fixedDecimals(each.spectralDistanceDb, 1)

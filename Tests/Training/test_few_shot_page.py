@@ -40,7 +40,9 @@ def test_every_command_of_the_page_runs_and_writes_what_it_names(
     (tmp_path / "default.haptoflow").symlink_to(DEFAULT)
     work = tmp_path / "work"
     work.mkdir()
-    (work / "unseen-01.json").write_text(json.dumps(stored("unseen-01", False)), encoding="utf-8")
+    for name, filtered in (("unseen-01", False), ("filtered-01", True)):
+        cells = {**stored(name, False), "filtered": filtered}
+        (work / f"{name}.json").write_text(json.dumps(cells), encoding="utf-8")
     ran = set()
     for program, *words in commands():
         quick = {

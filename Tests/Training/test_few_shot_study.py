@@ -8,13 +8,23 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.signal import freqz, welch
 
-from haptoflow_benchmark.few_shot.few_shot_cases import SECONDS, FewShotCase, make_case, study_materials
+from haptoflow_benchmark.few_shot.few_shot_cases import (
+    SECONDS,
+    FewShotCase,
+    make_case,
+    make_filtered_case,
+    study_materials,
+    study_surfaces,
+)
+from haptoflow_benchmark.few_shot.filtered_surfaces import conditions
 from haptoflow_paper.cli import main
 from haptoflow_paper.few_shot.few_shot_figures import condition_figures
 from haptoflow_paper.few_shot.few_shot_report import (
     OTHER_DRAW,
     ROWS,
+    ahead_table,
     assembled,
     curve_table,
     page_words,
@@ -62,7 +72,7 @@ def test_shorter_recordings_are_the_beginnings_of_longer_ones_and_as_long_as_the
         assert sum(recording.seconds for recording in recordings) == pytest.approx(seconds, abs=0.05)
     for short, long in zip(lengths[3.0], lengths[10.0], strict=True):
         assert np.array_equal(short.vibration_mps2, long.vibration_mps2[: len(short.vibration_mps2)])
-    assert SECONDS == (3.0, 10.0, 30.0, 120.0)
+    assert SECONDS == (5.0, 10.0, 20.0, 60.0)
 
 
 def test_the_measured_specimen_is_not_one_that_was_fitted(case: FewShotCase) -> None:
@@ -116,7 +126,7 @@ def stored(material: str, ruled: bool) -> dict[str, object]:
     rows = {f"{row} {seconds:g}": [cell(1.0), cell(2.0)] for row in ROWS for seconds in SECONDS}
     rows |= {"draft 10": [cell(1.5)], OTHER_DRAW: [cell(0.1)]}
     return {
-        "material": material, "ruled": ruled, "impacts": False, "rows": rows,
+        "material": material, "filtered": False, "ruled": ruled, "impacts": False, "rows": rows,
         "core_seconds": {"learn 10": 8.0}, "notes": {"families": 1, "ribs_found": 1, "ribs_wrong": 0},
     }  # fmt: skip
 
@@ -140,7 +150,7 @@ def test_the_report_has_every_row_tables_and_a_chart(tmp_path: Path) -> None:
         assert words in made
     assert made.count("\n") == 1 + len(ROWS) + 2
     curve = curve_table(results, "lsd_median_db")
-    assert "| 3 s | 10 s | 30 s | 120 s |" in curve
+    assert "| 5 s | 10 s | 20 s | 60 s |" in curve
     write_results(tmp_path / "few-shot.json", results)
     assert json.loads((tmp_path / "few-shot.json").read_text(encoding="utf-8")) == results
     write_chart(tmp_path / "few-shot.png", results)
@@ -155,6 +165,43 @@ def test_a_whole_study_of_one_material_measures_every_row(tmp_path: Path) -> Non
     assert all(len(cells) == 6 for cells in made["rows"].values())
     assert all(np.isfinite(value) for cells in made["rows"].values() for each in cells for value in each.values())
     assert (tmp_path / "unseen-01-10.haptomaterial").exists()
+
+
+def test_a_surface_in_the_published_form_has_the_level_and_the_spectrum_of_its_law() -> None:
+    surface = study_surfaces(2, 2026)[1]
+    for speed, force in ((0.03, 0.5), (0.15, 1.6)):
+        motion = np.column_stack([np.full(60_000, speed), np.zeros(60_000), np.full(60_000, force)])
+        wave = surface.wave(motion, 1)
+        x, y = conditions(motion[:1])
+        predictor, drive = surface.filter_at(float(x[0]), float(y[0]))
+        hertz, response = freqz([drive], [1.0, *predictor], 4096, fs=2000.0)
+        power, heard = np.abs(response) ** 2, hertz > 10.0
+        level = float(np.exp(surface.log_level(x, y)[0]))
+        assert np.std(wave) == pytest.approx(level * float(np.sqrt(power[heard].sum() / power.sum())), rel=0.06)
+        found_hertz, found = welch(wave, 2000.0, nperseg=256)
+        band = (found_hertz > 30.0) & (found_hertz < 900.0)
+        expected = np.interp(found_hertz[band], hertz, power) * level**2
+        assert np.std(np.log(found[band] / expected)) < 0.2
+    assert not np.allclose(surface.filter_at(-1.0, 0.0)[0], surface.filter_at(1.0, 0.0)[0], atol=0.05)
+    assert study_surfaces(2, 2026)[0].label == "filtered-01"
+
+
+def test_a_case_in_the_published_form_has_the_strokes_of_a_plain_material() -> None:
+    case = make_filtered_case(study_surfaces(1, 2026)[0], 2026, 10.0)
+    assert [ride.label for ride in case.rides] == ["filtered-01", "filtered-01"]
+    assert len(case.conditions) == 6
+    for condition in case.conditions:
+        assert abs(np.corrcoef(condition.recorded, condition.other_draw)[0, 1]) < 0.1
+        assert np.std(condition.recorded) == pytest.approx(np.std(condition.other_draw), rel=0.15)
+
+
+def test_the_page_counts_in_how_many_materials_learning_is_ahead() -> None:
+    better, worse = stored("a", False), stored("b", False)
+    better["rows"]["learn 10"] = [cell(0.5, lsd=0.5)]  # type: ignore[index]
+    worse["rows"]["learn 10"] = [cell(3.0, lsd=3.0)]  # type: ignore[index]
+    results = assembled([better, worse, {**worse, "filtered": True}], {"model_sha256": "0" * 64, "seconds": [10.0]})
+    assert "| of the recorder, 2 | 1 / 1 |" in ahead_table(results)
+    assert "| in the published form, 1 | 0 / 0 |" in ahead_table(results)
 
 
 def test_ribs_count_as_found_in_the_material_s_own_frame() -> None:

@@ -9,6 +9,7 @@
 #include "learning/label_comparison.hpp"
 #include "learning/material_frame.hpp"
 #include "learning/material_text.hpp"
+#include "learning/record_next.hpp"
 #include "learning/thread_clock.hpp"
 #include "learning/wave_vectors.hpp"
 #include "model/material_file.hpp"
@@ -123,6 +124,7 @@ private:
 
     void describe() {
         report_.slidingSeconds = sliding_.seconds;
+        report_.recordNext = recordNext(sliding_, exponentPrior(model_.header()));
         report_.noiseSource = recording_.noise.source;
         report_.noiseMps2 = recording_.noise.rmsMps2;
         report_.speedMps = {sliding_.speedMps[0], sliding_.speedMps[2]};
@@ -215,7 +217,7 @@ private:
         }
         const ToneErrors errors = toneErrors(fit.bins(), recorded, generated, tone);
         report_.spectralDistanceDb = errors.spectralDistanceDb;
-        report_.levelErrorDb = errors.levelErrorDb;
+        report_.levelErrorDb = std::abs(errors.levelErrorDb);
         if (std::abs(errors.levelErrorDb) > largeLevelErrorDb) {
             report_.warnings.push_back(
                 "at some speed the level is " + recordings::plainNumber(std::abs(errors.levelErrorDb)) + " dB " +

@@ -38,7 +38,8 @@ std::string reportJson(const LearningReport& report) {
                     {"generations", report.generations},
                     {"seconds", rounded(report.seconds, 1e2)},
                     {"stopped_early", report.stoppedEarly},
-                    {"warnings", report.warnings}};
+                    {"record_next", report.recordNext},
+              {"warnings", report.warnings}};
     return json.dump(2) + "\n";
 }
 

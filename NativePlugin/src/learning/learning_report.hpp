@@ -32,7 +32,7 @@ struct LearningReport {
     double spectralDistanceDb = 0.0;
     /// The same for each other tier of the model with this material, for which the tone was not fitted.
     std::vector<TierDistance> otherTiers;
-    /// Maximum error of the level over the speeds, with its sign: below 0 the material is too quiet.
+    /// Maximum size of the level's error over the speeds.
     double levelErrorDb = 0.0;
     /// Duration of the sliding that was used.
     double slidingSeconds = 0.0;
@@ -53,6 +53,8 @@ struct LearningReport {
     /// Processor time of the calling thread.
     double seconds = 0.0;
     bool stoppedEarly = false;
+    /// What to record next to gain most; empty if nothing much is missing.
+    std::string recordNext;
     std::vector<std::string> warnings;
 };
 

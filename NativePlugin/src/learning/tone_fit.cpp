@@ -1,11 +1,15 @@
 #include "learning/tone_fit.hpp"
 
+#include "dsp/fourier_transform.hpp"
+#include "dsp/tone_cepstrum.hpp"
 #include "learning/condition_basis.hpp"
 #include "learning/gamma_regression.hpp"
 #include "learning/linear_algebra.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <optional>
@@ -13,7 +17,8 @@
 namespace haptoflow::learning {
 namespace {
 
-constexpr double lowestHz = 15.0;
+constexpr double lowestHz = 7.0;
+constexpr double lowestTableHz = 10.0;
 constexpr double highestHz = 950.0;
 constexpr std::size_t cosines = 16;
 constexpr std::size_t tableSpeeds = 8;
@@ -40,6 +45,7 @@ struct Prior {
     }
 };
 constexpr Prior levelPrior{.mean = std::numbers::sqrt3, .slope = 0.2, .gaussian = 0.4};
+/// Narrow, because the level law has followed the recording already.
 constexpr Prior lawPrior{.mean = 0.3, .slope = 0.05, .gaussian = 0.05};
 constexpr Prior shapePrior{.mean = 0.2, .slope = 0.1, .gaussian = 0.1};
 /// By which the deviations of shapes are multiplied; the first leaves the spectrum's shape to the network.
@@ -77,7 +83,7 @@ public:
     }
     /// Evenly over the warped frequency, from the first to the last.
     [[nodiscard]] std::vector<double> tableHertz() const {
-        const double from = warped(static_cast<double>(first_) * hertzPerBin);
+        const double from = warped(lowestTableHz);
         std::vector<double> hertz(tableFrequencies);
         for (std::size_t i = 0; i < hertz.size(); ++i) {
             const double share = static_cast<double>(i) / static_cast<double>(hertz.size() - 1);
@@ -312,15 +318,6 @@ double bestFreedom(const ShapeFit& fit) {
     return best;
 }
 
-/// The network's power behind the shape, from the powers at each frequency.
-double powerBehind(const Spectrum& spectrum, std::span<const double> networkPowers, const Weights& weights) {
-    double power = 0.0;
-    for (std::size_t index = 0; index < spectrum.count(); ++index) {
-        power += std::exp(Shape::logGain(weights, spectrum.at(index))) * networkPowers[index];
-    }
-    return power;
-}
-
 /// What the level law leaves of the recording's power: weights of the basis, in the natural logarithm.
 std::vector<double> fitLevel(const Spectrum& spectrum, std::span<const Ratios> frames, std::size_t functions) {
     std::vector<double> values;
@@ -338,6 +335,40 @@ std::vector<double> fitLevel(const Spectrum& spectrum, std::span<const Ratios> f
         deviations[function] = lawPrior.of(function);
     }
     return gammaRegression(values, rows, deviations, powerWeight);
+}
+
+/// The gain in dB that the engine's filter has at each bin for a row of a tone: less than the table's where that
+/// changes within fewer hertz than the filter can tell apart.
+std::array<double, spectrumBins> filterGainsDb(const model::ToneTable& tone, std::size_t row) {
+    const dsp::ToneKernel kernel =
+        dsp::toneKernel(dsp::toneCepstrum([&](double hertz) { return tone.rowGainDb(row, std::max(hertz, 1.0)); }));
+    std::vector<std::complex<double>> response(spectrumSamples);
+    std::ranges::copy(kernel, response.begin());
+    dsp::fourierTransform(response, dsp::Direction::forward);
+    std::array<double, spectrumBins> gains{};
+    std::ranges::transform(std::span(response).first<spectrumBins>(), gains.begin(), [](std::complex<double> each) {
+        return 2.0 * decibels * std::log(std::max(std::abs(each), powerFloor));
+    });
+    return gains;
+}
+
+/// Shifts each row so that the network's power behind the engine's filter is that of `logPowerAt(speed, force)`.
+template <typename LogPower>
+void setLevels(model::ToneTable& tone, const Spectrum& spectrum, const NetworkSpectrum& network, LogPower logPowerAt) {
+    for (std::size_t row = 0; row < tone.gainsDb.size(); ++row) {
+        const double speed = tone.speedsMps[row % tone.speedsMps.size()];
+        const double force = tone.forcesNewtons[row / tone.speedsMps.size()];
+        const std::vector<double> logPowers = network.logPowers(speed, force);
+        const auto gainsDb = filterGainsDb(tone, row);
+        double power = 0.0;
+        for (std::size_t index = 0; index < spectrum.count(); ++index) {
+            power += std::exp(logPowers[index] + gainsDb[spectrum.bin(index)] / decibels);
+        }
+        const double shiftDb = decibels * (logPowerAt(speed, force) - std::log(power));
+        for (double& gain : tone.gainsDb[row]) {
+            gain = std::clamp(gain + shiftDb, -maximumGainDb, maximumGainDb);
+        }
+    }
 }
 
 }  // namespace
@@ -371,20 +402,19 @@ model::ToneTable fitTone(std::span<const SpectrumFrame> recorded, std::span<cons
                           .gainsDb = {}};
     for (const double force : tone.forcesNewtons) {
         for (const double speed : tone.speedsMps) {
-            const std::vector<double> functions = basis.at(speed, force);
-            const Weights weights = shape.weightsAt(functions);
-            std::vector<double> networkPowers = network.logPowers(speed, force);
-            std::ranges::transform(networkPowers, networkPowers.begin(), [](double each) { return std::exp(each); });
-            const double common = std::inner_product(functions.begin(), functions.end(), level.begin(), 0.0) -
-                                  std::log(powerBehind(spectrum, networkPowers, weights));
+            const Weights weights = shape.weightsAt(basis.at(speed, force));
             std::vector<double> gains;
             for (const double hertz : tone.frequenciesHz) {
-                const double gainDb = decibels * (common + Shape::logGain(weights, spectrum.cosinesAt(hertz)));
+                const double gainDb = decibels * Shape::logGain(weights, spectrum.cosinesAt(hertz));
                 gains.push_back(std::clamp(gainDb, -maximumGainDb, maximumGainDb));
             }
             tone.gainsDb.push_back(std::move(gains));
         }
     }
+    setLevels(tone, spectrum, network, [&](double speed, double force) {
+        const std::vector<double> functions = basis.at(speed, force);
+        return std::inner_product(functions.begin(), functions.end(), level.begin(), 0.0);
+    });
     return tone;
 }
 
@@ -397,15 +427,22 @@ ToneErrors toneErrors(const SpeedBins& bins, std::span<const SpectrumFrame> reco
         double whole = 0.0;
         std::array<double, spectrumBins> power{};
     };
+    std::vector<std::array<double, spectrumBins>> gainsDb;
+    for (std::size_t row = 0; row < tone.gainsDb.size(); ++row) {
+        gainsDb.push_back(filterGainsDb(tone, row));
+    }
     std::vector<Mean> wanted(bins.count());
     std::vector<Mean> made(bins.count());
     const auto add = [&](std::vector<Mean>& means, const SpectrumFrame& frame, bool isGenerated) {
         Mean& mean = means[bins.binOf(frame.speedMps)];
         mean.frames += 1.0;
+        const auto rows =
+            model::ToneTable::rowsAround(tone.speedsMps, tone.forcesNewtons, frame.speedMps, frame.forceNewtons);
         for (std::size_t bin = 1; bin < spectrumBins; ++bin) {
-            const double gainDb =
-                isGenerated ? tone.gainDb(frame.speedMps, frame.forceNewtons, static_cast<double>(bin) * hertzPerBin)
-                            : 0.0;
+            double gainDb = 0.0;
+            for (const auto& [row, weight] : rows) {
+                gainDb += isGenerated ? weight * gainsDb[row][bin] : 0.0;
+            }
             const double power = frame.power[bin] * std::exp(gainDb / decibels);
             mean.power[bin] += power;
             mean.whole += power;

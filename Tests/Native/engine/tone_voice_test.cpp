@@ -27,10 +27,14 @@ using testing::lifted;
 using testing::SimulatedDevice;
 using testing::sliding;
 
-/// A material with a tone of `gainDb` at every frequency.
-model::MaterialFile materialOf(const model::ModelFile& model, double gainDb) {
+/// A material with a tone of `gainDb` at every frequency: from 1 N on, or at every force.
+model::MaterialFile materialOf(const model::ModelFile& model, double gainDb, bool onlyFirm = false) {
     json text = model::testing::validMaterial(model::spaceOf(model.header()));
     text["tone"] = {{"speeds_mps", {0.1}}, {"frequencies_hz", {50.0, 500.0}}, {"gains_db", {{gainDb, gainDb}}}};
+    if (onlyFirm) {
+        text["tone"]["forces_newtons"] = {0.25, 1.0};
+        text["tone"]["gains_db"] = {{0.0, 0.0}, {gainDb, gainDb}};
+    }
     text["level"]["log_levels"] = {0.0, 0.0, 0.0};
     text["level"]["force_exponent"] = 0.0;
     text["level_exponents"] = {{"speed", 0.0}, {"force", 0.0}};
@@ -74,6 +78,23 @@ TEST_F(ToneVoiceTest, WithoutAToneTheFilterDoesNotRun) {
     const EffectCounters& tone = toneOf(plain);
     EXPECT_EQ(tone.prepared + tone.runs + tone.samples + tone.nanoseconds + tone.events, 0U);
     EXPECT_EQ(plain.counters().requestedEffects & effects::maskOf(EffectKind::tone), 0U);
+}
+
+TEST_F(ToneVoiceTest, AToneOverForceFollowsTheForceOfTheStroke) {
+    const auto loudnessAt = [this](float newtons) {
+        SimulatedDevice device(model_, generator_);
+        const auto label = static_cast<std::uint32_t>(device.library.add(
+            materialOf(model_, 12.0, true), [this]() -> inference::LevelEstimator& { return generator_; }));
+        device.run(1.0, [&](double) {
+            ContactState state = on(label);
+            state.forceNewtons = newtons;
+            return state;
+        });
+        return rms(std::span(device.waveform.samples).last(1000));
+    };
+    const double light = loudnessAt(0.25F);
+    EXPECT_NEAR(20.0 * std::log10(loudnessAt(0.5F) / light), 6.0, 0.2);
+    EXPECT_NEAR(20.0 * std::log10(loudnessAt(3.0F) / light), 12.0, 0.2);
 }
 
 TEST_F(ToneVoiceTest, AMaterialsToneAppliesFromTheSeedsFirstSampleAndNotToTheTimeline) {

@@ -145,6 +145,11 @@ TEST(MaterialFileTest, AnInvalidLevelToneOrOffsetIsRefusedWithItsKeyAlsoInAModel
     refused("/tone/gains_db", Json{{0.0, 0.0}}, "tone.gains_db");
     refused("/tone/gains_db/1/0", -31.0, "tone.gains_db[1][0]");
     refused("/tone/gains_db/0", Json{0.0, 0.0, 0.0}, "tone.gains_db[0]");
+    // Two speeds at two forces need four rows.
+    refused("/tone/forces_newtons", Json{0.5, 2.0}, "tone.gains_db");
+    refused("/tone/forces_newtons", Json{2.0, 0.5}, "tone.forces_newtons");
+    refused("/tone/forces_newtons", Json{0.0, 0.5}, "tone.forces_newtons[0]");
+    refused("/tone/forces_newtons", Json::array(), "tone.forces_newtons");
     refused("/level_offset_db", 25.0, "level_offset_db");
     refused("/level_offset_db", nullptr, "level_offset_db");
 }

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from haptoflow_benchmark.few_shot.filtered_surfaces import FilteredSurface, filtered_surfaces
 from haptoflow_benchmark.few_shot.unseen import unseen_materials
 from haptoflow_benchmark.metrics.temporal_metrics import rib_rates_hz
 from haptoflow_training.preprocessing.pipeline import PreparedRecording, preprocess_recording
@@ -18,7 +19,7 @@ from haptoflow_training.recordings.synthetic import Material, load_materials, re
 from haptoflow_training.recordings.synthetic.specimens import HELD_OUT_SPECIMEN, TRAINING_SPECIMENS
 from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
-SECONDS = (3.0, 10.0, 30.0, 120.0)
+SECONDS = (5.0, 10.0, 20.0, 60.0)
 # Median speed (mm/s) and force (mN) of each ride in turn, so that even few seconds hold slow and fast motion.
 _RIDES = ((35, 800), (100, 1200), (22, 1400), (70, 600), (150, 1000), (48, 900))
 RIDE_SECONDS = 5.0
@@ -48,7 +49,7 @@ class FewShotCondition:
 class FewShotCase:
     """rides: 5 s each, used in order."""
 
-    material: Material
+    material: Material | FilteredSurface
     rides: tuple[MaterialRecording, ...]
     conditions: tuple[FewShotCondition, ...]
 
@@ -61,6 +62,36 @@ class FewShotCase:
 
 def study_materials(count: int, seed: int) -> tuple[Material, ...]:
     return unseen_materials(load_materials(), count, seed)
+
+
+def study_surfaces(count: int, seed: int) -> tuple[FilteredSurface, ...]:
+    return filtered_surfaces(count, seed)
+
+
+def make_filtered_case(surface: FilteredSurface, seed: int, longest_seconds: float = SECONDS[-1]) -> FewShotCase:
+    """The case of a surface in the published form, stroked as the first plain material of the recorder is."""
+    number = int(surface.label.rsplit("-", 1)[1])
+    plain = next(material for material in study_materials(1, seed + number) if not material.rulings)
+    case = make_case(plain, seed, longest_seconds)
+    rides = tuple(
+        replace(
+            ride,
+            label=surface.label,
+            vibration_mps2=surface.wave(
+                np.column_stack([ride.velocity_mps, ride.force_newtons]), 1000 * seed + 100 * number + place
+            ),
+        )
+        for place, ride in enumerate(case.rides)
+    )
+    conditions = tuple(
+        replace(
+            condition,
+            recorded=surface.wave(condition.motion, 1000 * seed + 100 * number + 50 + place),
+            other_draw=surface.wave(condition.motion, 1000 * seed + 100 * number + 70 + place),
+        )
+        for place, condition in enumerate(case.conditions)
+    )
+    return FewShotCase(surface, rides, conditions)
 
 
 def make_case(material: Material, seed: int, longest_seconds: float = SECONDS[-1]) -> FewShotCase:

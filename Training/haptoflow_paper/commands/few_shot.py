@@ -9,7 +9,7 @@ from pathlib import Path
 
 from tqdm import tqdm
 
-from haptoflow_benchmark.few_shot.few_shot_cases import SECONDS, study_materials
+from haptoflow_benchmark.few_shot.few_shot_cases import SECONDS, study_materials, study_surfaces
 from haptoflow_paper.few_shot.few_shot_report import (
     assembled,
     curve_table,
@@ -35,7 +35,7 @@ core for each material.
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     parser.description = (
-        "Learn materials unknown to the model from 3, 10, 30 and 120 s of recording, beside autoregressive models, and "
+        "Learn materials unknown to the model from 5, 10, 20 and 60 s of recording, beside autoregressive models, and "
         "write figures with intervals."
     )
     parser.epilog = _EXAMPLES
@@ -45,7 +45,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--chart", type=Path, help="PNG file to write")
     parser.add_argument("--page", type=Path, help="page whose measured part is replaced, with --chart's picture")
     parser.add_argument("--work", type=Path, default=Path("build/few-shot"), help="folder for finished cells")
-    parser.add_argument("--materials", type=int, default=10, help="how many held-out materials (default 10)")
+    parser.add_argument("--materials", type=int, default=10, help="how many held-out materials of each kind (default 10)")
     parser.add_argument("--seed", type=int, default=2026, help="of materials, recordings and fits (default 2026)")
 
 
@@ -57,7 +57,10 @@ def run(options: argparse.Namespace) -> int:
             check_writable(place)
     model = read_model_file(options.model)
     plan = StudyPlan(options.model, options.engine, options.work, options.seed)
-    materials = study_materials(options.materials, options.seed)
+    materials = [
+        *study_materials(options.materials, options.seed),
+        *study_surfaces(options.materials, options.seed),
+    ]
     with tqdm(total=len(materials), unit="material") as progress:
         cells = [cells_of(plan, model, material, lambda: progress.update(1) and None) for material in materials]
     header = {

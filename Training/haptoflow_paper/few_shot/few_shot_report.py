@@ -7,6 +7,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from haptoflow_paper.few_shot.few_shot_summary import summarised
 from haptoflow_training.model_stamp import model_line, picture_metadata
 from haptoflow_training.whole_file import write_whole
@@ -21,11 +23,13 @@ _MAIN_SECONDS = 10.0
 
 
 def assembled(cells: Sequence[Mapping[str, Any]], header: Mapping[str, Any]) -> dict[str, Any]:
-    """All rows over all materials, and over those with and without ribs."""
+    """All rows over the recorder's materials, those with and without ribs, and over those in the published form."""
+    recorded = [cell for cell in cells if not cell["filtered"]]
     groups = {
-        "all": list(cells),
-        "without ribs": [cell for cell in cells if not cell["ruled"]],
-        "with ribs": [cell for cell in cells if cell["ruled"]],
+        "all": recorded,
+        "without ribs": [cell for cell in recorded if not cell["ruled"]],
+        "with ribs": [cell for cell in recorded if cell["ruled"]],
+        "published form": [cell for cell in cells if cell["filtered"]],
     }
     names = list(cells[0]["rows"])
     results = {
@@ -40,11 +44,30 @@ def assembled(cells: Sequence[Mapping[str, Any]], header: Mapping[str, Any]) -> 
     return {
         **header,
         "materials": [
-            {"name": cell["material"], "ruled": cell["ruled"], "impacts": cell["impacts"], **cell["notes"]}
+            {"name": cell["material"], "filtered": cell["filtered"], "ruled": cell["ruled"], "impacts": cell["impacts"], **cell["notes"]}
             for cell in cells
         ],
         "core_seconds_per_material": spent,
+        "ahead": {group: _ahead(members, header["seconds"]) for group, members in groups.items() if members},
         "results": results,
+    }
+
+
+def _ahead(cells: Sequence[Mapping[str, Any]], lengths: Sequence[float]) -> dict[str, dict[str, int]]:
+    """In how many materials the learnt one's median LSD and level error are below those of AR with three bins."""
+
+    def median(cell: Mapping[str, Any], row: str, figure: str) -> float:
+        return float(np.median([abs(each[figure]) for each in cell["rows"][row]]))
+
+    return {
+        f"{seconds:g}": {
+            figure: sum(
+                median(cell, f"learn {seconds:g}", figure) < median(cell, f"autoregressive-3 {seconds:g}", figure)
+                for cell in cells
+            )
+            for figure in ("lsd_db", "level_error_db")
+        }
+        for seconds in lengths
     }
 
 
@@ -88,16 +111,48 @@ def page_words(results: Mapping[str, Any], chart: str) -> str:
         main += ["Without the ruled materials:", table(results, _MAIN_SECONDS, "without ribs")]
     if "with ribs" in results["results"]:
         main += ["The ruled materials alone:", table(results, _MAIN_SECONDS, "with ribs")]
+    if "published form" in results["results"]:
+        main += [
+            "Further materials in the published form, an autoregressive filter for each speed and force:",
+            table(results, _MAIN_SECONDS, "published form"),
+        ]
     return "\n\n".join(
         [
             model_line(results["model_sha256"]),
             *main,
-            f"![Level, GFC and LSD from 3, 10, 30 and 120 s of recording]({chart})",
+            ahead_table(results),
+            f"![Level, GFC and LSD from 5, 10, 20 and 60 s of recording]({chart})",
             "LSD, median, with the interval of 95 % from resampling the materials:",
             curve_table(results, "lsd_median_db"),
+            *_published_curve(results),
             rib_words(results),
         ]
     )
+
+
+def _published_curve(results: Mapping[str, Any]) -> list[str]:
+    if "published form" not in results["results"]:
+        return []
+    return ["The same of the materials in the published form:", curve_table(results, "lsd_median_db", "published form")]
+
+
+def ahead_table(results: Mapping[str, Any]) -> str:
+    """Markdown: in how many materials `learn` is ahead of AR with three bins, for each length of recording."""
+    lengths = [f"{seconds:g}" for seconds in results["seconds"]]
+    counts = {"all": 0, "without ribs": 0, "with ribs": 0, "published form": 0}
+    for each in results["materials"]:
+        counts["published form" if each["filtered"] else "all"] += 1
+        if not each["filtered"]:
+            counts["with ribs" if each["ruled"] else "without ribs"] += 1
+    lines = [
+        "| ahead of AR with three bins in LSD / level, materials | " + " | ".join(f"{each} s" for each in lengths) + " |",
+        "|---|" + "---|" * len(lengths),
+    ]
+    words = {"all": "of the recorder", "published form": "in the published form"}
+    for group, ahead in results["ahead"].items():
+        cells = [f"{ahead[each]['lsd_db']} / {ahead[each]['level_error_db']}" for each in lengths]
+        lines.append(f"| {words.get(group, group)}, {counts[group]} | " + " | ".join(cells) + " |")
+    return "\n".join(lines)
 
 
 def rib_words(results: Mapping[str, Any]) -> str:

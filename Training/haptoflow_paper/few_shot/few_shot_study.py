@@ -17,7 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from haptoflow_benchmark.engine.engine_render import render_motion
-from haptoflow_benchmark.few_shot.few_shot_cases import SECONDS, FewShotCase, make_case
+from haptoflow_benchmark.few_shot.few_shot_cases import SECONDS, FewShotCase, make_case, make_filtered_case
+from haptoflow_benchmark.few_shot.filtered_surfaces import FilteredSurface
 from haptoflow_benchmark.few_shot.wave_vector_study import CLOSE, relative_error
 from haptoflow_paper.few_shot.few_shot_figures import condition_figures
 from haptoflow_paper.few_shot.few_shot_rivals import fit_autoregressive
@@ -47,14 +48,17 @@ class StudyPlan:
     seconds_limit: float = _SECONDS_LIMIT
 
 
-def cells_of(plan: StudyPlan, model: ModelFile, material: Material, advance: Callable[[], None]) -> dict[str, Any]:
+def cells_of(
+    plan: StudyPlan, model: ModelFile, material: Material | FilteredSurface, advance: Callable[[], None]
+) -> dict[str, Any]:
     """By row and seconds ("learn 10"), the figures of every condition; computed or read from the plan's folder."""
     path = plan.work / f"{material.label}.json"
     if path.exists():
         stored: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
         advance()
         return stored
-    made = _measured(plan, model, make_case(material, plan.seed, max(plan.seconds)))
+    make = make_filtered_case if isinstance(material, FilteredSurface) else make_case
+    made = _measured(plan, model, make(material, plan.seed, max(plan.seconds)))
     write_whole(path, json.dumps(made).encode("utf-8"))
     advance()
     return made
@@ -92,6 +96,7 @@ def _measured(plan: StudyPlan, model: ModelFile, case: FewShotCase) -> dict[str,
     rows["other draw"] = [condition_figures(each, each.other_draw) for each in case.conditions]
     return {
         "material": case.material.label,
+        "filtered": isinstance(case.material, FilteredSurface),
         "ruled": bool(case.material.rulings),
         "impacts": case.material.impact_strength > 0.0,
         "rows": rows,
@@ -122,7 +127,9 @@ def turned(vectors: NDArray[np.floating], radians: float) -> NDArray[np.float64]
     return np.asarray(vectors, dtype=np.float64) @ np.array([[cosine, -sine], [sine, cosine]])
 
 
-def rib_counts(material: Material, found: Sequence[dict[str, float]], turn_radians: float) -> tuple[int, int]:
+def rib_counts(
+    material: Material | FilteredSurface, found: Sequence[dict[str, float]], turn_radians: float
+) -> tuple[int, int]:
     """How many of the surface's families of ribs were found within 2 %, and how many of the found ones do not exist.
     found: in the material's frame."""
     numbers = np.array([[each["x_cycles_per_mm"], each["y_cycles_per_mm"]] for each in found]).reshape(-1, 2)

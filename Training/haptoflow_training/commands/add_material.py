@@ -173,5 +173,7 @@ def _report(out: Path, name: str, report: dict[str, Any]) -> None:
     for other in report["other_tiers"]:
         if other["further_off"]:
             print(f"  tier {other['tier']} is further off: {other['spectral_distance_db']:.1f} dB")
+    if report["record_next"]:
+        print(f"  to gain most, {report['record_next']}")
     for warning in report["warnings"]:
         print(f"  {warning}")

@@ -37,6 +37,10 @@ namespace HaptoFlow.Editor
             }
             Add(parts, report, "seconds", "learnt in {0:0.0} s");
             string text = parts.Count > 0 ? "Learnt. " + Capital(string.Join("; ", parts)) + "." : "Learnt.";
+            if (report.Find("record_next")?.Text is { Length: > 0 } next)
+            {
+                text += " To gain most, " + next.TrimEnd('.') + ".";
+            }
             if (report.Find("warnings")?.Elements is { } warnings)
             {
                 foreach (JsonValue warning in warnings)
