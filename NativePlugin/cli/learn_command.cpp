@@ -14,6 +14,7 @@
 #include "progress_bar.hpp"
 #include "recordings/csv_lines.hpp"
 #include "recordings/recording_reader.hpp"
+#include "svg_plot.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -37,6 +38,7 @@ struct LearnOptions {
     std::string modelPath;
     std::string reportPath;
     std::optional<std::string> name;
+    std::string picturePath;
     std::string category;
     std::string licence;
     recordings::RecordingWords words;
@@ -147,6 +149,34 @@ void tell(const learning::LearningReport& report, const std::string& name, const
     std::ranges::for_each(report.warnings, note);
 }
 
+/// A panel for each range of speed: the spectra of recording, material and nearest label.
+std::string pictureOf(const learning::LearningReport& report, const std::string& name) {
+    constexpr double shownDb = 50.0;
+    std::vector<PlotPanel> panels;
+    for (const learning::SpeedComparison& each : report.comparisons) {
+        double highest = -200.0;
+        for (const auto* curve : {&each.recorded, &each.learnt, &each.nearestLabel}) {
+            for (const double value : curve->decibels) {
+                highest = std::max(highest, value);
+            }
+        }
+        highest = 10.0 * std::ceil(highest / 10.0);
+        const auto named = [](const std::string& what, const learning::SpeedComparison::Curve& curve) {
+            return what + ", " + fixedDecimals(curve.rmsMps2, 2) + " m/s^2";
+        };
+        panels.push_back({.axis = "dB at " + inMillimetres(each.speedMps) + " mm/s",
+                          .lowest = highest - shownDb,
+                          .highest = highest,
+                          .tick = 10.0,
+                          .lines = {{named("recorded, " + fixedDecimals(each.seconds, 1) + " s", each.recorded),
+                                     "#222222", each.recorded.decibels, false},
+                                    {named("learnt", each.learnt), "#1f77b4", each.learnt.decibels, false},
+                                    {named("nearest label, " + report.nearestLabel, each.nearestLabel), "#999999",
+                                     each.nearestLabel.decibels, true}}});
+    }
+    return svgPlot(name + ": recorded and learnt, in dB re 1 (m/s^2)^2 / Hz", report.comparedHz, panels);
+}
+
 recordings::MaterialRecording readRecording(const LearnOptions& options) {
     const std::string& path = options.recordingPath;
     const recordings::RecordingWords& words = options.words;
@@ -199,6 +229,10 @@ void runLearn(const LearnOptions& options) {
     const fs::path outputPath = options.outputPath.empty() ? defaultOutput(options) : fs::path(options.outputPath);
     OutputFile output("--output", outputPath);
     std::optional<OutputFile> report;
+    std::optional<OutputFile> picture;
+    if (!options.picturePath.empty()) {
+        picture.emplace("--picture", options.picturePath);
+    }
     if (!options.reportPath.empty()) {
         report.emplace("--report", options.reportPath);
     }
@@ -209,9 +243,15 @@ void runLearn(const LearnOptions& options) {
         if (report) {
             writeText(*report, learning::reportJson(learnt.report));
         }
+        if (picture) {
+            writeText(*picture, pictureOf(learnt.report, settings.name));
+        }
         output.commit();
         if (report) {
             report->commit();
+        }
+        if (picture) {
+            picture->commit();
         }
         tell(learnt.report, settings.name, outputPath);
     } catch (const recordings::RecordingUnusable& error) {
@@ -254,12 +294,17 @@ void addLearnCommand(CLI::App& app, CommandOutcome& outcome) {
         ->transform(wholeBetween(0, std::numeric_limits<std::uint64_t>::max(), ""))
         ->capture_default_str();
     command->add_option("--report", options->reportPath, "Write the results of the fit as JSON")->type_name("R.json");
+    command
+        ->add_option("--picture", options->picturePath,
+                     "Draw the spectra of recording, material and nearest label at each speed")
+        ->type_name("P.svg");
     command->add_flag("--quiet", options->quiet, "No progress bar");
     command->footer(
         "Examples:\n"
         "  haptoflow learn denim.csv -o denim.haptomaterial\n"
         "  haptoflow learn doormat.wav --full-scale-mps2 100 --speed-mps 0.08 --force-newtons 1\n"
-        "  haptoflow learn tile.csv --name \"kitchen tile\" --category ceramic --report tile.report.json\n"
+        "  haptoflow learn tile.csv --name \"kitchen tile\" --category ceramic --report tile.report.json --picture "
+        "tile.svg\n"
         "Columns of a CSV: time_s; acceleration_mps2 or acceleration_x_mps2, ..y.., ..z.. (or .._g); speed_mps,\n"
         "velocity_x_mps with velocity_y_mps, or position_x_mm with position_y_mm; force_newtons. Constant values may "
         "be\n"

@@ -17,6 +17,17 @@ std::string reportJson(const LearningReport& report) {
                          {"spectral_distance_db", rounded(each.spectralDistanceDb, 1e3)},
                          {"further_off", each.isFurtherOff}});
     }
+    const auto curveJson = [](const SpeedComparison::Curve& curve) {
+        return Json{{"rms_mps2", rounded(curve.rmsMps2, 1e5)}, {"decibels", roundedNumbers(curve.decibels, 1e1)}};
+    };
+    Json comparisons = Json::array();
+    for (const SpeedComparison& each : report.comparisons) {
+        comparisons.push_back({{"speed_mps", rounded(each.speedMps, 1e5)},
+                               {"seconds", rounded(each.seconds, 1e2)},
+                               {"recorded", curveJson(each.recorded)},
+                               {"learnt", curveJson(each.learnt)},
+                               {"nearest_label", curveJson(each.nearestLabel)}});
+    }
     const Json noise{{"mps2", rounded(report.noiseMps2, 1e5)}, {"from", recordings::nameOf(report.noiseSource)}};
     const Json json{{"start_label", report.startLabel},
                     {"start_distance_db", rounded(report.startDistanceDb, 1e3)},
@@ -25,6 +36,7 @@ std::string reportJson(const LearningReport& report) {
                     {"spectral_distance_db", rounded(report.spectralDistanceDb, 1e3)},
                     {"other_tiers", tiers},
                     {"level_error_db", rounded(report.levelErrorDb, 1e3)},
+                    {"spectra", {{"frequencies_hz", roundedNumbers(report.comparedHz, 1e1)}, {"speeds", comparisons}}},
                     {"sliding_seconds", rounded(report.slidingSeconds, 1e2)},
                     {"sensor_noise", noise},
                     {"speed_mps", roundedNumbers(report.speedMps, 1e5)},
@@ -39,7 +51,7 @@ std::string reportJson(const LearningReport& report) {
                     {"seconds", rounded(report.seconds, 1e2)},
                     {"stopped_early", report.stoppedEarly},
                     {"record_next", report.recordNext},
-              {"warnings", report.warnings}};
+                    {"warnings", report.warnings}};
     return json.dump(2) + "\n";
 }
 

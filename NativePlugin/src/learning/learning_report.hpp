@@ -18,6 +18,22 @@ struct TierDistance {
     bool isFurtherOff = false;
 };
 
+/// What was recorded and what was learnt in one range of speed.
+struct SpeedComparison {
+    /// Geometric mean of the range.
+    double speedMps = 0.0;
+    /// Duration of its sliding.
+    double seconds = 0.0;
+    /// One curve of power density and its RMS, in dB relative to 1 (m/s^2)^2 / Hz and in m/s^2.
+    struct Curve {
+        std::vector<double> decibels;
+        double rmsMps2 = 0.0;
+    };
+    Curve recorded;
+    Curve learnt;
+    Curve nearestLabel;
+};
+
 /// Results of learning.
 struct LearningReport {
     /// The label whose render along the recording's own motion is nearest to it. The search begins there, and what a
@@ -34,6 +50,9 @@ struct LearningReport {
     std::vector<TierDistance> otherTiers;
     /// Maximum size of the level's error over the speeds.
     double levelErrorDb = 0.0;
+    /// The frequencies of the curves, and the curves of each range of speed.
+    std::vector<double> comparedHz;
+    std::vector<SpeedComparison> comparisons;
     /// Duration of the sliding that was used.
     double slidingSeconds = 0.0;
     /// What was removed from the recording before anything was learnt.

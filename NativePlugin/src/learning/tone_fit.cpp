@@ -418,42 +418,53 @@ model::ToneTable fitTone(std::span<const SpectrumFrame> recorded, std::span<cons
     return tone;
 }
 
+double MeanSpectrum::whole() const {
+    return std::accumulate(power.begin() + 1, power.end(), 0.0);
+}
+
+std::vector<MeanSpectrum> meanSpectra(const SpeedBins& bins, std::span<const SpectrumFrame> frames,
+                                      const model::ToneTable* tone,
+                                      const std::function<double(const SpectrumFrame&)>& powerOf) {
+    std::vector<std::array<double, spectrumBins>> gainsDb;
+    for (std::size_t row = 0; tone != nullptr && row < tone->gainsDb.size(); ++row) {
+        gainsDb.push_back(filterGainsDb(*tone, row));
+    }
+    std::vector<MeanSpectrum> means(bins.count());
+    for (const SpectrumFrame& frame : frames) {
+        MeanSpectrum& mean = means[bins.binOf(frame.speedMps)];
+        mean.frames += 1.0;
+        std::array<double, spectrumBins> gainDb{};
+        if (!gainsDb.empty()) {
+            for (const auto& [row, weight] : model::ToneTable::rowsAround(tone->speedsMps, tone->forcesNewtons,
+                                                                          frame.speedMps, frame.forceNewtons)) {
+                for (std::size_t bin = 0; bin < spectrumBins; ++bin) {
+                    gainDb[bin] += weight * gainsDb[row][bin];
+                }
+            }
+        }
+        const double power = powerOf(frame);
+        for (std::size_t bin = 0; bin < spectrumBins; ++bin) {
+            mean.power[bin] += power * frame.power[bin] * std::exp(gainDb[bin] / decibels);
+        }
+    }
+    for (MeanSpectrum& mean : means) {
+        for (double& power : mean.power) {
+            power /= std::max(mean.frames, 1.0);
+        }
+    }
+    return means;
+}
+
 ToneErrors toneErrors(const SpeedBins& bins, std::span<const SpectrumFrame> recorded,
                       std::span<const SpectrumFrame> generated, const model::ToneTable& tone) {
     constexpr double lowestComparedHz = 20.0;
     constexpr double highestComparedHz = 450.0;
-    struct Mean {
-        double frames = 0.0;
-        double whole = 0.0;
-        std::array<double, spectrumBins> power{};
+    const auto asItIs = [](const SpectrumFrame&) { return 1.0; };
+    const std::vector<MeanSpectrum> wanted = meanSpectra(bins, recorded, nullptr, asItIs);
+    const std::vector<MeanSpectrum> made = meanSpectra(bins, generated, &tone, asItIs);
+    const auto errorDb = [](double generatedPower, double recordedPower) {
+        return 10.0 * std::log10((generatedPower + powerFloor) / (recordedPower + powerFloor));
     };
-    std::vector<std::array<double, spectrumBins>> gainsDb;
-    for (std::size_t row = 0; row < tone.gainsDb.size(); ++row) {
-        gainsDb.push_back(filterGainsDb(tone, row));
-    }
-    std::vector<Mean> wanted(bins.count());
-    std::vector<Mean> made(bins.count());
-    const auto add = [&](std::vector<Mean>& means, const SpectrumFrame& frame, bool isGenerated) {
-        Mean& mean = means[bins.binOf(frame.speedMps)];
-        mean.frames += 1.0;
-        const auto rows =
-            model::ToneTable::rowsAround(tone.speedsMps, tone.forcesNewtons, frame.speedMps, frame.forceNewtons);
-        for (std::size_t bin = 1; bin < spectrumBins; ++bin) {
-            double gainDb = 0.0;
-            for (const auto& [row, weight] : rows) {
-                gainDb += isGenerated ? weight * gainsDb[row][bin] : 0.0;
-            }
-            const double power = frame.power[bin] * std::exp(gainDb / decibels);
-            mean.power[bin] += power;
-            mean.whole += power;
-        }
-    };
-    for (const SpectrumFrame& frame : recorded) {
-        add(wanted, frame, false);
-    }
-    for (const SpectrumFrame& frame : generated) {
-        add(made, frame, true);
-    }
     ToneErrors errors;
     double total = 0.0;
     double weights = 0.0;
@@ -461,10 +472,6 @@ ToneErrors toneErrors(const SpeedBins& bins, std::span<const SpectrumFrame> reco
         if (wanted[row].frames <= 0.0 || made[row].frames <= 0.0) {
             continue;
         }
-        const double scale = wanted[row].frames / made[row].frames;
-        const auto errorDb = [scale](double generatedPower, double recordedPower) {
-            return 10.0 * std::log10((scale * generatedPower + powerFloor) / (recordedPower + powerFloor));
-        };
         double squares = 0.0;
         double count = 0.0;
         for (std::size_t bin = 1; bin < spectrumBins; ++bin) {
@@ -477,7 +484,7 @@ ToneErrors toneErrors(const SpeedBins& bins, std::span<const SpectrumFrame> reco
         }
         total += wanted[row].frames * std::sqrt(squares / count);
         weights += wanted[row].frames;
-        const double levelErrorDb = errorDb(made[row].whole, wanted[row].whole);
+        const double levelErrorDb = errorDb(made[row].whole(), wanted[row].whole());
         if (std::abs(levelErrorDb) > std::abs(errors.levelErrorDb)) {
             errors.levelErrorDb = levelErrorDb;
         }

@@ -3,7 +3,10 @@
 #include "learning/texture_figures.hpp"
 #include "model/material_tables.hpp"
 
+#include <array>
+#include <functional>
 #include <span>
+#include <vector>
 
 namespace haptoflow::learning {
 
@@ -16,6 +19,21 @@ namespace haptoflow::learning {
 /// last gain below `bandwidthHz` is used above it.
 [[nodiscard]] model::ToneTable fitTone(std::span<const SpectrumFrame> recorded,
                                        std::span<const SpectrumFrame> generated, double bandwidthHz);
+
+/// The mean of the frames of one range of speed.
+struct MeanSpectrum {
+    double frames = 0.0;
+    std::array<double, spectrumBins> power{};
+
+    /// Sum over the bins: the mean square.
+    [[nodiscard]] double whole() const;
+};
+
+/// Each frame's power is multiplied by `powerOf(frame)`, and filtered as the engine filters it with `tone` (null for
+/// none).
+[[nodiscard]] std::vector<MeanSpectrum> meanSpectra(const SpeedBins& bins, std::span<const SpectrumFrame> frames,
+                                                    const model::ToneTable* tone,
+                                                    const std::function<double(const SpectrumFrame&)>& powerOf);
 
 /// How far the network with a tone is from the recording, in dB.
 struct ToneErrors {

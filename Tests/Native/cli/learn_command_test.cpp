@@ -98,6 +98,34 @@ TEST_F(LearnCommandTest, ATableGivesAMaterialFileAndAReportWithEqualBytesEachTim
     EXPECT_EQ(read("denim.haptomaterial"), before);
 }
 
+TEST_F(LearnCommandTest, ReportAndPictureShowRecordingMaterialAndNearestLabelAtEachSpeed) {
+    write("denim.csv", csv_);
+    const Finished finished = learn("denim.csv --report denim.report.json --picture denim.svg --quiet");
+    ASSERT_EQ(finished.exitCode, 0) << finished.errors;
+    const nlohmann::json report = nlohmann::json::parse(read("denim.report.json"));
+    const nlohmann::json& spectra = report["spectra"];
+    ASSERT_GE(spectra["speeds"].size(), 3U);
+    double seconds = 0.0;
+    for (const nlohmann::json& each : spectra["speeds"]) {
+        seconds += each["seconds"].get<double>();
+        for (const char* curve : {"recorded", "learnt", "nearest_label"}) {
+            EXPECT_EQ(each[curve]["decibels"].size(), spectra["frequencies_hz"].size());
+        }
+        // The made surface's law at 1 N, which the recording is drawn from and the material follows.
+        const double wanted = 1.5 * std::pow(each["speed_mps"].get<double>() / 0.1, 0.9);
+        EXPECT_NEAR(each["recorded"]["rms_mps2"].get<double>() / wanted, 1.0, 0.35);
+        EXPECT_NEAR(each["learnt"]["rms_mps2"].get<double>() / each["recorded"]["rms_mps2"].get<double>(), 1.0, 0.2);
+    }
+    EXPECT_NEAR(seconds, 10.0, 1.5);
+    const std::string picture = read("denim.svg");
+    for (const std::string& words : {std::string("recorded, "), std::string("learnt, "),
+                                     "nearest label, " + report["nearest_label"].get<std::string>()}) {
+        EXPECT_THAT(picture, HasSubstr(words));
+    }
+    EXPECT_THAT(finished.output, HasSubstr("to gain most       record more of the same"));
+    EXPECT_THAT(report["record_next"].get<std::string>(), HasSubstr("20 s of sliding or more"));
+}
+
 TEST_F(LearnCommandTest, TheSensorsNoiseIsRemovedAndReported) {
     write("noisy.csv", csvOf(learning::testing::noisy(made_)));
     const Finished finished = learn("noisy.csv --report noisy.report.json --quiet");

@@ -28,8 +28,8 @@ _EXAMPLES = """examples:
   haptoflow-paper few-shot --model default.haptoflow --engine build/native/haptoflow --results few-shot.json
   haptoflow-paper few-shot --model mine.haptoflow --engine build/native/haptoflow --materials 4 --results mine.json
 
-An interrupted study is resumed when it is started again with the same --work folder. It takes about a minute of one
-core for each material.
+An interrupted study is resumed when it is started again with the same --work folder. It takes about a minute and a half
+of one core for each material.
 """
 
 
