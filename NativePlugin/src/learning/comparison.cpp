@@ -24,6 +24,18 @@ double densityDb(const MeanSpectrum& mean, double hertz) {
     return density > 0.0 ? std::max(10.0 * std::log10(density), floorDb) : floorDb;
 }
 
+/// Empty without frames.
+SpeedComparison::Curve curveOf(const MeanSpectrum& mean) {
+    SpeedComparison::Curve curve;
+    if (mean.frames > 0.0) {
+        for (const double hertz : comparedHz()) {
+            curve.decibels.push_back(densityDb(mean, hertz));
+        }
+        curve.rmsMps2 = std::sqrt(mean.whole());
+    }
+    return curve;
+}
+
 }  // namespace
 
 std::vector<double> comparedHz() {
@@ -34,21 +46,25 @@ std::vector<double> comparedHz() {
     return hertz;
 }
 
-std::vector<SpeedComparison::Curve> curvesOf(const SpeedBins& bins, std::span<const SpectrumFrame> frames,
-                                             const model::ToneTable* tone,
-                                             const std::function<double(const SpectrumFrame&)>& powerOf) {
-    std::vector<SpeedComparison::Curve> curves;
-    for (const MeanSpectrum& mean : meanSpectra(bins, frames, tone, powerOf)) {
-        SpeedComparison::Curve curve;
-        if (mean.frames > 0.0) {
-            for (const double hertz : comparedHz()) {
-                curve.decibels.push_back(densityDb(mean, hertz));
-            }
-            curve.rmsMps2 = std::sqrt(mean.whole());
+std::vector<SpeedComparison> compared(const SpeedBins& bins, const ComparedFrames& recorded,
+                                      const ComparedFrames& learnt, const ComparedFrames& nearestLabel) {
+    constexpr double secondsPerFrame = 0.5 * spectrumSamples / inference::waveformRateHz;
+    std::vector<SpeedComparison> comparisons(bins.count());
+    const auto add = [&](const ComparedFrames& shown, SpeedComparison::Curve SpeedComparison::*curve) {
+        const std::vector<MeanSpectrum> means = meanSpectra(bins, shown.frames, shown.tone, shown.powerOf);
+        for (std::size_t bin = 0; bin < means.size(); ++bin) {
+            comparisons[bin].*curve = curveOf(means[bin]);
         }
-        curves.push_back(std::move(curve));
+        return means;
+    };
+    add(learnt, &SpeedComparison::learnt);
+    add(nearestLabel, &SpeedComparison::nearestLabel);
+    const std::vector<MeanSpectrum> means = add(recorded, &SpeedComparison::recorded);
+    for (std::size_t bin = 0; bin < means.size(); ++bin) {
+        comparisons[bin].speedMps = bins.centresMps[bin];
+        comparisons[bin].seconds = means[bin].frames * secondsPerFrame;
     }
-    return curves;
+    return comparisons;
 }
 
 }  // namespace haptoflow::learning

@@ -46,23 +46,31 @@ ExponentPrior exponentPrior(const model::ModelHeader& model) {
             .forceSpread = force.deviation};
 }
 
+std::vector<float> levelsOf(inference::SegmentGenerator& generator, std::span<const LevelCondition> conditions) {
+    const std::array<float, inference::segmentSamples> silence{};
+    std::vector<inference::SegmentRequest> requests;
+    for (const LevelCondition& each : conditions) {
+        requests.push_back({.embedding = each.embedding,
+                            .motion = {static_cast<float>(each.speedMps), 0.0F, static_cast<float>(each.forceNewtons)},
+                            .previous = silence,
+                            .noise = silence});
+    }
+    std::vector<float> levels(requests.size());
+    generator.levels(requests, levels);
+    return levels;
+}
+
 std::optional<std::string> levelWarning(const LevelLaw& level, const Sliding& sliding, const model::ModelFile& model,
                                         inference::SegmentGenerator& generator) {
     using recordings::plainNumber;
     const model::ModelHeader& header = model.header();
-    const std::array<float, inference::segmentSamples> silence{};
     const double speed = std::min(sliding.speedMps[1], header.speedMps.maximum);
     const double force = std::clamp(sliding.forceNewtons[1], header.forceNewtons.minimum, header.forceNewtons.maximum);
-    std::vector<inference::SegmentRequest> requests;
-    for (std::size_t label = 0; label < header.labels.size(); ++label) {
-        inference::SegmentRequest request{.motion = {static_cast<float>(speed), 0.0F, static_cast<float>(force)},
-                                          .previous = silence,
-                                          .noise = silence};
-        std::ranges::copy(model.embedding(label), request.embedding.begin());
-        requests.push_back(request);
+    std::vector<LevelCondition> conditions(header.labels.size(), {{}, speed, force});
+    for (std::size_t label = 0; label < conditions.size(); ++label) {
+        std::ranges::copy(model.embedding(label), conditions[label].embedding.begin());
     }
-    std::vector<float> levels(requests.size());
-    generator.levels(requests, levels);
+    const std::vector<float> levels = levelsOf(generator, conditions);
     const auto [quietest, loudest] = std::ranges::minmax(levels);
     const double own = std::exp(level.logLevel(speed, force));
     const double belowDb = decibelsPerNat * std::log(quietest / own);

@@ -1,14 +1,28 @@
 #pragma once
 
 #include "inference/segment_generator.hpp"
+#include "learning/closed_loop.hpp"
 #include "learning/level_law.hpp"
 #include "learning/sliding.hpp"
 #include "model/model_file.hpp"
 
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 namespace haptoflow::learning {
+
+/// An embedding and a motion along the first axis.
+struct LevelCondition {
+    Embedding embedding{};
+    double speedMps = 0.0;
+    double forceNewtons = 0.0;
+};
+
+/// The model's levels in m/s^2, RMS, of many conditions.
+[[nodiscard]] std::vector<float> levelsOf(inference::SegmentGenerator& generator,
+                                          std::span<const LevelCondition> conditions);
 
 /// Mean and standard deviation of the labels' exponents; the defaults if the model has fewer than three labels.
 [[nodiscard]] ExponentPrior exponentPrior(const model::ModelHeader& model);

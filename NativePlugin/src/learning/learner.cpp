@@ -238,56 +238,27 @@ private:
         return tone;
     }
 
-    /// Puts recording, material and nearest label beside each other.
     void compare(TextureFit& fit, std::span<const SpectrumFrame> recorded, std::span<const SpectrumFrame> generated,
                  const model::ToneTable& tone) {
         const auto law = [this](const SpectrumFrame& frame) {
             return std::exp(2.0 * level_.logLevel(frame.speedMps, frame.forceNewtons));
         };
-        const std::size_t nearest = labelNamed(report_.nearestLabel);
-        Embedding embedding{};
-        std::ranges::copy(model_.embedding(nearest), embedding.begin());
-        const std::vector<SpectrumFrame> ofLabel = fit.generatedFrames(embedding);
-        const std::vector<float> levels = levelsOf(embedding, ofLabel);
-        const auto labelLaw = [&](const SpectrumFrame& frame) {
-            const double level = levels[static_cast<std::size_t>(&frame - ofLabel.data())];
-            return level * level;
-        };
-        const auto curves = curvesOf(fit.bins(), recorded, nullptr, law);
-        const auto learnt = curvesOf(fit.bins(), generated, &tone, law);
-        const auto label = curvesOf(fit.bins(), ofLabel, nullptr, labelLaw);
-        report_.comparedHz = comparedHz();
-        const auto means = meanSpectra(fit.bins(), recorded, nullptr, law);
-        for (std::size_t bin = 0; bin < fit.bins().count(); ++bin) {
-            report_.comparisons.push_back(
-                {.speedMps = fit.bins().centresMps[bin],
-                 .seconds = means[bin].frames * 0.5 * spectrumSamples / inference::waveformRateHz,
-                 .recorded = curves[bin],
-                 .learnt = learnt[bin],
-                 .nearestLabel = label[bin]});
-        }
-    }
-
-    [[nodiscard]] std::size_t labelNamed(const std::string& name) const {
         const auto& labels = model_.header().labels;
-        return static_cast<std::size_t>(std::ranges::find(labels, name, &model::Label::name) - labels.begin());
-    }
-
-    /// The label's own level in the condition of each frame.
-    std::vector<float> levelsOf(const Embedding& embedding, std::span<const SpectrumFrame> frames) {
-        const std::array<float, inference::segmentSamples> silence{};
-        std::vector<inference::SegmentRequest> requests;
-        for (const SpectrumFrame& frame : frames) {
-            inference::SegmentRequest request{
-                .motion = {static_cast<float>(frame.speedMps), 0.0F, static_cast<float>(frame.forceNewtons)},
-                .previous = silence,
-                .noise = silence};
-            request.embedding = embedding;
-            requests.push_back(request);
+        const auto nearest = std::ranges::find(labels, report_.nearestLabel, &model::Label::name);
+        Embedding embedding{};
+        std::ranges::copy(model_.embedding(static_cast<std::size_t>(nearest - labels.begin())), embedding.begin());
+        const std::vector<SpectrumFrame> ofLabel = fit.generatedFrames(embedding);
+        std::vector<LevelCondition> conditions;
+        for (const SpectrumFrame& frame : ofLabel) {
+            conditions.push_back({embedding, frame.speedMps, frame.forceNewtons});
         }
-        std::vector<float> levels(requests.size());
-        generator_.levels(requests, levels);
-        return levels;
+        const std::vector<float> levels = levelsOf(generator_, conditions);
+        report_.comparedHz = comparedHz();
+        report_.comparisons = compared(
+            fit.bins(), {recorded, nullptr, law}, {generated, &tone, law},
+            {ofLabel, nullptr, [&](const SpectrumFrame& frame) {
+                 return std::pow(static_cast<double>(levels[static_cast<std::size_t>(&frame - ofLabel.data())]), 2.0);
+             }});
     }
 
     const model::ModelFile& model_;
