@@ -117,7 +117,8 @@ def test_a_further_label_has_its_level_tone_and_licence(extended: Path) -> None:
     model = read_model_file(extended)
     label = model.header["labels"][-1]
     assert len(label["level"]["speeds_mps"]) == len(label["level"]["log_levels"])
-    assert len(label["tone"]["gains_db"]) == len(label["tone"]["speeds_mps"])
+    tone = label["tone"]
+    assert len(tone["gains_db"]) == len(tone["speeds_mps"]) * len(tone["forces_newtons"])
     assert label["provenance"]["licence"] == "CC BY 4.0"
     assert label["embedding_row"] == len(model.tensors["embedding"]) - 1
 
