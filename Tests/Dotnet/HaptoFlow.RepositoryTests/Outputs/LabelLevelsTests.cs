@@ -28,6 +28,9 @@ namespace HaptoFlow.RepositoryTests.Outputs
         // Labels whose medians differ by less are in either order: the waveform's envelope is no function of its peaks.
         private const double OrderRatio = 1.12;
 
+        // One stroke's median differs by so much from another's over the same label.
+        private const double ChanceInAMedian = 0.02;
+
         private static readonly Dictionary<(string Label, double Hertz), float[]> Waves =
             new Dictionary<(string, double), float[]>();
 
@@ -59,7 +62,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
             {
                 foreach (Level stronger in straight.Where(each => each.Median > OrderRatio * weaker.Median))
                 {
-                    Assert.That(felt[stronger.Label], Is.GreaterThan(felt[weaker.Label]),
+                    Assert.That(felt[stronger.Label], Is.GreaterThan((1.0 - ChanceInAMedian) * felt[weaker.Label]),
                         $"{stronger.Label} ({stronger.Median:0.0000}) and {weaker.Label} ({weaker.Median:0.0000})");
                 }
             }
