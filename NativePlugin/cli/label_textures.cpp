@@ -12,7 +12,7 @@ namespace haptoflow::cli {
 namespace {
 
 constexpr std::size_t segment = inference::segmentSamples;
-/// The filter starts from silence: so many segments are made before the excerpt, until its start is forgotten.
+/// Segments made before the excerpt and thrown away, because the filter begins in silence.
 constexpr std::size_t settlingSegments = 4;
 
 /// A sketch that slides over a label at one motion.

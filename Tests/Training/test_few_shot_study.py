@@ -16,9 +16,8 @@ from haptoflow_benchmark.few_shot.few_shot_cases import (
     make_case,
     make_filtered_case,
     study_materials,
-    study_surfaces,
 )
-from haptoflow_benchmark.few_shot.filtered_surfaces import conditions
+from haptoflow_benchmark.few_shot.filtered_surfaces import conditions, filtered_surfaces
 from haptoflow_paper.cli import main
 from haptoflow_paper.few_shot.few_shot_figures import condition_figures
 from haptoflow_paper.few_shot.few_shot_report import (
@@ -168,7 +167,7 @@ def test_a_whole_study_of_one_material_measures_every_row(tmp_path: Path) -> Non
 
 
 def test_a_surface_in_the_published_form_has_the_level_and_the_spectrum_of_its_law() -> None:
-    surface = study_surfaces(2, 2026)[1]
+    surface = filtered_surfaces(2, 2026)[1]
     for speed, force in ((0.03, 0.5), (0.15, 1.6)):
         motion = np.column_stack([np.full(60_000, speed), np.zeros(60_000), np.full(60_000, force)])
         wave = surface.wave(motion, 1)
@@ -183,11 +182,11 @@ def test_a_surface_in_the_published_form_has_the_level_and_the_spectrum_of_its_l
         expected = np.interp(found_hertz[band], hertz, power) * level**2
         assert np.std(np.log(found[band] / expected)) < 0.2
     assert not np.allclose(surface.filter_at(-1.0, 0.0)[0], surface.filter_at(1.0, 0.0)[0], atol=0.05)
-    assert study_surfaces(2, 2026)[0].label == "filtered-01"
+    assert filtered_surfaces(2, 2026)[0].label == "filtered-01"
 
 
 def test_a_case_in_the_published_form_has_the_strokes_of_a_plain_material() -> None:
-    case = make_filtered_case(study_surfaces(1, 2026)[0], 2026, 10.0)
+    case = make_filtered_case(filtered_surfaces(1, 2026)[0], 2026, 10.0)
     assert [ride.label for ride in case.rides] == ["filtered-01", "filtered-01"]
     assert len(case.conditions) == 6
     for condition in case.conditions:

@@ -28,8 +28,8 @@ public:
     /// `skeleton` is not null. `seed` and `voice` key the noise.
     Sketcher(std::shared_ptr<const skeleton::Skeleton> skeleton, std::uint64_t seed, std::uint32_t voice) noexcept;
 
-    /// The newest contact, in a block that begins at the waveform sample `blockPosition`, with its fraction, and began
-    /// `sincePublishedSeconds` after the publishing.
+    /// Takes the newest contact. `blockPosition`: the waveform sample, with its fraction, at which the block begins;
+    /// `sincePublishedSeconds`: how long before the block the contact was published.
     void follow(const AudioMessage& message, double blockPosition, double sincePublishedSeconds) noexcept;
     /// Begins a stream at `head`: writes the waveform that would have led there, and the one that follows from there.
     void begin(std::int64_t head, std::span<float, WaveformTimeline::seedSamples> seedMps2) noexcept;

@@ -217,7 +217,7 @@ void addCells(std::uint64_t key, std::size_t level, const Crossing& crossing, Pa
 void addDirection(std::uint64_t surface, std::size_t k, const SurfacePath& path, std::size_t times,
                   Passage& passage) noexcept {
     constexpr auto slotsPerSample = static_cast<double>(noiseSlotsPerSample);
-    // A sample's middle lies half a sample after its beginning.
+    // The filter is centred on the middle of a sample, and the path is given at its beginning.
     constexpr double firstSample = 0.5 - static_cast<double>(noiseReachSamples);
     const double stepMetres = dot(path.stepMetres, directions[k]);
     const Grid grid(std::abs(stepMetres));

@@ -51,7 +51,7 @@ std::vector<SpeedComparison> compared(const SpeedBins& bins, const ComparedFrame
     constexpr double secondsPerFrame = 0.5 * spectrumSamples / inference::waveformRateHz;
     std::vector<SpeedComparison> comparisons(bins.count());
     const auto add = [&](const ComparedFrames& shown, SpeedComparison::Curve SpeedComparison::*curve) {
-        const std::vector<MeanSpectrum> means = meanSpectra(bins, shown.frames, shown.tone, shown.powerOf);
+        const std::vector<MeanSpectrum> means = meanSpectra(bins, shown.frames, shown.levels, shown.tone);
         for (std::size_t bin = 0; bin < means.size(); ++bin) {
             comparisons[bin].*curve = curveOf(means[bin]);
         }

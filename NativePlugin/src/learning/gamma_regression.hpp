@@ -14,7 +14,7 @@ namespace haptoflow::learning {
 [[nodiscard]] std::vector<double> gammaRegression(std::span<const double> values, std::span<const double> rows,
                                                   std::span<const double> deviations, double weight);
 
-/// The change of coefficients, made smaller if it would change a logarithm by more than 1.
+/// Largest change of a logarithm in one round; a larger step is shortened, because the first ones overshoot.
 inline constexpr double largestLogStep = 1.0;
 
 }  // namespace haptoflow::learning

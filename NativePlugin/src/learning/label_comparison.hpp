@@ -20,7 +20,7 @@ struct LevelCondition {
     double forceNewtons = 0.0;
 };
 
-/// The model's levels in m/s^2, RMS, of many conditions.
+/// The level (RMS in m/s^2) that the model gives each condition.
 [[nodiscard]] std::vector<float> levelsOf(inference::SegmentGenerator& generator,
                                           std::span<const LevelCondition> conditions);
 

@@ -226,7 +226,7 @@ private:
                 " the recording's: it changes there for another reason than speed and force, such as knocks, the "
                 "direction of the strokes or a motion that was measured late; record steady strokes at that speed");
         }
-        compare(fit, recorded, generated, tone);
+        compare(fit, embedding, recorded, generated, tone);
         for (const OtherTier& other : otherTiers_) {
             ClosedLoop loop(*other.generator, model_.header(), recording_, unitWave_);
             const double distanceDb =
@@ -238,27 +238,26 @@ private:
         return tone;
     }
 
-    void compare(TextureFit& fit, std::span<const SpectrumFrame> recorded, std::span<const SpectrumFrame> generated,
-                 const model::ToneTable& tone) {
-        const auto law = [this](const SpectrumFrame& frame) {
-            return std::exp(2.0 * level_.logLevel(frame.speedMps, frame.forceNewtons));
+    void compare(TextureFit& fit, const Embedding& embedding, std::span<const SpectrumFrame> recorded,
+                 std::span<const SpectrumFrame> generated, const model::ToneTable& tone) {
+        const auto lawOf = [this](std::span<const SpectrumFrame> frames) {
+            std::vector<double> levels(frames.size());
+            std::ranges::transform(frames, levels.begin(), [this](const SpectrumFrame& frame) {
+                return std::exp(level_.logLevel(frame.speedMps, frame.forceNewtons));
+            });
+            return levels;
         };
-        const auto& labels = model_.header().labels;
-        const auto nearest = std::ranges::find(labels, report_.nearestLabel, &model::Label::name);
-        Embedding embedding{};
-        std::ranges::copy(model_.embedding(static_cast<std::size_t>(nearest - labels.begin())), embedding.begin());
-        const std::vector<SpectrumFrame> ofLabel = fit.generatedFrames(embedding);
+        Embedding nearest{};
+        std::ranges::copy(model_.embedding(model_.nearestLabel(embedding)), nearest.begin());
+        const std::vector<SpectrumFrame> ofLabel = fit.generatedFrames(nearest);
         std::vector<LevelCondition> conditions;
         for (const SpectrumFrame& frame : ofLabel) {
-            conditions.push_back({embedding, frame.speedMps, frame.forceNewtons});
+            conditions.push_back({nearest, frame.speedMps, frame.forceNewtons});
         }
         const std::vector<float> levels = levelsOf(generator_, conditions);
         report_.comparedHz = comparedHz();
-        report_.comparisons = compared(
-            fit.bins(), {recorded, nullptr, law}, {generated, &tone, law},
-            {ofLabel, nullptr, [&](const SpectrumFrame& frame) {
-                 return std::pow(static_cast<double>(levels[static_cast<std::size_t>(&frame - ofLabel.data())]), 2.0);
-             }});
+        report_.comparisons = compared(fit.bins(), {recorded, lawOf(recorded)}, {generated, lawOf(generated), &tone},
+                                       {ofLabel, std::vector<double>(levels.begin(), levels.end())});
     }
 
     const model::ModelFile& model_;

@@ -33,7 +33,7 @@ public:
     [[nodiscard]] std::vector<double> distances(std::span<const Embedding> embeddings, std::size_t chains,
                                                 std::uint64_t round);
 
-    /// The frames of the recording that slide, each half a frame after the last.
+    /// Frames of the recording in which the tip slides throughout. Each begins half a frame after the one before.
     [[nodiscard]] std::vector<SpectrumFrame> recordedFrames() const;
     /// Frames of waves generated for an embedding along the whole recording, several times, at 72 updates per second.
     [[nodiscard]] std::vector<SpectrumFrame> generatedFrames(const Embedding& embedding);

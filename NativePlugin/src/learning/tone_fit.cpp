@@ -98,7 +98,7 @@ private:
     std::vector<Cosines> cosines_;
 };
 
-/// The network's spectrum at any speed and force: for each frequency, a cubic of the logarithm.
+/// The network's spectrum at any speed and force: the logarithm of the power at each frequency is a cubic of both.
 class NetworkSpectrum {
 public:
     NetworkSpectrum(const ConditionBasis& basis, const Spectrum& spectrum, std::span<const SpectrumFrame> generated)
@@ -423,14 +423,14 @@ double MeanSpectrum::whole() const {
 }
 
 std::vector<MeanSpectrum> meanSpectra(const SpeedBins& bins, std::span<const SpectrumFrame> frames,
-                                      const model::ToneTable* tone,
-                                      const std::function<double(const SpectrumFrame&)>& powerOf) {
+                                      std::span<const double> levels, const model::ToneTable* tone) {
     std::vector<std::array<double, spectrumBins>> gainsDb;
     for (std::size_t row = 0; tone != nullptr && row < tone->gainsDb.size(); ++row) {
         gainsDb.push_back(filterGainsDb(*tone, row));
     }
     std::vector<MeanSpectrum> means(bins.count());
-    for (const SpectrumFrame& frame : frames) {
+    for (std::size_t index = 0; index < frames.size(); ++index) {
+        const SpectrumFrame& frame = frames[index];
         MeanSpectrum& mean = means[bins.binOf(frame.speedMps)];
         mean.frames += 1.0;
         std::array<double, spectrumBins> gainDb{};
@@ -442,7 +442,7 @@ std::vector<MeanSpectrum> meanSpectra(const SpeedBins& bins, std::span<const Spe
                 }
             }
         }
-        const double power = powerOf(frame);
+        const double power = levels.empty() ? 1.0 : levels[index] * levels[index];
         for (std::size_t bin = 0; bin < spectrumBins; ++bin) {
             mean.power[bin] += power * frame.power[bin] * std::exp(gainDb[bin] / decibels);
         }
@@ -459,9 +459,8 @@ ToneErrors toneErrors(const SpeedBins& bins, std::span<const SpectrumFrame> reco
                       std::span<const SpectrumFrame> generated, const model::ToneTable& tone) {
     constexpr double lowestComparedHz = 20.0;
     constexpr double highestComparedHz = 450.0;
-    const auto asItIs = [](const SpectrumFrame&) { return 1.0; };
-    const std::vector<MeanSpectrum> wanted = meanSpectra(bins, recorded, nullptr, asItIs);
-    const std::vector<MeanSpectrum> made = meanSpectra(bins, generated, &tone, asItIs);
+    const std::vector<MeanSpectrum> wanted = meanSpectra(bins, recorded, {}, nullptr);
+    const std::vector<MeanSpectrum> made = meanSpectra(bins, generated, {}, &tone);
     const auto errorDb = [](double generatedPower, double recordedPower) {
         return 10.0 * std::log10((generatedPower + powerFloor) / (recordedPower + powerFloor));
     };

@@ -4,7 +4,6 @@
 #include "model/material_tables.hpp"
 
 #include <array>
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -14,9 +13,10 @@ namespace haptoflow::learning {
 /// there is not enough data.
 ///
 /// The logarithm of the ratio is a sum of cosines over a warped frequency, whose weights are smooth functions of speed
-/// and force, fitted by Whittle's likelihood of the recording's frames with a prior towards no tone. How far the prior
-/// reaches is chosen by parts of the recording that the fit does not see, so that more data never make it worse. The
-/// last gain below `bandwidthHz` is used above it.
+/// and force, fitted by Whittle's likelihood of the recording's frames with a prior towards no tone. The strength of
+/// the prior is the one with which the fit to three quarters of the recording explains the last quarter best, so that
+/// chance in few frames is not taken for a tone. Above `bandwidthHz` the gain is that of the highest frequency below
+/// it.
 [[nodiscard]] model::ToneTable fitTone(std::span<const SpectrumFrame> recorded,
                                        std::span<const SpectrumFrame> generated, double bandwidthHz);
 
@@ -29,11 +29,10 @@ struct MeanSpectrum {
     [[nodiscard]] double whole() const;
 };
 
-/// Each frame's power is multiplied by `powerOf(frame)`, and filtered as the engine filters it with `tone` (null for
-/// none).
+/// The mean of each range of speed. `levels` (one for each frame, in m/s^2) make acceleration of frames of unit level;
+/// empty leaves them as they are. Frames are filtered as the engine filters them with `tone`; null for none.
 [[nodiscard]] std::vector<MeanSpectrum> meanSpectra(const SpeedBins& bins, std::span<const SpectrumFrame> frames,
-                                                    const model::ToneTable* tone,
-                                                    const std::function<double(const SpectrumFrame&)>& powerOf);
+                                                    std::span<const double> levels, const model::ToneTable* tone);
 
 /// How far the network with a tone is from the recording, in dB.
 struct ToneErrors {

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from haptoflow_benchmark.few_shot.filtered_surfaces import FilteredSurface, filtered_surfaces
+from haptoflow_benchmark.few_shot.filtered_surfaces import FilteredSurface
 from haptoflow_benchmark.few_shot.unseen import unseen_materials
 from haptoflow_benchmark.metrics.temporal_metrics import rib_rates_hz
 from haptoflow_training.preprocessing.pipeline import PreparedRecording, preprocess_recording
@@ -64,14 +64,10 @@ def study_materials(count: int, seed: int) -> tuple[Material, ...]:
     return unseen_materials(load_materials(), count, seed)
 
 
-def study_surfaces(count: int, seed: int) -> tuple[FilteredSurface, ...]:
-    return filtered_surfaces(count, seed)
-
-
 def make_filtered_case(surface: FilteredSurface, seed: int, longest_seconds: float = SECONDS[-1]) -> FewShotCase:
-    """The case of a surface in the published form, stroked as the first plain material of the recorder is."""
+    """The case of a surface in the published form, stroked as a material of the recorder is."""
     number = int(surface.label.rsplit("-", 1)[1])
-    plain = next(material for material in study_materials(1, seed + number) if not material.rulings)
+    (plain,) = study_materials(1, seed + number)
     case = make_case(plain, seed, longest_seconds)
     rides = tuple(
         replace(

@@ -9,7 +9,8 @@ from pathlib import Path
 
 from tqdm import tqdm
 
-from haptoflow_benchmark.few_shot.few_shot_cases import SECONDS, study_materials, study_surfaces
+from haptoflow_benchmark.few_shot.few_shot_cases import SECONDS, study_materials
+from haptoflow_benchmark.few_shot.filtered_surfaces import filtered_surfaces
 from haptoflow_paper.few_shot.few_shot_report import (
     assembled,
     curve_table,
@@ -59,7 +60,7 @@ def run(options: argparse.Namespace) -> int:
     plan = StudyPlan(options.model, options.engine, options.work, options.seed)
     materials = [
         *study_materials(options.materials, options.seed),
-        *study_surfaces(options.materials, options.seed),
+        *filtered_surfaces(options.materials, options.seed),
     ]
     with tqdm(total=len(materials), unit="material") as progress:
         cells = [cells_of(plan, model, material, lambda: progress.update(1) and None) for material in materials]

@@ -24,13 +24,7 @@ _MAIN_SECONDS = 10.0
 
 def assembled(cells: Sequence[Mapping[str, Any]], header: Mapping[str, Any]) -> dict[str, Any]:
     """All rows over the recorder's materials, those with and without ribs, and over those in the published form."""
-    recorded = [cell for cell in cells if not cell["filtered"]]
-    groups = {
-        "all": recorded,
-        "without ribs": [cell for cell in recorded if not cell["ruled"]],
-        "with ribs": [cell for cell in recorded if cell["ruled"]],
-        "published form": [cell for cell in cells if cell["filtered"]],
-    }
+    groups = _groups(cells)
     names = list(cells[0]["rows"])
     results = {
         group: {name: summarised([cell["rows"][name] for cell in members]) for name in names}
@@ -50,6 +44,17 @@ def assembled(cells: Sequence[Mapping[str, Any]], header: Mapping[str, Any]) -> 
         "core_seconds_per_material": spent,
         "ahead": {group: _ahead(members, header["seconds"]) for group, members in groups.items() if members},
         "results": results,
+    }
+
+
+def _groups(materials: Sequence[Mapping[str, Any]]) -> dict[str, list[Mapping[str, Any]]]:
+    """The recorder's materials, those of them without and with ribs, and those in the published form."""
+    recorded = [each for each in materials if not each["filtered"]]
+    return {
+        "all": recorded,
+        "without ribs": [each for each in recorded if not each["ruled"]],
+        "with ribs": [each for each in recorded if each["ruled"]],
+        "published form": [each for each in materials if each["filtered"]],
     }
 
 
@@ -139,11 +144,7 @@ def _published_curve(results: Mapping[str, Any]) -> list[str]:
 def ahead_table(results: Mapping[str, Any]) -> str:
     """Markdown: in how many materials `learn` is ahead of AR with three bins, for each length of recording."""
     lengths = [f"{seconds:g}" for seconds in results["seconds"]]
-    counts = {"all": 0, "without ribs": 0, "with ribs": 0, "published form": 0}
-    for each in results["materials"]:
-        counts["published form" if each["filtered"] else "all"] += 1
-        if not each["filtered"]:
-            counts["with ribs" if each["ruled"] else "without ribs"] += 1
+    counts = {group: len(members) for group, members in _groups(results["materials"]).items()}
     lines = [
         "| ahead of AR with three bins in LSD / level, materials | " + " | ".join(f"{each} s" for each in lengths) + " |",
         "|---|" + "---|" * len(lengths),
