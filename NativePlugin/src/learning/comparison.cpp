@@ -40,8 +40,10 @@ SpeedComparison::Curve curveOf(const MeanSpectrum& mean) {
 
 std::vector<double> comparedHz() {
     std::vector<double> hertz;
-    for (double each = lowestHz; each < highestHz; each *= step) {
+    double each = lowestHz;
+    while (each < highestHz) {
         hertz.push_back(each);
+        each *= step;
     }
     return hertz;
 }
@@ -51,7 +53,7 @@ std::vector<SpeedComparison> compared(const SpeedBins& bins, const ComparedFrame
     constexpr double secondsPerFrame = 0.5 * spectrumSamples / inference::waveformRateHz;
     std::vector<SpeedComparison> comparisons(bins.count());
     const auto add = [&](const ComparedFrames& shown, SpeedComparison::Curve SpeedComparison::*curve) {
-        const std::vector<MeanSpectrum> means = meanSpectra(bins, shown.frames, shown.levels, shown.tone);
+        std::vector<MeanSpectrum> means = meanSpectra(bins, shown.frames, shown.levels, shown.tone);
         for (std::size_t bin = 0; bin < means.size(); ++bin) {
             comparisons[bin].*curve = curveOf(means[bin]);
         }

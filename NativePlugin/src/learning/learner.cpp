@@ -251,6 +251,7 @@ private:
         std::ranges::copy(model_.embedding(model_.nearestLabel(embedding)), nearest.begin());
         const std::vector<SpectrumFrame> ofLabel = fit.generatedFrames(nearest);
         std::vector<LevelCondition> conditions;
+        conditions.reserve(ofLabel.size());
         for (const SpectrumFrame& frame : ofLabel) {
             conditions.push_back({nearest, frame.speedMps, frame.forceNewtons});
         }

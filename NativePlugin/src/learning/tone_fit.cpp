@@ -434,7 +434,7 @@ std::vector<MeanSpectrum> meanSpectra(const SpeedBins& bins, std::span<const Spe
         MeanSpectrum& mean = means[bins.binOf(frame.speedMps)];
         mean.frames += 1.0;
         std::array<double, spectrumBins> gainDb{};
-        if (!gainsDb.empty()) {
+        if (tone != nullptr && !gainsDb.empty()) {
             for (const auto& [row, weight] : model::ToneTable::rowsAround(tone->speedsMps, tone->forcesNewtons,
                                                                           frame.speedMps, frame.forceNewtons)) {
                 for (std::size_t bin = 0; bin < spectrumBins; ++bin) {
