@@ -141,6 +141,19 @@ def test_the_page_says_what_the_network_adds_to_the_skeleton_and_how_much_longer
     assert line.endswith("It takes 12 times as long at the pace of use.")
 
 
+def test_the_page_says_where_a_recipe_without_one_part_is_better_than_ours(
+    pairs: list[ReferencePair], tmp_path: Path
+) -> None:
+    measured = _measured(pairs)
+    # The full recipe is noise here, and the recipe without one part is an independent draw.
+    plan = [PlannedRow("standard", "ours", model="m"), PlannedRow("less", "ablation", model="n")]
+    made = table(plan, {"standard": measured["rival"], "less": measured["independent-draw"]})
+    write_document({**with_times(made, None), "model_sha256": "a" * 64}, tmp_path / "page.md", tmp_path, False, False)
+    line = next(line for line in (tmp_path / "page.md").read_text().splitlines() if line.startswith("- `less`: "))
+    assert line.startswith("- `less`: better in ") and "LSD" in line.split("; worse in ")[0]
+    assert line.endswith("; worse in nothing.")
+
+
 def test_the_page_covers_the_measured_rows_and_starts_with_who_is_ahead(
     pairs: list[ReferencePair], tmp_path: Path
 ) -> None:

@@ -35,6 +35,7 @@ def write_document(table: dict[str, Any], out: Path, images: Path, picture: bool
         names = ", ".join(table["not_measured"])
         lines += [f"Not measured yet, so not judged: {names}. `npm run evaluate` trains and adds them.", ""]
     lines += _verdict_table(table["rows"])
+    lines += _ablation_lines(table["rows"])
     lines += _goal_table(table)
     lines += _label_table(table["rows"])
     lines += _worst_table(table["rows"])
@@ -210,6 +211,21 @@ def _verdict_table(rows: Sequence[_Row]) -> list[str]:
             stands = "; ".join(f"`{name}` in {', '.join(_figures_of(rival, name))}" for name in sorted(names))
             lines += [f"The figures of {rival.rival} are each compared by the best of its rows: {stands}.", ""]
     return lines
+
+
+def _ablation_lines(rows: Sequence[_Row]) -> list[str]:
+    """Where a recipe without one part is better than ours, the part costs accuracy: said as plainly as its merits."""
+    lines = []
+    for row in rows:
+        if row["block"] == "ablation" and (found := row.get("verdict")):
+            better, worse = (
+                ", ".join(BY_KEY[key].words for key, outcome in found.items() if outcome == wanted) or "nothing"
+                for wanted in (BEHIND, AHEAD)
+            )
+            lines.append(f"- `{row['name']}`: better in {better}; worse in {worse}.")
+    if not lines:
+        return []
+    return ["Ablations beside the row that they are judged against, beyond chance:", "", *lines, ""]
 
 
 def _figures_of(rival: RivalVerdict, row: str) -> list[str]:
