@@ -3,6 +3,7 @@
 #include "decimal_text.hpp"
 #include "exit_codes.hpp"
 #include "learning/learner.hpp"
+#include "learning_picture.hpp"
 #include "material_output.hpp"
 #include "messages.hpp"
 #include "model/model_file.hpp"
@@ -14,7 +15,6 @@
 #include "progress_bar.hpp"
 #include "recordings/csv_lines.hpp"
 #include "recordings/recording_reader.hpp"
-#include "svg_plot.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -149,34 +149,6 @@ void tell(const learning::LearningReport& report, const std::string& name, const
     std::ranges::for_each(report.warnings, note);
 }
 
-/// A panel for each range of speed: the spectra of recording, material and nearest label.
-std::string pictureOf(const learning::LearningReport& report, const std::string& name) {
-    constexpr double shownDb = 50.0;
-    std::vector<PlotPanel> panels;
-    for (const learning::SpeedComparison& each : report.comparisons) {
-        double highest = -200.0;
-        for (const auto* curve : {&each.recorded, &each.learnt, &each.nearestLabel}) {
-            for (const double value : curve->decibels) {
-                highest = std::max(highest, value);
-            }
-        }
-        highest = 10.0 * std::ceil(highest / 10.0);
-        const auto named = [](const std::string& what, const learning::SpeedComparison::Curve& curve) {
-            return what + ", " + fixedDecimals(curve.rmsMps2, 2) + " m/s^2";
-        };
-        panels.push_back({.axis = "dB at " + inMillimetres(each.speedMps) + " mm/s",
-                          .lowest = highest - shownDb,
-                          .highest = highest,
-                          .tick = 10.0,
-                          .lines = {{named("recorded, " + fixedDecimals(each.seconds, 1) + " s", each.recorded),
-                                     "#222222", each.recorded.decibels, false},
-                                    {named("learnt", each.learnt), "#1f77b4", each.learnt.decibels, false},
-                                    {named("nearest label, " + report.nearestLabel, each.nearestLabel), "#999999",
-                                     each.nearestLabel.decibels, true}}});
-    }
-    return svgPlot(name + ": recorded and learnt, in dB re 1 (m/s^2)^2 / Hz", report.comparedHz, panels);
-}
-
 recordings::MaterialRecording readRecording(const LearnOptions& options) {
     const std::string& path = options.recordingPath;
     const recordings::RecordingWords& words = options.words;
@@ -244,7 +216,7 @@ void runLearn(const LearnOptions& options) {
             writeText(*report, learning::reportJson(learnt.report));
         }
         if (picture) {
-            writeText(*picture, pictureOf(learnt.report, settings.name));
+            writeText(*picture, learningPicture(learnt.report, settings.name));
         }
         output.commit();
         if (report) {
@@ -296,7 +268,7 @@ void addLearnCommand(CLI::App& app, CommandOutcome& outcome) {
     command->add_option("--report", options->reportPath, "Write the results of the fit as JSON")->type_name("R.json");
     command
         ->add_option("--picture", options->picturePath,
-                     "Draw the spectra of recording, material and nearest label at each speed")
+                     "Draw recording, material and nearest label: spectra, levels, kurtosis and ribs at each speed")
         ->type_name("P.svg");
     command->add_flag("--quiet", options->quiet, "No progress bar");
     command->footer(
