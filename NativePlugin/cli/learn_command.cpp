@@ -14,10 +14,10 @@
 #include "output_file.hpp"
 #include "progress_bar.hpp"
 #include "recordings/csv_lines.hpp"
+#include "recordings/material_words.hpp"
 #include "recordings/recording_reader.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
@@ -46,20 +46,6 @@ struct LearnOptions {
     std::uint64_t seed = 1;
     bool quiet = false;
 };
-
-/// A material's name from a file's name or a sidecar's label: lower case, without punctuation at its ends.
-std::string plainName(const std::string& text) {
-    const bool isUtf8 = model::isUtf8(text);
-    std::string name;
-    for (const char letter : text) {
-        const auto code = static_cast<unsigned char>(letter);
-        const bool isSpace = letter == '_' || letter == '-' || std::isspace(code) != 0 || std::iscntrl(code) != 0 ||
-                             (code >= 0x80U && !isUtf8);
-        name += isSpace ? ' ' : static_cast<char>(code < 0x80U ? std::tolower(code) : code);
-    }
-    name = recordings::trimmed(model::shortened(recordings::trimmed(name), model::nameBytes));
-    return name.empty() ? "material" : name;
-}
 
 /// The texts of the command line are checked by the rules of material files before anything is read.
 void requireTexts(const LearnOptions& options) {
@@ -180,14 +166,10 @@ void runLearn(const LearnOptions& options) {
     const model::Tier& tier = model.header().tiers[model.header().defaultTier];
 
     learning::LearningSettings settings;
-    settings.name =
-        options.name ? *options.name
-                     : plainName(recording.description.label.empty() ? fs::path(options.recordingPath).stem().string()
-                                                                     : recording.description.label);
+    settings.name = options.name.value_or(recordings::materialName(recording.description, options.recordingPath));
     settings.category = options.category;
     settings.licence = options.licence.empty() ? recording.description.licence : options.licence;
-    settings.recordings = model::printable(fs::path(options.recordingPath).filename().string()) +
-                          (recording.description.source.empty() ? "" : ", " + recording.description.source);
+    settings.recordings = recordings::provenanceOf(recording.description, options.recordingPath);
     settings.seed = options.seed;
     settings.secondsLimit = options.secondsLimit;
     const ProgressBar bar = progressBar("learn", options.quiet);

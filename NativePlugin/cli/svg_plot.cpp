@@ -154,7 +154,7 @@ std::string drawPlotPanel(const PlotPanel& panel, const PlotAxis& across, double
             drawn += svgPoint(legend + 11.0, top - 11.0, each.colour);
         }
         drawn += svgText(legend + 28.0, top - 7.0, "start", each.name);
-        legend += 48.0 + 7.2 * static_cast<double>(each.name.size());
+        legend += 40.0 + 6.9 * static_cast<double>(each.name.size());
     }
     return drawn;
 }

@@ -1081,6 +1081,9 @@ typedef struct haptoflow_recording_info {
     const char* motion_path;
     /* What was ignored, corrected or looks odd, one sentence on each line; empty for nothing. */
     const char* notes;
+    /* The name and the provenance that `haptoflow learn` gives the material: for haptoflow_learning_options. */
+    const char* material_name;
+    const char* provenance;
 } haptoflow_recording_info;
 
 /* Reads a recording. Close *recording with haptoflow_recording_close. Errors: INVALID_ARGUMENT, RECORDING_UNUSABLE (the
