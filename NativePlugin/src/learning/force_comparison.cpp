@@ -8,8 +8,8 @@ namespace haptoflow::learning {
 namespace {
 
 constexpr std::size_t mostRanges = 3;
-/// Four seconds.
-constexpr double fewestFrames = 62.0;
+/// Three seconds.
+constexpr double fewestFrames = 45.0;
 /// Forces closer together are one force to a hand.
 constexpr double smallestRatio = 1.4;
 constexpr std::size_t lawSpeeds = 25;
