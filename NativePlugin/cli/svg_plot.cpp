@@ -75,9 +75,9 @@ public:
 
     [[nodiscard]] std::string draw(double top, double height, bool isNamed) const {
         std::string drawn;
-        for (double decade = 1.0; decade < 1e6; decade *= 10.0) {
+        for (int decade = 0; decade < 6; ++decade) {
             for (int digit = 1; digit < 10; ++digit) {
-                const double value = decade * digit;
+                const double value = std::pow(10.0, decade) * digit;
                 if (value < lowest_ * 0.999 || value > lowest_ * std::exp2(octaves_) * 1.001) {
                     continue;
                 }
@@ -126,15 +126,16 @@ std::string drawPlotLine(const PlotLine& drawn, const std::vector<double>& panel
     if (!drawn.hasLine) {
         return points;
     }
-    return "<path d=\"" + path + "\" fill=\"none\" stroke-width=\"2\" stroke=\"" + drawn.colour + "\"" +
+    return "<path d=\"" + path + R"(" fill="none" stroke-width="2" stroke=")" + drawn.colour + "\"" +
            (drawn.isDashed ? " stroke-dasharray=\"6 4\"" : "") + "/>\n" + points;
 }
 
 std::string drawPlotPanel(const PlotPanel& panel, const PlotAxis& across, double top, bool isNamed) {
     const LogAxis axis(across);
     std::string drawn = axis.draw(top, panel.height, isNamed);
-    for (double value = std::ceil(panel.lowest / panel.tick) * panel.tick; value <= panel.highest + 1e-9;
-         value += panel.tick) {
+    const auto lastTick = std::lround(std::floor((panel.highest + 1e-9) / panel.tick));
+    for (auto tick = std::lround(std::ceil(panel.lowest / panel.tick)); tick <= lastTick; ++tick) {
+        const double value = static_cast<double>(tick) * panel.tick;
         const double y = top + panel.height * (1.0 - (value - panel.lowest) / (panel.highest - panel.lowest));
         drawn += svgLine(plotLeft, y, pictureWidth - plotRight, y,
                          std::abs(value) < 1e-9 ? "stroke=\"#999\"" : "stroke=\"#ddd\"");
@@ -147,7 +148,7 @@ std::string drawPlotPanel(const PlotPanel& panel, const PlotAxis& across, double
         drawn += drawPlotLine(each, across.values, axis, panel, top);
         if (each.hasLine) {
             drawn += svgLine(legend, top - 11.0, legend + 22.0, top - 11.0,
-                             "stroke-width=\"2\" stroke=\"" + each.colour + "\"" +
+                             R"(stroke-width="2" stroke=")" + each.colour + "\"" +
                                  (each.isDashed ? " stroke-dasharray=\"6 4\"" : ""));
         }
         if (each.hasPoints) {
@@ -174,12 +175,12 @@ std::string svgPlot(const std::string& title, const std::vector<double>& frequen
         tops.push_back(height + legendHeight);
         height += legendHeight + panels[index].height + panelGap + (isNamed(index) ? axisHeight : 0.0);
     }
-    std::string drawn = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + svgNumber(pictureWidth) + ' ' +
+    std::string drawn = R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 )" + svgNumber(pictureWidth) + ' ' +
                         svgNumber(height) + "\" width=\"" + svgNumber(pictureWidth) + "\" height=\"" +
                         svgNumber(height) +
                         "\" font-family=\"sans-serif\" font-size=\"13\" fill=\"#222\" role=\"img\">\n<title>" +
                         svgEscaped(title) + "</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n" +
-                        svgText(plotLeft, 22.0, "start", title, " font-size=\"15\" font-weight=\"bold\"");
+                        svgText(plotLeft, 22.0, "start", title, R"( font-size="15" font-weight="bold")");
     for (std::size_t index = 0; index < panels.size(); ++index) {
         drawn += drawPlotPanel(panels[index], across(index), tops[index], isNamed(index));
     }

@@ -19,17 +19,29 @@ constexpr double slowestRibHz = 4.0 * hertzPerBin;
 constexpr double fastestRibHz = 900.0;
 constexpr double lowestRibDb = -40.0;
 
-/// Power of a partial with `order` turns for each rib, as `TextureMeter` has it.
-double partialPower(const SpectrumFrame& frame, std::span<const RibTravel> travels, std::size_t rib, double order) {
+/// Half orders from 1/2 to 1/2 beyond the last partial.
+constexpr std::size_t halfOrders = 2 * partialsOfRib + 1;
+
+/// Powers of what keeps time with a rib at half a turn, one turn and so on, as `TextureMeter` has those of the
+/// partials.
+std::array<double, halfOrders> orderPowers(const SpectrumFrame& frame, std::span<const RibTravel> travels,
+                                           std::size_t rib) {
     constexpr double windowSum = 0.5 * static_cast<double>(spectrumSamples);
-    std::complex<double> sum = 0.0;
+    std::array<std::complex<double>, halfOrders> sums{};
     for (std::size_t i = 0; i < spectrumSamples; ++i) {
         const double turn = 2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(spectrumSamples);
-        const double window = 0.5 - 0.5 * std::cos(turn);
-        sum +=
-            std::polar(window * static_cast<double>(frame.wave[i]), -2.0 * std::numbers::pi * order * travels[i][rib]);
+        std::complex<double> each = (0.5 - 0.5 * std::cos(turn)) * static_cast<double>(frame.wave[i]);
+        const std::complex<double> halfTurn = std::polar(1.0, -std::numbers::pi * travels[i][rib]);
+        for (std::complex<double>& sum : sums) {
+            each *= halfTurn;
+            sum += each;
+        }
     }
-    return 2.0 * std::norm(sum) / (windowSum * windowSum);
+    std::array<double, halfOrders> powers{};
+    std::ranges::transform(sums, powers.begin(), [](const std::complex<double>& sum) {
+        return 2.0 * std::norm(sum) / (windowSum * windowSum);
+    });
+    return powers;
 }
 
 /// Partials less what noise has between them, so that a surface without ribs has none in the mean.
@@ -40,16 +52,16 @@ std::optional<double> ribPower(const SpectrumFrame& frame, std::span<const RibTr
     if (rateHz < slowestRibHz) {
         return std::nullopt;
     }
+    const auto powers = orderPowers(frame, travels, rib);
     double power = 0.0;
-    for (std::size_t partial = 1; partial <= partialsOfRib; ++partial) {
-        const auto order = static_cast<double>(partial);
-        if (order * rateHz > fastestRibHz) {
+    for (std::size_t partial = 0; partial < partialsOfRib; ++partial) {
+        const double hertz = rateHz * static_cast<double>(partial + 1);
+        if (hertz > fastestRibHz) {
             break;
         }
-        const double between =
-            0.5 * (partialPower(frame, travels, rib, order - 0.5) + partialPower(frame, travels, rib, order + 0.5));
-        const auto bin = static_cast<std::size_t>(std::lround(order * rateHz / hertzPerBin));
-        power += gains[bin] * (partialPower(frame, travels, rib, order) - between);
+        const double between = 0.5 * (powers[2 * partial] + powers[2 * partial + 2]);
+        const auto bin = static_cast<std::size_t>(std::lround(hertz / hertzPerBin));
+        power += gains[bin] * (powers[2 * partial + 1] - between);
     }
     return power;
 }
