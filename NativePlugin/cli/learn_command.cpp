@@ -3,6 +3,7 @@
 #include "decimal_text.hpp"
 #include "exit_codes.hpp"
 #include "learning/learner.hpp"
+#include "learning_picture.hpp"
 #include "material_output.hpp"
 #include "messages.hpp"
 #include "model/model_file.hpp"
@@ -13,11 +14,10 @@
 #include "output_file.hpp"
 #include "progress_bar.hpp"
 #include "recordings/csv_lines.hpp"
+#include "recordings/material_words.hpp"
 #include "recordings/recording_reader.hpp"
-#include "svg_plot.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
@@ -46,20 +46,6 @@ struct LearnOptions {
     std::uint64_t seed = 1;
     bool quiet = false;
 };
-
-/// A material's name from a file's name or a sidecar's label: lower case, without punctuation at its ends.
-std::string plainName(const std::string& text) {
-    const bool isUtf8 = model::isUtf8(text);
-    std::string name;
-    for (const char letter : text) {
-        const auto code = static_cast<unsigned char>(letter);
-        const bool isSpace = letter == '_' || letter == '-' || std::isspace(code) != 0 || std::iscntrl(code) != 0 ||
-                             (code >= 0x80U && !isUtf8);
-        name += isSpace ? ' ' : static_cast<char>(code < 0x80U ? std::tolower(code) : code);
-    }
-    name = recordings::trimmed(model::shortened(recordings::trimmed(name), model::nameBytes));
-    return name.empty() ? "material" : name;
-}
 
 /// The texts of the command line are checked by the rules of material files before anything is read.
 void requireTexts(const LearnOptions& options) {
@@ -149,34 +135,6 @@ void tell(const learning::LearningReport& report, const std::string& name, const
     std::ranges::for_each(report.warnings, note);
 }
 
-/// A panel for each range of speed: the spectra of recording, material and nearest label.
-std::string pictureOf(const learning::LearningReport& report, const std::string& name) {
-    constexpr double shownDb = 50.0;
-    std::vector<PlotPanel> panels;
-    for (const learning::SpeedComparison& each : report.comparisons) {
-        double highest = -200.0;
-        for (const auto* curve : {&each.recorded, &each.learnt, &each.nearestLabel}) {
-            for (const double value : curve->decibels) {
-                highest = std::max(highest, value);
-            }
-        }
-        highest = 10.0 * std::ceil(highest / 10.0);
-        const auto named = [](const std::string& what, const learning::SpeedComparison::Curve& curve) {
-            return what + ", " + fixedDecimals(curve.rmsMps2, 2) + " m/s^2";
-        };
-        panels.push_back({.axis = "dB at " + inMillimetres(each.speedMps) + " mm/s",
-                          .lowest = highest - shownDb,
-                          .highest = highest,
-                          .tick = 10.0,
-                          .lines = {{named("recorded, " + fixedDecimals(each.seconds, 1) + " s", each.recorded),
-                                     "#222222", each.recorded.decibels, false},
-                                    {named("learnt", each.learnt), "#1f77b4", each.learnt.decibels, false},
-                                    {named("nearest label, " + report.nearestLabel, each.nearestLabel), "#999999",
-                                     each.nearestLabel.decibels, true}}});
-    }
-    return svgPlot(name + ": recorded and learnt, in dB re 1 (m/s^2)^2 / Hz", report.comparedHz, panels);
-}
-
 recordings::MaterialRecording readRecording(const LearnOptions& options) {
     const std::string& path = options.recordingPath;
     const recordings::RecordingWords& words = options.words;
@@ -208,14 +166,10 @@ void runLearn(const LearnOptions& options) {
     const model::Tier& tier = model.header().tiers[model.header().defaultTier];
 
     learning::LearningSettings settings;
-    settings.name =
-        options.name ? *options.name
-                     : plainName(recording.description.label.empty() ? fs::path(options.recordingPath).stem().string()
-                                                                     : recording.description.label);
+    settings.name = options.name.value_or(recordings::materialName(recording.description, options.recordingPath));
     settings.category = options.category;
     settings.licence = options.licence.empty() ? recording.description.licence : options.licence;
-    settings.recordings = model::printable(fs::path(options.recordingPath).filename().string()) +
-                          (recording.description.source.empty() ? "" : ", " + recording.description.source);
+    settings.recordings = recordings::provenanceOf(recording.description, options.recordingPath);
     settings.seed = options.seed;
     settings.secondsLimit = options.secondsLimit;
     const ProgressBar bar = progressBar("learn", options.quiet);
@@ -244,7 +198,7 @@ void runLearn(const LearnOptions& options) {
             writeText(*report, learning::reportJson(learnt.report));
         }
         if (picture) {
-            writeText(*picture, pictureOf(learnt.report, settings.name));
+            writeText(*picture, learningPicture(learnt.report, settings.name));
         }
         output.commit();
         if (report) {
@@ -296,7 +250,7 @@ void addLearnCommand(CLI::App& app, CommandOutcome& outcome) {
     command->add_option("--report", options->reportPath, "Write the results of the fit as JSON")->type_name("R.json");
     command
         ->add_option("--picture", options->picturePath,
-                     "Draw the spectra of recording, material and nearest label at each speed")
+                     "Draw recording, material and nearest label: spectra, levels, kurtosis and ribs at each speed")
         ->type_name("P.svg");
     command->add_flag("--quiet", options->quiet, "No progress bar");
     command->footer(

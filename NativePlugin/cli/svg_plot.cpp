@@ -13,10 +13,10 @@ constexpr double pictureWidth = 760.0;
 constexpr double plotLeft = 70.0;
 constexpr double plotRight = 20.0;
 constexpr double titleHeight = 34.0;
-constexpr double panelHeight = 240.0;
 constexpr double legendHeight = 24.0;
 constexpr double axisHeight = 44.0;
-constexpr double panelSpace = legendHeight + panelHeight + 18.0;
+constexpr double panelGap = 18.0;
+constexpr double pointRadius = 3.5;
 
 std::string svgNumber(double value) {
     std::ostringstream stream;
@@ -61,78 +61,101 @@ std::string svgLine(double x1, double y1, double x2, double y2, const std::strin
            svgNumber(y2) + "\" " + style + "/>\n";
 }
 
-/// Maps frequencies to horizontal positions.
-class FrequencyAxis {
+/// Maps values of a horizontal axis to positions.
+class LogAxis {
 public:
-    FrequencyAxis(double lowestHz, double highestHz) : lowestHz_(lowestHz), octaves_(std::log2(highestHz / lowestHz)) {}
+    explicit LogAxis(const PlotAxis& axis)
+        : unit_(axis.unit),
+          lowest_(axis.values.front()),
+          octaves_(std::log2(axis.values.back() / axis.values.front())) {}
 
-    [[nodiscard]] double at(double hz) const {
-        return plotLeft + (pictureWidth - plotLeft - plotRight) * std::log2(hz / lowestHz_) / octaves_;
+    [[nodiscard]] double at(double value) const {
+        return plotLeft + (pictureWidth - plotLeft - plotRight) * std::log2(value / lowest_) / octaves_;
     }
 
     [[nodiscard]] std::string draw(double top, double height, bool isNamed) const {
         std::string drawn;
-        for (double decade = 1.0; decade < 1e6; decade *= 10.0) {
+        for (int decade = 0; decade < 6; ++decade) {
             for (int digit = 1; digit < 10; ++digit) {
-                const double hz = decade * digit;
-                if (hz < lowestHz_ * 0.999 || hz > lowestHz_ * std::exp2(octaves_) * 1.001) {
+                const double value = std::pow(10.0, decade) * digit;
+                if (value < lowest_ * 0.999 || value > lowest_ * std::exp2(octaves_) * 1.001) {
                     continue;
                 }
                 const bool isLabelled = digit == 1 || digit == 2 || digit == 5;
-                drawn += svgLine(at(hz), top, at(hz), top + height, isLabelled ? "stroke=\"#ccc\"" : "stroke=\"#eee\"");
+                drawn += svgLine(at(value), top, at(value), top + height,
+                                 isLabelled ? "stroke=\"#ccc\"" : "stroke=\"#eee\"");
                 if (isNamed && isLabelled) {
-                    drawn += svgText(at(hz), top + height + 17.0, "middle", svgNumber(hz));
+                    drawn += svgText(at(value), top + height + 17.0, "middle", svgNumber(value));
                 }
             }
         }
         return drawn + (isNamed ? svgText(plotLeft + (pictureWidth - plotLeft - plotRight) / 2.0, top + height + 36.0,
-                                          "middle", "Hz")
+                                          "middle", unit_)
                                 : "");
     }
 
 private:
-    double lowestHz_;
+    std::string unit_;
+    double lowest_;
     double octaves_;
 };
 
-std::string drawPlotLine(const PlotLine& drawn, const std::vector<double>& frequencyHz, const FrequencyAxis& axis,
+std::string svgPoint(double x, double y, const std::string& colour) {
+    return "<circle cx=\"" + svgNumber(x) + "\" cy=\"" + svgNumber(y) + "\" r=\"" + svgNumber(pointRadius) +
+           "\" fill=\"" + colour + "\"/>\n";
+}
+
+std::string drawPlotLine(const PlotLine& drawn, const std::vector<double>& panelAcross, const LogAxis& axis,
                          const PlotPanel& panel, double top) {
+    const std::vector<double>& across = drawn.across.empty() ? panelAcross : drawn.across;
     std::string path;
+    std::string points;
     bool isDown = false;
-    for (std::size_t i = 0; i < std::min(frequencyHz.size(), drawn.values.size()); ++i) {
+    for (std::size_t i = 0; i < std::min(across.size(), drawn.values.size()); ++i) {
         if (!std::isfinite(drawn.values[i])) {
             isDown = false;
             continue;
         }
         const double share = std::clamp((drawn.values[i] - panel.lowest) / (panel.highest - panel.lowest), 0.0, 1.0);
-        path += (isDown ? " L" : " M") + svgNumber(axis.at(frequencyHz[i])) + ' ' +
-                svgNumber(top + panelHeight * (1.0 - share));
+        const double x = axis.at(across[i]);
+        const double y = top + panel.height * (1.0 - share);
+        path += (isDown ? " L" : " M") + svgNumber(x) + ' ' + svgNumber(y);
+        points += drawn.hasPoints ? svgPoint(x, y, drawn.colour) : "";
         isDown = true;
     }
-    return "<path d=\"" + path + "\" fill=\"none\" stroke-width=\"2\" stroke=\"" + drawn.colour + "\"" +
-           (drawn.isDashed ? " stroke-dasharray=\"6 4\"" : "") + "/>\n";
+    if (!drawn.hasLine) {
+        return points;
+    }
+    return "<path d=\"" + path + R"(" fill="none" stroke-width="2" stroke=")" + drawn.colour + "\"" +
+           (drawn.isDashed ? " stroke-dasharray=\"6 4\"" : "") + "/>\n" + points;
 }
 
-std::string drawPlotPanel(const PlotPanel& panel, const std::vector<double>& frequencyHz, const FrequencyAxis& axis,
-                          double top, bool isLast) {
-    std::string drawn = axis.draw(top, panelHeight, isLast);
-    for (double value = std::ceil(panel.lowest / panel.tick) * panel.tick; value <= panel.highest + 1e-9;
-         value += panel.tick) {
-        const double y = top + panelHeight * (1.0 - (value - panel.lowest) / (panel.highest - panel.lowest));
+std::string drawPlotPanel(const PlotPanel& panel, const PlotAxis& across, double top, bool isNamed) {
+    const LogAxis axis(across);
+    std::string drawn = axis.draw(top, panel.height, isNamed);
+    const auto lastTick = std::lround(std::floor((panel.highest + 1e-9) / panel.tick));
+    for (auto tick = std::lround(std::ceil(panel.lowest / panel.tick)); tick <= lastTick; ++tick) {
+        const double value = static_cast<double>(tick) * panel.tick;
+        const double y = top + panel.height * (1.0 - (value - panel.lowest) / (panel.highest - panel.lowest));
         drawn += svgLine(plotLeft, y, pictureWidth - plotRight, y,
                          std::abs(value) < 1e-9 ? "stroke=\"#999\"" : "stroke=\"#ddd\"");
         drawn += svgText(plotLeft - 8.0, y + 4.0, "end", svgNumber(value));
     }
-    const double middle = top + panelHeight / 2.0;
+    const double middle = top + panel.height / 2.0;
     drawn += svgText(18.0, middle, "middle", panel.axis, " transform=\"rotate(-90 18 " + svgNumber(middle) + ")\"");
     double legend = plotLeft;
     for (const PlotLine& each : panel.lines) {
-        drawn += drawPlotLine(each, frequencyHz, axis, panel, top);
-        drawn += svgLine(
-            legend, top - 11.0, legend + 22.0, top - 11.0,
-            "stroke-width=\"2\" stroke=\"" + each.colour + "\"" + (each.isDashed ? " stroke-dasharray=\"6 4\"" : ""));
+        drawn += drawPlotLine(each, across.values, axis, panel, top);
+        if (each.hasLine) {
+            drawn += svgLine(legend, top - 11.0, legend + 22.0, top - 11.0,
+                             R"(stroke-width="2" stroke=")" + each.colour + "\"" +
+                                 (each.isDashed ? " stroke-dasharray=\"6 4\"" : ""));
+        }
+        if (each.hasPoints) {
+            drawn += svgPoint(legend + 11.0, top - 11.0, each.colour);
+        }
         drawn += svgText(legend + 28.0, top - 7.0, "start", each.name);
-        legend += 48.0 + 7.2 * static_cast<double>(each.name.size());
+        legend += 40.0 + 6.9 * static_cast<double>(each.name.size());
     }
     return drawn;
 }
@@ -141,17 +164,25 @@ std::string drawPlotPanel(const PlotPanel& panel, const std::vector<double>& fre
 
 std::string svgPlot(const std::string& title, const std::vector<double>& frequencyHz,
                     const std::vector<PlotPanel>& panels) {
-    const double height = titleHeight + panelSpace * static_cast<double>(panels.size()) + axisHeight;
-    const FrequencyAxis axis(frequencyHz.front(), frequencyHz.back());
-    std::string drawn = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + svgNumber(pictureWidth) + ' ' +
+    const PlotAxis frequency{.unit = "Hz", .values = frequencyHz};
+    const auto across = [&](std::size_t index) { return panels[index].across.value_or(frequency); };
+    const auto isNamed = [&](std::size_t index) {
+        return index + 1 == panels.size() || across(index) != across(index + 1);
+    };
+    double height = titleHeight;
+    std::vector<double> tops;
+    for (std::size_t index = 0; index < panels.size(); ++index) {
+        tops.push_back(height + legendHeight);
+        height += legendHeight + panels[index].height + panelGap + (isNamed(index) ? axisHeight : 0.0);
+    }
+    std::string drawn = R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 )" + svgNumber(pictureWidth) + ' ' +
                         svgNumber(height) + "\" width=\"" + svgNumber(pictureWidth) + "\" height=\"" +
                         svgNumber(height) +
                         "\" font-family=\"sans-serif\" font-size=\"13\" fill=\"#222\" role=\"img\">\n<title>" +
                         svgEscaped(title) + "</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n" +
-                        svgText(plotLeft, 22.0, "start", title, " font-size=\"15\" font-weight=\"bold\"");
+                        svgText(plotLeft, 22.0, "start", title, R"( font-size="15" font-weight="bold")");
     for (std::size_t index = 0; index < panels.size(); ++index) {
-        const double top = titleHeight + legendHeight + panelSpace * static_cast<double>(index);
-        drawn += drawPlotPanel(panels[index], frequencyHz, axis, top, index + 1 == panels.size());
+        drawn += drawPlotPanel(panels[index], across(index), tops[index], isNamed(index));
     }
     return drawn + "</svg>\n";
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,19 @@ struct PlotLine {
     std::string colour;
     std::vector<double> values;
     bool isDashed = false;
+    /// Where the values are; empty for the panel's own.
+    std::vector<double> across{};
+    bool hasPoints = false;
+    bool hasLine = true;
+};
+
+/// A horizontal axis on a logarithmic scale.
+struct PlotAxis {
+    std::string unit;
+    /// Rising; the first and the last are the ends of the axis.
+    std::vector<double> values;
+
+    bool operator==(const PlotAxis&) const = default;
 };
 
 /// One vertical axis and its lines.
@@ -20,11 +34,15 @@ struct PlotPanel {
     double highest = 1.0;
     double tick = 1.0;
     std::vector<PlotLine> lines;
+    /// In pixels.
+    double height = 240.0;
+    /// Empty for frequency.
+    std::optional<PlotAxis> across{};
 };
 
-/// An SVG picture of values over the logarithm of frequency, with the panels below each other. Each line has a value
-/// for each frequency; values that are not finite are skipped, values outside the axis are drawn at its edge.
-/// Home-made: the build has no plotting library for C++, and two kinds of panel are all that is needed.
+/// An SVG picture of values over the logarithm of frequency or of another quantity, with the panels below each other.
+/// Each line has a value for each frequency; values that are not finite are skipped, values outside the axis are drawn
+/// at its edge. Home-made: the build has no plotting library for C++, and a few kinds of panel are all that is needed.
 [[nodiscard]] std::string svgPlot(const std::string& title, const std::vector<double>& frequencyHz,
                                   const std::vector<PlotPanel>& panels);
 

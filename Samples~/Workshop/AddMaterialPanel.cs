@@ -93,7 +93,7 @@ namespace HaptoFlow.Samples.Workshop
             }
             return HapticLearning.Start(modelFile, read, new LearningOptions
             {
-                Name = (read.Label.Length > 0 ? read.Label : read.Name).ToLowerInvariant(),
+                Name = read.MaterialName,
                 Licence = read.Licence,
             });
         });

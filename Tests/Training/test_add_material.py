@@ -6,12 +6,13 @@ import json
 import math
 import os
 import subprocess
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from own_samples import csv_one_axis, stroke
+from own_samples import Stroke, csv_one_axis, stroke
 
 from haptoflow_benchmark.engine.engine_render import read_wav, render_motion
 from haptoflow_paper import cli as paper
@@ -92,13 +93,26 @@ def test_a_material_file_states_what_was_recorded(
     assert ("seeds" in material) == ("seed_bank" in read_model_file(DEFAULT).header), "only where the model needs them"
 
 
-def test_one_recording_gives_the_bytes_of_haptoflow_learn(recording: Path, tmp_path: Path) -> None:
+def ribbed(made: Stroke, ribs_per_mm: float) -> Stroke:
+    """The stroke over ribs across its first axis; three partials have a third of the power."""
+    phase = 2.0 * np.pi * ribs_per_mm * made.position_mm[:, 0]
+    level = 20.0 * np.hypot(*made.velocity_mps.T)
+    ribs = level * sum(0.7 / order * np.cos(order * phase) for order in (1, 2, 3))
+    return replace(made, acceleration_mps2=made.acceleration_mps2 + ribs)
+
+
+@pytest.mark.parametrize("ribs_per_mm", [0.0, 0.8], ids=["without ribs", "with ribs"])
+def test_one_recording_gives_the_bytes_of_haptoflow_learn(ribs_per_mm: float, tmp_path: Path) -> None:
+    made = stroke(10.0, hertz=90.0)
+    made = ribbed(made, ribs_per_mm) if ribs_per_mm else made
+    recording = csv_one_axis(tmp_path, "mat", "Kitchen_Mat", made, licence="CC BY 4.0", source="our hall")
     out, other = tmp_path / "python.haptomaterial", tmp_path / "line.haptomaterial"
     words = ["--seconds-limit", "3600"]
     assert add("--recording", recording, "-o", out, *words) == 0
     command = [ENGINE, "learn", recording, "--model", DEFAULT, "-o", other, *words, "--quiet"]
     subprocess.run([str(word) for word in command], check=True, capture_output=True)
     assert out.read_bytes() == other.read_bytes()
+    assert read_material(out)["periodic"] == (ribs_per_mm > 0.0)
 
 
 def test_a_further_label_leaves_all_other_labels_unchanged(extended: Path) -> None:

@@ -1081,6 +1081,9 @@ typedef struct haptoflow_recording_info {
     const char* motion_path;
     /* What was ignored, corrected or looks odd, one sentence on each line; empty for nothing. */
     const char* notes;
+    /* The name and the provenance that `haptoflow learn` gives the material: for haptoflow_learning_options. */
+    const char* material_name;
+    const char* provenance;
 } haptoflow_recording_info;
 
 /* Reads a recording. Close *recording with haptoflow_recording_close. Errors: INVALID_ARGUMENT, RECORDING_UNUSABLE (the
@@ -1201,11 +1204,12 @@ HAPTOFLOW_API haptoflow_status haptoflow_learning_material(const haptoflow_learn
 /* Sets *json to a JSON object with the results: start_label (whose render is nearest to the recording: the search began
  * there), start_distance_db, nearest_label (of haptoflow_model_nearest_label for the learnt embedding),
  * fitted_distance_db, spectral_distance_db, other_tiers (the same distance on each other tier, and whether it is
- * further_off), level_error_db, sliding_seconds, speed_mps, force_newtons, level_exponents, wave_vectors, turn_degrees
- * (from the recording's first axis to the material's first axis, which is perpendicular to its most distinct ribs),
- * sensor_noise (mps2, and from: "rest", "quiet part" or "none"; it was removed before), seeds (only of a model without
- * a skeleton), segments, seconds, stopped_early, warnings and more. It is valid until the learning is closed. Errors:
- * INVALID_ARGUMENT. [any-thread] Blocks while another thread opens or closes a handle. */
+ * further_off), level_error_db, spectra and levels (recording, material and nearest label over speed and force, as
+ * Documentation~/own-materials.md describes), sliding_seconds, speed_mps, force_newtons, level_exponents, wave_vectors,
+ * turn_degrees (from the recording's first axis to the material's first axis, which is perpendicular to its most
+ * distinct ribs), sensor_noise (mps2, and from: "rest", "quiet part" or "none"; it was removed before), seeds (only of
+ * a model without a skeleton), segments, seconds, stopped_early, record_next, warnings and more. It is valid until the
+ * learning is closed. Errors: INVALID_ARGUMENT. [any-thread] Blocks while another thread opens or closes a handle. */
 HAPTOFLOW_API haptoflow_status haptoflow_learning_report(const haptoflow_learning* learning, const char** json);
 
 /* Closes *learning and sets it to null; a null handle is allowed. Errors: INVALID_ARGUMENT.

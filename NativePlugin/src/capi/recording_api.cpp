@@ -1,4 +1,5 @@
 #include "capi/handles.hpp"
+#include "recordings/material_words.hpp"
 #include "recordings/noise_removal.hpp"
 #include "recordings/prepared_recording.hpp"
 #include "recordings/recording_reader.hpp"
@@ -26,6 +27,8 @@ struct OpenRecording {
     recordings::MaterialRecording recording;
     std::string motionPath;
     std::string notes;
+    std::string materialName;
+    std::string provenance;
 };
 
 }  // namespace haptoflow::capi
@@ -98,6 +101,8 @@ haptoflow_recording_info infoOf(const OpenRecording& open) {
     info.source = recording.description.source.c_str();
     info.motion_path = open.motionPath.c_str();
     info.notes = open.notes.c_str();
+    info.material_name = open.materialName.c_str();
+    info.provenance = open.provenance.c_str();
     return info;
 }
 
@@ -139,6 +144,8 @@ haptoflow_status haptoflow_recording_read(const haptoflow_recording_options* opt
             }
         }
         const recordings::RecordingDescription& description = open->recording.description;
+        open->materialName = recordings::materialName(description, path);
+        open->provenance = recordings::provenanceOf(description, path);
         open->motionPath = description.motion ? recordings::utf8Of(*description.motion) : "";
         for (const std::string& note : description.notes) {
             open->notes.append(open->notes.empty() ? "" : "\n").append(note);

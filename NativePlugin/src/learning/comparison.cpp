@@ -56,6 +56,9 @@ std::vector<SpeedComparison> compared(const SpeedBins& bins, const ComparedFrame
         std::vector<MeanSpectrum> means = meanSpectra(bins, shown.frames, shown.levels, shown.tone);
         for (std::size_t bin = 0; bin < means.size(); ++bin) {
             comparisons[bin].*curve = curveOf(means[bin]);
+            (comparisons[bin].*curve).figures = figuresOf(shown.moments, shown.levels, [&](std::size_t frame) {
+                return bins.binOf(shown.frames[frame].speedMps) == bin;
+            });
         }
         return means;
     };

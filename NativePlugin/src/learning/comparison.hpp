@@ -8,11 +8,12 @@
 
 namespace haptoflow::learning {
 
-/// Frames of unit level with their levels in m/s^2, and the tone that they get. See `meanSpectra`.
+/// Frames of unit level with their levels in m/s^2, and the tone that they get. See `meanSpectra` and `momentsOf`.
 struct ComparedFrames {
     std::span<const SpectrumFrame> frames;
     std::vector<double> levels;
     const model::ToneTable* tone = nullptr;
+    std::vector<FrameMoments> moments;
 };
 
 /// Frequencies of the curves: six in each octave from 16 to 900 Hz.

@@ -6,6 +6,7 @@
 #include "learning/closed_loop.hpp"
 #include "learning/comparison.hpp"
 #include "learning/embedding_search.hpp"
+#include "learning/force_comparison.hpp"
 #include "learning/frequency_exponent.hpp"
 #include "learning/label_comparison.hpp"
 #include "learning/material_frame.hpp"
@@ -256,9 +257,41 @@ private:
             conditions.push_back({nearest, frame.speedMps, frame.forceNewtons});
         }
         const std::vector<float> levels = levelsOf(generator_, conditions);
+        const auto framesOf = [&](std::span<const SpectrumFrame> frames, std::vector<double> levelsMps2,
+                                  const model::ToneTable* filter) {
+            return ComparedFrames{.frames = frames,
+                                  .levels = std::move(levelsMps2),
+                                  .tone = filter,
+                                  .moments = momentsOf(frames, filter, fit.ribTravels())};
+        };
+        const ComparedFrames ofRecording = framesOf(recorded, lawOf(recorded), nullptr);
+        const ComparedFrames ofMaterial = framesOf(generated, lawOf(generated), &tone);
+        const ComparedFrames ofNearest = framesOf(ofLabel, std::vector<double>(levels.begin(), levels.end()), nullptr);
         report_.comparedHz = comparedHz();
-        report_.comparisons = compared(fit.bins(), {recorded, lawOf(recorded)}, {generated, lawOf(generated), &tone},
-                                       {ofLabel, std::vector<double>(levels.begin(), levels.end())});
+        report_.comparisons = compared(fit.bins(), ofRecording, ofMaterial, ofNearest);
+        report_.forces = comparedByForce(fit.bins(), ForceRanges::divide(recorded), ofRecording, ofMaterial, ofNearest);
+        addLaws(ToneLevel(fit.bins(), generated, tone), nearest);
+    }
+
+    /// The levels of material and nearest label, also where nothing was recorded.
+    void addLaws(const ToneLevel& toneLevel, const Embedding& nearestLabel) {
+        report_.lawSpeedsMps = lawSpeedsMps();
+        const model::ModelHeader& header = model_.header();
+        const double exponent = header.labels[model_.nearestLabel(nearestLabel)].speedLevelExponent;
+        for (ForceComparison& each : report_.forces) {
+            std::vector<LevelCondition> conditions;
+            for (const double speed : report_.lawSpeedsMps) {
+                conditions.push_back({nearestLabel, std::min(speed, header.speedMps.maximum), each.forceNewtons});
+                each.learntMps2.push_back(std::exp(level_.logLevel(speed, each.forceNewtons)) *
+                                          toneLevel.at(speed, each.forceNewtons));
+            }
+            const std::vector<float> levels = levelsOf(generator_, conditions);
+            for (std::size_t i = 0; i < levels.size(); ++i) {
+                // As the engine goes on beyond the model's range.
+                const double beyond = report_.lawSpeedsMps[i] / conditions[i].speedMps;
+                each.nearestLabelMps2.push_back(static_cast<double>(levels[i]) * std::pow(beyond, exponent));
+            }
+        }
     }
 
     const model::ModelFile& model_;

@@ -2,9 +2,47 @@
 
 #include "learning/rounded_numbers.hpp"
 
+#include <algorithm>
+#include <iterator>
+#include <optional>
+
 namespace haptoflow::learning {
 
 using Json = nlohmann::ordered_json;
+
+namespace {
+
+Json numberOrNull(const std::optional<double>& number, double perUnit) {
+    return number ? Json(rounded(*number, perUnit)) : Json();
+}
+
+Json figuresJson(const WaveFigures& figures) {
+    Json ribs = Json::array();
+    for (const std::optional<double>& each : figures.ribsDb) {
+        ribs.push_back(numberOrNull(each, 1e1));
+    }
+    return {{"frames", figures.frames},
+            {"rms_mps2", rounded(figures.rmsMps2, 1e5)},
+            {"kurtosis", numberOrNull(figures.kurtosis, 1e2)},
+            {"ribs_db", ribs}};
+}
+
+Json forceJson(const ForceComparison& force) {
+    Json speeds = Json::array();
+    for (const ForceComparison::AtSpeed& each : force.speeds) {
+        speeds.push_back({{"speed_mps", rounded(each.speedMps, 1e5)},
+                          {"recorded", figuresJson(each.recorded)},
+                          {"learnt", figuresJson(each.learnt)},
+                          {"nearest_label", figuresJson(each.nearestLabel)}});
+    }
+    return {{"force_newtons", rounded(force.forceNewtons, 1e3)},
+            {"recorded_speed_mps", roundedNumbers(force.recordedMps, 1e5)},
+            {"learnt_mps2", roundedNumbers(force.learntMps2, 1e5)},
+            {"nearest_label_mps2", roundedNumbers(force.nearestLabelMps2, 1e5)},
+            {"speeds", speeds}};
+}
+
+}  // namespace
 
 std::string reportJson(const LearningReport& report) {
     Json vectors = Json::array();
@@ -18,7 +56,10 @@ std::string reportJson(const LearningReport& report) {
                          {"further_off", each.isFurtherOff}});
     }
     const auto curveJson = [](const SpeedComparison::Curve& curve) {
-        return Json{{"rms_mps2", rounded(curve.rmsMps2, 1e5)}, {"decibels", roundedNumbers(curve.decibels, 1e1)}};
+        Json json = figuresJson(curve.figures);
+        json["rms_mps2"] = rounded(curve.rmsMps2, 1e5);
+        json["decibels"] = roundedNumbers(curve.decibels, 1e1);
+        return json;
     };
     Json comparisons = Json::array();
     for (const SpeedComparison& each : report.comparisons) {
@@ -28,6 +69,8 @@ std::string reportJson(const LearningReport& report) {
                                {"learnt", curveJson(each.learnt)},
                                {"nearest_label", curveJson(each.nearestLabel)}});
     }
+    Json forces = Json::array();
+    std::ranges::transform(report.forces, std::back_inserter(forces), forceJson);
     const Json noise{{"mps2", rounded(report.noiseMps2, 1e5)}, {"from", recordings::nameOf(report.noiseSource)}};
     const Json json{{"start_label", report.startLabel},
                     {"start_distance_db", rounded(report.startDistanceDb, 1e3)},
@@ -37,6 +80,7 @@ std::string reportJson(const LearningReport& report) {
                     {"other_tiers", tiers},
                     {"level_error_db", rounded(report.levelErrorDb, 1e3)},
                     {"spectra", {{"frequencies_hz", roundedNumbers(report.comparedHz, 1e1)}, {"speeds", comparisons}}},
+                    {"levels", {{"speeds_mps", roundedNumbers(report.lawSpeedsMps, 1e5)}, {"forces", forces}}},
                     {"sliding_seconds", rounded(report.slidingSeconds, 1e2)},
                     {"sensor_noise", noise},
                     {"speed_mps", roundedNumbers(report.speedMps, 1e5)},

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "learning/frame_figures.hpp"
 #include "learning/wave_vectors.hpp"
 #include "recordings/sensor_noise.hpp"
 
@@ -28,10 +29,30 @@ struct SpeedComparison {
     struct Curve {
         std::vector<double> decibels;
         double rmsMps2 = 0.0;
+        WaveFigures figures;
     };
     Curve recorded;
     Curve learnt;
     Curve nearestLabel;
+};
+
+/// What was recorded and what was learnt in one range of force.
+struct ForceComparison {
+    /// Mean of the range.
+    double forceNewtons = 0.0;
+    /// 2nd and 98th percentile of the speeds that were recorded with it: beyond them the material is extrapolated.
+    std::array<double, 2> recordedMps{};
+    /// Levels in m/s^2 at `LearningReport::lawSpeedsMps`.
+    std::vector<double> learntMps2;
+    std::vector<double> nearestLabelMps2;
+    struct AtSpeed {
+        double speedMps = 0.0;
+        WaveFigures recorded;
+        WaveFigures learnt;
+        WaveFigures nearestLabel;
+    };
+    /// Ranges of speed with recorded frames.
+    std::vector<AtSpeed> speeds;
 };
 
 /// Results of learning.
@@ -53,6 +74,9 @@ struct LearningReport {
     /// The frequencies of the curves, and the curves of each range of speed.
     std::vector<double> comparedHz;
     std::vector<SpeedComparison> comparisons;
+    /// From 5 mm/s to 1 m/s, wherever the recording was made; and the levels there for each range of force.
+    std::vector<double> lawSpeedsMps;
+    std::vector<ForceComparison> forces;
     /// Duration of the sliding that was used.
     double slidingSeconds = 0.0;
     /// What was removed from the recording before anything was learnt.

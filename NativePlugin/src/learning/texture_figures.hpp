@@ -43,6 +43,9 @@ struct SpectrumFrame {
     double speedMps = 0.0;
     double forceNewtons = 0.0;
     std::array<double, spectrumBins> power{};
+    /// Sample of the recording at which the frame begins, and its wave.
+    std::size_t first = 0;
+    std::array<float, spectrumSamples> wave{};
 };
 
 /// Statistics of a texture of unit level at one speed.

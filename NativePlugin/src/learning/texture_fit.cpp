@@ -176,9 +176,12 @@ void TextureFit::addFrames(std::vector<SpectrumFrame>& frames, std::span<const f
         for (std::size_t i = start + at; i < start + at + spectrumSamples; ++i) {
             force += static_cast<double>(recording_.motion[i][2]) / static_cast<double>(spectrumSamples);
         }
-        frames.push_back({.speedMps = meanSpeedMps(start + at),
-                          .forceNewtons = force,
-                          .power = powerOf(wave.subspan(at).first<spectrumSamples>())});
+        SpectrumFrame& frame = frames.emplace_back();
+        frame.speedMps = meanSpeedMps(start + at);
+        frame.forceNewtons = force;
+        frame.power = powerOf(wave.subspan(at).first<spectrumSamples>());
+        frame.first = start + at;
+        std::ranges::copy(wave.subspan(at, spectrumSamples), frame.wave.begin());
     });
 }
 

@@ -27,6 +27,8 @@ public:
     [[nodiscard]] const SpeedBins& bins() const noexcept { return bins_; }
     [[nodiscard]] std::span<const TextureFigures> recorded() const noexcept { return recorded_; }
     [[nodiscard]] std::span<const float> unitWave() const noexcept { return unitWave_; }
+    /// For each sample of the recording; empty without ribs.
+    [[nodiscard]] std::span<const RibTravel> ribTravels() const noexcept { return ribTravels_; }
 
     /// The distance of each embedding, all with the same noise, on `chains` stretches distributed over the speeds; each
     /// `round` uses other stretches.
@@ -52,7 +54,6 @@ private:
     const recordings::PreparedRecording& recording_;
     const Sliding& sliding_;
     std::span<const float> unitWave_;
-    /// For each sample of the recording; empty without ribs.
     std::vector<RibTravel> ribTravels_;
     std::uint64_t seed_;
     SpeedBins bins_;

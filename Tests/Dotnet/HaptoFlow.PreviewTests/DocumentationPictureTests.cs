@@ -58,10 +58,28 @@ namespace HaptoFlow.PreviewTests
                 Active = 1,
             }, CancellationToken.None);
             Assert.That(result.Problem, Is.Null);
-            string path = RepositoryFiles.In("Documentation~", "images", "new-material.png");
-            using SkiaCanvas picture = WindowPicture.Draw(result, layout, recording.Label, recording.Licence,
-                NewMaterialControls.Describe(recording), LearningReportText.Of(learning.Report!));
-            Save(picture, path);
+            LearningCurves curves = LearningCurves.Read(learning.Report!)!;
+            foreach ((string file, bool showsCurves) in new[]
+                     {
+                         ("new-material.png", false), ("new-material-curves.png", true),
+                     })
+            {
+                using SkiaCanvas picture = WindowPicture.Draw(showsCurves, layout, recording.Label, recording.Licence,
+                    NewMaterialControls.Describe(recording), LearningReportText.Of(learning.Report!),
+                    (canvas, palette, box) =>
+                    {
+                        if (showsCurves)
+                        {
+                            LearningPanel.Draw(canvas, palette, box, curves);
+                        }
+                        else
+                        {
+                            result.Panel.Draw(canvas, palette, box, result.Active);
+                        }
+                    });
+                LegibleTexts.Check(picture);
+                Save(picture, RepositoryFiles.In("Documentation~", "images", file));
+            }
         }
 
         /// <summary>Saves a picture with the hash of the model in it.</summary>

@@ -1,9 +1,11 @@
 using System;
 using System.Collections.Generic;
+using System.Diagnostics;
 using System.IO;
 using System.Linq;
 using HaptoFlow.Editor;
 using HaptoFlow.Model;
+using HaptoFlow.Preview;
 using HaptoFlow.Tests.Support;
 using NUnit.Framework;
 using UnityEditor;
@@ -206,6 +208,119 @@ namespace HaptoFlow.PreviewTests
             Assert.That(ClipPreview.Position, Is.EqualTo(9600));
             Press("Stop");
             Assert.That(ClipPreview.Playing, Is.Null);
+        }
+
+        [Test]
+        public void TheWindowExportsTheBytesOfTheCommandLine([Values] bool hasRibs)
+        {
+            string program = Path.Combine(RepositoryFiles.NativeFolder, "haptoflow");
+            Assume.That(File.Exists(program), "the command line is built");
+            string table = RibbedTable(hasRibs);
+            window.Take(table);
+            window.Finish();
+            Press("Learn");
+            window.Finish();
+            Assert.That(window.Session!.Problem, Is.Null);
+            Assume.That(JsonValue.Parse(State.Report.Trim())["stopped_early"].AsBoolean(), Is.False, "there was time");
+            Assert.That(JsonValue.Parse(State.Material)["periodic"].AsBoolean(), Is.EqualTo(hasRibs));
+            WindowHost.AnswerToSave = _ => "Assets/window.haptomaterial";
+            Press("Export File\u2026");
+            string line = Path.ChangeExtension(table, ".haptomaterial");
+            var command = new ProcessStartInfo(program)
+            {
+                ArgumentList =
+                {
+                    "learn", table, "-o", line, "--model", RepositoryFiles.DefaultModel, "--seconds-limit", "3600",
+                    "--quiet",
+                },
+                RedirectStandardOutput = true,
+            };
+            using Process learn = Process.Start(command)!;
+            learn.StandardOutput.ReadToEnd();
+            learn.WaitForExit();
+            Assert.That(learn.ExitCode, Is.Zero);
+            Assert.That(File.ReadAllText("Assets/window.haptomaterial"), Is.EqualTo(File.ReadAllText(line)));
+        }
+
+        /// <summary>Ten seconds of noise in many directions, with a sidecar; with ribs 1.25 mm apart or without.</summary>
+        private static string RibbedTable(bool hasRibs)
+        {
+            var random = new System.Random(3);
+            var text = new System.Text.StringBuilder(
+                "time_s,acceleration_mps2,velocity_x_mps,velocity_y_mps,force_newtons\n");
+            double millimetres = 0.0;
+            double slow = 0.0;
+            for (int index = 0; index < 20000; ++index)
+            {
+                double time = index / 2000.0;
+                double speed = 0.08 * Math.Exp(Math.Sin(2.7 * time));
+                double x = speed * Math.Cos(0.9 * time);
+                millimetres += x / 2.0;
+                double white = random.NextDouble() - 0.5;
+                slow += 0.3 * (white - slow);
+                double ribs = hasRibs ? Math.Cos(1.6 * Math.PI * millimetres) + 0.5 * Math.Cos(3.2 * Math.PI * millimetres) : 0.0;
+                text.Append(FormattableString.Invariant(
+                    $"{time:R},{20.0 * speed * (4.0 * slow + 0.8 * ribs):R},{x:R},{speed * Math.Sin(0.9 * time):R},1\n"));
+            }
+            string folder = Path.Combine(Environment.CurrentDirectory, "Recordings");
+            Directory.CreateDirectory(folder);
+            string path = Path.Combine(folder, "kitchen_mat.csv");
+            File.WriteAllText(path, text.ToString());
+            File.WriteAllText(Path.ChangeExtension(path, ".json"),
+                "{\"label\": \"Kitchen_Mat\", \"licence\": \"CC BY 4.0\", \"source\": \"our hall\"}");
+            return path;
+        }
+
+        [Test]
+        public void CurvesReplaceTheSoundsWithUndoOnceAReportHasThem()
+        {
+            window.Take(Wave());
+            State.Change("Material", changed => changed.Material = Text());
+            window.Finish();
+            Assert.That(Button("Curves").Enabled, Is.False, "the material was not learnt here");
+            State.Change("Report", changed => changed.Report = MadeReports.Of(6, 2, 1));
+            Undo.IncrementCurrentGroup();
+            Press("Curves");
+            Assert.That(State.ShowsCurves, Is.True);
+            string[] tips = Screen().Select(item => item.Tooltip).Where(tip => tip.Contains("learnt line")).ToArray();
+            Assert.That(tips, Has.Length.EqualTo(2));
+            Undo.PerformUndo();
+            Assert.That(State.ShowsCurves, Is.False);
+        }
+
+        [Test]
+        public void EveryTooltipIsOfWholeSentences()
+        {
+            window.Take(Wave());
+            State.Change("Report", changed => changed.Report = MadeReports.Of(6, 2, 1));
+            State.Change("View", changed => changed.ShowsCurves = true);
+            window.Finish();
+            foreach (string tip in Screen().Select(item => item.Tooltip).Where(tip => tip.Length > 0))
+            {
+                Assert.That(char.IsUpper(tip[0]) && tip.EndsWith(".", StringComparison.Ordinal), Is.True, tip);
+            }
+        }
+
+        [Test]
+        public void ARepaintOfTheCurvesMakesNoGarbage()
+        {
+            PreviewView view = PreviewView.Of(window.position, PreviewRoom.WithoutStroke, null);
+            LearningCurves curves = LearningCurves.Read(MadeReports.Of(6, 2, 1))!;
+            int drawings = 0;
+            var picture = new EditorPicture(canvas =>
+            {
+                ++drawings;
+                LearningPanel.Draw(canvas, view.Palette, view.Layout.Charts, curves);
+            });
+            picture.OnGUI(curves, view);
+            ScreenPaint.Clear();
+            picture.OnGUI(curves, view);
+            ScreenPaint.Clear();
+            long before = GC.GetAllocatedBytesForCurrentThread();
+            picture.OnGUI(curves, view);
+            Assert.That(GC.GetAllocatedBytesForCurrentThread() - before, Is.Zero);
+            Assert.That(drawings, Is.EqualTo(1));
+            picture.Release();
         }
 
         [Test]

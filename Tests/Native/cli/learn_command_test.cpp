@@ -117,7 +117,23 @@ TEST_F(LearnCommandTest, ReportAndPictureShowRecordingMaterialAndNearestLabelAtE
         EXPECT_NEAR(each["learnt"]["rms_mps2"].get<double>() / each["recorded"]["rms_mps2"].get<double>(), 1.0, 0.2);
     }
     EXPECT_NEAR(seconds, 10.0, 1.5);
+    const nlohmann::json& levels = report["levels"];
+    ASSERT_EQ(levels["forces"].size(), 2U);
+    for (const nlohmann::json& force : levels["forces"]) {
+        EXPECT_EQ(force["learnt_mps2"].size(), levels["speeds_mps"].size());
+        EXPECT_EQ(force["nearest_label_mps2"].size(), levels["speeds_mps"].size());
+        EXPECT_LT(force["recorded_speed_mps"][0].get<double>(), force["recorded_speed_mps"][1].get<double>());
+        for (const nlohmann::json& each : force["speeds"]) {
+            EXPECT_GT(each["recorded"]["frames"].get<int>(), 0);
+            EXPECT_NEAR(each["recorded"]["kurtosis"].get<double>(), 3.0, 1.5);
+            EXPECT_TRUE(each["recorded"]["ribs_db"][0].is_null()) << "no ribs were found";
+        }
+    }
     const std::string picture = read("denim.svg");
+    for (const char* words : {"recorded 31 to ", "extrapolated", "kurtosis"}) {
+        EXPECT_THAT(picture, HasSubstr(words));
+    }
+    EXPECT_THAT(picture, Not(HasSubstr("ribs"))) << "no ribs were found";
     for (const std::string& words : {std::string("recorded, "), std::string("learnt, "),
                                      "nearest label, " + report["nearest_label"].get<std::string>()}) {
         EXPECT_THAT(picture, HasSubstr(words));

@@ -85,6 +85,54 @@ TEST_F(LearnerTest, RibsAreAcrossTheMaterialsFirstAxisAndMakeItPeriodic) {
     EXPECT_DOUBLE_EQ(material.label.frequencyExponent, 1.0);
 }
 
+TEST_F(LearnerTest, TheReportHasLevelKurtosisAndRibsForEachForceAndSpeed) {
+    const MadeRecording made({.ribs = {0.8, 0.45}, .ribShare = 0.5}, {});
+    const LearningReport report = learn(made.view(), brief()).report;
+    ASSERT_EQ(report.forces.size(), 2U) << "the recording's force swings from 0.4 to 1.2 N";
+    EXPECT_LT(report.forces[0].forceNewtons, 0.8);
+    EXPECT_GT(report.forces[1].forceNewtons, 0.8);
+    double frames = 0.0;
+    for (const ForceComparison& force : report.forces) {
+        EXPECT_NEAR(force.recordedMps[0], 0.03, 0.01);
+        EXPECT_NEAR(force.recordedMps[1], 0.25, 0.04);
+        ASSERT_GE(force.speeds.size(), 3U);
+        for (const ForceComparison::AtSpeed& each : force.speeds) {
+            frames += static_cast<double>(each.recorded.frames);
+            // The made surface's law, and its partials' power of 0.34 beside the noise's 1.
+            const double wanted =
+                1.5 * std::pow(each.speedMps / 0.1, 0.9) * std::pow(force.forceNewtons, 0.3) * std::sqrt(1.34);
+            EXPECT_NEAR(each.recorded.rmsMps2 / wanted, 1.0, 0.35);
+            EXPECT_NEAR(each.recorded.kurtosis.value(), 3.0, 1.2);
+            EXPECT_GT(each.learnt.frames, 0U);
+            if (each.recorded.ribsDb[0] && each.speedMps > 0.06) {
+                EXPECT_NEAR(*each.recorded.ribsDb[0], 10.0 * std::log10(0.34 / 1.34), 2.5);
+                EXPECT_LT(each.nearestLabel.ribsDb[0].value(), *each.recorded.ribsDb[0] - 3.0)
+                    << "no label has these ribs";
+            }
+        }
+    }
+    EXPECT_NEAR(frames * 0.064, report.slidingSeconds, 1.0);
+}
+
+TEST_F(LearnerTest, TheLevelsGoOnBeyondWhatWasRecordedByTheLawOfTheMaterial) {
+    const MadeRecording made({}, {});
+    const LearningReport report = learn(made.view(), brief()).report;
+    ASSERT_FALSE(report.lawSpeedsMps.empty());
+    EXPECT_DOUBLE_EQ(report.lawSpeedsMps.front(), 0.005);
+    EXPECT_NEAR(report.lawSpeedsMps.back(), 1.0, 1e-9);
+    for (const ForceComparison& force : report.forces) {
+        ASSERT_EQ(force.learntMps2.size(), report.lawSpeedsMps.size());
+        ASSERT_EQ(force.nearestLabelMps2.size(), report.lawSpeedsMps.size());
+        for (std::size_t i = 0; i < report.lawSpeedsMps.size(); ++i) {
+            const double speed = report.lawSpeedsMps[i];
+            const double wanted = 1.5 * std::pow(speed / 0.1, 0.9) * std::pow(force.forceNewtons, 0.3);
+            const double toleranceDb = speed > 0.03 && speed < 0.25 ? 1.5 : 4.0;
+            EXPECT_NEAR(20.0 * std::log10(force.learntMps2[i] / wanted), 0.0, toleranceDb) << speed;
+            EXPECT_GT(force.nearestLabelMps2[i], 0.0);
+        }
+    }
+}
+
 TEST_F(LearnerTest, GivenWaveVectorsReplaceTheEstimation) {
     const MadeRecording made({.ribs = {0.8, 0.45}, .ribShare = 0.5}, {});
     LearningSettings settings = brief();

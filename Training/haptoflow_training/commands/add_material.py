@@ -83,14 +83,15 @@ def run(options: argparse.Namespace) -> int:
         raise InputError(f"--seconds-limit {options.seconds_limit:g}: expected above 0 to 3600")
     wave_vectors = _wave_vectors(options.wave_vector)
     files = material_files(options.recording)
-    name = _name(options, files)
+    # One file is learnt as `haptoflow learn` does it, byte for byte; several are joined as training prepares them.
+    is_one_file = len(options.recording) == 1 and options.recording[0].is_file()
+    read = read_own(options.recording[0]) if is_one_file else None
+    name = _name(options, files, read.material_name if read else None)
     model = read_model_file(options.model)
     if out.suffix != SUFFIX:
         require_new_name(model, name)
     check_writable(out)
-    # One file is learnt as `haptoflow learn` does it, byte for byte; several are joined as training prepares them.
-    is_one_file = len(options.recording) == 1 and options.recording[0].is_file()
-    recording = read_own(options.recording[0]).even if is_one_file else joined(read_material_recordings(files))
+    recording = read.even if read else joined(read_material_recordings(files))
     assert recording is not None
     with tqdm(total=100, desc=name, unit="%", disable=None) as progress:
         learnt = learn_material(
@@ -110,11 +111,13 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
-def _name(options: argparse.Namespace, files: Sequence[RecordingFile]) -> str:
+def _name(options: argparse.Namespace, files: Sequence[RecordingFile], of_one_file: str | None) -> str:
     if options.name is not None:
         if not options.name.strip():
             raise InputError("--name is empty; expected a name such as doormat")
         return str(options.name.strip().lower())
+    if of_one_file is not None:
+        return of_one_file
     labels = sorted({file.label for file in files if file.label})
     if len(labels) > 1:
         raise InputError(

@@ -63,6 +63,8 @@ class _Info(ctypes.Structure):
         ("source", ctypes.c_char_p),
         ("motion_path", ctypes.c_char_p),
         ("notes", ctypes.c_char_p),
+        ("material_name", ctypes.c_char_p),
+        ("provenance", ctypes.c_char_p),
     ]
 
 
@@ -93,10 +95,11 @@ class NativeRecording:
 
     even: the form in which the library learns; None if only described. acceleration: m/s^2; None if only described.
     motion: velocities in m/s, or positions in m if has_positions. velocity_mps, force_newtons: constants. notes: one
-    sentence each.
+    sentence each. material_name: what `haptoflow learn` calls the material.
     """
 
     label: str
+    material_name: str
     licence: str
     source: str
     motion_path: Path | None
@@ -180,6 +183,7 @@ def _copied(info: _Info) -> NativeRecording:
     motion_path = info.motion_path.decode()
     return NativeRecording(
         label=info.label.decode(),
+        material_name=info.material_name.decode(),
         licence=info.licence.decode(),
         source=info.source.decode(),
         motion_path=Path(motion_path) if motion_path else None,

@@ -53,14 +53,15 @@ namespace HaptoFlow.PreviewTests
         /// <summary>The New Material window.</summary>
         /// <param name="recording">Description of the recording.</param>
         /// <param name="report">Description of the result.</param>
-        public static SkiaCanvas Draw(ComparisonResult result, PreviewLayout layout, string name, string licence,
-            string recording, string report)
+        /// <param name="drawCharts">Draws the charts in their box.</param>
+        public static SkiaCanvas Draw(bool showsCurves, PreviewLayout layout, string name, string licence,
+            string recording, string report, Action<ICanvas, Palette, Box> drawCharts)
         {
             SkiaCanvas canvas = Frame(layout, "New Material");
-            result.Panel.Draw(canvas, Palette, BelowTab(layout.Charts), result.Active);
+            drawCharts(canvas, Palette, BelowTab(layout.Charts));
             var picture = new WindowPicture(
                 canvas, new Box(layout.Controls.Left, layout.Controls.Top + Tab, layout.Controls.Width, 0.0));
-            picture.NewMaterial(name, licence, recording, report);
+            picture.NewMaterial(name, licence, recording, report, showsCurves);
             return canvas;
         }
 
@@ -159,7 +160,7 @@ namespace HaptoFlow.PreviewTests
             }
         }
 
-        private void NewMaterial(string name, string licence, string recording, string report)
+        private void NewMaterial(string name, string licence, string recording, string report, bool showsCurves)
         {
             Choice("Model", "None (Haptic Model Asset)");
             Buttons(new[] { "Choose Recording\u2026" }, new[] { controls.Width }, -1);
@@ -176,6 +177,7 @@ namespace HaptoFlow.PreviewTests
             Buttons(new[] { "Learn" }, new[] { controls.Width }, -1);
             Words(report);
             y += 6.0;
+            Buttons(new[] { "Sounds", "Curves" }, new[] { 154.0, 154.0 }, showsCurves ? 1 : 0);
             Buttons(new[] { "Stop", "Recording", "Result" }, new[] { 56.0, 126.0, 126.0 }, 2);
             Box row = new Box(controls.Left, controls.Top + y, controls.Width, Row - 2.0);
             Tick(row, false);

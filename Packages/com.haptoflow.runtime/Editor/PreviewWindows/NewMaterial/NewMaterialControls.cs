@@ -44,6 +44,13 @@ namespace HaptoFlow.Editor
             new GUIContent("Recording", "Plays the recording."),
             new GUIContent("Result", "Plays the learnt material with the motion of the recording."),
         };
+        private static readonly GUIContent[] Views =
+        {
+            new GUIContent("Sounds", "Shows waveform and spectrogram of the recording and of the result."),
+            new GUIContent("Curves",
+                "Shows spectra, levels, kurtosis and ribs of recording, result and nearest label, and what was not " +
+                "recorded."),
+        };
         private static readonly GUIContent Loop = new GUIContent("Loop", "Repeats playback.");
         private static readonly GUIContent Match = new GUIContent("Match Levels",
             "Shows and plays the result at the recording's level, so that only the textures differ.");
@@ -57,6 +64,7 @@ namespace HaptoFlow.Editor
         // Copies from the last layout event: IMGUI needs the same controls in the events that follow it.
         private bool learns;
         private bool hasResult;
+        private bool hasCurves;
         private string obstacle = "";
         private string problem = "";
         private string found = "";
@@ -110,6 +118,7 @@ namespace HaptoFlow.Editor
                 EditorGUILayout.HelpBox(problem, MessageType.Error);
             }
             EditorGUILayout.Space(4f);
+            DrawViews();
             DrawPlayer(player);
             DrawSaving();
         }
@@ -133,6 +142,7 @@ namespace HaptoFlow.Editor
         {
             learns = session.Learning != null;
             hasResult = state.Material.Length > 0;
+            hasCurves = session.Curves != null;
             obstacle = session.Obstacle(model) ?? "";
             problem = session.Problem ?? "";
             found = session.Recording != null
@@ -184,6 +194,16 @@ namespace HaptoFlow.Editor
             if (obstacle.Length > 0)
             {
                 EditorGUILayout.HelpBox(obstacle, MessageType.Info);
+            }
+        }
+
+        private void DrawViews()
+        {
+            using (new EditorGUI.DisabledScope(!hasCurves))
+            {
+                int view = hasCurves && state.ShowsCurves ? 1 : 0;
+                state.Enter("View", view, GUILayout.Toolbar(view, Views),
+                    (changed, chosen) => changed.ShowsCurves = chosen == 1);
             }
         }
 

@@ -1,5 +1,6 @@
 #nullable enable
 using System;
+using System.Linq;
 using HaptoFlow.Preview;
 using HaptoFlow.Recordings;
 using UnityEngine;
@@ -19,6 +20,8 @@ namespace HaptoFlow.Editor
         private (Recording, string Material, bool Matches, int Active, byte[])? compared;
         private (Recording? File, float Speed, float Force) completedOf;
         private string? failure;
+        private string curvesOf = "";
+        private LearningCurves? curves;
 
         public NewMaterialSession(NewMaterialState state)
         {
@@ -35,6 +38,20 @@ namespace HaptoFlow.Editor
 
         /// <summary>The latest comparison; null until the first is finished.</summary>
         public ComparisonResult? Shown { get; private set; }
+
+        /// <summary>The curves of the last learning; null before one, and where its report has none.</summary>
+        public LearningCurves? Curves
+        {
+            get
+            {
+                if (curvesOf != state.Report)
+                {
+                    curvesOf = state.Report;
+                    curves = LearningCurves.Read(state.Report);
+                }
+                return curves;
+            }
+        }
 
         /// <summary>The running learning; null if none runs.</summary>
         public HapticLearning? Learning { get; private set; }
@@ -97,7 +114,7 @@ namespace HaptoFlow.Editor
             {
                 Learning = HapticLearning.Start(model.File, Recording!, new LearningOptions
                 {
-                    Name = state.Name.Trim().ToLowerInvariant(),
+                    Name = LowerCase(state.Name.Trim()),
                     Category = state.Category.Trim(),
                     Description = state.Description.Trim(),
                     Licence = state.Licence.Trim(),
@@ -174,6 +191,11 @@ namespace HaptoFlow.Editor
                 state.Path, state.FullScaleMps2 > 0f ? state.FullScaleMps2 : (double?)null));
         }
 
+        /// <summary>Without the capitals that the library refuses; it keeps others, and so does its own name of a
+        /// recording.</summary>
+        private static string LowerCase(string name) =>
+            string.Concat(name.Select(each => each >= 'A' && each <= 'Z' ? char.ToLowerInvariant(each) : each));
+
         /// <summary>Fills empty settings from the file.</summary>
         private void Take(RecordingFile read)
         {
@@ -183,8 +205,7 @@ namespace HaptoFlow.Editor
             {
                 return;
             }
-            state.Name = state.Name.Length > 0 ? state.Name
-                : recording.Label.Length > 0 ? recording.Label : recording.Name.ToLowerInvariant();
+            state.Name = state.Name.Length > 0 ? state.Name : recording.MaterialName;
             state.Licence = state.Licence.Length > 0 ? state.Licence : recording.Licence;
         }
 

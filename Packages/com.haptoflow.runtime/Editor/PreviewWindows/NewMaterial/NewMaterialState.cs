@@ -55,6 +55,10 @@ namespace HaptoFlow.Editor
         [field: SerializeField]
         public int Active { get; set; } = 1;
 
+        /// <summary>True to show the curves of recording and result, false for their sounds.</summary>
+        [field: SerializeField]
+        public bool ShowsCurves { get; set; }
+
         protected override string WindowName => "New Material";
     }
 }

@@ -16,6 +16,10 @@ namespace HaptoFlow.Editor
         private EditorPicture? picture;
         private NewMaterialControls? controls;
 
+        // Null while the sounds are shown. Of the last layout event, as IMGUI needs the same controls in the events that
+        // follow it.
+        private LearningCurves? curves;
+
         /// <summary>Null while the window is closed.</summary>
         internal NewMaterialSession? Session { get; private set; }
 
@@ -51,7 +55,16 @@ namespace HaptoFlow.Editor
 
         protected override void DrawPictures(PreviewLayout layout)
         {
-            if (Session!.Shown is { } shown)
+            if (Event.current.type == EventType.Layout)
+            {
+                curves = State.ShowsCurves ? Session!.Curves : null;
+            }
+            if (curves != null)
+            {
+                picture!.OnGUI(curves, View);
+                CurveTips.Draw(layout.Charts);
+            }
+            else if (Session!.Shown is { } shown)
             {
                 picture!.OnGUI(shown, View);
                 if (Player!.PlayedSeconds is { } seconds)
@@ -150,6 +163,11 @@ namespace HaptoFlow.Editor
 
         private void DrawCharts(ICanvas canvas)
         {
+            if (curves != null)
+            {
+                LearningPanel.Draw(canvas, View.Palette, View.Layout.Charts, curves);
+                return;
+            }
             ComparisonResult shown = Session!.Shown!;
             shown.Panel.Draw(canvas, View.Palette, View.Layout.Charts, shown.Active);
         }

@@ -18,7 +18,7 @@ namespace HaptoFlow.Native
             fixed (byte* tier = options.Tier != null ? NativeCall.Utf8(options.Tier) : null)
             fixed (byte* name = NativeCall.Utf8(options.Name), category = NativeCall.Utf8(options.Category))
             fixed (byte* description = NativeCall.Utf8(options.Description))
-            fixed (byte* licence = NativeCall.Utf8(options.Licence), recordings = NativeCall.Utf8(NameOf(recording)))
+            fixed (byte* licence = NativeCall.Utf8(options.Licence), recordings = NativeCall.Utf8(recording.Provenance))
             fixed (float* acceleration = recording.AccelerationMps2, velocity = recording.VelocityMps)
             fixed (float* force = recording.ForceNewtons, waveVectors = options.WaveVectorsPerMillimetre)
             {
@@ -61,9 +61,5 @@ namespace HaptoFlow.Native
             NativeCall.Check(NativeMethods.LearningReport(learning.Value, &report));
             return (NativeCall.Text(material), NativeCall.Text(report));
         }
-
-        /// <summary>The recording in a material's provenance, as the command line writes it.</summary>
-        private static string NameOf(Recording recording) =>
-            recording.Source.Length > 0 ? recording.Name + ", " + recording.Source : recording.Name;
     }
 }

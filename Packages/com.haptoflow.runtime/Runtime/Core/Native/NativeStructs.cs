@@ -212,6 +212,8 @@ namespace HaptoFlow.Native
         public IntPtr Source;
         public IntPtr MotionPath;
         public IntPtr Notes;
+        public IntPtr MaterialName;
+        public IntPtr Provenance;
     }
 
     [Preserve, StructLayout(LayoutKind.Sequential)]

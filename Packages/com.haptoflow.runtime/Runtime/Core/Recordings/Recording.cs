@@ -52,6 +52,13 @@ namespace HaptoFlow.Recordings
         /// <summary>Origin of the recording; empty where unknown.</summary>
         public string Source { get; internal set; } = "";
 
+        /// <summary>What a material learnt from this recording is called where nobody names it: the label or else the
+        /// file's name, in lower case.</summary>
+        public string MaterialName { get; internal set; } = "";
+
+        /// <summary>What a material's provenance says of the recording.</summary>
+        internal string Provenance { get; set; } = "";
+
         /// <summary>What was ignored or corrected during reading, one sentence each.</summary>
         public IReadOnlyList<string> Remarks { get; internal set; } = Array.Empty<string>();
 
@@ -93,6 +100,8 @@ namespace HaptoFlow.Recordings
                 Label = Label,
                 Licence = Licence,
                 Source = Source,
+                MaterialName = MaterialName,
+                Provenance = Provenance,
                 Remarks = Remarks.ToArray(),
             };
         }

@@ -92,6 +92,8 @@ namespace HaptoFlow.Recordings
                 Label = NativeCall.Text(info.Label),
                 Licence = NativeCall.Text(info.Licence),
                 Source = NativeCall.Text(info.Source),
+                MaterialName = NativeCall.Text(info.MaterialName),
+                Provenance = NativeCall.Text(info.Provenance),
                 Remarks = NativeCall.Text(info.Notes).Split(new[] { '\n' }, StringSplitOptions.RemoveEmptyEntries),
             };
         }

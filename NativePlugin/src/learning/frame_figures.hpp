@@ -1,0 +1,63 @@
+#pragma once
+
+#include "dsp/tone_cepstrum.hpp"
+#include "learning/texture_figures.hpp"
+#include "model/material_tables.hpp"
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace haptoflow::learning {
+
+/// A tone as the engine filters with it.
+class EngineTone {
+public:
+    /// Null for none; it must outlive this.
+    explicit EngineTone(const model::ToneTable* tone);
+
+    /// The middle half of a frame's samples, filtered.
+    [[nodiscard]] std::array<double, spectrumSamples / 2> filtered(const SpectrumFrame& frame) const;
+    /// Power ratio at each bin of a spectrum.
+    [[nodiscard]] std::array<double, spectrumBins> powerGains(double speedMps, double forceNewtons) const;
+
+private:
+    [[nodiscard]] std::optional<dsp::ToneKernel> kernelAt(double speedMps, double forceNewtons) const;
+
+    const model::ToneTable* tone_;
+    std::vector<dsp::ToneCepstrum> cepstra_;
+};
+
+/// What one frame of unit level adds to the figures of its speed and force.
+struct FrameMoments {
+    double meanSquare = 0.0;
+    double meanFourth = 0.0;
+    /// Power of the partials of each rib; empty where the tip is too slow to tell them from what is between them.
+    std::array<std::optional<double>, inference::ribCount> ribs{};
+};
+
+/// Moments of every frame behind a tone. `ribTravels` as of `TextureFit::ribTravels`.
+[[nodiscard]] std::vector<FrameMoments> momentsOf(std::span<const SpectrumFrame> frames, const model::ToneTable* tone,
+                                                  std::span<const RibTravel> ribTravels);
+
+/// Statistics of the frames of one range of speed and force.
+struct WaveFigures {
+    std::size_t frames = 0;
+    /// 0 without frames.
+    double rmsMps2 = 0.0;
+    /// E[x^4] / E[x^2]^2 of the wave divided by its level: 3 for Gaussian noise, more with rare events. Empty without
+    /// frames.
+    std::optional<double> kurtosis;
+    /// Power of the partials of each rib over that of the whole wave, in dB, -40 at least. Empty where there are no
+    /// ribs or where the tip is too slow.
+    std::array<std::optional<double>, inference::ribCount> ribsDb{};
+};
+
+/// The figures of the frames that `belongs`. `levels` in m/s^2, one for each frame.
+[[nodiscard]] WaveFigures figuresOf(std::span<const FrameMoments> moments, std::span<const double> levels,
+                                    const std::function<bool(std::size_t frame)>& belongs);
+
+}  // namespace haptoflow::learning
