@@ -23,6 +23,10 @@ class ConditionPerceptron(nn.Module):
             nn.Linear(hidden, outputs),
         )
 
-    def forward(self, embedding: Tensor, motion: Tensor, further: Tensor | None = None) -> Tensor:
+    def forward(
+        self, embedding: Tensor, motion: Tensor, further: Tensor | None = None, *, last_layer_only: bool = False
+    ) -> Tensor:
+        """last_layer_only: gradients reach no other layer."""
         given = [embedding, self.features(motion)] + ([] if further is None else [further])
-        return self.layers(torch.cat(given, dim=1))
+        hidden = self.layers[:-1](torch.cat(given, dim=1))
+        return self.layers[-1](hidden.detach() if last_layer_only else hidden)

@@ -14,6 +14,7 @@ from haptoflow_training.errors import InputError
 from haptoflow_training.export.label_info import LabelInfo
 from haptoflow_training.export.seed_bank import SEED_SAMPLES
 from haptoflow_training.preprocessing.preparation import prepare_cut_where_needed, prepare_store
+from haptoflow_training.preprocessing.rib_phases import with_rib_phases
 from haptoflow_training.preprocessing.split import SPLITS
 from haptoflow_training.preprocessing.store import SegmentStore
 from haptoflow_training.preprocessing.store_lock import store_lock
@@ -232,7 +233,7 @@ def _open_folders(data: DataConfig, store_folder: Path, workers: int) -> Source:
     sources = _joined(root.provenance.get("source") for root in roots)
     infos, found_vectors = with_found_wave_vectors(store, infos, asked)
     return Source(
-        store,
+        _with_rib_phases(store, infos),
         infos,
         Provenance(
             statement="trained on recordings of unknown origin" if sources == UNKNOWN else f"trained on {sources}",
@@ -242,6 +243,18 @@ def _open_folders(data: DataConfig, store_folder: Path, workers: int) -> Source:
         left_out,
         found_vectors,
     )
+
+
+def _with_rib_phases(store: SegmentStore, infos: Sequence[LabelInfo]) -> SegmentStore:
+    spans = [
+        (slice(one.start, one.start + one.length), vectors)
+        for one in store.recordings
+        if (vectors := infos[one.label_index].known_wave_vectors)
+    ]
+    if not spans:
+        return store
+    turns = with_rib_phases(store.wander_turns, spans, store.waveform, store.motion, store.position_mm)
+    return dataclasses.replace(store, wander_turns=turns)
 
 
 def _left_out(roots: list[Dataset]) -> tuple[str, ...]:

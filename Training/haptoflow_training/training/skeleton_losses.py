@@ -51,7 +51,8 @@ class SkeletonLosses(Losses):
         likelihood = weighted_mean(skeleton.likelihood(segment, skeleton.gains(*amid), given.phases), weight)
         if objective == "likelihood":
             return likelihood
-        gains = skeleton.gains(*condition)
+        import os
+        gains = skeleton.gains(*condition, last_layer_only=bool(os.environ.get("HEAD")))
         drawn = tuple(
             skeleton.parts(self._noise(given, generator), given.previous, gains, given.phases).begun for _ in range(2)
         )
