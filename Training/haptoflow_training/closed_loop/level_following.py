@@ -18,8 +18,7 @@ from haptoflow_training.export.exponents import LabelExponents
 from haptoflow_training.export.level_table import LevelTable, bin_speed_mps, speed_bins, table_through
 
 # The smallest perceptible change of a vibration's amplitude is 2.2 to 2.5 dB.
-import os
-FELT_DB = float(os.environ.get("FELT","2.5"))
+FELT_DB = 2.5
 _MINIMUM_WINDOWS = 8
 _MINIMUM_SPEED_MPS = 0.005
 _ROUNDS = 2

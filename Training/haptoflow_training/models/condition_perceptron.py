@@ -23,10 +23,6 @@ class ConditionPerceptron(nn.Module):
             nn.Linear(hidden, outputs),
         )
 
-    def forward(
-        self, embedding: Tensor, motion: Tensor, further: Tensor | None = None, *, last_layer_only: bool = False
-    ) -> Tensor:
-        """last_layer_only: gradients reach no other layer."""
+    def forward(self, embedding: Tensor, motion: Tensor, further: Tensor | None = None) -> Tensor:
         given = [embedding, self.features(motion)] + ([] if further is None else [further])
-        hidden = self.layers[:-1](torch.cat(given, dim=1))
-        return self.layers[-1](hidden.detach() if last_layer_only else hidden)
+        return self.layers(torch.cat(given, dim=1))

@@ -80,11 +80,8 @@ class Skeleton(nn.Module):
             last.weight[ORDER + 1 :] = 0.0
             last.bias[ORDER + 1 :] = 0.0
 
-    def gains(
-        self, embedding: Tensor, motion: Tensor, phases: Tensor, *, last_layer_only: bool = False
-    ) -> SkeletonGains:
-        """last_layer_only: gradients reach no layer that the filter shares."""
-        predicted = self.perceptron(embedding, motion, rate_features(phases), last_layer_only=last_layer_only)
+    def gains(self, embedding: Tensor, motion: Tensor, phases: Tensor) -> SkeletonGains:
+        predicted = self.perceptron(embedding, motion, rate_features(phases))
         filtering, swing, lines, rungs = predicted.split(list(OUTPUTS), dim=1)
         return SkeletonGains(
             *self.predicted(filtering),

@@ -7,12 +7,14 @@ vibration's fundamental relative to k . x, averaged over a quarter of a second e
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 
+from haptoflow_training.preprocessing.store import SegmentStore
 from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 _AVERAGE_SECONDS = 0.25
@@ -52,17 +54,14 @@ def _averaged(values: NDArray[np.float64], width: float) -> NDArray[np.float64]:
     return averaged
 
 
-def with_rib_phases(
-    turns: NDArray[np.float32],
-    spans: Sequence[tuple[slice, Sequence[tuple[float, float]]]],
-    waveform: NDArray[np.float32],
-    motion: NDArray[np.float32],
-    position_mm: NDArray[np.float32],
-) -> NDArray[np.float32]:
-    """A copy of the store's wander [total, 3] with the ribs' phases of each span of samples, one recording's, and its wave
-    vectors."""
-    followed = np.array(turns)
-    for span, vectors in spans:
-        for family, vector in enumerate(vectors):
-            followed[span, family] = rib_phase_turns(waveform[span], motion[span], position_mm[span], vector)
-    return followed
+def with_rib_phases(store: SegmentStore, wave_vectors: Sequence[Sequence[tuple[float, float]]]) -> SegmentStore:
+    """The store with the phase of the ribs of each label, by index, in each recording."""
+    ruled = [one for one in store.recordings if wave_vectors[one.label_index]]
+    if not ruled:
+        return store
+    turns = np.array(store.wander_turns)
+    for one in ruled:
+        own = slice(one.start, one.start + one.length)
+        for family, vector in enumerate(wave_vectors[one.label_index]):
+            turns[own, family] = rib_phase_turns(store.waveform[own], store.motion[own], store.position_mm[own], vector)
+    return dataclasses.replace(store, wander_turns=turns, ribs_followed=True)

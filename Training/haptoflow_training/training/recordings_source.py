@@ -5,8 +5,8 @@ from __future__ import annotations
 import dataclasses
 import hashlib
 import json
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -33,7 +33,7 @@ from haptoflow_training.recordings.synthetic import (
 from haptoflow_training.recordings.synthetic.materials import select_materials
 from haptoflow_training.recordings.wander import rib_wander_of, stick_slip_of
 from haptoflow_training.training.config import DataConfig
-from haptoflow_training.training.found_wave_vectors import with_found_wave_vectors
+from haptoflow_training.training.found_wave_vectors import with_found_ribs
 
 _MAXIMUM_SHOWN = 10
 SYNTHETIC_STATEMENT = "trained on synthetic recordings"
@@ -77,13 +77,14 @@ class Provenance:
 @dataclass(frozen=True)
 class Source:
     """A store with what the model file states about its labels and origin. left_out: a line for each unusable file,
-    and for each folder with recordings that no label names. found: labels whose wave vectors were estimated."""
+    and for each folder with recordings that no label names. turned_degrees: labels whose wave vectors were estimated, with
+    the angle from the recordings' first axis to the label's, which lies across the clearest ribs."""
 
     store: SegmentStore
     labels: list[LabelInfo]
     provenance: Provenance
     left_out: tuple[str, ...] = ()
-    found: tuple[str, ...] = ()
+    turned_degrees: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def wave_vectors(self) -> list[tuple[tuple[float, float], ...]]:
@@ -231,9 +232,9 @@ def _open_folders(data: DataConfig, store_folder: Path, workers: int) -> Source:
     if synthetic:
         return Source(store, infos, Provenance(SYNTHETIC_STATEMENT, f"synthetic recorder: {counted}", "MIT"))
     sources = _joined(root.provenance.get("source") for root in roots)
-    infos, found_vectors = with_found_wave_vectors(store, infos, asked)
+    store, infos, turned_degrees = with_found_ribs(store, infos, asked)
     return Source(
-        _with_rib_phases(store, infos),
+        with_rib_phases(store, [info.known_wave_vectors for info in infos]),
         infos,
         Provenance(
             statement="trained on recordings of unknown origin" if sources == UNKNOWN else f"trained on {sources}",
@@ -241,20 +242,8 @@ def _open_folders(data: DataConfig, store_folder: Path, workers: int) -> Source:
             licence=_joined(root.provenance.get("licence") for root in roots),
         ),
         left_out,
-        found_vectors,
+        turned_degrees,
     )
-
-
-def _with_rib_phases(store: SegmentStore, infos: Sequence[LabelInfo]) -> SegmentStore:
-    spans = [
-        (slice(one.start, one.start + one.length), vectors)
-        for one in store.recordings
-        if (vectors := infos[one.label_index].known_wave_vectors)
-    ]
-    if not spans:
-        return store
-    turns = with_rib_phases(store.wander_turns, spans, store.waveform, store.motion, store.position_mm)
-    return dataclasses.replace(store, wander_turns=turns)
 
 
 def _left_out(roots: list[Dataset]) -> tuple[str, ...]:

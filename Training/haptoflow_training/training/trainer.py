@@ -146,8 +146,9 @@ class Trainer:
             adopt_start(self.model, start, list(store.labels))
         self._balance = LabelBalance(len(store.labels))
         self._losses = self.losses_of(config)(
-            self.model, config.solver, train_level=not config.recipe.shares_base, balance=self._balance
-        )
+            self.model, config.solver, train_level=not config.recipe.shares_base, balance=self._balance,
+            ribs_followed=store.ribs_followed,
+        )  # fmt: skip
         self._average = MovingAverage(self.model, optimiser.average_decay)
         self._optimiser = torch.optim.AdamW(
             self.model.parameters(), lr=optimiser.learning_rate, weight_decay=optimiser.weight_decay, foreach=True
@@ -354,6 +355,11 @@ class Trainer:
             return None
         begun, seconds = self._clock(), self._limit.training_seconds
         costs = self.rehearsed(_REHEARSED_SHARE * seconds)
+        if all(phase.name == "embedding" for phase in self._phases):
+            # Labels alone are found after these steps; more would change nothing.
+            needed = sum(cost * phase.steps for cost, phase in zip(costs, self._phases, strict=True))
+            if needed < seconds - (self._clock() - begun):
+                return None
         return self.divided(max(seconds - (self._clock() - begun), _MINIMUM_TRAINING_SECONDS), costs)
 
     def rehearsed(self, longest_seconds: float) -> list[float]:
@@ -439,7 +445,9 @@ class Trainer:
     def validate(self, phase: Phase | None = None) -> tuple[float, float]:
         """(level loss, loss of the phase's objective) of the averaged model on fixed pairs of the validation split."""
         generator = torch.Generator().manual_seed(99)
-        losses = self.losses_of(self._config)(self.averaged_model, self._config.solver)
+        losses = self.losses_of(self._config)(
+            self.averaged_model, self._config.solver, ribs_followed=self._store.ribs_followed
+        )
         objective = (phase or self._phases[-1]).objective
         if objective == "level":
             objective = next((entry.objective for entry in self._phases if entry.name == "field"), "level")
