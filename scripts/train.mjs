@@ -2,6 +2,7 @@
 import { run, runMain } from './lib/process.mjs';
 import { inRepository, callerFolder } from './lib/repository.mjs';
 import { pythonOrFail, setUp } from './lib/setup.mjs';
+import { judgementOf } from './lib/judgement.mjs';
 
 // One run writes the default model and the reference values that the tests compare it with, so that they match.
 const defaults = [
@@ -15,12 +16,19 @@ const help = `usage: ./run train [ARGUMENTS]
 
 Trains the default model, all tiers, and writes its .haptoflow file and the golden file that the tests compare it with.
 Interrupted, it goes on where it was. With arguments, those of \`haptoflow-training train\` and none of the defaults.
+After a training on recordings of your own (--recordings and --export), the model is compared with their held-out parts
+and with what \`haptoflow learn\` makes of the others (about 10 s a label); the last line says whether it is worth using,
+and the exit code is 3 if it is not. --no-judgement leaves that out.
 Paths are relative to the current folder.
 With the Python packages in place, PYTHONPATH=Training /usr/bin/python3 -m haptoflow_training train --help lists them.`;
 
 await runMain('train', async (words) => {
   await setUp(['python']);
-  const args = ['-m', 'haptoflow_training', ...(words.length > 0 ? ['train', ...words] : defaults)];
-  const { exitCode } = await run(pythonOrFail(), args, { cwd: callerFolder(), env: { PYTHONPATH: inRepository('Training'), OPENBLAS_NUM_THREADS: '1' } });
-  return exitCode;
+  const judgement = judgementOf(words);
+  const own = words.filter((word) => word !== '--no-judgement');
+  const python = async (...args) => (await run(pythonOrFail(), ['-m', ...args], {
+    cwd: callerFolder(), env: { PYTHONPATH: inRepository('Training'), OPENBLAS_NUM_THREADS: '1' },
+  })).exitCode;
+  const exitCode = await python('haptoflow_training', ...(own.length > 0 ? ['train', ...own] : defaults));
+  return exitCode === 0 && judgement ? python('haptoflow_benchmark', ...judgement) : exitCode;
 }, { help });

@@ -10,6 +10,7 @@ import pytest
 from own_samples import csv_one_axis, stroke
 from test_few_shot_study import stored
 
+from haptoflow_benchmark.few_shot.few_shot_cases import SECONDS
 from haptoflow_benchmark import cli as benchmark
 from haptoflow_paper import cli as paper
 from haptoflow_training import cli as training
@@ -40,9 +41,12 @@ def test_every_command_of_the_page_runs_and_writes_what_it_names(
     (tmp_path / "default.haptoflow").symlink_to(DEFAULT)
     work = tmp_path / "work"
     work.mkdir()
-    for name, filtered in (("unseen-01", False), ("filtered-01", True)):
-        cells = {**stored(name, False), "filtered": filtered}
+    made = {name: {**stored(name, False), "filtered": name == "filtered-01"} for name in ("unseen-01", "filtered-01")}
+    for name, cells in made.items():
         (work / f"{name}.json").write_text(json.dumps(cells), encoding="utf-8")
+    trained = {"cells": {name: cells["rows"]["learn 10"] for name, cells in made.items()}, "seconds": 30.0}
+    for seconds in SECONDS:
+        (work / f"trained-{seconds:g}.json").write_text(json.dumps(trained), encoding="utf-8")
     ran = set()
     for program, *words in commands():
         quick = {
@@ -59,4 +63,5 @@ def test_every_command_of_the_page_runs_and_writes_what_it_names(
                 assert (tmp_path / named).stat().st_size > 0
     assert ran == {"add-material", "sliders", "few-shot", "measure-wave-vectors"}
     assert (tmp_path / "doormat.haptomaterial").exists()
+    assert "trained 10" in (tmp_path / "few-shot.json").read_text(encoding="utf-8")
     assert "learn 10" in (tmp_path / "few-shot.json").read_text(encoding="utf-8")

@@ -33,6 +33,7 @@ from haptoflow_paper.few_shot.few_shot_report import (
 )
 from haptoflow_paper.few_shot.few_shot_study import StudyPlan, cells_of, rib_counts, turned
 from haptoflow_paper.few_shot.few_shot_summary import summarised
+from haptoflow_paper.few_shot.few_shot_training import with_trained
 from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.model_stamp import with_measured_words
 from haptoflow_training.recordings.synthetic import load_materials
@@ -157,9 +158,11 @@ def test_the_report_has_every_row_tables_and_a_chart(tmp_path: Path) -> None:
 
 
 def test_a_whole_study_of_one_material_measures_every_row(tmp_path: Path) -> None:
-    plan = StudyPlan(DEFAULT, ENGINE, tmp_path, 3, seconds=(3.0, 10.0), seconds_limit=1.0)
-    made = cells_of(plan, read_model_file(DEFAULT), study_materials(1, 3)[0], lambda: None)
-    wanted = {f"{row} {seconds:g}" for row in ROWS for seconds in (3.0, 10.0)}
+    plan = StudyPlan(DEFAULT, ENGINE, tmp_path, 3, seconds=(5.0, 10.0), seconds_limit=1.0)
+    (material,) = study_materials(1, 3)
+    alone = cells_of(plan, read_model_file(DEFAULT), material, lambda: None)
+    (made,) = with_trained(plan, [material], [alone], lambda: None)
+    wanted = {f"{row} {seconds:g}" for row in ROWS for seconds in (5.0, 10.0)}
     assert set(made["rows"]) == wanted | {"sketch 10", "draft 10", OTHER_DRAW}
     assert all(len(cells) == 6 for cells in made["rows"].values())
     assert all(np.isfinite(value) for cells in made["rows"].values() for each in cells for value in each.values())

@@ -36,12 +36,16 @@ def test_the_shipped_configurations_load_and_plan_steps(name: str) -> None:
     assert sum(planned_steps(load_config(TRAINING / name))) > 0
 
 
-@pytest.mark.parametrize("name", ["own", "cluster"])
-def test_recordings_of_one_s_own_and_the_cluster_train_a_field_without_a_filter(name: str) -> None:
-    config = load_config(CONFIGURATIONS / f"{name}.toml")
+def test_the_cluster_trains_a_field_without_a_filter() -> None:
+    config = load_config(CONFIGURATIONS / "cluster.toml")
     assert config.model.network == "field" and isinstance(build_model(config, [(), ()]), FieldModel)
     objectives = [phase.objective for phase in Trainer.phases(config)]
     assert objectives[:2] == ["level", "flow"] and "filter" not in objectives
+
+
+def test_recordings_of_one_s_own_train_labels_alone() -> None:
+    phases = Trainer.phases(load_config(CONFIGURATIONS / "own.toml"))
+    assert [(phase.name, phase.objective) for phase in phases] == [("embedding", "likelihood")]
 
 
 def test_a_skeleton_s_filter_is_fitted_before_its_likelihood_and_a_refinement_has_none() -> None:

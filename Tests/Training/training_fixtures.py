@@ -36,6 +36,7 @@ class FakeStore:
     recordings: list[FakeRecording]
     skipped: tuple[object, ...] = ()
     wander_turns: NDArray[np.float32] = field(default_factory=lambda: np.zeros((0, 3), np.float32))
+    ribs_followed: bool = False
 
     def __post_init__(self) -> None:
         if not len(self.wander_turns):

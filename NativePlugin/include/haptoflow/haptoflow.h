@@ -1188,6 +1188,9 @@ typedef struct haptoflow_learning_options {
     const float* wave_vectors;
     /* Description of the recording for the provenance, for example its file name; null or empty for none. */
     const char* recordings;
+    /* Null or empty to learn a new material. A label of the model: the material keeps its embedding and wave vectors,
+     * in the recording's own frame, and only level and tone are fitted to the recording. */
+    const char* label;
 } haptoflow_learning_options;
 
 /* Learns a material and returns when it is done. Close *learning with haptoflow_learning_close. Errors:

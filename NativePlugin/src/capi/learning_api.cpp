@@ -56,6 +56,7 @@ learning::LearningSettings settingsOf(const haptoflow_learning_options& given,
     settings.description = textOrNone(given.description);
     settings.licence = textOrNone(given.licence);
     settings.recordings = textOrNone(given.recordings);
+    settings.keptLabel = textOrNone(given.label);
     settings.seed = given.seed;
     if (given.seconds_limit != 0.0) {
         if (!(given.seconds_limit > 0.0 && given.seconds_limit <= maximumLimitSeconds)) {

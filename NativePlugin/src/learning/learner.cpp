@@ -41,6 +41,7 @@ public:
         : model_(model), generator_(generator), settings_(settings), otherTiers_(otherTiers), began_(threadSeconds()) {
         say(0.0, "reading");
         checkSettings(settings);
+        keptLabel_ = keptLabelOf(settings, model.header());
         recordings::checkRecording(recording);
         recording_ = recordings::prepareRecording(recording);
         sliding_ = findSliding(recording_, model.header());
@@ -59,20 +60,13 @@ public:
         makeUnitWave();
         say(0.05, "wave vectors");
         findRibs();
-        const EmbeddingSpace space(model_, waveVectors_);
         ClosedLoop loop(generator_, model_.header(), recording_, unitWave_);
         TextureFit fit = fitOf(loop);
-        say(0.1, "start label");
         const auto& labels = model_.header().labels;
-        const std::size_t start = startLabel(fit, space, labels, search(0.1, 0.1, "start label", labelShare));
+        const std::size_t start = keptLabel_ ? *keptLabel_ : startOf(fit);
         report_.startLabel = labels[start].name;
-        const FittedEmbedding fitted =
-            fitEmbedding(fit, space, space.ofLabel(start), search(0.2, 0.7, "embedding", fitShare));
-        const Embedding& embedding = fitted.embedding;
+        const Embedding embedding = keptLabel_ ? embeddingOf(*keptLabel_) : searched(fit, start);
         report_.nearestLabel = labels[model_.nearestLabel(embedding)].name;
-        report_.startDistanceDb = fitted.startDistanceDb;
-        report_.fittedDistanceDb = fitted.distanceDb;
-        report_.generations = fitted.generations;
         say(0.9, "tone");
         const model::ToneTable tone = fitTones(fit, embedding);
         report_.toneSpeeds = tone.speedsMps.size();
@@ -167,6 +161,28 @@ private:
                 .isOver = [this, limit] { return isOutOfTime(limit); }};
     }
 
+    [[nodiscard]] Embedding embeddingOf(std::size_t label) const {
+        Embedding embedding{};
+        std::ranges::copy(model_.embedding(label), embedding.begin());
+        return embedding;
+    }
+
+    [[nodiscard]] std::size_t startOf(TextureFit& fit) {
+        say(0.1, "start label");
+        return startLabel(fit, EmbeddingSpace(model_, waveVectors_), model_.header().labels,
+                          search(0.1, 0.1, "start label", labelShare));
+    }
+
+    [[nodiscard]] Embedding searched(TextureFit& fit, std::size_t start) {
+        const EmbeddingSpace space(model_, waveVectors_);
+        const FittedEmbedding fitted =
+            fitEmbedding(fit, space, space.ofLabel(start), search(0.2, 0.7, "embedding", fitShare));
+        report_.startDistanceDb = fitted.startDistanceDb;
+        report_.fittedDistanceDb = fitted.distanceDb;
+        report_.generations = fitted.generations;
+        return fitted.embedding;
+    }
+
     [[nodiscard]] TextureFit fitOf(ClosedLoop& loop) const {
         return {loop, recording_, sliding_, unitWave_, waveVectors_, settings_.seed};
     }
@@ -183,6 +199,13 @@ private:
 
     /// Rotates the recording so that its most distinct ribs are perpendicular to the first axis.
     void findRibs() {
+        if (keptLabel_) {
+            const Embedding embedding = embeddingOf(*keptLabel_);
+            std::copy(embedding.end() - static_cast<std::ptrdiff_t>(waveVectors_.size()), embedding.end(),
+                      waveVectors_.begin());
+            reportRibs();
+            return;
+        }
         std::vector<WaveVector> vectors;
         if (settings_.waveVectors) {
             for (std::size_t rib = 0; rib < inference::ribCount; ++rib) {
@@ -195,6 +218,10 @@ private:
         waveVectors_ = frame.waveNumbers;
         frame.turn(recording_);
         report_.turnDegrees = degreesPerRadian * frame.turnRadians;
+        reportRibs();
+    }
+
+    void reportRibs() {
         for (std::size_t rib = 0; rib < inference::ribCount; ++rib) {
             if (waveVectors_[2 * rib] != 0.0F || waveVectors_[2 * rib + 1] != 0.0F) {
                 report_.waveVectors.push_back({waveVectors_[2 * rib], waveVectors_[2 * rib + 1]});
@@ -248,8 +275,7 @@ private:
             });
             return levels;
         };
-        Embedding nearest{};
-        std::ranges::copy(model_.embedding(model_.nearestLabel(embedding)), nearest.begin());
+        const Embedding nearest = embeddingOf(model_.nearestLabel(embedding));
         const std::vector<SpectrumFrame> ofLabel = fit.generatedFrames(nearest);
         std::vector<LevelCondition> conditions;
         conditions.reserve(ofLabel.size());
@@ -294,9 +320,21 @@ private:
         }
     }
 
+    static std::optional<std::size_t> keptLabelOf(const LearningSettings& settings, const model::ModelHeader& header) {
+        if (settings.keptLabel.empty()) {
+            return std::nullopt;
+        }
+        const auto found = std::ranges::find(header.labels, settings.keptLabel, &model::Label::name);
+        if (found == header.labels.end()) {
+            throw std::invalid_argument("options: the model has no label '" + settings.keptLabel + "'");
+        }
+        return static_cast<std::size_t>(found - header.labels.begin());
+    }
+
     const model::ModelFile& model_;
     inference::SegmentGenerator& generator_;
     const LearningSettings& settings_;
+    std::optional<std::size_t> keptLabel_;
     std::span<const OtherTier> otherTiers_;
     double began_;
     recordings::PreparedRecording recording_;

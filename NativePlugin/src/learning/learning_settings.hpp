@@ -30,6 +30,9 @@ struct LearningSettings {
     /// depends on the machine's speed.
     double secondsLimit = defaultSecondsLimit;
     std::uint64_t segmentBudget = defaultSegmentBudget;
+    /// Empty to search the embedding. A label of the model: its embedding and wave vectors are kept, in the recording's
+    /// own frame, and only level and tone are fitted.
+    std::string keptLabel{};
     /// k1x, k1y, k2x, k2y in cycles per millimetre along the recording's axes, zero for none; empty to estimate them.
     std::optional<std::array<double, 2 * inference::ribCount>> waveVectors{};
     /// Receives the completed share, 0 to 1, and the name of the present step.

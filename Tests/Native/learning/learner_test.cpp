@@ -52,6 +52,33 @@ TEST_F(LearnerTest, TheMaterialIsAMaterialFileOfTheModelsSpace) {
     EXPECT_FALSE(learnt.report.stoppedEarly);
 }
 
+TEST_F(LearnerTest, AKeptLabelStaysInItsPlaceAndIsGivenTheRecordingsLevelAndTone) {
+    const MadeRecording made({}, {});
+    LearningSettings settings = brief();
+    settings.keptLabel = "corduroy";
+    const LearntMaterial learnt = learn(made.view(), settings);
+    const model::MaterialFile material = model::parseMaterial(learnt.materialJson);
+    const auto& labels = model_.header().labels;
+    const auto corduroy = std::ranges::find(labels, "corduroy", &model::Label::name);
+    const auto row = model_.embedding(static_cast<std::size_t>(corduroy - labels.begin()));
+    for (std::size_t i = 0; i < row.size(); ++i) {
+        EXPECT_NEAR(material.embedding[i], row[i], 1e-5F) << i;
+    }
+    EXPECT_EQ(learnt.report.startLabel, "corduroy");
+    EXPECT_EQ(learnt.report.turnDegrees, 0.0);
+    EXPECT_EQ(learnt.report.waveVectors.size(), 1U);
+    EXPECT_TRUE(material.label.tone.has_value());
+    EXPECT_TRUE(material.label.level.has_value());
+}
+
+TEST_F(LearnerTest, AKeptLabelThatTheModelDoesNotHaveIsRefused) {
+    const MadeRecording made({}, {});
+    LearningSettings settings = brief();
+    settings.keptLabel = "moon dust";
+    EXPECT_THAT([&] { (void)learn(made.view(), settings); },
+                ThrowsMessage<std::invalid_argument>(HasSubstr("no label 'moon dust'")));
+}
+
 TEST_F(LearnerTest, EqualSeedsGiveEqualBytesAndAnotherSeedAnotherMaterial) {
     const MadeRecording made({}, {});
     LearningSettings settings = brief();

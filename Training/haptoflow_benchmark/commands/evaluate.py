@@ -9,13 +9,15 @@ from pathlib import Path
 
 from tqdm import tqdm
 
-from haptoflow_benchmark.commands.own_parts import ENGINE, add_recording_options, own_parts, require_engine
-from haptoflow_benchmark.own_model.own_accuracy import RenderedPart, label_accuracy, render_parts
+from haptoflow_benchmark.commands.own_parts import ENGINE, OwnParts, add_recording_options, own_parts, require_engine
+from haptoflow_benchmark.own_model.beside_learning import Verdict, render_learnt, verdict
+from haptoflow_benchmark.own_model.own_accuracy import LabelAccuracy, RenderedPart, label_accuracy, render_parts
 from haptoflow_benchmark.own_model.own_report import lines, write_own_report
 from haptoflow_training.errors import InputError
 from haptoflow_training.model_stamp import SHIPPED_MODEL, sha256_of
 
 _ROOT = Path(__file__).resolve().parents[3]
+_NOT_WORTH_USING = 3
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -37,6 +39,11 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--engine", type=Path, default=ENGINE, help="the built command line (default: build/native/haptoflow)"
     )
     parser.add_argument(
+        "--beside-learn", action="store_true",
+        help="also learn each label from the recordings that the model was trained on (about 7 s each), and say whether the "
+        "model is worth using; the exit code is 3 if it is not",
+    )  # fmt: skip
+    parser.add_argument(
         "--out", type=Path, help="for own-accuracy.json, .md and .png (default: printed only)"
     )
 
@@ -47,9 +54,23 @@ def run(options: argparse.Namespace) -> int:
     require_engine(options.engine)
     with tempfile.TemporaryDirectory() as temporary:
         folder = Path(temporary)
-        parts = own_parts(options, model, folder).held_out
-        with tqdm(total=len(parts), unit="part", desc="render") as bar:
-            rendered = render_parts(parts, engine=options.engine, model=model, folder=folder, advance=bar.update)
+        parts = own_parts(options, model, folder)
+        with tqdm(total=len(parts.held_out), unit="part", desc="render") as bar:
+            rendered = render_parts(
+                parts.held_out, engine=options.engine, model=model, folder=folder, advance=bar.update
+            )
+        by_label, found = _measured(rendered)
+        print("\n".join(lines(found)))
+        decided = _beside_learning(options, parts, found, folder) if options.beside_learn else None
+    if options.out is not None:
+        write_own_report(options.out, found, by_label, sha256_of(model))
+        print(f"evaluate: {options.out / 'own-accuracy.json'}, .md and .png")
+    if decided is not None:
+        print(decided.words)
+    return _NOT_WORTH_USING if decided is not None and decided.is_worse else 0
+
+
+def _measured(rendered: list[RenderedPart]) -> tuple[dict[str, list[RenderedPart]], list[LabelAccuracy]]:
     by_label: dict[str, list[RenderedPart]] = {}
     for entry in rendered:
         by_label.setdefault(entry.part.label, []).append(entry)
@@ -59,8 +80,15 @@ def run(options: argparse.Namespace) -> int:
     found = [one for one in measured.values() if one is not None]
     if not found:
         raise InputError("no held-out part is long enough: record 5 s of each label at least, with a tip that moves")
-    print("\n".join(lines(found)))
-    if options.out is not None:
-        write_own_report(options.out, found, by_label, sha256_of(model))
-        print(f"evaluate: {options.out / 'own-accuracy.json'}, .md and .png")
-    return 0
+    return by_label, found
+
+
+def _beside_learning(options: argparse.Namespace, parts: OwnParts, found: list[LabelAccuracy], folder: Path) -> Verdict:
+    compared = {one.label for one in found}
+    held_out = [part for part in parts.held_out if part.label in compared]
+    with tqdm(total=len(compared), unit="label", desc="haptoflow learn") as bar:
+        rendered = render_learnt(
+            parts.seen, held_out, parts.turned_degrees,
+            base=_ROOT / SHIPPED_MODEL, engine=options.engine, folder=folder, advance=bar.update,
+        )  # fmt: skip
+    return verdict(found, _measured(rendered)[1])

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -17,6 +18,7 @@ from haptoflow_training.preprocessing.split import Split
 from haptoflow_training.preprocessing.store import SegmentStore, StoredRecording
 from haptoflow_training.recordings.dataset import Dataset
 from haptoflow_training.recordings.open_recordings import RecordingFile, open_with_labels
+from haptoflow_training.training.found_wave_vectors import turned_store
 
 ROOT = Path(__file__).resolve().parents[3]
 ENGINE = ROOT / "build" / "native" / "haptoflow"
@@ -24,10 +26,12 @@ ENGINE = ROOT / "build" / "native" / "haptoflow"
 
 @dataclass(frozen=True)
 class OwnParts:
-    """held_out: recordings outside the model's training. seen: recordings of its training, or possibly of it."""
+    """held_out: recordings outside the model's training. seen: recordings of its training, or possibly of it. Both are in
+    the frame of the model's labels: turned_degrees, by label, from the recordings' own."""
 
     held_out: list[HeldOutPart]
     seen: list[HeldOutPart]
+    turned_degrees: Mapping[str, float]
 
 
 def add_recording_options(parser: argparse.ArgumentParser) -> None:
@@ -68,11 +72,12 @@ def own_parts(options: argparse.Namespace, model: Path, folder: Path) -> OwnPart
             f"{', '.join(label or 'files without a label' for label in found) or 'nothing'}, expected "
             f"{', '.join(known)} (--labels FILE maps textures to labels)"
         )
-    store = _prepared(entries, known, header, folder / "store", options.everything)
+    turned_degrees = header.get("provenance", {}).get("turned_degrees", {})
+    store = turned_store(_prepared(entries, known, header, folder / "store", options.everything), turned_degrees)
     for skipped in store.skipped:
         print(f"skipped: {skipped}", file=sys.stderr)
     if options.everything:
-        return OwnParts(_parts(store, None), [])
+        return OwnParts(_parts(store, None), [], turned_degrees)
     held_out = _parts(store, "test")
     if not held_out:
         raise InputError(
@@ -80,7 +85,7 @@ def own_parts(options: argparse.Namespace, model: Path, folder: Path) -> OwnPart
             "be split by time; record 5 s at least, or compare with all of them (--all) if the model was not "
             "trained on them"
         )
-    return OwnParts(held_out, [*_parts(store, "train"), *_parts(store, "validation")])
+    return OwnParts(held_out, [*_parts(store, "train"), *_parts(store, "validation")], turned_degrees)
 
 
 def _say_what_is_left_out(datasets: list[Dataset], known: list[str], model: Path) -> None:

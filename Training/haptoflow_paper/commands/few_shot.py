@@ -21,6 +21,7 @@ from haptoflow_paper.few_shot.few_shot_report import (
     write_results,
 )
 from haptoflow_paper.few_shot.few_shot_study import StudyPlan, cells_of
+from haptoflow_paper.few_shot.few_shot_training import with_trained
 from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.model_stamp import read_measured_page, sha256_of, with_measured_words
 from haptoflow_training.whole_file import check_writable, write_whole
@@ -64,6 +65,8 @@ def run(options: argparse.Namespace) -> int:
     ]
     with tqdm(total=len(materials), unit="material") as progress:
         cells = [cells_of(plan, model, material, lambda: progress.update(1) and None) for material in materials]
+    with tqdm(total=len(plan.seconds), unit="training") as progress:
+        cells = with_trained(plan, materials, cells, progress.update)
     header = {
         "model": model.header["name"],
         "model_sha256": sha256_of(options.model),

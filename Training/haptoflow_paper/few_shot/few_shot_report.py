@@ -15,6 +15,7 @@ from haptoflow_training.whole_file import write_whole
 
 ROWS = {
     "learn": "learnt by `haptoflow learn` or `add-material`",
+    "trained": "all together, as labels, by `haptoflow-training train`",
     "autoregressive-3": "autoregressive (AR), order 20, three speed bins",
     "autoregressive-1": "autoregressive (AR), order 20, one model",
 }

@@ -57,11 +57,17 @@ def cells_of(
         stored: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
         advance()
         return stored
-    make = make_filtered_case if isinstance(material, FilteredSurface) else make_case
-    made = _measured(plan, model, make(material, plan.seed, max(plan.seconds)))
+    made = _measured(plan, model, case_of(plan, material))
     write_whole(path, json.dumps(made).encode("utf-8"))
     advance()
     return made
+
+
+def case_of(plan: StudyPlan, material: Material | FilteredSurface) -> FewShotCase:
+    """The case of a material, with recordings for the plan's longest length."""
+    if isinstance(material, FilteredSurface):
+        return make_filtered_case(material, plan.seed, max(plan.seconds))
+    return make_case(material, plan.seed, max(plan.seconds))
 
 
 def _measured(plan: StudyPlan, model: ModelFile, case: FewShotCase) -> dict[str, Any]:

@@ -11,7 +11,7 @@ from typing import Any
 from tqdm import tqdm
 
 from haptoflow_paper.rows.row_plan import PlannedRow
-from haptoflow_paper.rows.workplace import Workplace, is_of_repository
+from haptoflow_paper.rows.workplace import Workplace, is_of_repository, stated
 from haptoflow_training.training.config import load_config
 from haptoflow_training.training.job_lanes import Job, run_jobs
 from haptoflow_training.training.recordings_source import open_source
@@ -56,7 +56,7 @@ def _is_as_configured(place: Workplace, model: str, seed: int) -> bool:
     if not summary.exists():
         return True
     trained: dict[str, Any] = json.loads(summary.read_text(encoding="utf-8"))["configuration"]
-    return trained == place.configuration(model, seed)
+    return stated(trained) == stated(place.configuration(model, seed))
 
 
 def _training(place: Workplace, model: str, seed: int, out: Path) -> Job:

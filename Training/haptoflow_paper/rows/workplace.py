@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from haptoflow_paper.rows.row_plan import PlannedRow
+from haptoflow_training.extensions import configuration_class
 from haptoflow_training.training.config import load_config
 
 
@@ -66,11 +67,30 @@ class Workplace:
         return (self.work / "rows-quick" if self.quick else self.results / "rows") / f"{row.name}-{seed}.json"
 
     def configuration_crc32(self, row: PlannedRow, seed: int) -> str:
-        """CRC-32 of the training configuration; empty if nothing is trained for the row."""
+        """CRC-32 of what the training configuration states beyond the defaults; empty if nothing is trained for the
+        row."""
         if row.is_reference or is_of_repository(row, seed):
             return ""
-        described = json.dumps(self.configuration(row.model_of(seed), seed), sort_keys=True)
+        described = json.dumps(stated(self.configuration(row.model_of(seed), seed)), sort_keys=True)
         return f"{zlib.crc32(described.encode()):08x}"
+
+
+def stated(configuration: dict[str, Any]) -> dict[str, Any]:
+    """What a configuration, as JSON, states beyond the defaults: a new key with a default leaves models and rows valid."""
+    return _beyond(configuration, json.loads(json.dumps(configuration_class()().to_dict())))
+
+
+def _beyond(values: dict[str, Any], defaults: dict[str, Any]) -> dict[str, Any]:
+    """The entries that differ from the defaults; of a table within, its own."""
+    kept = {}
+    for key, value in values.items():
+        default = defaults.get(key)
+        if isinstance(value, dict) and isinstance(default, dict):
+            value = _beyond(value, default)
+            default = {}
+        if value != default:
+            kept[key] = value
+    return kept
 
 
 def is_of_repository(row: PlannedRow, seed: int) -> bool:

@@ -72,7 +72,7 @@ class EvaluatedTrainer(Trainer):
     def possible_phases(config: EvaluatedConfig) -> list[Phase]:  # type: ignore[override]
         if config.model.network != "field":
             return Trainer.possible_phases(config)
-        level, fitted_filter, field, energy, forced, polish = Trainer.possible_phases(config)
+        _, level, fitted_filter, field, energy, forced, polish = Trainer.possible_phases(config)
         recipe = config.recipe
         objective = "own" if config.model.architecture != "unet" else recipe.objective
         reflow = Phase("reflow", "reflow", recipe.reflow_steps, recipe.reflow_learning_rate, field.batch_size)

@@ -23,6 +23,8 @@ _MAXIMUM_SHARE_AFTER = 0.25
 _MINIMUM_SHARE_OF_TRAINING = 0.3
 _MAXIMUM_COMPARED_SAMPLES = 16000
 _MINIMUM_RECORDINGS = 2
+# What the library takes for level and tone of one label.
+_SECONDS_OF_A_LABELS_FIT = 2.0
 
 
 @dataclass(frozen=True)
@@ -45,7 +47,9 @@ def share_out(
     whole = 60.0 * minutes
     extent = Extent(longest_samples=_MAXIMUM_COMPARED_SAMPLES)
     after = 0.0
-    if exports:
+    if exports and config.recipe.embedding_steps:
+        after = _SECONDS_OF_A_LABELS_FIT * len(source.labels)
+    elif exports:
         model = copy.deepcopy(untrained).eval().requires_grad_(False)
         tier = tier_of(config, list(source.store.labels), model)
         started = time.monotonic()

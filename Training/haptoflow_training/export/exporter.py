@@ -104,7 +104,7 @@ def _header(
             "licence": provenance.licence,
             "seed": config.seed,
             "commit": measurements.get("commit", source_commit(Path(__file__).parent)),
-            "configuration": _described(config),
+            "configuration": described_configuration(config),
             "created": "",
         },
         "sample_rate_hz": SAMPLE_RATE_HZ,
@@ -122,7 +122,7 @@ def _header(
     }
 
 
-def _described(config: TrainingConfig) -> dict[str, Any]:
+def described_configuration(config: TrainingConfig) -> dict[str, Any]:
     """The configuration with only the last part of each path, so that the model file does not reveal folders of this
     machine."""
     described = config.to_dict()

@@ -49,6 +49,7 @@ class _Options(ctypes.Structure):
         ("cancellation", ctypes.c_void_p),
         ("wave_vectors", _FLOATS),
         ("recordings", ctypes.c_char_p),
+        ("label", ctypes.c_char_p),
     ]
 
 
@@ -95,12 +96,14 @@ def learn_material(
     seed: int = 1,
     seconds_limit: float = DEFAULT_SECONDS_LIMIT,
     wave_vectors_per_mm: Sequence[tuple[float, float]] | None = None,
+    label: str | None = None,
     progress: Callable[[float, str], None] = lambda share, doing: None,
 ) -> LearntMaterial:
     """Learn a material on the model's default tier. NativeError (an InputError) says why a recording is unusable.
 
     seconds_limit: of processor time; a fit that it does not end gives the same bytes on every run. wave_vectors_per_mm:
-    None finds them, an empty sequence means that there are none. progress: receives the completed share and the step.
+    None finds them, an empty sequence means that there are none. label: of the model, whose embedding and wave vectors the
+    material keeps, in the recording's own frame; only level and tone are fitted. progress: receives the completed share and the step.
     """
     library = native_library()
     kept: list[NDArray[np.float32]] = []
@@ -137,6 +140,7 @@ def learn_material(
             progress=_Progress(lambda _, share, doing: progress(share, doing.decode())),
             wave_vectors=pointer(numbers),
             recordings=words.recordings.encode(),
+            label=None if label is None else label.encode(),
         )
         learning = ctypes.c_void_p()
         library.call("haptoflow_learn_material", ctypes.byref(options), ctypes.byref(learning))

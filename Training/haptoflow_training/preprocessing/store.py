@@ -81,7 +81,8 @@ class SegmentStore:
     """waveform: [total] float32, unit scale (not clipped: a fifth of the recordings peaks above 1). motion: [total,
     3] float32: vx, vy in m/s, force in N. position_mm: [total, 2] float32: the place on the surface. wander_turns:
     [total, 3] float32: as of Wander (recording.py), the last column modulo 1. All are read-only memory maps, which
-    processes can share."""
+    processes can share. ribs_followed: the wander is that of the vibration's fundamental (rib_phases.py), which the filter
+    of a surface delays, instead of the surface's own."""
 
     path: Path
     waveform: NDArray[np.float32]
@@ -96,6 +97,7 @@ class SegmentStore:
     seed: int
     settings: PreprocessingSettings
     provenance: dict[str, Any]
+    ribs_followed: bool = False
 
     def split(self, name: Split) -> list[StoredRecording]:
         return [recording for recording in self.recordings if recording.split == name]

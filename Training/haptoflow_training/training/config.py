@@ -131,6 +131,7 @@ class RecipeConfig:
     """The training recipe after conditional flow matching (`optimiser.steps`), phase after phase; a phase of 0 steps is
     left out.
 
+    embedding_steps: first of all, fits the labels alone to a skeleton and a level that are there (`--from`).
     filter_steps: before it, fits an all-pole filter to Burg's estimates from single segments.
     energy_steps: one-step fine-tuning by a spectral energy distance; afterwards the network is a `direct` tier.
     self_forcing_steps: the objective of the phase before, on the network's own output as previous waveform.
@@ -139,6 +140,8 @@ class RecipeConfig:
     default model.
     """
 
+    embedding_steps: int = 0
+    embedding_learning_rate: float = 5e-3
     filter_steps: int = 0
     energy_steps: int = 0
     energy_batch_size: int = 48

@@ -59,7 +59,7 @@ class Losses(nn.Module):
     """Level and field loss in one forward pass, so that several processes synchronise all gradients at once.
 
     train_level: False for a tier that shares another run's level. balance: running averages by label; without it, as in
-    validation, the energy objective is the energy distance alone.
+    validation, the energy objective is the energy distance alone. ribs_followed: as of the store.
     """
 
     def __init__(
@@ -69,8 +69,10 @@ class Losses(nn.Module):
         *,
         train_level: bool = True,
         balance: LabelBalance | None = None,
+        ribs_followed: bool = False,
     ) -> None:
         super().__init__()
+        self.ribs_followed = ribs_followed
         self.model = model
         self._solver = solver
         self._train_level = train_level

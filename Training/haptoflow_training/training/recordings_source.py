@@ -5,8 +5,8 @@ from __future__ import annotations
 import dataclasses
 import hashlib
 import json
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +14,7 @@ from haptoflow_training.errors import InputError
 from haptoflow_training.export.label_info import LabelInfo
 from haptoflow_training.export.seed_bank import SEED_SAMPLES
 from haptoflow_training.preprocessing.preparation import prepare_cut_where_needed, prepare_store
+from haptoflow_training.preprocessing.rib_phases import with_rib_phases
 from haptoflow_training.preprocessing.split import SPLITS
 from haptoflow_training.preprocessing.store import SegmentStore
 from haptoflow_training.preprocessing.store_lock import store_lock
@@ -32,7 +33,7 @@ from haptoflow_training.recordings.synthetic import (
 from haptoflow_training.recordings.synthetic.materials import select_materials
 from haptoflow_training.recordings.wander import rib_wander_of, stick_slip_of
 from haptoflow_training.training.config import DataConfig
-from haptoflow_training.training.found_wave_vectors import with_found_wave_vectors
+from haptoflow_training.training.found_wave_vectors import with_found_ribs
 
 _MAXIMUM_SHOWN = 10
 SYNTHETIC_STATEMENT = "trained on synthetic recordings"
@@ -76,13 +77,14 @@ class Provenance:
 @dataclass(frozen=True)
 class Source:
     """A store with what the model file states about its labels and origin. left_out: a line for each unusable file,
-    and for each folder with recordings that no label names. found: labels whose wave vectors were estimated."""
+    and for each folder with recordings that no label names. turned_degrees: labels whose wave vectors were estimated, with
+    the angle from the recordings' first axis to the label's, which lies across the clearest ribs."""
 
     store: SegmentStore
     labels: list[LabelInfo]
     provenance: Provenance
     left_out: tuple[str, ...] = ()
-    found: tuple[str, ...] = ()
+    turned_degrees: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def wave_vectors(self) -> list[tuple[tuple[float, float], ...]]:
@@ -230,9 +232,9 @@ def _open_folders(data: DataConfig, store_folder: Path, workers: int) -> Source:
     if synthetic:
         return Source(store, infos, Provenance(SYNTHETIC_STATEMENT, f"synthetic recorder: {counted}", "MIT"))
     sources = _joined(root.provenance.get("source") for root in roots)
-    infos, found_vectors = with_found_wave_vectors(store, infos, asked)
+    store, infos, turned_degrees = with_found_ribs(store, infos, asked)
     return Source(
-        store,
+        with_rib_phases(store, [info.known_wave_vectors for info in infos]),
         infos,
         Provenance(
             statement="trained on recordings of unknown origin" if sources == UNKNOWN else f"trained on {sources}",
@@ -240,7 +242,7 @@ def _open_folders(data: DataConfig, store_folder: Path, workers: int) -> Source:
             licence=_joined(root.provenance.get("licence") for root in roots),
         ),
         left_out,
-        found_vectors,
+        turned_degrees,
     )
 
 

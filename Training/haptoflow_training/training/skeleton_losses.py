@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+import math
 import torch
 from torch import Tensor
 
-from haptoflow_training.models.label_embedding import surface_path
+from haptoflow_training.models.label_embedding import WAVE_VECTORS, surface_path
 from haptoflow_training.models.skeleton_model import SkeletonModel
 from haptoflow_training.models.skeleton import LIKELIHOOD_END, ORDER
-from haptoflow_training.models.surface_waves import FAMILIES, advanced, with_path, with_rates_at
+from haptoflow_training.models.surface_waves import FAMILIES, advanced, path_of, with_path, with_rates_at
 from haptoflow_training.training.batches import SegmentBatch
 from haptoflow_training.training.filter_fitting import audible, motion_at, weighted_mean, with_floor, without_waves
 from haptoflow_training.training.losses import Losses, ScaledBatch
-from haptoflow_training.waveform import SEGMENT_SAMPLES
+from haptoflow_training.waveform import SAMPLE_RATE_HZ, SEGMENT_SAMPLES
 
 # Samples by which the second pass of the shift's loss is begun later: up to the hop of an update at 72 Hz.
 _MAXIMUM_SHIFT = 27
@@ -34,7 +35,23 @@ class SkeletonLosses(Losses):
 
     def phases(self, batch: SegmentBatch, embedding: Tensor) -> Tensor:
         path = surface_path(embedding, batch.position_path_mm, batch.wander_path)
-        return with_path(super().phases(batch, embedding), path)
+        phases = with_path(super().phases(batch, embedding), path)
+        return self._aligned(phases, embedding, batch.motion) if self.ribs_followed else phases
+
+    @torch.no_grad()
+    def _aligned(self, phases: Tensor, embedding: Tensor, motion: Tensor) -> Tensor:
+        """Phases of a vibration's fundamental as those of the ribs that drive it: without the phase that the skeleton's
+        own fundamental has at this rate behind its filter."""
+        gains = self.model.skeleton.gains(embedding, motion, phases)
+        rates = phases[:, FAMILIES : 2 * FAMILIES]
+        angle = (2.0 * math.pi / SAMPLE_RATE_HZ) * rates.abs().unsqueeze(2) * torch.arange(1.0, ORDER + 1.0)
+        delayed = (gains.coefficients.unsqueeze(1) * torch.polar(torch.ones_like(angle), -angle)).sum(dim=2)
+        first = torch.complex(gains.lines[:, :, 0, 0, 0], -gains.lines[:, :, 1, 0, 0]) / (1.0 + delayed)
+        turns = torch.sign(rates) * torch.angle(first) / (2.0 * math.pi)
+        # Of stick and slip nothing was followed.
+        turns[:, WAVE_VECTORS:] = 0.0
+        path = path_of(phases) - turns.unsqueeze(2)
+        return with_path(torch.cat([phases[:, :FAMILIES] - turns, rates], dim=1), path)
 
     def drawn(self, objective: str, noise: Tensor, condition: tuple[Tensor, Tensor, Tensor, Tensor]) -> Tensor:
         return self.model.one_step(noise, *condition)

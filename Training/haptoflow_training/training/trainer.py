@@ -24,6 +24,7 @@ from torch.nn.parallel import DistributedDataParallel
 from tqdm import tqdm
 
 from haptoflow_training.errors import InputError
+from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.extensions import located
 from haptoflow_training.models.haptoflow_model import FieldModel, HaptoFlowModel
 from haptoflow_training.models.level_model import LevelModel
@@ -42,6 +43,7 @@ from haptoflow_training.training.moving_average import MovingAverage
 from haptoflow_training.training.processes import Processes
 from haptoflow_training.training.run_log import MetricsLog, plot_metrics, source_commit, write_json
 from haptoflow_training.training.skeleton_losses import SkeletonLosses
+from haptoflow_training.training.starting_weights import adopt_base, adopt_file, adopt_start, checkpoint_of
 
 _COLUMNS = ("step", "phase", "field_loss", "level_loss", "validation_field_loss", "validation_level_loss", "seconds")
 _LOG_EVERY = 100
@@ -138,12 +140,15 @@ class Trainer:
         self.check_start(config, processes, base)
         if base is not None:
             adopt_base(self.model, base, list(store.labels))
-        if start is not None:
+        if start is not None and start.is_file():
+            adopt_file(self.model, start, read_model_file(start), list(store.labels))
+        elif start is not None:
             adopt_start(self.model, start, list(store.labels))
         self._balance = LabelBalance(len(store.labels))
         self._losses = self.losses_of(config)(
-            self.model, config.solver, train_level=not config.recipe.shares_base, balance=self._balance
-        )
+            self.model, config.solver, train_level=not config.recipe.shares_base, balance=self._balance,
+            ribs_followed=store.ribs_followed,
+        )  # fmt: skip
         self._average = MovingAverage(self.model, optimiser.average_decay)
         self._optimiser = torch.optim.AdamW(
             self.model.parameters(), lr=optimiser.learning_rate, weight_decay=optimiser.weight_decay, foreach=True
@@ -193,6 +198,7 @@ class Trainer:
             forced = Phase("self-forcing", "energy", recipe.self_forcing_steps, forced_rate, energy_batch, 2)
         fitted = "likelihood" if config.model.network == "skeleton" else "flow"
         return [
+            Phase("embedding", fitted, recipe.embedding_steps, recipe.embedding_learning_rate, batch),
             Phase("level", "level", level_steps, rate, 8 * batch),
             Phase("filter", "filter", recipe.filter_steps, rate, batch),
             Phase("field", fitted, optimiser.steps, rate, batch),
@@ -349,6 +355,11 @@ class Trainer:
             return None
         begun, seconds = self._clock(), self._limit.training_seconds
         costs = self.rehearsed(_REHEARSED_SHARE * seconds)
+        if all(phase.name == "embedding" for phase in self._phases):
+            # Labels alone are found after these steps; more would change nothing.
+            needed = sum(cost * phase.steps for cost, phase in zip(costs, self._phases, strict=True))
+            if needed < seconds - (self._clock() - begun):
+                return None
         return self.divided(max(seconds - (self._clock() - begun), _MINIMUM_TRAINING_SECONDS), costs)
 
     def rehearsed(self, longest_seconds: float) -> list[float]:
@@ -397,8 +408,13 @@ class Trainer:
             self.start_from_average()
         if phase.name == "polish":
             # The level is fitted again to the averaged embedding, which is the one that is exported.
-            for parameter in (*self.model.network.parameters(), *self.model.embedding.parameters()):
-                parameter.requires_grad_(False)
+            self._train_only(self.model.level)
+        elif self._config.recipe.embedding_steps:
+            self._train_only(self.model.embedding if phase.name == "embedding" else self.model)
+
+    def _train_only(self, part: nn.Module) -> None:
+        self.model.requires_grad_(False)
+        part.requires_grad_(True)
 
     def start_from_average(self) -> None:
         """Start a phase that refines the exported average from it rather than from the last noisy step."""
@@ -429,7 +445,9 @@ class Trainer:
     def validate(self, phase: Phase | None = None) -> tuple[float, float]:
         """(level loss, loss of the phase's objective) of the averaged model on fixed pairs of the validation split."""
         generator = torch.Generator().manual_seed(99)
-        losses = self.losses_of(self._config)(self.averaged_model, self._config.solver)
+        losses = self.losses_of(self._config)(
+            self.averaged_model, self._config.solver, ribs_followed=self._store.ribs_followed
+        )
         objective = (phase or self._phases[-1]).objective
         if objective == "level":
             objective = next((entry.objective for entry in self._phases if entry.name == "field"), "level")
@@ -540,52 +558,9 @@ def _save_atomically(content: dict[str, object], path: Path) -> None:
     os.replace(temporary, path)
 
 
-def adopt_base(model: HaptoFlowModel, folder: Path, labels: list[str]) -> None:
-    """Copy the embedding, the level and, for a refinement, the skeleton of the finished run in `folder` into `model`,
-    and freeze them."""
-    weights = _averaged_weights(folder, labels, "--base")
-    shared: list[tuple[str, nn.Module]] = [("embedding", model.embedding), ("level", model.level)]
-    if isinstance(model, SkeletonModel):
-        if not any(key.startswith("skeleton.") for key in weights):
-            raise InputError(f"--base {folder}: has no skeleton; name a run whose model.network is 'skeleton'")
-        shared.append(("skeleton", model.skeleton))
-    for name, part in shared:
-        # The base's own network, if it has one, is ignored.
-        prefix = f"{name}."
-        part.load_state_dict({key[len(prefix) :]: value for key, value in weights.items() if key.startswith(prefix)})
-        part.requires_grad_(False)
-
-
-def adopt_start(model: HaptoFlowModel, folder: Path, labels: list[str]) -> None:
-    """Start from the averaged weights of the run in `folder`, of the same labels. A layer with more outputs than in
-    that run keeps its initial weights for the new ones; InputError names a layer with another shape."""
-    own = model.state_dict()
-    for name, weights in _averaged_weights(folder, labels, "--from").items():
-        if name not in own or weights.shape[1:] != own[name].shape[1:] or weights.shape[:1] > own[name].shape[:1]:
-            raise InputError(f"--from {folder}: its '{name}' does not fit; begin from a run of the same [model]")
-        own[name][: len(weights)] = weights
-    model.load_state_dict(own)
-
-
-def _averaged_weights(folder: Path, labels: list[str], option: str) -> dict[str, Tensor]:
-    content = _checkpoint(folder)
-    if content["labels"] != labels:
-        raise InputError(f"{option} {folder}: trained on labels {content['labels']}, this run has {labels}")
-    weights: dict[str, Tensor] = content["average"]["module"]
-    return weights
-
-
-def _checkpoint(folder: Path) -> dict[str, Any]:
-    path = folder / "checkpoint.pt"
-    if not path.exists():
-        raise InputError(f"{path} does not exist: train first (`haptoflow-training train --out {folder}`)")
-    content: dict[str, Any] = torch.load(path, map_location="cpu")
-    return content
-
-
 def load_trained(folder: Path) -> tuple[TrainingConfig, list[str], HaptoFlowModel]:
     """Rebuild the averaged model of a finished run from the configuration saved with it."""
-    content = _checkpoint(folder)
+    content = checkpoint_of(folder)
     planned = sum(content["steps"])
     if content["step"] < planned:
         raise InputError(

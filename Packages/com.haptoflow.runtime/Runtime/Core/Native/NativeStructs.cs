@@ -242,5 +242,6 @@ namespace HaptoFlow.Native
         public IntPtr Cancellation;
         public float* WaveVectors;
         public IntPtr Recordings;
+        public IntPtr Label;
     }
 }
