@@ -32,16 +32,16 @@ OWN_CONFIGURATION = REPOSITORY / "Training" / "configs" / "own.toml"
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     parser.description = (
-        "Prepares the recordings that the configuration names (once), trains the level model and the velocity "
-        "field, and writes checkpoint.pt, metrics.csv, metrics.png and run.json into --out. Run it again to resume "
+        "Prepares the recordings (once), trains what the configuration names, and writes checkpoint.pt, metrics.csv, "
+        "metrics.png and run.json into --out. Without --config, recordings of your own become further labels of the "
+        "shipped model, whose networks stay as they are. Run it again to resume "
         "after an interruption (the exit code is then not 0): the result is the same. "
         "Paths are relative to the current folder; those in a "
         "configuration file are relative to that file."
     )
     parser.epilog = (
         "examples:\n"
-        "  haptoflow-training train --recordings recordings --labels labels.toml --minutes 10 --out out/own "
-        "--export own.haptoflow\n"
+        "  haptoflow-training train --recordings recordings --labels labels.toml --out out/own --export own.haptoflow\n"
         "  haptoflow-training train --config cluster.toml --recordings ~/cluster-haptic --out out/train/real\n"
         "  haptoflow-training train --config Training/configs/default/base.toml --out out/train/base\n"
         "  torchrun --redirects 1 --tee 1 --nproc_per_node 2 -m haptoflow_training train --config … --out …\n"
@@ -78,8 +78,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         help="finished run whose embedding, level and skeleton a further tier keeps",
     )  # fmt: skip
     parser.add_argument(
-        "--from", type=Path, dest="start", metavar="FOLDER",
-        help="finished run of the same labels and [model] to begin from, for a further round or recordings of your own",
+        "--from", type=Path, dest="start", metavar="PATH",
+        help="what to begin from: a finished run of the same labels and [model], for a further round; or a model file with "
+        "a skeleton, whose labels yours join (for recordings of your own: the shipped model)",
     )  # fmt: skip
     parser.add_argument("--export", type=Path, metavar="FILE", help="write the .haptoflow model file here at the end")
     parser.add_argument("--parity", type=Path, metavar="FILE", help="write golden vectors of the exported model here")
