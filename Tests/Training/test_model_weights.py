@@ -10,9 +10,8 @@ import torch
 from torch import nn
 
 from haptoflow_training.export.model_file import ModelFile, read_model_file
-from haptoflow_training.export.model_weights import refiner_of, skeleton_weights
-from haptoflow_training.export.onnx_graphs import export_refinement
-from haptoflow_training.export.skeleton_tensors import condition_tensors, skeleton_tensors
+from haptoflow_training.export.model_weights import skeleton_weights
+from haptoflow_training.export.skeleton_tensors import skeleton_tensors
 from haptoflow_training.models.level_model import LevelModel
 from haptoflow_training.models.skeleton import Skeleton
 
@@ -37,11 +36,3 @@ def test_level_and_skeleton_are_written_again_as_they_were_read(file: ModelFile)
     assert isinstance(level, LevelModel) and isinstance(skeleton, Skeleton)
     for name, tensor in skeleton_tensors(level, skeleton).items():
         np.testing.assert_array_equal(tensor, file.tensors[name])
-
-
-@pytest.mark.parametrize("tier", ["draft", "standard"])
-def test_a_refinement_is_written_again_as_it_was_read(file: ModelFile, tier: str) -> None:
-    refiner = refiner_of(file, tier)
-    assert export_refinement(refiner) == file.graphs[f"{tier}.field"]
-    for name, tensor in condition_tensors(tier, refiner).items():
-        np.testing.assert_allclose(tensor, file.tensors[name], rtol=3e-7)
