@@ -167,6 +167,7 @@ def test_a_whole_study_of_one_material_measures_every_row(tmp_path: Path) -> Non
     assert all(len(cells) == 6 for cells in made["rows"].values())
     assert all(np.isfinite(value) for cells in made["rows"].values() for each in cells for value in each.values())
     assert (tmp_path / "unseen-01-10.haptomaterial").exists()
+    assert made["notes"]["ribs"] == {"3": [0, 0], "10": [0, 0]}
 
 
 def test_a_surface_in_the_published_form_has_the_level_and_the_spectrum_of_its_law() -> None:
@@ -204,6 +205,15 @@ def test_the_page_counts_in_how_many_materials_learning_is_ahead() -> None:
     results = assembled([better, worse, {**worse, "filtered": True}], {"model_sha256": "0" * 64, "seconds": [10.0]})
     assert "| of the recorder, 2 | 1 / 1 |" in ahead_table(results)
     assert "| in the published form, 1 | 0 / 0 |" in ahead_table(results)
+
+
+def test_the_page_counts_found_and_false_ribs_for_each_length_of_recording() -> None:
+    ruled, plain = stored("a", True), stored("b", False)
+    ruled["notes"]["ribs"] = {f"{seconds:g}": [1, 0] for seconds in SECONDS}  # type: ignore[index]
+    plain["notes"] |= {"families": 0, "ribs": {"5": [0, 0], "10": [0, 1], "20": [0, 0], "60": [0, 2]}}  # type: ignore[operator]
+    words = page_words(assembled([ruled, plain], {"model_sha256": "0" * 64, "seconds": list(SECONDS)}), "chart.png")
+    assert "| with ribs, 1 | 1 / 1 / 0 | 1 / 1 / 0 | 1 / 1 / 0 | 1 / 1 / 0 |" in words
+    assert "| without ribs, 1 | 0 / 0 / 0 | 0 / 0 / 1 | 0 / 0 / 0 | 0 / 0 / 2 |" in words
 
 
 def test_ribs_count_as_found_in_the_material_s_own_frame() -> None:

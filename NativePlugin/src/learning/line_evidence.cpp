@@ -1,5 +1,7 @@
 #include "learning/line_evidence.hpp"
 
+#include "learning/line_background.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -8,8 +10,6 @@
 namespace haptoflow::learning {
 namespace {
 
-constexpr double lowestHz = 15.0;
-constexpr double highestHz = 800.0;
 constexpr double minimumAlongPerMm = 0.08;
 /// At least one window in this many must cover a vector: strokes go in all directions, and only some cross given ribs.
 constexpr std::size_t coveringShare = 5;
@@ -24,7 +24,7 @@ constexpr double widerByOrder = 0.1;
 
 bool isInBand(double cyclesPerMm, const PathWindow& window) {
     const double hertz = cyclesPerMm * window.speedMmps;
-    return hertz >= lowestHz && hertz <= highestHz;
+    return hertz >= lowestLineHz && hertz <= highestLineHz;
 }
 
 /// Sums a wave over the samples for increasing wave numbers; in single precision, whose error is far below the noise.
@@ -87,23 +87,34 @@ double medianOf(std::vector<double> values) {
     return values.size() % 2 == 1 ? *middle : 0.5 * (*middle + *std::max_element(values.begin(), middle));
 }
 
-/// Power by wave number along the window's own direction, with 1 as the median of the noise.
-std::vector<double> spectrumOf(const PathWindow& window) {
-    TurningWave wave(window);
-    std::vector<double> power(stepCount);
-    std::vector<double> inBand;
-    for (std::size_t step = 0; step < stepCount; ++step) {
-        power[step] = wave.next();
-        if (isInBand(static_cast<double>(step) * stepPerMm, window)) {
-            inBand.push_back(power[step]);
+using Spectra = std::vector<std::vector<double>>;
+
+/// Divides each window's power by the median of its noise and limits it.
+void even(Spectra& spectra, std::span<const PathWindow> windows) {
+    for (std::size_t w = 0; w < windows.size(); ++w) {
+        std::vector<double> inBand;
+        for (std::size_t step = 0; step < stepCount; ++step) {
+            if (isInBand(static_cast<double>(step) * stepPerMm, windows[w])) {
+                inBand.push_back(spectra[w][step]);
+            }
+        }
+        // The median of a chi-squared variable with two degrees of freedom is ln 2 of its mean.
+        const double usual = inBand.empty() ? 1.0 : medianOf(std::move(inBand)) / std::numbers::ln2;
+        for (double& each : spectra[w]) {
+            each = std::min(usual > 0.0 ? each / usual : each, maximumPower);
         }
     }
-    // The median of a chi-squared variable with two degrees of freedom is ln 2 of its mean.
-    const double usual = inBand.empty() ? 1.0 : medianOf(std::move(inBand)) / std::numbers::ln2;
-    for (double& each : power) {
-        each = std::min(usual > 0.0 ? each / usual : each, maximumPower);
+}
+
+/// Power by wave number along each window's own direction, with 1 as the mean of the noise.
+Spectra spectraOf(std::span<const PathWindow> windows) {
+    Spectra spectra;
+    for (const PathWindow& window : windows) {
+        TurningWave wave(window);
+        std::ranges::generate(spectra.emplace_back(stepCount), [&] { return wave.next(); });
     }
-    return power;
+    even(spectra, windows);
+    return spectra;
 }
 
 /// Marks wave numbers inside the band that no harmonic of a known vector explains.
@@ -147,25 +158,11 @@ std::vector<double> mediansAround(std::span<const double> values) {
     return medians;
 }
 
-}  // namespace
-
-double angleOf(std::size_t direction) {
-    return std::numbers::pi * static_cast<double>(direction) / static_cast<double>(directionCount);
-}
-
-bool covers(const PathWindow& window, const CyclesPerMm& vector) {
-    return isInBand(std::abs(vector[0] * window.directionX + vector[1] * window.directionY), window);
-}
-
-LineEvidence lineEvidence(std::span<const PathWindow> windows, std::span<const CyclesPerMm> known) {
-    std::vector<std::vector<double>> spectra;
-    std::vector<std::vector<std::uint8_t>> heard;
-    for (const PathWindow& window : windows) {
-        spectra.push_back(spectrumOf(window));
-        heard.push_back(coveredSteps(window, known));
-    }
+/// `heard`: for each window, the wave numbers that count.
+LineMap mapOf(std::span<const PathWindow> windows, const Spectra& spectra,
+              const std::vector<std::vector<std::uint8_t>>& heard) {
     const auto fewest = static_cast<double>(std::max(minimumWindows, windows.size() / coveringShare));
-    LineEvidence evidence{DirectionMap(directionCount * stepCount), DirectionMap(directionCount * stepCount)};
+    LineMap map{DirectionMap(directionCount * stepCount), DirectionMap(directionCount * stepCount)};
     for (std::size_t direction = 0; direction < directionCount; ++direction) {
         const double cosine = std::cos(angleOf(direction));
         const double sine = std::sin(angleOf(direction));
@@ -192,10 +189,33 @@ LineEvidence lineEvidence(std::span<const PathWindow> windows, std::span<const C
             // likely value.
             const double gain =
                 ratio > 1.0 ? independentShare * row.counts[step] * (ratio - 1.0 - std::log(ratio)) : 0.0;
-            evidence.ratios[direction * stepCount + step] = ratio;
-            evidence.gains[direction * stepCount + step] = gain;
+            map.ratios[direction * stepCount + step] = ratio;
+            map.gains[direction * stepCount + step] = gain;
         }
     }
+    return map;
+}
+
+}  // namespace
+
+double angleOf(std::size_t direction) {
+    return std::numbers::pi * static_cast<double>(direction) / static_cast<double>(directionCount);
+}
+
+bool covers(const PathWindow& window, const CyclesPerMm& vector) {
+    return isInBand(std::abs(vector[0] * window.directionX + vector[1] * window.directionY), window);
+}
+
+LineEvidence lineEvidence(std::span<const PathWindow> windows, std::span<const CyclesPerMm> known) {
+    std::vector<std::vector<std::uint8_t>> heard;
+    for (const PathWindow& window : windows) {
+        heard.push_back(coveredSteps(window, known));
+    }
+    Spectra spectra = spectraOf(windows);
+    LineEvidence evidence{.all = mapOf(windows, spectra, heard), .besideResonances = {}};
+    divideByBackground(windows, stepPerMm, spectra);
+    even(spectra, windows);
+    evidence.besideResonances = mapOf(windows, spectra, heard).gains;
     return evidence;
 }
 

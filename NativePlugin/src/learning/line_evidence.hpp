@@ -23,11 +23,18 @@ inline constexpr std::size_t minimumWindows = 6;
 using DirectionMap = std::vector<double>;
 
 /// Evidence for a spectral line at each wave vector.
-struct LineEvidence {
+struct LineMap {
     /// Log likelihood ratio of a line at the wave vector.
     DirectionMap gains;
     /// Mean power divided by that of the neighbours.
     DirectionMap ratios;
+};
+
+struct LineEvidence {
+    LineMap all;
+    /// Log likelihood ratios beside what all windows of about the same speed have at the same frequency: a resonance
+    /// is left out, and a line that few directions show is weaker.
+    DirectionMap besideResonances;
 };
 
 /// Angle of a row of the direction map, in radians from 0 to below pi.

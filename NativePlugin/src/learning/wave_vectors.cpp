@@ -29,6 +29,8 @@ constexpr double minimumSpeedRatio = 1.25;
 constexpr double sure = 20.0;
 constexpr double sureBesideKnown = 24.0;
 constexpr double priceOfAHarmonic = 3.0;
+/// What must be left of the log likelihood ratio beside resonances, which a minute of recording makes significant.
+constexpr double confirmed = 8.0;
 constexpr double ownLines = 8.0;
 constexpr double ownLinesShare = 0.06;
 constexpr double shareOfFirst = 0.04;
@@ -81,9 +83,10 @@ public:
             const std::size_t row = best / stepCount;
             const std::size_t place = best % stepCount;
             const std::size_t step = fundamentalOf(row, place);
-            const Harmonics gains = linesOf(evidence_.gains, row, step);
-            const Harmonics ratios = linesOf(evidence_.ratios, row, step);
-            if (*std::ranges::max_element(ratios) >= minimumRatio && gains[0] + gains[1] >= lowHarmonicsShare * score) {
+            const Harmonics gains = linesOf(evidence_.all.gains, row, step);
+            const Harmonics ratios = linesOf(evidence_.all.ratios, row, step);
+            if (*std::ranges::max_element(ratios) >= minimumRatio && gains[0] + gains[1] >= lowHarmonicsShare * score &&
+                sumOf(gainsNear(evidence_.besideResonances, row, step)) >= confirmed) {
                 const double length = static_cast<double>(step) * stepPerMm;
                 return Clearest{
                     {length * std::cos(angleOf(row)), length * std::sin(angleOf(row))}, audible(gains), score};
@@ -114,13 +117,13 @@ private:
 
     /// For each fundamental, the sum over its harmonics.
     [[nodiscard]] DirectionMap scoresBeside(std::span<const CyclesPerMm> known) const {
-        DirectionMap scores(evidence_.gains.size());
+        DirectionMap scores(evidence_.all.gains.size());
         for (std::size_t row = 0; row < directionCount; ++row) {
             const double weight = weightBeside(known, angleOf(row));
             for (std::size_t step = minimumStep; step < maximumStep; ++step) {
                 double score = 0.0;
                 for (std::size_t order = 1; order <= harmonicCount && order * step < stepCount; ++order) {
-                    score += std::max(evidence_.gains[row * stepCount + order * step] - priceOfAHarmonic, 0.0);
+                    score += std::max(evidence_.all.gains[row * stepCount + order * step] - priceOfAHarmonic, 0.0);
                 }
                 scores[row * stepCount + step] = weight * score;
             }
@@ -149,12 +152,12 @@ private:
     }
 
     /// The maximum gain near each harmonic of a fundamental that is accurate to half a step, minus a penalty.
-    [[nodiscard]] Harmonics gainsNear(std::size_t row, std::size_t step) const {
+    static Harmonics gainsNear(const DirectionMap& map, std::size_t row, std::size_t step) {
         Harmonics gains{};
         for (std::size_t order = 1; order <= harmonicCount && order * step + 1 < stepCount; ++order) {
             double largest = 0.0;
             for (std::size_t r = row - std::min<std::size_t>(row, 1); r < std::min(row + 2, directionCount); ++r) {
-                const double* place = evidence_.gains.data() + r * stepCount + order * step;
+                const double* place = map.data() + r * stepCount + order * step;
                 largest = std::max({largest, place[-1], place[0], place[1]});
             }
             gains[order - 1] = std::max(largest - priceOfAHarmonic, 0.0);
@@ -168,9 +171,9 @@ private:
     [[nodiscard]] std::size_t fundamentalOf(std::size_t row, std::size_t step) const {
         for (const std::size_t divisor : {4U, 3U, 2U}) {
             if (static_cast<double>(divisor * step) * stepPerMm <= maximumPerMm) {
-                const Harmonics gains = gainsNear(row, step);
+                const Harmonics gains = gainsNear(evidence_.all.gains, row, step);
                 const double all = sumOf(gains);
-                const bool isLost = sumOf(gainsNear(row, divisor * step)) <= 0.6 * all;
+                const bool isLost = sumOf(gainsNear(evidence_.all.gains, row, divisor * step)) <= 0.6 * all;
                 if (sumBetween(gains, divisor) < std::max(ownLines, ownLinesShare * all) && !isLost) {
                     return divisor * step;
                 }
@@ -179,8 +182,9 @@ private:
         for (const std::size_t divisor : {4U, 3U, 2U}) {
             for (const std::size_t lower : {step / divisor, (step + divisor - 1) / divisor}) {
                 if (static_cast<double>(lower) * stepPerMm >= minimumPerMm) {
-                    const Harmonics gains = gainsNear(row, lower);
-                    if (sumBetween(gains, divisor) > ownLines && gains[0] > ownLines) {
+                    const Harmonics gains = gainsNear(evidence_.all.gains, row, lower);
+                    if (sumBetween(gains, divisor) > std::max(ownLines, ownLinesShare * sumOf(gains)) &&
+                        gains[0] > ownLines) {
                         return lower;
                     }
                 }

@@ -123,6 +123,16 @@ TEST(WaveVectorsTest, ASurfaceWithoutRibsHasNoWaveVectorsWhateverItsResonance) {
     }
 }
 
+TEST(WaveVectorsTest, AMinuteOfASurfaceWithoutRibsHasNoWaveVectorsWhateverItsSpectrumAtLowFrequencies) {
+    for (const double resonanceHz : {25.0, 30.0}) {
+        for (const unsigned seed : {2U, 3U}) {
+            const MadeMotion motion{.seconds = 60.0, .minimumSpeedMps = 0.05};
+            EXPECT_TRUE(vectorsOf(MadeRecording({.resonanceHz = resonanceHz}, motion, 4000.0, seed)).empty())
+                << resonanceHz << " Hz, seed " << seed;
+        }
+    }
+}
+
 TEST(WaveVectorsTest, AConstantSpeedGivesNoWaveVectors) {
     const MadeSurface surface{.ribs = {0.8, 0.0}};
     const MadeMotion motion{.minimumSpeedMps = 0.08, .maximumSpeedMps = 0.08, .turns = false};

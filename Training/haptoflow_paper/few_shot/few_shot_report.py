@@ -131,6 +131,7 @@ def page_words(results: Mapping[str, Any], chart: str) -> str:
             "LSD, median, with the interval of 95 % from resampling the materials:",
             curve_table(results, "lsd_median_db"),
             *_published_curve(results),
+            *_rib_table(results),
             rib_words(results),
         ]
     )
@@ -155,6 +156,23 @@ def ahead_table(results: Mapping[str, Any]) -> str:
         cells = [f"{ahead[each]['lsd_db']} / {ahead[each]['level_error_db']}" for each in lengths]
         lines.append(f"| {words.get(group, group)}, {counts[group]} | " + " | ".join(cells) + " |")
     return "\n".join(lines)
+
+
+def _rib_table(results: Mapping[str, Any]) -> list[str]:
+    """Markdown: families of ribs found and wrong ones, for each length of recording; none in older results."""
+    if any("ribs" not in each for each in results["materials"]):
+        return []
+    lengths = [f"{seconds:g}" for seconds in results["seconds"]]
+    lines = [
+        "| families of ribs: there / found / wrong | " + " | ".join(f"{each} s" for each in lengths) + " |",
+        "|---|" + "---|" * len(lengths),
+    ]
+    for group, members in _groups(results["materials"]).items():
+        if members and group != "all":
+            there = sum(each["families"] for each in members)
+            counts = [np.sum([each["ribs"][length] for each in members], axis=0) for length in lengths]
+            lines.append(f"| {group}, {len(members)} | " + " | ".join(f"{there} / {a} / {b}" for a, b in counts) + " |")
+    return ["\n".join(lines)]
 
 
 def rib_words(results: Mapping[str, Any]) -> str:

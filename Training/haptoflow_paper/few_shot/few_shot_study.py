@@ -74,6 +74,7 @@ def _measured(plan: StudyPlan, model: ModelFile, case: FewShotCase) -> dict[str,
     rows: dict[str, list[dict[str, float]]] = {}
     spent: dict[str, float] = {}
     notes: dict[str, Any] = {}
+    ribs: dict[str, list[int]] = {}
     default = model.header["default_tier"]
     for seconds in plan.seconds:
         recordings = case.recordings(seconds)
@@ -86,9 +87,10 @@ def _measured(plan: StudyPlan, model: ModelFile, case: FewShotCase) -> dict[str,
         write_whole(material, learnt.text.encode())
         turn = math.radians(learnt.report["turn_degrees"])
         rows[f"learn {seconds:g}"] = _engine_figures(plan, case, material, turn, default)
+        ribs[f"{seconds:g}"] = list(rib_counts(case.material, learnt.report["wave_vectors"], turn))
         if seconds == MAIN_SECONDS:
             notes = {key: learnt.report[key] for key in ("start_label", "nearest_label", "wave_vectors")}
-            notes["ribs_found"], notes["ribs_wrong"] = rib_counts(case.material, learnt.report["wave_vectors"], turn)
+            notes["ribs_found"], notes["ribs_wrong"] = ribs[f"{seconds:g}"]
             for tier in model.header["tiers"]:
                 if tier["name"] != default:
                     rows[f"{tier['name']} {seconds:g}"] = _engine_figures(plan, case, material, turn, tier["name"])
@@ -107,7 +109,7 @@ def _measured(plan: StudyPlan, model: ModelFile, case: FewShotCase) -> dict[str,
         "impacts": case.material.impact_strength > 0.0,
         "rows": rows,
         "core_seconds": {name: round(value, 2) for name, value in spent.items()},
-        "notes": {"families": len(case.material.rulings), **notes},
+        "notes": {"families": len(case.material.rulings), "ribs": ribs, **notes},
     }
 
 
