@@ -360,6 +360,7 @@ GOOD_LABEL = (
         (GOOD_LABEL.replace("[0]", "[true]"), "label 1: key 'textures'"),
         (GOOD_LABEL.replace("1200.0", "-1"), "label 1: key 'stiffness_newtons_per_metre' is -1"),
         (GOOD_LABEL + "colour = 3\n", "label 1: unknown key 'colour'"),
+        (GOOD_LABEL.replace('"wood"', '"Wood"', 1), "'Wood'; expected lower case, as the engine reads labels: 'wood'"),
         (GOOD_LABEL + GOOD_LABEL, "label 'wood' occurs twice"),
         (
             GOOD_LABEL + GOOD_LABEL.replace('name = "wood"', 'name = "oak"'),

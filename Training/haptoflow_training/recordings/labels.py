@@ -90,6 +90,11 @@ def _definition(where: str, entry: Any) -> LabelDefinition:
     for key in ("name", "category"):
         if not isinstance(entry[key], str) or not entry[key].strip():
             raise InputError(f"{where}: key '{key}' is {entry[key]!r}; expected a name")
+    if entry["name"] != entry["name"].lower():
+        raise InputError(
+            f"{where}: key 'name' is {entry['name']!r}; expected lower case, as the engine reads labels: "
+            f"{entry['name'].lower()!r} (textures may be spelt in any case)"
+        )
     textures = entry.get("textures", [entry["name"]])
     if not isinstance(textures, list) or not textures or not all(
         _is_texture(texture) for texture in textures
