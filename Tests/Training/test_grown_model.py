@@ -104,6 +104,19 @@ def test_a_run_goes_on_from_a_file_only_with_a_skeleton(grown: Path, tmp_path: P
     assert cli.main(["train", *words, "--out", str(tmp_path / "run"), "--from", str(SHIPPED)]) == 3
 
 
+def test_a_label_with_too_little_to_fit_level_and_tone_is_named(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    csv_one_axis(tmp_path / "recordings", "short", "felt", stroke(2.5, hertz=140, seed=7))
+    (tmp_path / "labels.toml").write_text(LABEL.format("felt"), encoding="utf-8")
+    words = ["--recordings", str(tmp_path / "recordings"), "--labels", str(tmp_path / "labels.toml"), "--minutes", "0.1"]
+    out = ["--out", str(tmp_path / "run"), "--export", str(tmp_path / "own.haptoflow")]
+    assert cli.main(["train", *words, *out]) == 3
+    shown = capsys.readouterr().err
+    assert "label 'felt'" in shown and "record 10 s or more" in shown
+    assert not (tmp_path / "own.haptoflow").exists()
+
+
 def test_labels_that_are_taken_out_leave_the_rows_of_the_others() -> None:
     labels = [{"name": name, "embedding_row": row} for row, name in enumerate(("a", "b", "c"))]
     rows = np.arange(9, dtype=np.float32).reshape(3, 3)

@@ -48,11 +48,14 @@ def export_grown_model(
         file = Path(temporary) / "placed.haptoflow"
         write_model_file(file, placed)
         for number, info in enumerate(source.labels):
-            fitted = learn_material(
-                file, joined(stored_recordings(source.store, number)),
-                MaterialWords(info.name, category=info.category, licence=source.provenance.licence),
-                seed=config.seed, seconds_limit=_NO_LIMIT_SECONDS, label=info.name,
-            )  # fmt: skip
+            try:
+                fitted = learn_material(
+                    file, joined(stored_recordings(source.store, number)),
+                    MaterialWords(info.name, category=info.category, licence=source.provenance.licence),
+                    seed=config.seed, seconds_limit=_NO_LIMIT_SECONDS, label=info.name,
+                )  # fmt: skip
+            except InputError as error:
+                raise InputError(f"label '{info.name}', the part of its recordings that is trained on: {error}") from error
             grown = with_label(grown, {**json.loads(fitted.text), **_of_its_surface(info)})
             advance()
     run = json.loads((folder / "run.json").read_text(encoding="utf-8"))
