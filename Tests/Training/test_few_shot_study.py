@@ -167,7 +167,7 @@ def test_a_whole_study_of_one_material_measures_every_row(tmp_path: Path) -> Non
     assert all(len(cells) == 6 for cells in made["rows"].values())
     assert all(np.isfinite(value) for cells in made["rows"].values() for each in cells for value in each.values())
     assert (tmp_path / "unseen-01-10.haptomaterial").exists()
-    assert made["notes"]["ribs"] == {"3": [0, 0], "10": [0, 0]}
+    assert made["notes"]["ribs"] == {"5": [0, 0], "10": [0, 0]}
 
 
 def test_a_surface_in_the_published_form_has_the_level_and_the_spectrum_of_its_law() -> None:
