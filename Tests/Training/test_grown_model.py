@@ -66,6 +66,12 @@ def test_the_networks_are_those_that_it_began_with(grown: Path) -> None:
         assert torch.equal(trained[name], weights), name
 
 
+def test_the_run_is_exported_again_as_it_was(grown: Path, tmp_path: Path) -> None:
+    words = ["--run", str(grown / "run"), "--store", str(grown / "store"), "--out", str(tmp_path / "again.haptoflow")]
+    assert cli.main(["export", *words]) == 0
+    assert (tmp_path / "again.haptoflow").read_bytes() == (grown / "own.haptoflow").read_bytes()
+
+
 def test_a_label_of_a_known_name_is_replaced_and_a_new_one_is_added(grown: Path) -> None:
     shipped, file = read_model_file(SHIPPED), read_model_file(grown / "own.haptoflow")
     names = [label["name"] for label in shipped.header["labels"] if label["name"] != "wood"]

@@ -9,25 +9,19 @@ import sys
 import time
 from pathlib import Path
 
-from tqdm import tqdm
-
 from haptoflow_training.closed_loop.level_calibration import Extent
 from haptoflow_training.closed_loop.measured_levels import measured_levels
-from haptoflow_training.commands.export import write_model
+from haptoflow_training.commands.export import SHIPPED, write_grown_model, write_model
 from haptoflow_training.commands.minutes import MINIMUM_MINUTES, Minutes, share_out
 from haptoflow_training.errors import InputError
-from haptoflow_training.export.grown_model import export_grown_model
 from haptoflow_training.export.level_table import MeasuredLevels
-from haptoflow_training.model_stamp import SHIPPED_MODEL
 from haptoflow_training.stopping import Stopped, end_if_stopped
 from haptoflow_training.training.config import TrainingConfig, load_config
 from haptoflow_training.training.processes import join_processes
 from haptoflow_training.training.recordings_source import Source, open_source
-from haptoflow_training.training.run_log import write_json
 from haptoflow_training.training.trainer import TrainingStopped, trainer_of
 
-REPOSITORY = Path(__file__).resolve().parents[3]
-OWN_CONFIGURATION = REPOSITORY / "Training" / "configs" / "own.toml"
+OWN_CONFIGURATION = Path(__file__).resolve().parents[2] / "configs" / "own.toml"
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -144,7 +138,7 @@ def _run(options: argparse.Namespace) -> int:
     config = configuration(options)
     start = options.start
     if start is None and config.recipe.embedding_steps:
-        start = REPOSITORY / SHIPPED_MODEL
+        start = SHIPPED
     trainer_class = trainer_of(config)
     store_folder = options.store or options.out.parent / "store"
     with join_processes() as processes:
@@ -167,7 +161,7 @@ def _run(options: argparse.Namespace) -> int:
             extent = shares.extent
         trainer.run()
         if processes.is_first and options.export is not None and config.recipe.embedding_steps:
-            _write_grown(options, source, start)
+            write_grown_model(options.out, source, start, options.export, options.out / "export.json")
         elif processes.is_first and options.export is not None:
             measured = measured_levels(options.out, source, extent) if config.calibrates_level else MeasuredLevels()
             end_if_stopped()
@@ -175,10 +169,3 @@ def _run(options: argparse.Namespace) -> int:
                 options.out, source, options.export, options.parity, measured, record=options.out / "export.json"
             )
     return 0
-
-
-def _write_grown(options: argparse.Namespace, source: Source, start: Path) -> None:
-    with tqdm(total=len(source.labels), unit="label", desc="level and tone", disable=None) as bar:
-        checksum = export_grown_model(options.out, source, start, options.export, bar.update)
-    write_json(options.out / "export.json", {"file": options.export.name, "crc32": f"{checksum:08x}"})
-    print(f"{options.export}: {options.export.stat().st_size / 2**20:.2f} MiB, CRC-32 {checksum:08x}")
