@@ -47,4 +47,8 @@ std::string fixedDecimals(double value, int digits) {
     return stream.str();
 }
 
+std::string inMillimetres(double metres) {
+    return fixedDecimals(1000.0 * metres, 0);
+}
+
 }  // namespace haptoflow::cli

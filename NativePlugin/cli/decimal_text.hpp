@@ -13,4 +13,7 @@ namespace haptoflow::cli {
 /// The number with a fixed count of digits after the decimal point, in every locale; never "-0".
 [[nodiscard]] std::string fixedDecimals(double value, int digits);
 
+/// A length or a speed in metres as whole millimetres, without the unit.
+[[nodiscard]] std::string inMillimetres(double metres);
+
 }  // namespace haptoflow::cli

@@ -78,10 +78,6 @@ fs::path defaultOutput(const LearnOptions& options) {
            ".haptomaterial";
 }
 
-std::string inMillimetres(double mps) {
-    return fixedDecimals(1000.0 * mps, 0);
-}
-
 std::string noiseOf(const learning::LearningReport& report) {
     const std::string found = recordings::plainNumber(report.noiseMps2) + " m/s^2 RMS, removed; found ";
     switch (report.noiseSource) {

@@ -25,10 +25,6 @@ constexpr double smallHeight = 150.0;
 constexpr std::size_t fewestFrames = 8;
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
-std::string speedText(double mps) {
-    return fixedDecimals(1000.0 * mps, 0);
-}
-
 std::vector<double> millimetres(const std::vector<double>& mps) {
     std::vector<double> result(mps.size());
     std::ranges::transform(mps, result.begin(), [](double each) { return 1000.0 * each; });
@@ -59,7 +55,7 @@ PlotPanel spectrumPanel(const LearningReport& report, const SpeedComparison& com
     const auto named = [](const std::string& what, const SpeedComparison::Curve& curve) {
         return what + ", " + fixedDecimals(curve.rmsMps2, 2) + " m/s^2";
     };
-    return {.axis = "dB at " + speedText(comparison.speedMps) + " mm/s",
+    return {.axis = "dB at " + inMillimetres(comparison.speedMps) + " mm/s",
             .lowest = highest - shownDb,
             .highest = highest,
             .tick = 10.0,
@@ -91,7 +87,7 @@ std::array<std::vector<double>, 2> dividedLaw(const LearningReport& report, cons
 /// Levels over speed at one force. `ends`: of the vertical axis, in dB.
 PlotPanel levelPanel(const LearningReport& report, const ForceComparison& force, std::array<double, 2> ends) {
     PlotLine recorded{
-        "recorded " + speedText(force.recordedMps[0]) + " to " + speedText(force.recordedMps[1]) + " mm/s",
+        "recorded " + inMillimetres(force.recordedMps[0]) + " to " + inMillimetres(force.recordedMps[1]) + " mm/s",
         recordedColour,
         {}};
     recorded.hasPoints = true;

@@ -44,7 +44,7 @@ def test_every_command_of_the_page_runs_and_writes_what_it_names(
     made = {name: {**stored(name, False), "filtered": name == "filtered-01"} for name in ("unseen-01", "filtered-01")}
     for name, cells in made.items():
         (work / f"{name}.json").write_text(json.dumps(cells), encoding="utf-8")
-    trained = {"cells": {name: cells["rows"]["learn 10"] for name, cells in made.items()}, "seconds": 30.0}
+    trained = {name: cells["rows"]["learn 10"] for name, cells in made.items()}
     for seconds in SECONDS:
         (work / f"trained-{seconds:g}.json").write_text(json.dumps(trained), encoding="utf-8")
     ran = set()

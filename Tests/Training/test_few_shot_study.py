@@ -31,12 +31,13 @@ from haptoflow_paper.few_shot.few_shot_report import (
     write_chart,
     write_results,
 )
-from haptoflow_paper.few_shot.few_shot_study import StudyPlan, cells_of, rib_counts, turned
+from haptoflow_paper.few_shot.few_shot_study import StudyPlan, cells_of, rib_counts
 from haptoflow_paper.few_shot.few_shot_summary import summarised
 from haptoflow_paper.few_shot.few_shot_training import with_trained
 from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.model_stamp import with_measured_words
 from haptoflow_training.recordings.synthetic import load_materials
+from haptoflow_training.training.found_wave_vectors import turned_vectors
 
 ROOT = Path(__file__).parents[2]
 DEFAULT = ROOT / "Packages" / "com.haptoflow.runtime" / "Runtime" / "Models" / "default.haptoflow"
@@ -220,16 +221,16 @@ def test_ribs_count_as_found_in_the_material_s_own_frame() -> None:
     # Jute's families lie along x, 2 mm apart, and along y, 1.7 mm apart; the material is turned by 90 degrees.
     jute = next(material for material in load_materials() if material.label == "jute")
     found = [{"x_cycles_per_mm": 1 / 1.7, "y_cycles_per_mm": 0.0}, {"x_cycles_per_mm": 0.0, "y_cycles_per_mm": 0.5}]
-    assert rib_counts(jute, found, np.pi / 2.0) == (2, 0)
+    assert rib_counts(jute, found, 90.0) == (2, 0)
     assert rib_counts(jute, found, 0.0) == (0, 2)
-    assert rib_counts(jute, found[:1], np.pi / 2.0) == (1, 0)
+    assert rib_counts(jute, found[:1], 90.0) == (1, 0)
     assert rib_counts(jute, [], 0.0) == (0, 0)
 
 
 def test_a_motion_in_the_material_s_frame_crosses_the_ribs_as_before() -> None:
-    vector, velocity, angle = np.array([[-0.3, 0.4]]), np.array([[0.3, -0.1]]), np.arctan2(0.4, -0.3)
-    assert turned(vector, angle)[0] == pytest.approx([0.5, 0.0])
-    assert turned(vector, angle)[0] @ turned(velocity, angle)[0] == pytest.approx((vector @ velocity.T).item())
+    vector, velocity, angle = np.array([[-0.3, 0.4]]), np.array([[0.3, -0.1]]), np.degrees(np.arctan2(0.4, -0.3))
+    assert turned_vectors(vector, angle)[0] == pytest.approx([0.5, 0.0])
+    assert turned_vectors(vector, angle)[0] @ turned_vectors(velocity, angle)[0] == pytest.approx((vector @ velocity.T).item())
 
 
 @pytest.mark.parametrize(

@@ -1,7 +1,7 @@
 // The comparison that ends a training on recordings of one's own.
 
-/** The words of `haptoflow-benchmark evaluate` for a training with these words; null if it has no recordings of its own
- * or writes no model file. */
+/** Arguments of the `haptoflow-benchmark evaluate` that judges a training with the arguments `words`; null if there is
+ * nothing to judge, because the training has no --recordings, writes no model file (--export), or has --no-judgement. */
 export function judgementOf(words) {
   const recordings = valuesOf(words, '--recordings');
   const [model] = valuesOf(words, '--export');

@@ -1207,12 +1207,13 @@ HAPTOFLOW_API haptoflow_status haptoflow_learning_material(const haptoflow_learn
 /* Sets *json to a JSON object with the results: start_label (whose render is nearest to the recording: the search began
  * there), start_distance_db, nearest_label (of haptoflow_model_nearest_label for the learnt embedding),
  * fitted_distance_db, spectral_distance_db, other_tiers (the same distance on each other tier, and whether it is
- * further_off), level_error_db, spectra and levels (recording, material and nearest label over speed and force, as
- * Documentation~/own-materials.md describes), sliding_seconds, speed_mps, force_newtons, level_exponents, wave_vectors,
- * turn_degrees (from the recording's first axis to the material's first axis, which is perpendicular to its most
- * distinct ribs), sensor_noise (mps2, and from: "rest", "quiet part" or "none"; it was removed before), seeds (only of
- * a model without a skeleton), segments, seconds, stopped_early, record_next, warnings and more. It is valid until the
- * learning is closed. Errors: INVALID_ARGUMENT. [any-thread] Blocks while another thread opens or closes a handle. */
+ * further_off), level_error_db, spectra and levels (of recording, material and nearest label,
+ * over speed and force: see Documentation~/own-materials.md), sliding_seconds, speed_mps, force_newtons,
+ * level_exponents, wave_vectors, turn_degrees (from the recording's first axis to the material's first axis, which is
+ * perpendicular to its most distinct ribs), sensor_noise (mps2, and from: "rest", "quiet part" or "none"; it was
+ * removed before), seeds (only of a model without a skeleton), segments, seconds, stopped_early, record_next, warnings
+ * and more. It is valid until the learning is closed. Errors: INVALID_ARGUMENT. [any-thread] Blocks while another
+ * thread opens or closes a handle. */
 HAPTOFLOW_API haptoflow_status haptoflow_learning_report(const haptoflow_learning* learning, const char** json);
 
 /* Closes *learning and sets it to null; a null handle is allowed. Errors: INVALID_ARGUMENT.

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "dsp/tone_cepstrum.hpp"
 #include "engine/level_grid.hpp"
 #include "engine/seed_retrieval.hpp"
+#include "inference/prepared_tone.hpp"
 #include "model/material_file.hpp"
 #include "model/model_file.hpp"
 
@@ -16,21 +16,6 @@ namespace haptoflow::engine {
 
 inline constexpr std::array<float, model::embeddingSize> noEmbedding{};
 
-/// A tone as a function of speed and force, stored as cepstra. Immutable.
-class ToneTable {
-public:
-    /// Computes a cepstrum for each row. Allocates.
-    explicit ToneTable(const model::ToneTable& table);
-
-    /// Interpolates the gains in dB over the logarithms of speed and force; constant beyond the ends.
-    [[nodiscard]] dsp::ToneCepstrum at(double speedMps, double newtons) const noexcept;
-
-private:
-    std::vector<double> speedsMps_;
-    std::vector<double> forcesNewtons_;
-    std::vector<dsp::ToneCepstrum> cepstra_;
-};
-
 /// A label of the model or a registered material, prepared for contact states. Views the data it was made from.
 /// Immutable.
 struct PreparedMaterial {
@@ -41,7 +26,7 @@ struct PreparedMaterial {
     const LevelGrid* grid = nullptr;
     /// The level graph's levels; empty if the label states its own level.
     std::optional<LevelGrid::Table> graphLevels;
-    std::optional<ToneTable> tone;
+    std::optional<inference::PreparedTone> tone;
     std::vector<Seed> seeds;
 
     /// Natural logarithm of the RMS in m/s^2, before tone, at a motion (vx, vy in m/s, force in N) inside the trained

@@ -16,14 +16,16 @@ constexpr std::size_t lawSpeeds = 25;
 constexpr double slowestMps = 0.005;
 constexpr double fastestMps = 1.0;
 
+/// The value that this share of the rising values does not exceed.
+double quantileOf(std::span<const double> rising, double share) {
+    return rising[static_cast<std::size_t>(std::lround(share * static_cast<double>(rising.size() - 1)))];
+}
+
 /// Divides the forces between their 5th and 95th percentile into ranges of equal ratio. Empty if one of them has too
 /// few frames or is too near to the next.
 std::optional<ForceRanges> divided(std::span<const double> rising, std::size_t count) {
-    const auto at = [&](double share) {
-        return rising[static_cast<std::size_t>(std::lround(share * static_cast<double>(rising.size() - 1)))];
-    };
-    const double lightest = at(0.05);
-    const double firmest = at(0.95);
+    const double lightest = quantileOf(rising, 0.05);
+    const double firmest = quantileOf(rising, 0.95);
     ForceRanges ranges;
     for (std::size_t edge = 1; edge < count; ++edge) {
         ranges.edgesNewtons.push_back(
@@ -50,9 +52,7 @@ std::array<double, 2> middleOf(std::vector<double> speeds) {
         return {};
     }
     std::ranges::sort(speeds);
-    const auto last = static_cast<double>(speeds.size() - 1);
-    const auto at = [&](double share) { return speeds[static_cast<std::size_t>(std::lround(share * last))]; };
-    return {at(0.02), at(0.98)};
+    return {quantileOf(speeds, 0.02), quantileOf(speeds, 0.98)};
 }
 
 }  // namespace

@@ -29,11 +29,10 @@ struct ForceRanges {
                                                            const ComparedFrames& recorded, const ComparedFrames& learnt,
                                                            const ComparedFrames& nearestLabel);
 
-/// What a tone makes of a wave of unit level: the RMS behind it, with the spectrum of the generated frames at the
-/// nearest speeds.
+/// How much louder a tone makes a wave of unit level, as an RMS ratio, for the spectrum that the generated frames have
+/// at the nearest speeds.
 class ToneLevel {
 public:
-    /// `tone` must outlive this.
     ToneLevel(const SpeedBins& bins, std::span<const SpectrumFrame> generated, const model::ToneTable& tone);
 
     [[nodiscard]] double at(double speedMps, double forceNewtons) const;

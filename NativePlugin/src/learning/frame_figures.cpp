@@ -10,7 +10,8 @@
 namespace haptoflow::learning {
 namespace {
 
-// The filter's taps before the middle of a frame are inside the frame.
+// Only the middle half of a frame is used, because the filter reads samples before it, which must lie in the frame,
+// too.
 constexpr std::size_t middleFirst = spectrumSamples / 4;
 constexpr std::size_t middleSamples = spectrumSamples / 2;
 static_assert(middleFirst >= dsp::toneTaps);
@@ -22,8 +23,8 @@ constexpr double lowestRibDb = -40.0;
 /// Half orders from 1/2 to 1/2 beyond the last partial.
 constexpr std::size_t halfOrders = 2 * partialsOfRib + 1;
 
-/// Powers of what keeps time with a rib at half a turn, one turn and so on, as `TextureMeter` has those of the
-/// partials.
+/// The power at each half order of a rib: at half its rate, at its rate and so on. Whole orders are its partials, and
+/// half orders hold the noise between them. Computed as `TextureMeter` does for partials alone.
 std::array<double, halfOrders> orderPowers(const SpectrumFrame& frame, std::span<const RibTravel> travels,
                                            std::size_t rib) {
     constexpr double windowSum = 0.5 * static_cast<double>(spectrumSamples);
@@ -44,7 +45,7 @@ std::array<double, halfOrders> orderPowers(const SpectrumFrame& frame, std::span
     return powers;
 }
 
-/// Partials less what noise has between them, so that a surface without ribs has none in the mean.
+/// The power of the partials less that of the noise between them: on average 0 for a surface without ribs.
 std::optional<double> ribPower(const SpectrumFrame& frame, std::span<const RibTravel> travels, std::size_t rib,
                                const std::array<double, spectrumBins>& gains) {
     constexpr double frameSeconds = static_cast<double>(spectrumSamples) / inference::waveformRateHz;
@@ -68,24 +69,23 @@ std::optional<double> ribPower(const SpectrumFrame& frame, std::span<const RibTr
 
 }  // namespace
 
-EngineTone::EngineTone(const model::ToneTable* tone) : tone_(tone) {
-    for (std::size_t row = 0; tone != nullptr && row < tone->gainsDb.size(); ++row) {
-        cepstra_.push_back(dsp::toneCepstrum([&](double hertz) { return tone->rowGainDb(row, std::max(hertz, 1.0)); }));
+std::array<std::complex<double>, spectrumBins> responseOf(const dsp::ToneKernel& kernel) {
+    std::vector<std::complex<double>> response(spectrumSamples);
+    std::ranges::copy(kernel, response.begin());
+    dsp::fourierTransform(response, dsp::Direction::forward);
+    std::array<std::complex<double>, spectrumBins> bins{};
+    std::ranges::copy(std::span(response).first<spectrumBins>(), bins.begin());
+    return bins;
+}
+
+EngineTone::EngineTone(const model::ToneTable* tone) {
+    if (tone != nullptr && !tone->gainsDb.empty()) {
+        tone_.emplace(*tone);
     }
 }
 
 std::optional<dsp::ToneKernel> EngineTone::kernelAt(double speedMps, double forceNewtons) const {
-    if (cepstra_.empty()) {
-        return std::nullopt;
-    }
-    dsp::ToneCepstrum mixed{};
-    for (const auto& [row, weight] :
-         model::ToneTable::rowsAround(tone_->speedsMps, tone_->forcesNewtons, speedMps, forceNewtons)) {
-        for (std::size_t i = 0; i < mixed.size(); ++i) {
-            mixed[i] += weight * cepstra_[row][i];
-        }
-    }
-    return dsp::toneKernel(mixed);
+    return tone_ ? std::optional(dsp::toneKernel(tone_->at(speedMps, forceNewtons))) : std::nullopt;
 }
 
 std::array<double, spectrumSamples / 2> EngineTone::filtered(const SpectrumFrame& frame) const {
@@ -111,10 +111,7 @@ std::array<double, spectrumBins> EngineTone::powerGains(double speedMps, double 
         gains.fill(1.0);
         return gains;
     }
-    std::vector<std::complex<double>> response(spectrumSamples);
-    std::ranges::copy(*kernel, response.begin());
-    dsp::fourierTransform(response, dsp::Direction::forward);
-    std::ranges::transform(std::span(response).first<spectrumBins>(), gains.begin(),
+    std::ranges::transform(responseOf(*kernel), gains.begin(),
                            [](std::complex<double> each) { return std::norm(each); });
     return gains;
 }

@@ -1,10 +1,12 @@
 #pragma once
 
 #include "dsp/tone_cepstrum.hpp"
+#include "inference/prepared_tone.hpp"
 #include "learning/texture_figures.hpp"
 #include "model/material_tables.hpp"
 
 #include <array>
+#include <complex>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -13,10 +15,13 @@
 
 namespace haptoflow::learning {
 
+/// What a filter makes of each bin of a spectrum.
+[[nodiscard]] std::array<std::complex<double>, spectrumBins> responseOf(const dsp::ToneKernel& kernel);
+
 /// A tone as the engine filters with it.
 class EngineTone {
 public:
-    /// Null for none; it must outlive this.
+    /// Null or empty for none.
     explicit EngineTone(const model::ToneTable* tone);
 
     /// The middle half of a frame's samples, filtered.
@@ -27,19 +32,19 @@ public:
 private:
     [[nodiscard]] std::optional<dsp::ToneKernel> kernelAt(double speedMps, double forceNewtons) const;
 
-    const model::ToneTable* tone_;
-    std::vector<dsp::ToneCepstrum> cepstra_;
+    std::optional<inference::PreparedTone> tone_;
 };
 
 /// What one frame of unit level adds to the figures of its speed and force.
 struct FrameMoments {
     double meanSquare = 0.0;
     double meanFourth = 0.0;
-    /// Power of the partials of each rib; empty where the tip is too slow to tell them from what is between them.
+    /// Power of the partials of each rib; empty where the tip is too slow to tell them from the noise between them.
     std::array<std::optional<double>, inference::ribCount> ribs{};
 };
 
-/// Moments of every frame behind a tone. `ribTravels` as of `TextureFit::ribTravels`.
+/// The moments of each frame after the tone has filtered it. `ribTravels`: for each sample of the recording, from
+/// `TextureFit::ribTravels`; empty where there are no ribs.
 [[nodiscard]] std::vector<FrameMoments> momentsOf(std::span<const SpectrumFrame> frames, const model::ToneTable* tone,
                                                   std::span<const RibTravel> ribTravels);
 
@@ -51,12 +56,12 @@ struct WaveFigures {
     /// E[x^4] / E[x^2]^2 of the wave divided by its level: 3 for Gaussian noise, more with rare events. Empty without
     /// frames.
     std::optional<double> kurtosis;
-    /// Power of the partials of each rib over that of the whole wave, in dB, -40 at least. Empty where there are no
-    /// ribs or where the tip is too slow.
+    /// Power of the partials of each rib over that of the whole wave, in dB, -40 at least. Empty without ribs, and
+    /// where the tip is too slow to tell them from noise.
     std::array<std::optional<double>, inference::ribCount> ribsDb{};
 };
 
-/// The figures of the frames that `belongs`. `levels` in m/s^2, one for each frame.
+/// The figures of the frames for which `belongs` is true. `levels`: one for each frame, in m/s^2.
 [[nodiscard]] WaveFigures figuresOf(std::span<const FrameMoments> moments, std::span<const double> levels,
                                     const std::function<bool(std::size_t frame)>& belongs);
 

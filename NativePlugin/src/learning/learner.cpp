@@ -299,7 +299,7 @@ private:
         addLaws(ToneLevel(fit.bins(), generated, tone), nearest);
     }
 
-    /// The levels of material and nearest label, also where nothing was recorded.
+    /// Adds the levels of material and nearest label at all speeds of the report, recorded or not.
     void addLaws(const ToneLevel& toneLevel, const Embedding& nearestLabel) {
         report_.lawSpeedsMps = lawSpeedsMps();
         const model::ModelHeader& header = model_.header();

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <numeric>
 
 namespace haptoflow::learning {
@@ -64,8 +63,7 @@ void divideByBackground(std::span<const PathWindow> windows, double cyclesPerMm,
                     pool.push_back(power[column]);
                 }
             }
-            // The median of a chi-squared variable with two degrees of freedom is ln 2 of its mean.
-            logs[place] = pool.empty() ? 0.0 : std::log(std::max(medianOf(pool) / std::numbers::ln2, smallestPower));
+            logs[place] = pool.empty() ? 0.0 : std::log(std::max(medianOf(pool) / medianOfNoise, smallestPower));
         }
         const double hertzPerColumn = cyclesPerMm * windows[w].speedMmps;
         const double placesPerNat = static_cast<double>(places - 1) / std::log(highestLineHz / lowestLineHz);

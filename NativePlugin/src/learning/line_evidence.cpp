@@ -13,7 +13,7 @@ namespace {
 constexpr double minimumAlongPerMm = 0.08;
 /// At least one window in this many must cover a vector: strokes go in all directions, and only some cross given ribs.
 constexpr std::size_t coveringShare = 5;
-/// Limit in units of the mean noise power, so that one loud window does not dominate.
+/// In units of the mean noise power.
 constexpr double maximumPower = 30.0;
 constexpr std::size_t neighbours = 41;
 /// Half overlapping windows give 0.6 of the information of separate ones.
@@ -89,8 +89,9 @@ double medianOf(std::vector<double> values) {
 
 using Spectra = std::vector<std::vector<double>>;
 
-/// Divides each window's power by the median of its noise and limits it.
-void even(Spectra& spectra, std::span<const PathWindow> windows) {
+/// Scales the power of each window so that its noise has the mean 1, and limits it, so that one loud window does not
+/// dominate.
+void normalise(Spectra& spectra, std::span<const PathWindow> windows) {
     for (std::size_t w = 0; w < windows.size(); ++w) {
         std::vector<double> inBand;
         for (std::size_t step = 0; step < stepCount; ++step) {
@@ -98,8 +99,7 @@ void even(Spectra& spectra, std::span<const PathWindow> windows) {
                 inBand.push_back(spectra[w][step]);
             }
         }
-        // The median of a chi-squared variable with two degrees of freedom is ln 2 of its mean.
-        const double usual = inBand.empty() ? 1.0 : medianOf(std::move(inBand)) / std::numbers::ln2;
+        const double usual = inBand.empty() ? 1.0 : medianOf(std::move(inBand)) / medianOfNoise;
         for (double& each : spectra[w]) {
             each = std::min(usual > 0.0 ? each / usual : each, maximumPower);
         }
@@ -113,7 +113,7 @@ Spectra spectraOf(std::span<const PathWindow> windows) {
         TurningWave wave(window);
         std::ranges::generate(spectra.emplace_back(stepCount), [&] { return wave.next(); });
     }
-    even(spectra, windows);
+    normalise(spectra, windows);
     return spectra;
 }
 
@@ -214,7 +214,7 @@ LineEvidence lineEvidence(std::span<const PathWindow> windows, std::span<const C
     Spectra spectra = spectraOf(windows);
     LineEvidence evidence{.all = mapOf(windows, spectra, heard), .besideResonances = {}};
     divideByBackground(windows, stepPerMm, spectra);
-    even(spectra, windows);
+    normalise(spectra, windows);
     evidence.besideResonances = mapOf(windows, spectra, heard).gains;
     return evidence;
 }

@@ -1,8 +1,8 @@
 #include "learning/tone_fit.hpp"
 
-#include "dsp/fourier_transform.hpp"
 #include "dsp/tone_cepstrum.hpp"
 #include "learning/condition_basis.hpp"
+#include "learning/frame_figures.hpp"
 #include "learning/gamma_regression.hpp"
 #include "learning/linear_algebra.hpp"
 
@@ -340,13 +340,9 @@ std::vector<double> fitLevel(const Spectrum& spectrum, std::span<const Ratios> f
 /// The gain in dB that the engine's filter has at each bin for a row of a tone: less than the table's where that
 /// changes within fewer hertz than the filter can tell apart.
 std::array<double, spectrumBins> filterGainsDb(const model::ToneTable& tone, std::size_t row) {
-    const dsp::ToneKernel kernel =
-        dsp::toneKernel(dsp::toneCepstrum([&](double hertz) { return tone.rowGainDb(row, std::max(hertz, 1.0)); }));
-    std::vector<std::complex<double>> response(spectrumSamples);
-    std::ranges::copy(kernel, response.begin());
-    dsp::fourierTransform(response, dsp::Direction::forward);
+    const auto response = responseOf(dsp::toneKernel(inference::rowCepstrum(tone, row)));
     std::array<double, spectrumBins> gains{};
-    std::ranges::transform(std::span(response).first<spectrumBins>(), gains.begin(), [](std::complex<double> each) {
+    std::ranges::transform(response, gains.begin(), [](std::complex<double> each) {
         return 2.0 * decibels * std::log(std::max(std::abs(each), powerFloor));
     });
     return gains;

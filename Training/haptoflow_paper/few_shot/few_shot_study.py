@@ -6,7 +6,6 @@ One file of cells for each material, so that an interrupted study can be resumed
 from __future__ import annotations
 
 import json
-import math
 import tempfile
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -14,7 +13,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from haptoflow_benchmark.engine.engine_render import render_motion
 from haptoflow_benchmark.few_shot.few_shot_cases import SECONDS, FewShotCase, make_case, make_filtered_case
@@ -27,6 +25,7 @@ from haptoflow_paper.few_shot.recording_windows import windows_of
 from haptoflow_training.export.model_file import ModelFile
 from haptoflow_training.fewshot.learning import MaterialWords, joined, learn_material
 from haptoflow_training.recordings.synthetic.materials import Material
+from haptoflow_training.training.found_wave_vectors import turned_vectors
 from haptoflow_training.whole_file import write_whole
 
 # The length of recording at which the other tiers are measured too.
@@ -85,15 +84,18 @@ def _measured(plan: StudyPlan, model: ModelFile, case: FewShotCase) -> dict[str,
         spent[f"learn {seconds:g}"] = learnt.report["seconds"]
         material = plan.work / f"{case.material.label}-{seconds:g}.haptomaterial"
         write_whole(material, learnt.text.encode())
-        turn = math.radians(learnt.report["turn_degrees"])
-        rows[f"learn {seconds:g}"] = _engine_figures(plan, case, material, turn, default)
+        turn = learnt.report["turn_degrees"]
+        learnt_options = ("--material", str(material))
+        rows[f"learn {seconds:g}"] = engine_figures(plan, case, turn, default, plan.model, learnt_options)
         ribs[f"{seconds:g}"] = list(rib_counts(case.material, learnt.report["wave_vectors"], turn))
         if seconds == MAIN_SECONDS:
             notes = {key: learnt.report[key] for key in ("start_label", "nearest_label", "wave_vectors")}
             notes["ribs_found"], notes["ribs_wrong"] = ribs[f"{seconds:g}"]
             for tier in model.header["tiers"]:
                 if tier["name"] != default:
-                    rows[f"{tier['name']} {seconds:g}"] = _engine_figures(plan, case, material, turn, tier["name"])
+                    rows[f"{tier['name']} {seconds:g}"] = engine_figures(
+                        plan, case, turn, tier["name"], plan.model, learnt_options
+                    )
         level = fit_level(windows_of(recordings, _LEVEL_WINDOW_SAMPLES, _LEVEL_HOP_SAMPLES), LabelPrior.of(model))
         for bins in (1, 3):
             rival = fit_autoregressive(recordings, level, bins)
@@ -113,35 +115,29 @@ def _measured(plan: StudyPlan, model: ModelFile, case: FewShotCase) -> dict[str,
     }
 
 
-def _engine_figures(
-    plan: StudyPlan, case: FewShotCase, material: Path, turn_radians: float, tier: str
+def engine_figures(
+    plan: StudyPlan, case: FewShotCase, turn_degrees: float, tier: str, model: Path, options: tuple[str, ...] = ()
 ) -> list[dict[str, float]]:
-    """Figures of every condition, rendered by the engine with the surface turned like the material."""
+    """Figures of every condition, rendered by the engine with the surface turned like the material or label."""
     cells = []
     with tempfile.TemporaryDirectory() as folder:
         for number, condition in enumerate(case.conditions):
-            motion = np.column_stack([turned(condition.motion[:, :2], turn_radians), condition.motion[:, 2]])
+            motion = np.column_stack([turned_vectors(condition.motion[:, :2], turn_degrees), condition.motion[:, 2]])
             made = render_motion(
-                plan.engine, case.material.label, motion, Path(folder), model=plan.model, seed=plan.seed + number,
-                options=("--material", str(material), "--quality", tier, "--quiet"),
+                plan.engine, case.material.label, motion, Path(folder), model=model, seed=plan.seed + number,
+                options=(*options, "--quality", tier, "--quiet"),
             )  # fmt: skip
             cells.append(condition_figures(condition, made.waveform_mps2[: len(condition.recorded)]))
     return cells
 
 
-def turned(vectors: NDArray[np.floating], radians: float) -> NDArray[np.float64]:
-    """Vectors [n, 2] of the recording in the frame of a material that is turned by an angle."""
-    cosine, sine = math.cos(radians), math.sin(radians)
-    return np.asarray(vectors, dtype=np.float64) @ np.array([[cosine, -sine], [sine, cosine]])
-
-
 def rib_counts(
-    material: Material | FilteredSurface, found: Sequence[dict[str, float]], turn_radians: float
+    material: Material | FilteredSurface, found: Sequence[dict[str, float]], turn_degrees: float
 ) -> tuple[int, int]:
     """How many of the surface's families of ribs were found within 2 %, and how many of the found ones do not exist.
     found: in the material's frame."""
     numbers = np.array([[each["x_cycles_per_mm"], each["y_cycles_per_mm"]] for each in found]).reshape(-1, 2)
-    vectors = turned(numbers, -turn_radians)
+    vectors = turned_vectors(numbers, -turn_degrees)
     true = [np.array(vector) for vector in material.wave_vectors_per_mm]
     hits = sum(any(relative_error(vector, each) < CLOSE for vector in vectors) for each in true)
     return hits, sum(not any(relative_error(vector, each) < CLOSE for each in true) for vector in vectors)

@@ -3,31 +3,27 @@
 from __future__ import annotations
 
 import json
-import math
 import os
 import subprocess
 import sys
 import tempfile
-import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from haptoflow_benchmark.engine.engine_render import render_motion
 from haptoflow_benchmark.few_shot.few_shot_cases import FewShotCase
-from haptoflow_paper.few_shot.few_shot_figures import condition_figures
-from haptoflow_paper.few_shot.few_shot_study import StudyPlan, case_of, turned
+from haptoflow_paper.few_shot.few_shot_study import StudyPlan, case_of, engine_figures
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.recordings.material_recording import MaterialRecording
+from haptoflow_training.waveform import SAMPLE_RATE_HZ
 from haptoflow_training.whole_file import write_whole
 
 ROW = "trained"
 _PACKAGES = Path(__file__).resolve().parents[2]
 _HEADER = "time_s,acceleration_mps2,velocity_x_mps,velocity_y_mps,force_newtons"
-_RATE_HZ = 2000.0
 
 
 def with_trained(
@@ -35,8 +31,7 @@ def with_trained(
 ) -> list[dict[str, Any]]:
     """The cells of every material with the rows "trained 10" and so on, computed or read from the plan's folder. advance:
     called after each length of recording."""
-    rows = [dict(each["rows"]) for each in cells]
-    spent = [dict(each["core_seconds"]) for each in cells]
+    trained: list[dict[str, Any]] = [{} for _ in materials]
     cases: list[FewShotCase] = []
     for seconds in plan.seconds:
         path = plan.work / f"trained-{seconds:g}.json"
@@ -44,33 +39,28 @@ def with_trained(
             cases = cases or [case_of(plan, material) for material in materials]
             write_whole(path, json.dumps(_trained(plan, cases, seconds)).encode())
         stored = json.loads(path.read_text(encoding="utf-8"))
-        for number, material in enumerate(materials):
-            rows[number][f"{ROW} {seconds:g}"] = stored["cells"][material.label]
-            spent[number][f"{ROW} {seconds:g}"] = round(stored["seconds"] / len(materials), 2)
+        for rows, material in zip(trained, materials, strict=True):
+            rows[f"{ROW} {seconds:g}"] = stored[material.label]
         advance()
-    return [
-        {**each, "rows": row, "core_seconds": time_spent}
-        for each, row, time_spent in zip(cells, rows, spent, strict=True)
-    ]
+    return [{**each, "rows": {**each["rows"], **rows}} for each, rows in zip(cells, trained, strict=True)]
 
 
-def _trained(plan: StudyPlan, cases: Sequence[FewShotCase], seconds: float) -> dict[str, Any]:
-    """cells: of every material. seconds: of the whole training on one core, by the clock."""
+def _trained(plan: StudyPlan, cases: Sequence[FewShotCase], seconds: float) -> dict[str, list[dict[str, float]]]:
+    """The cells of every material, by name."""
     with tempfile.TemporaryDirectory() as temporary:
         folder = Path(temporary)
         for case in cases:
             for recording in case.recordings(seconds):
                 _write(folder / "recordings", recording)
         (folder / "labels.toml").write_text("".join(_label(case.material.label) for case in cases), encoding="utf-8")
-        begun = time.monotonic()
         model = _train(folder, plan)
-        took = time.monotonic() - begun
-        turns = read_model_file(model).header["provenance"]["turned_degrees"]
-        cells = {
-            case.material.label: _figures(plan, case, model, math.radians(turns.get(case.material.label, 0.0)), folder)
+        header = read_model_file(model).header
+        return {
+            case.material.label: engine_figures(
+                plan, case, header["provenance"]["turned_degrees"].get(case.material.label, 0.0), header["default_tier"], model
+            )
             for case in cases
         }
-    return {"cells": cells, "seconds": round(took, 1)}
 
 
 def _train(folder: Path, plan: StudyPlan) -> Path:
@@ -87,24 +77,10 @@ def _train(folder: Path, plan: StudyPlan) -> Path:
     return model
 
 
-def _figures(
-    plan: StudyPlan, case: FewShotCase, model: Path, turn_radians: float, folder: Path
-) -> list[dict[str, float]]:
-    cells = []
-    for number, condition in enumerate(case.conditions):
-        motion = np.column_stack([turned(condition.motion[:, :2], turn_radians), condition.motion[:, 2]])
-        made = render_motion(
-            plan.engine, case.material.label, motion, folder, model=model, seed=plan.seed + number,
-            options=("--quality", "standard", "--quiet"),
-        )  # fmt: skip
-        cells.append(condition_figures(condition, made.waveform_mps2[: len(condition.recorded)]))
-    return cells
-
-
 def _write(folder: Path, recording: MaterialRecording) -> None:
     folder.mkdir(exist_ok=True)
     count = len(recording.vibration_mps2)
-    columns = [np.arange(count) / _RATE_HZ, recording.vibration_mps2, recording.velocity_mps, recording.force_newtons]
+    columns = [np.arange(count) / SAMPLE_RATE_HZ, recording.vibration_mps2, recording.velocity_mps, recording.force_newtons]
     path = folder / f"{recording.label}-{recording.name}.csv"
     np.savetxt(path, np.column_stack(columns), fmt="%.7g", delimiter=",", header=_HEADER, comments="")
     path.with_suffix(".json").write_text(json.dumps({"label": recording.label, "licence": "MIT"}), encoding="utf-8")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 from tqdm import tqdm
 
@@ -53,9 +54,7 @@ def write_model(
     """Write the model file of the run in `folder`, and print its name and checksum. record: a JSON file that keeps
     them, with the measured levels."""
     checksum = export_run(folder, source, out, parity, further_tiers, levels)
-    if record is not None:
-        write_json(record, {"file": out.name, "crc32": f"{checksum:08x}", **by_label(levels, source)})
-    print(f"{out}: {out.stat().st_size / 2**20:.2f} MiB, CRC-32 {checksum:08x}")
+    _tell(out, checksum, record, by_label(levels, source))
 
 
 def write_grown_model(folder: Path, source: Source, start: Path, out: Path, record: Path | None = None) -> None:
@@ -63,8 +62,12 @@ def write_grown_model(folder: Path, source: Source, start: Path, out: Path, reco
     record: as of `write_model`."""
     with tqdm(total=len(source.labels), unit="label", desc="level and tone", disable=None) as bar:
         checksum = export_grown_model(folder, source, start, out, bar.update)
+    _tell(out, checksum, record, {})
+
+
+def _tell(out: Path, checksum: int, record: Path | None, levels: dict[str, Any]) -> None:
     if record is not None:
-        write_json(record, {"file": out.name, "crc32": f"{checksum:08x}"})
+        write_json(record, {"file": out.name, "crc32": f"{checksum:08x}", **levels})
     print(f"{out}: {out.stat().st_size / 2**20:.2f} MiB, CRC-32 {checksum:08x}")
 
 

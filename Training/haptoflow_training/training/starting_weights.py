@@ -9,7 +9,7 @@ import torch
 from torch import Tensor, nn
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.export.model_file import ModelFile
+from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.export.model_weights import embedding_rows, has_skeleton, skeleton_weights
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE
 from haptoflow_training.models.haptoflow_model import HaptoFlowModel
@@ -33,7 +33,15 @@ def adopt_base(model: HaptoFlowModel, folder: Path, labels: list[str]) -> None:
         part.requires_grad_(False)
 
 
-def adopt_start(model: HaptoFlowModel, folder: Path, labels: list[str]) -> None:
+def adopt_start(model: HaptoFlowModel, start: Path, labels: list[str]) -> None:
+    """Start from a model file or from the finished run in a folder."""
+    if start.is_file():
+        _adopt_file(model, start, labels)
+    else:
+        _adopt_run(model, start, labels)
+
+
+def _adopt_run(model: HaptoFlowModel, folder: Path, labels: list[str]) -> None:
     """Start from the averaged weights of the run in `folder`, of the same labels. A layer with more outputs than in
     that run keeps its initial weights for the new ones; InputError names a layer with another shape."""
     own = model.state_dict()
@@ -61,9 +69,10 @@ def checkpoint_of(folder: Path) -> dict[str, Any]:
     return content
 
 
-def adopt_file(model: HaptoFlowModel, path: Path, file: ModelFile, labels: list[str]) -> None:
+def _adopt_file(model: HaptoFlowModel, path: Path, labels: list[str]) -> None:
     """Begin with the level, the skeleton and the labels of a model file. A label that the file does not know begins in
     the middle of those it knows."""
+    file = read_model_file(path)
     if not isinstance(model, SkeletonModel) or not has_skeleton(file):
         raise InputError(f"--from {path}: only a model with a skeleton can begin from a file, and only from one with a skeleton")
     rows = embedding_rows(file)

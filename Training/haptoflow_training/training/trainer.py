@@ -24,7 +24,6 @@ from torch.nn.parallel import DistributedDataParallel
 from tqdm import tqdm
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.extensions import located
 from haptoflow_training.models.haptoflow_model import FieldModel, HaptoFlowModel
 from haptoflow_training.models.level_model import LevelModel
@@ -43,7 +42,7 @@ from haptoflow_training.training.moving_average import MovingAverage
 from haptoflow_training.training.processes import Processes
 from haptoflow_training.training.run_log import MetricsLog, plot_metrics, source_commit, write_json
 from haptoflow_training.training.skeleton_losses import SkeletonLosses
-from haptoflow_training.training.starting_weights import adopt_base, adopt_file, adopt_start, checkpoint_of
+from haptoflow_training.training.starting_weights import adopt_base, adopt_start, checkpoint_of
 
 _COLUMNS = ("step", "phase", "field_loss", "level_loss", "validation_field_loss", "validation_level_loss", "seconds")
 _LOG_EVERY = 100
@@ -140,9 +139,7 @@ class Trainer:
         self.check_start(config, processes, base)
         if base is not None:
             adopt_base(self.model, base, list(store.labels))
-        if start is not None and start.is_file():
-            adopt_file(self.model, start, read_model_file(start), list(store.labels))
-        elif start is not None:
+        if start is not None:
             adopt_start(self.model, start, list(store.labels))
         self._balance = LabelBalance(len(store.labels))
         self._losses = self.losses_of(config)(

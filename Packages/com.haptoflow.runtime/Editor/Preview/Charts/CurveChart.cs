@@ -5,7 +5,7 @@ using System.Linq;
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>Draws curves over the logarithm of frequency or speed, within one plot area.</summary>
+    /// <summary>One plot with a logarithmic horizontal axis, of frequency or of speed, and the curves in it.</summary>
     internal sealed class CurveChart
     {
         private const double LineWidth = 1.6;

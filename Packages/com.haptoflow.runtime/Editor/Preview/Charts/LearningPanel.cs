@@ -40,20 +40,20 @@ namespace HaptoFlow.Preview
                 footer.MiddleY + 3.0, TitleSize, palette.Ink);
         }
 
-        /// <summary>The card of the spectra within the panel.</summary>
+        /// <summary>Where the panel shows the spectra: a card with a title and its charts.</summary>
         public static Box Spectra(Box box) => box.Rows(0.0, Math.Round(0.54 * (box.Height - FooterHeight)));
 
-        /// <summary>The card of the levels within the panel.</summary>
+        /// <summary>Where the panel shows the levels.</summary>
         public static Box Levels(Box box)
         {
             Box lower = Lower(box);
             return lower.Columns(0.0, lower.Width - FiguresWidth - CardGap);
         }
 
-        /// <summary>The card of the kurtosis within the panel.</summary>
+        /// <summary>Where the panel shows the kurtosis.</summary>
         public static Box Kurtosis(Box box) => Figures(box).Rows(0.0, 0.5 * (Figures(box).Height - CardGap));
 
-        /// <summary>The card of the ribs within the panel.</summary>
+        /// <summary>Where the panel shows the ribs.</summary>
         public static Box Ribs(Box box)
         {
             Box upper = Kurtosis(box);
@@ -106,7 +106,7 @@ namespace HaptoFlow.Preview
             Box inside = Card(canvas, palette, card, "Spectrum", "dB re 1 (m/s\u00b2)\u00b2/Hz");
             DrawLegend(canvas, palette, card, curves);
             IReadOnlyList<LearningCurves.AtSpeed> speeds = curves.Speeds;
-            double highest = speeds.SelectMany(each => Sides(each)).SelectMany(each => each.Decibels)
+            double highest = speeds.SelectMany(each => each.Sides).SelectMany(each => each.Decibels)
                 .DefaultIfEmpty(0.0).Max();
             double top = HaptoFlow.Preview.Levels.Top(highest);
             int columns = speeds.Count <= 3 ? speeds.Count : speeds.Count == 4 ? 2 : 3;
@@ -119,9 +119,10 @@ namespace HaptoFlow.Preview
                 chart.Rows(AxisNumbers.Ticks(top - SpectrumDecibels, top, 4), value => AxisNumbers.Text(value, 0));
                 Header(canvas, palette, frame,
                     Speed(speed.SpeedMps) + " mm/s, " + AxisNumbers.Fixed(speed.Seconds, 1) + " s recorded");
-                foreach ((LearningCurves.Figures figures, Colour colour) in Coloured(speed, palette))
+                for (int side = 0; side < speed.Sides.Count; ++side)
                 {
-                    chart.Line(curves.FrequenciesHz.Zip(figures.Decibels, (hertz, decibels) => (hertz, decibels)), colour);
+                    chart.Line(curves.FrequenciesHz.Zip(speed.Sides[side].Decibels, (hertz, decibels) => (hertz, decibels)),
+                        ColourOf(palette, side));
                 }
             }
         }
@@ -156,7 +157,7 @@ namespace HaptoFlow.Preview
         private static void DrawKurtosis(ICanvas canvas, Palette palette, Box card, LearningCurves curves)
         {
             Box inside = Card(canvas, palette, card, "Kurtosis", "3: even noise");
-            double highest = Math.Max(6.0, curves.Speeds.SelectMany(speed => Sides(speed))
+            double highest = Math.Max(6.0, curves.Speeds.SelectMany(speed => speed.Sides)
                 .Where(each => each.Frames >= FewestFrames).Max(each => each.Kurtosis) ?? 0.0);
             Box frame = inside.Inside(AxisWidth, 0.0, 0.0, AxisHeight);
             CurveChart chart = CurveChart.OverSpeed(canvas, palette, frame, curves.LawSpeedsMps, (0.0, highest));
@@ -187,14 +188,14 @@ namespace HaptoFlow.Preview
             CurveChart chart, Palette palette, LearningCurves curves, Func<LearningCurves.Figures, double?> figure,
             bool hasPoints)
         {
-            for (int side = 0; side < 3; ++side)
+            for (int side = 0; side < curves.Speeds[0].Sides.Count; ++side)
             {
                 int index = side;
                 (double, double)[] values = curves.Speeds
-                    .Select(speed => (speed.SpeedMps, Figures: Coloured(speed, palette)[index].Figures))
+                    .Select(speed => (speed.SpeedMps, Figures: speed.Sides[index]))
                     .Where(each => each.Figures.Frames >= FewestFrames && figure(each.Figures) != null)
                     .Select(each => (1000.0 * each.SpeedMps, figure(each.Figures)!.Value)).ToArray();
-                Colour colour = Coloured(curves.Speeds[0], palette)[index].Colour;
+                Colour colour = ColourOf(palette, side);
                 chart.Line(values, colour);
                 chart.Points(hasPoints ? values : Array.Empty<(double, double)>(), colour);
             }
@@ -239,15 +240,9 @@ namespace HaptoFlow.Preview
             return (place, place);
         }
 
-        /// <summary>In the order in which they are drawn.</summary>
-        private static (LearningCurves.Figures Figures, Colour Colour)[] Coloured(
-            LearningCurves.AtSpeed speed, Palette palette) => new[]
-            {
-                (speed.NearestLabel, palette.Soft), (speed.Recorded, palette.First), (speed.Learnt, palette.Second),
-            };
-
-        private static LearningCurves.Figures[] Sides(LearningCurves.AtSpeed speed) =>
-            new[] { speed.NearestLabel, speed.Recorded, speed.Learnt };
+        /// <param name="side">Place in <see cref="LearningCurves.AtSpeed.Sides"/>.</param>
+        private static Colour ColourOf(Palette palette, int side) =>
+            side == 0 ? palette.Soft : side == 1 ? palette.First : palette.Second;
 
         private static string Speed(double mps) => AxisNumbers.Text(1000.0 * mps, 0);
     }

@@ -39,7 +39,8 @@ namespace HaptoFlow.Preview
 
         public string NearestLabel { get; }
 
-        /// <summary>What to record next to gain most; empty if nothing much is missing.</summary>
+        /// <summary>The recording that would improve the material most, as half a sentence ("record slower strokes");
+        /// empty if no further recording would help much.</summary>
         public string RecordNext { get; }
 
         /// <param name="report">The library's report as JSON.</param>
@@ -105,6 +106,7 @@ namespace HaptoFlow.Preview
                 Recorded = new Figures(json["recorded"]);
                 Learnt = new Figures(json["learnt"]);
                 NearestLabel = new Figures(json["nearest_label"]);
+                Sides = new[] { NearestLabel, Recorded, Learnt };
             }
 
             public double SpeedMps { get; }
@@ -117,6 +119,10 @@ namespace HaptoFlow.Preview
             public Figures Learnt { get; }
 
             public Figures NearestLabel { get; }
+
+            /// <summary>Nearest label, recorded, learnt: in the order in which they are drawn, so that the learnt curve lies
+            /// on top.</summary>
+            public IReadOnlyList<Figures> Sides { get; }
         }
 
         /// <summary>One range of force.</summary>
