@@ -84,6 +84,7 @@ void BlendBalance::request(std::vector<inference::SegmentRequest>& requests) {
             .embedding = shadow.part.embedding, .motion = motion_, .previous = shadow.previous, .noise = shadow.noise};
         request.phases = skeleton::phasesOf(request.embedding, motion_, toNetwork(shadow.phase));
         setSlips(request.phases, shadow.slipPhase, slipsPerSample(shadow.part.slip, motion_, 0.0));
+        request.impulseGain = shadow.part.impulseGain;
         request.levelMps2 = 1.0F;
         requests.push_back(request);
         ++requested_;

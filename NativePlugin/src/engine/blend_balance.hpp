@@ -22,6 +22,7 @@ struct BlendParts {
         std::array<float, inference::embeddingSize> embedding{};
         /// Without length for a material that does not slip.
         model::StickSlip slip{};
+        float impulseGain = 1.0F;
     };
     std::array<Part, capacity> parts{};
     std::size_t count = 0;

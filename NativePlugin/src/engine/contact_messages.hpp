@@ -43,6 +43,7 @@ struct MaterialInputs {
     std::array<float, inference::embeddingSize> embedding{};
     WaveStatistics waves;
     LevelRequest level;
+    float impulseGain = 1.0F;
 };
 
 /// What a skeleton makes of a contact: its parameters, and the level before a blend's balance. The publisher prepares

@@ -80,7 +80,8 @@ ContactAction ContactPublisher::publish(ContactState state) noexcept {
         applyRangeLaw(library_.model().header(), material, state.velocityMps, state.forceNewtons, state.spatialScale);
     const MaterialInputs inputs{.embedding = material.embedding,
                                 .waves = waveStatisticsOf(ingredients, waveVectorsOf(material.embedding)),
-                                .level = requestLevel(ingredients, contact_.ranged)};
+                                .level = requestLevel(ingredients, contact_.ranged),
+                                .impulseGain = static_cast<float>(material.impulseGain)};
     // Every sliding state carries a seed or a sketch, because the callback may resume with any of them.
     if (contact_.sliding || action == ContactAction::tap) {
         contact_.levelMps2 = ingredients.levelMps2(contact_.ranged.levelMotion);
@@ -106,7 +107,7 @@ void ContactPublisher::prepareSketch(const MaterialInputs& inputs) noexcept {
     skeleton::Phases phases = skeleton::phasesOf(inputs.embedding, motion, {});
     phases.back() = static_cast<float>(slipsPerSample(inputs.waves.slip, motion, 0.0) * inference::waveformRateHz);
     sketch_.parameters = native_.skeleton->parametersFor(skeleton::conditionOf(inputs.embedding, motion, phases),
-                                                         skeleton::Skeleton::familiesOf(phases));
+                                                         skeleton::Skeleton::familiesOf(phases), inputs.impulseGain);
     if (inputs.level.levelMps2) {
         sketch_.levelMps2 = *inputs.level.levelMps2;
         return;
@@ -153,6 +154,7 @@ void ContactPublisher::postToWorker(const Ingredients& ingredients, const Materi
             BlendParts::Part& part = message.blend.parts[message.blend.count];
             part.share = static_cast<float>(each.weight / total);
             part.embedding = embeddingOf(*each.material, objectOf(contact_.state));
+            part.impulseGain = each.material->label->impulseGain;
             part.slip = each.material->label->stickSlip.value_or(model::StickSlip{});
             ++message.blend.count;
         }

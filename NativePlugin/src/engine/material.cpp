@@ -18,6 +18,7 @@ Material resolveMaterial(const Ingredients& ingredients, const WaveVectors& befo
         material.speedLevelExponent += each.weight * label.speedLevelExponent;
         material.forceLevelExponent += each.weight * each.material->forceExponent();
         material.frequencyExponent += each.weight * label.frequencyExponent;
+        material.impulseGain += each.weight * static_cast<double>(label.impulseGain);
     }
     const double total = ingredients.totalWeight();
     for (std::size_t j = 0; j < embedding.size(); ++j) {
@@ -27,6 +28,7 @@ Material resolveMaterial(const Ingredients& ingredients, const WaveVectors& befo
     material.speedLevelExponent /= total;
     material.forceLevelExponent /= total;
     material.frequencyExponent /= total;
+    material.impulseGain /= total;
     return material;
 }
 

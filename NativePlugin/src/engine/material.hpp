@@ -18,6 +18,7 @@ struct Material {
     double speedLevelExponent = 0.0;
     double forceLevelExponent = 0.0;
     double frequencyExponent = 0.0;
+    double impulseGain = 0.0;
 };
 
 /// `before` holds the wave vectors of the voice's last material; wave vectors that occur in both keep their slots. Of

@@ -70,6 +70,7 @@ bool SegmentPlanner::wake() noexcept {
     lastStart_ = start;
     channels_.counters.leadSamples.store(static_cast<std::uint32_t>(lead), std::memory_order_relaxed);
     request_.embedding = message.material.embedding;
+    request_.impulseGain = message.material.impulseGain;
     request_.motion = contact.ranged.motion;
     request_.levelMps2 = message.material.level.levelMps2;
     request_.levelMotion = message.material.level.motion;

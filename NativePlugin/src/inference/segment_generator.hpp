@@ -40,6 +40,8 @@ struct SegmentRequest {
     /// For the ribs along each wave vector of the embedding and for stick-slip, the turns at the segment's first sample
     /// in [0, 1), then the signed rates in Hz.
     skeleton::Phases phases{};
+    /// Factor on the impulses of tiers with a skeleton.
+    float impulseGain = 1.0F;
     /// RMS in m/s^2 to use instead of the model's level; if empty, the model's level is used.
     std::optional<float> levelMps2{};
     /// The motion for the model's level where it differs from `motion`, and a gain on the model's level.

@@ -31,7 +31,8 @@ skeleton::Moment momentOf(const SegmentRequest& request, float levelMps2,
             .motion = request.motion,
             .phases = request.phases,
             .previous = previous,
-            .noise = request.noise};
+            .noise = request.noise,
+            .impulseGain = request.impulseGain};
 }
 
 SkeletonGenerator::SkeletonGenerator(skeleton::NativeParts native, SolverSettings solver, std::size_t maximumBatch,

@@ -86,7 +86,8 @@ std::vector<float> ClosedLoop::run(std::span<const Embedding> embeddings, std::s
     std::vector<inference::SegmentRequest> requests;
     requests.reserve(chains.size());
     for (std::size_t c = 0; c < chains.size(); ++c) {
-        requests.push_back({embeddings[chains[c].embedding], {}, at(previous, c), at(noise, c), {}, 1.0F, {}});
+        requests.push_back(
+            {embeddings[chains[c].embedding], {}, at(previous, c), at(noise, c), {}, settings.impulseGain, 1.0F, {}});
     }
     std::uint64_t hop = 0;
     for (std::size_t start = 0; start < whole; start += settings.hopSamples, ++hop) {

@@ -33,6 +33,7 @@ struct LoopSettings {
     std::size_t samples = 512;
     std::uint64_t seed = 0;
     std::uint64_t round = 0;
+    float impulseGain = 1.0F;
 };
 
 /// Runs the network in closed loop along the recording's motion, with waves of unit level and many chains in a batch.

@@ -8,6 +8,7 @@
 #include "learning/embedding_search.hpp"
 #include "learning/force_comparison.hpp"
 #include "learning/frequency_exponent.hpp"
+#include "learning/impulse_gain_fit.hpp"
 #include "learning/label_comparison.hpp"
 #include "learning/material_frame.hpp"
 #include "learning/material_text.hpp"
@@ -74,6 +75,10 @@ public:
         report_.startLabel = labels[start].name;
         const Embedding embedding = keptLabel_ ? embeddingOf(*keptLabel_) : searched(fit, start);
         report_.nearestLabel = labels[model_.nearestLabel(embedding)].name;
+        if (likelihood_) {
+            impulseGain_ =
+                fitImpulseGain(fit, embedding, [this](double share) { say(0.85 + 0.05 * share, "impulses"); });
+        }
         say(0.9, "tone");
         const model::ToneTable tone = fitTones(fit, embedding);
         report_.toneSpeeds = tone.speedsMps.size();
@@ -90,6 +95,7 @@ public:
                      .embedding = embedding,
                      .level = level_,
                      .tone = tone,
+                     .impulseGain = impulseGain_,
                      .frequencyExponent = isRuled ? 1.0 : frequencyExponent(fit.bins(), fit.recorded(), labels[start]),
                      .wavelengthMetres = wavelengthMetres()});
         requireReadable(learnt.materialJson);
@@ -185,7 +191,7 @@ private:
 
     [[nodiscard]] Embedding searched(TextureFit& fit, std::size_t start) {
         const EmbeddingSpace space(model_, waveVectors_);
-        const SearchSettings settings = search(0.2, 0.7, "embedding", fitShare);
+        const SearchSettings settings = search(0.2, 0.65, "embedding", fitShare);
         const FittedEmbedding fitted =
             likelihood_ ? likeliestEmbedding(*likelihood_, fit, space, space.ofLabel(start), settings)
                         : fitEmbedding(fit, space, space.ofLabel(start), settings);
@@ -251,13 +257,13 @@ private:
 
     model::ToneTable fitTones(TextureFit& fit, const Embedding& embedding) {
         const std::vector<SpectrumFrame> recorded = fit.recordedFrames();
-        const std::vector<SpectrumFrame> generated = fit.generatedFrames(embedding);
+        const std::vector<SpectrumFrame> generated = fit.generatedFrames(embedding, impulseGain_);
         const ToneConditions conditions = toneConditions(recorded);
         // Lines are where the recording's are only along its own motion.
         const bool hasRibs = !report_.waveVectors.empty();
-        const std::vector<SpectrumFrame> steady =
-            fit.steadyFrames(embedding, conditions.speedsMps, conditions.forcesNewtons,
-                             static_cast<std::uint64_t>(steadyShare * static_cast<double>(settings_.segmentBudget)));
+        const std::vector<SpectrumFrame> steady = fit.steadyFrames(
+            embedding, conditions.speedsMps, conditions.forcesNewtons,
+            static_cast<std::uint64_t>(steadyShare * static_cast<double>(settings_.segmentBudget)), impulseGain_);
         model::ToneTable tone = fitTone(recorded, hasRibs ? generated : steady, steady, recording_.bandwidthHz);
         if (tone.speedsMps.empty()) {
             return tone;
@@ -276,7 +282,8 @@ private:
         for (const OtherTier& other : otherTiers_) {
             ClosedLoop loop(*other.generator, model_.header(), recording_, unitWave_);
             const double distanceDb =
-                toneErrors(fit.bins(), recorded, fitOf(loop).generatedFrames(embedding), tone).spectralDistanceDb;
+                toneErrors(fit.bins(), recorded, fitOf(loop).generatedFrames(embedding, impulseGain_), tone)
+                    .spectralDistanceDb;
             report_.otherTiers.push_back({.tier = other.name,
                                           .spectralDistanceDb = distanceDb,
                                           .isFurtherOff = distanceDb > report_.spectralDistanceDb + noticeableDb});
@@ -293,8 +300,10 @@ private:
             });
             return levels;
         };
-        const Embedding nearest = embeddingOf(model_.nearestLabel(embedding));
-        const std::vector<SpectrumFrame> ofLabel = fit.generatedFrames(nearest);
+        const std::size_t nearestLabel = model_.nearestLabel(embedding);
+        const Embedding nearest = embeddingOf(nearestLabel);
+        const std::vector<SpectrumFrame> ofLabel =
+            fit.generatedFrames(nearest, model_.header().labels[nearestLabel].impulseGain);
         std::vector<LevelCondition> conditions;
         conditions.reserve(ofLabel.size());
         for (const SpectrumFrame& frame : ofLabel) {
@@ -361,6 +370,7 @@ private:
     std::vector<float> unitWave_;
     std::array<float, 2 * inference::ribCount> waveVectors_{};
     std::optional<FilterLikelihood> likelihood_;
+    float impulseGain_ = 1.0F;
     LearningReport report_;
 };
 

@@ -70,6 +70,9 @@ std::string materialText(const model::ModelFile& model, const MaterialContent& c
     if (!content.tone.speedsMps.empty()) {
         json["tone"] = toneJson(content.tone);
     }
+    if (content.impulseGain != 1.0F) {
+        json["impulse_gain"] = rounded(static_cast<double>(content.impulseGain), 1e3);
+    }
     return json.dump() + "\n";
 }
 

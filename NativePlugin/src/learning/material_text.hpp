@@ -21,6 +21,7 @@ struct MaterialContent {
     const Embedding& embedding;
     const LevelLaw& level;
     const model::ToneTable& tone;
+    float impulseGain = 1.0F;
     double frequencyExponent = 0.0;
     std::optional<double> wavelengthMetres;
 };

@@ -119,11 +119,17 @@ void TextureMeter::add(std::size_t bin, std::span<const float, spectrumSamples> 
         addLines(sums, wave, ribTravels);
     }
     sums.frames += 1.0;
+    double squares = 0.0;
+    double fourths = 0.0;
     for (const float value : wave) {
         const double square = static_cast<double>(value) * value;
-        sums.squares += square;
-        sums.fourths += square * square;
+        squares += square;
+        fourths += square * square;
     }
+    sums.squares += squares;
+    sums.fourths += fourths;
+    sums.logKurtoses +=
+        std::log((fourths * static_cast<double>(spectrumSamples) + powerFloor) / (squares * squares + powerFloor));
     sums.samples += static_cast<double>(spectrumSamples);
     for (std::size_t kind = 0; kind < pieceSamples.size(); ++kind) {
         const std::size_t length = pieceSamples[kind];
@@ -160,6 +166,7 @@ std::vector<TextureFigures> TextureMeter::figures() const {
             each.envelope[2 * kind] = mean - logRms;
             each.envelope[2 * kind + 1] = std::sqrt(std::max(variance, 0.0));
         }
+        each.logKurtosis = sums.logKurtoses / sums.frames;
         each.lineFrames = sums.lineFrames;
         for (std::size_t i = 0; i < ribPartials; ++i) {
             each.lines[i] = sums.lines[i] / std::max(sums.lineFrames[i], 1.0);

@@ -57,6 +57,8 @@ struct TextureFigures {
     /// 4.
     std::array<double, envelopeFigures> envelope{};
     double meanSquare = 0.0;
+    /// Mean of the log kurtosis of each frame: impulses, without what changes from frame to frame.
+    double logKurtosis = 0.0;
     /// Mean power of each partial of the ribs, those of the first wave vector first, and the number of frames in which
     /// it was below the end of the band.
     std::array<double, ribPartials> lines{};
@@ -80,6 +82,7 @@ private:
         std::array<double, spectrumBins> power{};
         double squares = 0.0;
         double fourths = 0.0;
+        double logKurtoses = 0.0;
         std::array<double, 3> pieces{};
         std::array<double, 3> logs{};
         std::array<double, 3> logSquares{};

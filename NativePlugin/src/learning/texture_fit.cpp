@@ -219,20 +219,43 @@ std::vector<std::vector<std::size_t>> TextureFit::startsByBin(std::size_t sample
     return starts;
 }
 
-std::vector<double> TextureFit::distances(std::span<const Embedding> embeddings, std::size_t chains,
-                                          std::uint64_t round) {
+std::vector<Chain> TextureFit::chainsOf(std::size_t count, std::uint64_t round) const {
     // A step with the golden ratio through each bin's stretches covers all of them evenly.
     constexpr double goldenShare = 0.6180339887498949;
-    std::vector<Chain> each;
-    for (std::size_t k = 0; k < chains; ++k) {
+    std::vector<Chain> chains;
+    for (std::size_t k = 0; k < count; ++k) {
         const auto& starts = starts_[k % starts_.size()];
         if (starts.empty()) {
             continue;
         }
-        const double turn = goldenShare * static_cast<double>(round * chains + k + 1);
+        const double turn = goldenShare * static_cast<double>(round * count + k + 1);
         const auto index = static_cast<std::size_t>((turn - std::floor(turn)) * static_cast<double>(starts.size()));
-        each.push_back({0, starts[std::min(index, starts.size() - 1)], static_cast<std::uint32_t>(k)});
+        chains.push_back({0, starts[std::min(index, starts.size() - 1)], static_cast<std::uint32_t>(k)});
     }
+    return chains;
+}
+
+std::vector<TextureFigures> TextureFit::figuresOf(const Embedding& embedding, float impulseGain) {
+    constexpr std::size_t chainsOfEachSpeed = 8;
+    constexpr std::uint64_t ownRound = 3'000'000;
+    const std::vector<Chain> chains = chainsOf(chainsOfEachSpeed * bins_.count(), ownRound);
+    const std::vector<float> waves = loop_.run(std::span(&embedding, 1), chains,
+                                               {.hopSamples = 100,
+                                                .warmSamples = warmSamples,
+                                                .samples = chainSamples,
+                                                .seed = seed_,
+                                                .round = ownRound,
+                                                .impulseGain = impulseGain});
+    TextureMeter meter(bins_.count());
+    for (std::size_t k = 0; k < chains.size(); ++k) {
+        measure(meter, std::span(waves).subspan(k * chainSamples, chainSamples), chains[k].start + warmSamples);
+    }
+    return meter.figures();
+}
+
+std::vector<double> TextureFit::distances(std::span<const Embedding> embeddings, std::size_t chains,
+                                          std::uint64_t round) {
+    const std::vector<Chain> each = chainsOf(chains, round);
     std::vector<Chain> all;
     all.reserve(each.size() * embeddings.size());
     for (std::size_t e = 0; e < embeddings.size(); ++e) {
@@ -256,7 +279,7 @@ std::vector<double> TextureFit::distances(std::span<const Embedding> embeddings,
     return result;
 }
 
-std::vector<SpectrumFrame> TextureFit::generatedFrames(const Embedding& embedding) {
+std::vector<SpectrumFrame> TextureFit::generatedFrames(const Embedding& embedding, float impulseGain) {
     constexpr std::size_t maximumChains = 192;
     constexpr std::size_t defaultChains = 120;
     std::size_t available = 0;
@@ -278,7 +301,8 @@ std::vector<SpectrumFrame> TextureFit::generatedFrames(const Embedding& embeddin
                                                 .warmSamples = warmSamples,
                                                 .samples = chainSamples,
                                                 .seed = seed_,
-                                                .round = 1'000'000});
+                                                .round = 1'000'000,
+                                                .impulseGain = impulseGain});
     std::vector<SpectrumFrame> frames;
     for (std::size_t k = 0; k < chains.size(); ++k) {
         addFrames(frames, std::span(waves).subspan(k * chainSamples, chainSamples), chains[k].start + warmSamples);
@@ -318,8 +342,8 @@ void TextureFit::addSteadyChains(std::vector<Chain>& chains, double speedMps, do
 }
 
 std::vector<SpectrumFrame> TextureFit::steadyFrames(const Embedding& embedding, std::span<const double> speedsMps,
-                                                    std::span<const double> forcesNewtons,
-                                                    std::uint64_t segmentBudget) {
+                                                    std::span<const double> forcesNewtons, std::uint64_t segmentBudget,
+                                                    float impulseGain) {
     constexpr std::size_t steadySamples = 1024;
     constexpr std::size_t segments = (warmSamples + steadySamples + hopAt72Hz - 1) / hopAt72Hz;
     const std::size_t count = std::clamp<std::size_t>(
@@ -335,7 +359,8 @@ std::vector<SpectrumFrame> TextureFit::steadyFrames(const Embedding& embedding, 
                                                 .warmSamples = warmSamples,
                                                 .samples = steadySamples,
                                                 .seed = seed_,
-                                                .round = 2'000'000});
+                                                .round = 2'000'000,
+                                                .impulseGain = impulseGain});
     std::vector<SpectrumFrame> frames;
     for (std::size_t k = 0; k < chains.size(); ++k) {
         const auto& motion = *chains[k].steadyMotion;

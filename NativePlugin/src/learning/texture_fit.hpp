@@ -35,18 +35,24 @@ public:
     [[nodiscard]] std::vector<double> distances(std::span<const Embedding> embeddings, std::size_t chains,
                                                 std::uint64_t round);
 
+    /// The statistics at each speed of waves generated for an embedding with this factor on its impulses, always with
+    /// the same noise.
+    [[nodiscard]] std::vector<TextureFigures> figuresOf(const Embedding& embedding, float impulseGain);
+
     /// Frames of the recording in which the tip slides throughout. Each begins half a frame after the one before.
     [[nodiscard]] std::vector<SpectrumFrame> recordedFrames() const;
     /// Frames of waves generated for an embedding along the whole recording, several times, at 72 updates per second.
-    [[nodiscard]] std::vector<SpectrumFrame> generatedFrames(const Embedding& embedding);
+    [[nodiscard]] std::vector<SpectrumFrame> generatedFrames(const Embedding& embedding, float impulseGain);
     /// Frames of waves generated for an embedding at every combination of the given speeds and forces, in the
     /// directions that the recording has in similar conditions. Generates at most `segmentBudget` segments, but at
     /// least two waves in each condition.
     [[nodiscard]] std::vector<SpectrumFrame> steadyFrames(const Embedding& embedding, std::span<const double> speedsMps,
                                                           std::span<const double> forcesNewtons,
-                                                          std::uint64_t segmentBudget);
+                                                          std::uint64_t segmentBudget, float impulseGain);
 
 private:
+    /// Stretches of the recording's motion, evenly distributed over each speed; `round` chooses others.
+    [[nodiscard]] std::vector<Chain> chainsOf(std::size_t count, std::uint64_t round) const;
     /// Adds `count` chains with a steady motion in the directions of the recording's motions near this speed and force.
     void addSteadyChains(std::vector<Chain>& chains, double speedMps, double newtons, std::size_t count) const;
     [[nodiscard]] std::vector<std::vector<std::size_t>> startsByBin(std::size_t samples) const;

@@ -97,6 +97,9 @@ void readLabelTraits(const HeaderNode& node, Label& label) {
     if (const auto tone = node.find("tone")) {
         label.tone = readTone(*tone);
     }
+    if (const auto gain = node.find("impulse_gain")) {
+        label.impulseGain = static_cast<float>(gain->number(0.0, 8.0));
+    }
     if (const auto offset = node.find("level_offset_db")) {
         label.levelOffsetDb = offset->number(-24.0, 24.0);
     }

@@ -101,6 +101,8 @@ struct Label {
     std::string category;
     std::optional<LevelTable> level;
     std::optional<ToneTable> tone;
+    /// Factor on the impulses that the skeleton makes, relative to its noise.
+    float impulseGain = 1.0F;
     /// Added to every level, from the level graph or from a table.
     double levelOffsetDb = 0.0;
     std::optional<StickSlip> stickSlip;

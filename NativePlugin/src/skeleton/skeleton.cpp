@@ -73,7 +73,8 @@ ReflectionFilter Skeleton::filterFor(const Condition& condition) const noexcept 
 }
 
 SegmentParameters Skeleton::parametersFor(const Condition& condition,
-                                          const std::array<FamilyPhase, familyCount>& phases) const noexcept {
+                                          const std::array<FamilyPhase, familyCount>& phases,
+                                          float impulseGain) const noexcept {
     const HiddenLayers::Activations activations = hidden_.run(condition);
     SegmentParameters parameters;
     parameters.filter = filterOf(activations);
@@ -85,6 +86,8 @@ SegmentParameters Skeleton::parametersFor(const Condition& condition,
         }
     }
     outputs_.rungs.apply(activations, parameters.rungs);
+    // Limited where they strike, as without a gain.
+    std::ranges::for_each(parameters.rungs, [impulseGain](float& rung) { rung *= impulseGain; });
     return parameters;
 }
 
@@ -108,7 +111,7 @@ void Skeleton::begin(const Moment& moment, const SegmentParameters& parameters, 
 
 void Skeleton::sketch(const Moment& moment, const Condition& condition,
                       std::span<float, segmentSamples> begun) const noexcept {
-    sketch(moment, parametersFor(condition, familiesOf(moment.phases)), begun);
+    sketch(moment, parametersFor(condition, familiesOf(moment.phases), moment.impulseGain), begun);
 }
 
 void Skeleton::sketch(const Moment& moment, const SegmentParameters& parameters,
@@ -120,8 +123,8 @@ void Skeleton::sketch(const Moment& moment, const SegmentParameters& parameters,
 void Skeleton::enter(const Moment& moment, const Condition& condition,
                      std::span<float, enteringChannels * segmentSamples> entering) const noexcept {
     Pulses pulses;
-    begin(moment, parametersFor(condition, familiesOf(moment.phases)), entering.first<segmentSamples>(),
-          entering.subspan<segmentSamples, segmentSamples>(), &pulses);
+    begin(moment, parametersFor(condition, familiesOf(moment.phases), moment.impulseGain),
+          entering.first<segmentSamples>(), entering.subspan<segmentSamples, segmentSamples>(), &pulses);
     auto next = entering.begin() + 2 * segmentSamples;
     for (const SurfaceWaves::Pulses* each : {&pulses.cosines, &pulses.sines}) {
         for (const auto& harmonic : *each) {

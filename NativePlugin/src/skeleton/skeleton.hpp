@@ -23,6 +23,7 @@ struct Moment {
     Segment previous;
     /// Standard normal; limited to +-9, a sample that is not a number counts as 0.
     Segment noise;
+    float impulseGain = 1.0F;
 };
 
 /// The last layer of the perceptron `skeleton`, cut by what its outputs are for, so that a family that is not heard
@@ -54,7 +55,8 @@ public:
     Skeleton(HiddenLayers hidden, OutputLayers outputs);
 
     [[nodiscard]] SegmentParameters parametersFor(const Condition& condition,
-                                                  const std::array<FamilyPhase, familyCount>& phases) const noexcept;
+                                                  const std::array<FamilyPhase, familyCount>& phases,
+                                                  float impulseGain = 1.0F) const noexcept;
     /// The filter alone, which costs a fraction of the whole.
     [[nodiscard]] ReflectionFilter filterFor(const Condition& condition) const noexcept;
     [[nodiscard]] static std::array<FamilyPhase, familyCount> familiesOf(const Phases& phases) noexcept;

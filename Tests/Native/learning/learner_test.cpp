@@ -160,6 +160,22 @@ TEST_F(LearnerTest, TheLevelsGoOnBeyondWhatWasRecordedByTheLawOfTheMaterial) {
     }
 }
 
+TEST_F(LearnerTest, ASurfaceThatStrikesHasMoreImpulsesThanOneThatOnlyRustles) {
+    const MadeRecording rustling({}, {.seconds = 20.0});
+    MadeRecording striking = rustling;
+    for (std::size_t i = 0; i < striking.acceleration.size(); ++i) {
+        // 3 ms, twenty times a second.
+        striking.acceleration[i] *= i % 200 < 12 ? 6.0F : 1.0F;
+    }
+    const auto gainOf = [&](const MadeRecording& made) {
+        LearningSettings settings = brief();
+        settings.segmentBudget = 8000;
+        return model::parseMaterial(learn(made.view(), settings).materialJson).label.impulseGain;
+    };
+    EXPECT_LE(gainOf(rustling), 1.0F);
+    EXPECT_GT(gainOf(striking), 1.0F);
+}
+
 TEST_F(LearnerTest, GivenWaveVectorsReplaceTheEstimation) {
     const MadeRecording made({.ribs = {0.8, 0.45}, .ribShare = 0.5}, {});
     LearningSettings settings = brief();

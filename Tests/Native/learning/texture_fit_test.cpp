@@ -40,7 +40,7 @@ TEST(TextureFitTest, SteadyFramesHaveEverySpeedAndForceInTheRecordedDirections) 
     TextureFit fit(loop, recording, sliding, recording.wave, noRibs, 1);
     const std::array speeds{0.02, 0.3};
     const std::array forces{0.4, 1.0, 2.5};
-    const std::vector<SpectrumFrame> frames = fit.steadyFrames({}, speeds, forces, 3000);
+    const std::vector<SpectrumFrame> frames = fit.steadyFrames({}, speeds, forces, 3000, 1.0F);
     for (const double speed : speeds) {
         for (const double force : forces) {
             const auto isHere = [&](const SpectrumFrame& frame) {

@@ -152,6 +152,16 @@ TEST(MaterialFileTest, AnInvalidLevelToneOrOffsetIsRefusedWithItsKeyAlsoInAModel
     refused("/tone/forces_newtons", Json::array(), "tone.forces_newtons");
     refused("/level_offset_db", 25.0, "level_offset_db");
     refused("/level_offset_db", nullptr, "level_offset_db");
+    refused("/impulse_gain", 8.5, "impulse_gain");
+    refused("/impulse_gain", -0.1, "impulse_gain");
+    refused("/impulse_gain", "loud", "impulse_gain");
+}
+
+TEST(MaterialFileTest, AGainOnTheImpulsesIsReadAndIsOneWithoutTheKey) {
+    Json material = validMaterial("0123abcd");
+    EXPECT_EQ(parseMaterial(material.dump()).label.impulseGain, 1.0F);
+    material["impulse_gain"] = 2.5;
+    EXPECT_EQ(parseMaterial(material.dump()).label.impulseGain, 2.5F);
 }
 
 TEST(MaterialFileTest, EveryErrorOfTheGoldenFilesNamesItsKey) {

@@ -45,6 +45,26 @@ protected:
     const Phases ruled_{0.25F, 0.5F, 0.0F, 60.0F, -130.0F, 0.0F};
 };
 
+TEST_F(SkeletonTest, AGainOnTheImpulsesChangesThemAlone) {
+    const Condition condition = conditionOf(embedding_, motion_, ruled_);
+    const auto phases = Skeleton::familiesOf(ruled_);
+    SegmentParameters expected = skeleton_->parametersFor(condition, phases);
+    for (float& rung : expected.rungs) {
+        rung *= 2.5F;
+    }
+    Moment moment{.embedding = embedding_, .motion = motion_, .phases = ruled_, .previous = previous_, .noise = noise_};
+    Wave wanted{};
+    skeleton_->sketch(moment, expected, wanted);
+    moment.impulseGain = 2.5F;
+    Wave begun{};
+    skeleton_->sketch(moment, condition, begun);
+    EXPECT_EQ(begun, wanted);
+    std::array<float, Skeleton::enteringChannels * segmentSamples> entering{};
+    skeleton_->enter(moment, condition, entering);
+    EXPECT_TRUE(std::ranges::equal(std::span(entering).first<segmentSamples>(), wanted));
+    EXPECT_NE(begun, sketchOf(ruled_, previous_, noise_));
+}
+
 TEST_F(SkeletonTest, NoiseLinesAndImpulsesAllPassThroughTheFilter) {
     const Condition condition = conditionOf(embedding_, motion_, ruled_);
     const auto phases = Skeleton::familiesOf(ruled_);

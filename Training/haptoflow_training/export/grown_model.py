@@ -26,7 +26,7 @@ from haptoflow_training.training.trainer import load_trained
 
 _Floats = NDArray[np.float32]
 # Of the label that a new one is nearest to: what only its own recordings say.
-_OF_ITS_RECORDINGS = ("name", "embedding_row", "level", "tone", "wavelength_metres")
+_OF_ITS_RECORDINGS = ("name", "embedding_row", "level", "tone", "impulse_gain", "wavelength_metres")
 _NO_LIMIT_SECONDS = 3600.0
 
 

@@ -12,7 +12,7 @@ namespace HaptoFlow.Model
         {
             "name", "category", "level_exponents", "frequency_exponent", "periodic", "wavelength_metres",
             "stiffness_newtons_per_metre", "friction_coefficient", "impact", "level", "tone", "level_offset_db",
-            "stick_slip", "rib_wander",
+            "stick_slip", "rib_wander", "impulse_gain",
         };
 
         /// <summary>The material file of a label. It has no seeds: if the model needs seeds, its own apply.</summary>
