@@ -17,6 +17,9 @@ export const packagesByPurpose = {
   cross: ['g++-mingw-w64-x86-64-posix', 'binutils-mingw-w64-x86-64', 'g++-aarch64-linux-gnu'],
   // What the tests of those libraries need besides; debootstrap makes the system with an older C library.
   platforms: ['wine', 'wine64', 'qemu-user', 'googletest', 'debootstrap'],
+  // The compiler for browsers, and the browser of its tests.
+  web: ['emscripten', 'ccache'],
+  browser: ['chromium'],
   // Libraries that the SDK needs, and curl for Microsoft's install script: see dotnet.mjs.
   dotnet: ['ca-certificates', 'curl', 'libicu-dev'],
   // mono-devel has the facades of .NET Standard.
