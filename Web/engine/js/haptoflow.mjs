@@ -317,7 +317,8 @@ export class HaptoFlow extends EventTarget {
     if (!this.#live.core) void this.#fetchStatistics();
     for (const voice of this.#voices) {
       const reason = voice.silence;
-      const shown = reason === 'rest' ? 'none' : reason;
+      // A tip in the air need not be published.
+      const shown = reason === 'rest' || (reason === 'stale' && !voice.isTouching) ? 'none' : reason;
       if ((this.#silences.get(voice) ?? 'none') !== shown) {
         this.#silences.set(voice, shown);
         this.#emit('silent', { voice, reason: shown });

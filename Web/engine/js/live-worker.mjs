@@ -1,4 +1,4 @@
-import { Core } from './module.mjs';
+import { Core, createMemory } from './module.mjs';
 import { asHaptoFlowError, plainError } from './errors.mjs';
 import { startRuntime } from './runtime.mjs';
 
@@ -78,7 +78,7 @@ class LiveWorker {
 
   async #start(/** @type {any} */ { module, memory, control: words, onnxRuntime, model, options }) {
     const runtime = await startRuntime(onnxRuntime);
-    this.#core = new Core(module, { memory, mayWait: true, runtime: runtime.imports });
+    this.#core = new Core(module, { memory: memory ?? createMemory(), mayWait: true, runtime: runtime.imports });
     runtime.attach(this.core);
     postMessage({ progress: { share: 0.6, doing: 'reading the model' } });
     const bytes = this.core.copyIn(model);

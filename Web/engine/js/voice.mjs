@@ -39,6 +39,7 @@ export class Voice {
   tapSource = null;
   #ringUnderruns = 0;
   #isClosed = false;
+  #isTouching = false;
   /** @type {any} what the worker told last, without shared memory */
   lastStatistics = null;
 
@@ -159,6 +160,7 @@ export class Voice {
 
   /** Publishes fields as they are. @param {Float64Array} fields */
   publishFields(fields) {
+    this.#isTouching = fields[field.touching] !== 0;
     const { core } = this.#host.live();
     if (core) {
       core.f64.set(fields, this.#address >> 3);
@@ -177,6 +179,11 @@ export class Voice {
   panic() {
     this.#requireOpen();
     this.#tellSetting('panic', 1);
+  }
+
+  /** Of the newest state. */
+  get isTouching() {
+    return this.#isTouching;
   }
 
   /** @returns {import('./haptoflow.d.ts').SilenceReason} */
