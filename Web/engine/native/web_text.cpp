@@ -4,14 +4,32 @@
 #include "input_file.hpp"
 #include "web_imports.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <new>
+#include <string_view>
 
 namespace haptoflow::web {
 namespace {
 
 thread_local std::string theText;
-thread_local std::string theCode;
-thread_local std::string theMessage;
+// Fixed, so that an error for want of memory has a text, too.
+thread_local std::array<char, 64> theCode{};
+thread_local std::array<char, 2048> theMessage{};
+
+template <std::size_t Size>
+void write(std::array<char, Size>& target, std::string_view text) noexcept {
+    const std::size_t kept = std::min(text.size(), Size - 1);
+    std::copy_n(text.begin(), kept, target.begin());
+    target[kept] = '\0';
+}
+
+int report(std::string_view code, std::string_view message) noexcept {
+    write(theCode, code);
+    write(theMessage, message);
+    return failure;
+}
 
 }  // namespace
 
@@ -29,38 +47,30 @@ const char* keep(std::string text) {
 
 int reportException() noexcept {
     try {
-        try {
-            throw;
-        } catch (const WebError& error) {
-            theCode = error.code();
-            theMessage = error.what();
-        } catch (const cli::InputError& error) {
-            theCode = "input";
-            theMessage = error.what();
-        } catch (const std::invalid_argument& error) {
-            theCode = "invalid-argument";
-            theMessage = error.what();
-        } catch (const std::bad_alloc&) {
-            theCode = "OUT_OF_MEMORY";
-            theMessage = "out of memory";
-        } catch (const std::exception& error) {
-            theCode = "INTERNAL_ERROR";
-            theMessage = error.what();
-        }
+        throw;
+    } catch (const WebError& error) {
+        return report(error.code(), error.what());
+    } catch (const cli::InputError& error) {
+        return report("input", error.what());
+    } catch (const std::invalid_argument& error) {
+        return report("invalid-argument", error.what());
+    } catch (const std::bad_alloc&) {
+        return report("OUT_OF_MEMORY", "out of memory");
+    } catch (const std::exception& error) {
+        return report("INTERNAL_ERROR", error.what());
     } catch (...) {
-        // Without memory for the text there is none.
+        return report("INTERNAL_ERROR", "an exception of an unknown type");
     }
-    return failure;
 }
 
 }  // namespace haptoflow::web
 
 HAPTO_EXPORT HAPTO_NAMED("hapto_error_code") const char* hapto_error_code() {
-    return haptoflow::web::theCode.c_str();
+    return haptoflow::web::theCode.data();
 }
 
 HAPTO_EXPORT HAPTO_NAMED("hapto_error_message") const char* hapto_error_message() {
-    return haptoflow::web::theMessage.c_str();
+    return haptoflow::web::theMessage.data();
 }
 
 HAPTO_EXPORT HAPTO_NAMED("hapto_version") const char* hapto_version() {
