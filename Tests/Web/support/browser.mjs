@@ -2,11 +2,10 @@ import { existsSync } from 'node:fs';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { chromium } from 'playwright-core';
+import { engineFolder } from './places.mjs';
 import { serve } from './server.mjs';
 
 const here = path.dirname(fileURLToPath(import.meta.url));
-export const repository = path.resolve(here, '..', '..', '..');
-export const engineFolder = path.join(repository, 'Web', 'dist', 'engine');
 const executable = process.env.HAPTOFLOW_CHROMIUM ?? ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find((file) => existsSync(file));
 
 /** False skips the tests that need a browser. */

@@ -137,8 +137,9 @@ export type SilenceReason =
 
 export interface EffectStatistics {
   readonly isAskedFor: boolean;
-  /** Blocks that it ran for, and their time together; 0 for an effect that was never asked for. */
+  /** Blocks that it ran for; 0 for an effect that was never asked for. */
   readonly runs: number;
+  /** Their time together; 0 with shared memory for all but the texture: the audio thread has no clock. See `measureEffects`. */
   readonly microseconds: number;
   /** Impacts or edges that sounded. */
   readonly events: number;
@@ -399,7 +400,7 @@ export interface LearnOptions extends Locations {
   /** Of the tier that is fitted; the model's default unless given. */
   quality?: string;
   seed?: number;
-  /** Of the fit; 20 unless given. */
+  /** Of processor time for the fit; 60 unless given. */
   secondsLimit?: number;
   /** Ends learning at once; `learn` then rejects with the code "aborted". */
   signal?: AbortSignal;

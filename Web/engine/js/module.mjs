@@ -38,6 +38,8 @@ export function createMemory({ isLarge = false } = {}) {
  * @property {boolean} [isPage]
  * @property {Record<string, Function>} [runtime] what runs graphs: see runtime.mjs
  * @property {(share: number, doing: string) => void} [onProgress]
+ * @property {Float64Array} [clock] its first number is the time in milliseconds, for a thread on which a clock's new numbers
+ *   would be garbage
  */
 
 /** An instance of the module on this thread, with its memory. */
@@ -46,12 +48,13 @@ export class Core {
    * @param {WebAssembly.Module} module
    * @param {InstanceOptions} options
    */
-  constructor(module, { memory, thread, mayWait = false, isPage = false, runtime = {}, onProgress }) {
+  constructor(module, { memory, thread, mayWait = false, isPage = false, runtime = {}, onProgress, clock }) {
     this.memory = memory;
+    this.clock = clock;
     this.views = { buffer: /** @type {ArrayBufferLike | null} */ (null), u8: new Uint8Array(), i32: new Int32Array(), f32: new Float32Array(), f64: new Float64Array() };
     const own = {
       memory,
-      emscripten_get_now: now,
+      emscripten_get_now: clock ? () => clock[0] : now,
       clock_gettime: (/** @type {number} */ clock, /** @type {number} */ at) => this.#writeTime(at),
       emscripten_memcpy_big: (/** @type {number} */ to, /** @type {number} */ from, /** @type {number} */ count) => void this.u8.copyWithin(to, from, from + count),
       emscripten_resize_heap: (/** @type {number} */ bytes) => this.#grow(bytes),
@@ -89,7 +92,7 @@ export class Core {
   }
 
   #writeTime(/** @type {number} */ at) {
-    const milliseconds = now();
+    const milliseconds = this.clock ? this.clock[0] : now();
     const seconds = Math.floor(milliseconds / 1000);
     this.i32[at >> 2] = seconds;
     this.i32[(at >> 2) + 1] = Math.round((milliseconds - seconds * 1000) * 1e6);

@@ -1,3 +1,5 @@
+import { HaptoFlowError } from './errors.mjs';
+
 // Points for motors, from a voice's wave. The features take rates that are multiples of 2 kHz; a wave of another rate is
 // brought to 48 kHz by straight lines, which lose 0.02 dB at 1 kHz and below.
 
@@ -25,6 +27,7 @@ export class MotorTap {
   #found = [];
   #peak = 0;
   #latestShare = 0;
+  #isClosed = false;
 
   /**
    * @param {import('./module.mjs').Core} core
@@ -71,6 +74,7 @@ export class MotorTap {
   }
 
   #process(/** @type {boolean} */ keepsPoints) {
+    if (this.#isClosed) throw new HaptoFlowError('closed', 'the tap is closed');
     for (let count = this.#tap.read(this.#wave); count > 0; count = this.#tap.read(this.#wave)) {
       const samples = this.#copyIn(count);
       const frames = this.#core.exports.hapto_motor_process(this.#features, this.#samples, samples, this.#points, pointCapacity);
@@ -112,6 +116,8 @@ export class MotorTap {
   }
 
   close() {
+    if (this.#isClosed) return;
+    this.#isClosed = true;
     this.#tap.close();
     this.#core.exports.hapto_motor_close(this.#features);
     this.#core.free(this.#samples);

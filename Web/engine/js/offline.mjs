@@ -71,7 +71,7 @@ function recordingFrom(/** @type {Core} */ core, /** @type {any} */ recording) {
  * @returns {import('./haptoflow.d.ts').LearntMaterial}
  */
 export function learn(core, options) {
-  const { recording, wavFullScaleMps2 = 0, category = '', description = '', licence = '', quality = '', seed = 1, secondsLimit = 0 } = options;
+  const { recording, wavFullScaleMps2 = 0, category = '', description = '', licence = '', quality = '', seed = 1, secondsLimit = 60 } = options;
   const name = options.name ?? (Array.isArray(recording) ? '' : /** @type {any} */ (recording).name);
   const learnt = core.json('hapto_learn', JSON.stringify({
     ...recordingFrom(core, recording), name, category, description, licence, quality, seed, secondsLimit, wavFullScaleMps2,

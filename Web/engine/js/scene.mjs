@@ -24,6 +24,7 @@ export class Scene {
   /** @type {any[]} */
   #surfaces;
   #updateRateHz;
+  #isClosed = false;
 
   /**
    * @param {import('./module.mjs').Core} core
@@ -49,7 +50,12 @@ export class Scene {
     return this.#surfaces;
   }
 
+  #requireOpen() {
+    if (this.#isClosed) throw new HaptoFlowError('closed', 'the scene is closed');
+  }
+
   #run(/** @type {import('./haptoflow.d.ts').TipSample} */ tip, /** @type {number} */ effects) {
+    this.#requireOpen();
     const at = this.#address >> 3;
     const numbers = this.#core.f64;
     numbers[at] = tip.timeSeconds;
@@ -115,6 +121,7 @@ export class Scene {
    * @param {{material?: import('./haptoflow.d.ts').Material, spatialScale?: number, toneDbPerOctave?: number, variation?: number}} change
    */
   setSurface(surface, { material, spatialScale = NaN, toneDbPerOctave = NaN, variation = NaN }) {
+    this.#requireOpen();
     const found = this.#surfaces.find(({ index, name }) => index === surface || name === surface);
     if (!found) throw new HaptoFlowError('invalid-argument', `the scene has no surface ${JSON.stringify(surface)}`);
     const fields = new Float64Array(fieldCount);
@@ -132,10 +139,13 @@ export class Scene {
   }
 
   reset() {
+    this.#requireOpen();
     this.#core.call('hapto_scene_reset', this.#index);
   }
 
   close() {
+    if (this.#isClosed) return;
+    this.#isClosed = true;
     this.#core.call('hapto_scene_close', this.#index);
     this.#core.free(this.#address);
   }

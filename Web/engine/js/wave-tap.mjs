@@ -1,3 +1,5 @@
+import { HaptoFlowError } from './errors.mjs';
+
 // The wave of a voice as it is played, for meters and for motors.
 
 /** @typedef {{samples: Float32Array, counter: Int32Array, shared: {samples: SharedArrayBuffer, counter: SharedArrayBuffer} | null}} TapMemory */
@@ -68,6 +70,7 @@ export class WaveTap {
   #begin;
   #read;
   #frames;
+  #isClosed = false;
 
   /** @param {import('./voice.mjs').Voice} voice @param {number} seconds */
   constructor(voice, seconds) {
@@ -78,6 +81,7 @@ export class WaveTap {
   }
 
   get #source() {
+    if (this.#isClosed) throw new HaptoFlowError('closed', 'the tap is closed');
     return /** @type {TapSource} */ (this.#voice.tapSource);
   }
 
@@ -118,6 +122,8 @@ export class WaveTap {
   }
 
   close() {
+    if (this.#isClosed) return;
+    this.#isClosed = true;
     this.#voice.releaseTap();
   }
 }

@@ -7,11 +7,15 @@ const blockFrames = 4096;
 /** @type {WeakMap<WebAssembly.Memory, Core>} */
 const cores = new WeakMap();
 
+/** Advanced with every block, by one of the voices: the thread has no other clock whose reading makes no garbage. */
+const clock = new Float64Array([Date.now()]);
+let clockFrame = 0;
+
 /** The instance of an engine on this thread: one for all its voices. */
 function coreOf(/** @type {{module: WebAssembly.Module, memory: WebAssembly.Memory, thread: {address: number}}} */ { module, memory, thread }) {
   let core = cores.get(memory);
   if (!core) {
-    core = new Core(module, { memory, thread });
+    core = new Core(module, { memory, thread, clock });
     cores.set(memory, core);
   }
   return core;
@@ -59,6 +63,10 @@ class SharedVoice extends AudioWorkletProcessor {
 
   process(/** @type {Float32Array[][]} */ inputs, /** @type {Float32Array[][]} */ outputs) {
     const block = outputs[0][0];
+    if (currentFrame !== clockFrame) {
+      clockFrame = currentFrame;
+      clock[0] += (1000 * block.length) / sampleRate;
+    }
     // Only a device with another block length ends here, once.
     if (block.length !== this.view.length) this.view = new Float32Array(this.buffer, this.samples, Math.min(block.length, blockFrames));
     this.render(this.voice, this.samples, this.view.length, sampleRate);

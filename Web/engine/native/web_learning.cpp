@@ -89,9 +89,14 @@ std::string learnFromFiles(const json& options) {
     given.sample_count = info.sample_count;
     given.sample_rate_hz = info.sample_rate_hz;
     given.velocity_mps = info.velocity_mps;
-    std::copy_n(info.constant_velocity_mps, 2, given.constant_velocity_mps);
     given.force_newtons = info.force_newtons;
-    given.constant_force_newtons = info.constant_force_newtons;
+    // Constants of what is not constant are no numbers.
+    if (info.velocity_mps == nullptr) {
+        std::copy_n(info.constant_velocity_mps, 2, given.constant_velocity_mps);
+    }
+    if (info.force_newtons == nullptr) {
+        given.constant_force_newtons = info.constant_force_newtons;
+    }
     given.recordings = info.provenance;
     given.name = given.name != nullptr ? given.name : info.material_name;
     given.licence = given.licence != nullptr ? given.licence : info.licence;
