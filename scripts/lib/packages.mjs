@@ -18,7 +18,7 @@ export const packagesByPurpose = {
   // What the tests of those libraries need besides; debootstrap makes the system with an older C library.
   platforms: ['wine', 'wine64', 'qemu-user', 'googletest', 'debootstrap'],
   // The compiler for browsers, and the browser of its tests.
-  web: ['emscripten', 'ccache'],
+  web: ['emscripten'],
   browser: ['chromium'],
   // Libraries that the SDK needs, and curl for Microsoft's install script: see dotnet.mjs.
   dotnet: ['ca-certificates', 'curl', 'libicu-dev'],
@@ -42,6 +42,12 @@ export const optionalPurposes = {
   realtime:
     'RealtimeSanitizer is left out: it needs Clang 22, which this system\'s packages do not have. Debian 12 has it in ' +
     'bookworm-security (clang-22, libclang-rt-22-dev); elsewhere the packages of apt.llvm.org bring it',
+  web:
+    'The engine for browsers is left out: it needs Emscripten, which this system\'s packages do not have. Debian 12 has it ' +
+    '(emscripten); elsewhere https://emscripten.org brings it',
+  browser:
+    'The tests in a browser are left out: they need Chromium, which this system\'s packages do not have. Debian 12 has it ' +
+    '(chromium); HAPTOFLOW_CHROMIUM names another',
   mono:
     'The run under Mono is left out: it needs Mono 6.8, which this system\'s packages do not have. Debian 12 and Ubuntu ' +
     '24.04 have it (mono-runtime, mono-devel)',

@@ -13,10 +13,10 @@ export const hasBrowser = executable !== undefined && existsSync(executable);
 
 /**
  * A page in Chromium with the engine beside it.
- * @param {{isolated?: boolean, needsGesture?: boolean}} [options]
+ * @param {{isolated?: boolean, needsGesture?: boolean, engine?: string}} [options] engine: the folder of its files
  */
-export async function openPage({ isolated = true, needsGesture = false } = {}) {
-  const server = await serve({ folders: { engine: engineFolder, pages: path.join(here, '..', 'pages') }, isolated });
+export async function openPage({ isolated = true, needsGesture = false, engine = engineFolder } = {}) {
+  const server = await serve({ folders: { engine, pages: path.join(here, '..', 'pages') }, isolated });
   const args = ['--no-sandbox', ...(needsGesture ? [] : ['--autoplay-policy=no-user-gesture-required'])];
   const browser = await chromium.launch({ executablePath: executable, args });
   const context = await browser.newContext();
