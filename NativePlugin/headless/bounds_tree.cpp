@@ -32,7 +32,7 @@ void BoundsTree::build(std::span<const Bounds> items, std::uint32_t begin, std::
         axis = 2;
     }
     const std::uint32_t middle = begin + (end - begin) / 2;
-    const auto at = [this](std::uint32_t index) { return order_.begin() + static_cast<std::ptrdiff_t>(index); };
+    const auto at = [this](std::uint32_t place) { return order_.begin() + static_cast<std::ptrdiff_t>(place); };
     std::nth_element(at(begin), at(middle), at(end), [&](std::uint32_t a, std::uint32_t b) {
         return items[a].lowest[axis] + items[a].highest[axis] < items[b].lowest[axis] + items[b].highest[axis];
     });

@@ -46,7 +46,7 @@ export const optionalPurposes = {
     'The engine for browsers is left out: it needs Emscripten, which this system\'s packages do not have. Debian 12 has it ' +
     '(emscripten); elsewhere https://emscripten.org brings it',
   browser:
-    'The tests in a browser are left out: they need Chromium, which this system\'s packages do not have. Debian 12 has it ' +
+    'The part of the web\'s tests in a browser is left out: it needs Chromium, which this system\'s packages do not have. Debian 12 has it ' +
     '(chromium); HAPTOFLOW_CHROMIUM names another',
   mono:
     'The run under Mono is left out: it needs Mono 6.8, which this system\'s packages do not have. Debian 12 and Ubuntu ' +

@@ -1,8 +1,8 @@
-import { copyFileSync, cpSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync } from 'node:fs';
+import { copyFileSync, cpSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync, statSync } from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
 import { launchers } from '../lib/native_build.mjs';
-import { CommandError, run, runOrFail, succeeds } from '../lib/process.mjs';
+import { CommandError, runOrFail, succeeds } from '../lib/process.mjs';
 import { inRepository } from '../lib/repository.mjs';
 
 /** Where the built engine goes: all that a page needs of it, in one folder. */
@@ -54,6 +54,6 @@ export async function buildEngine() {
   checkRuntimeVersion();
   await compileEngine();
   stageEngine();
-  const { output } = await run('du', ['-sh', engineFolder()], { quiet: true });
-  console.log(`build: Web/dist/engine (${output.split('\t')[0]})`);
+  const bytes = readdirSync(engineFolder()).reduce((sum, name) => sum + statSync(path.join(engineFolder(), name)).size, 0);
+  console.log(`build: Web/dist/engine (${(bytes / 2 ** 20).toFixed(1)} MiB)`);
 }
