@@ -69,7 +69,8 @@ export class HaptoFlow extends EventTarget {
   #quality;
   /** @type {any} the worker's last statistics */
   #lastStatistics = null;
-  #watch = 0;
+  /** @type {ReturnType<typeof setInterval> | undefined} */
+  #watch;
   #lastPing = 0;
   #isPinging = false;
   /** @type {Map<Voice, string>} */
@@ -280,6 +281,11 @@ export class HaptoFlow extends EventTarget {
   /** @param {any} [options] */
   measure({ tiers, seconds = 2, signal, onProgress } = {}) {
     return runTask('measure', { ...this.#taskOptions, tiers, seconds, signal, onProgress });
+  }
+
+  /** @param {{signal?: AbortSignal}} [options] */
+  measureEffects({ signal } = {}) {
+    return runTask('effects', { ...this.#taskOptions, signal });
   }
 
   /** @returns {import('./haptoflow.d.ts').Statistics} */

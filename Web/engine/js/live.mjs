@@ -1,11 +1,7 @@
 import { asHaptoFlowError, HaptoFlowError } from './errors.mjs';
 import { Core, createMemory } from './module.mjs';
 
-/**
- * @typedef {object} WorkerRequest
- * @property {string} type
- * @property {any} [module]
- */
+/** @typedef {{type: string} & Record<string, any>} WorkerRequest what live-worker.mjs answers, by its type */
 
 /** As in live-worker.mjs. */
 const control = { mail: 0, beat: 1, words: 2 };
@@ -88,7 +84,7 @@ export class Live {
 
   /**
    * Asks the worker.
-   * @param {WorkerRequest & Record<string, any>} request
+   * @param {WorkerRequest} request
    * @param {Transferable[]} [transfer]
    * @returns {Promise<any>}
    */
@@ -102,9 +98,9 @@ export class Live {
     return answer;
   }
 
-  /** Tells the worker without waiting for an answer. @param {WorkerRequest & Record<string, any>} request */
-  tell(request, transfer = []) {
-    if (!this.#isEnded) this.#post(0, request, transfer);
+  /** Tells the worker without waiting for an answer. @param {WorkerRequest} request */
+  tell(request) {
+    if (!this.#isEnded) this.#post(0, request, []);
   }
 
   #post(/** @type {number} */ id, /** @type {object} */ request, /** @type {Transferable[]} */ transfer) {
