@@ -353,7 +353,7 @@ export class HaptoFlow extends EventTarget {
 
   async #ping() {
     // A hidden page's timers and workers may stand still for seconds.
-    if (this.#isPinging || globalThis.document?.visibilityState === 'hidden' || performance.now() - this.#lastPing < pingEveryMs) return;
+    if (this.#isPinging || this.#live.isBusy || globalThis.document?.visibilityState === 'hidden' || performance.now() - this.#lastPing < pingEveryMs) return;
     this.#isPinging = true;
     const live = this.#live;
     const isAlive = await live.answers(pingLimitMs);
