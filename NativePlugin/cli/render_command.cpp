@@ -1,4 +1,5 @@
 #include "commands.hpp"
+#include "contact_states.hpp"
 #include "effects/actuator_profile.hpp"
 #include "effects/effect.hpp"
 #include "engine/offline_renderer.hpp"
@@ -116,56 +117,6 @@ inference::SolverSettings chooseSolver(const model::Tier& tier, const std::strin
                          "', which is always stepped by euler: did you mean --solver euler?");
     }
     return {.kind = solverNames().at(solver), .steps = *steps};
-}
-
-/// A state with the material, feature scale, tone and variation of each surface, in the scene's order.
-std::vector<engine::ContactState> propertiesOf(const headless::Scene& scene, const SceneMaterials& materials,
-                                               const std::string& scenePath) {
-    std::vector<engine::ContactState> surfaces;
-    for (const headless::SceneSurface& surface : scene.surfaces) {
-        if (surface.material.size() > engine::MaterialBlend::capacity) {
-            throw InputError(scenePath + ": surface '" + surface.name + "' blends " +
-                             std::to_string(surface.material.size()) + " labels; expected at most " +
-                             std::to_string(engine::MaterialBlend::capacity));
-        }
-        engine::ContactState& properties = surfaces.emplace_back();
-        properties.spatialScale = static_cast<float>(surface.spatialScale);
-        properties.toneDbPerOctave = static_cast<float>(surface.toneDbPerOctave);
-        properties.variation = static_cast<float>(surface.variation);
-        properties.surfaceSeed = surface.seed;
-        for (const auto& [name, weight] : surface.material) {
-            properties.material.add(materials.indexOf(name), static_cast<float>(weight));
-        }
-    }
-    return surfaces;
-}
-
-std::array<float, 3> toFloats(const glm::dvec3& vector) {
-    return {static_cast<float>(vector.x), static_cast<float>(vector.y), static_cast<float>(vector.z)};
-}
-
-engine::TimedContactState stateOf(const headless::ContactReading& reading,
-                                  std::span<const engine::ContactState> surfaces, effects::EffectMask effects) {
-    engine::TimedContactState state;
-    if (reading.surfaceIndex >= 0) {
-        state = {surfaces[static_cast<std::size_t>(reading.surfaceIndex)]};
-    }
-    state.timeSeconds = reading.timeSeconds;
-    state.effects = effects;
-    state.touching = reading.touching ? 1 : 0;
-    state.touchCounter = reading.touchCounter;
-    state.velocityMps = {static_cast<float>(reading.tangentialVelocityMps.x),
-                         static_cast<float>(reading.tangentialVelocityMps.y)};
-    state.forceNewtons = static_cast<float>(reading.forceNewtons);
-    state.approachSpeedMps = static_cast<float>(reading.approachSpeedMps);
-    state.landingCounter = reading.landingCounter;
-    state.edgeCounter = reading.edgeCounter;
-    state.edgeHeightMetres = static_cast<float>(reading.edgeHeightMetres);
-    state.hasPlace = state.touching;
-    state.placeMetres = toFloats(reading.placeMetres);
-    state.firstAxis = toFloats(reading.firstAxis);
-    state.secondAxis = toFloats(reading.secondAxis);
-    return state;
 }
 
 /// The number of touch-downs when every sample of the stroke is processed in addition to the frames: a tap may begin
@@ -346,7 +297,8 @@ void runRender(const RenderOptions& options) {
     SceneMaterials materials(model, modelPath, options.scenePath);
     std::ranges::for_each(options.materials, [&materials](const std::string& path) { materials.add(path); });
     materials.require(scene);
-    const std::vector<engine::ContactState> surfaces = propertiesOf(scene, materials, options.scenePath);
+    const std::vector<engine::ContactState> surfaces = propertiesOf(
+        scene, [&materials](const std::string& name) { return materials.indexOf(name); }, options.scenePath);
     headless::ContactSettings settings;
     useStiffnessOfMaterials(settings, materials);
     headless::ContactTracker tracker(scene, settings);

@@ -368,16 +368,19 @@ headless::Scene parseScene(const json& document, const std::string& fileName) {
 }
 
 headless::Scene readSceneFile(const std::string& path) {
-    const std::string text = readInputFile("the scene", path, "a scene file (JSON)");
+    return parseSceneText(readInputFile("the scene", path, "a scene file (JSON)"), path);
+}
+
+headless::Scene parseSceneText(const std::string& text, const std::string& fileName) {
     try {
-        DuplicateKeys duplicates(path);
-        return parseScene(json::parse(text, std::ref(duplicates)), path);
+        DuplicateKeys duplicates(fileName);
+        return parseScene(json::parse(text, std::ref(duplicates)), fileName);
     } catch (const json::parse_error& error) {
-        throw InputError(path + ":" + lineAndColumn(text, error.byte) +
+        throw InputError(fileName + ":" + lineAndColumn(text, error.byte) +
                          ": not valid JSON; expected an object with \"surfaces\" (commas between entries, none after "
                          "the last, names in double quotes)");
     } catch (const json::out_of_range&) {
-        throw InputError(path + ": holds a number too large to represent; expected numbers within +-1e9");
+        throw InputError(fileName + ": holds a number too large to represent; expected numbers within +-1e9");
     }
 }
 

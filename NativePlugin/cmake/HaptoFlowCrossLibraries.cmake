@@ -5,7 +5,8 @@ set(haptoflow_borrowed_headers "${CMAKE_BINARY_DIR}/borrowed-headers")
 
 # haptoflow_borrow_headers(TARGET FOLDER PROBE): an imported target for one header-only library.
 function(haptoflow_borrow_headers target folder probe)
-  find_path(HAPTOFLOW_${folder}_INCLUDE_DIR "${folder}/${probe}" NO_CMAKE_FIND_ROOT_PATH REQUIRED
+  find_path(HAPTOFLOW_${folder}_INCLUDE_DIR "${folder}/${probe}" PATHS /usr/include /usr/local/include
+            NO_CMAKE_FIND_ROOT_PATH REQUIRED
             DOC "The build machine's include folder of ${folder}/${probe}")
   if(CMAKE_HOST_WIN32)
     # That folder contains no C library on Windows, where links need a privilege.
@@ -20,7 +21,7 @@ function(haptoflow_borrow_headers target folder probe)
   endif()
 endfunction()
 
-if(HAPTOFLOW_BUILD_CLI OR HAPTOFLOW_BUILD_TESTS)
+if(HAPTOFLOW_BUILD_CLI OR HAPTOFLOW_BUILD_TESTS OR HAPTOFLOW_BUILD_WEB)
   haptoflow_borrow_headers(glm::glm glm glm.hpp)
 endif()
 haptoflow_borrow_headers(nlohmann_json::nlohmann_json nlohmann json.hpp)

@@ -32,10 +32,10 @@ void BoundsTree::build(std::span<const Bounds> items, std::uint32_t begin, std::
         axis = 2;
     }
     const std::uint32_t middle = begin + (end - begin) / 2;
-    std::nth_element(
-        order_.begin() + begin, order_.begin() + middle, order_.begin() + end, [&](std::uint32_t a, std::uint32_t b) {
-            return items[a].lowest[axis] + items[a].highest[axis] < items[b].lowest[axis] + items[b].highest[axis];
-        });
+    const auto at = [this](std::uint32_t place) { return order_.begin() + static_cast<std::ptrdiff_t>(place); };
+    std::nth_element(at(begin), at(middle), at(end), [&](std::uint32_t a, std::uint32_t b) {
+        return items[a].lowest[axis] + items[a].highest[axis] < items[b].lowest[axis] + items[b].highest[axis];
+    });
     build(items, begin, middle);
     nodes_[index].start = static_cast<std::uint32_t>(nodes_.size());
     nodes_[index].count = 0;

@@ -35,7 +35,7 @@ for (const [runner, groups] of Object.entries(longTests)) {
 }
 
 test('the default form runs no long runner, the long form all of them, and --only the named one', () => {
-  assert.deepEqual(chosenRunners({ all: false }), ['native', 'training', 'dotnet', 'package']);
+  assert.deepEqual(chosenRunners({ all: false }), ['native', 'training', 'dotnet', 'package', 'web']);
   assert.deepEqual(chosenRunners({ all: true }), Object.keys(runners));
   assert.deepEqual(chosenRunners({ only: 'platforms', all: false }), ['platforms']);
   assert.throws(() => chosenRunners({ only: 'nothing', all: false }), /--only nothing: expected one of native,/);

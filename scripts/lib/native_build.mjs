@@ -31,7 +31,7 @@ export async function buildNative({ preset = 'release', tests = false, targets =
 const vcpkgFeatures = (name, tests) => (tests && findPreset(name).toolchainFile?.includes('VCPKG_ROOT') ? ['-DVCPKG_MANIFEST_FEATURES=tests'] : []);
 
 /** The compiler launcher: ccache where it is installed, unless CMake's own variables name another. */
-function launchers() {
+export function launchers() {
   if (!succeeds('ccache', ['--version'])) return {};
   return { CMAKE_C_COMPILER_LAUNCHER: 'ccache', CMAKE_CXX_COMPILER_LAUNCHER: 'ccache', ...pick(process.env, 'CMAKE_C_COMPILER_LAUNCHER', 'CMAKE_CXX_COMPILER_LAUNCHER') };
 }

@@ -17,6 +17,9 @@ export const packagesByPurpose = {
   cross: ['g++-mingw-w64-x86-64-posix', 'binutils-mingw-w64-x86-64', 'g++-aarch64-linux-gnu'],
   // What the tests of those libraries need besides; debootstrap makes the system with an older C library.
   platforms: ['wine', 'wine64', 'qemu-user', 'googletest', 'debootstrap'],
+  // The compiler for browsers, and the browser of its tests.
+  web: ['emscripten'],
+  browser: ['chromium'],
   // Libraries that the SDK needs, and curl for Microsoft's install script: see dotnet.mjs.
   dotnet: ['ca-certificates', 'curl', 'libicu-dev'],
   // mono-devel has the facades of .NET Standard.
@@ -39,6 +42,12 @@ export const optionalPurposes = {
   realtime:
     'RealtimeSanitizer is left out: it needs Clang 22, which this system\'s packages do not have. Debian 12 has it in ' +
     'bookworm-security (clang-22, libclang-rt-22-dev); elsewhere the packages of apt.llvm.org bring it',
+  web:
+    'The engine for browsers is left out: it needs Emscripten, which this system\'s packages do not have. Debian 12 has it ' +
+    '(emscripten); elsewhere https://emscripten.org brings it',
+  browser:
+    'The part of the web\'s tests in a browser is left out: it needs Chromium, which this system\'s packages do not have. Debian 12 has it ' +
+    '(chromium); HAPTOFLOW_CHROMIUM names another',
   mono:
     'The run under Mono is left out: it needs Mono 6.8, which this system\'s packages do not have. Debian 12 and Ubuntu ' +
     '24.04 have it (mono-runtime, mono-devel)',

@@ -152,6 +152,22 @@ export async function runNodeTests(files) {
   return judged(countsOfTap(output), exitCode);
 }
 
+/** The engine for browsers: renders beside the command line's, in Node and in Chromium. Without Emscripten it is skipped. */
+async function web({ all }) {
+  if (!succeeds('emcc', ['--version'])) return { ...noCounts, skipped: 1 };
+  await buildNative({ targets: ['haptoflow_cli'] });
+  // Imported here, since set-up may just have installed the packages that it needs.
+  const { buildEngine } = await import('../web/build_engine.mjs');
+  await buildEngine();
+  const folder = inRepository('Tests', 'Web');
+  const names = readdirSync(folder).filter((name) => name.endsWith('.test.mjs') && (all || !name.endsWith('.long.test.mjs')));
+  // What is heard live is judged by time, so that nothing else runs beside it.
+  const [live, others] = [names.filter((name) => name.startsWith('live')), names.filter((name) => !name.startsWith('live'))];
+  let counts = noCounts;
+  for (const group of [others, live]) counts = addCounts(counts, await runNodeTests(group.map((name) => path.join(folder, name))));
+  return counts;
+}
+
 /**
  * The runners of `npm test`: what each needs installed, and how it runs. Names are what --only takes.
  * @type {Record<string, {purposes: string[], longPurposes?: string[], long?: boolean, execute: (form: {all: boolean}) => Promise<object>}>}
@@ -163,6 +179,7 @@ export const runners = {
   training: { purposes: ['build', 'python', 'files'], execute: training },
   dotnet: { purposes: ['build', 'dotnet', 'pictures'], execute: dotnet },
   package: { purposes: ['files'], execute: packageTests },
+  web: { purposes: ['build', 'test', 'web', 'browser'], execute: web },
   sanitizers: { purposes: ['build', 'test'], longPurposes: ['realtime'], long: true, execute: sanitizers },
   libcxx: { purposes: ['build', 'libcxx'], long: true, execute: libcxx },
   mono: { purposes: ['build', 'dotnet', 'pictures', 'mono'], long: true, execute: mono },

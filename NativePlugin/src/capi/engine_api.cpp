@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
-#include <ranges>
 #include <string>
 #include <utility>
 #include <vector>
@@ -51,12 +50,10 @@ std::size_t tierOfQuality(const model::ModelHeader& header, haptoflow_quality qu
 
 /// The most accurate tier that needs no ONNX Runtime, if the model has one.
 std::optional<std::size_t> tierWithoutRuntime(const model::ModelHeader& header) {
-    for (const std::size_t tier : std::views::reverse(model::tiersByAccuracy(header.tiers))) {
-        if (!header.tiers[tier].needsOnnxRuntime()) {
-            return tier;
-        }
-    }
-    return std::nullopt;
+    const std::vector<std::size_t> tiers = model::tiersByAccuracy(header.tiers);
+    const auto found = std::find_if(tiers.rbegin(), tiers.rend(),
+                                    [&header](std::size_t tier) { return !header.tiers[tier].needsOnnxRuntime(); });
+    return found == tiers.rend() ? std::nullopt : std::optional(*found);
 }
 
 engine::QualitySettings qualitySettings(const model::ModelHeader& header, haptoflow_quality quality, double budgetMs,
@@ -220,7 +217,7 @@ haptoflow_status haptoflow_engine_last_failure(const haptoflow_engine* engine, c
         (void)require(length, "length");
         const std::string failure = engines().get(engine)->engine->lastFailure();
         if (capacity > 0) {
-            const std::size_t kept = std::min<std::size_t>(failure.size(), capacity - 1);
+            const auto kept = static_cast<std::size_t>(std::min<uint64_t>(failure.size(), capacity - 1));
             std::copy_n(failure.begin(), kept, require(text, "text"));
             text[kept] = '\0';
         }

@@ -260,7 +260,8 @@ haptoflow_status haptoflow_voice_set_actuator(haptoflow_voice voice, const char*
         const VoiceTable::Use use = requireVoice(voice);
         std::shared_ptr<const effects::ActuatorProfile> actuator;
         if (profile != nullptr) {
-            actuator = std::make_shared<const effects::ActuatorProfile>(readActuator({profile, length}));
+            actuator =
+                std::make_shared<const effects::ActuatorProfile>(readActuator({profile, countOf(length, "length")}));
         }
         use->engine->changeProcessors(*use->voice, [&actuator](engine::ProcessorSettings& settings) {
             const bool isSame = settings.actuator == actuator || (settings.actuator != nullptr && actuator != nullptr &&

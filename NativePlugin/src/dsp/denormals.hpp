@@ -32,8 +32,9 @@ public:
     }
 #else
     static constexpr bool isSupported = false;
-    ScopedFlushDenormals() noexcept = default;
-    ~ScopedFlushDenormals() = default;
+    // Not defaulted, so that no compiler takes the object for an unused variable.
+    ScopedFlushDenormals() noexcept {}
+    ~ScopedFlushDenormals() {}
 #endif
     ScopedFlushDenormals(const ScopedFlushDenormals&) = delete;
     ScopedFlushDenormals& operator=(const ScopedFlushDenormals&) = delete;

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <exception>
 #include <iterator>
+#include <limits>
 #include <stdexcept>
 
 namespace haptoflow::engine {
@@ -76,8 +77,10 @@ LiveEngine::LiveEngine(std::shared_ptr<const model::ModelFile> model, EngineTier
         throw std::invalid_argument("quality: the tier is not loaded");
     }
     publishQuality();
-    if (settings_.hasWorker) {
-        worker_ = std::thread([this] { work(); });
+    if constexpr (startsThreads) {
+        if (settings_.hasWorker) {
+            worker_ = std::thread([this] { work(); });
+        }
     }
 }
 
@@ -189,35 +192,52 @@ void LiveEngine::noteFailure(const char* text) noexcept {
 void LiveEngine::work() noexcept {
     nameThisThread("haptoflow");
     figures_.priorityRefused = !raiseThisThreadsPriority();
+    while (turn(std::numeric_limits<double>::infinity())) {
+    }
+}
+
+bool LiveEngine::turn(double maximumWaitMs) noexcept {
     try {
-        while (!stopping_.load(std::memory_order_acquire)) {
-            if (!sleep()) {
-                if (const auto tier = quality_.tierToMeasure()) {
-                    measureOnce(*tier);
-                    continue;
-                }
-            }
-            if (!stopping_.load(std::memory_order_acquire)) {
-                ++figures_.wakes;
-                const RoundResult result = step();
-                mustPoll_ = result.mustPoll;
-            }
+        if (!stopping_.load(std::memory_order_acquire)) {
+            workOnce(maximumWaitMs);
+        }
+        if (!stopping_.load(std::memory_order_acquire)) {
+            return true;
         }
     } catch (const std::exception& error) {
         // Out of memory, or the system refused a lock: the voices fall silent because the worker has ended.
         noteFailure(error.what());
     }
     figures_.workerAlive.store(false, std::memory_order_release);
+    return false;
 }
 
-bool LiveEngine::sleep() {
+void LiveEngine::workOnce(double maximumWaitMs) {
+    if (!sleep(maximumWaitMs)) {
+        if (const auto tier = quality_.tierToMeasure()) {
+            measureOnce(*tier);
+            return;
+        }
+    }
+    if (!stopping_.load(std::memory_order_acquire)) {
+        ++figures_.wakes;
+        const RoundResult result = step();
+        mustPoll_ = result.mustPoll;
+    }
+}
+
+bool LiveEngine::sleep(double maximumWaitMs) {
     // The callback cannot wake the worker, so the worker polls.
     if (mustPoll_) {
-        (void)signal_.waitFor(callbackPollMs);
+        (void)signal_.waitFor(std::min(callbackPollMs, maximumWaitMs));
         return true;
     }
     if (quality_.tierToMeasure()) {
-        return signal_.waitFor(1000.0 / settings_.updateRateHz);
+        return signal_.waitFor(std::min(1000.0 / settings_.updateRateHz, maximumWaitMs));
+    }
+    if (maximumWaitMs < std::numeric_limits<double>::infinity()) {
+        (void)signal_.waitFor(maximumWaitMs);
+        return true;
     }
     signal_.wait();
     return true;

@@ -104,6 +104,12 @@ public:
     /// Runs one round on the calling thread, for an engine without a worker.
     RoundResult step();
 
+    /// The worker's own loop, for a host that starts the threads (startsThreads is false): waits until there is work,
+    /// at most this time, and does it. Returns false once the worker has ended, by `stop` or by a failure.
+    [[nodiscard]] bool turn(double maximumWaitMs) noexcept;
+    /// Ends the wait of a running `turn`. Any thread but an audio callback's.
+    void wake() noexcept { signal_.post(); }
+
     /// True after the first call of `stop`.
     [[nodiscard]] bool isStopping() const noexcept { return stopping_.load(std::memory_order_acquire); }
 
@@ -127,7 +133,8 @@ public:
 private:
     void work() noexcept;
     /// Returns false when it is time for a measuring run.
-    [[nodiscard]] bool sleep();
+    [[nodiscard]] bool sleep(double maximumWaitMs);
+    void workOnce(double maximumWaitMs);
     void measureOnce(std::size_t tier);
     void gatherVoices();
     void publishQuality() noexcept;

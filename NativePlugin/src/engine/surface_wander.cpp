@@ -25,7 +25,7 @@ WanderPoint surfaceWander(std::uint64_t key, double wavelengthMetres, const infe
     WanderPoint point;
     for (std::uint64_t wave = 0; wave < waves; ++wave) {
         std::array<double, numbersPerWave> drawn{};
-        for (std::uint64_t number = 0; number < numbersPerWave; ++number) {
+        for (std::size_t number = 0; number < numbersPerWave; ++number) {
             drawn[number] = inference::fractionOf(key, wave * numbersPerWave + number);
         }
         // Uniform on the sphere: height and angle are independent.

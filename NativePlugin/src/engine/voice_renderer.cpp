@@ -443,7 +443,7 @@ void VoiceRenderer::soundUntilStale(std::span<float> out) noexcept {
 
 void VoiceRenderer::sound(std::span<float> out) noexcept {
     if (tapFramesLeft_ > 0) {
-        const std::size_t before = std::min<std::size_t>(out.size(), tapFramesLeft_);
+        const auto before = static_cast<std::size_t>(std::min<std::uint64_t>(out.size(), tapFramesLeft_));
         renderWithBlows(out.first(before));
         out = out.subspan(before);
         tapFramesLeft_ -= before;

@@ -8,6 +8,9 @@
 #define NOMINMAX
 #endif
 #include <windows.h>
+#elif defined(__EMSCRIPTEN__)
+#include <atomic>
+#include <cstdint>
 #elif defined(__APPLE__)
 #include <dispatch/dispatch.h>
 #include <pthread.h>
@@ -55,6 +58,48 @@ bool WakeSignal::waitFor(double milliseconds) noexcept {
 
 bool raiseThisThreadsPriority() noexcept {
     return SetThreadPriority(GetCurrentThread(), THREAD_PRIORITY_ABOVE_NORMAL) != 0;
+}
+
+void nameThisThread(const char*) noexcept {}
+
+#elif defined(__EMSCRIPTEN__)
+
+// Emscripten's semaphores need its own threads. Posting is allowed on a page's main thread, which must not wait.
+struct WakeSignal::Semaphore {
+    std::atomic<int> isPosted{0};
+    static_assert(sizeof(isPosted) == sizeof(int));
+
+    void waitFor(std::int64_t nanoseconds) noexcept {
+        (void)__builtin_wasm_memory_atomic_wait32(reinterpret_cast<int*>(&isPosted), 0, nanoseconds);
+    }
+};
+
+WakeSignal::WakeSignal() : semaphore_(std::make_unique<Semaphore>()) {}
+
+WakeSignal::~WakeSignal() = default;
+
+void WakeSignal::post() noexcept {
+    semaphore_->isPosted.store(1);
+    (void)__builtin_wasm_memory_atomic_notify(reinterpret_cast<int*>(&semaphore_->isPosted), 1);
+}
+
+void WakeSignal::wait() noexcept {
+    constexpr std::int64_t forever = -1;
+    while (semaphore_->isPosted.exchange(0) == 0) {
+        semaphore_->waitFor(forever);
+    }
+}
+
+bool WakeSignal::waitFor(double milliseconds) noexcept {
+    if (semaphore_->isPosted.exchange(0) == 0) {
+        semaphore_->waitFor(static_cast<std::int64_t>(milliseconds * 1e6));
+        return semaphore_->isPosted.exchange(0) != 0;
+    }
+    return true;
+}
+
+bool raiseThisThreadsPriority() noexcept {
+    return false;
 }
 
 void nameThisThread(const char*) noexcept {}

@@ -4,6 +4,13 @@
 
 namespace haptoflow::engine {
 
+#if defined(__EMSCRIPTEN__)
+/// A page starts its threads itself: one of them is the worker and calls LiveEngine::turn.
+inline constexpr bool startsThreads = false;
+#else
+inline constexpr bool startsThreads = true;
+#endif
+
 /// Wakes one sleeping thread. `post` does not wait but may enter the kernel: not on the audio thread.
 class WakeSignal {
 public:

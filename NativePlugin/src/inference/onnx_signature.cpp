@@ -88,14 +88,6 @@ private:
 
 }  // namespace
 
-std::size_t TensorSignature::size() const noexcept {
-    std::size_t product = 1;
-    for (const std::int64_t dimension : shape) {
-        product *= static_cast<std::size_t>(dimension);
-    }
-    return product;
-}
-
 std::vector<bool> matchSignature(const Runtime& runtime, const OrtSession& session, const GraphSignature& expected,
                                  const std::string& graphName) {
     const OrtApi& api = runtime.api();

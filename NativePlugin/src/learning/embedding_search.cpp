@@ -34,8 +34,8 @@ std::size_t startLabel(TextureFit& fit, const EmbeddingSpace& space, const std::
                        const SearchSettings& settings) {
     constexpr std::size_t labelsAtOnce = 32;
     const auto share = static_cast<std::uint64_t>(0.15 * static_cast<double>(settings.segmentBudget));
-    const std::size_t chains =
-        std::clamp<std::size_t>(share / (labels.size() * segmentsPerChain), 4, 4 * fit.bins().count());
+    const auto chains = static_cast<std::size_t>(
+        std::clamp<std::uint64_t>(share / (labels.size() * segmentsPerChain), 4, 4 * fit.bins().count()));
     std::vector<double> distances;
     for (std::size_t first = 0; first < labels.size(); first += labelsAtOnce) {
         std::vector<Embedding> embeddings;

@@ -1,0 +1,87 @@
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { LabelIndices } from '../../Web/engine/js/contact-fields.mjs';
+import { Scene } from '../../Web/engine/js/scene.mjs';
+import { coreWithModel, hasCommandLine, native, pageCore, sample, samplePath } from './support/engine.mjs';
+
+const { labels } = (await coreWithModel()).json('hapto_model_json');
+const indices = new LabelIndices();
+indices.set(labels);
+const core = pageCore();
+const sceneOf = (text) => new Scene(core, indices, labels, text);
+
+/** The tip at each frame of a scene, as `haptoflow contact` reads strokes. */
+function* framesOf(text, updateRateHz) {
+  const rows = text.trim().split('\n').slice(1).map((line) => line.split(',').map(Number));
+  const hasForce = text.startsWith('t,x,y,z,force');
+  const count = Math.floor((rows.at(-1)[0] - rows[0][0]) * updateRateHz + 1e-6) + 1;
+  for (let frame = 0; frame < count; frame += 1) {
+    const time = rows[0][0] + frame / updateRateHz;
+    const after = rows.findIndex((row) => row[0] > time);
+    const b = rows[after < 0 ? rows.length - 1 : after];
+    const a = rows[after <= 0 ? (after < 0 ? rows.length - 1 : 0) : after - 1];
+    const share = b[0] > a[0] ? (time - a[0]) / (b[0] - a[0]) : 0;
+    const mix = (column) => a[column] + share * (b[column] - a[column]);
+    yield { timeSeconds: time, positionMetres: [mix(1), mix(2), mix(3)], ...(hasForce ? { forceNewtons: mix(4) } : {}) };
+  }
+}
+
+for (const name of ['crossing', 'taps', 'tracing']) {
+  test(`${name}: contact states are the command line's`, { skip: !hasCommandLine }, () => {
+    const output = native(() => ['contact', samplePath(`${name}.scene.json`), '--stroke', samplePath(`${name}.stroke.csv`)], (_, text) => text);
+    const [header, ...lines] = output.trim().split('\n');
+    const columns = header.split(',');
+    const scene = sceneOf(sample(`${name}.scene.json`));
+    let touching = 0;
+    let row = 0;
+    for (const tip of framesOf(sample(`${name}.stroke.csv`), scene.updateRateHz)) {
+      const expected = Object.fromEntries(lines[row].split(',').map((cell, index) => [columns[index], cell]));
+      const found = scene.update(tip);
+      const near = (value, column) => assert.ok(Math.abs(value - Number(expected[column])) < 1e-5, `${column} of row ${row}: ${value} and ${expected[column]}`);
+      assert.equal(found.touching ? '1' : '0', expected.touching, `row ${row}`);
+      near(found.velocityMps[0], columns.find((column) => /^v(elocity)?_?x/.test(column)));
+      near(found.forceNewtons, columns.find((column) => column.startsWith('force')));
+      touching += found.touching ? 1 : 0;
+      row += 1;
+    }
+    assert.equal(row, lines.length);
+    assert.ok(touching > 10);
+  });
+}
+
+const table = { surfaces: [{ name: 'table', shape: { box: { size: [1, 0.02, 1] } }, material: { wood: 3, fur: 1 }, stiffness: 500 }] };
+const over = (seconds, depth = 0.002) => ({ timeSeconds: seconds, positionMetres: [0.1 * seconds, 0.011 - depth, 0] });
+
+test('a tip that slides over a box touches it with its blend, its depth and the force of its stiffness', () => {
+  const scene = sceneOf(table);
+  let contact = scene.update(over(0));
+  for (let frame = 1; frame < 30; frame += 1) contact = scene.update(over(frame / 72));
+  assert.equal(contact.surfaceName, 'table');
+  assert.deepEqual(contact.material, { wood: 0.75, fur: 0.25 });
+  assert.ok(Math.abs(contact.penetrationMetres - 0.002) < 1e-9);
+  assert.ok(Math.abs(contact.forceNewtons - 1) < 1e-6);
+  assert.ok(Math.abs(Math.hypot(...contact.velocityMps) - 0.1) < 1e-3);
+  assert.deepEqual(contact.normal.map(Math.round), [0, 1, 0]);
+});
+
+test('a measured force replaces that of the spring', () => {
+  assert.equal(sceneOf(table).update({ ...over(0), forceNewtons: 2.5 }).forceNewtons, 2.5);
+});
+
+test('a surface can change its material, scale and tone; one that does not exist is named', () => {
+  const scene = sceneOf(table);
+  scene.setSurface('table', { material: 'glass', spatialScale: 2, toneDbPerOctave: -3 });
+  const contact = scene.update(over(0));
+  assert.equal(contact.material, 'glass');
+  assert.equal(contact.spatialScale, 2);
+  assert.equal(contact.toneDbPerOctave, -3);
+  assert.throws(() => scene.setSurface('chair', {}), /no surface "chair"/);
+  assert.throws(() => scene.setSurface('table', { material: 'glas' }), /material "glas": there is no such label/);
+});
+
+test('a closed scene refuses calls, and its place is used again', () => {
+  const scene = sceneOf(table);
+  scene.close();
+  assert.throws(() => scene.update(over(0)), (error) => error.code === 'closed');
+  assert.ok(sceneOf(table).update(over(0)).touching);
+});

@@ -1,0 +1,39 @@
+import { existsSync } from 'node:fs';
+import path from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { chromium } from 'playwright-core';
+import { engineFolder } from './places.mjs';
+import { serve } from './server.mjs';
+
+const here = path.dirname(fileURLToPath(import.meta.url));
+const executable = process.env.HAPTOFLOW_CHROMIUM ?? ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find((file) => existsSync(file));
+
+/** False skips the tests that need a browser. */
+export const hasBrowser = executable !== undefined && existsSync(executable);
+
+/**
+ * A page in Chromium with the engine beside it.
+ * @param {{isolated?: boolean, needsGesture?: boolean, engine?: string}} [options] engine: the folder of its files
+ */
+export async function openPage({ isolated = true, needsGesture = false, engine = engineFolder } = {}) {
+  const server = await serve({ folders: { engine, pages: path.join(here, '..', 'pages') }, isolated });
+  const args = ['--no-sandbox', ...(needsGesture ? [] : ['--autoplay-policy=no-user-gesture-required'])];
+  const browser = await chromium.launch({ executablePath: executable, args });
+  const context = await browser.newContext();
+  const page = await context.newPage();
+  /** @type {string[]} */
+  const complaints = [];
+  page.on('pageerror', (error) => complaints.push(error.message));
+  page.on('console', (message) => {
+    if (message.type() === 'error') complaints.push(message.text());
+  });
+  await page.goto(`${server.address}/pages/live.html`);
+  await page.waitForFunction(() => 'HaptoFlow' in globalThis);
+  return {
+    page, context, server, complaints,
+    close: async () => {
+      await browser.close();
+      await server.close();
+    },
+  };
+}

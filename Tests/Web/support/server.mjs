@@ -1,0 +1,48 @@
+import { existsSync, readFileSync, statSync } from 'node:fs';
+import { createServer } from 'node:http';
+import path from 'node:path';
+
+const types = { '.html': 'text/html', '.mjs': 'text/javascript', '.wasm': 'application/wasm', '.json': 'application/json' };
+const isolation = { 'Cross-Origin-Opener-Policy': 'same-origin', 'Cross-Origin-Embedder-Policy': 'require-corp' };
+
+/**
+ * Serves folders on the loopback address.
+ * @param {{folders: Record<string, string>, isolated?: boolean}} options folders by the first part of the path
+ * @returns {Promise<{address: string, changes: Map<string, (bytes: Buffer) => Buffer | number>, close: () => Promise<void>}>} changes: what a
+ *   path answers instead of its file: other bytes, or a status
+ */
+export async function serve({ folders, isolated = true }) {
+  const changes = new Map();
+  const server = createServer((request, response) => {
+    const { pathname } = new URL(request.url ?? '/', 'http://localhost');
+    const [, first, ...rest] = pathname.split('/');
+    if (pathname === '/favicon.ico') {
+      response.writeHead(204).end();
+      return;
+    }
+    const file = folders[first] && path.join(folders[first], ...rest.map(decodeURIComponent));
+    const headers = { 'Cache-Control': 'no-store', ...(isolated ? isolation : {}) };
+    if (!file || !existsSync(file) || !statSync(file).isFile()) {
+      response.writeHead(404, headers).end();
+      return;
+    }
+    const changed = changes.get(pathname)?.(readFileSync(file)) ?? readFileSync(file);
+    if (typeof changed === 'number') {
+      response.writeHead(changed, headers).end();
+      return;
+    }
+    response.writeHead(200, { ...headers, 'Content-Type': types[path.extname(file)] ?? 'application/octet-stream', 'Content-Length': changed.length }).end(changed);
+  });
+  await new Promise((resolve) => {
+    server.listen(0, '127.0.0.1', () => resolve(undefined));
+  });
+  const { port } = /** @type {import('node:net').AddressInfo} */ (server.address());
+  return {
+    address: `http://127.0.0.1:${port}`,
+    changes,
+    close: () => new Promise((resolve) => {
+      server.closeAllConnections();
+      server.close(() => resolve(undefined));
+    }),
+  };
+}

@@ -1,0 +1,126 @@
+import { HaptoFlowError } from './errors.mjs';
+import { Core, createMemory } from './module.mjs';
+
+// What takes seconds: renders, learning, measuring. In a browser in a worker of its own (offline-worker.mjs), in Node here.
+
+/**
+ * An instance with a model, for the functions below.
+ * @param {{module: WebAssembly.Module, runtime: import('./runtime.mjs').Runtime, model: Uint8Array, onProgress?: (share: number, doing: string) => void}} options
+ */
+export function offlineCore({ module, runtime, model, onProgress }) {
+  const core = new Core(module, { memory: createMemory({ isLarge: true }), mayWait: true, runtime: runtime.imports, onProgress });
+  runtime.attach(core);
+  const bytes = core.copyIn(model);
+  core.call('hapto_model_open', bytes, model.length);
+  core.free(bytes);
+  return core;
+}
+
+const texture = { texture: true, impact: false, edge: false };
+
+/**
+ * @param {Core} core
+ * @param {import('./haptoflow.d.ts').RenderOptions} options
+ * @returns {import('./haptoflow.d.ts').Render}
+ */
+export function render(core, options) {
+  const { scene, stroke, quality = '', seed = 1, leadMs = 8, rateHz = 48000, effects = texture, listen = false, actuator = null, delayMs = 0, fullScaleMps2 = 200, materials = [] } = options;
+  const figures = core.json('hapto_render', JSON.stringify({
+    scene: typeof scene === 'string' ? scene : JSON.stringify(scene),
+    stroke, quality, seed, leadMs, rateHz, effects, listen, fullScaleMps2, materials,
+    actuator: actuator ?? '',
+    delaySeconds: delayMs / 1000,
+  }));
+  const first = core.exports.hapto_samples() >> 2;
+  return { ...figures, samples: core.f32.slice(first, first + core.exports.hapto_sample_count()) };
+}
+
+/** Copies floats in; 0 for none. */
+function copyFloats(/** @type {Core} */ core, /** @type {Float32Array | undefined} */ numbers) {
+  return numbers ? core.copyIn(new Uint8Array(numbers.buffer, numbers.byteOffset, numbers.byteLength)) : 0;
+}
+
+function recordingFrom(/** @type {Core} */ core, /** @type {any} */ recording) {
+  if (!recording || (Array.isArray(recording) && recording.length === 0)) throw new HaptoFlowError('invalid-argument', 'recording: expected files or samples');
+  if (Array.isArray(recording)) {
+    return {
+      files: recording.map(({ name, bytes }) => {
+        const copy = bytes instanceof Uint8Array ? bytes : new Uint8Array(bytes);
+        return { name, address: core.copyIn(copy), count: copy.length };
+      }),
+    };
+  }
+  const axisCount = recording.axisCount ?? 1;
+  return {
+    samples: {
+      axisCount,
+      count: Math.floor(recording.accelerationMps2.length / axisCount),
+      sampleRateHz: recording.sampleRateHz,
+      acceleration: copyFloats(core, recording.accelerationMps2),
+      velocity: copyFloats(core, recording.velocityMps),
+      force: copyFloats(core, recording.forceNewtons),
+      constantVelocityMps: recording.constantVelocityMps ?? [0, 0],
+      constantForceNewtons: recording.constantForceNewtons ?? 0,
+    },
+  };
+}
+
+/**
+ * @param {Core} core
+ * @param {import('./haptoflow.d.ts').LearnOptions} options
+ * @returns {import('./haptoflow.d.ts').LearntMaterial}
+ */
+export function learn(core, options) {
+  const { recording, wavFullScaleMps2 = 0, category = '', description = '', licence = '', quality = '', seed = 1, secondsLimit = 60 } = options;
+  const name = options.name ?? (Array.isArray(recording) ? '' : /** @type {any} */ (recording).name);
+  const learnt = core.json('hapto_learn', JSON.stringify({
+    ...recordingFrom(core, recording), name, category, description, licence, quality, seed, secondsLimit, wavFullScaleMps2,
+  }));
+  return { ...learnt, notes: learnt.notes.split('\n').filter((/** @type {string} */ note) => note !== '') };
+}
+
+const sorted = (/** @type {number[]} */ numbers) => [...numbers].sort((one, other) => one - other);
+
+/** @param {number[]} times */
+export function distribution(times) {
+  const all = sorted(times);
+  const at = (/** @type {number} */ share) => all[Math.min(all.length - 1, Math.floor(share * all.length))];
+  return { minimum: all[0], median: at(0.5), percentile99: at(0.99) };
+}
+
+function timedSegment(/** @type {Core} */ core) {
+  const began = performance.now();
+  core.call('hapto_measure_segment');
+  return performance.now() - began;
+}
+
+const pause = (/** @type {number} */ milliseconds) => new Promise((resolve) => {
+  setTimeout(resolve, milliseconds);
+});
+
+/**
+ * Times tiers, hot and at the pace of use.
+ * @param {Core} core
+ * @param {{tiers: readonly string[], seconds: number}} options
+ * @param {(share: number, doing: string) => void} onProgress
+ * @returns {Promise<import('./haptoflow.d.ts').Measurement[]>}
+ */
+export async function measure(core, { tiers, seconds }, onProgress) {
+  const rows = [];
+  const paceMs = 1000 / 72;
+  for (const [index, tier] of tiers.entries()) {
+    onProgress(index / tiers.length, tier);
+    core.call('hapto_measure_load', tier);
+    for (let run = 0; run < 20; run += 1) timedSegment(core);
+    const hot = [];
+    for (const end = performance.now() + 500 * seconds; performance.now() < end;) hot.push(timedSegment(core));
+    const paced = [];
+    for (const end = performance.now() + 500 * seconds; performance.now() < end;) {
+      await pause(paceMs);
+      paced.push(timedSegment(core));
+    }
+    rows.push({ tier, hotMs: distribution(hot), pacedMs: distribution(paced) });
+  }
+  onProgress(1, 'done');
+  return rows;
+}

@@ -1,0 +1,34 @@
+import { asHaptoFlowError, HaptoFlowError, requireNotAborted } from './errors.mjs';
+import { engineModule, modelBytes, placesOf } from './files.mjs';
+
+/**
+ * Runs a task of offline.mjs in a worker of its own, which a signal ends at once.
+ * @param {'render' | 'learn' | 'measure' | 'effects'} task
+ * @param {any} options
+ * @returns {Promise<any>}
+ */
+export async function runTask(task, { signal, onProgress = () => {}, base, onnxRuntime, model, module, ...options }) {
+  requireNotAborted(signal);
+  const places = placesOf({ base, onnxRuntime });
+  onProgress(0, 'loading');
+  const [compiled, bytes] = await Promise.all([module ?? engineModule(places, signal), modelBytes(model, places, signal)]);
+  requireNotAborted(signal);
+  const worker = new Worker(new URL('offline-worker.mjs', places.base), { type: 'module', name: `haptoflow ${task}` });
+  try {
+    return await new Promise((resolve, reject) => {
+      signal?.addEventListener('abort', () => reject(new HaptoFlowError('aborted', 'aborted by the caller')));
+      worker.onerror = (event) => {
+        event.preventDefault?.();
+        reject(new HaptoFlowError('worker-lost', `${places.base}offline-worker.mjs: the worker failed (${event.message || 'it cannot be loaded'})`));
+      };
+      worker.onmessage = ({ data: { progress, result, error } }) => {
+        if (progress) onProgress(progress.share, progress.doing);
+        else if (error) reject(asHaptoFlowError(error));
+        else resolve(result);
+      };
+      worker.postMessage({ module: compiled, onnxRuntime: places.onnxRuntime, model: bytes, task, options });
+    });
+  } finally {
+    worker.terminate();
+  }
+}

@@ -1,0 +1,254 @@
+import { effectMask, field, fieldCount, LabelIndices, writeState } from './contact-fields.mjs';
+import { asHaptoFlowError, HaptoFlowError } from './errors.mjs';
+import { MotorTap } from './motor-tap.mjs';
+import { TapSource, WaveTap } from './wave-tap.mjs';
+
+/** By haptoflow_silence. */
+export const silenceNames = /** @type {const} */ (['none', 'rest', 'stale', 'muted', 'paused', 'panic', 'rate', 'closing', 'worker-dead', 'turned-down']);
+
+/**
+ * @typedef {object} VoiceHost what a voice needs of its engine
+ * @property {AudioContext} context
+ * @property {LabelIndices} indices
+ * @property {import('./module.mjs').Core} contactCore the page's own instance
+ * @property {number} ringFrames
+ * @property {number} fullScaleMps2
+ * @property {() => import('./live.mjs').Live} live
+ * @property {(error: HaptoFlowError) => void} onFault
+ * @property {(voice: Voice) => void} forget
+ */
+
+/** The signal of one tip; see haptoflow.d.ts. */
+export class Voice {
+  /** @type {import('./haptoflow.d.ts').EffectChoice} */
+  effects = {};
+  /** The values that differ from the engine's own, to be set again after a recovery. @type {Map<string, number>} */
+  #settings = new Map();
+  /** @type {string | null} */
+  #actuator = null;
+  #host;
+  #node;
+  #index = -1;
+  /** @type {AudioWorkletNode | null} */
+  #worklet = null;
+  #fields = new Float64Array(fieldCount);
+  /** Address of the fields in the engine's memory, with shared memory. */
+  #address = 0;
+  #taps = 0;
+  /** @type {TapSource | null} */
+  tapSource = null;
+  #ringUnderruns = 0;
+  #isClosed = false;
+  #isTouching = false;
+  /** @type {any} what the worker told last, without shared memory */
+  lastStatistics = null;
+
+  /** @param {VoiceHost} host */
+  constructor(host) {
+    this.#host = host;
+    this.#node = new GainNode(host.context, { gain: 1, channelCount: 1, channelCountMode: 'explicit' });
+  }
+
+  /** @returns {AudioNode} */
+  get node() {
+    return this.#node;
+  }
+
+  get index() {
+    return this.#index;
+  }
+
+  get isClosed() {
+    return this.#isClosed;
+  }
+
+  /** Makes the voice in the present engine; after a fault, again. */
+  async attach() {
+    const { context, ringFrames } = this.#host;
+    const live = this.#host.live();
+    const channel = live.isShared ? null : new MessageChannel();
+    const { voice, samples } = await live.ask(
+      { type: 'open-voice', rateHz: context.sampleRate, port: channel?.port1 ?? null, ringFrames },
+      channel ? [channel.port1] : [],
+    );
+    this.#index = voice;
+    this.#address = live.core ? live.core.allocate(8 * fieldCount) : 0;
+    const processorOptions = live.isShared
+      ? { module: live.module, memory: live.memory, thread: live.audioThread, voice, samples }
+      : { port: channel?.port2 };
+    this.#worklet?.disconnect();
+    this.#worklet?.port.postMessage({ close: true });
+    this.#worklet = this.#makeNode(live.isShared ? 'haptoflow-shared' : 'haptoflow-ring', processorOptions, channel);
+    this.#worklet.connect(this.#node);
+    for (const [name, value] of this.#settings) this.#tellSetting(name, value);
+    if (this.#actuator !== null) await live.ask({ type: 'actuator', voice, profile: this.#actuator });
+    if (this.#taps > 0) this.#openTap();
+  }
+
+  #makeNode(/** @type {string} */ name, /** @type {any} */ processorOptions, /** @type {MessageChannel | null} */ channel) {
+    const { context } = this.#host;
+    let node;
+    if (channel) {
+      // Ports cannot be among the options in every browser.
+      node = new AudioWorkletNode(context, name, { numberOfInputs: 0, outputChannelCount: [1], processorOptions: {} });
+      node.port.postMessage({ blocks: channel.port2 }, [channel.port2]);
+    } else {
+      node = new AudioWorkletNode(context, name, { numberOfInputs: 0, outputChannelCount: [1], processorOptions });
+    }
+    node.onprocessorerror = () => this.#host.onFault(new HaptoFlowError('worker-lost', 'the engine failed on the audio thread'));
+    node.port.onmessage = ({ data }) => this.#takeFromAudio(data);
+    return node;
+  }
+
+  #takeFromAudio(/** @type {any} */ { late, wave, frame }) {
+    if (late !== undefined) this.#ringUnderruns = late;
+    if (wave) this.tapSource?.write(wave);
+    if (frame !== undefined && this.tapSource) this.tapSource.startSeconds = (frame - this.tapSource.total) / this.tapSource.sampleRateHz;
+  }
+
+  #requireOpen() {
+    if (this.#isClosed) throw new HaptoFlowError('closed', 'the voice is closed');
+  }
+
+  #set(/** @type {string} */ name, /** @type {number} */ value, /** @type {number} */ lowest, /** @type {number} */ highest) {
+    this.#requireOpen();
+    if (!(value >= lowest && value <= highest)) throw new HaptoFlowError('invalid-argument', `${name} is ${value}; expected ${lowest} to ${highest}`);
+    this.#settings.set(name, value);
+    this.#tellSetting(name, value);
+  }
+
+  #tellSetting(/** @type {string} */ name, /** @type {number} */ value) {
+    const live = this.#host.live();
+    if (live.core) live.core.call('hapto_voice_set', this.#index, name, value);
+    else live.tell({ type: 'set', voice: this.#index, name, value });
+  }
+
+  #setting(/** @type {string} */ name, /** @type {number} */ usual) {
+    return this.#settings.get(name) ?? usual;
+  }
+
+  get gain() { return this.#setting('gain', 1); }
+  set gain(value) { this.#set('gain', value, 0, 1); }
+  get ceiling() { return this.#setting('ceiling', 1); }
+  set ceiling(value) { this.#set('ceiling', value, 0, 1); }
+  get muted() { return this.#setting('muted', 0) !== 0; }
+  set muted(value) { this.#set('muted', value ? 1 : 0, 0, 1); }
+  get paused() { return this.#setting('paused', 0) !== 0; }
+  set paused(value) { this.#set('paused', value ? 1 : 0, 0, 1); }
+  get listen() { return this.#setting('listen', 0) !== 0; }
+  set listen(value) { this.#set('listen', value ? 1 : 0, 0, 1); }
+  get delayMs() { return 1000 * this.#setting('delay', 0); }
+  set delayMs(value) { this.#set('delay', value / 1000, 0, 0.5); }
+
+  get actuator() {
+    return this.#actuator;
+  }
+
+  set actuator(profile) {
+    this.#requireOpen();
+    this.#actuator = profile;
+    this.#host.live().ask({ type: 'actuator', voice: this.#index, profile }).catch((error) => this.#host.onFault(asHaptoFlowError(error)));
+  }
+
+  /** @param {import('./haptoflow.d.ts').ContactState} state */
+  publish(state) {
+    this.#requireOpen();
+    if (state.material !== undefined) this.#host.indices.write(state.material, this.#fields);
+    writeState(state, effectMask(this.effects), this.#fields);
+    this.publishFields(this.#fields);
+  }
+
+  /** Publishes fields as they are. @param {Float64Array} fields */
+  publishFields(fields) {
+    this.#isTouching = fields[field.touching] !== 0;
+    const { core } = this.#host.live();
+    if (core) {
+      core.f64.set(fields, this.#address >> 3);
+      core.exports.hapto_voice_publish(this.#index, this.#address);
+    } else if (this.#index >= 0) {
+      this.#host.live().tell({ type: 'publish', voice: this.#index, fields: fields.slice() });
+    }
+  }
+
+  lift() {
+    this.#requireOpen();
+    this.#fields[field.touching] = 0;
+    this.publishFields(this.#fields);
+  }
+
+  panic() {
+    this.#requireOpen();
+    this.#tellSetting('panic', 1);
+  }
+
+  /** Of the newest state. */
+  get isTouching() {
+    return this.#isTouching;
+  }
+
+  /** @returns {import('./haptoflow.d.ts').SilenceReason} */
+  get silence() {
+    const { context } = this.#host;
+    if (context.state !== 'running') return 'context';
+    const { core } = this.#host.live();
+    const number = core ? core.call('hapto_voice_silence', this.#index) : (this.lastStatistics?.silence ?? 1);
+    return silenceNames[number] ?? 'rest';
+  }
+
+  /** @returns {import('./haptoflow.d.ts').VoiceStatistics} */
+  statistics() {
+    this.#requireOpen();
+    const { core } = this.#host.live();
+    const found = core ? core.json('hapto_voice_statistics', this.#index) : this.lastStatistics;
+    return { ...found, silence: this.silence, ringUnderruns: this.#ringUnderruns };
+  }
+
+  #openTap() {
+    const { context } = this.#host;
+    const { isShared } = this.#host.live();
+    const before = this.tapSource;
+    this.tapSource = new TapSource(context.sampleRate, isShared);
+    if (before) this.tapSource.continueFrom(before);
+    this.tapSource.startSeconds = context.currentTime;
+    this.#worklet?.port.postMessage({ tap: this.tapSource.memory.shared ?? {} });
+  }
+
+  /** @param {{seconds?: number}} [options] */
+  waveTap({ seconds = 2 } = {}) {
+    this.#requireOpen();
+    if (!(seconds > 0 && seconds <= 60)) throw new HaptoFlowError('invalid-argument', `seconds is ${seconds}; expected above 0 to 60`);
+    this.#taps += 1;
+    if (this.#taps === 1) this.#openTap();
+    return new WaveTap(this, seconds);
+  }
+
+  releaseTap() {
+    this.#taps -= 1;
+    if (this.#taps > 0) return;
+    this.#worklet?.port.postMessage({ tap: null });
+    this.tapSource = null;
+  }
+
+  /** @param {import('./haptoflow.d.ts').MotorOptions} [options] */
+  motorTap(options = {}) {
+    const { contactCore, fullScaleMps2 } = this.#host;
+    return new MotorTap(contactCore, this.waveTap({ seconds: 1 }), fullScaleMps2, options);
+  }
+
+  async close() {
+    if (this.#isClosed) return;
+    this.#isClosed = true;
+    this.#host.forget(this);
+    const live = this.#host.live();
+    await live.ask({ type: 'close-voice', voice: this.#index }).catch(() => {});
+    this.detach();
+  }
+
+  /** Takes the nodes away. */
+  detach() {
+    this.#isClosed = true;
+    this.#worklet?.port.postMessage({ close: true });
+    this.#worklet?.disconnect();
+    this.#node.disconnect();
+  }
+}
