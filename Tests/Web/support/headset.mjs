@@ -1,0 +1,17 @@
+import path from 'node:path';
+import { openPage } from './browser.mjs';
+import { repository } from './places.mjs';
+
+const inRepository = (/** @type {string[]} */ ...names) => path.join(repository, ...names);
+
+/** A page in Chromium with an emulated Quest. */
+export const openHeadsetPage = (/** @type {object} */ options = {}) => openPage({
+  name: 'xr',
+  folders: {
+    xr: inRepository('Web', 'page', 'xr'),
+    scene: inRepository('Web', 'page', 'scene'),
+    three: inRepository('node_modules', 'three', 'build'),
+    iwer: inRepository('node_modules', 'iwer', 'build'),
+  },
+  ...options,
+});
