@@ -47,7 +47,7 @@ export class Looks {
     map.wrapS = this.#three.RepeatWrapping;
     map.wrapT = this.#three.RepeatWrapping;
     map.repeat.setScalar(1 / tileMetres(look));
-    const made = new this.#three.MeshStandardMaterial({ map, roughness: look.picture === 'gloss' ? 0.25 : 0.8, metalness: 0 });
+    const made = new this.#three.MeshLambertMaterial({ map });
     this.#materials.set(label, made);
     return made;
   }

@@ -11,11 +11,11 @@ class Pen {
   constructor(three) {
     this.group = new three.Group();
     this.group.visible = false;
-    this.material = new three.MeshStandardMaterial({ color: rest, roughness: 0.5 });
+    this.material = new three.MeshLambertMaterial({ color: rest });
     const cone = new three.Mesh(new three.ConeGeometry(radiusMetres, tipLengthMetres, 24), this.material);
     cone.rotation.x = -Math.PI / 2;
     cone.position.z = tipLengthMetres / 2;
-    const body = new three.Mesh(new three.CylinderGeometry(radiusMetres, radiusMetres, bodyLengthMetres, 24), new three.MeshStandardMaterial({ color: 0x39424b, roughness: 0.6 }));
+    const body = new three.Mesh(new three.CylinderGeometry(radiusMetres, radiusMetres, bodyLengthMetres, 24), new three.MeshLambertMaterial({ color: 0x39424b }));
     body.rotation.x = Math.PI / 2;
     body.position.z = tipLengthMetres + bodyLengthMetres / 2;
     this.ball = new three.Mesh(new three.SphereGeometry(0.006, 24, 16), this.material);

@@ -1,6 +1,5 @@
-import { Bench } from './bench.mjs';
+import { Bench, geometryOf } from './bench.mjs';
 import { boardTop, swatches, swatchMetres } from './board.mjs';
-import { geometryOf } from './bench.mjs';
 import { mirrorPosition, mirrorRotation } from './frames.mjs';
 import { Looks } from './looks.mjs';
 import { Panel, panelMetres } from './panel.mjs';
@@ -9,6 +8,7 @@ import { Pens } from './pens.mjs';
 // Everything that is seen, by three.js.
 
 const panelLeanRadians = 0.25;
+const skyColour = 0x8a949d;
 const deskThicknessMetres = 0.02;
 
 function lightsOf(three) {
@@ -18,10 +18,10 @@ function lightsOf(three) {
 }
 
 function floorOf(three) {
-  const floor = new three.Mesh(new three.CircleGeometry(6, 64).rotateX(-Math.PI / 2), new three.MeshStandardMaterial({ color: 0x5a636c, roughness: 1 }));
-  floor.add(new three.GridHelper(8, 16, 0x6d7780, 0x6d7780));
-  floor.children[0].position.y = 0.002;
-  return floor;
+  const floor = new three.Mesh(new three.PlaneGeometry(60, 60).rotateX(-Math.PI / 2), new three.MeshLambertMaterial({ color: 0x5a636c }));
+  const grid = new three.GridHelper(16, 32, 0x6d7780, 0x6d7780);
+  grid.position.y = 0.003;
+  return [floor, grid];
 }
 
 /** Renderer and scene of one session. */
@@ -55,16 +55,17 @@ export class Stage {
     this.#workbench = new three.Group();
     this.#workbench.add(this.#bench.group, ...this.#boardOf(labels), this.panel.mesh);
     this.#placePanel(labels.length);
-    this.#foot = new three.Mesh(new three.CylinderGeometry(0.03, 0.12, 1, 32), new three.MeshStandardMaterial({ color: 0x39424b, roughness: 0.7 }));
+    this.#foot = new three.Mesh(new three.CylinderGeometry(0.03, 0.12, 1, 32), new three.MeshLambertMaterial({ color: 0x39424b }));
     this.#scene = new three.Scene();
-    this.#scene.background = new three.Color(0x77818b);
-    this.#scene.add(...lightsOf(three), floorOf(three), this.#workbench, this.#foot, this.#pens.group);
+    this.#scene.background = new three.Color(skyColour);
+    this.#scene.fog = new three.Fog(skyColour, 2, 9);
+    this.#scene.add(...lightsOf(three), ...floorOf(three), this.#workbench, this.#foot, this.#pens.group);
   }
 
   #boardOf(labels) {
     const three = this.#three;
     const [width, height, thickness] = swatchMetres;
-    const edge = new three.MeshStandardMaterial({ color: 0x39424b });
+    const edge = new three.MeshLambertMaterial({ color: 0x39424b });
     const face = new three.PlaneGeometry(width, height);
     return swatches(labels).map(({ name, shape, position, rotation, material }) => {
       const swatch = new three.Mesh(geometryOf(three, shape), edge);
