@@ -202,7 +202,6 @@ export class Visit {
     if (this.reason !== 'left') return;
     this.reason = reason;
     this.#message = reasonsOfEnd[reason] + message;
-    this.#hands.lift();
     this.#session.end().catch(() => {});
   }
 
