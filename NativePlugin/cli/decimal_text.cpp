@@ -24,7 +24,7 @@ std::optional<Parts> partsOf(std::string_view text) {
     }
     // Not the truncated value, which may have been rounded up.
     const std::optional<double> whole = recordings::decimalNumber(text.substr(0, point));
-    const std::optional<double> fraction = recordings::decimalNumber("0" + std::string(text.substr(point)));
+    const std::optional<double> fraction = recordings::decimalNumber(std::string("0").append(text.substr(point)));
     return Parts{.whole = whole.value_or(0.0), .fraction = std::copysign(fraction.value_or(0.0), *value)};
 }
 

@@ -287,12 +287,15 @@ describe('what goes wrong on the way', { skip: !hasBrowser }, () => {
       const refused = await globalThis.HaptoFlow.learn({ recording: [{ name: 'rough.csv', bytes: new Uint8Array(9) }] }).then(() => 'learnt', ({ code }) => code);
       const haptics = await globalThis.HaptoFlow.create({ quality: 'sketch' });
       const rows = await haptics.measure({ seconds: 0.4 });
+      const costs = await haptics.measureEffects();
       await haptics.close();
-      return { aborted, refused, rows };
+      return { aborted, refused, rows, costs };
     });
     assert.equal(found.aborted, 'aborted');
     assert.equal(found.refused, 'RECORDING_UNUSABLE');
     assert.deepEqual(found.rows.map(({ tier }) => tier), ['sketch', 'draft', 'standard']);
+    assert.deepEqual(found.costs.map(({ effect }) => effect), ['texture', 'impact', 'edge', 'delay', 'compensation', 'listen']);
+    assert.ok(found.costs[0].microsecondsPerBlock > 0);
     assert.ok(found.rows.every(({ hotMs, pacedMs }) => hotMs.median > 0 && pacedMs.median >= hotMs.minimum));
   });
 

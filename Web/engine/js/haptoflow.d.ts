@@ -448,6 +448,13 @@ export interface Measurement {
   readonly pacedMs: { readonly minimum: number; readonly median: number; readonly percentile99: number };
 }
 
+/** What one effect costs on this device. */
+export interface EffectMeasurement {
+  readonly effect: 'texture' | 'impact' | 'edge' | 'delay' | 'compensation' | 'listen';
+  /** Added to a block of 128 frames by this effect alone; the texture's is that of a voice with nothing else. */
+  readonly microsecondsPerBlock: number;
+}
+
 /** The engine: one model, its worker and its voices. */
 export class HaptoFlow extends EventTarget {
   /**
@@ -482,6 +489,8 @@ export class HaptoFlow extends EventTarget {
   learn(options: LearnOptions): Promise<LearntMaterial>;
   /** Times tiers in a worker of its own; all of the model unless named. */
   measure(options?: { tiers?: readonly string[]; seconds?: number; signal?: AbortSignal; onProgress?: (share: number, doing: string) => void }): Promise<Measurement[]>;
+  /** Times every effect in a worker of its own: the arithmetic of the audio thread, without inference. Takes about 2 s. */
+  measureEffects(options?: { signal?: AbortSignal }): Promise<EffectMeasurement[]>;
   statistics(): Statistics;
   /** Resumes the audio context: call it in a gesture. */
   resume(): Promise<void>;

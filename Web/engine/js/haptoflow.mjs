@@ -69,7 +69,8 @@ export class HaptoFlow extends EventTarget {
   #quality;
   /** @type {any} the worker's last statistics */
   #lastStatistics = null;
-  #watch = 0;
+  /** @type {ReturnType<typeof setInterval> | undefined} */
+  #watch;
   #lastPing = 0;
   #isPinging = false;
   /** @type {Map<Voice, string>} */
@@ -282,6 +283,11 @@ export class HaptoFlow extends EventTarget {
     return runTask('measure', { ...this.#taskOptions, tiers, seconds, signal, onProgress });
   }
 
+  /** @param {{signal?: AbortSignal}} [options] */
+  measureEffects({ signal } = {}) {
+    return runTask('effects', { ...this.#taskOptions, signal });
+  }
+
   /** @returns {import('./haptoflow.d.ts').Statistics} */
   statistics() {
     this.#requireOpen();
@@ -347,7 +353,7 @@ export class HaptoFlow extends EventTarget {
 
   async #ping() {
     // A hidden page's timers and workers may stand still for seconds.
-    if (this.#isPinging || globalThis.document?.visibilityState === 'hidden' || performance.now() - this.#lastPing < pingEveryMs) return;
+    if (this.#isPinging || this.#live.isBusy || globalThis.document?.visibilityState === 'hidden' || performance.now() - this.#lastPing < pingEveryMs) return;
     this.#isPinging = true;
     const live = this.#live;
     const isAlive = await live.answers(pingLimitMs);

@@ -193,7 +193,7 @@ const worker = new LiveWorker();
 /** Requests are answered one after the other: the first one starts the engine. */
 let queue = Promise.resolve();
 
-globalThis.onmessage = ({ data: { id, request } }) => {
+globalThis.onmessage = (/** @type {MessageEvent<{id: number, request: WorkerRequest}>} */ { data: { id, request } }) => {
   queue = queue.then(async () => {
     try {
       const result = await worker.answer(request);

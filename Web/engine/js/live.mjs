@@ -1,11 +1,11 @@
 import { asHaptoFlowError, HaptoFlowError } from './errors.mjs';
 import { Core, createMemory } from './module.mjs';
 
-/**
- * @typedef {object} WorkerRequest
- * @property {string} type
- * @property {any} [module]
- */
+/** @typedef {{type: string} & Record<string, any>} WorkerRequest what live-worker.mjs answers, by its type */
+
+const pause = (/** @type {number} */ milliseconds) => new Promise((resolve) => {
+  setTimeout(resolve, milliseconds);
+});
 
 /** As in live-worker.mjs. */
 const control = { mail: 0, beat: 1, words: 2 };
@@ -16,7 +16,7 @@ const control = { mail: 0, beat: 1, words: 2 };
  */
 export class Live {
   #worker;
-  /** @type {Map<number, {resolve: (result: any) => void, reject: (error: HaptoFlowError) => void}>} */
+  /** @type {Map<number, {resolve: (result: any) => void, reject: (error: HaptoFlowError) => void, isQuick: boolean}>} */
   #waiting = new Map();
   #nextId = 1;
   #onLost;
@@ -88,7 +88,7 @@ export class Live {
 
   /**
    * Asks the worker.
-   * @param {WorkerRequest & Record<string, any>} request
+   * @param {WorkerRequest} request
    * @param {Transferable[]} [transfer]
    * @returns {Promise<any>}
    */
@@ -96,15 +96,15 @@ export class Live {
     if (this.#isEnded) return Promise.reject(new HaptoFlowError('closed', 'the engine is closed'));
     const id = this.#nextId++;
     const answer = new Promise((resolve, reject) => {
-      this.#waiting.set(id, { resolve, reject });
+      this.#waiting.set(id, { resolve, reject, isQuick: request.type === 'ping' || request.type === 'statistics' });
     });
     this.#post(id, request, transfer);
     return answer;
   }
 
-  /** Tells the worker without waiting for an answer. @param {WorkerRequest & Record<string, any>} request */
-  tell(request, transfer = []) {
-    if (!this.#isEnded) this.#post(0, request, transfer);
+  /** Tells the worker without waiting for an answer. @param {WorkerRequest} request */
+  tell(request) {
+    if (!this.#isEnded) this.#post(0, request, []);
   }
 
   #post(/** @type {number} */ id, /** @type {object} */ request, /** @type {Transferable[]} */ transfer) {
@@ -116,16 +116,20 @@ export class Live {
     }
   }
 
+  /** Whether the worker has something to do that can take long, such as loading a tier. */
+  get isBusy() {
+    return [...this.#waiting.values()].some(({ isQuick }) => !isQuick);
+  }
+
   /** Whether the worker answers within a time. @param {number} milliseconds */
   async answers(milliseconds) {
-    let timer;
-    const late = new Promise((resolve) => {
-      timer = setTimeout(() => resolve(false), milliseconds);
-    });
-    const answer = this.ask({ type: 'ping' }).then(() => true, () => false);
-    const result = await Promise.race([answer, late]);
-    clearTimeout(timer);
-    return result;
+    let hasAnswered = false;
+    const answer = this.ask({ type: 'ping' }).then(() => {
+      hasAnswered = true;
+    }, () => {});
+    // Where the page itself stood still, answer and alarm are due at once: the answer is let go first.
+    await Promise.race([answer, pause(milliseconds).then(() => pause(200))]);
+    return hasAnswered;
   }
 
   /** Ends the worker at once. @param {HaptoFlowError} [error] for those who wait */

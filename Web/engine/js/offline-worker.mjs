@@ -1,4 +1,5 @@
 import { plainError } from './errors.mjs';
+import { measureEffects } from './effect-costs.mjs';
 import { learn, measure, offlineCore, render } from './offline.mjs';
 import { startRuntime } from './runtime.mjs';
 
@@ -6,14 +7,16 @@ import { startRuntime } from './runtime.mjs';
 
 const onProgress = (/** @type {number} */ share, /** @type {string} */ doing) => postMessage({ progress: { share, doing } });
 
-globalThis.onmessage = async ({ data: { module, onnxRuntime, model, task, options } }) => {
+globalThis.onmessage = async (/** @type {MessageEvent<any>} */ { data: { module, onnxRuntime, model, task, options } }) => {
   try {
     const core = offlineCore({ module, model, runtime: await startRuntime(onnxRuntime), onProgress });
     if (task === 'render') {
       const result = render(core, options);
-      postMessage({ result }, [result.samples.buffer]);
+      postMessage({ result }, { transfer: [/** @type {ArrayBuffer} */ (result.samples.buffer)] });
     } else if (task === 'learn') {
       postMessage({ result: learn(core, options) });
+    } else if (task === 'effects') {
+      postMessage({ result: measureEffects(core) });
     } else {
       const tiers = options.tiers ?? core.json('hapto_model_json').tiers.map((/** @type {{name: string}} */ { name }) => name);
       postMessage({ result: await measure(core, { tiers, seconds: options.seconds }, onProgress) });

@@ -3,7 +3,7 @@ import { engineModule, modelBytes, placesOf } from './files.mjs';
 
 /**
  * Runs a task of offline.mjs in a worker of its own, which a signal ends at once.
- * @param {'render' | 'learn' | 'measure'} task
+ * @param {'render' | 'learn' | 'measure' | 'effects'} task
  * @param {any} options
  * @returns {Promise<any>}
  */

@@ -1,0 +1,87 @@
+import { effectMask, field, fieldCount } from './contact-fields.mjs';
+
+// What each effect adds to a block: a voice plays the same stroke with it and without it, in turns, and the quickest of each
+// count, since other programs only ever make a run slower.
+
+const sketchQuality = 4;
+const blockFrames = 128;
+const rateHz = 48000;
+const blocksPerState = 5;
+const statesPerRun = 60;
+const runs = 7;
+
+const texture = { texture: true, impact: false, edge: false };
+
+/** @type {{effect: string, effects?: object, set?: [string, number], actuator?: string}[]} */
+const subjects = [
+  { effect: 'impact', effects: { ...texture, impact: true } },
+  { effect: 'edge', effects: { ...texture, edge: true } },
+  { effect: 'delay', set: ['delay', 0.02] },
+  { effect: 'compensation', actuator: 'voice-coil' },
+  { effect: 'listen', set: ['listen', 1] },
+];
+
+class Player {
+  /** @param {import('./module.mjs').Core} core */
+  constructor(core) {
+    this.core = core;
+    this.fields = core.allocate(8 * fieldCount);
+    this.samples = core.allocate(4 * blockFrames);
+    this.counter = 0;
+  }
+
+  /** A voice with what a subject asks for. */
+  open(/** @type {{set?: [string, number], actuator?: string}} */ { set, actuator }) {
+    const voice = this.core.call('hapto_voice_create', rateHz);
+    if (set) this.core.call('hapto_voice_set', voice, ...set);
+    if (actuator) this.core.call('hapto_voice_set_actuator', voice, actuator, actuator.length);
+    return voice;
+  }
+
+  /** Milliseconds of the blocks of one run, without publishing and inference. */
+  play(/** @type {number} */ voice, /** @type {number} */ effects) {
+    const { core } = this;
+    let spent = 0;
+    for (let state = 0; state < statesPerRun; state += 1) {
+      const at = this.fields >> 3;
+      this.counter += state % 10 === 0 ? 1 : 0;
+      const values = { touching: 1, touchCounter: this.counter, labelCount: 1, weights: 1, velocity: 0.15, force: 1, approachSpeed: 0.2, effects, edgeCounter: this.counter, edgeHeight: 0.001, spatialScale: 1 };
+      for (const [name, value] of Object.entries(values)) core.f64[at + /** @type {any} */ (field)[name]] = value;
+      core.call('hapto_voice_publish', voice, this.fields);
+      core.call('hapto_engine_turn', 0);
+      const began = performance.now();
+      for (let block = 0; block < blocksPerState; block += 1) core.exports.hapto_voice_render(voice, this.samples, blockFrames, rateHz);
+      spent += performance.now() - began;
+    }
+    return spent;
+  }
+}
+
+/**
+ * @param {import('./module.mjs').Core} core with a model
+ * @returns {import('./haptoflow.d.ts').EffectMeasurement[]}
+ */
+export function measureEffects(core) {
+  core.call('hapto_engine_create', sketchQuality, 72, 200, 1, 8);
+  const player = new Player(core);
+  const perBlock = 1000 / (statesPerRun * blocksPerState);
+  const plain = player.open({});
+  const plainMask = effectMask(texture);
+  player.play(plain, plainMask);
+  let own = Infinity;
+  const rows = subjects.map((subject) => {
+    const voice = player.open(subject);
+    const mask = effectMask(subject.effects ?? texture);
+    player.play(voice, mask);
+    let [off, on] = [Infinity, Infinity];
+    for (let run = 0; run < runs; run += 1) {
+      off = Math.min(off, player.play(plain, plainMask));
+      on = Math.min(on, player.play(voice, mask));
+    }
+    own = Math.min(own, off);
+    core.call('hapto_voice_destroy', voice);
+    return { effect: subject.effect, microsecondsPerBlock: Math.max(0, on - off) * perBlock };
+  });
+  core.call('hapto_engine_close');
+  return /** @type {any} */ ([{ effect: 'texture', microsecondsPerBlock: own * perBlock }, ...rows]);
+}
