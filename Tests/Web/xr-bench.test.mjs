@@ -3,7 +3,7 @@ import { readFileSync } from 'node:fs';
 import path from 'node:path';
 import { test } from 'node:test';
 import * as three from 'three';
-import { Bench, geometryOf, shownLabel } from '../../Web/page/xr/bench.mjs';
+import { Bench, geometryOf } from '../../Web/page/xr/bench.mjs';
 import { boardTop, strokeOfPaint, swatches, withBoard } from '../../Web/page/xr/board.mjs';
 import { mirrorPosition } from '../../Web/page/xr/frames.mjs';
 import { wordsOfMaterial, wordsOfPanel } from '../../Web/page/xr/panel.mjs';
@@ -30,7 +30,6 @@ test('what is seen is what is touched: every object of the workbench is drawn wh
     name: 'wedge', material: 'wood', position: [0, 0.1, 0],
     shape: { mesh: { vertices: [[-0.05, 0, -0.05], [-0.05, 0, 0.05], [0.05, 0, 0.05], [0.05, 0, -0.05], [-0.05, 0.04, 0]], triangles: [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4], [0, 2, 1], [0, 3, 2]] } },
   }] };
-  // Materials of the tests have two sides for a ray, as three.js's own have one: the front.
   const bench = new Bench({ three, scene: meshes, looks: { material: () => new three.MeshBasicMaterial() } });
   let checked = 0;
   const seen = new Set();
@@ -100,8 +99,7 @@ test('painting changes the look of that object alone', () => {
   assert.equal(lookOf('stone tile'), 'stone');
 });
 
-test('a blend shows its heaviest label, and the panel names its shares', () => {
-  assert.equal(shownLabel({ wood: 0.25, fur: 0.75 }), 'fur');
+test('the panel names the shares of a blend', () => {
   assert.equal(wordsOfMaterial({ wood: 0.25, fur: 0.75 }), '25 % wood, 75 % fur');
   assert.equal(wordsOfMaterial({ wood: 1 }), 'wood');
 });

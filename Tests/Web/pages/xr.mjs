@@ -86,6 +86,16 @@ async function stroke(visit, seconds, placeOf, sides = ['right']) {
   }
 }
 
+/** A stroke, and what each voice was meanwhile: the reasons of its silences, "none" where it sounded. */
+async function listen(visit, seconds, placeOf, sides = ['right']) {
+  const found = haptics.voices.map(() => new Set());
+  await stroke(visit, seconds, (side, now) => {
+    haptics.voices.forEach((voice, index) => found[index].add(voice.silence));
+    return placeOf(side, now);
+  }, sides);
+  return found.map((reasons) => [...reasons]);
+}
+
 let haptics = null;
 
 /** Enters with the page's scene, or another one. */
@@ -106,4 +116,4 @@ async function enter({ quality = 'sketch', controllers = 'touch-plus', ...option
   return { visit, haptics, ends, painted };
 }
 
-Object.assign(globalThis, { HaptoFlow, tools: { pause, nextFrame, emulate, park, pulses, putTip, stroke, enter, enterHeadset, headsetIsPossible, P_DEVICE, P_SPACE } });
+Object.assign(globalThis, { HaptoFlow, tools: { pause, nextFrame, emulate, park, pulses, putTip, stroke, listen, enter, enterHeadset, headsetIsPossible, P_DEVICE, P_SPACE } });

@@ -46,12 +46,6 @@ export function geometryOf(three, shape) {
   return meshOf(three, shape.mesh);
 }
 
-/** The label that shows: the heaviest of a blend. */
-export function shownLabel(material) {
-  if (typeof material === 'string') return material;
-  return Object.keys(material).reduce((best, label) => (material[label] > material[best] ? label : best));
-}
-
 /** The objects of a scene. */
 export class Bench {
   #looks;
@@ -62,13 +56,13 @@ export class Bench {
    * @param {object} parts
    * @param {any} parts.three
    * @param {object} parts.scene SCENE.json
-   * @param {{material: (label: string) => any}} parts.looks
+   * @param {{material: (material: string | Record<string, number>) => any}} parts.looks
    */
   constructor({ three, scene, looks }) {
     this.#looks = looks;
     this.group = new three.Group();
     this.#objects = new Map(scene.surfaces.map((surface) => {
-      const mesh = new three.Mesh(geometryOf(three, surface.shape), looks.material(shownLabel(surface.material)));
+      const mesh = new three.Mesh(geometryOf(three, surface.shape), looks.material(surface.material));
       mesh.name = surface.name;
       this.group.add(mesh);
       return [surface.name, { mesh, motion: new Motion(surface), position: [0, 0, 0], rotation: [0, 0, 0, 1] }];

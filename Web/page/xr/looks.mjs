@@ -1,32 +1,21 @@
-import { drawPicture, tileMetres, tilePixels } from './pictures.mjs';
+import { Fills, tileMetres } from '../table/fills.mjs';
 
-// Materials of labels for three.js, by looks.json.
+// Materials of labels for three.js, with the pictures of the table.
 
-const plain = { colour: '#7a7a7a' };
+const widthPixels = 256;
 const captionPixels = 56;
-
-function canvasOf(width, height) {
-  const canvas = document.createElement('canvas');
-  canvas.width = width;
-  canvas.height = height;
-  return canvas;
-}
 
 /** Makes each material once. */
 export class Looks {
   #three;
-  #looks;
+  #fills;
   /** @type {Map<string, any>} */
   #materials = new Map();
 
   /** @param {any} three @param {{labels: Record<string, any>}} looks */
   constructor(three, looks) {
     this.#three = three;
-    this.#looks = looks.labels;
-  }
-
-  #look(label) {
-    return this.#looks[label] ?? plain;
+    this.#fills = new Fills(looks.labels);
   }
 
   #texture(canvas) {
@@ -36,27 +25,27 @@ export class Looks {
     return texture;
   }
 
-  /** For texture coordinates in metres. */
-  material(label) {
-    const known = this.#materials.get(label);
+  /** Of a label or a blend, for texture coordinates in metres. @param {string | Record<string, number>} material */
+  material(material) {
+    const key = JSON.stringify(material);
+    const known = this.#materials.get(key);
     if (known) return known;
-    const look = this.#look(label);
-    const canvas = canvasOf(tilePixels, tilePixels);
-    drawPicture(canvas.getContext('2d'), look);
-    const map = this.#texture(canvas);
+    const map = this.#texture(this.#fills.tile(material));
     map.wrapS = this.#three.RepeatWrapping;
     map.wrapT = this.#three.RepeatWrapping;
-    map.repeat.setScalar(1 / tileMetres(look));
+    map.repeat.setScalar(1 / tileMetres);
     const made = new this.#three.MeshLambertMaterial({ map });
-    this.#materials.set(label, made);
+    this.#materials.set(key, made);
     return made;
   }
 
   /** A picture with the label's name below it, for texture coordinates from 0 to 1. */
   caption(label, aspect) {
-    const canvas = canvasOf(tilePixels, Math.round(tilePixels / aspect));
+    const canvas = document.createElement('canvas');
+    canvas.width = widthPixels;
+    canvas.height = Math.round(widthPixels / aspect);
     const context = canvas.getContext('2d');
-    drawPicture(context, this.#look(label));
+    context.drawImage(this.#fills.tile(label), 0, 0);
     const top = canvas.height - captionPixels;
     context.fillStyle = '#15191d';
     context.fillRect(0, top, canvas.width, captionPixels);
