@@ -15,6 +15,13 @@ function scaleToMetres(geometry, metresOf) {
   return geometry;
 }
 
+/** Texture coordinates change places: the picture's lines run along the object. */
+function alongTheLength(geometry) {
+  const { uv } = geometry.attributes;
+  for (let index = 0; index < uv.count; index += 1) uv.setXY(index, uv.getY(index), uv.getX(index));
+  return geometry;
+}
+
 function boxOf(three, { size: [x, y, z] }) {
   const facing = (nx, ny) => (Math.abs(nx) > 0.5 ? [z, y] : Math.abs(ny) > 0.5 ? [x, z] : [x, y]);
   return scaleToMetres(new three.BoxGeometry(x, y, z), facing);
@@ -40,7 +47,7 @@ export function geometryOf(three, shape) {
   }
   if (shape.capsule) {
     const { radius, height } = shape.capsule;
-    return scaleToMetres(new three.CapsuleGeometry(radius, Math.max(0, height - 2 * radius), 12, 32), () => [2 * Math.PI * radius, height]);
+    return scaleToMetres(alongTheLength(new three.CapsuleGeometry(radius, Math.max(0, height - 2 * radius), 12, 32)), () => [height, 2 * Math.PI * radius]);
   }
   if (shape.plane) return scaleToMetres(new three.PlaneGeometry(planeMetres, planeMetres).rotateX(-Math.PI / 2), () => [planeMetres, planeMetres]);
   return meshOf(three, shape.mesh);

@@ -1,4 +1,5 @@
 import { strokeOfPaint, withBoard } from './board.mjs';
+import { Ears } from './ears.mjs';
 import { Placement } from './frames.mjs';
 import { Hand } from './hand.mjs';
 import { Hands } from './hands.mjs';
@@ -37,6 +38,7 @@ export class Visit {
   #session;
   #hands;
   #stage;
+  #ears;
   #labels;
   #objectCount;
   #onEnd;
@@ -61,6 +63,7 @@ export class Visit {
     const labels = haptics.labels.map(({ name }) => name);
     const board = withBoard(scene, labels);
     const opened = [];
+    const ears = new Ears(haptics.context, haptics.output);
     let stage = null;
     let hasEnded = false;
     session.addEventListener('end', () => {
@@ -68,21 +71,25 @@ export class Visit {
     }, { once: true });
     try {
       for (let side = 0; side < 2; side += 1) opened.push(await openHand(haptics, board.scene));
+      for (const { voice } of opened) ears.take(voice);
       stage = new Stage({ three, scene, looks, labels });
       await stage.renderer.xr.setSession(session);
       if (hasEnded) throw new Error('the headset was left while it loaded');
-      return new Visit({ haptics, session, stage, left: opened[0], right: opened[1], newtonsAtFullPressure, labels, objectCount: board.objectCount, onEnd, onPaint });
+      return new Visit({ haptics, session, stage, ears, left: opened[0], right: opened[1], newtonsAtFullPressure, labels, objectCount: board.objectCount, onEnd, onPaint });
     } catch (error) {
       stage?.close();
+      ears.close();
       await Promise.all(opened.map((hand) => hand.close()));
       throw error;
     }
   }
 
-  constructor({ haptics, session, stage, left, right, newtonsAtFullPressure, labels, objectCount, onEnd, onPaint }) {
+  constructor({ haptics, session, stage, ears, left, right, newtonsAtFullPressure, labels, objectCount, onEnd, onPaint }) {
     this.#haptics = haptics;
     this.#session = session;
     this.#stage = stage;
+    this.#ears = ears;
+    stage.place(this.placement);
     this.#hands = new Hands({ left, right, placement: this.placement, newtonsAtFullPressure });
     this.#labels = labels;
     this.#objectCount = objectCount;
@@ -216,6 +223,7 @@ export class Visit {
     const rates = this.rates();
     // An engine that is closed already has closed its voices.
     await this.#hands.close().catch(() => {});
+    this.#ears.close();
     this.#stage.close();
     this.#onEnd({ reason: this.reason, message: this.#message, ...rates });
   }
