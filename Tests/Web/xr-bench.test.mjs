@@ -26,10 +26,10 @@ function topOf(group, [x, , z]) {
 }
 
 test('what is seen is what is touched: every object of the workbench is drawn where the contact model has it', () => {
-  const meshes = { ...workbench, surfaces: [...workbench.surfaces, {
-    name: 'wedge', material: 'wood', position: [0, 0.1, 0],
-    shape: { mesh: { vertices: [[-0.05, 0, -0.05], [-0.05, 0, 0.05], [0.05, 0, 0.05], [0.05, 0, -0.05], [-0.05, 0.04, 0]], triangles: [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4], [0, 2, 1], [0, 3, 2]] } },
-  }] };
+  const vertices = [[-0.05, 0, -0.05], [-0.05, 0, 0.05], [0.05, 0, 0.05], [0.05, 0, -0.05], [-0.05, 0.04, 0]];
+  const triangles = [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4], [0, 2, 1], [0, 3, 2]];
+  const wedge = { name: 'wedge', material: 'wood', position: [0, 0.1, 0], shape: { mesh: { vertices, triangles } } };
+  const meshes = { ...workbench, surfaces: [...workbench.surfaces, wedge] };
   const bench = new Bench({ three, scene: meshes, looks: { material: () => new three.MeshBasicMaterial() } });
   let checked = 0;
   const seen = new Set();
@@ -106,13 +106,16 @@ test('the panel names the shares of a blend', () => {
 
 test('the panel says what is felt, at what cost, and why a hand is silent', () => {
   const side = { name: 'Right', device: 'MX Ink', isTracked: true, isTouching: true, silence: 'none', hasMotor: true, forceNewtons: 0.5 };
-  const words = wordsOfPanel({ label: 'wood', brush: 'glass', quality: 'draft', segmentMs: 0.4, posesPerSecond: 71.8, sides: [
-    side, { ...side, isTouching: false, silence: 'rest' }, { ...side, silence: 'paused' }, { ...side, isTracked: false }, { ...side, device: '' }, { ...side, hasMotor: false },
-  ] });
+  const others = [{ isTouching: false, silence: 'rest' }, { silence: 'paused' }, { isTracked: false }, { device: '' }, { hasMotor: false }];
+  const sides = [side, ...others.map((change) => ({ ...side, ...change }))];
+  const words = wordsOfPanel({ label: 'wood', brush: 'glass', quality: 'draft', segmentMs: 0.4, posesPerSecond: 71.8, sides });
   assert.equal(words.title, 'wood');
   assert.equal(words.cost, 'draft   0.40 ms a segment   72 poses a second');
   assert.match(words.hint, /glass/);
-  assert.deepEqual(words.sides, ['Right: MX Ink, 0.50 N', 'Right: MX Ink, silent: at rest', 'Right: MX Ink, silent: out of focus', 'Right: MX Ink, not tracked', 'Right: nothing held', 'Right: MX Ink, 0.50 N, no motor']);
+  assert.deepEqual(words.sides, [
+    'Right: MX Ink, 0.50 N', 'Right: MX Ink, silent: at rest', 'Right: MX Ink, silent: out of focus', 'Right: MX Ink, not tracked',
+    'Right: nothing held', 'Right: MX Ink, 0.50 N, no motor',
+  ]);
   assert.match(wordsOfPanel({ sides: [] }).cost, /- ms/);
 });
 

@@ -2,7 +2,9 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { mirrorPosition, mirrorRotation, mirrorTriangle, Placement, rotate } from '../../Web/page/xr/frames.mjs';
 
-const near = (found, expected, what = '') => Array.from(expected).forEach((value, index) => assert.ok(Math.abs(found[index] - value) < 1e-9, `${what} ${found} and ${expected}`));
+function near(found, expected, what = '') {
+  expected.forEach((value, index) => assert.ok(Math.abs(found[index] - value) < 1e-9, `${what} ${found} and ${expected}`));
+}
 const half = Math.SQRT1_2;
 
 test('what is ahead in the room is ahead in the scene, and right stays right', () => {

@@ -111,7 +111,8 @@ test('a stroke over two labels pulses with the envelope of the voice, and not ou
   const motor = correlation(compared.map(({ value }) => value), compared.map(({ share }) => share));
   // The loudness law of motors has this exponent (NativePlugin/src/effects/device_loudness.cpp).
   const level = correlation(compared.map(({ value }) => value), compared.map((frame) => frame.level ** 0.41));
-  console.log(`# ${compared.length} pulses, correlation with the motor output ${motor.toFixed(4)}, with the wave's level by the law of motors ${level.toFixed(4)}, ${found.rates.framesPerSecond.toFixed(1)} frames a second`);
+  const fit = `correlation with the motor output ${motor.toFixed(4)}, with the wave's level by the law of motors ${level.toFixed(4)}`;
+  console.log(`# ${compared.length} pulses, ${fit}, ${found.rates.framesPerSecond.toFixed(1)} frames a second`);
   assert.ok(motor > 0.9, `${motor}`);
   assert.ok(level > 0.9, `${level}`);
 });
@@ -138,7 +139,9 @@ test('ears hear the texture far above its true level, and the wave for the motor
     return levels;
   });
   const decibels = (value) => Number((20 * Math.log10(value)).toFixed(1));
-  console.log(`# ${JSON.stringify(Object.fromEntries(Object.entries(found).map(([label, { heard, felt, peak }]) => [label, { heardDb: decibels(heard), feltDb: decibels(felt), peak }])))}`);
+  for (const [label, { heard, felt, peak }] of Object.entries(found)) {
+    console.log(`# ${label}: ears ${decibels(heard)} dBFS, motor ${decibels(felt)} dBFS, peak ${peak.toFixed(2)}`);
+  }
   assert.ok(found.wood.heard > 8 * found.wood.felt && found.sandpaper.heard > 2 * found.sandpaper.felt);
   assert.ok(found.sandpaper.heard > found.wood.heard);
   assert.ok(found.wood.peak < 1 && found.sandpaper.peak < 1);
@@ -272,7 +275,7 @@ test('a swatch sounds when it is touched, and the button paints the object with 
 test('an MX Ink presses with its tip force: harder is stronger', { skip }, async () => {
   const found = await inPage(async () => {
     const { enter, stroke, pulses } = globalThis.tools;
-    const scene = { surfaces: [{ name: 'fur', shape: { box: { size: [0.4, 0.02, 0.3] } }, position: [0, -0.01, 0], material: 'fur' }], stylus: { tip_radius: 0.001 }, update_rate: 72 };
+    const scene = { surfaces: [{ name: 'fur', shape: { box: { size: [0.4, 0.02, 0.3] } }, position: [0, -0.01, 0], material: 'fur' }] };
     const { visit } = await enter({ controllers: 'mx-ink', newtonsAtFullPressure: 3, scene });
     const slide = (side, s) => [0.08 * Math.sin(3 * s), 0.0005, 0];
     const medians = [];

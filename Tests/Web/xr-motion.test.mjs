@@ -9,9 +9,20 @@ import { sceneOpener } from './support/contact.mjs';
 const { open } = await sceneOpener();
 const turn = (angle, [x, y, z]) => [Math.sin(angle / 2) * x, Math.sin(angle / 2) * y, Math.sin(angle / 2) * z, Math.cos(angle / 2)];
 const motions = {
-  'there and back, in a loop': { loop: true, keyframes: [{ t: 0, position: [-0.07, 0.002, 0] }, { t: 4, position: [0.07, 0.002, 0] }, { t: 8, position: [-0.07, 0.002, 0] }] },
-  'a curve that turns': { loop: false, keyframes: [{ t: 1, position: [0.2, 0, 0] }, { t: 1.5, position: [0.25, 0.02, 0.1], rotation: turn(1, [0, 1, 0]) }, { t: 3, position: [0.1, 0, -0.1], rotation: turn(2.5, [0, 0.6, 0.8]) }] },
-  'an open loop of two keyframes, the long way of its signs': { loop: true, keyframes: [{ t: 0, rotation: [0, 0, 0, 1] }, { t: 2, position: [0.1, 0, 0], rotation: turn(0.8, [0, 1, 0]).map((part) => -part) }] },
+  'there and back, in a loop': { loop: true, keyframes: [
+    { t: 0, position: [-0.07, 0.002, 0] },
+    { t: 4, position: [0.07, 0.002, 0] },
+    { t: 8, position: [-0.07, 0.002, 0] },
+  ] },
+  'a curve that turns': { loop: false, keyframes: [
+    { t: 1, position: [0.2, 0, 0] },
+    { t: 1.5, position: [0.25, 0.02, 0.1], rotation: turn(1, [0, 1, 0]) },
+    { t: 3, position: [0.1, 0, -0.1], rotation: turn(2.5, [0, 0.6, 0.8]) },
+  ] },
+  'an open loop of two keyframes, the long way of its signs': { loop: true, keyframes: [
+    { t: 0, rotation: [0, 0, 0, 1] },
+    { t: 2, position: [0.1, 0, 0], rotation: turn(0.8, [0, 1, 0]).map((part) => -part) },
+  ] },
 };
 
 for (const [name, motion] of Object.entries(motions)) {

@@ -3,7 +3,7 @@ import { enterHeadset, headsetIsPossible } from '../xr/headset.mjs';
 
 // An emulated Quest, and what tests do with it: strokes in the scene's frame, and every pulse that a controller gets.
 
-const { XRDevice, metaQuest3, metaQuestTouchPlus, P_SPACE, P_DEVICE } = globalThis.IWER;
+const { XRDevice, metaQuest3, metaQuestTouchPlus, P_SPACE } = globalThis.IWER;
 const nibMetres = 0.06;
 
 const pause = (milliseconds) => new Promise((resolve) => {
@@ -22,7 +22,10 @@ const ink = {
     right: {
       gamepad: {
         mapping: 'xr-standard',
-        buttons: [{ ...button('trigger'), eventTrigger: 'select' }, { ...button('squeeze'), eventTrigger: 'squeeze' }, null, null, button('touch-pad'), button('tip-force'), button('docked', 'binary')],
+        buttons: [
+          { ...button('trigger'), eventTrigger: 'select' }, { ...button('squeeze'), eventTrigger: 'squeeze' }, null, null,
+          button('touch-pad'), button('tip-force'), button('docked', 'binary'),
+        ],
         axes: [],
       },
       numHapticActuators: 1,
@@ -116,4 +119,4 @@ async function enter({ quality = 'sketch', controllers = 'touch-plus', ...option
   return { visit, haptics, ends, painted };
 }
 
-Object.assign(globalThis, { HaptoFlow, tools: { pause, nextFrame, emulate, park, pulses, putTip, stroke, listen, enter, enterHeadset, headsetIsPossible, P_DEVICE, P_SPACE } });
+Object.assign(globalThis, { HaptoFlow, tools: { pause, nextFrame, park, pulses, putTip, stroke, listen, enter, headsetIsPossible, P_SPACE } });

@@ -18,6 +18,7 @@ export class Hand {
   #isSuspended = false;
   #wasTouching = false;
   #knowsPlace = false;
+  #isLifted = false;
   /** What the tip touches, or null. The same object in every frame. */
   contact = null;
   /** The newest pulse, 0 for none. */
@@ -75,6 +76,7 @@ export class Hand {
     tip.forceNewtons = forceNewtons;
     const contact = this.#scene.publish(this.#voice, tip);
     this.#knowsPlace = true;
+    this.#isLifted = false;
     this.contact = contact.touching ? contact : null;
   }
 
@@ -90,6 +92,8 @@ export class Hand {
   /** Nothing touches any more, and where the tip was is forgotten: what comes next is a new touch, not a jump. */
   lift() {
     this.contact = null;
+    if (this.#isLifted) return;
+    this.#isLifted = true;
     this.#voice.lift();
     if (!this.#knowsPlace) return;
     this.#knowsPlace = false;

@@ -24,11 +24,11 @@ export async function headsetIsPossible() {
  * @returns {Promise<import('./visit.mjs').Visit>} `end()` leaves, `rates()` says how often poses come
  */
 export async function enterHeadset({ haptics, scene, looks, onEnd = () => {}, onPaint = () => {}, newtonsAtFullPressure = defaultNewtonsAtFullPressure }) {
-  // Both need the gesture, which loading would outlast.
-  const resumed = haptics.resume();
+  // Both need the gesture, which loading would outlast. Sound may come later than sight.
+  haptics.resume().catch(() => {});
   const session = await navigator.xr.requestSession('immersive-vr', { requiredFeatures: ['local-floor'], optionalFeatures: ['hand-tracking'] });
   try {
-    const [three, { Visit }] = await Promise.all([import('../three/three.module.js'), import('./visit.mjs'), resumed]);
+    const [three, { Visit }] = await Promise.all([import('../three/three.module.js'), import('./visit.mjs')]);
     return await Visit.begin({ haptics, scene, looks, three, session, newtonsAtFullPressure, onEnd, onPaint });
   } catch (error) {
     await session.end().catch(() => {});

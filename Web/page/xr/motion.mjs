@@ -47,7 +47,8 @@ export class Motion {
     positionAt({ keyframes: frames, loop: this.#isLoop }, timeSeconds, this.position);
     const first = frames[0].t;
     const last = frames[frames.length - 1].t;
-    const time = this.#isLoop ? timeSeconds - (last - first) * Math.floor((timeSeconds - first) / (last - first)) : Math.min(last, Math.max(first, timeSeconds));
+    const period = last - first;
+    const time = this.#isLoop ? timeSeconds - period * Math.floor((timeSeconds - first) / period) : Math.min(last, Math.max(first, timeSeconds));
     let right = 1;
     while (right < frames.length - 1 && frames[right].t <= time) right += 1;
     const a = frames[right - 1];

@@ -15,7 +15,8 @@ class Pen {
     const cone = new three.Mesh(new three.ConeGeometry(radiusMetres, tipLengthMetres, 24), this.material);
     cone.rotation.x = -Math.PI / 2;
     cone.position.z = tipLengthMetres / 2;
-    const body = new three.Mesh(new three.CylinderGeometry(radiusMetres, radiusMetres, bodyLengthMetres, 24), new three.MeshLambertMaterial({ color: 0x39424b }));
+    const barrel = new three.CylinderGeometry(radiusMetres, radiusMetres, bodyLengthMetres, 24);
+    const body = new three.Mesh(barrel, new three.MeshLambertMaterial({ color: 0x39424b }));
     body.rotation.x = Math.PI / 2;
     body.position.z = tipLengthMetres + bodyLengthMetres / 2;
     this.ball = new three.Mesh(new three.SphereGeometry(0.006, 24, 16), this.material);

@@ -75,7 +75,9 @@ export class Visit {
       stage = new Stage({ three, scene, looks, labels });
       await stage.renderer.xr.setSession(session);
       if (hasEnded) throw new Error('the headset was left while it loaded');
-      return new Visit({ haptics, session, stage, ears, left: opened[0], right: opened[1], newtonsAtFullPressure, labels, objectCount: board.objectCount, onEnd, onPaint });
+      const [left, right] = opened;
+      const { objectCount } = board;
+      return new Visit({ haptics, session, stage, ears, left, right, newtonsAtFullPressure, labels, objectCount, onEnd, onPaint });
     } catch (error) {
       stage?.close();
       ears.close();
@@ -141,6 +143,8 @@ export class Visit {
   };
 
   #press = ({ inputSource }) => {
+    // A press is what a suspended audio context waits for.
+    if (this.#haptics.context.state !== 'running') this.#haptics.resume().catch(() => {});
     const hand = this.#hands.sideOf(inputSource)?.hand;
     const paint = hand ? strokeOfPaint(hand.contact, this.#brush, this.#objectCount) : null;
     if (!paint) return;
