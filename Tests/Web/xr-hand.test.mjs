@@ -213,6 +213,15 @@ test('a guessed position, no pose and a pen in its dock do not touch', () => {
   assert.equal(isTouching(), false);
 });
 
+test('a source that never measures its position is taken as it is', () => {
+  const { right, hands, source, put, step } = session();
+  const pen = source('right');
+  hands.bind([pen]);
+  put(pen.targetRaySpace, on(0), { emulatedPosition: true });
+  step();
+  assert.notEqual(right.hand.contact, null);
+});
+
 test('the tip of an MX Ink presses with its force, a finger touches with its joint', () => {
   const { right, hands, source, put, step } = session();
   const pen = source('right');

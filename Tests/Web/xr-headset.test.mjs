@@ -153,16 +153,19 @@ test('out of focus, hidden and back: silence at once, no pulse, then touch again
     const { visit, haptics } = await enter();
     const voice = haptics.voices[1];
     const slide = (side, s) => [-0.185 + 0.03 * Math.sin(8 * s), 0.0004, -0.112];
+    const tap = voice.waveTap();
+    const wave = new Float32Array(2400);
     const states = [];
     for (const state of ['visible-blurred', 'hidden']) {
       const [, sounding] = await listen(visit, 0.6, slide);
       device.updateVisibilityState(state);
       await nextFrame();
       await nextFrame();
-      await nextFrame();
-      await pause(50);
+      // Without shared memory the page hears of the voice ten times a second.
+      await pause(250);
       const before = pulses.length;
-      const away = { silence: voice.silence, paused: voice.paused };
+      tap.latest(wave);
+      const away = { silence: voice.silence, paused: voice.paused, peak: Math.max(...wave) };
       await stroke(visit, 0.3, slide);
       const sent = pulses.length - before;
       device.updateVisibilityState('visible');
@@ -176,7 +179,7 @@ test('out of focus, hidden and back: silence at once, no pulse, then touch again
   });
   for (const { state, sounding, away, sent, back, paused, pulsesAfter } of found) {
     assert.ok(sounding.includes('none'), state);
-    assert.deepEqual(away, { silence: 'paused', paused: true }, state);
+    assert.deepEqual(away, { silence: 'paused', paused: true, peak: 0 }, state);
     assert.equal(sent, 0, state);
     assert.ok(back.includes('none'), state);
     assert.equal(paused, false, state);
@@ -218,6 +221,25 @@ test('a lost pose lifts, and the pose that comes back elsewhere is no jump', { s
   assert.ok(['rest', 'stale'].includes(found.silence), found.silence);
   assert.equal(found.onsets, 0);
   assert.equal(found.taps, 0);
+});
+
+test('after the room was recentred the bench stands before the viewer again', { skip }, async () => {
+  const found = await inPage(async () => {
+    const { enter, nextFrame, stroke, pulses } = globalThis.tools;
+    const { visit } = await enter();
+    device.position.set(0.4, 1.5, -0.2);
+    device.recenter();
+    for (let frame = 0; frame < 4; frame += 1) await nextFrame();
+    const begin = pulses.length;
+    await stroke(visit, 0.5, (side, s) => [-0.185 + 0.03 * Math.sin(8 * s), 0.0004, -0.112]);
+    const result = { bench: [...visit.placement.position], viewer: [device.position.x, device.position.y, device.position.z], pulses: pulses.length - begin };
+    device.position.set(0, 1.3, 0);
+    await visit.end();
+    return result;
+  });
+  const [x, y, z] = found.viewer;
+  [x, y - 0.45, z - 0.45].forEach((value, axis) => assert.ok(Math.abs(found.bench[axis] - value) < 1e-6, JSON.stringify(found)));
+  assert.ok(found.pulses > 0);
 });
 
 test('two hands at once have two voices; one that vanishes in mid-stroke falls silent, comes back and sounds', { skip }, async () => {

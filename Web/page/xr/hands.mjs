@@ -10,6 +10,8 @@ class Side {
   /** @type {import('./profiles.mjs').Profile | null} */
   profile = null;
   isTracked = false;
+  /** Whether the source ever measured its position: one that never does has nothing better than its guess. */
+  #measures = false;
   /** Of the tip, in the room. */
   position = new Float64Array(3);
   orientation = new Float64Array([0, 0, 0, 1]);
@@ -27,15 +29,17 @@ class Side {
     this.source = source;
     this.profile = source && profileOf(source);
     this.isTracked = false;
+    this.#measures = false;
     this.hand.hold(source?.gamepad ?? null);
   }
 
-  /** Reads the pose; a guessed position counts as none: it would scratch, and jump when the true one comes. */
+  /** Reads the pose. A position that is guessed while tracking fails is none: it would scratch, and jump when the true one comes. */
   track(frame, space) {
     const { source, profile } = this;
     const place = source && (profile.joint ? source.hand.get(profile.joint) : source.targetRaySpace);
     const pose = place ? (profile.joint ? frame.getJointPose(place, space) : frame.getPose(place, space)) : null;
-    this.isTracked = Boolean(pose) && !pose.emulatedPosition && !isDocked(profile, source.gamepad);
+    if (pose && !pose.emulatedPosition) this.#measures = true;
+    this.isTracked = Boolean(pose) && !(pose.emulatedPosition && this.#measures) && !isDocked(profile, source.gamepad);
     if (!this.isTracked) return;
     const { position, orientation } = pose.transform;
     this.orientation[0] = orientation.x;

@@ -3,13 +3,11 @@ import { Ears } from './ears.mjs';
 import { Placement } from './frames.mjs';
 import { Hand } from './hand.mjs';
 import { Hands } from './hands.mjs';
-import { wordsOfMaterial } from './panel.mjs';
-import { Rate } from './rates.mjs';
+import { Report } from './report.mjs';
 import { Stage } from './stage.mjs';
 
 // One stay in the headset: what happens in each frame, and at each event of the session.
 
-const panelEveryMs = 250;
 const usualFrameMs = 1000 / 72;
 
 const reasonsOfEnd = {
@@ -48,10 +46,7 @@ export class Visit {
   #beganMs = -1;
   #lastMs = -1;
   #frameMs = usualFrameMs;
-  #panelMs = -Infinity;
-  #frames = 0;
-  #frameRate = new Rate();
-  #poseRate = new Rate();
+  #report;
   /** What was touched last: a label, or labels with weights. */
   #material = '';
   #brush = '';
@@ -91,6 +86,7 @@ export class Visit {
     this.#session = session;
     this.#stage = stage;
     this.#ears = ears;
+    this.#report = new Report({ haptics, panel: stage.panel });
     stage.place(this.placement);
     this.#hands = new Hands({ left, right, placement: this.placement, newtonsAtFullPressure });
     this.#labels = labels;
@@ -117,7 +113,7 @@ export class Visit {
 
   /** Frames and distinct poses of the busier hand, per second, over the last second; NaN before. */
   rates() {
-    return { framesPerSecond: this.#frameRate.perSecond, posesPerSecond: this.#poseRate.perSecond };
+    return this.#report.rates();
   }
 
   /** Leaves the headset. */
@@ -173,13 +169,13 @@ export class Visit {
     if (!this.#isPlaced) this.#place(frame);
     this.#hands.update(frame, this.#space, timeSeconds, this.#frameMs);
     this.#takeMaterials();
-    this.#count(timeMs);
+    this.#report.update(timeMs, this.#hands.sides, this.#material, this.#brush);
     this.#stage.render(timeSeconds, this.#hands.sides);
   }
 
   #place(frame) {
     const pose = frame.getViewerPose(this.#space);
-    if (!pose || pose.emulatedPosition) return;
+    if (!pose) return;
     const { position, orientation } = pose.transform;
     this.placement.before([position.x, position.y, position.z], [orientation.x, orientation.y, orientation.z, orientation.w]);
     this.#stage.place(this.placement);
@@ -193,20 +189,6 @@ export class Visit {
       this.#material = material;
       if (surfaceIndex >= this.#objectCount) this.#brush = this.#labels[surfaceIndex - this.#objectCount];
     }
-  }
-
-  #count(timeMs) {
-    this.#frames += 1;
-    const [left, right] = this.#hands.sides;
-    this.#frameRate.update(timeMs, this.#frames);
-    this.#poseRate.update(timeMs, Math.max(left.hand.poses, right.hand.poses));
-    if (timeMs - this.#panelMs < panelEveryMs) return;
-    this.#panelMs = timeMs;
-    const { tier, lastRoundMs } = this.#haptics.statistics();
-    this.#stage.panel.show({
-      label: wordsOfMaterial(this.#material), brush: this.#brush, quality: tier, segmentMs: lastRoundMs, posesPerSecond: this.#poseRate.perSecond,
-      sides: this.#hands.sides.map(wordsFor),
-    });
   }
 
   #leave(reason, message) {
@@ -231,16 +213,4 @@ export class Visit {
     this.#stage.close();
     this.#onEnd({ reason: this.reason, message: this.#message, ...rates });
   }
-}
-
-function wordsFor({ name, source, profile, isTracked, hand }) {
-  return {
-    name: name === 'left' ? 'Left' : 'Right',
-    device: source === null ? '' : profile.name,
-    isTracked,
-    isTouching: hand.contact !== null,
-    silence: hand.voice.statistics().silence,
-    hasMotor: hand.hasMotor,
-    forceNewtons: hand.contact?.forceNewtons ?? NaN,
-  };
 }
