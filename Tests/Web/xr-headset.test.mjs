@@ -55,20 +55,23 @@ test('a stroke over two labels pulses with the envelope of the voice, and not ou
     const voice = haptics.voices[1];
     const tap = voice.waveTap({ seconds: 2 });
     const reference = voice.motorTap();
-    const wave = new Float32Array(96000);
+    const wave = new Float32Array(24000);
     const frames = [];
-    // Beside every pulse, of the wave since the one before: its loudest 5 ms, and the motor output's own points.
-    const loudest = (count) => {
+    let written = 0;
+    // Beside every pulse: the loudest 20 ms that ended since the one before, and the motor output's own points.
+    const loudest = (newFrames) => {
+      tap.latest(wave);
       let most = 0;
-      for (let from = 0; from + 240 <= count; from += 240) {
+      for (let end = wave.length; end > Math.max(960, wave.length - newFrames); end -= 120) {
         let sum = 0;
-        for (let index = from; index < from + 240; index += 1) sum += wave[index] ** 2;
-        most = Math.max(most, Math.sqrt(sum / 240));
+        for (let index = end - 960; index < end; index += 1) sum += wave[index] ** 2;
+        most = Math.max(most, Math.sqrt(sum / 960));
       }
       return most;
     };
     globalThis.onPulse = (side, value) => {
-      const count = tap.read(wave);
+      const count = tap.written - written;
+      written += count;
       const points = reference.read();
       const shares = points.map(({ share, transientShare }) => Math.max(share, transientShare));
       frames.push({ side, value, level: loudest(count), count, share: Math.max(0, ...shares), points: points.length, frame });
