@@ -85,12 +85,6 @@ class Page {
     slider('gain', (value) => `${Math.round(value)} %`, (value) => {
       for (const voice of this.voices) voice.gain = value / 100;
     });
-    const listen = find('#listen');
-    const applyListen = () => this.voices.forEach((voice) => {
-      voice.listen = listen.checked;
-    });
-    listen.addEventListener('change', applyListen);
-    applyListen();
     this.#makePresets();
     this.palette = new Palette({
       haptics, fills,
@@ -123,6 +117,14 @@ class Page {
     this.outputs = new Outputs(this.voices);
     this.device = new DevicePanel(haptics, this.hand, this.voices[0]);
     this.scope = new Scope(this.voices.map((voice) => voice.waveTap()));
+    const listen = find('#listen');
+    const applyListen = () => {
+      for (const voice of this.voices) voice.listen = listen.checked;
+      this.scope.isForEars = listen.checked;
+    };
+    listen.addEventListener('change', applyListen);
+    applyListen();
+    this.hand.onHover = (place) => this.#showHover(place);
     view.selected = scene.surfaces.findIndex((/** @type {any} */ surface) => surface.material === 'corduroy');
     this.palette.select(view.selected);
     this.#listenToEngine();
@@ -152,6 +154,19 @@ class Page {
     this.view.selected = index;
     this.palette.select(index);
     if (this.palette.isPainting) this.paint(index, this.palette.material);
+  }
+
+  #showHover(/** @type {{x: number, z: number} | null} */ place) {
+    const index = place ? this.table.at(place.x, place.z) : -1;
+    find('#reading-name').textContent = index < 0 ? 'Press and draw' : this.#nameOf(index);
+    find('#reading-numbers').textContent = index < 0 ? '' : (this.looks.surfaces[this.scene.surfaces[index].name]?.words ?? '');
+  }
+
+  /** Title and material of an object. */
+  #nameOf(/** @type {number} */ index) {
+    const material = this.table.materials[index];
+    const words = typeof material === 'string' ? material : Object.entries(material).map(([label, share]) => `${Math.round(100 * share)} % ${label}`).join(' and ');
+    return `${this.titleOf(index)} · ${words}`;
   }
 
   #makePresets() {
@@ -273,10 +288,7 @@ class Page {
   #showReading() {
     const tip = this.tips.find(({ isDown, contact }) => isDown && contact?.touching);
     if (!tip?.contact) return '';
-    const index = tip.contact.surfaceIndex;
-    const material = this.table.materials[index];
-    const words = typeof material === 'string' ? material : Object.entries(material).map(([label, share]) => `${Math.round(100 * share)} % ${label}`).join(' and ');
-    const name = `${this.titleOf(index)} · ${words}`;
+    const name = this.#nameOf(tip.contact.surfaceIndex);
     const heading = find('#reading-name');
     if (heading.textContent !== name) heading.textContent = name;
     find('#reading-numbers').textContent = `${Math.round(1000 * tip.speedMps)} mm/s · ${shown(tip.contact.forceNewtons, 1)} N`;

@@ -47,7 +47,11 @@ export class Hand {
     canvas.addEventListener('pointerdown', (event) => this.#down(event));
     // Rawer events come as they are measured, where the browser has them; the others once a frame.
     canvas.addEventListener('onpointerrawupdate' in globalThis ? 'pointerrawupdate' : 'pointermove', (event) => this.#move(/** @type {PointerEvent} */ (event)));
-    canvas.addEventListener('pointermove', (event) => this.#predict(event));
+    canvas.addEventListener('pointermove', (event) => {
+      this.#predict(event);
+      if (this.#held.size === 0) this.onHover(this.#placeOf(event));
+    });
+    canvas.addEventListener('pointerleave', () => this.onHover(null));
     for (const type of /** @type {const} */ (['pointerup', 'pointercancel', 'lostpointercapture'])) canvas.addEventListener(type, (event) => this.#release(event.pointerId));
     canvas.addEventListener('wheel', (event) => this.#wheel(event), { passive: false });
     canvas.addEventListener('keydown', (event) => this.#keyDown(event));
@@ -108,7 +112,6 @@ export class Hand {
 
   #down(/** @type {PointerEvent} */ event) {
     if (event.button !== 0) return;
-    this.#canvas.focus({ preventScroll: true });
     const { x, z } = this.#placeOf(event);
     this.#onTouch(x, z);
     const held = this.#hold(event.pointerId);
@@ -149,6 +152,9 @@ export class Hand {
     event.preventDefault();
     this.onForceStep(event.deltaY < 0 ? 1 : -1);
   }
+
+  /** A pointer is over the table and nothing touches; null when it leaves. @type {(place: {x: number, z: number} | null) => void} */
+  onHover = () => {};
 
   /** Asked to press harder (1) or less (-1); the page changes its slider. @type {(direction: number) => void} */
   onForceStep = () => {};

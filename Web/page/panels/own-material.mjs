@@ -15,6 +15,8 @@ export class OwnMaterialPanel {
   #doing = find('#learn-doing');
   #result = find('#learn-result');
   #save = find('#learn-save');
+  /** Of processor time for one fit. */
+  secondsLimit = 20;
   /** @type {AbortController | null} */
   #abort = null;
   /** @type {import('../../engine/js/haptoflow.d.ts').LearntMaterial | null} */
@@ -67,6 +69,7 @@ export class OwnMaterialPanel {
       const recording = await Promise.all(ordered.map(async (file) => ({ name: file.name, bytes: await file.arrayBuffer() })));
       const learnt = await this.#haptics.learn({
         recording,
+        secondsLimit: this.secondsLimit,
         signal: abort.signal,
         onProgress: (share, doing) => {
           this.#bar.value = share;

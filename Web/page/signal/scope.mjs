@@ -7,6 +7,7 @@ const bandCount = 128;
 const hopSeconds = 0.016;
 const topHz = 1000;
 const quietest = 1e-8;
+const shownDb = 50;
 
 /** Waveform, spectrogram and level of what is played now. */
 export class Scope {
@@ -27,7 +28,6 @@ export class Scope {
   #sum = 0;
   #summed = 0;
   #every;
-  #sinceColumn = 0;
   #column = new ImageData(1, bandCount);
   #image = new OffscreenCanvas(1, 1);
   #fresh;
@@ -36,6 +36,10 @@ export class Scope {
   #drawnAt = 0;
   #palette = paletteOf();
   rmsMps2 = 0;
+  /** What is made for ears is no acceleration: it is shown as a part of full scale. */
+  isForEars = false;
+  /** Level of the brightest band of late, dB. */
+  #brightestDb = -20;
 
   /** @param {import('../../engine/js/haptoflow.d.ts').WaveTap[]} taps */
   constructor(taps) {
@@ -101,14 +105,14 @@ export class Scope {
     context.globalCompositeOperation = 'copy';
     context.drawImage(this.#image, -1, 0);
     context.globalCompositeOperation = 'source-over';
+    const decibels = (/** @type {number} */ power) => 10 * Math.log10(power + quietest);
+    this.#brightestDb = Math.max(-25, this.#brightestDb - 0.02, decibels(Math.max(...this.#bands)));
     for (let band = 0; band < bandCount; band += 1) {
-      // From -60 dB to +10 dB re 1 (m/s^2)^2 a band.
-      const share = Math.min(1, Math.max(0, (10 * Math.log10(this.#bands[band] + quietest) + 55) / 60));
+      const share = Math.min(1, Math.max(0, 1 + (decibels(this.#bands[band]) - this.#brightestDb) / shownDb));
       const colour = Math.round(share * 255);
       this.#column.data.set(this.#palette.subarray(4 * colour, 4 * colour + 4), 4 * (bandCount - 1 - band));
     }
     context.putImageData(this.#column, columns - 1, 0);
-    this.#sinceColumn += 1;
   }
 
   #fit(/** @type {HTMLCanvasElement} */ canvas) {
@@ -130,7 +134,7 @@ export class Scope {
     this.#peak = Math.max(peak, 0.5, this.#peak * 0.97);
     // Steps of the scale, so that its number can be read.
     const scale = [1, 2, 5, 10, 20, 50, 100, 200].find((step) => step >= this.#peak) ?? 200;
-    this.#scaleText.textContent = `±${scale} m/s²`;
+    this.#scaleText.textContent = this.isForEars ? `±${Number((scale / 2).toPrecision(2))} % of full scale` : `±${scale} m/s²`;
     const style = getComputedStyle(canvas);
     context.clearRect(0, 0, width, height);
     context.strokeStyle = style.borderTopColor;
@@ -161,7 +165,8 @@ export class Scope {
   #drawLevel() {
     const share = this.rmsMps2 < 1e-3 ? 0 : Math.min(1, Math.max(0, (20 * Math.log10(this.rmsMps2) + 40) / 66));
     this.#meter.value = share;
-    this.#levelText.textContent = this.rmsMps2 < 1e-3 ? 'silent' : `${this.rmsMps2.toFixed(2)} m/s²`;
+    const text = this.isForEars ? `${(20 * Math.log10(this.rmsMps2 / fullScaleMps2)).toFixed(0)} dB` : `${this.rmsMps2.toFixed(2)} m/s²`;
+    this.#levelText.textContent = this.rmsMps2 < 1e-3 ? 'silent' : text;
   }
 
   #drawSpectrogram() {

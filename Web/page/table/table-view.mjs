@@ -193,9 +193,12 @@ export class TableView {
       context.beginPath();
       context.moveTo(trail[at - 1].x, trail[at - 1].z);
       context.lineTo(trail[at].x, trail[at].z);
-      context.lineWidth = 0.0035;
-      context.strokeStyle = `rgb(255 255 255 / ${(0.75 * at) / trailLength})`;
-      context.stroke();
+      const share = at / trailLength;
+      for (const [width, colour] of /** @type {[number, string][]} */ ([[0.0045, `rgb(30 34 38 / ${0.22 * share})`], [0.0028, `rgb(255 255 255 / ${0.8 * share})`]])) {
+        context.lineWidth = width;
+        context.strokeStyle = colour;
+        context.stroke();
+      }
     }
     if (!tip.isDown) return;
     if (tip.lean) {
@@ -211,6 +214,9 @@ export class TableView {
     context.arc(tip.x, tip.z, ring, 0, 7);
     context.fillStyle = 'rgb(255 255 255 / 0.28)';
     context.fill();
+    context.lineWidth = 0.0022;
+    context.strokeStyle = 'rgb(30 34 38 / 0.35)';
+    context.stroke();
     context.lineWidth = 0.001;
     context.strokeStyle = 'rgb(255 255 255 / 0.9)';
     context.stroke();
