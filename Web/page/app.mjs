@@ -238,9 +238,16 @@ class Page {
         this.hand.releaseAll();
         button.disabled = true;
         void this.haptics.resume();
-        enterHeadset({ haptics: this.haptics, scene: this.table.sceneNow(), looks: this.looks, onEnd: () => {
-          button.disabled = false;
-        } }).catch((/** @type {any} */ error) => {
+        enterHeadset({
+          haptics: this.haptics,
+          scene: this.table.sceneNow(),
+          looks: this.looks,
+          onPaint: ({ surface, material }) => this.paint(this.scene.surfaces.findIndex((/** @type {any} */ { name }) => name === surface), material),
+          onEnd: ({ message }) => {
+            button.disabled = false;
+            if (message !== '') messages.show(message);
+          },
+        }).catch((/** @type {any} */ error) => {
           button.disabled = false;
           messages.error(error);
         });
