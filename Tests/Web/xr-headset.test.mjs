@@ -321,6 +321,33 @@ test('an MX Ink presses with its tip force: harder is stronger', { skip }, async
   assert.ok(light.count > 5 && hard.count > 5 && hard.median > 1.2 * light.median, JSON.stringify(found.medians));
 });
 
+test('a bare hand touches with its index finger, and hears without feeling', { skip }, async () => {
+  const found = await inPage(async () => {
+    const { enter, listen, nextFrame, pulses } = globalThis.tools;
+    const { visit } = await enter({ controllers: 'mx-ink' });
+    device.primaryInputMode = 'hand';
+    const hand = device.hands.right;
+    for (let frame = 0; frame < 4; frame += 1) await nextFrame();
+    const { session } = visit;
+    const space = await session.requestReferenceSpace('local-floor');
+    const finger = await new Promise((resolve) => {
+      session.requestAnimationFrame((time, frame) => resolve(frame.getJointPose(hand.inputSource.hand.get('index-finger-tip'), space).transform.position));
+    });
+    const reach = ['x', 'y', 'z'].map((axis) => finger[axis] - hand.position[axis]);
+    const begin = pulses.length;
+    const heard = await listen(visit, 0.8, (side, s) => {
+      const room = visit.placement.toRoom([-0.185 + 0.03 * Math.sin(8 * s), 0.0004, -0.112], []);
+      hand.position.set(...room.map((part, axis) => part - reach[axis]));
+      return null;
+    });
+    device.primaryInputMode = 'controller';
+    await visit.end();
+    return { heard: heard[1], sent: pulses.length - begin };
+  });
+  assert.ok(found.heard.includes('none'), JSON.stringify(found));
+  assert.equal(found.sent, 0);
+});
+
 test('lost graphics end the visit with a plain message, and one can enter again', { skip }, async () => {
   const found = await inPage(async () => {
     const { enter, pause } = globalThis.tools;
