@@ -42,11 +42,11 @@ test('the bench stands before a viewer who looks anywhere, at a height for the h
   const placement = new Placement();
   // Looks to the left, and a little down.
   placement.before([1, 1.2, 2], [-0.1 * half, half, 0.1 * half, half].map((part) => part / Math.sqrt(1.01)));
-  near(placement.position, [1 - 0.45, 0.75, 2]);
-  near(placement.toScene([1 - 0.45, 0.75, 2], []), [0, 0, 0]);
+  near(placement.position, [1 - 0.4, 0.75, 2]);
+  near(placement.toScene([1 - 0.4, 0.75, 2], []), [0, 0, 0]);
   // Farther from the viewer is ahead in the scene; to the viewer's right is right.
-  near(placement.toScene([1 - 0.65, 0.75, 2], []), [0, 0, 0.2]);
-  near(placement.toScene([1 - 0.45, 0.75, 1.9], []), [0.1, 0, 0]);
+  near(placement.toScene([1 - 0.6, 0.75, 2], []), [0, 0, 0.2]);
+  near(placement.toScene([1 - 0.4, 0.75, 1.9], []), [0.1, 0, 0]);
 });
 
 test('room and scene go forth and back', () => {

@@ -1,7 +1,8 @@
 // Between the room of WebXR (right-handed, y up, -z ahead) and the scene of the engine (Unity's: left-handed, y up, z ahead).
 // Vectors are anything with indices 0 to 2, rotations x, y, z, w.
 
-const aheadMetres = 0.45;
+/** The board behind the desk must stay within an arm's reach. */
+const aheadMetres = 0.4;
 const belowEyesMetres = 0.45;
 const lowestMetres = 0.6;
 const highestMetres = 1.05;

@@ -47,7 +47,8 @@ export class Stage {
     this.renderer = new three.WebGLRenderer({ antialias: true });
     this.renderer.xr.enabled = true;
     this.renderer.xr.setReferenceSpaceType('local-floor');
-    this.#camera = new three.PerspectiveCamera();
+    // One looks at a tip from near by.
+    this.#camera = new three.PerspectiveCamera(50, 1, 0.02, 60);
     this.#looks = new Looks(three, looks);
     this.#bench = new Bench({ three, scene, looks: this.#looks });
     this.#pens = new Pens(three, 2);
