@@ -12,6 +12,7 @@ const sentences = /** @type {Record<string, string>} */ ({
   closed: 'The engine is closed: reload the page.',
   'invalid-argument': 'That does not work.',
   input: 'This file cannot be used.',
+  RECORDING_UNUSABLE: 'This recording cannot be used.',
 });
 
 const silences = /** @type {Record<string, string>} */ ({
@@ -31,7 +32,7 @@ export function sentenceOf(error) {
   const code = String(error?.code ?? '');
   const opening = sentences[code] ?? (code.startsWith('MODEL_') ? 'The file of the model is damaged.' : 'Something failed.');
   const detail = String(error?.message ?? error);
-  return `${opening} ${detail.charAt(0).toUpperCase()}${detail.slice(1)}${/[.!?]$/.test(detail) ? '' : '.'}`;
+  return `${opening.slice(0, -1)}: ${detail}${/[.!?]$/.test(detail) ? '' : '.'}`;
 }
 
 /** The message for a silence; empty where there is nothing to say. @param {string} reason */

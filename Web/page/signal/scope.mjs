@@ -54,7 +54,7 @@ export class Scope {
   frame(nowMs) {
     this.#analyse();
     // Without motion the pictures change a few times a second.
-    if (this.#isStepped.matches && nowMs - this.#drawnAt < 400) return;
+    if (nowMs - this.#drawnAt < (this.#isStepped.matches ? 400 : 30)) return;
     this.#drawnAt = nowMs;
     this.#latest();
     this.#drawWave();

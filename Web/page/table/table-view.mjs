@@ -2,6 +2,7 @@ import { tileMetres } from './fills.mjs';
 
 const marginMetres = 0.012;
 const trailLength = 40;
+const spriteMarginMetres = 0.01;
 
 /** The table from above on a canvas: x to the right, z away from the viewer. */
 export class TableView {
@@ -10,8 +11,10 @@ export class TableView {
   #looks;
   #fills;
   #context;
-  /** All that rests, drawn once. */
+  /** All that rests, drawn once, below the canvas of what moves. */
   #still = document.createElement('canvas');
+  /** Pictures of what moves, drawn once in the middle of a canvas of their own. @type {Map<number, HTMLCanvasElement>} */
+  #sprites = new Map();
   #isStale = true;
   #scale = 1;
   /** @type {{x: number, z: number, age: number}[][]} */
@@ -26,6 +29,9 @@ export class TableView {
     this.#looks = looks;
     this.#fills = fills;
     this.#context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext('2d'));
+    this.#still.className = 'still';
+    this.#still.setAttribute('aria-hidden', 'true');
+    canvas.before(this.#still);
     new ResizeObserver(() => this.refresh()).observe(canvas);
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.refresh());
   }
@@ -112,13 +118,13 @@ export class TableView {
     }
   }
 
-  #object(/** @type {CanvasRenderingContext2D} */ context, /** @type {number} */ index) {
+  #object(/** @type {CanvasRenderingContext2D} */ context, /** @type {number} */ index, /** @type {boolean} */ isSprite = false) {
     const top = this.#table.tops[index];
     const material = this.#table.materials[index];
     const isDesk = index === 0;
     const pixel = 1 / this.#scale;
     this.#place(context);
-    context.translate(top.position[0], top.position[2]);
+    if (!isSprite) context.translate(top.position[0], top.position[2]);
     context.transform(top.cos, -top.sin, top.sin, top.cos, 0, 0);
     this.#outline(context, top);
     const rise = top.kind === 'box' ? top.position[1] + top.halfHeight : 0.006;
@@ -148,8 +154,26 @@ export class TableView {
     const context = /** @type {CanvasRenderingContext2D} */ (this.#still.getContext('2d'));
     this.#table.tops.forEach((top, index) => {
       if (!top.motion) this.#object(context, index);
+      else this.#drawSprite(index);
     });
     this.#isStale = false;
+  }
+
+  #drawSprite(/** @type {number} */ index) {
+    const sprite = document.createElement('canvas');
+    sprite.width = this.#canvas.width;
+    sprite.height = this.#canvas.height;
+    this.#object(/** @type {CanvasRenderingContext2D} */ (sprite.getContext('2d')), index, true);
+    this.#sprites.set(index, sprite);
+  }
+
+  #drawMoving(/** @type {CanvasRenderingContext2D} */ context, /** @type {number} */ index) {
+    const { position, halfX, halfZ, radius } = this.#table.tops[index];
+    const sprite = this.#sprites.get(index);
+    if (!sprite) return;
+    const half = Math.ceil((Math.hypot(halfX, halfZ) + radius + spriteMarginMetres) * this.#scale);
+    const [left, top] = [Math.round(sprite.width / 2) - half, Math.round(sprite.height / 2) - half];
+    context.drawImage(sprite, left, top, 2 * half, 2 * half, left + position[0] * this.#scale, top - position[2] * this.#scale, 2 * half, 2 * half);
   }
 
   /**
@@ -163,9 +187,8 @@ export class TableView {
     const context = this.#context;
     context.setTransform(1, 0, 0, 1, 0, 0);
     context.clearRect(0, 0, this.#canvas.width, this.#canvas.height);
-    context.drawImage(this.#still, 0, 0);
     this.#table.tops.forEach((top, index) => {
-      if (top.motion) this.#object(context, index);
+      if (top.motion) this.#drawMoving(context, index);
     });
     if (this.selected > 0) this.#drawSelection(context);
     tips.forEach((tip, index) => this.#drawTip(context, tip, index));
