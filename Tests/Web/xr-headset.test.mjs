@@ -89,9 +89,9 @@ test('a stroke over two labels pulses with the envelope of the voice, and not ou
     };
     // Over sandpaper, slower and slower; in the air; over the carpet, faster and faster; in the air.
     await span('air', 0.5, () => [-0.185, 0.03, -0.112]);
-    await span('sandpaper', 3, (side, s) => [-0.185 + 0.035 * Math.sin(2 * Math.PI * (1.4 * s - 0.2 * s * s)), 0.0004, -0.112 + 0.02 * Math.sin(s)]);
+    await span('sandpaper', 2.2, (side, s) => [-0.185 + 0.035 * Math.sin(2 * Math.PI * (1.4 * s - 0.28 * s * s)), 0.0004, -0.112 + 0.02 * Math.sin(s)]);
     await span('air', 0.7, () => [0, 0.05, -0.112]);
-    await span('carpet', 3, (side, s) => [0.185 + 0.035 * Math.sin(2 * Math.PI * (0.15 * s + 0.2 * s * s)), 0.0035, -0.112 + 0.02 * Math.sin(s)]);
+    await span('carpet', 2.5, (side, s) => [0.185 + 0.035 * Math.sin(2 * Math.PI * (0.15 * s + 0.2 * s * s)), 0.0035, -0.112 + 0.02 * Math.sin(s)]);
     await span('air', 0.7, () => [0, 0.05, -0.112]);
     park('right');
     await pause(100);
@@ -308,7 +308,7 @@ test('an MX Ink presses with its tip force: harder is stronger', { skip }, async
       device.controllers.right.updateButtonValue('tip-force', force);
       await stroke(visit, 0.4, slide);
       const begin = pulses.length;
-      await stroke(visit, 1.6, slide);
+      await stroke(visit, 1, slide);
       const values = pulses.slice(begin).map(({ value }) => value).sort((a, b) => a - b);
       medians.push({ count: values.length, median: values[Math.floor(values.length / 2)] });
     }
