@@ -6,20 +6,21 @@ import { engineFolder } from './places.mjs';
 import { serve } from './server.mjs';
 
 const here = path.dirname(fileURLToPath(import.meta.url));
-const executable = process.env.HAPTOFLOW_CHROMIUM ?? ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find((file) => existsSync(file));
+export const executable = process.env.HAPTOFLOW_CHROMIUM ?? ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find((file) => existsSync(file));
 
 /** False skips the tests that need a browser. */
 export const hasBrowser = executable !== undefined && existsSync(executable);
 
 /**
  * A page in Chromium with the engine beside it.
- * @param {{isolated?: boolean, needsGesture?: boolean, engine?: string}} [options] engine: the folder of its files
+ * @param {{isolated?: boolean, needsGesture?: boolean, engine?: string, name?: string, folders?: Record<string, string>, viewport?: {width: number, height: number}}} [options]
+ *   engine: the folder of its files; name: of the page in Tests/Web/pages; folders: what it needs besides
  */
-export async function openPage({ isolated = true, needsGesture = false, engine = engineFolder } = {}) {
-  const server = await serve({ folders: { engine, pages: path.join(here, '..', 'pages') }, isolated });
+export async function openPage({ isolated = true, needsGesture = false, engine = engineFolder, name = 'live', folders = {}, viewport } = {}) {
+  const server = await serve({ folders: { engine, pages: path.join(here, '..', 'pages'), ...folders }, isolated });
   const args = ['--no-sandbox', ...(needsGesture ? [] : ['--autoplay-policy=no-user-gesture-required'])];
   const browser = await chromium.launch({ executablePath: executable, args });
-  const context = await browser.newContext();
+  const context = await browser.newContext({ viewport });
   const page = await context.newPage();
   /** @type {string[]} */
   const complaints = [];
@@ -27,7 +28,7 @@ export async function openPage({ isolated = true, needsGesture = false, engine =
   page.on('console', (message) => {
     if (message.type() === 'error') complaints.push(message.text());
   });
-  await page.goto(`${server.address}/pages/live.html`);
+  await page.goto(`${server.address}/pages/${name}.html`);
   await page.waitForFunction(() => 'HaptoFlow' in globalThis);
   return {
     page, context, server, complaints,

@@ -1,0 +1,322 @@
+import assert from 'node:assert/strict';
+import { writeFileSync } from 'node:fs';
+import path from 'node:path';
+import { after, before, describe, test } from 'node:test';
+import { hasBrowser } from './support/browser.mjs';
+import { hasCommandLine, native, wavSamples } from './support/engine.mjs';
+import { recording } from './support/made-recording.mjs';
+import { openLivePage, watch } from './support/page.mjs';
+
+/** @type {Awaited<ReturnType<typeof openLivePage>>} */
+let opened;
+const pause = (/** @type {number} */ milliseconds) => opened.page.waitForTimeout(milliseconds);
+const inPage = (action, argument) => opened.page.evaluate(action, argument);
+const text = (/** @type {string} */ selector) => opened.page.locator(selector).innerText();
+
+/** Presses the mouse and draws through places of the table. */
+async function draw(/** @type {[number, number][]} */ places) {
+  const { mouse } = opened.page;
+  const way = places.flatMap((from, leg) => {
+    const to = places[leg + 1] ?? from;
+    const steps = Math.max(1, Math.ceil(Math.hypot(to[0] - from[0], to[1] - from[1]) / 0.004));
+    return Array.from({ length: steps }, (_, step) => /** @type {[number, number]} */ ([from[0] + ((to[0] - from[0]) * step) / steps, from[1] + ((to[1] - from[1]) * step) / steps]));
+  });
+  const [first, ...others] = await opened.pointsOf(way);
+  await mouse.move(first[0], first[1]);
+  await mouse.down();
+  for (const [x, y] of others) {
+    await mouse.move(x, y);
+    await pause(10);
+  }
+}
+const rub = /** @type {(x: number, z: number) => [number, number][]} */ ((x, z) => [[x - 0.03, z], [x + 0.03, z], [x - 0.03, z], [x + 0.03, z]]);
+const loudest = (seen, surface) => Math.max(0, ...seen.filter((each) => each.surface === surface).map(({ rms }) => rms));
+const isQuiet = () => opened.page.waitForFunction(() => globalThis.haptoflowPage.scope.rmsMps2 === 0, null, { timeout: 4000 });
+
+describe('the live page', { skip: !hasBrowser }, () => {
+  before(async () => {
+    opened = await openLivePage();
+  });
+  after(() => opened.close());
+
+  test('a stroke of the mouse over two objects sounds on each, and is silent after lift-off', async () => {
+    const stop = await watch(opened.page);
+    await draw([[-0.22, -0.112], [-0.15, -0.112], [-0.09, -0.112], [-0.03, -0.112]]);
+    await opened.page.mouse.up();
+    await isQuiet();
+    const seen = await stop();
+    assert.ok(loudest(seen, 'sandpaper sheet') > 0.1, `${loudest(seen, 'sandpaper sheet')}`);
+    assert.ok(loudest(seen, 'jute mat') > 0.1, `${loudest(seen, 'jute mat')}`);
+    assert.equal(await inPage(() => globalThis.haptoflowPage.tips[0].isDown), false);
+  });
+
+  test('the mouse held still presses harder, up to two newtons', async () => {
+    await draw([[0.185, 0], [0.19, 0]]);
+    await pause(2200);
+    const force = await inPage(() => globalThis.haptoflowPage.tips[0].place.forceNewtons);
+    await opened.page.mouse.up();
+    assert.ok(force > 1.9 && force <= 2, `${force}`);
+  });
+
+  test('arrow keys draw, and the tip lifts when they are released', async () => {
+    const stop = await watch(opened.page);
+    await opened.page.locator('#table').focus();
+    await opened.page.keyboard.down('ArrowRight');
+    await pause(900);
+    await opened.page.keyboard.up('ArrowRight');
+    await isQuiet();
+    const seen = await stop();
+    assert.ok(loudest(seen, 'desk') > 0.05);
+    assert.ok(Math.max(...seen.map(({ speed }) => speed)) > 0.08);
+    assert.equal(seen.at(-1).surface, '');
+  });
+
+  test('a preset stroke plays from the keyboard, and stops by Escape', async () => {
+    const stop = await watch(opened.page);
+    await opened.page.getByRole('button', { name: 'Rest on the grille' }).press('Enter');
+    await pause(1500);
+    await opened.page.locator('#table').press('Escape');
+    await isQuiet();
+    const seen = await stop();
+    assert.ok(loudest(seen, 'sliding grille') + loudest(seen, 'desk') > 0);
+    assert.equal(await inPage(() => globalThis.haptoflowPage.hand.isPlaying), false);
+  });
+
+  test('two fingers are two voices', async () => {
+    const stop = await watch(opened.page);
+    await inPage(async () => {
+      const { view } = globalThis.haptoflowPage;
+      const canvas = document.querySelector('#table');
+      const send = (type, pointerId, x, z) => canvas.dispatchEvent(new PointerEvent(type, { pointerId, pointerType: 'touch', button: type === 'pointerdown' ? 0 : -1, buttons: 1, bubbles: true, cancelable: true, ...view.pointOf(x, z) }));
+      send('pointerdown', 21, -0.2, 0.112);
+      send('pointerdown', 22, 0.16, -0.112);
+      for (let step = 0; step < 60; step += 1) {
+        send('pointerrawupdate', 21, -0.2 + 0.0008 * step, 0.112);
+        send('pointerrawupdate', 22, 0.16 + 0.0008 * step, -0.112);
+        await new Promise((resolve) => { setTimeout(resolve, 10); });
+      }
+      send('pointerup', 21, 0, 0);
+      send('pointercancel', 22, 0, 0);
+    });
+    await isQuiet();
+    const seen = await stop();
+    const sounding = (tip, surface) => Math.max(0, ...seen.filter((each) => each.tip === tip && each.surface === surface).map(({ rms }) => rms));
+    assert.ok(sounding(0, 'glass plate') > 0.01, `${sounding(0, 'glass plate')}`);
+    assert.ok(sounding(1, 'carpet square') > 0.01, `${sounding(1, 'carpet square')}`);
+  });
+
+  test('a pen presses by its pressure, and its tilt is recorded', async () => {
+    const found = await inPage(async () => {
+      const { view, tips } = globalThis.haptoflowPage;
+      const canvas = document.querySelector('#table');
+      const send = (type, pressure, x) => canvas.dispatchEvent(new PointerEvent(type, { pointerId: 31, pointerType: 'pen', button: 0, pressure, tiltX: 30, ...view.pointOf(x, 0.112) }));
+      tips[0].rows = [];
+      const forces = [];
+      send('pointerdown', 0.2, -0.2);
+      for (const pressure of [0.25, 0.5, 1]) {
+        send('pointerrawupdate', pressure, -0.2 + 0.01 * pressure);
+        forces.push(tips[0].contact.forceNewtons);
+        await new Promise((resolve) => { setTimeout(resolve, 12); });
+      }
+      send('pointerup', 0, -0.2);
+      const { rows } = tips[0];
+      tips[0].rows = null;
+      return { forces, lean: rows.every(({ orientation }) => orientation && orientation[3] < 0.99) };
+    });
+    assert.deepEqual(found.forces.map((force) => Math.round(100 * force) / 100), [0.5, 1, 2]);
+    assert.ok(found.lean);
+  });
+
+  test('a recording renders to the labels that were heard, here and at the command line', async () => {
+    await inPage(() => {
+      globalThis.heard = [];
+      const { tips } = globalThis.haptoflowPage;
+      globalThis.timer = setInterval(() => tips[0].contact?.touching && globalThis.heard.push(tips[0].contact.surfaceName), 5);
+    });
+    await opened.page.locator('#record').click();
+    await opened.page.getByRole('button', { name: 'Along the front' }).click();
+    await opened.page.waitForFunction(() => globalThis.haptoflowPage.hand.isPlaying);
+    await opened.page.waitForFunction(() => !globalThis.haptoflowPage.hand.isPlaying, null, { timeout: 15000 });
+    await isQuiet();
+    await opened.page.locator('#record').click();
+    const downloads = [];
+    for (const id of ['download-wav', 'download-csv', 'download-scene']) {
+      const [file] = await Promise.all([opened.page.waitForEvent('download'), opened.page.locator(`#${id}`).click()]);
+      downloads.push({ name: file.suggestedFilename(), file: await file.path() });
+    }
+    assert.deepEqual(downloads.map(({ name }) => name), ['felt.wav', 'stroke.csv', 'scene.json']);
+    const live = wavSamples(downloads[0].file);
+    assert.ok(live.some((sample) => Math.abs(sample) > 1e-3));
+    const found = await inPage(async () => {
+      clearInterval(globalThis.timer);
+      const { record, haptics } = globalThis.haptoflowPage;
+      const { strokes, scene } = record.last;
+      const render = await haptics.render({ scene, stroke: strokes[0], effects: { texture: true, impact: true, edge: true }, listen: true });
+      return { heard: [...new Set(globalThis.heard)], stroke: strokes[0], scene, strokes: strokes.length, seconds: render.seconds, touches: render.touches, level: Math.hypot(...[...render.samples].filter((_, index) => index % 16 === 0)) };
+    });
+    assert.equal(found.strokes, 1);
+    assert.ok(found.touches >= 1);
+    assert.ok(found.level > 0.01);
+    for (const surface of ['desk', 'sandpaper sheet', 'jute mat', 'paper sheet', 'carpet square']) assert.ok(found.heard.includes(surface), `${surface}: ${found.heard}`);
+    if (!hasCommandLine) return;
+    const rendered = native((folder) => {
+      const [scene, stroke] = ['scene.json', 'stroke.csv'].map((name) => path.join(folder, name));
+      writeFileSync(scene, JSON.stringify(found.scene));
+      writeFileSync(stroke, found.stroke);
+      return ['contact', scene, '--stroke', stroke];
+    }, (_, output) => output);
+    const named = new Set(rendered.trim().split('\n').slice(1).map((line) => line.split(',')).filter((cells) => cells[2] === '1').map((cells) => cells[1]));
+    assert.deepEqual([...named].sort(), [...found.heard].sort());
+  });
+
+  test('an object is painted with a label and with a blend, and sounds so', async () => {
+    const { page } = opened;
+    await page.locator('#labels input[value="sandpaper"]').check();
+    await page.locator('#paint-object').selectOption({ label: 'Glass plate' });
+    await page.getByRole('button', { name: 'Paint it' }).click();
+    await draw(rub(-0.185, 0.112));
+    assert.equal(await inPage(() => globalThis.haptoflowPage.tips[0].contact.material), 'sandpaper');
+    assert.match(await text('#reading-name'), /Glass plate · sandpaper/);
+    await page.mouse.up();
+    await page.locator('#blend-label').selectOption('wood');
+    await page.locator('#blend-share').fill('25');
+    await page.getByRole('button', { name: 'Paint it' }).click();
+    assert.deepEqual(await inPage(() => globalThis.haptoflowPage.table.materials[1]), { sandpaper: 0.75, wood: 0.25 });
+    await page.getByRole('button', { name: 'Restore all' }).click();
+    assert.equal(await inPage(() => globalThis.haptoflowPage.table.materials[1]), 'glass');
+    await page.locator('#blend-label').selectOption('');
+  });
+
+  test('A and B change the chosen object by one key, and the quality', async () => {
+    const { page } = opened;
+    await page.locator('#paint-object').selectOption({ label: 'Paper' });
+    await page.locator('#table').press('x');
+    assert.match(await text('#compare-state'), /B: sandpaper on Paper/);
+    await page.locator('#table').press('x');
+    assert.match(await text('#compare-state'), /A: stone on Paper/);
+    await page.locator('#compare-kind').selectOption('qualities');
+    await page.getByRole('button', { name: 'Switch to B' }).click();
+    await page.waitForFunction(() => globalThis.haptoflowPage.haptics.quality === 'standard');
+    await page.getByRole('button', { name: 'Switch to A' }).click();
+    await page.waitForFunction(() => globalThis.haptoflowPage.haptics.quality === 'sketch');
+    await page.locator('#quality-standard').check();
+    await page.getByRole('button', { name: 'Restore all' }).click();
+  });
+
+  test('qualities show accuracy of the model and milliseconds of now; an effect that is off does not run', async () => {
+    const { page } = opened;
+    await page.locator('#effect-impact').uncheck();
+    await page.waitForTimeout(300);
+    const before = await text('[data-runs="impact"]');
+    await draw(rub(0.185, 0));
+    await page.mouse.up();
+    await page.waitForTimeout(500);
+    assert.equal(await text('[data-runs="impact"]'), before);
+    assert.ok(Number(await text('[data-tier="standard"]')) > 0);
+    const expected = await inPage(() => globalThis.haptoflowPage.haptics.model.tiers.map(({ accuracy }) => accuracy.lsd_db.toFixed(2)));
+    const shown = await page.locator('#qualities tr td:nth-child(2)').allInnerTexts();
+    assert.deepEqual(shown.slice(0, expected.length), expected);
+    await page.locator('#effect-impact').check();
+  });
+
+  test('a dropped recording becomes a material of the palette, and learning can be cancelled', async () => {
+    const { page } = opened;
+    const drop = () => inPage((content) => {
+      const transfer = new DataTransfer();
+      transfer.items.add(new File([content], 'rough.csv', { type: 'text/csv' }));
+      document.querySelector('#drop').dispatchEvent(new DragEvent('drop', { dataTransfer: transfer, bubbles: true, cancelable: true }));
+    }, recording(11));
+    await inPage(() => {
+      globalThis.haptoflowPage.ownMaterial.secondsLimit = 2;
+    });
+    await drop();
+    await page.locator('#learn-cancel').click();
+    await page.waitForFunction(() => document.querySelector('#learn-result').textContent === 'Cancelled.');
+    await drop();
+    await page.waitForFunction(() => document.querySelector('#labels input[value="rough"]'), null, { timeout: 60000 });
+    assert.match(await text('#learn-result'), /“rough” is in the palette/);
+    await page.locator('#paint-object').selectOption({ label: 'Paper' });
+    await page.getByRole('button', { name: 'Paint it' }).click();
+    const stop = await watch(page);
+    await draw(rub(0.062, -0.112));
+    await page.mouse.up();
+    assert.ok(loudest(await stop(), 'paper sheet') > 0.01);
+    assert.equal(await inPage(() => globalThis.haptoflowPage.table.materials[13]), 'rough');
+  });
+
+  test('a file that is no recording is refused in words', async () => {
+    const { page } = opened;
+    await page.locator('#recording').setInputFiles({ name: 'letter.csv', mimeType: 'text/csv', buffer: Buffer.from('dear,friend\n1,2\n') });
+    await page.waitForFunction(() => document.querySelector('#learn-result').textContent.includes('letter.csv'), null, { timeout: 20000 });
+    assert.equal(await page.locator('#learn-progress').isHidden(), true);
+  });
+
+  test('a lost worker is told in words, and the page sounds again', async () => {
+    await inPage(() => globalThis.haptoflowPage.haptics[Symbol.for('haptoflow.worker')].terminate());
+    await opened.page.waitForFunction(() => /started again/.test(document.querySelector('#message-text').textContent), null, { timeout: 20000 });
+    await inPage(() => {
+      const { haptics } = globalThis.haptoflowPage;
+      const heard = new AnalyserNode(haptics.context, { fftSize: 4096 });
+      haptics.output.connect(heard);
+      globalThis.loudestHeard = 0;
+      const wave = new Float32Array(4096);
+      setInterval(() => {
+        heard.getFloatTimeDomainData(wave);
+        globalThis.loudestHeard = Math.max(globalThis.loudestHeard, ...wave.map(Math.abs));
+      }, 30);
+    });
+    await draw(rub(-0.185, -0.112));
+    await opened.page.mouse.up();
+    assert.ok(await inPage(() => globalThis.loudestHeard) > 1e-3);
+  });
+
+  test('every control has a name', async () => {
+    const nameless = await inPage(() => [...document.querySelectorAll('button, input, select, canvas:not([aria-hidden]), meter, progress')].filter((element) => {
+      const labels = /** @type {any} */ (element).labels;
+      return !(element.getAttribute('aria-label') || element.textContent.trim() || [...(labels ?? [])].some((label) => label.textContent.trim()));
+    }).map((element) => element.outerHTML.slice(0, 80)));
+    assert.deepEqual(nameless, []);
+  });
+
+  test('nothing was asked of another origin, and nothing was complained of', () => {
+    assert.deepEqual(opened.strangers, []);
+    assert.deepEqual(opened.complaints, []);
+  });
+});
+
+describe('the live page elsewhere', { skip: !hasBrowser }, () => {
+  test('without the headers it says that it uses a ring, and sounds; 360 pixels need no scrolling aside; dark is dark', async () => {
+    opened = await openLivePage({ isolated: false, viewport: { width: 360, height: 720 }, colorScheme: 'dark' });
+    assert.match(await opened.page.locator('#device-line').textContent(), /ring that adds \d+ ms/);
+    const stop = await watch(opened.page);
+    await draw(rub(-0.185, -0.112));
+    await opened.page.mouse.up();
+    assert.ok(loudest(await stop(), 'sandpaper sheet') > 0.1);
+    assert.ok(await inPage(() => document.documentElement.scrollWidth <= innerWidth));
+    const ground = await inPage(() => getComputedStyle(document.body).backgroundColor.match(/\d+/g).map(Number));
+    assert.ok(Math.max(...ground) < 60, `${ground}`);
+    await opened.close();
+  });
+
+  test('sound that waits for a gesture says so, and a tap starts it; less motion stops the grille', async () => {
+    opened = await openLivePage({ needsGesture: true, reducedMotion: 'reduce' });
+    await opened.page.getByRole('button', { name: 'Tap to start' }).click();
+    await opened.page.waitForFunction(() => document.querySelector('#start').hidden);
+    assert.equal(await inPage(() => globalThis.haptoflowPage.table.tops.some(({ motion }) => motion)), false);
+    await opened.close();
+  });
+
+  for (const [what, changes, expected] of /** @type {[string, Record<string, any>, RegExp][]} */ ([
+    ['a missing model', { 'engine/model.haptoflow': () => 404 }, /model .*could not be loaded.*404/i],
+    ['a model that was cut short', { 'engine/model.haptoflow': (bytes) => bytes.subarray(0, 100000) }, /model is damaged/],
+    ['a missing scene', { 'scene/workbench.json': () => 404 }, /workbench\.json.*404/],
+  ])) {
+    test(`${what} is told in words, with a way to try again`, async () => {
+      opened = await openLivePage({ changes, waits: false });
+      await opened.page.waitForFunction(() => document.querySelector('#message').dataset.kind === 'error', null, { timeout: 20000 });
+      assert.match(await text('#message-text'), expected);
+      assert.ok(await opened.page.getByRole('button', { name: 'Try again' }).isVisible());
+      await opened.close();
+    });
+  }
+});

@@ -1,0 +1,72 @@
+import assert from 'node:assert/strict';
+import path from 'node:path';
+import { test } from 'node:test';
+import { hasBrowser } from './support/browser.mjs';
+import { openLivePage } from './support/page.mjs';
+import { repository } from './support/places.mjs';
+
+/** An emulated Quest from the first script on; the emulator calls all its poses guessed. */
+function emulate() {
+  const { XRDevice, metaQuest3, P_SPACE } = globalThis.IWER;
+  const device = new XRDevice(metaQuest3);
+  device.installRuntime({ forceInstall: true });
+  device.stereoEnabled = false;
+  device.position.set(0, 1.3, 0);
+  for (const each of Object.values(device.controllers)) each.inputSource.targetRaySpace[P_SPACE].emulated = false;
+  Object.assign(globalThis, { device });
+}
+
+test('the live page offers the headset, loads three.js only on entering, and shows afterwards what was painted there', { skip: !hasBrowser }, async () => {
+  const { page, complaints, strangers, close } = await openLivePage({ viewport: { width: 200, height: 150 } });
+  try {
+    assert.equal(await page.locator('#enter-vr').isHidden(), true, 'without a headset there is no button');
+    await page.addInitScript({ path: path.join(repository, 'node_modules', 'iwer', 'build', 'iwer.js') });
+    await page.addInitScript(emulate);
+    await page.reload();
+    await page.waitForSelector('#enter-vr:not([hidden])', { state: 'attached', timeout: 30000 });
+    const isLoaded = () => performance.getEntriesByType('resource').some(({ name }) => name.endsWith('/three.module.js'));
+    assert.equal(await page.evaluate(isLoaded), false);
+    const voices = await page.evaluate(() => globalThis.haptoflowPage.haptics.voices.length);
+    await page.locator('#enter-vr').click();
+    await page.waitForFunction((before) => globalThis.haptoflowPage.haptics.voices.length === before + 2, voices, { timeout: 20000 });
+    assert.equal(await page.evaluate(isLoaded), true);
+    const painted = await page.evaluate(async () => {
+      const { swatches } = await import(new URL('xr/board.mjs', location.href).href);
+      const { device, haptoflowPage } = globalThis;
+      const labels = haptoflowPage.haptics.labels.map(({ name }) => name);
+      const { position } = swatches(labels).find(({ material }) => material === 'sandpaper');
+      const frames = async (count, isTrue = () => false) => {
+        for (let frame = 0; frame < count && !isTrue(); frame += 1) {
+          await new Promise((resolve) => {
+            requestAnimationFrame(resolve);
+          });
+        }
+      };
+      // The bench stands 0.4 m ahead of the emulated head and 0.45 m below it; the nib is 0.06 m ahead of the hand.
+      const hold = async ([x, y, z]) => {
+        device.controllers.right.position.set(x, 0.85 + y, -0.4 - z + 0.06);
+        await frames(20);
+      };
+      const { table } = haptoflowPage;
+      const index = table.scene.surfaces.findIndex(({ name }) => name === 'paper sheet');
+      // The first frames may come while the headset is still made ready.
+      for (let time = 0; time < 5 && table.materials[index] !== 'sandpaper'; time += 1) {
+        await hold([0, 0.3, 0]);
+        await hold([position[0], position[1] + 0.0035 * Math.sin(0.4), position[2] - 0.0035 * Math.cos(0.4)]);
+        await hold([0.062, 0.0003, -0.112]);
+        device.controllers.right.updateButtonValue('trigger', 1);
+        await hold([0.062, 0.0003, -0.112]);
+        device.controllers.right.updateButtonValue('trigger', 0);
+      }
+      await device.activeSession.end();
+      await frames(600, () => !document.querySelector('#enter-vr').disabled);
+      return { material: table.materials[index], isDisabled: document.querySelector('#enter-vr').disabled };
+    });
+    assert.equal(painted.material, 'sandpaper');
+    assert.equal(painted.isDisabled, false);
+    assert.deepEqual(complaints, []);
+    assert.deepEqual(strangers, []);
+  } finally {
+    await close();
+  }
+});

@@ -1,0 +1,334 @@
+import { HaptoFlow } from './engine/haptoflow.mjs';
+import { find, make, shown, slider } from './dom.mjs';
+import { Hand } from './hand/hand.mjs';
+import { presetStrokes } from './hand/preset-strokes.mjs';
+import { Tip } from './hand/tip.mjs';
+import { Messages, sentenceOf, silenceSentence } from './messages.mjs';
+import { ComparePanel } from './panels/compare.mjs';
+import { DevicePanel } from './panels/device.mjs';
+import { EffectsPanel } from './panels/effects.mjs';
+import { Outputs } from './panels/outputs.mjs';
+import { OwnMaterialPanel } from './panels/own-material.mjs';
+import { Palette } from './panels/palette.mjs';
+import { QualityPanel } from './panels/quality.mjs';
+import { RecordPanel } from './panels/record.mjs';
+import { Recorder } from './signal/recorder.mjs';
+import { Scope } from './signal/scope.mjs';
+import { Fills } from './table/fills.mjs';
+import { TableView } from './table/table-view.mjs';
+import { Table } from './table/table.mjs';
+
+const updateRateHz = 120;
+const tipCount = 2;
+const statisticsEveryMs = 250;
+const announceEveryMs = 1200;
+const epochMs = performance.now();
+
+const messages = new Messages();
+const readJson = async (/** @type {string} */ name) => {
+  const address = new URL(name, import.meta.url);
+  const response = await fetch(address);
+  if (!response.ok) throw new Error(`${address}: the server answers ${response.status}`);
+  return response.json();
+};
+
+/** Objects that move stand still for who asked for less motion. */
+function withoutMotion(/** @type {any} */ scene) {
+  return { ...scene, surfaces: scene.surfaces.map((/** @type {any} */ surface) => {
+    if (!surface.motion) return surface;
+    const { motion, ...rest } = surface;
+    return { ...rest, position: motion.keyframes[0].position };
+  }) };
+}
+
+const start = {
+  layer: find('#start'), text: find('#start-text'), bar: find('#start-bar'), button: find('#start-button'),
+  progress(/** @type {number} */ share, /** @type {string} */ doing) {
+    this.text.textContent = `${doing.charAt(0).toUpperCase()}${doing.slice(1)} …`;
+    this.bar.value = share;
+  },
+  fail(/** @type {any} */ error) {
+    messages.error(error);
+    this.bar.hidden = true;
+    this.text.textContent = 'The page could not start.';
+    this.button.textContent = 'Try again';
+    this.button.hidden = false;
+    this.button.addEventListener('click', () => location.reload(), { once: true });
+  },
+};
+
+class Page {
+  /** @param {HaptoFlow} haptics @param {any} scene @param {any} looks @param {TableView} view @param {Table} table @param {Fills} fills @param {Tip[]} tips */
+  constructor(haptics, scene, looks, view, table, fills, tips) {
+    this.haptics = haptics;
+    this.scene = scene;
+    this.looks = looks;
+    this.view = view;
+    this.table = table;
+    this.tips = tips;
+    this.voices = tips.map(({ voice }) => voice);
+    const settings = { forceNewtons: 0.8, speedScale: 1 };
+    this.hand = new Hand({
+      canvas: find('#table'), tips, epochMs, settings,
+      placeOf: (event) => view.placeOf(event),
+      onTouch: (x, z) => this.#touched(x, z),
+    });
+    const force = slider('force', (value) => `${value.toFixed(1)} N`, (value) => {
+      settings.forceNewtons = value;
+    });
+    this.hand.onForceStep = (direction) => {
+      force.value += 0.1 * direction;
+    };
+    slider('speed', (value) => `× ${value.toFixed(1)}`, (value) => {
+      settings.speedScale = value;
+    });
+    slider('gain', (value) => `${Math.round(value)} %`, (value) => {
+      for (const voice of this.voices) voice.gain = value / 100;
+    });
+    this.#makePresets();
+    this.palette = new Palette({
+      haptics, fills,
+      objects: scene.surfaces.map((/** @type {any} */ surface, /** @type {number} */ index) => ({ value: String(index), text: this.titleOf(index) })),
+      paint: (index, material) => this.paint(index, material),
+      onSelect: (index) => {
+        view.selected = index;
+      },
+      restore: () => scene.surfaces.forEach((/** @type {any} */ surface, /** @type {number} */ index) => this.paint(index, surface.material)),
+    });
+    this.quality = new QualityPanel(haptics, messages);
+    this.effects = new EffectsPanel(haptics, this.voices, messages);
+    this.compare = new ComparePanel({
+      labels: () => haptics.labels.map(({ name }) => name),
+      qualities: haptics.model.tiers.map(({ name }) => name),
+      object: () => Math.max(0, view.selected),
+      title: (index) => this.titleOf(index),
+      paint: (index, material) => this.paint(index, material),
+      setQuality: (name) => this.quality.choose(name),
+      play: () => this.#playOver(Math.max(0, view.selected)),
+    });
+    this.recorder = new Recorder(tips);
+    this.record = new RecordPanel(this.recorder, () => table.sceneNow());
+    this.ownMaterial = new OwnMaterialPanel(haptics, (name) => {
+      table.setLabels(haptics.labels);
+      this.palette.chosen = name;
+      this.palette.refresh();
+      this.compare.refresh();
+    });
+    this.outputs = new Outputs(this.voices);
+    this.device = new DevicePanel(haptics, this.hand, this.voices[0]);
+    this.scope = new Scope(this.voices.map((voice) => voice.waveTap()));
+    const listen = find('#listen');
+    const applyListen = () => {
+      for (const voice of this.voices) voice.listen = listen.checked;
+      this.scope.isForEars = listen.checked;
+    };
+    listen.addEventListener('change', applyListen);
+    applyListen();
+    this.hand.onHover = (place) => this.#showHover(place);
+    view.selected = scene.surfaces.findIndex((/** @type {any} */ surface) => surface.material === 'corduroy');
+    this.palette.select(view.selected);
+    this.#listenToEngine();
+    this.#offerHeadset();
+    this.#deviceLine();
+  }
+
+  /** Titles name objects for people; equal ones get their number. */
+  titleOf(/** @type {number} */ index) {
+    const { name } = this.scene.surfaces[index];
+    const title = this.looks.surfaces[name]?.title ?? name;
+    const isAlone = this.scene.surfaces.filter((/** @type {any} */ other) => this.looks.surfaces[other.name]?.title === title).length === 1;
+    return isAlone ? title : `${title} ${name.match(/\d+$/)?.[0] ?? ''}`.trim();
+  }
+
+  paint(/** @type {number} */ index, /** @type {any} */ material) {
+    this.table.materials[index] = material;
+    for (const tip of this.tips) tip.setMaterial(index, material);
+    this.view.refresh();
+  }
+
+  #touched(/** @type {number} */ x, /** @type {number} */ z) {
+    void this.haptics.resume();
+    this.table.moveTo((performance.now() - epochMs) / 1000);
+    const index = this.table.at(x, z);
+    if (index < 0) return;
+    this.view.selected = index;
+    this.palette.select(index);
+    if (this.palette.isPainting) this.paint(index, this.palette.material);
+  }
+
+  #showHover(/** @type {{x: number, z: number} | null} */ place) {
+    const index = place ? this.table.at(place.x, place.z) : -1;
+    find('#reading-name').textContent = index < 0 ? 'Press and draw' : this.#nameOf(index);
+    find('#reading-numbers').textContent = index < 0 ? '' : (this.looks.surfaces[this.scene.surfaces[index].name]?.words ?? '');
+  }
+
+  /** Title and material of an object. */
+  #nameOf(/** @type {number} */ index) {
+    const material = this.table.materials[index];
+    const words = typeof material === 'string' ? material : Object.entries(material).map(([label, share]) => `${Math.round(100 * share)} % ${label}`).join(' and ');
+    return `${this.titleOf(index)} · ${words}`;
+  }
+
+  #makePresets() {
+    find('#presets').replaceChildren(...presetStrokes.map((stroke) => {
+      const button = make('button', { type: 'button', className: 'stroke', textContent: stroke.name, title: stroke.words, 'aria-pressed': 'false' });
+      button.addEventListener('click', () => void this.#playPreset(stroke, button));
+      return button;
+    }));
+  }
+
+  async #playPreset(/** @type {import('./hand/preset-strokes.mjs').PresetStroke} */ stroke, /** @type {any} */ button) {
+    const isStop = button.getAttribute('aria-pressed') === 'true';
+    this.hand.stopPreset();
+    if (isStop) return;
+    void this.haptics.resume();
+    button.setAttribute('aria-pressed', 'true');
+    await this.hand.play(stroke);
+    button.setAttribute('aria-pressed', 'false');
+  }
+
+  /** A stroke to and fro over one object. */
+  #playOver(/** @type {number} */ index) {
+    void this.haptics.resume();
+    const { position, halfX, radius } = this.table.tops[index];
+    const reach = 0.7 * Math.min(0.05, halfX + 0.6 * radius);
+    const [a, b] = /** @type {[number, number][]} */ ([[position[0] - reach, position[2]], [position[0] + reach, position[2]]]);
+    return this.hand.play({ name: '', words: '', from: a, legs: [{ to: b, seconds: 0.7 }, { to: a, seconds: 0.7 }, { to: b, seconds: 0.7 }] });
+  }
+
+  #listenToEngine() {
+    this.haptics.addEventListener('error', ({ detail }) => {
+      messages.error(detail.error);
+      if (detail.isFatal) start.fail(detail.error);
+    });
+    this.haptics.addEventListener('recovered', () => {
+      messages.clear();
+      messages.show('The engine stopped and was started again. You can go on.');
+    });
+    this.haptics.addEventListener('silent', ({ detail: { reason } }) => {
+      if (reason === 'none') messages.clear('silent');
+      else if (reason !== 'context') messages.show(silenceSentence(reason), { key: 'silent' });
+    });
+    this.haptics.addEventListener('context', () => this.#showStart());
+    start.button.addEventListener('click', () => void this.haptics.resume().then(() => this.#showStart()));
+    this.#showStart();
+  }
+
+  /** Until a gesture the browser lets nothing sound. */
+  #showStart() {
+    const isRunning = this.haptics.context.state === 'running';
+    start.layer.hidden = isRunning;
+    start.layer.classList.add('is-open');
+    start.bar.hidden = true;
+    start.text.textContent = 'The sound waits for a tap.';
+    start.button.hidden = false;
+    this.#deviceLine();
+  }
+
+  async #offerHeadset() {
+    // The headset's scripts are loaded only where there may be a headset.
+    const isSupported = await /** @type {any} */ (navigator).xr?.isSessionSupported('immersive-vr').catch(() => false);
+    if (!isSupported) return;
+    try {
+      const { enterHeadset, headsetIsPossible } = await import('./xr/headset.mjs');
+      if (!(await headsetIsPossible())) return;
+      const button = find('#enter-vr');
+      button.hidden = false;
+      button.addEventListener('click', () => {
+        this.hand.releaseAll();
+        button.disabled = true;
+        void this.haptics.resume();
+        enterHeadset({
+          haptics: this.haptics,
+          scene: this.table.sceneNow(),
+          looks: this.looks,
+          onPaint: ({ surface, material }) => this.paint(this.scene.surfaces.findIndex((/** @type {any} */ { name }) => name === surface), material),
+          onEnd: ({ message }) => {
+            button.disabled = false;
+            if (message !== '') messages.show(message);
+          },
+        }).catch((/** @type {any} */ error) => {
+          button.disabled = false;
+          messages.error(error);
+        });
+      });
+    } catch (error) {
+      messages.show(`The headset cannot be entered: ${/** @type {Error} */ (error).message}`);
+    }
+  }
+
+  #deviceLine() {
+    const { sharing, ringFrames, sampleRateHz, baseLatencyMs, outputLatencyMs } = this.haptics.statistics();
+    const way = sharing === 'shared'
+      ? 'Page, worker and audio thread share memory.'
+      : `Sound goes through a ring that adds ${shown((1000 * ringFrames) / sampleRateHz, 0)} ms, because this page was served without the headers for shared memory.`;
+    find('#device-line').textContent = `${way} ${sampleRateHz.toLocaleString('en')} Hz; the browser states a latency of ${shown(baseLatencyMs, 1)} ms and of ${shown(outputLatencyMs, 1)} ms for the output.`;
+  }
+
+  run() {
+    let [before, polled, announced, lastName] = [performance.now(), 0, 0, ''];
+    const frame = (/** @type {number} */ nowMs) => {
+      requestAnimationFrame(frame);
+      this.hand.frame((nowMs - before) / 1000);
+      before = nowMs;
+      this.view.draw((performance.now() - epochMs) / 1000, this.tips.map(({ place, isDown, holder }) => {
+        const ahead = typeof holder === 'number' ? this.hand.predicted.get(holder) : undefined;
+        const lean = place.orientation ? [-2 * /** @type {number[]} */ (place.orientation)[2], 2 * /** @type {number[]} */ (place.orientation)[0]] : null;
+        return { x: ahead?.x ?? place.x, z: ahead?.z ?? place.z, forceNewtons: place.forceNewtons, isDown, lean };
+      }));
+      this.scope.frame(nowMs);
+      this.outputs.frame(nowMs);
+      this.record.frame();
+      const name = this.#showReading();
+      if (name !== '' && name !== lastName && nowMs - announced > announceEveryMs) {
+        find('#announce').textContent = name;
+        [lastName, announced] = [name, nowMs];
+      }
+      if (nowMs - polled > statisticsEveryMs) {
+        polled = nowMs;
+        this.#poll();
+      }
+    };
+    requestAnimationFrame(frame);
+  }
+
+  #showReading() {
+    const tip = this.tips.find(({ isDown, contact }) => isDown && contact?.touching);
+    if (!tip?.contact) return '';
+    const name = this.#nameOf(tip.contact.surfaceIndex);
+    const heading = find('#reading-name');
+    if (heading.textContent !== name) heading.textContent = name;
+    find('#reading-numbers').textContent = `${Math.round(1000 * tip.speedMps)} mm/s · ${shown(tip.contact.forceNewtons, 1)} N`;
+    return name;
+  }
+
+  #poll() {
+    try {
+      this.quality.show(this.haptics.statistics());
+      this.effects.show(this.voices.map((voice) => voice.statistics()));
+    } catch (error) {
+      if (/** @type {any} */ (error).code !== 'closed') throw error;
+    }
+  }
+}
+
+try {
+  const [plainScene, looks] = await Promise.all([readJson('scene/workbench.json'), readJson('scene/looks.json')]);
+  const scene = matchMedia('(prefers-reduced-motion: reduce)').matches ? withoutMotion(plainScene) : plainScene;
+  const table = new Table(scene);
+  const fills = new Fills(looks.labels);
+  const view = new TableView(find('#table'), table, looks, fills);
+  // The table is there before the engine is.
+  view.draw(0, []);
+  const haptics = await HaptoFlow.create({ updateRateHz, onProgress: (share, doing) => start.progress(share, doing) });
+  table.setLabels(haptics.labels);
+  const tips = [];
+  for (let index = 0; index < tipCount; index += 1) tips.push(new Tip(table, await haptics.openVoice(), haptics.loadScene(scene)));
+  const page = new Page(haptics, scene, looks, view, table, fills, tips);
+  page.run();
+  // For tests and for the curious at the console.
+  Object.assign(globalThis, { haptoflowPage: page });
+} catch (error) {
+  start.fail(error);
+  console.warn(sentenceOf(error));
+}

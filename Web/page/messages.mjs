@@ -1,0 +1,74 @@
+import { find } from './dom.mjs';
+
+// Every failure of the engine in a sentence for somebody who came to draw.
+
+const sentences = /** @type {Record<string, string>} */ ({
+  'model-unreachable': 'The model of the materials could not be loaded.',
+  'engine-unreachable': 'The engine could not be loaded.',
+  'runtime-unreachable': 'The part that computes the networks could not be loaded.',
+  'audio-unavailable': 'This browser gives the page no sound.',
+  'worker-lost': 'The engine stopped.',
+  aborted: 'Stopped.',
+  closed: 'The engine is closed: reload the page.',
+  'invalid-argument': 'That does not work.',
+  input: 'This file cannot be used.',
+  RECORDING_UNUSABLE: 'This recording cannot be used.',
+});
+
+const silences = /** @type {Record<string, string>} */ ({
+  context: 'The browser holds the sound back: tap the table.',
+  stale: 'Silent: the page was too busy to follow the tip. It goes on by itself.',
+  muted: 'Silent: the sound is muted.',
+  paused: 'Silent: the sound is paused.',
+  panic: 'Silenced. The next touch sounds.',
+  rate: 'The sound device changed. It goes on by itself.',
+  closing: 'The sound ends.',
+  'worker-dead': 'The engine stopped: reload the page.',
+  'turned-down': 'Silent: the volume is at zero.',
+});
+
+/** @param {any} error @returns {string} what happened, then what the engine says of it */
+export function sentenceOf(error) {
+  const code = String(error?.code ?? '');
+  const opening = sentences[code] ?? (code.startsWith('MODEL_') ? 'The file of the model is damaged.' : 'Something failed.');
+  const detail = String(error?.message ?? error);
+  return `${opening.slice(0, -1)}: ${detail}${/[.!?]$/.test(detail) ? '' : '.'}`;
+}
+
+/** The message for a silence; empty where there is nothing to say. @param {string} reason */
+export const silenceSentence = (reason) => silences[reason] ?? '';
+
+/** The line at the top of the page; errors are read out at once. */
+export class Messages {
+  #box = find('#message');
+  #text = find('#message-text');
+  #key = '';
+
+  constructor() {
+    find('#message-close').addEventListener('click', () => this.clear());
+  }
+
+  /** @param {string} text @param {{kind?: 'error' | 'note', key?: string}} [options] key: by which `clear` takes back this message only */
+  show(text, { kind = 'note', key = '' } = {}) {
+    // A note does not cover an error.
+    if (kind === 'note' && !this.#box.hidden && this.#box.dataset.kind === 'error') return;
+    this.#key = key;
+    this.#box.dataset.kind = kind;
+    this.#box.setAttribute('role', kind === 'error' ? 'alert' : 'status');
+    this.#text.textContent = text;
+    this.#box.hidden = false;
+  }
+
+  /** @param {string} [key] */
+  clear(key) {
+    if (key !== undefined && key !== this.#key) return;
+    this.#box.hidden = true;
+    this.#text.textContent = '';
+    this.#key = '';
+  }
+
+  /** @param {any} error */
+  error(error) {
+    this.show(sentenceOf(error), { kind: 'error' });
+  }
+}

@@ -1,0 +1,115 @@
+import { find, shown } from '../dom.mjs';
+import { sentenceOf } from '../messages.mjs';
+
+const touches = 40;
+const pause = (/** @type {number} */ milliseconds) => new Promise((resolve) => {
+  setTimeout(resolve, milliseconds);
+});
+
+const sorted = (/** @type {number[]} */ values) => [...values].sort((a, b) => a - b);
+/** By nearest rank. */
+const percentile = (/** @type {number[]} */ values, /** @type {number} */ share) => sorted(values)[Math.max(0, Math.ceil(share * values.length) - 1)] ?? NaN;
+
+/**
+ * Milliseconds of sound that the audio thread played between a published touch-down and its first sample, for each of some touches.
+ * @param {import('../../engine/js/haptoflow.d.ts').Voice} voice
+ */
+export async function touchToSampleMs(voice, count = touches) {
+  const tap = voice.waveTap({ seconds: 1 });
+  const wave = new Float32Array(Math.round(tap.sampleRateHz));
+  const found = [];
+  const state = { touching: true, velocityMps: /** @type {[number, number]} */ ([0.15, 0]), forceNewtons: 1, material: 'sandpaper' };
+  for (let touch = 0; touch < count; touch += 1) {
+    // Not in step with the audio thread's blocks.
+    await pause(70 + 30 * Math.random());
+    while (tap.read(wave) > 0);
+    voice.publish(state);
+    await pause(40);
+    const frames = tap.read(wave);
+    voice.lift();
+    const first = wave.subarray(0, frames).findIndex((sample) => sample !== 0);
+    if (first >= 0) found.push((1000 * first) / tap.sampleRateHz);
+  }
+  tap.close();
+  return found;
+}
+
+/** Measures this device, as a row of the benchmark page and as JSON. */
+export class DevicePanel {
+  #haptics;
+  #hand;
+  #voice;
+  #button = find('#measure');
+  #progress = find('#measure-progress');
+  #result = find('#measure-result');
+  #row = find('#measure-row');
+  #json = '';
+
+  /** @param {import('../../engine/js/haptoflow.d.ts').HaptoFlow} haptics @param {import('../hand/hand.mjs').Hand} hand @param {import('../../engine/js/haptoflow.d.ts').Voice} voice */
+  constructor(haptics, hand, voice) {
+    this.#haptics = haptics;
+    this.#hand = hand;
+    this.#voice = voice;
+    this.#button.addEventListener('click', () => void this.measure());
+    find('#copy-row').addEventListener('click', () => void this.#copy(this.#row.textContent));
+    find('#copy-json').addEventListener('click', () => void this.#copy(this.#json));
+  }
+
+  async #copy(/** @type {string} */ text) {
+    try {
+      await navigator.clipboard.writeText(text);
+      this.#progress.textContent = 'Copied.';
+    } catch {
+      this.#progress.textContent = 'The browser did not allow copying: select the text and copy it by hand.';
+    }
+  }
+
+  async measure() {
+    this.#button.disabled = true;
+    this.#hand.releaseAll();
+    try {
+      await this.#haptics.resume();
+      this.#progress.textContent = 'Touching …';
+      const onset = await touchToSampleMs(this.#voice);
+      const tiers = await this.#haptics.measure({
+        seconds: 2,
+        onProgress: (share, doing) => {
+          this.#progress.textContent = `${doing} (${Math.round(100 * share)} %)`;
+        },
+      });
+      this.#show(tiers, onset);
+      this.#progress.textContent = 'Done. Run it on an idle device: other programs change the figures.';
+    } catch (error) {
+      this.#progress.textContent = sentenceOf(error);
+    }
+    this.#button.disabled = false;
+  }
+
+  #show(/** @type {import('../../engine/js/haptoflow.d.ts').Measurement[]} */ tiers, /** @type {number[]} */ onset) {
+    const statistics = this.#haptics.statistics();
+    const delays = this.#hand.eventDelaysMs;
+    const report = {
+      date: new Date().toISOString().slice(0, 10),
+      userAgent: navigator.userAgent,
+      cores: navigator.hardwareConcurrency,
+      model: this.#haptics.model.name,
+      sharing: statistics.sharing,
+      sampleRateHz: statistics.sampleRateHz,
+      baseLatencyMs: statistics.baseLatencyMs,
+      outputLatencyMs: statistics.outputLatencyMs,
+      touchToSampleMs: { count: onset.length, median: percentile(onset, 0.5), percentile99: percentile(onset, 0.99) },
+      eventToPublishMs: { count: delays.length, median: percentile(delays, 0.5), percentile99: percentile(delays, 0.99) },
+      tiers,
+    };
+    const times = tiers.map(({ tier, hotMs, pacedMs }) => `${tier} ${shown(hotMs.median, 2)} / ${shown(pacedMs.median, 2)} (${shown(pacedMs.percentile99, 2)})`).join(', ');
+    const latency = `${shown(statistics.baseLatencyMs, 1)} + ${shown(statistics.outputLatencyMs, 1)}`;
+    const touch = `${shown(report.touchToSampleMs.median, 1)} (${shown(report.touchToSampleMs.percentile99, 1)})`;
+    const events = delays.length > 0 ? `${shown(report.eventToPublishMs.median, 1)} (${shown(report.eventToPublishMs.percentile99, 1)})` : '–';
+    // The browser's own words for itself may hold the character that parts columns.
+    const name = navigator.userAgent.replaceAll('|', '/');
+    this.#row.textContent = `| ${name} | ${report.cores} | ${report.sharing} | ${times} | ${latency} | ${touch} | ${events} | ${report.date} |`;
+    this.#json = JSON.stringify(report, null, 2);
+    find('#measure-json').textContent = this.#json;
+    this.#result.hidden = false;
+  }
+}
