@@ -34,7 +34,7 @@ protected:
     /// Prepares runs of `batch` requests on the buffers.
     virtual void bind(std::size_t batch) = 0;
 
-    // NOLINTBEGIN(cppcoreguidelines-non-private-member-variables-in-classes)
+    // NOLINTBEGIN(cppcoreguidelines-non-private-member-variables-in-classes,readability-identifier-naming)
     const std::string name_;
     const GraphSignature signature_;
     const std::size_t maximumBatch_;
@@ -44,7 +44,7 @@ protected:
     /// maximumBatch times the size of each tensor; they stay at the same addresses.
     std::vector<std::vector<float>> inputs_;
     std::vector<float> output_;
-    // NOLINTEND(cppcoreguidelines-non-private-member-variables-in-classes)
+    // NOLINTEND(cppcoreguidelines-non-private-member-variables-in-classes,readability-identifier-naming)
 };
 
 /// Loads a graph whose operators were checked, compares it with `signature` and runs it with maximumBatch requests and

@@ -85,7 +85,8 @@ void OnnxGraphSession::probe(std::span<const std::byte> graph, Optimisation opti
             api.ReleaseStatus(status);
         }
     };
-    const double limitMs = limits.probeLimitMs * static_cast<double>((batch + probeBatch - 1) / probeBatch);
+    const std::size_t parts = (batch + probeBatch - 1) / probeBatch;
+    const double limitMs = limits.probeLimitMs * static_cast<double>(parts);
     const CancellationAction cancelled(limits.cancellation.get(), terminate);
     const TimeLimit limit(limitMs, terminate);
     const auto explain = [&] {

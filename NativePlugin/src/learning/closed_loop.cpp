@@ -43,18 +43,27 @@ ClosedLoop::ClosedLoop(inference::SegmentGenerator& generator, const model::Mode
                        const recordings::PreparedRecording& recording, std::span<const float> unitWave)
     : generator_(generator), model_(model), recording_(recording), unitWave_(unitWave) {}
 
-std::array<float, 3> ClosedLoop::motionFrom(std::size_t first, std::size_t count) const {
+std::array<float, 3> ClosedLoop::limited(const std::array<double, 3>& motion) const {
+    const double speed = std::hypot(motion[0], motion[1]);
+    const double excess = std::max(1.0, speed / model_.speedMps.maximum);
+    return {static_cast<float>(motion[0] / excess), static_cast<float>(motion[1] / excess),
+            static_cast<float>(std::clamp(motion[2], model_.forceNewtons.minimum, model_.forceNewtons.maximum))};
+}
+
+std::array<float, 3> ClosedLoop::motionFrom(const Chain& chain, std::size_t first, std::size_t count) const {
     std::array<double, 3> mean{};
-    const std::size_t last = std::min(first + count, recording_.motion.size());
-    for (std::size_t i = first; i < last; ++i) {
+    if (chain.steadyMotion) {
+        std::ranges::copy(*chain.steadyMotion, mean.begin());
+        return limited(mean);
+    }
+    const std::size_t begin = chain.start + first;
+    const std::size_t last = std::min(begin + count, recording_.motion.size());
+    for (std::size_t i = begin; i < last; ++i) {
         for (std::size_t component = 0; component < mean.size(); ++component) {
-            mean[component] += recording_.motion[i][component] / static_cast<double>(last - first);
+            mean[component] += recording_.motion[i][component] / static_cast<double>(last - begin);
         }
     }
-    const double speed = std::hypot(mean[0], mean[1]);
-    const double excess = std::max(1.0, speed / model_.speedMps.maximum);
-    return {static_cast<float>(mean[0] / excess), static_cast<float>(mean[1] / excess),
-            static_cast<float>(std::clamp(mean[2], model_.forceNewtons.minimum, model_.forceNewtons.maximum))};
+    return limited(mean);
 }
 
 std::vector<float> ClosedLoop::run(std::span<const Embedding> embeddings, std::span<const Chain> chains,
@@ -82,7 +91,7 @@ std::vector<float> ClosedLoop::run(std::span<const Embedding> embeddings, std::s
     std::uint64_t hop = 0;
     for (std::size_t start = 0; start < whole; start += settings.hopSamples, ++hop) {
         for (std::size_t c = 0; c < chains.size(); ++c) {
-            requests[c].motion = motionFrom(chains[c].start + start, settings.hopSamples);
+            requests[c].motion = motionFrom(chains[c], start, settings.hopSamples);
             std::array<float, inference::ribCount> turns{};
             std::ranges::transform(phases[c], turns.begin(), [](double each) {
                 const auto phase = static_cast<float>(each);

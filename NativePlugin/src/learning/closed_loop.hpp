@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,6 +22,8 @@ struct Chain {
     std::size_t start = 0;
     /// Chains with equal keys have equal noise.
     std::uint32_t noise = 0;
+    /// Instead of the recorded motion: vx, vy in m/s and force in N, the same throughout.
+    std::optional<std::array<float, 3>> steadyMotion{};
 };
 
 struct LoopSettings {
@@ -49,8 +52,9 @@ public:
     [[nodiscard]] std::uint64_t segments() const noexcept { return segments_; }
 
 private:
-    /// Mean motion of the recording's samples from `first` on, limited to the model's range.
-    [[nodiscard]] std::array<float, 3> motionFrom(std::size_t first, std::size_t count) const;
+    /// Mean motion of the chain's samples from `first` on, limited to the model's range.
+    [[nodiscard]] std::array<float, 3> motionFrom(const Chain& chain, std::size_t first, std::size_t count) const;
+    [[nodiscard]] std::array<float, 3> limited(const std::array<double, 3>& motion) const;
 
     inference::SegmentGenerator& generator_;
     const model::ModelHeader& model_;

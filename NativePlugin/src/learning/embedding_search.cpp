@@ -16,6 +16,17 @@ constexpr double firstStep = 0.45;
 constexpr double shrinkage = 0.06;
 /// Segments of one chain of the fit; see TextureFit::distances.
 constexpr std::uint64_t segmentsPerChain = 8;
+/// Samples that the mean likelihood counts as. So few, because the tone says what the recording's spectrum is: an
+/// embedding far from all labels, which fits the recorded conditions a little better, is worse in all others.
+constexpr double likelihoodWeight = 10.0;
+/// A generation of likelihoods takes as long as these.
+constexpr std::uint64_t segmentsPerGeneration = 280;
+
+std::vector<double> manyDistances(TextureFit& fit, const Embedding& start, const Embedding& fitted) {
+    const std::size_t chains = 6 * fit.bins().count();
+    const std::array<Embedding, 2> both{start, fitted};
+    return fit.distances(both, chains, 1'000'000 / chains);
+}
 
 }  // namespace
 
@@ -81,12 +92,42 @@ FittedEmbedding fitEmbedding(TextureFit& fit, const EmbeddingSpace& space, const
         }
         fitted = space.at(start, strategy.mean());
     }
-    const std::size_t manyChains = 6 * fit.bins().count();
-    const std::array<Embedding, 2> both{start, fitted};
-    const std::vector<double> distances = fit.distances(both, manyChains, 1'000'000 / manyChains);
+    const std::vector<double> distances = manyDistances(fit, start, fitted);
     result.embedding = distances[1] < distances[0] ? fitted : start;
     result.startDistanceDb = std::sqrt(distances[0]);
     result.distanceDb = std::sqrt(std::min(distances[0], distances[1]));
+    return result;
+}
+
+std::size_t likeliestLabel(const FilterLikelihood& likelihood, const EmbeddingSpace& space, std::size_t labels) {
+    std::vector<double> losses;
+    for (std::size_t label = 0; label < labels; ++label) {
+        losses.push_back(likelihood.loss(space.ofLabel(label)));
+    }
+    return static_cast<std::size_t>(std::ranges::min_element(losses) - losses.begin());
+}
+
+FittedEmbedding likeliestEmbedding(const FilterLikelihood& likelihood, TextureFit& fit, const EmbeddingSpace& space,
+                                   const Embedding& start, const SearchSettings& settings) {
+    const std::uint64_t generations = settings.segmentBudget / segmentsPerGeneration;
+    FittedEmbedding result{.embedding = start};
+    if (space.axisCount() > 0) {
+        EvolutionStrategy strategy(space.coordinatesOf(start), firstStep, population, settings.seed + 1);
+        while (result.generations < generations && !settings.isOver()) {
+            settings.progress(static_cast<double>(result.generations) / static_cast<double>(generations));
+            std::vector<double> losses;
+            for (const std::vector<double>& point : strategy.ask()) {
+                const double distance = std::inner_product(point.begin(), point.end(), point.begin(), 0.0);
+                losses.push_back(likelihoodWeight * likelihood.loss(space.at(start, point)) + 0.5 * distance);
+            }
+            strategy.tell(losses);
+            ++result.generations;
+        }
+        result.embedding = space.at(start, strategy.mean());
+    }
+    const std::vector<double> distances = manyDistances(fit, start, result.embedding);
+    result.startDistanceDb = std::sqrt(distances[0]);
+    result.distanceDb = std::sqrt(distances[1]);
     return result;
 }
 

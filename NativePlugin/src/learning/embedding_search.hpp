@@ -1,6 +1,7 @@
 #pragma once
 
 #include "learning/embedding_space.hpp"
+#include "learning/filter_likelihood.hpp"
 #include "learning/texture_fit.hpp"
 
 #include <cstdint>
@@ -36,5 +37,15 @@ struct FittedEmbedding {
 /// Searches the space of the model's labels with CMA-ES from `start`, which stays if nothing better is found.
 [[nodiscard]] FittedEmbedding fitEmbedding(TextureFit& fit, const EmbeddingSpace& space, const Embedding& start,
                                            const SearchSettings& settings);
+
+/// The index of the label whose filter makes the recording the most probable.
+[[nodiscard]] std::size_t likeliestLabel(const FilterLikelihood& likelihood, const EmbeddingSpace& space,
+                                         std::size_t labels);
+
+/// Searches the space of the model's labels, in which labels are normally distributed, with CMA-ES for the embedding
+/// whose filter makes the recording the most probable. For recordings without ribs, which a filter cannot explain.
+[[nodiscard]] FittedEmbedding likeliestEmbedding(const FilterLikelihood& likelihood, TextureFit& fit,
+                                                 const EmbeddingSpace& space, const Embedding& start,
+                                                 const SearchSettings& settings);
 
 }  // namespace haptoflow::learning

@@ -16,6 +16,7 @@
 #include "learning/wave_vectors.hpp"
 #include "model/material_file.hpp"
 #include "recordings/prepared_recording.hpp"
+#include "skeleton/skeleton_tensors.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -30,6 +31,8 @@ constexpr double degreesPerRadian = 57.29577951308232;
 /// Shares of the time limit at which the search among the labels and the fit end.
 constexpr double labelShare = 0.4;
 constexpr double fitShare = 0.9;
+/// Share of the segments that measure the network's level; see TextureFit::steadyFrames.
+constexpr double steadyShare = 0.4;
 constexpr double noticeableDb = 0.3;
 constexpr double largeLevelErrorDb = 3.0;
 
@@ -62,6 +65,10 @@ public:
         findRibs();
         ClosedLoop loop(generator_, model_.header(), recording_, unitWave_);
         TextureFit fit = fitOf(loop);
+        const skeleton::NativeParts native = skeleton::readNativeParts(model_);
+        if (native.skeleton != nullptr && report_.waveVectors.empty()) {
+            likelihood_.emplace(*native.skeleton, recording_, sliding_, unitWave_);
+        }
         const auto& labels = model_.header().labels;
         const std::size_t start = keptLabel_ ? *keptLabel_ : startOf(fit);
         report_.startLabel = labels[start].name;
@@ -169,14 +176,19 @@ private:
 
     [[nodiscard]] std::size_t startOf(TextureFit& fit) {
         say(0.1, "start label");
+        if (likelihood_) {
+            return likeliestLabel(*likelihood_, EmbeddingSpace(model_, waveVectors_), model_.header().labels.size());
+        }
         return startLabel(fit, EmbeddingSpace(model_, waveVectors_), model_.header().labels,
                           search(0.1, 0.1, "start label", labelShare));
     }
 
     [[nodiscard]] Embedding searched(TextureFit& fit, std::size_t start) {
         const EmbeddingSpace space(model_, waveVectors_);
+        const SearchSettings settings = search(0.2, 0.7, "embedding", fitShare);
         const FittedEmbedding fitted =
-            fitEmbedding(fit, space, space.ofLabel(start), search(0.2, 0.7, "embedding", fitShare));
+            likelihood_ ? likeliestEmbedding(*likelihood_, fit, space, space.ofLabel(start), settings)
+                        : fitEmbedding(fit, space, space.ofLabel(start), settings);
         report_.startDistanceDb = fitted.startDistanceDb;
         report_.fittedDistanceDb = fitted.distanceDb;
         report_.generations = fitted.generations;
@@ -240,7 +252,13 @@ private:
     model::ToneTable fitTones(TextureFit& fit, const Embedding& embedding) {
         const std::vector<SpectrumFrame> recorded = fit.recordedFrames();
         const std::vector<SpectrumFrame> generated = fit.generatedFrames(embedding);
-        model::ToneTable tone = fitTone(recorded, generated, recording_.bandwidthHz);
+        const ToneConditions conditions = toneConditions(recorded);
+        // Lines are where the recording's are only along its own motion.
+        const bool hasRibs = !report_.waveVectors.empty();
+        const std::vector<SpectrumFrame> steady =
+            fit.steadyFrames(embedding, conditions.speedsMps, conditions.forcesNewtons,
+                             static_cast<std::uint64_t>(steadyShare * static_cast<double>(settings_.segmentBudget)));
+        model::ToneTable tone = fitTone(recorded, hasRibs ? generated : steady, steady, recording_.bandwidthHz);
         if (tone.speedsMps.empty()) {
             return tone;
         }
@@ -342,6 +360,7 @@ private:
     LevelLaw level_;
     std::vector<float> unitWave_;
     std::array<float, 2 * inference::ribCount> waveVectors_{};
+    std::optional<FilterLikelihood> likelihood_;
     LearningReport report_;
 };
 

@@ -148,7 +148,8 @@ private:
     void step(std::vector<double>& unknown) const {
         SymmetricMatrix normal(unknown.size());
         std::vector<double> right(unknown.size());
-        constexpr double largestStep = 1.0;
+        // Fifty milliseconds of a low rumble may have nine times the law's power by chance; more is a knock.
+        constexpr double largestStep = 4.0;
         constexpr double frameWeight = 0.5 / (frameSpread * frameSpread);
         for (const Frame& frame : frames_) {
             const Row row = rowOf(frame);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace haptoflow::learning {
 namespace {
@@ -11,6 +12,8 @@ constexpr std::size_t pastSamples = inference::segmentSamples;
 constexpr std::size_t warmSamples = 200;
 constexpr std::size_t chainSamples = 512;
 constexpr std::size_t frameHop = 64;
+constexpr std::size_t hopAt72Hz = 28;
+constexpr std::size_t mostDirections = 12;
 constexpr double lowestHz = 15.0;
 constexpr double highestHz = 900.0;
 constexpr double powerFloor = 1e-7;
@@ -254,7 +257,6 @@ std::vector<double> TextureFit::distances(std::span<const Embedding> embeddings,
 }
 
 std::vector<SpectrumFrame> TextureFit::generatedFrames(const Embedding& embedding) {
-    constexpr std::size_t hopAt72Hz = 28;
     constexpr std::size_t maximumChains = 192;
     constexpr std::size_t defaultChains = 120;
     std::size_t available = 0;
@@ -280,6 +282,69 @@ std::vector<SpectrumFrame> TextureFit::generatedFrames(const Embedding& embeddin
     std::vector<SpectrumFrame> frames;
     for (std::size_t k = 0; k < chains.size(); ++k) {
         addFrames(frames, std::span(waves).subspan(k * chainSamples, chainSamples), chains[k].start + warmSamples);
+    }
+    return frames;
+}
+
+void TextureFit::addSteadyChains(std::vector<Chain>& chains, double speedMps, double newtons, std::size_t count) const {
+    constexpr std::size_t nearestShare = 12;
+    constexpr double smallestNewtons = 1e-3;
+    struct Near {
+        double distance = 0.0;
+        std::size_t start = 0;
+    };
+    const auto middleOf = [](std::size_t start) { return start + warmSamples + chainSamples / 2; };
+    std::vector<Near> all;
+    for (const auto& starts : starts_) {
+        for (const std::size_t start : starts) {
+            const std::size_t at = middleOf(start);
+            const double force = std::max(static_cast<double>(recording_.motion[at][2]), smallestNewtons);
+            const double speed = std::max(recording_.speedMps(at), minimumSlidingMps);
+            all.push_back({std::hypot(std::log(speed / speedMps), std::log(force / newtons)), start});
+        }
+    }
+    std::ranges::sort(all, {}, [](const Near& near) { return std::pair(near.distance, near.start); });
+    const std::size_t among = std::min(all.size(), std::max(count, all.size() / nearestShare));
+    for (std::size_t k = 0; k < count; ++k) {
+        const std::size_t start = all[k * among / count].start;
+        const auto& motion = recording_.motion[middleOf(start)];
+        const auto scale =
+            static_cast<float>(speedMps / std::max(recording_.speedMps(middleOf(start)), minimumSlidingMps));
+        chains.push_back({.embedding = 0,
+                          .start = start,
+                          .noise = static_cast<std::uint32_t>(chains.size()),
+                          .steadyMotion = {{motion[0] * scale, motion[1] * scale, static_cast<float>(newtons)}}});
+    }
+}
+
+std::vector<SpectrumFrame> TextureFit::steadyFrames(const Embedding& embedding, std::span<const double> speedsMps,
+                                                    std::span<const double> forcesNewtons,
+                                                    std::uint64_t segmentBudget) {
+    constexpr std::size_t steadySamples = 1024;
+    constexpr std::size_t segments = (warmSamples + steadySamples + hopAt72Hz - 1) / hopAt72Hz;
+    const std::size_t count = std::clamp<std::size_t>(
+        segmentBudget / (segments * speedsMps.size() * forcesNewtons.size()), 2, mostDirections);
+    std::vector<Chain> chains;
+    for (const double force : forcesNewtons) {
+        for (const double speed : speedsMps) {
+            addSteadyChains(chains, speed, force, count);
+        }
+    }
+    const std::vector<float> waves = loop_.run(std::span(&embedding, 1), chains,
+                                               {.hopSamples = hopAt72Hz,
+                                                .warmSamples = warmSamples,
+                                                .samples = steadySamples,
+                                                .seed = seed_,
+                                                .round = 2'000'000});
+    std::vector<SpectrumFrame> frames;
+    for (std::size_t k = 0; k < chains.size(); ++k) {
+        const auto& motion = *chains[k].steadyMotion;
+        for (std::size_t at = 0; at + spectrumSamples <= steadySamples; at += spectrumSamples / 2) {
+            SpectrumFrame& frame = frames.emplace_back();
+            frame.speedMps = std::hypot(static_cast<double>(motion[0]), static_cast<double>(motion[1]));
+            frame.forceNewtons = motion[2];
+            frame.power = powerOf(std::span(waves).subspan(k * steadySamples + at).first<spectrumSamples>());
+        }
     }
     return frames;
 }

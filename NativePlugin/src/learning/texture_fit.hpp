@@ -39,8 +39,16 @@ public:
     [[nodiscard]] std::vector<SpectrumFrame> recordedFrames() const;
     /// Frames of waves generated for an embedding along the whole recording, several times, at 72 updates per second.
     [[nodiscard]] std::vector<SpectrumFrame> generatedFrames(const Embedding& embedding);
+    /// Frames of waves generated for an embedding at every combination of the given speeds and forces, in the
+    /// directions that the recording has in similar conditions. Generates at most `segmentBudget` segments, but at
+    /// least two waves in each condition.
+    [[nodiscard]] std::vector<SpectrumFrame> steadyFrames(const Embedding& embedding, std::span<const double> speedsMps,
+                                                          std::span<const double> forcesNewtons,
+                                                          std::uint64_t segmentBudget);
 
 private:
+    /// Adds `count` chains with a steady motion in the directions of the recording's motions near this speed and force.
+    void addSteadyChains(std::vector<Chain>& chains, double speedMps, double newtons, std::size_t count) const;
     [[nodiscard]] std::vector<std::vector<std::size_t>> startsByBin(std::size_t samples) const;
     void measure(TextureMeter& meter, std::span<const float> wave, std::size_t start) const;
     /// Adds the frames of a wave that begins at the recording's sample `start`.

@@ -369,14 +369,20 @@ void setLevels(model::ToneTable& tone, const Spectrum& spectrum, const NetworkSp
 
 }  // namespace
 
+ToneConditions toneConditions(std::span<const SpectrumFrame> recorded) {
+    const ConditionBasis basis(recorded);
+    return {.speedsMps = basis.speedsMps(tableSpeeds), .forcesNewtons = basis.forcesNewtons(tableForces)};
+}
+
 model::ToneTable fitTone(std::span<const SpectrumFrame> recorded, std::span<const SpectrumFrame> generated,
-                         double bandwidthHz) {
+                         std::span<const SpectrumFrame> steady, double bandwidthHz) {
     if (recorded.size() < minimumFrames || generated.size() < minimumFrames) {
         return {};
     }
     const ConditionBasis basis(recorded);
     const Spectrum spectrum(bandwidthHz);
     const NetworkSpectrum network(basis, spectrum, generated);
+    const NetworkSpectrum inTheTable(basis, spectrum, steady);
     std::vector<Ratios> frames;
     for (const SpectrumFrame& frame : recorded) {
         Ratios each{.functions = basis.at(frame.speedMps, frame.forceNewtons),
@@ -407,7 +413,7 @@ model::ToneTable fitTone(std::span<const SpectrumFrame> recorded, std::span<cons
             tone.gainsDb.push_back(std::move(gains));
         }
     }
-    setLevels(tone, spectrum, network, [&](double speed, double force) {
+    setLevels(tone, spectrum, inTheTable, [&](double speed, double force) {
         const std::vector<double> functions = basis.at(speed, force);
         return std::inner_product(functions.begin(), functions.end(), level.begin(), 0.0);
     });

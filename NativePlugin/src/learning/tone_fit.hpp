@@ -17,8 +17,19 @@ namespace haptoflow::learning {
 /// the prior is the one with which the fit to three quarters of the recording explains the last quarter best, so that
 /// chance in few frames is not taken for a tone. Above `bandwidthHz` the gain is that of the highest frequency below
 /// it.
+///
+/// The shape of the tone comes from `generated`, frames of motions like the recorded ones; its level from `steady`,
+/// frames of the conditions of the table (toneConditions), whose corners a recording hardly visits.
 [[nodiscard]] model::ToneTable fitTone(std::span<const SpectrumFrame> recorded,
-                                       std::span<const SpectrumFrame> generated, double bandwidthHz);
+                                       std::span<const SpectrumFrame> generated, std::span<const SpectrumFrame> steady,
+                                       double bandwidthHz);
+
+/// The speeds in m/s and the forces in N of the tone that fits these frames.
+struct ToneConditions {
+    std::vector<double> speedsMps;
+    std::vector<double> forcesNewtons;
+};
+[[nodiscard]] ToneConditions toneConditions(std::span<const SpectrumFrame> recorded);
 
 /// The mean of the frames of one range of speed.
 struct MeanSpectrum {

@@ -62,13 +62,21 @@ std::array<FamilyPhase, familyCount> Skeleton::familiesOf(const Phases& phases) 
     return families;
 }
 
+ReflectionFilter Skeleton::filterOf(const HiddenLayers::Activations& activations) const noexcept {
+    std::array<float, filterOrder + 1> outputs{};
+    outputs_.filter.apply(activations, outputs);
+    return ReflectionFilter::of(std::span(outputs).first<filterOrder>(), outputs.back());
+}
+
+ReflectionFilter Skeleton::filterFor(const Condition& condition) const noexcept {
+    return filterOf(hidden_.run(condition));
+}
+
 SegmentParameters Skeleton::parametersFor(const Condition& condition,
                                           const std::array<FamilyPhase, familyCount>& phases) const noexcept {
     const HiddenLayers::Activations activations = hidden_.run(condition);
     SegmentParameters parameters;
-    std::array<float, filterOrder + 1> filter{};
-    outputs_.filter.apply(activations, filter);
-    parameters.filter = ReflectionFilter::of(std::span(filter).first<filterOrder>(), filter.back());
+    parameters.filter = filterOf(activations);
     for (std::size_t family = 0; family < familyCount; ++family) {
         if (phases[family].isHeard()) {
             std::array<float, 2 * (swingHarmonics + lineHarmonics)> outputs{};

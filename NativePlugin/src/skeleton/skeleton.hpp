@@ -55,6 +55,8 @@ public:
 
     [[nodiscard]] SegmentParameters parametersFor(const Condition& condition,
                                                   const std::array<FamilyPhase, familyCount>& phases) const noexcept;
+    /// The filter alone, which costs a fraction of the whole.
+    [[nodiscard]] ReflectionFilter filterFor(const Condition& condition) const noexcept;
     [[nodiscard]] static std::array<FamilyPhase, familyCount> familiesOf(const Phases& phases) noexcept;
 
     /// Writes the segment in unit scale.
@@ -70,6 +72,7 @@ public:
 
 private:
     struct Pulses;
+    [[nodiscard]] ReflectionFilter filterOf(const HiddenLayers::Activations& activations) const noexcept;
     void begin(const Moment& moment, const SegmentParameters& parameters, std::span<float, segmentSamples> begun,
                std::span<float, segmentSamples> struck, Pulses* pulses) const noexcept;
 

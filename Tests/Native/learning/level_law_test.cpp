@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
 
 namespace haptoflow::learning {
 namespace {
@@ -44,6 +45,24 @@ TEST(LevelLawTest, AJumpOf14DecibelsIsFollowedInsideTheRecordedRange) {
     const LevelLaw law = lawOf(MadeRecording(surface, {}));
     EXPECT_NEAR(errorDb(law, surface, 0.045, 0.8), 0.0, 1.5);
     EXPECT_NEAR(errorDb(law, surface, 0.12, 0.8), 0.0, 1.5);
+}
+
+TEST(LevelLawTest, TheLevelIsThePowerAlsoWhereItComesInBursts) {
+    recordings::PreparedRecording recording;
+    recording.wave.resize(40'000);
+    inference::fillStandardNormal({.seed = 2, .voice = 0, .segment = 0}, recording.wave);
+    double power = 0.0;
+    for (std::size_t i = 0; i < recording.wave.size(); ++i) {
+        const bool isLoud = i / 100 % 10 == 0;
+        recording.wave[i] *= isLoud ? 4.0F : 1.0F;
+        power += std::pow(static_cast<double>(recording.wave[i]), 2.0) / static_cast<double>(recording.wave.size());
+    }
+    recording.motion.assign(recording.wave.size(), {0.1F, 0.0F, 1.0F});
+    recording.isUsable.assign(recording.wave.size(), 1);
+    model::ModelHeader header;
+    header.speedMps.maximum = 1.5;
+    const LevelLaw law = fitLevelLaw(recording, findSliding(recording, header), {});
+    EXPECT_NEAR(decibelsPerNat * (law.logLevel(0.1, 1.0) - 0.5 * std::log(power)), 0.0, 0.5);
 }
 
 TEST(LevelLawTest, WithOneSpeedTheExponentsAreThoseOfThePrior) {

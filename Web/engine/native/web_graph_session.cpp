@@ -89,7 +89,8 @@ void WebGraphSession::probe(std::size_t batch, const LoadLimits& limits) {
     const auto began = std::chrono::steady_clock::now();
     run();
     const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - began;
-    const double limitMs = limits.probeLimitMs * static_cast<double>((batch + probeBatch - 1) / probeBatch);
+    const std::size_t parts = (batch + probeBatch - 1) / probeBatch;
+    const double limitMs = limits.probeLimitMs * static_cast<double>(parts);
     if (spent.count() > limitMs) {
         throw TierTooSlow(name_ + ": a run of " + std::to_string(batch) + " took longer than " +
                           std::to_string(static_cast<std::int64_t>(std::ceil(limitMs))) +
