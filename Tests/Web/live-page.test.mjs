@@ -244,6 +244,38 @@ describe('the live page', { skip: !hasBrowser }, () => {
     assert.equal(await inPage(() => globalThis.haptoflowPage.table.materials[13]), 'rough');
   });
 
+  test('a phone\'s motor and a gamepad\'s follow the stroke, and rest after it', async () => {
+    const found = await inPage(async () => {
+      const rumbles = [];
+      const vibrations = [];
+      const gamepad = { id: 'made', vibrationActuator: { playEffect: async (_, { weakMagnitude }) => rumbles.push(weakMagnitude) } };
+      Object.defineProperty(navigator, 'getGamepads', { configurable: true, value: () => [null, gamepad] });
+      Object.defineProperty(navigator, 'vibrate', { configurable: true, value: (milliseconds) => vibrations.push(milliseconds) });
+      for (const id of ['output-vibration', 'output-rumble']) document.getElementById(id).click();
+      const { hand } = globalThis.haptoflowPage;
+      await hand.play({ name: '', words: '', from: [-0.22, -0.112], legs: [{ to: [-0.15, -0.112], seconds: 0.7 }, { to: [-0.22, -0.112], seconds: 0.7 }] });
+      await new Promise((resolve) => { setTimeout(resolve, 500); });
+      const counts = [rumbles.length, vibrations.length];
+      await new Promise((resolve) => { setTimeout(resolve, 300); });
+      const result = { rumbles: [...rumbles], vibrations: [...vibrations], counts, later: [rumbles.length, vibrations.length] };
+      for (const id of ['output-vibration', 'output-rumble']) document.getElementById(id).click();
+      return result;
+    });
+    assert.ok(found.rumbles.length > 5 && Math.max(...found.rumbles) > 0.1, `${found.rumbles}`);
+    assert.ok(found.rumbles.every((share) => share >= 0 && share <= 1));
+    assert.equal(found.rumbles.at(-1), 0);
+    assert.ok(found.vibrations.length > 3 && found.vibrations.every((milliseconds) => milliseconds > 0 && milliseconds <= 50), `${found.vibrations}`);
+    assert.deepEqual(found.counts, found.later);
+  });
+
+  test('the time from a touch to its first sample is measured on this device', async () => {
+    const times = await inPage(async () => {
+      const { touchToSampleMs } = await import('./panels/device.mjs');
+      return touchToSampleMs(globalThis.haptoflowPage.voices[1], 5);
+    });
+    assert.ok(times.length >= 3 && times.every((milliseconds) => milliseconds > 0), `${times}`);
+  });
+
   test('a file that is no recording is refused in words', async () => {
     const { page } = opened;
     await page.locator('#recording').setInputFiles({ name: 'letter.csv', mimeType: 'text/csv', buffer: Buffer.from('dear,friend\n1,2\n') });
