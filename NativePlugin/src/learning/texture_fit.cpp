@@ -322,8 +322,8 @@ std::vector<SpectrumFrame> TextureFit::steadyFrames(const Embedding& embedding, 
                                                     std::uint64_t segmentBudget) {
     constexpr std::size_t steadySamples = 1024;
     constexpr std::size_t segments = (warmSamples + steadySamples + hopAt72Hz - 1) / hopAt72Hz;
-    const std::size_t count = std::clamp<std::size_t>(
-        segmentBudget / (segments * speedsMps.size() * forcesNewtons.size()), 2, mostDirections);
+    const auto count = static_cast<std::size_t>(std::clamp<std::uint64_t>(
+        segmentBudget / (segments * speedsMps.size() * forcesNewtons.size()), 2, mostDirections));
     std::vector<Chain> chains;
     for (const double force : forcesNewtons) {
         for (const double speed : speedsMps) {
