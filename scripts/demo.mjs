@@ -18,5 +18,6 @@ await runMain('demo', async () => {
   const machine = `${os.cpus()[0]?.model.trim() ?? 'unknown processor'}, ${os.cpus().length} cores`;
   const env = { PYTHONPATH: inRepository('scripts', 'pack'), PYTHONDONTWRITEBYTECODE: '1', OPENBLAS_NUM_THREADS: '1' };
   await runOrFail(pythonOrFail(drawingModules), [inRepository('scripts', 'demo', 'demo.py'), machine], { env });
+  console.log('demo: `./run play` opens the live page, to draw yourself');
   console.log(`demo: open ${inRepository('out', 'demo', 'index.html')} (${((performance.now() - begin) / 1000).toFixed(1)} s)`);
 }, { help, takesWords: false });

@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import { writeFileSync } from 'node:fs';
 import path from 'node:path';
-import { after, before, describe, test } from 'node:test';
+import { after, afterEach, before, describe, test } from 'node:test';
 import { hasBrowser } from './support/browser.mjs';
 import { hasCommandLine, native, wavSamples } from './support/engine.mjs';
 import { recording } from './support/made-recording.mjs';
@@ -244,6 +244,38 @@ describe('the live page', { skip: !hasBrowser }, () => {
     assert.equal(await inPage(() => globalThis.haptoflowPage.table.materials[13]), 'rough');
   });
 
+  test('a phone\'s motor and a gamepad\'s follow the stroke, and rest after it', async () => {
+    const found = await inPage(async () => {
+      const rumbles = [];
+      const vibrations = [];
+      const gamepad = { id: 'made', vibrationActuator: { playEffect: async (_, { weakMagnitude }) => rumbles.push(weakMagnitude) } };
+      Object.defineProperty(navigator, 'getGamepads', { configurable: true, value: () => [null, gamepad] });
+      Object.defineProperty(navigator, 'vibrate', { configurable: true, value: (milliseconds) => vibrations.push(milliseconds) });
+      for (const id of ['output-vibration', 'output-rumble']) document.getElementById(id).click();
+      const { hand } = globalThis.haptoflowPage;
+      await hand.play({ name: '', words: '', from: [-0.22, -0.112], legs: [{ to: [-0.15, -0.112], seconds: 0.7 }, { to: [-0.22, -0.112], seconds: 0.7 }] });
+      await new Promise((resolve) => { setTimeout(resolve, 500); });
+      const counts = [rumbles.length, vibrations.length];
+      await new Promise((resolve) => { setTimeout(resolve, 300); });
+      const result = { rumbles: [...rumbles], vibrations: [...vibrations], counts, later: [rumbles.length, vibrations.length] };
+      for (const id of ['output-vibration', 'output-rumble']) document.getElementById(id).click();
+      return result;
+    });
+    assert.ok(found.rumbles.length > 5 && Math.max(...found.rumbles) > 0.1, `${found.rumbles}`);
+    assert.ok(found.rumbles.every((share) => share >= 0 && share <= 1));
+    assert.equal(found.rumbles.at(-1), 0);
+    assert.ok(found.vibrations.length > 3 && found.vibrations.every((milliseconds) => milliseconds > 0 && milliseconds <= 50), `${found.vibrations}`);
+    assert.deepEqual(found.counts, found.later);
+  });
+
+  test('the time from a touch to its first sample is measured on this device', async () => {
+    const times = await inPage(async () => {
+      const { touchToSampleMs } = await import('./panels/device.mjs');
+      return touchToSampleMs(globalThis.haptoflowPage.voices[1], 5);
+    });
+    assert.ok(times.length >= 3 && times.every((milliseconds) => milliseconds > 0), `${times}`);
+  });
+
   test('a file that is no recording is refused in words', async () => {
     const { page } = opened;
     await page.locator('#recording').setInputFiles({ name: 'letter.csv', mimeType: 'text/csv', buffer: Buffer.from('dear,friend\n1,2\n') });
@@ -285,6 +317,8 @@ describe('the live page', { skip: !hasBrowser }, () => {
 });
 
 describe('the live page elsewhere', { skip: !hasBrowser }, () => {
+  afterEach(() => opened.close());
+
   test('without the headers it says that it uses a ring, and sounds; 360 pixels need no scrolling aside; dark is dark', async () => {
     opened = await openLivePage({ isolated: false, viewport: { width: 360, height: 720 }, colorScheme: 'dark' });
     assert.match(await opened.page.locator('#device-line').textContent(), /ring that adds \d+ ms/);
@@ -295,15 +329,15 @@ describe('the live page elsewhere', { skip: !hasBrowser }, () => {
     assert.ok(await inPage(() => document.documentElement.scrollWidth <= innerWidth));
     const ground = await inPage(() => getComputedStyle(document.body).backgroundColor.match(/\d+/g).map(Number));
     assert.ok(Math.max(...ground) < 60, `${ground}`);
-    await opened.close();
   });
 
   test('sound that waits for a gesture says so, and a tap starts it; less motion stops the grille', async () => {
-    opened = await openLivePage({ needsGesture: true, reducedMotion: 'reduce' });
+    opened = await openLivePage({ reducedMotion: 'reduce' });
+    // As a browser does before a gesture, or when it takes the device away.
+    await inPage(() => globalThis.haptoflowPage.haptics.context.suspend());
     await opened.page.getByRole('button', { name: 'Tap to start' }).click();
     await opened.page.waitForFunction(() => document.querySelector('#start').hidden);
     assert.equal(await inPage(() => globalThis.haptoflowPage.table.tops.some(({ motion }) => motion)), false);
-    await opened.close();
   });
 
   for (const [what, changes, expected] of /** @type {[string, Record<string, any>, RegExp][]} */ ([
@@ -316,7 +350,6 @@ describe('the live page elsewhere', { skip: !hasBrowser }, () => {
       await opened.page.waitForFunction(() => document.querySelector('#message').dataset.kind === 'error', null, { timeout: 20000 });
       assert.match(await text('#message-text'), expected);
       assert.ok(await opened.page.getByRole('button', { name: 'Try again' }).isVisible());
-      await opened.close();
     });
   }
 });

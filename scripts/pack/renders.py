@@ -161,6 +161,9 @@ def save(figure: plt.Figure, file: Path) -> None:
 
 
 if __name__ == "__main__":
-    # Stamps pictures of other programs.
-    for name in sys.argv[1:]:
-        Image.open(name).save(name, optimize=True, pnginfo=stamp())
+    # Stamps pictures of other programs. With --palette first, they get one of 200 colours.
+    names = sys.argv[1:]
+    has_palette = names[:1] == ["--palette"]
+    for name in names[has_palette:]:
+        picture = Image.open(name)
+        (picture.convert("RGB").quantize(200) if has_palette else picture).save(name, optimize=True, pnginfo=stamp())

@@ -7,12 +7,12 @@ import { serve } from './server.mjs';
 let isStaged = false;
 
 /** The live page in Chromium, under a path of its own. Waits until it plays, unless told not to. */
-export async function openLivePage({ isolated = true, needsGesture = false, viewport = { width: 1280, height: 860 }, colorScheme = 'light', reducedMotion = 'no-preference', changes = {}, waits = true } = {}) {
+export async function openLivePage({ isolated = true, viewport = { width: 1280, height: 860 }, colorScheme = 'light', reducedMotion = 'no-preference', changes = {}, waits = true } = {}) {
   if (!isStaged || !existsSync(pageFolder())) stagePage();
   isStaged = true;
   const server = await serve({ folders: { somewhere: pageFolder() }, isolated });
   for (const [name, change] of Object.entries(changes)) server.changes.set(`/somewhere/${name}`, change);
-  const args = ['--no-sandbox', '--disable-gpu', ...(needsGesture ? [] : ['--autoplay-policy=no-user-gesture-required'])];
+  const args = ['--no-sandbox', '--disable-gpu', '--autoplay-policy=no-user-gesture-required'];
   const browser = await chromium.launch({ executablePath: executable, args });
   const context = await browser.newContext({ viewport, colorScheme: /** @type {any} */ (colorScheme), reducedMotion: /** @type {any} */ (reducedMotion) });
   const page = await context.newPage();

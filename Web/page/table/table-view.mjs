@@ -211,7 +211,7 @@ export class TableView {
     if (tip.isDown) trail.push({ x: tip.x, z: tip.z, age: 0 });
     else trail.length = 0;
     if (trail.length > trailLength) trail.shift();
-    context.lineCap = 'round';
+    context.lineCap = 'butt';
     for (let at = 1; at < trail.length; at += 1) {
       context.beginPath();
       context.moveTo(trail[at - 1].x, trail[at - 1].z);

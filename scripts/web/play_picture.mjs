@@ -1,0 +1,26 @@
+// Draws Documentation~/images/play.png: the live page in Chromium, during a stroke, stamped with the model. Run it after
+// `npm run build:web`.
+import { existsSync } from 'node:fs';
+import { chromium } from 'playwright-core';
+import { runOrFail } from '../lib/process.mjs';
+import { inRepository } from '../lib/repository.mjs';
+import { drawingModules, pythonOrFail } from '../lib/setup.mjs';
+import { pageFolder, stagePage } from './build_page.mjs';
+import { serveFolder } from './static_server.mjs';
+
+const executablePath = process.env.HAPTOFLOW_CHROMIUM ?? ['/usr/bin/chromium', '/usr/bin/google-chrome'].find((file) => existsSync(file));
+
+stagePage();
+const { address, close } = await serveFolder({ folder: pageFolder() });
+const browser = await chromium.launch({ executablePath, args: ['--no-sandbox', '--disable-gpu', '--autoplay-policy=no-user-gesture-required'] });
+const page = await browser.newPage({ viewport: { width: 1200, height: 760 } });
+await page.goto(address);
+await page.waitForFunction(() => 'haptoflowPage' in globalThis);
+await page.getByRole('button', { name: 'Along the front' }).click();
+// Over the jute.
+await page.waitForTimeout(1600);
+const picture = inRepository('Documentation~', 'images', 'play.png');
+await page.screenshot({ path: picture });
+await browser.close();
+close();
+await runOrFail(pythonOrFail(drawingModules), [inRepository('scripts', 'pack', 'renders.py'), '--palette', picture]);
