@@ -310,6 +310,12 @@ describe('the live page', { skip: !hasBrowser }, () => {
     assert.deepEqual(nameless, []);
   });
 
+  test('an engine that cannot go on is told, with a way to try again', async () => {
+    await inPage(() => globalThis.haptoflowPage.haptics.dispatchEvent(new CustomEvent('error', { detail: { error: { code: 'worker-lost', message: 'it failed 3 times within a minute and stays silent: reload the page' }, isFatal: true } })));
+    assert.match(await text('#message-text'), /^The engine stopped: it failed 3 times/);
+    assert.ok(await opened.page.getByRole('button', { name: 'Try again' }).isVisible());
+  });
+
   test('nothing was asked of another origin, and nothing was complained of', () => {
     assert.deepEqual(opened.strangers, []);
     assert.deepEqual(opened.complaints, []);

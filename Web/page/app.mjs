@@ -49,8 +49,10 @@ const start = {
   },
   fail(/** @type {any} */ error) {
     messages.error(error);
+    this.layer.hidden = false;
+    this.layer.classList.remove('is-open');
     this.bar.hidden = true;
-    this.text.textContent = 'The page could not start.';
+    this.text.textContent = 'The page cannot go on.';
     this.button.textContent = 'Try again';
     this.button.hidden = false;
     this.button.addEventListener('click', () => location.reload(), { once: true });
@@ -58,6 +60,9 @@ const start = {
 };
 
 class Page {
+  /** The engine is closed for good. */
+  #isOver = false;
+
   /** @param {HaptoFlow} haptics @param {any} scene @param {any} looks @param {TableView} view @param {Table} table @param {Fills} fills @param {Tip[]} tips */
   constructor(haptics, scene, looks, view, table, fills, tips) {
     this.haptics = haptics;
@@ -199,7 +204,9 @@ class Page {
   #listenToEngine() {
     this.haptics.addEventListener('error', ({ detail }) => {
       messages.error(detail.error);
-      if (detail.isFatal) start.fail(detail.error);
+      if (!detail.isFatal) return;
+      this.#isOver = true;
+      start.fail(detail.error);
     });
     this.haptics.addEventListener('recovered', () => {
       messages.clear();
@@ -268,6 +275,7 @@ class Page {
   run() {
     let [before, polled, announced, lastName] = [performance.now(), 0, 0, ''];
     const frame = (/** @type {number} */ nowMs) => {
+      if (this.#isOver) return;
       requestAnimationFrame(frame);
       this.hand.frame((nowMs - before) / 1000);
       before = nowMs;
