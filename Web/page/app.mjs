@@ -13,6 +13,7 @@ import { Palette } from './panels/palette.mjs';
 import { QualityPanel } from './panels/quality.mjs';
 import { RecordPanel } from './panels/record.mjs';
 import { Recorder } from './signal/recorder.mjs';
+import { Ears } from './signal/ears.mjs';
 import { Scope } from './signal/scope.mjs';
 import { Fills } from './table/fills.mjs';
 import { TableView } from './table/table-view.mjs';
@@ -123,9 +124,9 @@ class Page {
     this.device = new DevicePanel(haptics, this.hand, this.voices[0]);
     this.scope = new Scope(this.voices.map((voice) => voice.waveTap()));
     const listen = find('#listen');
+    const ears = new Ears(haptics.context, haptics.output);
     const applyListen = () => {
-      for (const voice of this.voices) voice.listen = listen.checked;
-      this.scope.isForEars = listen.checked;
+      for (const voice of this.voices) listen.checked ? ears.take(voice) : ears.release(voice);
     };
     listen.addEventListener('change', applyListen);
     applyListen();

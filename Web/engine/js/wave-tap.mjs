@@ -22,11 +22,24 @@ export class TapSource {
     this.startSeconds = 0;
     this.last = 0;
     this.total = 0;
+    /** Frames of the sources before this one. */
+    this.offset = 0;
   }
 
   /** The node was made anew: what follows continues. @param {TapSource} before */
   continueFrom(before) {
-    this.total = before.total;
+    this.offset = before.written;
+    this.total = this.offset;
+  }
+
+  /** Frames of this source that were counted. */
+  get ownFrames() {
+    return this.total - this.offset;
+  }
+
+  /** On the context's clock. @param {number} frame of all sources' count */
+  secondsOf(frame) {
+    return this.startSeconds + (frame - this.offset) / this.sampleRateHz;
   }
 
   /** Frames written since the beginning; the counter itself has 32 bits. */
@@ -49,15 +62,18 @@ export class TapSource {
   }
 
   /**
-   * Copies frames [first, first + into.length) of the source's own count; they must be in memory.
+   * Copies frames [first, first + count) of all sources' count, which must be in memory; those of an earlier source are lost
+   * and become zeros.
    * @param {number} first
    * @param {Float32Array} into
    * @param {number} count
    */
   copy(first, into, count) {
     const { samples } = this.memory;
-    let at = first % samples.length;
-    for (let index = 0; index < count; index += 1) {
+    const lost = Math.min(count, Math.max(0, this.offset - first));
+    into.fill(0, 0, lost);
+    let at = (first + lost - this.offset) % samples.length;
+    for (let index = lost; index < count; index += 1) {
       into[index] = samples[at];
       at = at + 1 === samples.length ? 0 : at + 1;
     }
@@ -95,7 +111,7 @@ export class WaveTap {
 
   /** On the context's clock, of a frame of this tap's count. @param {number} frame */
   secondsOf(frame) {
-    return this.#source.startSeconds + (this.#begin + frame) / this.sampleRateHz;
+    return this.#source.secondsOf(this.#begin + frame);
   }
 
   /** Of the next frame that `read` gives. */

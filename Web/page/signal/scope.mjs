@@ -36,8 +36,6 @@ export class Scope {
   #drawnAt = 0;
   #palette = paletteOf();
   rmsMps2 = 0;
-  /** What is made for ears is no acceleration: it is shown as a part of full scale. */
-  isForEars = false;
   /** Level of the brightest band of late, dB. */
   #brightestDb = -20;
 
@@ -134,7 +132,7 @@ export class Scope {
     this.#peak = Math.max(peak, 0.5, this.#peak * 0.97);
     // Steps of the scale, so that its number can be read.
     const scale = [1, 2, 5, 10, 20, 50, 100, 200].find((step) => step >= this.#peak) ?? 200;
-    this.#scaleText.textContent = this.isForEars ? `±${Number((scale / 2).toPrecision(2))} % of full scale` : `±${scale} m/s²`;
+    this.#scaleText.textContent = `±${scale} m/s²`;
     const style = getComputedStyle(canvas);
     context.clearRect(0, 0, width, height);
     context.strokeStyle = style.borderTopColor;
@@ -165,8 +163,7 @@ export class Scope {
   #drawLevel() {
     const share = this.rmsMps2 < 1e-3 ? 0 : Math.min(1, Math.max(0, (20 * Math.log10(this.rmsMps2) + 40) / 66));
     this.#meter.value = share;
-    const text = this.isForEars ? `${(20 * Math.log10(this.rmsMps2 / fullScaleMps2)).toFixed(0)} dB` : `${this.rmsMps2.toFixed(2)} m/s²`;
-    this.#levelText.textContent = this.rmsMps2 < 1e-3 ? 'silent' : text;
+    this.#levelText.textContent = this.rmsMps2 < 1e-3 ? 'silent' : `${this.rmsMps2.toFixed(2)} m/s²`;
   }
 
   #drawSpectrogram() {

@@ -1,5 +1,5 @@
 import { strokeOfPaint, withBoard } from './board.mjs';
-import { Ears } from './ears.mjs';
+import { Ears } from '../signal/ears.mjs';
 import { Placement } from './frames.mjs';
 import { Hand } from './hand.mjs';
 import { Hands } from './hands.mjs';

@@ -1,5 +1,5 @@
-// Makes both hands' waves audible in a headset. A texture at its true level lies some 40 dB below full scale. The engine's own
-// `listen` would do it, but changes the wave that motors are driven by, too; so that ears get a branch of their own.
+// Makes waves for a hand audible. A texture at its true level lies some 40 dB below full scale. The engine's own `listen` would do
+// it, but changes the wave that motors, pictures and recordings get, too: ears have a branch of their own.
 
 const brighter = { type: 'highshelf', frequency: 600, gain: 12 };
 const gain = 10;
@@ -11,11 +11,13 @@ const bend = Float32Array.from({ length: 257 }, (_, index) => Math.tanh(1.5 * (i
 export class Ears {
   #input;
   #last;
+  #destination;
 
   /** @param {AudioContext} context @param {AudioNode} destination */
   constructor(context, destination) {
     this.#input = new BiquadFilterNode(context, /** @type {any} */ (brighter));
     this.#last = new WaveShaperNode(context, { curve: bend });
+    this.#destination = destination;
     this.#input.connect(new GainNode(context, { gain })).connect(new DynamicsCompressorNode(context, even)).connect(this.#last).connect(destination);
   }
 
@@ -23,6 +25,12 @@ export class Ears {
   take(voice) {
     voice.node.disconnect();
     voice.node.connect(this.#input);
+  }
+
+  /** @param {import('../../engine/js/haptoflow.d.ts').Voice} voice it sounds at its true level */
+  release(voice) {
+    voice.node.disconnect();
+    voice.node.connect(this.#destination);
   }
 
   close() {
