@@ -177,7 +177,7 @@ private:
         };
         towards(slope(), prior_.speedMean, prior_.speedSpread);
         towards(force(), prior_.forceMean, prior_.forceSpread);
-        const std::vector<double> change = solvePositive(std::move(normal), std::move(right));
+        const std::vector<double> change = solvePositive(normal, std::move(right));
         for (std::size_t i = 0; i < unknown.size(); ++i) {
             unknown[i] += std::clamp(change[i], -2.0, 2.0);
         }
