@@ -103,7 +103,7 @@ export class Voice {
   #takeFromAudio(/** @type {any} */ { late, wave, frame }) {
     if (late !== undefined) this.#ringUnderruns = late;
     if (wave) this.tapSource?.write(wave);
-    if (frame !== undefined && this.tapSource) this.tapSource.startSeconds = (frame - this.tapSource.ownFrames) / this.tapSource.sampleRateHz;
+    if (frame !== undefined && this.tapSource) this.tapSource.startSeconds = frame / this.tapSource.sampleRateHz;
   }
 
   #requireOpen() {

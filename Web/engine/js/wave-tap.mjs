@@ -32,11 +32,6 @@ export class TapSource {
     this.total = this.offset;
   }
 
-  /** Frames of this source that were counted. */
-  get ownFrames() {
-    return this.total - this.offset;
-  }
-
   /** On the context's clock. @param {number} frame of all sources' count */
   secondsOf(frame) {
     return this.startSeconds + (frame - this.offset) / this.sampleRateHz;
