@@ -201,6 +201,8 @@ describe('what goes wrong on the way', { skip: !hasBrowser }, () => {
     await inPage(() => cancelAnimationFrame(globalThis.all.frame));
     await other.bringToFront();
     await opened.page.waitForFunction(() => globalThis.all.voice.silence === 'stale', null, { polling: 50 });
+    // The event follows the page's own look at its voices, ten times a second.
+    await opened.page.waitForFunction(() => globalThis.all.events.some(({ type, reason }) => type === 'silent' && reason === 'stale'), null, { polling: 50 });
     await opened.page.bringToFront();
     await inPage(async () => {
       const { hand, slide } = globalThis.tools;

@@ -9,6 +9,7 @@ export const openHeadsetPage = (/** @type {object} */ options = {}) => openPage(
   name: 'xr',
   folders: {
     xr: inRepository('Web', 'page', 'xr'),
+    signal: inRepository('Web', 'page', 'signal'),
     table: inRepository('Web', 'page', 'table'),
     scene: inRepository('Web', 'page', 'scene'),
     three: inRepository('node_modules', 'three', 'build'),
