@@ -51,19 +51,13 @@ std::array<float, 3> ClosedLoop::limited(const std::array<double, 3>& motion) co
 }
 
 std::array<float, 3> ClosedLoop::motionFrom(const Chain& chain, std::size_t first, std::size_t count) const {
-    std::array<double, 3> mean{};
     if (chain.steadyMotion) {
-        std::ranges::copy(*chain.steadyMotion, mean.begin());
-        return limited(mean);
+        const std::array<float, 3>& motion = *chain.steadyMotion;
+        return limited({motion[0], motion[1], motion[2]});
     }
     const std::size_t begin = chain.start + first;
     const std::size_t last = std::min(begin + count, recording_.motion.size());
-    for (std::size_t i = begin; i < last; ++i) {
-        for (std::size_t component = 0; component < mean.size(); ++component) {
-            mean[component] += recording_.motion[i][component] / static_cast<double>(last - begin);
-        }
-    }
-    return limited(mean);
+    return limited(recording_.meanMotion(begin, last - begin));
 }
 
 std::vector<float> ClosedLoop::run(std::span<const Embedding> embeddings, std::span<const Chain> chains,

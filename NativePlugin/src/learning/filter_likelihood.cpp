@@ -9,7 +9,7 @@
 namespace haptoflow::learning {
 namespace {
 
-/// Short enough that a hand's speed hardly changes.
+/// A filter belongs to one condition, so that a window ends before a hand's speed has changed much.
 constexpr std::size_t windowSamples = 64;
 constexpr std::size_t pastSamples = skeleton::filterOrder;
 constexpr std::size_t speeds = 10;
@@ -44,12 +44,7 @@ std::vector<Window> windowsOf(const recordings::PreparedRecording& recording, co
         }
         Window& window = windows.emplace_back();
         window.first = first;
-        for (std::size_t i = first; i < first + windowSamples; ++i) {
-            for (std::size_t component = 0; component < 3; ++component) {
-                window.motion[component] +=
-                    static_cast<double>(recording.motion[i][component]) / static_cast<double>(windowSamples);
-            }
-        }
+        window.motion = recording.meanMotion(first, windowSamples);
         window.speed = std::hypot(window.motion[0], window.motion[1]);
     }
     return windows;

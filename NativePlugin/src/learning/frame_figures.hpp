@@ -56,8 +56,8 @@ struct WaveFigures {
     /// E[x^4] / E[x^2]^2 of the wave divided by its level: 3 for Gaussian noise, more with rare events. Empty without
     /// frames.
     std::optional<double> kurtosis;
-    /// Power of the partials of each rib over that of the whole wave, in dB, -40 at least. Empty without ribs, and
-    /// where the tip is too slow to tell them from noise.
+    /// For each rib the share of the wave's power that its partials have, in dB and not below -40. Empty without ribs,
+    /// and where the tip is too slow to tell partials from noise.
     std::array<std::optional<double>, inference::ribCount> ribsDb{};
 };
 

@@ -66,16 +66,16 @@ public:
         findRibs();
         ClosedLoop loop(generator_, model_.header(), recording_, unitWave_);
         TextureFit fit = fitOf(loop);
-        const skeleton::NativeParts native = skeleton::readNativeParts(model_);
-        if (native.skeleton != nullptr && report_.waveVectors.empty()) {
-            likelihood_.emplace(*native.skeleton, recording_, sliding_, unitWave_);
+        const auto skeleton = report_.waveVectors.empty() ? skeleton::readNativeParts(model_).skeleton : nullptr;
+        if (skeleton != nullptr && !keptLabel_) {
+            likelihood_.emplace(*skeleton, recording_, sliding_, unitWave_);
         }
         const auto& labels = model_.header().labels;
         const std::size_t start = keptLabel_ ? *keptLabel_ : startOf(fit);
         report_.startLabel = labels[start].name;
         const Embedding embedding = keptLabel_ ? embeddingOf(*keptLabel_) : searched(fit, start);
         report_.nearestLabel = labels[model_.nearestLabel(embedding)].name;
-        if (likelihood_) {
+        if (skeleton != nullptr) {
             impulseGain_ =
                 fitImpulseGain(fit, embedding, [this](double share) { say(0.85 + 0.05 * share, "impulses"); });
         }
@@ -259,12 +259,13 @@ private:
         const std::vector<SpectrumFrame> recorded = fit.recordedFrames();
         const std::vector<SpectrumFrame> generated = fit.generatedFrames(embedding, impulseGain_);
         const ToneConditions conditions = toneConditions(recorded);
-        // Lines are where the recording's are only along its own motion.
-        const bool hasRibs = !report_.waveVectors.empty();
         const std::vector<SpectrumFrame> steady = fit.steadyFrames(
             embedding, conditions.speedsMps, conditions.forcesNewtons,
             static_cast<std::uint64_t>(steadyShare * static_cast<double>(settings_.segmentBudget)), impulseGain_);
-        model::ToneTable tone = fitTone(recorded, hasRibs ? generated : steady, steady, recording_.bandwidthHz);
+        using Frames = std::span<const SpectrumFrame>;
+        const bool hasRibs = !report_.waveVectors.empty();
+        model::ToneTable tone = fitTone(recorded, steady, hasRibs ? std::optional<Frames>(generated) : std::nullopt,
+                                        recording_.bandwidthHz);
         if (tone.speedsMps.empty()) {
             return tone;
         }
@@ -369,6 +370,7 @@ private:
     LevelLaw level_;
     std::vector<float> unitWave_;
     std::array<float, 2 * inference::ribCount> waveVectors_{};
+    /// Of a search without ribs, in a model with a skeleton.
     std::optional<FilterLikelihood> likelihood_;
     float impulseGain_ = 1.0F;
     LearningReport report_;

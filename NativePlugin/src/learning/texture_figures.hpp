@@ -96,4 +96,20 @@ private:
     std::vector<Sums> sums_;
 };
 
+/// The mean over the speeds of distance(recorded, generated), weighted by the recording's frames. Speeds without
+/// generated frames do not count.
+template <typename Distance>
+[[nodiscard]] double meanOverSpeeds(std::span<const TextureFigures> recorded, std::span<const TextureFigures> generated,
+                                    Distance distance) {
+    double total = 0.0;
+    double weights = 0.0;
+    for (std::size_t bin = 0; bin < recorded.size(); ++bin) {
+        if (recorded[bin].frames > 0.0 && generated[bin].frames > 0.0) {
+            total += recorded[bin].frames * distance(recorded[bin], generated[bin]);
+            weights += recorded[bin].frames;
+        }
+    }
+    return weights > 0.0 ? total / weights : 0.0;
+}
+
 }  // namespace haptoflow::learning

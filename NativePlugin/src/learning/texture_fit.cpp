@@ -113,15 +113,9 @@ std::vector<double> slidingSpeeds(const recordings::PreparedRecording& recording
 double textureDistance(std::span<const TextureFigures> recorded, std::span<const TextureFigures> generated,
                        double bandwidthHz) {
     const std::vector<Band> bands = bandsUpTo(bandwidthHz);
-    double total = 0.0;
-    double weights = 0.0;
-    for (std::size_t bin = 0; bin < recorded.size(); ++bin) {
-        if (recorded[bin].frames > 0.0 && generated[bin].frames > 0.0) {
-            total += recorded[bin].frames * oneDistance(recorded[bin], generated[bin], bands);
-            weights += recorded[bin].frames;
-        }
-    }
-    return weights > 0.0 ? total / weights : 0.0;
+    return meanOverSpeeds(recorded, generated, [&bands](const TextureFigures& one, const TextureFigures& other) {
+        return oneDistance(one, other, bands);
+    });
 }
 
 TextureFit::TextureFit(ClosedLoop& loop, const recordings::PreparedRecording& recording, const Sliding& sliding,

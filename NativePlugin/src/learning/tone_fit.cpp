@@ -374,15 +374,19 @@ ToneConditions toneConditions(std::span<const SpectrumFrame> recorded) {
     return {.speedsMps = basis.speedsMps(tableSpeeds), .forcesNewtons = basis.forcesNewtons(tableForces)};
 }
 
-model::ToneTable fitTone(std::span<const SpectrumFrame> recorded, std::span<const SpectrumFrame> generated,
-                         std::span<const SpectrumFrame> steady, double bandwidthHz) {
-    if (recorded.size() < minimumFrames || generated.size() < minimumFrames) {
+model::ToneTable fitTone(std::span<const SpectrumFrame> recorded, std::span<const SpectrumFrame> steady,
+                         std::optional<std::span<const SpectrumFrame>> alongMotion, double bandwidthHz) {
+    if (recorded.size() < minimumFrames || alongMotion.value_or(steady).size() < minimumFrames) {
         return {};
     }
     const ConditionBasis basis(recorded);
     const Spectrum spectrum(bandwidthHz);
-    const NetworkSpectrum network(basis, spectrum, generated);
     const NetworkSpectrum inTheTable(basis, spectrum, steady);
+    std::optional<NetworkSpectrum> ofMotion;
+    if (alongMotion) {
+        ofMotion.emplace(basis, spectrum, *alongMotion);
+    }
+    const NetworkSpectrum& network = ofMotion ? *ofMotion : inTheTable;
     std::vector<Ratios> frames;
     for (const SpectrumFrame& frame : recorded) {
         Ratios each{.functions = basis.at(frame.speedMps, frame.forceNewtons),

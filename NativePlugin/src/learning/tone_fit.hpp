@@ -4,6 +4,7 @@
 #include "model/material_tables.hpp"
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -18,11 +19,11 @@ namespace haptoflow::learning {
 /// chance in few frames is not taken for a tone. Above `bandwidthHz` the gain is that of the highest frequency below
 /// it.
 ///
-/// The shape of the tone comes from `generated`, frames of motions like the recorded ones; its level from `steady`,
-/// frames of the conditions of the table (toneConditions), whose corners a recording hardly visits.
-[[nodiscard]] model::ToneTable fitTone(std::span<const SpectrumFrame> recorded,
-                                       std::span<const SpectrumFrame> generated, std::span<const SpectrumFrame> steady,
-                                       double bandwidthHz);
+/// Level and shape come from `steady`, frames of the network in the conditions of the table (toneConditions), whose
+/// corners a recording hardly visits. With `alongMotion`, frames of motions like the recorded ones, the shape comes
+/// from those: the lines of ribs follow the speed, so that they lie where the recording's do only along its own motion.
+[[nodiscard]] model::ToneTable fitTone(std::span<const SpectrumFrame> recorded, std::span<const SpectrumFrame> steady,
+                                       std::optional<std::span<const SpectrumFrame>> alongMotion, double bandwidthHz);
 
 /// The speeds in m/s and the forces in N of the tone that fits these frames.
 struct ToneConditions {

@@ -148,6 +148,16 @@ double PreparedRecording::speedMps(std::size_t sample) const {
     return std::hypot(static_cast<double>(motion[sample][0]), static_cast<double>(motion[sample][1]));
 }
 
+std::array<double, 3> PreparedRecording::meanMotion(std::size_t first, std::size_t count) const {
+    std::array<double, 3> mean{};
+    for (std::size_t i = first; i < first + count; ++i) {
+        for (std::size_t component = 0; component < mean.size(); ++component) {
+            mean[component] += static_cast<double>(motion[i][component]) / static_cast<double>(count);
+        }
+    }
+    return mean;
+}
+
 PreparedRecording prepareRecording(const Recording& recording) {
     const std::size_t samples =
         std::min(recording.sampleCount(), static_cast<std::size_t>(maximumSeconds * recording.rateHz));

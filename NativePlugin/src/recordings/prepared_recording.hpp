@@ -24,6 +24,8 @@ struct PreparedRecording {
     SensorNoise noise;
 
     [[nodiscard]] double speedMps(std::size_t sample) const;
+    /// Of `count` samples from `first` on: vx, vy in m/s and force in N.
+    [[nodiscard]] std::array<double, 3> meanMotion(std::size_t first, std::size_t count) const;
 };
 
 /// Resamples (windowed sinc), combines three axes (DFT321), filters without phase shift and removes the sensor's noise,

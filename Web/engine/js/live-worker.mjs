@@ -32,7 +32,7 @@ class Ring {
       const block = this.core.f32.slice(this.samples >> 2, (this.samples >> 2) + ringChunk);
       this.port.postMessage(block, [block.buffer]);
       this.written += ringChunk;
-      // Generates for what the next block reaches.
+      // Inference for what the next block will need.
       if (this.core.call('hapto_engine_turn', 0) === 0) throw new Error('the engine has ended');
     }
   }

@@ -73,9 +73,7 @@ export class Voice {
     );
     this.#index = voice;
     this.#address = live.core ? live.core.allocate(8 * fieldCount) : 0;
-    const processorOptions = live.isShared
-      ? { module: live.module, memory: live.memory, thread: live.audioThread, voice, samples }
-      : { port: channel?.port2 };
+    const processorOptions = live.isShared ? { module: live.module, memory: live.memory, thread: live.audioThread, voice, samples } : {};
     this.#worklet?.disconnect();
     this.#worklet?.port.postMessage({ close: true });
     this.#worklet = this.#makeNode(live.isShared ? 'haptoflow-shared' : 'haptoflow-ring', processorOptions, channel);
@@ -86,15 +84,9 @@ export class Voice {
   }
 
   #makeNode(/** @type {string} */ name, /** @type {any} */ processorOptions, /** @type {MessageChannel | null} */ channel) {
-    const { context } = this.#host;
-    let node;
-    if (channel) {
-      // Ports cannot be among the options in every browser.
-      node = new AudioWorkletNode(context, name, { numberOfInputs: 0, outputChannelCount: [1], processorOptions: {} });
-      node.port.postMessage({ blocks: channel.port2 }, [channel.port2]);
-    } else {
-      node = new AudioWorkletNode(context, name, { numberOfInputs: 0, outputChannelCount: [1], processorOptions });
-    }
+    const node = new AudioWorkletNode(this.#host.context, name, { numberOfInputs: 0, outputChannelCount: [1], processorOptions });
+    // Ports cannot be among the options in every browser.
+    if (channel) node.port.postMessage({ blocks: channel.port2 }, [channel.port2]);
     node.onprocessorerror = () => this.#host.onFault(new HaptoFlowError('worker-lost', 'the engine failed on the audio thread'));
     node.port.onmessage = ({ data }) => this.#takeFromAudio(data);
     return node;

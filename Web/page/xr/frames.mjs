@@ -77,7 +77,7 @@ export class Placement {
     return into;
   }
 
-  /** A position of the scene's frame, in the room. */
+  /** Converts a position in the scene's frame to the room's. */
   toRoom(scene, into) {
     const x = scene[0];
     const y = scene[1];

@@ -89,7 +89,7 @@ export class Hands {
     return this.sides.find((side) => side.source === source);
   }
 
-  /** One frame; `space` is the room's. */
+  /** Follows both hands for one frame of the session; `space` is the room's reference space. */
   update(frame, space, timeSeconds, frameMs) {
     for (const side of this.sides) {
       side.track(frame, space);
