@@ -1,6 +1,7 @@
 #include "bench/measurements.hpp"
 
 #include "bench/distribution.hpp"
+#include "bench/random_requests.hpp"
 #include "dsp/denormals.hpp"
 #include "inference/gaussian_noise.hpp"
 #include "inference/surface_noise.hpp"

@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <span>
 #include <stdexcept>
 #include <vector>
 
@@ -66,20 +65,6 @@ private:
     std::vector<std::uint32_t> labels_;
     model::TrainedInterval speedMps_;
     model::TrainedInterval forceNewtons_;
-};
-
-/// Requests like those of live voices: labels and motions of the recorded range, noise as previous waveform and noise.
-class RandomRequests {
-public:
-    RandomRequests(const model::ModelFile& model, std::size_t count, std::uint64_t seed);
-
-    /// The next `count` requests, starting again after the last one; `count` is at most their number.
-    [[nodiscard]] std::span<const inference::SegmentRequest> next(std::size_t count);
-
-private:
-    std::vector<float> waves_;
-    std::vector<inference::SegmentRequest> requests_;
-    std::size_t at_ = 0;
 };
 
 }  // namespace haptoflow::bench

@@ -3,6 +3,7 @@
 #include "exit_codes.hpp"
 #include "input_file.hpp"
 #include "model/plain_text.hpp"
+#include "near_words.hpp"
 
 #include <algorithm>
 #include <array>
@@ -382,6 +383,13 @@ headless::Scene parseSceneText(const std::string& text, const std::string& fileN
     } catch (const json::out_of_range&) {
         throw InputError(fileName + ": holds a number too large to represent; expected numbers within +-1e9");
     }
+}
+
+std::string unknownMaterial(const std::string& fileName, const std::string& surface, const std::string& material,
+                            std::span<const std::string> known) {
+    constexpr std::size_t namedLabels = 3;
+    return fileName + ": surface '" + surface + "' has material '" + material +
+           "', which the model does not know; " + didYouMean(nearestWords(material, known, namedLabels));
 }
 
 }  // namespace haptoflow::cli

@@ -3,6 +3,7 @@
 #include "headless/scene.hpp"
 
 #include <nlohmann/json_fwd.hpp>
+#include <span>
 #include <string>
 
 namespace haptoflow::cli {
@@ -16,5 +17,9 @@ namespace haptoflow::cli {
 
 /// Reads a scene from parsed JSON; `fileName` is its name in errors.
 [[nodiscard]] headless::Scene parseScene(const nlohmann::json& document, const std::string& fileName);
+
+/// The error of a surface whose material is none of `known`; it names the nearest three.
+[[nodiscard]] std::string unknownMaterial(const std::string& fileName, const std::string& surface,
+                                          const std::string& material, std::span<const std::string> known);
 
 }  // namespace haptoflow::cli

@@ -3,7 +3,7 @@
 #include "command_files.hpp"
 #include "engine/material_library.hpp"
 #include "exit_codes.hpp"
-#include "near_words.hpp"
+#include "scene_file.hpp"
 
 #include <optional>
 #include <utility>
@@ -74,11 +74,8 @@ void SceneMaterials::requireKnown(const std::string& name, const std::string& su
     for (const model::MaterialFile& material : files_) {
         names.push_back(material.label.name);
     }
-    constexpr std::size_t namedLabels = 3;
-    throw InputError(scenePath_ + ": surface '" + surface + "' has material '" + name +
-                     "', which the model does not know; " + didYouMean(nearestWords(name, names, namedLabels)) +
-                     " `haptoflow inspect " + modelPath_.string() + "` lists all " +
-                     std::to_string(model_.header().labels.size()));
+    throw InputError(unknownMaterial(scenePath_, surface, name, names) + " `haptoflow inspect " + modelPath_.string() +
+                     "` lists all " + std::to_string(model_.header().labels.size()));
 }
 
 const model::Label* SceneMaterials::find(std::string_view name) const {

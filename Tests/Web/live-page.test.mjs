@@ -343,7 +343,7 @@ describe('the live page elsewhere', { skip: !hasBrowser }, () => {
     await inPage(() => globalThis.haptoflowPage.haptics.context.suspend());
     await opened.page.getByRole('button', { name: 'Tap to start' }).click();
     await opened.page.waitForFunction(() => document.querySelector('#start').hidden);
-    assert.equal(await inPage(() => globalThis.haptoflowPage.table.tops.some(({ motion }) => motion)), false);
+    assert.equal(await inPage(() => globalThis.haptoflowPage.table.tops.some(({ isMoving }) => isMoving)), false);
   });
 
   for (const [what, changes, expected] of /** @type {[string, Record<string, any>, RegExp][]} */ ([

@@ -7,7 +7,6 @@ import { presetStrokes, secondsOf, strokeAt } from '../../Web/page/hand/preset-s
 import { Spectrum } from '../../Web/page/signal/spectrum.mjs';
 import { orientationOf, strokeTable } from '../../Web/page/signal/stroke-table.mjs';
 import { wavBytes } from '../../Web/page/signal/wav.mjs';
-import { positionAt } from '../../Web/page/table/motion.mjs';
 import { highestAt, topOf } from '../../Web/page/table/tops.mjs';
 import { repository } from './support/places.mjs';
 
@@ -23,7 +22,7 @@ test('the table has at least eight labels, one curved, one moving, one turned, a
   const labels = new Set(scene.surfaces.map(({ material }) => material));
   assert.ok(labels.size >= 8, `${labels.size}`);
   assert.ok(tops.some(({ kind }) => kind !== 'box'));
-  assert.ok(tops.some(({ motion }) => motion));
+  assert.ok(tops.some(({ isMoving }) => isMoving));
   assert.ok(scene.surfaces.some(({ material, rotation }) => material === 'corduroy' && rotation));
   const mosaic = scene.surfaces.filter(({ name }) => name.startsWith('mosaic'));
   assert.equal(new Set(mosaic.map(({ material }) => material)).size, 2);
@@ -60,15 +59,6 @@ test('a turned box is where its corners are', () => {
   const [x, z] = [0.09 * Math.cos(Math.PI / 6), 0.09 * Math.sin(Math.PI / 6)];
   assert.equal(highestAt([swatch], x, z, 0.001).index, 0);
   assert.equal(highestAt([swatch], x, -z, 0.001).index, -1);
-});
-
-test('a motion that is closed rests at its turning points and repeats', () => {
-  const { motion } = scene.surfaces.find((surface) => surface.motion);
-  near(positionAt(motion, 0, [0, 0, 0])[0], -0.07);
-  near(positionAt(motion, 4, [0, 0, 0])[0], 0.07);
-  near(positionAt(motion, 2, [0, 0, 0])[0], 0);
-  near(positionAt(motion, 18, [0, 0, 0])[0], 0);
-  near((positionAt(motion, 4.001, [0, 0, 0])[0] - 0.07) / 0.001, 0, 1e-3);
 });
 
 test('a press begins light, reaches the chosen force, grows while it is still, and stays within its limit', () => {

@@ -2,6 +2,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { LabelIndices } from '../../Web/engine/js/contact-fields.mjs';
 import { Scene } from '../../Web/engine/js/scene.mjs';
+import { rotate } from '../../Web/page/xr/frames.mjs';
 import { coreWithModel, hasCommandLine, native, pageCore, sample, samplePath } from './support/engine.mjs';
 
 const { labels } = (await coreWithModel()).json('hapto_model_json');
@@ -84,4 +85,45 @@ test('a closed scene refuses calls, and its place is used again', () => {
   scene.close();
   assert.throws(() => scene.update(over(0)), (error) => error.code === 'closed');
   assert.ok(sceneOf(table).update(over(0)).touching);
+});
+
+// The contact model says where a touched point is in the room and in the surface's own frame: that gives away the pose it uses.
+const turn = (angle, [x, y, z]) => [Math.sin(angle / 2) * x, Math.sin(angle / 2) * y, Math.sin(angle / 2) * z, Math.cos(angle / 2)];
+const motions = {
+  'there and back, in a loop': { loop: true, keyframes: [
+    { t: 0, position: [-0.07, 0.002, 0] },
+    { t: 4, position: [0.07, 0.002, 0] },
+    { t: 8, position: [-0.07, 0.002, 0] },
+  ] },
+  'a curve that turns': { loop: false, keyframes: [
+    { t: 1, position: [0.2, 0, 0] },
+    { t: 1.5, position: [0.25, 0.02, 0.1], rotation: turn(1, [0, 1, 0]) },
+    { t: 3, position: [0.1, 0, -0.1], rotation: turn(2.5, [0, 0.6, 0.8]) },
+  ] },
+};
+
+for (const [name, motion] of Object.entries(motions)) {
+  test(`${name}: the pose of a moving surface is where contact finds it`, () => {
+    const scene = sceneOf({ surfaces: [{ name: 'mover', shape: { box: { size: [2, 0.5, 2] } }, material: 'wood', motion }] });
+    const pose = { position: [0, 0, 0], rotation: [0, 0, 0, 1] };
+    for (let seconds = 0; seconds < 20; seconds += 0.37) {
+      assert.equal(scene.poseOf(0, seconds, pose), pose);
+      const toRoom = (place) => rotate(pose.rotation, place, []).map((part, axis) => part + pose.position[axis]);
+      scene.reset();
+      const contact = scene.update({ timeSeconds: seconds, positionMetres: toRoom([0.01, 0.2495, 0.02]) });
+      assert.equal(contact.touching, true, `${seconds} s`);
+      toRoom(contact.placeMetres).forEach((part, axis) => assert.ok(Math.abs(part - contact.contactMetres[axis]) < 1e-6, `${seconds} s`));
+      rotate(pose.rotation, [0, 1, 0], []).forEach((part, axis) => assert.ok(Math.abs(part - contact.normal[axis]) < 1e-6, `${seconds} s`));
+    }
+    scene.close();
+  });
+}
+
+test('a surface that rests has its pose at any time, normalised; one that does not exist has none', () => {
+  const scene = sceneOf({ surfaces: [{ name: 'rest', shape: { sphere: { radius: 0.1 } }, material: 'wood', position: [1, 2, 3], rotation: [0, 2, 0, 0] }] });
+  const pose = scene.poseOf(0, 7, { position: [], rotation: [] });
+  assert.deepEqual(pose, { position: [1, 2, 3], rotation: [0, 1, 0, 0] });
+  assert.throws(() => scene.poseOf(1, 0, pose));
+  scene.close();
+  assert.throws(() => scene.poseOf(0, 0, pose), /closed/);
 });

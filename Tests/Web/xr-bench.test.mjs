@@ -30,7 +30,7 @@ test('what is seen is what is touched: every object of the workbench is drawn wh
   const triangles = [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4], [0, 2, 1], [0, 3, 2]];
   const wedge = { name: 'wedge', material: 'wood', position: [0, 0.1, 0], shape: { mesh: { vertices, triangles } } };
   const meshes = { ...workbench, surfaces: [...workbench.surfaces, wedge] };
-  const bench = new Bench({ three, scene: meshes, looks: { material: () => new three.MeshBasicMaterial() } });
+  const bench = new Bench({ three, scene: meshes, poses: open(meshes), looks: { material: () => new three.MeshBasicMaterial() } });
   let checked = 0;
   const seen = new Set();
   for (const seconds of [0, 1.3, 5.1]) {
@@ -92,7 +92,7 @@ test('a hand paints the object that it touches with what it took from the board,
 });
 
 test('painting changes the look of that object alone', () => {
-  const bench = new Bench({ three, scene: workbench, looks });
+  const bench = new Bench({ three, scene: workbench, poses: open(workbench), looks });
   bench.paint('desk', 'glass');
   const lookOf = (name) => bench.group.children.find((mesh) => mesh.name === name).material.label;
   assert.equal(lookOf('desk'), 'glass');

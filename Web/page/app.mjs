@@ -63,6 +63,8 @@ const start = {
 class Page {
   /** The engine is closed for good. */
   #isOver = false;
+  /** Lets a voice follow the page's controls. @type {(voice: import('../engine/js/haptoflow.d.ts').Voice) => void} */
+  adopt;
 
   /** @param {HaptoFlow} haptics @param {any} scene @param {any} looks @param {TableView} view @param {Table} table @param {Fills} fills @param {Tip[]} tips */
   constructor(haptics, scene, looks, view, table, fills, tips) {
@@ -88,8 +90,8 @@ class Page {
     slider('speed', (value) => `× ${value.toFixed(1)}`, (value) => {
       settings.speedScale = value;
     });
-    slider('gain', (value) => `${Math.round(value)} %`, (value) => {
-      for (const voice of this.voices) voice.gain = value / 100;
+    const gain = slider('gain', (value) => `${Math.round(value)} %`, (value) => {
+      for (const voice of haptics.voices) voice.gain = value / 100;
     });
     this.#makePresets();
     this.palette = new Palette({
@@ -102,7 +104,7 @@ class Page {
       restore: () => scene.surfaces.forEach((/** @type {any} */ surface, /** @type {number} */ index) => this.paint(index, surface.material)),
     });
     this.quality = new QualityPanel(haptics, messages);
-    this.effects = new EffectsPanel(haptics, this.voices, messages);
+    this.effects = new EffectsPanel(haptics, messages);
     this.compare = new ComparePanel({
       labels: () => haptics.labels.map(({ name }) => name),
       qualities: haptics.model.tiers.map(({ name }) => name),
@@ -125,11 +127,14 @@ class Page {
     this.scope = new Scope(this.voices.map((voice) => voice.waveTap()));
     const listen = find('#listen');
     const ears = new Ears(haptics.context, haptics.output);
-    const applyListen = () => {
-      for (const voice of this.voices) listen.checked ? ears.take(voice) : ears.release(voice);
+    const applyListen = (/** @type {import('../engine/js/haptoflow.d.ts').Voice} */ voice) => (listen.checked ? ears.take(voice) : ears.release(voice));
+    listen.addEventListener('change', () => haptics.voices.forEach(applyListen));
+    this.adopt = (voice) => {
+      this.effects.apply(voice);
+      voice.gain = gain.value / 100;
+      applyListen(voice);
     };
-    listen.addEventListener('change', applyListen);
-    applyListen();
+    this.voices.forEach(this.adopt);
     this.hand.onHover = (place) => this.#showHover(place);
     view.selected = scene.surfaces.findIndex((/** @type {any} */ surface) => surface.material === 'corduroy');
     this.palette.select(view.selected);
@@ -251,8 +256,10 @@ class Page {
           scene: this.table.sceneNow(),
           looks: this.looks,
           onPaint: ({ surface, material }) => this.paint(this.scene.surfaces.findIndex((/** @type {any} */ { name }) => name === surface), material),
-          onEnd: ({ message }) => {
+          onVoice: this.adopt,
+          onEnd: ({ message, posesPerSecond }) => {
             button.disabled = false;
+            this.device.posesPerSecond = posesPerSecond;
             if (message !== '') messages.show(message);
           },
         }).catch((/** @type {any} */ error) => {
@@ -314,7 +321,7 @@ class Page {
   #poll() {
     try {
       this.quality.show(this.haptics.statistics());
-      this.effects.show(this.voices.map((voice) => voice.statistics()));
+      this.effects.show(this.haptics.voices.map((voice) => voice.statistics()));
     } catch (error) {
       if (/** @type {any} */ (error).code !== 'closed') throw error;
     }
@@ -333,6 +340,7 @@ try {
   table.setLabels(haptics.labels);
   const tips = [];
   for (let index = 0; index < tipCount; index += 1) tips.push(new Tip(table, await haptics.openVoice(), haptics.loadScene(scene)));
+  table.follow(haptics.loadScene(scene));
   const page = new Page(haptics, scene, looks, view, table, fills, tips);
   page.run();
   // For tests and for the curious at the console.

@@ -1,18 +1,15 @@
 // Draws Documentation~/images/play.png: the live page in Chromium, during a stroke, stamped with the model. Run it after
 // `npm run build:web`.
-import { existsSync } from 'node:fs';
-import { chromium } from 'playwright-core';
 import { runOrFail } from '../lib/process.mjs';
 import { inRepository } from '../lib/repository.mjs';
 import { drawingModules, pythonOrFail } from '../lib/setup.mjs';
 import { pageFolder, stagePage } from './build_page.mjs';
+import { launchChromium } from './chromium.mjs';
 import { serveFolder } from './static_server.mjs';
-
-const executablePath = process.env.HAPTOFLOW_CHROMIUM ?? ['/usr/bin/chromium', '/usr/bin/google-chrome'].find((file) => existsSync(file));
 
 stagePage();
 const { address, close } = await serveFolder({ folder: pageFolder() });
-const browser = await chromium.launch({ executablePath, args: ['--no-sandbox', '--disable-gpu', '--autoplay-policy=no-user-gesture-required'] });
+const browser = await launchChromium(['--disable-gpu']);
 const page = await browser.newPage({ viewport: { width: 1200, height: 760 } });
 await page.goto(address);
 await page.waitForFunction(() => 'haptoflowPage' in globalThis);

@@ -53,6 +53,9 @@ struct TrainedInterval {
     double minimum = 0.0;
     double maximum = 0.0;
     std::array<double, 5> percentiles{};
+
+    /// The value at a share of the interval, 0 to 1.
+    [[nodiscard]] double at(double share) const noexcept { return minimum + share * (maximum - minimum); }
 };
 
 struct ImpactMode {

@@ -1,4 +1,5 @@
 import { HaptoFlow } from '../engine/haptoflow.mjs';
+import { Ears } from '../signal/ears.mjs';
 import { enterHeadset, headsetIsPossible } from '../xr/headset.mjs';
 
 // An emulated Quest, and what tests do with it: strokes in the scene's frame, and every pulse that a controller gets.
@@ -100,6 +101,8 @@ async function listen(visit, seconds, placeOf, sides = ['right']) {
 }
 
 let haptics = null;
+/** @type {Ears | null} */
+let ears = null;
 
 /** Enters with the page's scene, or another one. */
 async function enter({ quality = 'sketch', controllers = 'touch-plus', ...options } = {}) {
@@ -109,10 +112,11 @@ async function enter({ quality = 'sketch', controllers = 'touch-plus', ...option
     globalThis.controllers = controllers;
   }
   haptics ??= await HaptoFlow.create({ quality });
+  ears ??= new Ears(haptics.context, haptics.output);
   const [scene, looks] = await Promise.all(['workbench', 'looks'].map(async (name) => (await fetch(`../scene/${name}.json`)).json()));
   const ends = [];
   const painted = [];
-  const visit = await enterHeadset({ haptics, scene, looks, onEnd: (end) => ends.push(end), onPaint: (paint) => painted.push(paint), ...options });
+  const visit = await enterHeadset({ haptics, scene, looks, onEnd: (end) => ends.push(end), onPaint: (paint) => painted.push(paint), onVoice: (voice) => ears.take(voice), ...options });
   await nextFrame();
   await nextFrame();
   await nextFrame();

@@ -1,15 +1,14 @@
-import { existsSync } from 'node:fs';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { chromium } from 'playwright-core';
+import { chromiumPath } from '../../../scripts/web/chromium.mjs';
 import { engineFolder } from './places.mjs';
 import { serve } from './server.mjs';
 
 const here = path.dirname(fileURLToPath(import.meta.url));
-export const executable = process.env.HAPTOFLOW_CHROMIUM ?? ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find((file) => existsSync(file));
 
 /** False skips the tests that need a browser. */
-export const hasBrowser = executable !== undefined && existsSync(executable);
+export const hasBrowser = chromiumPath !== undefined;
 
 /**
  * A page in Chromium with the engine beside it.
@@ -19,7 +18,7 @@ export const hasBrowser = executable !== undefined && existsSync(executable);
 export async function openPage({ isolated = true, needsGesture = false, engine = engineFolder, name = 'live', folders = {}, viewport } = {}) {
   const server = await serve({ folders: { engine, pages: path.join(here, '..', 'pages'), ...folders }, isolated });
   const args = ['--no-sandbox', ...(needsGesture ? [] : ['--autoplay-policy=no-user-gesture-required'])];
-  const browser = await chromium.launch({ executablePath: executable, args });
+  const browser = await chromium.launch({ executablePath: chromiumPath, args });
   const context = await browser.newContext({ viewport });
   const page = await context.newPage();
   /** @type {string[]} */

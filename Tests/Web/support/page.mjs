@@ -1,7 +1,6 @@
 import { existsSync } from 'node:fs';
-import { chromium } from 'playwright-core';
 import { pageFolder, stagePage } from '../../../scripts/web/build_page.mjs';
-import { executable } from './browser.mjs';
+import { launchChromium } from '../../../scripts/web/chromium.mjs';
 import { serve } from './server.mjs';
 
 let isStaged = false;
@@ -12,8 +11,7 @@ export async function openLivePage({ isolated = true, viewport = { width: 1280, 
   isStaged = true;
   const server = await serve({ folders: { somewhere: pageFolder() }, isolated });
   for (const [name, change] of Object.entries(changes)) server.changes.set(`/somewhere/${name}`, change);
-  const args = ['--no-sandbox', '--disable-gpu', '--autoplay-policy=no-user-gesture-required'];
-  const browser = await chromium.launch({ executablePath: executable, args });
+  const browser = await launchChromium(['--disable-gpu']);
   const context = await browser.newContext({ viewport, colorScheme: /** @type {any} */ (colorScheme), reducedMotion: /** @type {any} */ (reducedMotion) });
   const page = await context.newPage();
   /** @type {string[]} */

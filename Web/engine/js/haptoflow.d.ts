@@ -313,6 +313,12 @@ export interface SceneSurface {
 }
 
 /** The contact model of the command line's scenes (Documentation~/scene-and-stroke.md), with one tip. */
+/** Of a surface, in the scene's frame: metres, and a unit quaternion x, y, z, w. */
+export interface Pose {
+  position: number[];
+  rotation: number[];
+}
+
 export interface Scene {
   readonly updateRateHz: number;
   readonly surfaces: readonly SceneSurface[];
@@ -324,6 +330,8 @@ export interface Scene {
   setSurface(surface: number | string, change: {
     material?: Material; spatialScale?: number; toneDbPerOctave?: number; variation?: number;
   }): void;
+  /** Writes where the surface of an index is at a time, moved or at rest, and returns what it wrote into. For drawing. */
+  poseOf(surface: number, timeSeconds: number, into: Pose): Pose;
   /** Forgets the tip's history, after it was lost or moved at once. */
   reset(): void;
   close(): void;
@@ -439,13 +447,22 @@ export interface HaptoFlowEvents {
   context: CustomEvent<{ state: string }>;
 }
 
+/** Times by nearest rank. */
+export interface Distribution {
+  readonly count: number;
+  readonly minimum: number;
+  readonly median: number;
+  readonly percentile99: number;
+  readonly worst: number;
+}
+
 /** One row of a measurement: one tier on this device. */
 export interface Measurement {
   readonly tier: string;
   /** One segment after the other. */
-  readonly hotMs: { readonly minimum: number; readonly median: number; readonly percentile99: number };
+  readonly hotMs: Distribution;
   /** One segment per update, with idle time between. */
-  readonly pacedMs: { readonly minimum: number; readonly median: number; readonly percentile99: number };
+  readonly pacedMs: Distribution;
 }
 
 /** What one effect costs on this device. */

@@ -1,3 +1,4 @@
+import { distribution } from './distribution.mjs';
 import { HaptoFlowError } from './errors.mjs';
 import { Core, createMemory } from './module.mjs';
 
@@ -77,15 +78,6 @@ export function learn(core, options) {
     ...recordingFrom(core, recording), name, category, description, licence, quality, seed, secondsLimit, wavFullScaleMps2,
   }));
   return { ...learnt, notes: learnt.notes.split('\n').filter((/** @type {string} */ note) => note !== '') };
-}
-
-const sorted = (/** @type {number[]} */ numbers) => [...numbers].sort((one, other) => one - other);
-
-/** @param {number[]} times */
-export function distribution(times) {
-  const all = sorted(times);
-  const at = (/** @type {number} */ share) => all[Math.min(all.length - 1, Math.floor(share * all.length))];
-  return { minimum: all[0], median: at(0.5), percentile99: at(0.99) };
 }
 
 function timedSegment(/** @type {Core} */ core) {

@@ -111,8 +111,7 @@ export class Scene {
    */
   publish(voice, tip) {
     const contact = this.#run(tip, effectMask(voice.effects));
-    const at = (this.#address >> 3) + tipNumbers;
-    voice.publishFields(this.#core.f64.subarray(at, at + fieldCount));
+    voice.publishFields(this.#core.f64, (this.#address >> 3) + tipNumbers);
     return contact;
   }
 
@@ -136,6 +135,21 @@ export class Scene {
       core.free(address);
     }
     if (material !== undefined) found.material = material;
+  }
+
+  /**
+   * @param {number} surface
+   * @param {number} timeSeconds
+   * @param {import('./haptoflow.d.ts').Pose} into
+   */
+  poseOf(surface, timeSeconds, into) {
+    this.#requireOpen();
+    this.#core.call('hapto_scene_pose', this.#index, surface, timeSeconds, this.#address);
+    const numbers = this.#core.f64;
+    const at = this.#address >> 3;
+    for (let part = 0; part < 3; part += 1) into.position[part] = numbers[at + part];
+    for (let part = 0; part < 4; part += 1) into.rotation[part] = numbers[at + 3 + part];
+    return into;
   }
 
   reset() {

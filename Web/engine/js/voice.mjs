@@ -150,15 +150,18 @@ export class Voice {
     this.publishFields(this.#fields);
   }
 
-  /** Publishes fields as they are. @param {Float64Array} fields */
-  publishFields(fields) {
-    this.#isTouching = fields[field.touching] !== 0;
+  /** Publishes the fields that begin at `first`. @param {Float64Array} numbers @param {number} [first] */
+  publishFields(numbers, first = 0) {
+    this.#isTouching = numbers[first + field.touching] !== 0;
     const { core } = this.#host.live();
     if (core) {
-      core.f64.set(fields, this.#address >> 3);
+      const shared = core.f64;
+      const at = this.#address >> 3;
+      // A view for `set` would be garbage of every frame.
+      for (let index = 0; index < fieldCount; index += 1) shared[at + index] = numbers[first + index];
       core.exports.hapto_voice_publish(this.#index, this.#address);
     } else if (this.#index >= 0) {
-      this.#host.live().tell({ type: 'publish', voice: this.#index, fields: fields.slice() });
+      this.#host.live().tell({ type: 'publish', voice: this.#index, fields: numbers.slice(first, first + fieldCount) });
     }
   }
 

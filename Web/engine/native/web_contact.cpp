@@ -1,6 +1,5 @@
 #include "contact_states.hpp"
 #include "input_file.hpp"
-#include "near_words.hpp"
 #include "scene_file.hpp"
 #include "web_imports.hpp"
 #include "web_scene.hpp"
@@ -32,10 +31,7 @@ ResolvedScene resolveScene(const std::string& text, const KnownMaterials& materi
             std::vector<std::string> names;
             std::transform(materials.begin(), materials.end(), std::back_inserter(names),
                            [](const auto& each) { return each.first; });
-            constexpr std::size_t namedLabels = 3;
-            throw cli::InputError(name + ": surface '" + surface.name + "' has material '" + material +
-                                  "', which the model does not know; " +
-                                  cli::didYouMean(cli::nearestWords(material, names, namedLabels)));
+            throw cli::InputError(cli::unknownMaterial(name, surface.name, material, names));
         }
     }
     resolved.surfaces = cli::propertiesOf(
@@ -183,6 +179,19 @@ HAPTO_EXPORT HAPTO_NAMED("hapto_scene_set_surface") int hapto_scene_set_surface(
                 state.material.add(static_cast<std::uint32_t>(labels[entry]), static_cast<float>(weights[entry]));
             }
         }
+        return 0;
+    });
+}
+
+/// `pose` receives the position and the rotation (x, y, z, w) of a surface at a time.
+HAPTO_EXPORT HAPTO_NAMED("hapto_scene_pose") int hapto_scene_pose(int index, int surface, double timeSeconds,
+                                                                  double* pose) {
+    return guarded([&] {
+        const headless::Scene& scene = sceneAt(index).resolved.scene;
+        const headless::Pose found = scene.surfaces.at(static_cast<std::size_t>(surface)).poseAt(timeSeconds);
+        FieldWriter out(pose);
+        out.putAll(found.positionMetres);
+        out.put(found.rotation.x, found.rotation.y, found.rotation.z, found.rotation.w);
         return 0;
     });
 }

@@ -1,3 +1,4 @@
+#include "bench/random_requests.hpp"
 #include "capi/handles.hpp"
 #include "contact_states.hpp"
 #include "effects/actuator_profile.hpp"
@@ -29,7 +30,13 @@ namespace {
 
 /// The samples of the last render, until the next.
 std::vector<float> samples;
-std::unique_ptr<inference::TierGenerator> measured;
+
+/// A tier whose runs are timed.
+struct Measured {
+    std::unique_ptr<inference::TierGenerator> generator;
+    bench::RandomRequests requests;
+};
+std::unique_ptr<Measured> measured;
 
 std::shared_ptr<const capi::OpenModel> openModel() {
     return capi::models().get(theModel());
@@ -166,33 +173,22 @@ HAPTO_EXPORT HAPTO_NAMED("hapto_sample_count") std::uint32_t hapto_sample_count(
 /// Loads a tier for hapto_measure_segment.
 HAPTO_EXPORT HAPTO_NAMED("hapto_measure_load") int hapto_measure_load(const char* tier) {
     return guarded([&] {
-        measured = generatorOf(*openModel(), tier);
+        constexpr std::size_t requestCount = 64;
+        const auto open = openModel();
+        measured = std::make_unique<Measured>(
+            Measured{generatorOf(*open, tier), bench::RandomRequests(open->model, requestCount, 1)});
         return 0;
     });
 }
 
-/// Generates one segment of one voice, as live, in the middle of the trained range.
+/// Generates one segment of one voice: the requests, and their order, are those of `haptoflow bench`.
 HAPTO_EXPORT HAPTO_NAMED("hapto_measure_segment") int hapto_measure_segment() {
     return guarded([] {
         if (measured == nullptr) {
             throw WebError("closed", "no tier is loaded to be measured");
         }
-        const model::ModelFile& model = openModel()->model;
-        static std::array<float, inference::segmentSamples> noise{};
-        static std::array<float, inference::segmentSamples> segment{};
-        if (noise[0] == 0.0F) {
-            (void)haptoflow_noise_fill(1, 0, 0, noise.data(), noise.size());
-        }
-        inference::SegmentRequest request{.embedding = {},
-                                          .motion = {static_cast<float>(model.header().speedMps.maximum) * 0.5F, 0.0F,
-                                                     static_cast<float>(model.header().forceNewtons.maximum) * 0.5F},
-                                          .previous = segment,
-                                          .noise = noise};
-        const auto embedding = model.embedding(0);
-        std::copy(embedding.begin(), embedding.end(), request.embedding.begin());
         std::array<float, inference::segmentSamples> generated{};
-        measured->generate(std::span(&request, 1), generated);
-        segment = generated;
+        measured->generator->generate(measured->requests.next(1), generated);
         return 0;
     });
 }

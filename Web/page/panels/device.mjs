@@ -1,3 +1,4 @@
+import { distribution } from '../engine/distribution.mjs';
 import { find, shown } from '../dom.mjs';
 import { sentenceOf } from '../messages.mjs';
 
@@ -6,10 +7,6 @@ const longestWaitMs = 90;
 const pause = (/** @type {number} */ milliseconds) => new Promise((resolve) => {
   setTimeout(resolve, milliseconds);
 });
-
-const sorted = (/** @type {number[]} */ values) => [...values].sort((a, b) => a - b);
-/** By nearest rank. */
-const percentile = (/** @type {number[]} */ values, /** @type {number} */ share) => sorted(values)[Math.max(0, Math.ceil(share * values.length) - 1)] ?? NaN;
 
 /** Lets messages of the audio thread in, without the rest that timers take. */
 function turn() {
@@ -62,6 +59,8 @@ export class DevicePanel {
   #result = find('#measure-result');
   #row = find('#measure-row');
   #json = '';
+  /** In the last stay in the headset; NaN before. */
+  posesPerSecond = NaN;
 
   /** @param {import('../../engine/js/haptoflow.d.ts').HaptoFlow} haptics @param {import('../hand/hand.mjs').Hand} hand @param {import('../../engine/js/haptoflow.d.ts').Voice} voice */
   constructor(haptics, hand, voice) {
@@ -115,8 +114,9 @@ export class DevicePanel {
       sampleRateHz: statistics.sampleRateHz,
       baseLatencyMs: statistics.baseLatencyMs,
       outputLatencyMs: statistics.outputLatencyMs,
-      touchToSampleMs: { count: onset.length, median: percentile(onset, 0.5), percentile99: percentile(onset, 0.99) },
-      eventToPublishMs: { count: delays.length, median: percentile(delays, 0.5), percentile99: percentile(delays, 0.99) },
+      posesPerSecond: this.posesPerSecond,
+      touchToSampleMs: distribution(onset),
+      eventToPublishMs: distribution(delays),
       tiers,
     };
     const times = tiers.map(({ tier, hotMs, pacedMs }) => `${tier} ${shown(hotMs.median, 2)} / ${shown(pacedMs.median, 2)} (${shown(pacedMs.percentile99, 2)})`).join(', ');
@@ -125,7 +125,7 @@ export class DevicePanel {
     const events = delays.length > 0 ? `${shown(report.eventToPublishMs.median, 1)} (${shown(report.eventToPublishMs.percentile99, 1)})` : '–';
     // The browser's own words for itself may hold the character that parts columns.
     const name = navigator.userAgent.replaceAll('|', '/');
-    this.#row.textContent = `| ${name} | ${report.cores} | ${report.sharing} | ${times} | ${latency} | ${touch} | ${events} | ${report.date} |`;
+    this.#row.textContent = `| ${name} | ${report.cores} | ${report.sharing} | ${times} | ${latency} | ${touch} | ${events} | ${shown(report.posesPerSecond, 0)} | ${report.date} |`;
     this.#json = JSON.stringify(report, null, 2);
     find('#measure-json').textContent = this.#json;
     this.#result.hidden = false;

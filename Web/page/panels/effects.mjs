@@ -11,17 +11,17 @@ export class EffectsPanel {
   #haptics;
   #messages;
   #body = find('#effects');
-  choice = { texture: true, impact: true, edge: true };
+  #choice = { texture: true, impact: true, edge: true };
 
-  /** @param {import('../../engine/js/haptoflow.d.ts').HaptoFlow} haptics @param {readonly import('../../engine/js/haptoflow.d.ts').Voice[]} voices @param {import('../messages.mjs').Messages} messages */
-  constructor(haptics, voices, messages) {
+  /** @param {import('../../engine/js/haptoflow.d.ts').HaptoFlow} haptics @param {import('../messages.mjs').Messages} messages */
+  constructor(haptics, messages) {
     this.#haptics = haptics;
     this.#messages = messages;
     this.#body.replaceChildren(...effects.map(([name, words]) => {
       const input = make('input', { type: 'checkbox', checked: true, id: `effect-${name}` });
       input.addEventListener('change', () => {
-        this.choice[name] = input.checked;
-        for (const voice of voices) voice.effects = { ...this.choice };
+        this.#choice[name] = input.checked;
+        haptics.voices.forEach((voice) => this.apply(voice));
       });
       return make('tr', {}, [
         make('th', { scope: 'row' }, [make('label', { title: words }, [input, name])]),
@@ -29,10 +29,14 @@ export class EffectsPanel {
         make('td', { 'data-cost': name, textContent: '–' }),
       ]);
     }));
-    for (const voice of voices) voice.effects = { ...this.choice };
     const button = find('#measure-effects');
     if (!haptics.measureEffects) button.hidden = true;
     button.addEventListener('click', () => void this.measure(button));
+  }
+
+  /** @param {import('../../engine/js/haptoflow.d.ts').Voice} voice */
+  apply(voice) {
+    voice.effects = { ...this.#choice };
   }
 
   async measure(/** @type {any} */ button) {

@@ -153,7 +153,7 @@ export class TableView {
     this.#still.height = this.#canvas.height;
     const context = /** @type {CanvasRenderingContext2D} */ (this.#still.getContext('2d'));
     this.#table.tops.forEach((top, index) => {
-      if (!top.motion) this.#object(context, index);
+      if (!top.isMoving) this.#object(context, index);
       else this.#drawSprite(index);
     });
     this.#isStale = false;
@@ -188,7 +188,7 @@ export class TableView {
     context.setTransform(1, 0, 0, 1, 0, 0);
     context.clearRect(0, 0, this.#canvas.width, this.#canvas.height);
     this.#table.tops.forEach((top, index) => {
-      if (top.motion) this.#drawMoving(context, index);
+      if (top.isMoving) this.#drawMoving(context, index);
     });
     if (this.selected > 0) this.#drawSelection(context);
     tips.forEach((tip, index) => this.#drawTip(context, tip, index));

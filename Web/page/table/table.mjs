@@ -1,4 +1,4 @@
-import { highestAt, moveTop, topOf } from './tops.mjs';
+import { highestAt, topOf } from './tops.mjs';
 
 const deepestMetres = 0.0008;
 const softestNewtonsPerMetre = 50;
@@ -8,6 +8,8 @@ export const airMetres = 0.06;
 /** The objects, their present materials, and where a tip is that presses on them from above. */
 export class Table {
   #labels = new Map();
+  /** @type {import('../../engine/js/haptoflow.d.ts').Scene | null} */
+  #poses = null;
   #tip = { index: -1, positionMetres: [0, 0, 0] };
 
   /** @param {any} scene SCENE.json */
@@ -40,9 +42,16 @@ export class Table {
     return Math.max(softestNewtonsPerMetre, sum / total);
   }
 
+  /** What moves rests until the engine says where it is. @param {import('../../engine/js/haptoflow.d.ts').Scene} scene of the same surfaces */
+  follow(scene) {
+    this.#poses = scene;
+  }
+
   /** @param {number} timeSeconds */
   moveTo(timeSeconds) {
-    for (const top of this.tops) moveTop(top, timeSeconds);
+    for (let index = 0; index < this.tops.length; index += 1) {
+      if (this.tops[index].isMoving) this.#poses?.poseOf(index, timeSeconds, this.tops[index]);
+    }
   }
 
   /** Index of the object at a place, -1 beside the table. */

@@ -1,15 +1,14 @@
-import { positionAt } from './motion.mjs';
-
 // How high a tip rests on the table's objects. Shapes are those of SCENE.json that can be seen from above: boxes turned about y,
 // spheres, lying capsules turned about z by 90 degrees.
 
 /** @typedef {{name: string, shape: any, position?: number[], rotation?: number[], motion?: any, material: any}} Surface */
-/** @typedef {{name: string, kind: 'box' | 'sphere' | 'capsule', halfX: number, halfZ: number, halfHeight: number, radius: number, cos: number, sin: number, position: number[], motion: any}} Top */
+/** @typedef {{name: string, kind: 'box' | 'sphere' | 'capsule', halfX: number, halfZ: number, halfHeight: number, radius: number, cos: number, sin: number, position: number[], rotation: number[], isMoving: boolean}} Top */
 
 /** @param {Surface} surface @returns {Top} */
 export function topOf({ name, shape, position = [0, 0, 0], rotation = [0, 0, 0, 1], motion = null }) {
   const [x, y, z, w] = rotation;
-  const common = { name, position: [...position], motion, cos: 1, sin: 0, halfX: 0, halfZ: 0, halfHeight: 0, radius: 0 };
+  const first = motion?.keyframes[0].position ?? position;
+  const common = { name, position: [...first], rotation: [...rotation], isMoving: motion !== null, cos: 1, sin: 0, halfX: 0, halfZ: 0, halfHeight: 0, radius: 0 };
   if (shape.box) {
     if (x !== 0 || z !== 0) throw new Error(`${name}: a box on the table may turn about y only`);
     const [sizeX, sizeY, sizeZ] = shape.box.size;
@@ -20,11 +19,6 @@ export function topOf({ name, shape, position = [0, 0, 0], rotation = [0, 0, 0, 
     return { ...common, kind: 'capsule', radius: shape.capsule.radius, halfX: shape.capsule.height / 2 - shape.capsule.radius };
   }
   throw new Error(`${name}: the table shows boxes, spheres and capsules that lie along x`);
-}
-
-/** Moves a top to where it is at a time. @param {Top} top @param {number} timeSeconds */
-export function moveTop(top, timeSeconds) {
-  if (top.motion) positionAt(top.motion, timeSeconds, top.position);
 }
 
 /**

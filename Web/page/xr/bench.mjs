@@ -1,9 +1,9 @@
 import { mirrorPosition, mirrorRotation, mirrorTriangle } from './frames.mjs';
-import { Motion } from './motion.mjs';
 
 // The scene's objects for three.js, in metres; `three` is its namespace, which is loaded only in a headset.
 
 const planeMetres = 20;
+const emptyPose = () => ({ position: [0, 0, 0], rotation: [0, 0, 0, 1] });
 
 /** Stretches texture coordinates from 0..1 to metres, so that every object shows a picture at its true size. */
 function scaleToMetres(geometry, metresOf) {
@@ -56,6 +56,7 @@ export function geometryOf(three, shape) {
 /** The objects of a scene. */
 export class Bench {
   #looks;
+  #poses;
   #objects;
   #moving;
 
@@ -63,25 +64,27 @@ export class Bench {
    * @param {object} parts
    * @param {any} parts.three
    * @param {object} parts.scene SCENE.json
+   * @param {import('../../engine/js/haptoflow.d.ts').Scene} parts.poses the same surfaces, perhaps with others after them
    * @param {{material: (material: string | Record<string, number>) => any}} parts.looks
    */
-  constructor({ three, scene, looks }) {
+  constructor({ three, scene, poses, looks }) {
     this.#looks = looks;
+    this.#poses = poses;
     this.group = new three.Group();
-    this.#objects = new Map(scene.surfaces.map((surface) => {
+    this.#objects = new Map(scene.surfaces.map((surface, index) => {
       const mesh = new three.Mesh(geometryOf(three, surface.shape), looks.material(surface.material));
       mesh.name = surface.name;
       this.group.add(mesh);
-      return [surface.name, { mesh, motion: new Motion(surface), position: [0, 0, 0], rotation: [0, 0, 0, 1] }];
+      return [surface.name, { mesh, index, isMoving: Boolean(surface.motion), pose: emptyPose(), mirrored: emptyPose() }];
     }));
     for (const object of this.#objects.values()) this.#place(object, 0);
-    this.#moving = [...this.#objects.values()].filter(({ motion }) => motion.isMoving);
+    this.#moving = [...this.#objects.values()].filter(({ isMoving }) => isMoving);
   }
 
-  #place({ mesh, motion, position, rotation }, timeSeconds) {
-    motion.at(timeSeconds);
-    mesh.position.fromArray(mirrorPosition(motion.position, position));
-    mesh.quaternion.fromArray(mirrorRotation(motion.rotation, rotation));
+  #place({ mesh, index, pose, mirrored }, timeSeconds) {
+    this.#poses.poseOf(index, timeSeconds, pose);
+    mesh.position.fromArray(mirrorPosition(pose.position, mirrored.position));
+    mesh.quaternion.fromArray(mirrorRotation(pose.rotation, mirrored.rotation));
   }
 
   /** Moves what moves by itself. */

@@ -39,10 +39,11 @@ export class Stage {
    * @param {object} parts
    * @param {any} parts.three
    * @param {object} parts.scene SCENE.json, without the board
+   * @param {import('../../engine/js/haptoflow.d.ts').Scene} parts.poses where its surfaces are
    * @param {{labels: Record<string, any>}} parts.looks
    * @param {readonly string[]} parts.labels
    */
-  constructor({ three, scene, looks, labels }) {
+  constructor({ three, scene, poses, looks, labels }) {
     this.#three = three;
     this.renderer = new three.WebGLRenderer({ antialias: true });
     this.renderer.xr.enabled = true;
@@ -50,7 +51,7 @@ export class Stage {
     // One looks at a tip from near by.
     this.#camera = new three.PerspectiveCamera(50, 1, 0.02, 60);
     this.#looks = new Looks(three, looks);
-    this.#bench = new Bench({ three, scene, looks: this.#looks });
+    this.#bench = new Bench({ three, scene, poses, looks: this.#looks });
     this.#pens = new Pens(three, 2);
     this.panel = new Panel(three);
     this.#workbench = new three.Group();

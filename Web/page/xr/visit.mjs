@@ -1,5 +1,4 @@
 import { strokeOfPaint, withBoard } from './board.mjs';
-import { Ears } from '../signal/ears.mjs';
 import { Placement } from './frames.mjs';
 import { Hand } from './hand.mjs';
 import { Hands } from './hands.mjs';
@@ -36,7 +35,6 @@ export class Visit {
   #session;
   #hands;
   #stage;
-  #ears;
   #labels;
   #objectCount;
   #onEnd;
@@ -54,11 +52,10 @@ export class Visit {
   ended;
 
   /** @param {any} parts see `enterHeadset`; `three` is the namespace, `session` is running */
-  static async begin({ haptics, scene, looks, three, session, newtonsAtFullPressure, onEnd, onPaint }) {
+  static async begin({ haptics, scene, looks, three, session, newtonsAtFullPressure, onEnd, onPaint, onVoice }) {
     const labels = haptics.labels.map(({ name }) => name);
     const board = withBoard(scene, labels);
     const opened = [];
-    const ears = new Ears(haptics.context, haptics.output);
     let stage = null;
     let hasEnded = false;
     session.addEventListener('end', () => {
@@ -66,26 +63,24 @@ export class Visit {
     }, { once: true });
     try {
       for (let side = 0; side < 2; side += 1) opened.push(await openHand(haptics, board.scene));
-      for (const { voice } of opened) ears.take(voice);
-      stage = new Stage({ three, scene, looks, labels });
+      for (const { voice } of opened) onVoice(voice);
+      stage = new Stage({ three, scene, poses: opened[0].scene, looks, labels });
       await stage.renderer.xr.setSession(session);
       if (hasEnded) throw new Error('the headset was left while it loaded');
       const [left, right] = opened;
       const { objectCount } = board;
-      return new Visit({ haptics, session, stage, ears, left, right, newtonsAtFullPressure, labels, objectCount, onEnd, onPaint });
+      return new Visit({ haptics, session, stage, left, right, newtonsAtFullPressure, labels, objectCount, onEnd, onPaint });
     } catch (error) {
       stage?.close();
-      ears.close();
       await Promise.all(opened.map((hand) => hand.close()));
       throw error;
     }
   }
 
-  constructor({ haptics, session, stage, ears, left, right, newtonsAtFullPressure, labels, objectCount, onEnd, onPaint }) {
+  constructor({ haptics, session, stage, left, right, newtonsAtFullPressure, labels, objectCount, onEnd, onPaint }) {
     this.#haptics = haptics;
     this.#session = session;
     this.#stage = stage;
-    this.#ears = ears;
     this.#report = new Report({ haptics, panel: stage.panel });
     stage.place(this.placement);
     this.#hands = new Hands({ left, right, placement: this.placement, newtonsAtFullPressure });
@@ -209,7 +204,6 @@ export class Visit {
     const rates = this.rates();
     // An engine that is closed already has closed its voices.
     await this.#hands.close().catch(() => {});
-    this.#ears.close();
     this.#stage.close();
     this.#onEnd({ reason: this.reason, message: this.#message, ...rates });
   }
