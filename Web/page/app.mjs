@@ -223,6 +223,10 @@ class Page {
       else if (reason !== 'context') messages.show(silenceSentence(reason), { key: 'silent' });
     });
     this.haptics.addEventListener('context', () => this.#showStart());
+    this.haptics.addEventListener('device', ({ detail: { state } }) => {
+      if (state === 'back') messages.clear('device');
+      else messages.show('The sound device was lost. Pictures and motors go on, and the next device sounds by itself.', { key: 'device' });
+    });
     start.button.addEventListener('click', () => void this.haptics.resume().then(() => this.#showStart()));
     this.#showStart();
   }

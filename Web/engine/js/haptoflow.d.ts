@@ -208,6 +208,10 @@ export interface Statistics {
   readonly sampleRateHz: number;
   readonly baseLatencyMs: number;
   readonly outputLatencyMs: number;
+  /** The output was unplugged, and there is no other; the engine goes on for motors and takes the next one. */
+  readonly hasLostOutput: boolean;
+  /** Gaps that the browser counted in its output, whatever their cause; not a number where it does not count. */
+  readonly outputUnderruns: number;
 }
 
 /** The wave of a voice as it is played, +-1 at full scale: for meters, oscilloscopes and recordings. */
@@ -445,6 +449,8 @@ export interface HaptoFlowEvents {
   quality: CustomEvent<{ tier: string }>;
   /** The context's state: "suspended" asks for `resume` in a gesture. */
   context: CustomEvent<{ state: string }>;
+  /** The sound's output was unplugged, or another one took its place. Meanwhile only ears miss something. */
+  device: CustomEvent<{ state: 'lost' | 'back' }>;
 }
 
 /** Times by nearest rank. */

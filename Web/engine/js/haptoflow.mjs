@@ -3,6 +3,7 @@ import { asHaptoFlowError, HaptoFlowError, requireNotAborted } from './errors.mj
 import { engineModule, modelBytes, placesOf } from './files.mjs';
 import { Live } from './live.mjs';
 import { Core, createMemory } from './module.mjs';
+import { OutputWatch } from './output-watch.mjs';
 import { Scene } from './scene.mjs';
 import { runTask } from './task.mjs';
 import { Voice } from './voice.mjs';
@@ -39,7 +40,7 @@ function sharingOf(wanted = 'auto') {
 function usableContext(/** @type {AudioContext | undefined} */ given) {
   if (given) return given;
   try {
-    return new AudioContext({ sampleRate: 48000, latencyHint: 'interactive' });
+    return new AudioContext({ sampleRate: 48000, latencyHint: 0 });
   } catch (error) {
     throw new HaptoFlowError('audio-unavailable', `this browser gives no audio context: ${/** @type {Error} */ (error).message}`);
   }
@@ -54,6 +55,8 @@ export class HaptoFlow extends EventTarget {
   #isShared;
   #sharingNote;
   #ownsContext;
+  /** Of an own context; who gives one chooses its output. @type {OutputWatch | null} */
+  #outputWatch;
   /** @type {Live} */
   #live;
   /** @type {any} */
@@ -149,6 +152,7 @@ export class HaptoFlow extends EventTarget {
     this.#contactCore = new Core(module, { memory: createMemory(), isPage: true });
     this.#live = this.#newLive();
     context.addEventListener('statechange', this.#onContextState);
+    this.#outputWatch = this.#ownsContext ? new OutputWatch(context, (state) => this.#emit('device', { state })) : null;
   }
 
   #onContextState = () => {
@@ -305,6 +309,8 @@ export class HaptoFlow extends EventTarget {
       sampleRateHz: context.sampleRate,
       baseLatencyMs: 1000 * (context.baseLatency ?? NaN),
       outputLatencyMs: 1000 * (context.outputLatency ?? NaN),
+      hasLostOutput: this.#outputWatch?.hasLost ?? false,
+      outputUnderruns: /** @type {any} */ (context).playbackStats?.underrunEvents ?? NaN,
     };
   }
 
@@ -405,6 +411,7 @@ export class HaptoFlow extends EventTarget {
     this.#isClosed = true;
     clearInterval(this.#watch);
     this.context.removeEventListener('statechange', this.#onContextState);
+    this.#outputWatch?.close();
     for (const voice of this.#voices) voice.detach();
     this.#voices.clear();
     this.output.disconnect();

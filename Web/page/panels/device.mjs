@@ -114,6 +114,7 @@ export class DevicePanel {
       sampleRateHz: statistics.sampleRateHz,
       baseLatencyMs: statistics.baseLatencyMs,
       outputLatencyMs: statistics.outputLatencyMs,
+      outputUnderruns: statistics.outputUnderruns,
       posesPerSecond: this.posesPerSecond,
       touchToSampleMs: distribution(onset),
       eventToPublishMs: distribution(delays),
