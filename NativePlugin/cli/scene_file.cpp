@@ -388,8 +388,8 @@ headless::Scene parseSceneText(const std::string& text, const std::string& fileN
 std::string unknownMaterial(const std::string& fileName, const std::string& surface, const std::string& material,
                             std::span<const std::string> known) {
     constexpr std::size_t namedLabels = 3;
-    return fileName + ": surface '" + surface + "' has material '" + material +
-           "', which the model does not know; " + didYouMean(nearestWords(material, known, namedLabels));
+    return fileName + ": surface '" + surface + "' has material '" + material + "', which the model does not know; " +
+           didYouMean(nearestWords(material, known, namedLabels));
 }
 
 }  // namespace haptoflow::cli

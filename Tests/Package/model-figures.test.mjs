@@ -20,6 +20,7 @@ const pages = {
   'Documentation~/benchmarks.md': 'npm run bench -- --publish',
   'Documentation~/device-loudness.md': '/usr/bin/python3 scripts/pack/device_levels.py',
   'Documentation~/delay-budget.md': 'haptoflow-training study budget --page',
+  'Documentation~/in-the-browser.md': 'npm run bench:web -- --publish',
   'Documentation~/own-materials.md': 'haptoflow-paper few-shot --page',
   'Documentation~/stability.md': 'npm run test:soak -- --publish',
   'Training/results/default/README.md': 'npm run evaluate, haptoflow-benchmark discriminate, and the words by hand',

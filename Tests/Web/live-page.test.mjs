@@ -1,12 +1,16 @@
 import assert from 'node:assert/strict';
-import { writeFileSync } from 'node:fs';
+import { readFileSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { after, afterEach, before, describe, test } from 'node:test';
+import { gzipSync } from 'node:zlib';
+import { pageFolder } from '../../scripts/web/build_page.mjs';
 import { hasBrowser } from './support/browser.mjs';
 import { hasCommandLine, native, wavSamples } from './support/engine.mjs';
 import { recording } from './support/made-recording.mjs';
 import { openLivePage, watch } from './support/page.mjs';
+import { repository } from './support/places.mjs';
 
+const documentation = readFileSync(path.join(repository, 'Documentation~', 'in-the-browser.md'), 'utf8');
 /** @type {Awaited<ReturnType<typeof openLivePage>>} */
 let opened;
 const pause = (/** @type {number} */ milliseconds) => opened.page.waitForTimeout(milliseconds);
@@ -38,6 +42,16 @@ describe('the live page', { skip: !hasBrowser }, () => {
     opened = await openLivePage();
   });
   after(() => opened.close());
+
+  test('opening loads at most 8 MB compressed, which is what the documentation says, and nothing of the headset', () => {
+    const files = [...opened.loaded].map((name) => readFileSync(path.join(pageFolder(), ...name.split('/'))));
+    const megabytes = (/** @type {Buffer[]} */ all) => all.reduce((sum, bytes) => sum + bytes.length, 0) / 1e6;
+    const gzipped = megabytes(files.map((bytes) => gzipSync(bytes)));
+    assert.ok(gzipped < 8, `${gzipped} MB`);
+    assert.ok(![...opened.loaded].some((name) => /^(xr|three)\//.test(name)));
+    const said = `Opening the page loads ${files.length} files, ${megabytes(files).toFixed(1)} MB; with gzip ${gzipped.toFixed(1)} MB`;
+    assert.ok(documentation.includes(said), said);
+  });
 
   test('a stroke of the mouse over two objects sounds on each, and is silent after lift-off', async () => {
     const stop = await watch(opened.page);
@@ -268,12 +282,30 @@ describe('the live page', { skip: !hasBrowser }, () => {
     assert.deepEqual(found.counts, found.later);
   });
 
-  test('the time from a touch to its first sample is measured on this device', async () => {
-    const times = await inPage(async () => {
-      const { touchToSampleMs } = await import('./panels/device.mjs');
-      return touchToSampleMs(globalThis.haptoflowPage.voices[1], 5);
-    });
-    assert.ok(times.length >= 3 && times.every((milliseconds) => milliseconds > 0), `${times}`);
+  test('quality "auto" names the tier that it takes', async () => {
+    const { page } = opened;
+    await page.locator('#quality-auto').check();
+    await page.waitForFunction(() => /^now (sketch|draft|standard)$/.test(document.querySelector('[data-tier="auto"]').textContent), null, { timeout: 20000 });
+    assert.equal(await inPage(() => globalThis.haptoflowPage.haptics.quality), 'auto');
+    await page.locator('#quality-standard').check();
+    await page.waitForFunction(() => document.querySelector('[data-tier="auto"]').textContent === '');
+  });
+
+  test('"Measure this device" makes a row with every quality, and the same as JSON', async () => {
+    const { page } = opened;
+    await page.locator('#measure').click();
+    await page.waitForFunction(() => !document.querySelector('#measure').disabled, null, { timeout: 90000 });
+    assert.match(await text('#measure-progress'), /^Done\./);
+    const header = documentation.match(/^\| browser \| cores \|.*$/m)[0];
+    const columns = (/** @type {string} */ row) => row.split('|').length;
+    const row = await text('#measure-row');
+    assert.equal(columns(row), columns(header), row);
+    assert.match(row, /sketch [\d.]+ \/ [\d.]+ \([\d.]+\), draft .*, standard /);
+    const report = JSON.parse(await page.locator('#measure-json').textContent());
+    assert.deepEqual(report.tiers.map(({ tier }) => tier), ['sketch', 'draft', 'standard']);
+    assert.ok(report.touchToSampleMs.count >= 30 && report.touchToSampleMs.median > 0, JSON.stringify(report.touchToSampleMs));
+    assert.ok(report.eventToPublishMs.count > 0);
+    assert.equal(report.sharing, 'shared');
   });
 
   test('a file that is no recording is refused in words', async () => {

@@ -15,7 +15,7 @@ function voiceThatNotes() {
   const voice = {
     share: 0.4, states: [], paused: false, effects: {}, isClosed: false,
     lift: () => voice.states.push('lift'),
-    publishFields: (fields) => voice.states.push(fields[0] !== 0 ? 'touch' : 'air'),
+    publishFields: (numbers, first = 0) => voice.states.push(numbers[first] !== 0 ? 'touch' : 'air'),
     motorTap: () => ({ peak: () => voice.share, close() {} }),
     close: async () => {
       voice.isClosed = true;

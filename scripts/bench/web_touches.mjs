@@ -3,7 +3,7 @@
 /** Within 60 dB of the touch's own peak, as `onset_ms` of the native benchmark. */
 const audibleShare = 1e-3;
 const strokeMs = 160;
-const watchMs = 800;
+const watchMs = 500;
 
 /**
  * What the page does. It notes when blocks of samples were rendered, and how loud each is: with shared memory by a worker that
@@ -69,7 +69,7 @@ function watchInPage() {
 }
 
 /** From a press to its first audible block; null where nothing sounded. */
-function timeOf({ pressedMs, blocks }) {
+export function timeOf({ pressedMs, blocks }) {
   const after = blocks.filter(({ atMs }) => atMs > pressedMs);
   const peak = Math.max(0, ...after.map((block) => block.peak));
   return peak > 0 ? after.find((block) => block.peak >= audibleShare * peak).atMs - pressedMs : null;

@@ -19,7 +19,7 @@ export const packagesByPurpose = {
   platforms: ['wine', 'wine64', 'qemu-user', 'googletest', 'debootstrap'],
   // The compiler for browsers, and the browser of its tests.
   web: ['emscripten'],
-  browser: ['chromium'],
+  browser: ['chromium', 'pulseaudio', 'pulseaudio-utils'],
   // Libraries that the SDK needs, and curl for Microsoft's install script: see dotnet.mjs.
   dotnet: ['ca-certificates', 'curl', 'libicu-dev'],
   // mono-devel has the facades of .NET Standard.

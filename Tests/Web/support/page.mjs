@@ -18,17 +18,22 @@ export async function openLivePage({ isolated = true, viewport = { width: 1280, 
   const complaints = [];
   /** @type {string[]} */
   const strangers = [];
+  /** Paths of what was loaded, within the page's folder. @type {Set<string>} */
+  const loaded = new Set();
   page.on('pageerror', (error) => complaints.push(error.message));
   page.on('console', (message) => {
     if (message.type() === 'error') complaints.push(message.text());
   });
   page.on('request', (request) => {
-    if (!/^(data|blob):/.test(request.url()) && new URL(request.url()).origin !== server.address) strangers.push(request.url());
+    if (/^(data|blob):/.test(request.url())) return;
+    const { origin, pathname } = new URL(request.url());
+    if (origin !== server.address) strangers.push(request.url());
+    else if (pathname.startsWith('/somewhere/')) loaded.add(pathname.slice('/somewhere/'.length));
   });
   await page.goto(`${server.address}/somewhere/index.html`);
   if (waits) await page.waitForFunction(() => 'haptoflowPage' in globalThis, null, { timeout: 30000 });
   return {
-    page, complaints, strangers,
+    page, complaints, strangers, loaded,
     /** Where places of the table are in the window, now. */
     pointsOf: (/** @type {[number, number][]} */ places) => page.evaluate((wanted) => wanted.map(([x, z]) => {
       const { clientX, clientY } = globalThis.haptoflowPage.view.pointOf(x, z);
