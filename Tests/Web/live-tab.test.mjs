@@ -1,7 +1,8 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { hasSoundServer, openBarePage, startSoundServer } from './support/bare-browser.mjs';
+import { openBarePage } from './support/bare-browser.mjs';
 import { hasBrowser } from './support/browser.mjs';
+import { hasSoundServer, startSoundServer } from './support/sound-server.mjs';
 
 const pause = (/** @type {number} */ milliseconds) => new Promise((resolve) => {
   setTimeout(resolve, milliseconds);

@@ -20,6 +20,10 @@ export const packagesByPurpose = {
   // The compiler for browsers, and the browser of its tests.
   web: ['emscripten'],
   browser: ['chromium', 'pulseaudio', 'pulseaudio-utils'],
+  // Firefox, and WebKit's own little browser, which needs a display.
+  browsers: [
+    'firefox-esr', 'libwebkit2gtk-4.1-0', 'gstreamer1.0-plugins-base', 'gstreamer1.0-plugins-good', 'gstreamer1.0-pulseaudio', 'xvfb', 'xauth',
+  ],
   // Libraries that the SDK needs, and curl for Microsoft's install script: see dotnet.mjs.
   dotnet: ['ca-certificates', 'curl', 'libicu-dev'],
   // mono-devel has the facades of .NET Standard.
@@ -48,6 +52,9 @@ export const optionalPurposes = {
   browser:
     'The part of the web\'s tests in a browser is left out: it needs Chromium, which this system\'s packages do not have. Debian 12 has it ' +
     '(chromium); HAPTOFLOW_CHROMIUM names another',
+  browsers:
+    'The part of the web\'s tests in Firefox and WebKit is left out: it needs both, which this system\'s packages do not have. Debian 12 has them ' +
+    '(firefox-esr, libwebkit2gtk-4.1-0)',
   mono:
     'The run under Mono is left out: it needs Mono 6.8, which this system\'s packages do not have. Debian 12 and Ubuntu ' +
     '24.04 have it (mono-runtime, mono-devel)',

@@ -84,7 +84,7 @@ async function runApt(asRoot, words) {
 }
 
 /** The program whose presence stands for a purpose on systems without apt. */
-const programOf = (purpose) => ({ libcxx: 'clang++-16', realtime: 'clang++-22', mono: 'mono', web: 'emcc', browser: 'chromium' })[purpose];
+const programOf = (purpose) => ({ libcxx: 'clang++-16', realtime: 'clang++-22', mono: 'mono', web: 'emcc', browser: 'chromium', browsers: 'firefox-esr' })[purpose];
 
 /** On other systems nothing is installed: names what is missing, and the file that lists it. */
 function checkForeignSystem(purposes) {

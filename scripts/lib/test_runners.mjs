@@ -179,7 +179,7 @@ export const runners = {
   training: { purposes: ['build', 'python', 'files'], execute: training },
   dotnet: { purposes: ['build', 'dotnet', 'pictures'], execute: dotnet },
   package: { purposes: ['files'], execute: packageTests },
-  web: { purposes: ['build', 'test', 'web', 'browser'], execute: web },
+  web: { purposes: ['build', 'test', 'web', 'browser'], longPurposes: ['browsers'], execute: web },
   sanitizers: { purposes: ['build', 'test'], longPurposes: ['realtime'], long: true, execute: sanitizers },
   libcxx: { purposes: ['build', 'libcxx'], long: true, execute: libcxx },
   mono: { purposes: ['build', 'dotnet', 'pictures', 'mono'], long: true, execute: mono },

@@ -7,13 +7,14 @@ const isolation = { 'Cross-Origin-Opener-Policy': 'same-origin', 'Cross-Origin-E
 
 /**
  * Serves folders on the loopback address.
- * @param {{folders: Record<string, string>, isolated?: boolean}} options folders by the first part of the path
+ * @param {{folders: Record<string, string>, isolated?: boolean, answers?: Record<string, (body: string) => string>}} options folders by the
+ *   first part of the path; answers: what a path answers to what was sent to it, as JSON
  * @returns {Promise<{address: string, changes: Map<string, (bytes: Buffer) => Buffer | number>, close: () => Promise<void>}>} changes: what a
  *   path answers instead of its file: other bytes, or a status
  */
-export async function serve({ folders, isolated = true }) {
+export async function serve({ folders, isolated = true, answers = {} }) {
   const changes = new Map();
-  const server = createServer((request, response) => {
+  const server = createServer(async (request, response) => {
     const { pathname } = new URL(request.url ?? '/', 'http://localhost');
     const [, first, ...rest] = pathname.split('/');
     if (pathname === '/favicon.ico') {
@@ -22,6 +23,12 @@ export async function serve({ folders, isolated = true }) {
     }
     const file = folders[first] && path.join(folders[first], ...rest.map(decodeURIComponent));
     const headers = { 'Cache-Control': 'no-store', ...(isolated ? isolation : {}) };
+    if (answers[pathname]) {
+      let body = '';
+      for await (const bytes of request) body += bytes;
+      response.writeHead(200, { ...headers, 'Content-Type': types['.json'] }).end(answers[pathname](body));
+      return;
+    }
     if (!file || !existsSync(file) || !statSync(file).isFile()) {
       response.writeHead(404, headers).end();
       return;

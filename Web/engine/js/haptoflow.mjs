@@ -29,9 +29,18 @@ function qualityNumber(quality) {
 
 const canShare = () => globalThis.crossOriginIsolated === true && typeof SharedArrayBuffer === 'function';
 
+const isolation = 'Cross-Origin-Opener-Policy: same-origin and Cross-Origin-Embedder-Policy: require-corp';
+
+function whyNotShared() {
+  if (canShare()) return '';
+  return globalThis.crossOriginIsolated === true
+    ? 'this browser shares no memory between threads, although the page came with the headers for it'
+    : `this page may not share memory between threads: serve it with the headers ${isolation}`;
+}
+
 /** @param {CreateOptions['sharing']} wanted */
 function sharingOf(wanted = 'auto') {
-  const note = canShare() ? '' : 'this page may not share memory between threads: serve it with the headers Cross-Origin-Opener-Policy: same-origin and Cross-Origin-Embedder-Policy: require-corp';
+  const note = whyNotShared();
   if (wanted === 'shared' && note !== '') throw new HaptoFlowError('invalid-argument', note);
   if (wanted === 'ring') return { isShared: false, note: 'the page chose the ring' };
   return { isShared: note === '', note };
