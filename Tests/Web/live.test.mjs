@@ -133,6 +133,36 @@ for (const isolated of [true, false]) {
   });
 }
 
+describe('a ring that is too short', { skip: !hasBrowser }, () => {
+  before(async () => {
+    opened = await openPage();
+  });
+  after(() => opened.close());
+
+  test('grows until its blocks come in time, stays so after a recovery, and the statistics say how long it is', async () => {
+    const found = await inPage(async () => {
+      const { started, hand, slide } = globalThis.tools;
+      const { haptics, voice } = await started({ sharing: 'ring', ringFrames: 256, quality: 'sketch' });
+      const lengths = [haptics.statistics().ringFrames];
+      await hand(voice, 3, slide('wood'));
+      lengths.push(haptics.statistics().ringFrames);
+      const late = voice.statistics().ringUnderruns;
+      await hand(voice, 1, slide('wood'));
+      const later = voice.statistics().ringUnderruns - late;
+      const recovered = new Promise((resolve) => haptics.addEventListener('recovered', resolve));
+      haptics[Symbol.for('haptoflow.worker')].terminate();
+      await recovered;
+      lengths.push(haptics.statistics().ringFrames);
+      await haptics.close();
+      return { lengths, late, later };
+    });
+    assert.equal(found.lengths[0], 256);
+    assert.ok(found.late > 0, 'it was long enough');
+    assert.ok(found.lengths[1] > 256 && found.lengths[1] <= 8192 && found.lengths[2] >= found.lengths[1], `${found.lengths}`);
+    assert.ok(found.later < found.late / 4, `${found.late}, then ${found.later}`);
+  });
+});
+
 describe('what goes wrong on the way', { skip: !hasBrowser }, () => {
   before(async () => {
     opened = await openPage();

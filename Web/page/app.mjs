@@ -63,6 +63,7 @@ const start = {
 class Page {
   /** The engine is closed for good. */
   #isOver = false;
+  #shownRingFrames = NaN;
   /** Lets a voice follow the page's controls. @type {(voice: import('../engine/js/haptoflow.d.ts').Voice) => void} */
   adopt;
 
@@ -277,10 +278,11 @@ class Page {
   }
 
   #deviceLine() {
-    const { sharing, ringFrames, sampleRateHz, baseLatencyMs, outputLatencyMs } = this.haptics.statistics();
+    const { sharing, sharingNote, ringFrames, sampleRateHz, baseLatencyMs, outputLatencyMs } = this.haptics.statistics();
+    this.#shownRingFrames = ringFrames;
     const way = sharing === 'shared'
       ? 'Page, worker and audio thread share memory.'
-      : `Sound goes through a ring that adds ${shown((1000 * ringFrames) / sampleRateHz, 0)} ms, because this page was served without the headers for shared memory.`;
+      : `Sound goes through a ring that adds ${shown((1000 * ringFrames) / sampleRateHz, 0)} ms: ${sharingNote}.`;
     find('#device-line').textContent = `${way} ${sampleRateHz.toLocaleString('en')} Hz; the browser states a latency of ${shown(baseLatencyMs, 1)} ms and of ${shown(outputLatencyMs, 1)} ms for the output.`;
   }
 
@@ -324,7 +326,9 @@ class Page {
 
   #poll() {
     try {
-      this.quality.show(this.haptics.statistics());
+      const statistics = this.haptics.statistics();
+      this.quality.show(statistics);
+      if (statistics.ringFrames !== this.#shownRingFrames) this.#deviceLine();
       this.effects.show(this.haptics.voices.map((voice) => voice.statistics()));
     } catch (error) {
       if (/** @type {any} */ (error).code !== 'closed') throw error;

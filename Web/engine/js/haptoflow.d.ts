@@ -81,7 +81,7 @@ export interface CreateOptions extends Locations {
    * page may, else "ring".
    */
   sharing?: 'auto' | 'shared' | 'ring';
-  /** Frames that the ring keeps ahead; 2048 unless given. */
+  /** Frames that the ring keeps ahead at first; 2048 unless given. */
   ringFrames?: number;
   /** Ends loading; `create` then rejects with the code "aborted". */
   signal?: AbortSignal;
@@ -181,7 +181,7 @@ export interface TierTimes {
 }
 
 export interface Statistics {
-  /** "shared": the audio thread renders. "ring": the worker renders; its blocks pass through `ringFrames` more frames. */
+  /** "shared": the audio thread renders. "ring": the worker renders; its blocks pass through `ringFrames` more frames, which grow where blocks came too late. */
   readonly sharing: 'shared' | 'ring';
   /** Why there is no shared memory; empty with it. */
   readonly sharingNote: string;

@@ -310,7 +310,7 @@ export class HaptoFlow extends EventTarget {
     return {
       sharing: this.#isShared ? 'shared' : 'ring',
       sharingNote: this.#sharingNote,
-      ringFrames: this.#isShared ? 0 : (this.#options.ringFrames ?? defaultRingFrames),
+      ringFrames: this.#isShared ? 0 : Math.max(this.#options.ringFrames ?? defaultRingFrames, ...this.voices.map(({ ringFrames }) => ringFrames)),
       quality: this.#quality,
       ...found,
       recoveries: this.#recoveryCount,

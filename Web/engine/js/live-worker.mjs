@@ -66,6 +66,7 @@ class LiveWorker {
       case 'material': return this.#addMaterial(request);
       case 'open-voice': return this.#openVoice(request);
       case 'close-voice': return this.#closeVoice(request.voice);
+      case 'ring': return this.#lengthenRing(request);
       case 'set': return this.core.call('hapto_voice_set', request.voice, request.name, request.value);
       case 'actuator': return this.#setActuator(request);
       case 'publish': return this.#publish(request);
@@ -119,6 +120,13 @@ class LiveWorker {
     };
     this.#guarded(() => ring.fill());
     return { voice, samples: 0 };
+  }
+
+  #lengthenRing(/** @type {any} */ { voice, frames }) {
+    const ring = this.#rings.get(voice);
+    if (!ring) return;
+    ring.ahead = frames;
+    this.#guarded(() => ring.fill());
   }
 
   #closeVoice(/** @type {number} */ voice) {

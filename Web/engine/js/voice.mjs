@@ -6,6 +6,11 @@ import { TapSource, WaveTap } from './wave-tap.mjs';
 /** By haptoflow_silence. */
 export const silenceNames = /** @type {const} */ (['none', 'rest', 'stale', 'muted', 'paused', 'panic', 'rate', 'closing', 'worker-dead', 'turned-down']);
 
+/** A ring that was empty grows by this much, once for each stall. */
+const ringStepFrames = 1024;
+const longestRingFrames = 8192;
+const stallMs = 250;
+
 /**
  * @typedef {object} VoiceHost what a voice needs of its engine
  * @property {AudioContext} context
@@ -38,6 +43,8 @@ export class Voice {
   /** @type {TapSource | null} */
   tapSource = null;
   #ringUnderruns = 0;
+  #ringFrames;
+  #grownMs = -Infinity;
   #isClosed = false;
   #isTouching = false;
   /** @type {any} what the worker told last, without shared memory */
@@ -46,6 +53,7 @@ export class Voice {
   /** @param {VoiceHost} host */
   constructor(host) {
     this.#host = host;
+    this.#ringFrames = host.ringFrames;
     this.#node = new GainNode(host.context, { gain: 1, channelCount: 1, channelCountMode: 'explicit' });
   }
 
@@ -64,11 +72,11 @@ export class Voice {
 
   /** Makes the voice in the present engine; after a fault, again. */
   async attach() {
-    const { context, ringFrames } = this.#host;
+    const { context } = this.#host;
     const live = this.#host.live();
     const channel = live.isShared ? null : new MessageChannel();
     const { voice, samples } = await live.ask(
-      { type: 'open-voice', rateHz: context.sampleRate, port: channel?.port1 ?? null, ringFrames },
+      { type: 'open-voice', rateHz: context.sampleRate, port: channel?.port1 ?? null, ringFrames: this.#ringFrames },
       channel ? [channel.port1] : [],
     );
     this.#index = voice;
@@ -93,9 +101,24 @@ export class Voice {
   }
 
   #takeFromAudio(/** @type {any} */ { late, wave, frame }) {
-    if (late !== undefined) this.#ringUnderruns = late;
+    if (late !== undefined) this.#takeLateBlock(late);
     if (wave) this.tapSource?.write(wave);
     if (frame !== undefined && this.tapSource) this.tapSource.startSeconds = frame / this.tapSource.sampleRateHz;
+  }
+
+  /** A device that calls in bursts, or a busy one, needs a longer ring. */
+  #takeLateBlock(/** @type {number} */ count) {
+    this.#ringUnderruns = count;
+    const now = performance.now();
+    if (now - this.#grownMs < stallMs || this.#ringFrames >= longestRingFrames) return;
+    this.#grownMs = now;
+    this.#ringFrames = Math.min(longestRingFrames, this.#ringFrames + ringStepFrames);
+    this.#host.live().tell({ type: 'ring', voice: this.#index, frames: this.#ringFrames });
+  }
+
+  /** Of the ring, without shared memory. */
+  get ringFrames() {
+    return this.#ringFrames;
   }
 
   #requireOpen() {
