@@ -97,21 +97,18 @@ describe('the live page', { skip: !hasBrowser }, () => {
   });
 
   test('two fingers are two voices', async () => {
+    const devtools = await opened.page.context().newCDPSession(opened.page);
+    const touch = async (/** @type {string} */ type, /** @type {[number, number][]} */ places) => {
+      const points = await opened.pointsOf(places);
+      await devtools.send('Input.dispatchTouchEvent', { type: /** @type {any} */ (type), touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
+    };
     const stop = await watch(opened.page);
-    await inPage(async () => {
-      const { view } = globalThis.haptoflowPage;
-      const canvas = document.querySelector('#table');
-      const send = (type, pointerId, x, z) => canvas.dispatchEvent(new PointerEvent(type, { pointerId, pointerType: 'touch', button: type === 'pointerdown' ? 0 : -1, buttons: 1, bubbles: true, cancelable: true, ...view.pointOf(x, z) }));
-      send('pointerdown', 21, -0.2, 0.112);
-      send('pointerdown', 22, 0.16, -0.112);
-      for (let step = 0; step < 60; step += 1) {
-        send('pointerrawupdate', 21, -0.2 + 0.0008 * step, 0.112);
-        send('pointerrawupdate', 22, 0.16 + 0.0008 * step, -0.112);
-        await new Promise((resolve) => { setTimeout(resolve, 10); });
-      }
-      send('pointerup', 21, 0, 0);
-      send('pointercancel', 22, 0, 0);
-    });
+    await touch('touchStart', [[-0.2, 0.112], [0.16, -0.112]]);
+    for (let step = 1; step < 50; step += 1) {
+      await touch('touchMove', [[-0.2 + 0.0008 * step, 0.112], [0.16 + 0.0008 * step, -0.112]]);
+      await pause(10);
+    }
+    await touch('touchEnd', []);
     await isQuiet();
     const seen = await stop();
     const sounding = (tip, surface) => Math.max(0, ...seen.filter((each) => each.tip === tip && each.surface === surface).map(({ rms }) => rms));
@@ -120,25 +117,30 @@ describe('the live page', { skip: !hasBrowser }, () => {
   });
 
   test('a pen presses by its pressure, and its tilt is recorded', async () => {
-    const found = await inPage(async () => {
-      const { view, tips } = globalThis.haptoflowPage;
-      const canvas = document.querySelector('#table');
-      const send = (type, pressure, x) => canvas.dispatchEvent(new PointerEvent(type, { pointerId: 31, pointerType: 'pen', button: 0, pressure, tiltX: 30, ...view.pointOf(x, 0.112) }));
-      tips[0].rows = [];
-      const forces = [];
-      send('pointerdown', 0.2, -0.2);
-      for (const pressure of [0.25, 0.5, 1]) {
-        send('pointerrawupdate', pressure, -0.2 + 0.01 * pressure);
-        forces.push(tips[0].contact.forceNewtons);
-        await new Promise((resolve) => { setTimeout(resolve, 12); });
-      }
-      send('pointerup', 0, -0.2);
-      const { rows } = tips[0];
-      tips[0].rows = null;
-      return { forces, lean: rows.every(({ orientation }) => orientation && orientation[3] < 0.99) };
+    const devtools = await opened.page.context().newCDPSession(opened.page);
+    const pen = async (/** @type {string} */ type, /** @type {number} */ force, /** @type {number} */ x) => {
+      const [[left, top]] = await opened.pointsOf([[x, 0.112]]);
+      await devtools.send('Input.dispatchMouseEvent', { type: /** @type {any} */ (type), x: left, y: top, button: 'left', buttons: type === 'mouseReleased' ? 0 : 1, clickCount: 1, pointerType: 'pen', force, tiltX: 30 });
+    };
+    await inPage(() => {
+      globalThis.haptoflowPage.tips[0].rows = [];
     });
-    assert.deepEqual(found.forces.map((force) => Math.round(100 * force) / 100), [0.5, 1, 2]);
-    assert.ok(found.lean);
+    await pen('mousePressed', 0.2, -0.2);
+    const forces = [];
+    for (const pressure of [0.25, 0.5, 1]) {
+      await pen('mouseMoved', pressure, -0.2 + 0.02 * pressure);
+      await pause(40);
+      forces.push(await inPage(() => globalThis.haptoflowPage.tips[0].contact.forceNewtons));
+    }
+    await pen('mouseReleased', 0, -0.18);
+    const leans = await inPage(() => {
+      const [tip] = globalThis.haptoflowPage.tips;
+      const { rows } = tip;
+      tip.rows = null;
+      return rows.map(({ orientation }) => orientation && orientation[3] < 0.99);
+    });
+    assert.deepEqual(forces.map((force) => Math.round(100 * force) / 100), [0.5, 1, 2]);
+    assert.ok(leans.length > 3 && leans.every(Boolean), `${leans}`);
   });
 
   test('a recording renders to the labels that were heard, here and at the command line', async () => {
