@@ -3,7 +3,7 @@ import { find, make, shown, slider } from './dom.mjs';
 import { Hand } from './hand/hand.mjs';
 import { presetStrokes } from './hand/preset-strokes.mjs';
 import { Tip } from './hand/tip.mjs';
-import { Messages, sentenceOf, silenceSentence } from './messages.mjs';
+import { deviceSentences, Messages, sentenceOf, silenceSentence } from './messages.mjs';
 import { ComparePanel } from './panels/compare.mjs';
 import { DevicePanel } from './panels/device.mjs';
 import { EffectsPanel } from './panels/effects.mjs';
@@ -226,7 +226,7 @@ class Page {
     this.haptics.addEventListener('context', () => this.#showStart());
     this.haptics.addEventListener('device', ({ detail: { state } }) => {
       if (state === 'back') messages.clear('device');
-      else messages.show('The sound device was lost. Pictures and motors go on, and the next device sounds by itself.', { key: 'device' });
+      else messages.show(deviceSentences[state], { key: 'device' });
     });
     start.button.addEventListener('click', () => void this.haptics.resume().then(() => this.#showStart()));
     this.#showStart();

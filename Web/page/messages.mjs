@@ -27,6 +27,11 @@ const silences = /** @type {Record<string, string>} */ ({
   'turned-down': 'Silent: the volume is at zero.',
 });
 
+export const deviceSentences = {
+  lost: 'The sound device was lost. Pictures and motors go on, and the next device sounds by itself.',
+  stopped: 'The sound device was lost. Connect one, and reload the page.',
+};
+
 /** @param {any} error @returns {string} what happened, then what the engine says of it */
 export function sentenceOf(error) {
   const code = String(error?.code ?? '');

@@ -449,8 +449,11 @@ export interface HaptoFlowEvents {
   quality: CustomEvent<{ tier: string }>;
   /** The context's state: "suspended" asks for `resume` in a gesture. */
   context: CustomEvent<{ state: string }>;
-  /** The sound's output was unplugged, or another one took its place. Meanwhile only ears miss something. */
-  device: CustomEvent<{ state: 'lost' | 'back' }>;
+  /**
+   * The sound's output was unplugged. "lost": only ears miss something until "back", when another one has taken its place;
+   * "stopped": this browser cannot go on, and the page must be loaded again.
+   */
+  device: CustomEvent<{ state: 'lost' | 'stopped' | 'back' }>;
 }
 
 /** Times by nearest rank. */

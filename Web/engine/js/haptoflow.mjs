@@ -1,3 +1,4 @@
+import { usableContext } from './audio-context.mjs';
 import { LabelIndices } from './contact-fields.mjs';
 import { asHaptoFlowError, HaptoFlowError, requireNotAborted } from './errors.mjs';
 import { engineModule, modelBytes, placesOf } from './files.mjs';
@@ -44,15 +45,6 @@ function sharingOf(wanted = 'auto') {
   if (wanted === 'shared' && note !== '') throw new HaptoFlowError('invalid-argument', note);
   if (wanted === 'ring') return { isShared: false, note: 'the page chose the ring' };
   return { isShared: note === '', note };
-}
-
-function usableContext(/** @type {AudioContext | undefined} */ given) {
-  if (given) return given;
-  try {
-    return new AudioContext({ sampleRate: 48000, latencyHint: 0 });
-  } catch (error) {
-    throw new HaptoFlowError('audio-unavailable', `this browser gives no audio context: ${/** @type {Error} */ (error).message}`);
-  }
 }
 
 /** The engine; see haptoflow.d.ts. */

@@ -12,7 +12,7 @@ export class OutputWatch {
   #isChanging = false;
   #hasLost = false;
 
-  /** @param {any} context @param {(state: 'lost' | 'back') => void} onChange */
+  /** @param {any} context @param {(state: 'lost' | 'stopped' | 'back') => void} onChange */
   constructor(context, onChange) {
     this.#context = context;
     this.#onChange = onChange;
@@ -27,6 +27,10 @@ export class OutputWatch {
   #onError = () => {
     if (this.#hasLost) return;
     this.#hasLost = true;
+    if (!this.#context.setSinkId) {
+      this.#onChange('stopped');
+      return;
+    }
     this.#onChange('lost');
     void this.#change({ type: 'none' });
     this.#timer = setInterval(() => void this.#look(), lookEveryMs);
@@ -34,8 +38,7 @@ export class OutputWatch {
 
   /** @returns {Promise<boolean>} whether the context runs on that output */
   async #change(/** @type {string | {type: 'none'}} */ output) {
-    // Browsers without setSinkId wait for a gesture or a reload.
-    if (this.#isChanging || !this.#context.setSinkId) return false;
+    if (this.#isChanging) return false;
     this.#isChanging = true;
     try {
       await this.#context.setSinkId(output);

@@ -1,0 +1,112 @@
+import assert from 'node:assert/strict';
+import { mock, test } from 'node:test';
+import { latencyHintOf } from '../../Web/engine/js/audio-context.mjs';
+import { OutputWatch } from '../../Web/engine/js/output-watch.mjs';
+
+/** A context as Chromium's: `outputs` are there; without any it fails, and then runs without an output only. */
+class MadeContext extends EventTarget {
+  sinkId = /** @type {any} */ ('');
+  state = 'running';
+  outputs = 1;
+  refusals = 0;
+
+  unplug() {
+    this.outputs = 0;
+    this.dispatchEvent(new Event('error'));
+    this.state = 'suspended';
+  }
+
+  async setSinkId(/** @type {any} */ id) {
+    if (this.refusals > 0) {
+      this.refusals -= 1;
+      throw new Error('busy');
+    }
+    if (id === '' && this.outputs === 0) throw new Error('the device is not found');
+    this.sinkId = id;
+  }
+
+  async resume() {
+    this.state = 'running';
+  }
+}
+
+const settle = () => new Promise((resolve) => {
+  setImmediate(resolve);
+});
+
+/** Runs with seconds that pass at once, and with the page's list of devices. */
+async function watched(/** @type {any} */ context, /** @type {(pass: (seconds: number) => Promise<void>, states: string[], watch: OutputWatch) => Promise<void>} */ action) {
+  /** @type {(() => void)[]} */
+  const timers = [];
+  const made = mock.method(globalThis, 'setInterval', (/** @type {() => void} */ tick) => timers.push(tick));
+  const cleared = mock.method(globalThis, 'clearInterval', (/** @type {number} */ number) => {
+    if (number) timers[number - 1] = () => {};
+  });
+  const devices = mock.method(navigator, 'mediaDevices', () => ({ enumerateDevices: async () => Array.from({ length: context.outputs }, () => ({ kind: 'audiooutput' })) }), { getter: true });
+  try {
+    /** @type {string[]} */
+    const states = [];
+    const watch = new OutputWatch(context, (state) => states.push(state));
+    await action(async (seconds) => {
+      for (let second = 0; second < seconds; second += 1) {
+        timers.forEach((tick) => tick());
+        await settle();
+      }
+    }, states, watch);
+    watch.close();
+  } finally {
+    [made, cleared, devices].forEach(({ mock: each }) => each.restore());
+  }
+}
+if (!globalThis.navigator) Object.defineProperty(globalThis, 'navigator', { value: {}, configurable: true });
+if (!('mediaDevices' in navigator)) Object.defineProperty(navigator, 'mediaDevices', { get: () => undefined, configurable: true });
+
+test('a context whose output is unplugged runs without one, and takes the next; each is told once', async () => {
+  const context = new MadeContext();
+  await watched(context, async (pass, states, watch) => {
+    context.unplug();
+    context.dispatchEvent(new Event('error'));
+    await settle();
+    assert.deepEqual(context.sinkId, { type: 'none' });
+    assert.equal(context.state, 'running');
+    await pass(5);
+    assert.deepEqual(states, ['lost']);
+    assert.equal(watch.hasLost, true);
+    context.outputs = 1;
+    await pass(2);
+    assert.equal(context.sinkId, '');
+    assert.deepEqual(states, ['lost', 'back']);
+    assert.equal(watch.hasLost, false);
+    context.unplug();
+    await settle();
+    assert.deepEqual(states, ['lost', 'back', 'lost']);
+  });
+});
+
+test('a first attempt that fails is followed by another', async () => {
+  const context = new MadeContext();
+  await watched(context, async (pass) => {
+    context.refusals = 1;
+    context.unplug();
+    await settle();
+    assert.equal(context.state, 'suspended');
+    await pass(1);
+    assert.equal(context.state, 'running');
+  });
+});
+
+test('a browser that cannot choose outputs is left alone, and the page is told to reload', async () => {
+  const context = new MadeContext();
+  Object.defineProperty(context, 'setSinkId', { value: undefined });
+  await watched(context, async (pass, states) => {
+    context.unplug();
+    await pass(3);
+    assert.equal(context.state, 'suspended');
+    assert.deepEqual(states, ['stopped']);
+  });
+});
+
+test('the smallest buffer is asked for, but not on Android, whose may be no multiple of a block', () => {
+  assert.equal(latencyHintOf('Mozilla/5.0 (X11; Linux x86_64) Chrome/156.0.0.0 Safari/537.36'), 0);
+  assert.equal(latencyHintOf('Mozilla/5.0 (Linux; Android 14; Quest 3) OculusBrowser/40.0 VR Safari/537.36'), 'interactive');
+});
