@@ -65,6 +65,16 @@ test('a package is offered where apt names a candidate version', () => {
   assert.deepEqual(offeredPackages(['git'], ''), []);
 });
 
+test('every package of the lock file runs on the Node that the README asks for', () => {
+  const [, oldest] = readFileSync(inRepository('README.md'), 'utf8').match(/Node (\d+)\.\d+/);
+  const { packages } = JSON.parse(readFileSync(inRepository('package-lock.json'), 'utf8'));
+  const tooNew = Object.entries(packages).filter(([, { engines }]) => engines?.node).filter(([, { engines }]) => {
+    const lowest = engines.node.split('||').map((range) => Number(range.match(/\d+/)?.[0] ?? 0));
+    return Math.min(...lowest) > Number(oldest);
+  });
+  assert.deepEqual(tooNew.map(([name, { engines }]) => `${name} needs Node ${engines.node}`), []);
+});
+
 test('the sentence of each optional purpose names its packages and where to get them', () => {
   for (const [purpose, sentence] of Object.entries(optionalPurposes)) {
     assert.ok(packagesByPurpose[purpose].length > 0, purpose);

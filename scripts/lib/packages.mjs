@@ -50,11 +50,11 @@ export const optionalPurposes = {
     'The engine for browsers is left out: it needs Emscripten, which this system\'s packages do not have. Debian 12 has it ' +
     '(emscripten); elsewhere https://emscripten.org brings it',
   browser:
-    'The part of the web\'s tests in a browser is left out: it needs Chromium, which this system\'s packages do not have. Debian 12 has it ' +
-    '(chromium); HAPTOFLOW_CHROMIUM names another',
+    'The part of the web\'s tests in a browser is left out: it needs Chromium, and PulseAudio to unplug a sound device, which this system\'s ' +
+    'packages do not have. Debian 12 has them (chromium, pulseaudio, pulseaudio-utils); HAPTOFLOW_CHROMIUM names another Chromium',
   browsers:
     'The part of the web\'s tests in Firefox and WebKit is left out: it needs both, which this system\'s packages do not have. Debian 12 has them ' +
-    '(firefox-esr, libwebkit2gtk-4.1-0)',
+    '(firefox-esr; libwebkit2gtk-4.1-0 with gstreamer1.0-plugins-base, gstreamer1.0-plugins-good, gstreamer1.0-pulseaudio, xvfb and xauth)',
   mono:
     'The run under Mono is left out: it needs Mono 6.8, which this system\'s packages do not have. Debian 12 and Ubuntu ' +
     '24.04 have it (mono-runtime, mono-devel)',
