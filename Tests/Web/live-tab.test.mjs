@@ -48,7 +48,10 @@ test('a tab that is hidden in mid-stroke falls silent, is not taken for dead, an
 
 test('an output that is unplugged is told, the wave for motors goes on, and the next output sounds by itself', { skip: !hasBrowser || !hasSoundServer, timeout: 90000 }, async () => {
   const sound = await startSoundServer();
-  const page = await openBarePage(sound.environment);
+  const page = await openBarePage(sound.environment).catch(async (error) => {
+    await sound.close();
+    throw error;
+  });
   try {
     await page.inPage(watch);
     await page.inPage(rub);
@@ -69,7 +72,6 @@ test('an output that is unplugged is told, the wave for motors goes on, and the 
     assert.deepEqual(await page.inPage("events.filter(({ type }) => type === 'device').map(({ state }) => state)"), ['lost', 'back']);
     assert.deepEqual(await page.inPage("events.filter(({ type }) => type === 'error')"), []);
   } finally {
-    await page.close();
-    await sound.close();
+    await Promise.allSettled([page.close(), sound.close()]);
   }
 });

@@ -1,9 +1,6 @@
-import { spawn } from 'node:child_process';
-import { mkdtempSync, rmSync } from 'node:fs';
-import os from 'node:os';
-import path from 'node:path';
 import { pageFolder, stagePage } from '../../../scripts/web/build_page.mjs';
 import { chromiumPath } from '../../../scripts/web/chromium.mjs';
+import { startProgram } from './programs.mjs';
 import { serve } from './server.mjs';
 
 // Chromium without Playwright, which keeps every page visible and focused: here a tab behind another one is hidden, as a user's is.
@@ -41,19 +38,16 @@ function talkBy(/** @type {import('node:child_process').ChildProcess} */ child) 
 export async function openBarePage(environment = {}) {
   stagePage();
   const server = await serve({ folders: { somewhere: pageFolder() } });
-  const profile = mkdtempSync(path.join(os.tmpdir(), 'haptoflow-browser-'));
-  const words = ['--headless=new', '--no-sandbox', '--disable-gpu', '--no-first-run', '--autoplay-policy=no-user-gesture-required', '--remote-debugging-pipe', `--user-data-dir=${profile}`, 'about:blank'];
-  const child = spawn(/** @type {string} */ (chromiumPath), words, { stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe'], env: { ...process.env, ...environment } });
-  const ended = new Promise((resolve) => {
-    child.once('exit', resolve);
-  });
+  const words = ['--headless=new', '--no-sandbox', '--disable-gpu', '--no-first-run', '--autoplay-policy=no-user-gesture-required', '--remote-debugging-pipe'];
+  const program = startProgram(
+    (home) => [/** @type {string} */ (chromiumPath), ...words, `--user-data-dir=${home}`, 'about:blank'],
+    { environment, stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe'] },
+  );
   const close = async () => {
-    child.kill();
-    await ended;
-    rmSync(profile, { recursive: true, force: true, maxRetries: 5 });
     await server.close();
+    await program.end();
   };
-  const ask = talkBy(child);
+  const ask = talkBy(program.child);
   const { targetId } = await ask('Target.createTarget', { url: `${server.address}/somewhere/index.html` });
   const { sessionId } = await ask('Target.attachToTarget', { targetId, flatten: true });
   const inPage = async (/** @type {string} */ expression) => {

@@ -1,11 +1,11 @@
-import { spawn, spawnSync } from 'node:child_process';
-import { existsSync, mkdtempSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
-import os from 'node:os';
+import { spawnSync } from 'node:child_process';
+import { existsSync, readdirSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { pageFolder, stagePage } from '../../../scripts/web/build_page.mjs';
-import { startSoundServer } from './sound-server.mjs';
 import { engineFolder, repository } from './places.mjs';
+import { startProgram } from './programs.mjs';
 import { serve } from './server.mjs';
+import { startSoundServer } from './sound-server.mjs';
 
 // Browsers that nothing here drives: they open pages/check.html, which does its work by itself and sends a report.
 
@@ -67,23 +67,15 @@ export async function reportOf(name, { task, isolated = true }) {
     },
   });
   const sound = await startSoundServer();
-  const home = mkdtempSync(path.join(os.tmpdir(), 'haptoflow-browser-'));
-  const [command, ...rest] = words(`${server.address}/pages/check.html`, home);
-  // A group of its own, which ends as a whole.
-  const child = spawn(command, rest, { stdio: 'ignore', detached: true, env: { ...process.env, ...sound.environment, HOME: home, ...environment } });
-  const ended = new Promise((resolve) => {
-    child.once('exit', resolve);
-  });
+  const program = startProgram((home) => words(`${server.address}/pages/check.html`, home), { environment: { ...environment, PULSE_SERVER: sound.environment.PULSE_SERVER } });
   const late = new Promise((resolve, reject) => {
     setTimeout(() => reject(new Error(`${name} sent no report within ${limitSeconds} s`)), 1000 * limitSeconds).unref();
   });
   try {
     return await Promise.race([reported, late]);
   } finally {
-    process.kill(-(/** @type {number} */ (child.pid)), 'SIGKILL');
-    await ended;
+    await program.end();
     await sound.close();
     await server.close();
-    rmSync(home, { recursive: true, force: true, maxRetries: 5 });
   }
 }

@@ -1,7 +1,5 @@
-import { execFileSync, spawn, spawnSync } from 'node:child_process';
-import { mkdtempSync, rmSync } from 'node:fs';
-import os from 'node:os';
-import path from 'node:path';
+import { execFileSync, spawnSync } from 'node:child_process';
+import { startProgram } from './programs.mjs';
 
 const pause = (/** @type {number} */ milliseconds) => new Promise((resolve) => {
   setTimeout(resolve, milliseconds);
@@ -12,18 +10,19 @@ export const hasSoundServer = spawnSync('pulseaudio', ['--version']).status === 
 
 /** A sound server of its own with one silent output, which can be taken away. */
 export async function startSoundServer() {
-  const folder = mkdtempSync(path.join(os.tmpdir(), 'haptoflow-sound-'));
-  const environment = { XDG_RUNTIME_DIR: folder, PULSE_RUNTIME_PATH: path.join(folder, 'pulse'), PULSE_SERVER: `unix:${path.join(folder, 'pulse', 'native')}`, HOME: folder };
+  const program = startProgram((home) => ['env', `XDG_RUNTIME_DIR=${home}`, 'pulseaudio', '-n', '--daemonize=no', '--exit-idle-time=-1', '-L', `module-native-protocol-unix socket=${home}/native`]);
+  const environment = { XDG_RUNTIME_DIR: program.home, PULSE_SERVER: `unix:${program.home}/native`, HOME: program.home };
   const env = { ...process.env, ...environment };
-  const server = spawn('pulseaudio', ['-n', '--daemonize=no', '--exit-idle-time=-1', '-L', 'module-native-protocol-unix'], { env, stdio: 'ignore' });
-  const control = (/** @type {string[]} */ ...words) => execFileSync('pactl', words, { env, encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'] }).trim();
+  const control = (/** @type {string[]} */ ...words) => execFileSync('pactl', words, { env, encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'], timeout: 5000 }).trim();
   for (let attempt = 0; ; attempt += 1) {
     await pause(100);
     try {
       control('info');
       break;
     } catch (error) {
-      if (attempt === 50) throw error;
+      if (attempt < 50) continue;
+      await program.end();
+      throw error;
     }
   }
   const plug = () => control('load-module', 'module-null-sink', 'rate=48000');
@@ -36,13 +35,6 @@ export async function startSoundServer() {
     },
     /** Streams that play now. */
     streams: () => control('list', 'short', 'sink-inputs').split('\n').filter((line) => line !== '').length,
-    close: async () => {
-      const ended = new Promise((resolve) => {
-        server.once('exit', resolve);
-      });
-      server.kill();
-      await ended;
-      rmSync(folder, { recursive: true, force: true });
-    },
+    close: () => program.end(),
   };
 }
