@@ -33,7 +33,7 @@ for (const [name, { isThere }] of Object.entries(browsers)) {
       for (const surface of ['sandpaper sheet', 'jute mat']) assert.ok(drawn.heard.includes(surface), `${drawn.heard}`);
       assert.ok(drawn.rmsMps2 > 0.1, `${drawn.rmsMps2}`);
       assert.deepEqual(drawn.complaints, []);
-      assert.equal(drawn.message, '');
+      assert.equal(drawn.error, '');
     });
   }
 }

@@ -76,7 +76,7 @@ async function drawn() {
   const legs = [[-0.15, -0.112], [-0.09, -0.112], [-0.03, -0.112]].map((to) => ({ to, seconds: 0.7 }));
   const isComplete = await hand.play({ name: '', words: '', from: [-0.22, -0.112], legs });
   clearInterval(timer);
-  return { isComplete, heard: [...heard], rmsMps2: peak, complaints, message: inner().document.querySelector('#message-text').textContent, start: inner().document.querySelector('#start').hidden, statistics: haptics.statistics() };
+  return { isComplete, heard: [...heard], rmsMps2: peak, complaints, error: inner().document.querySelector('#message').dataset.kind === 'error' ? inner().document.querySelector('#message-text').textContent : '', start: inner().document.querySelector('#start').hidden, statistics: haptics.statistics() };
 }
 
 const found = { userAgent: navigator.userAgent, isIsolated: globalThis.crossOriginIsolated === true, failures: [] };
