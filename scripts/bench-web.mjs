@@ -42,11 +42,29 @@ async function nativeRound(only, events) {
   return JSON.parse(readFileSync(file, 'utf8'));
 }
 
-/** The row that the page's own button makes. */
+/** What the page's own button finds: a row, and the same as JSON. */
 async function deviceRow(page) {
   await page.locator('#measure').click();
   await page.waitForFunction(() => !globalThis.document.querySelector('#measure').disabled, null, { timeout: 120000 });
   return { row: await page.locator('#measure-row').textContent(), json: JSON.parse(await page.locator('#measure-json').textContent()) };
+}
+
+/** Touches through the ring and with shared memory, then segments, and in the last round the page's own button. */
+async function browserRound(browser, addresses, { touches, seconds, isLast }) {
+  const ring = await openPage(browser, addresses.ring);
+  const throughRing = await measureTouches(ring, touches);
+  await ring.close();
+  const page = await openPage(browser, addresses.shared);
+  const shared = await measureTouches(page, touches);
+  const tiers = await page.evaluate((each) => globalThis.haptoflowPage.haptics.measure({ seconds: each }), seconds);
+  const device = isLast ? await deviceRow(page) : null;
+  await page.close();
+  return {
+    touchesMs: { shared: shared.timesMs, ring: throughRing.timesMs },
+    missed: { shared: shared.missed, ring: throughRing.missed },
+    browser: tiers,
+    device,
+  };
 }
 
 const help = `usage: npm run bench:web [-- --quick] [-- --publish]
@@ -71,38 +89,24 @@ await runMain('bench:web', async (words) => {
   mkdirSync(inRepository('out', 'bench'), { recursive: true });
   const { rounds: count, touches, seconds, events } = options.quick ? quick : full;
   const servers = { shared: await serveFolder({ folder: pageFolder() }), ring: await serveFolder({ folder: pageFolder(), isIsolated: false }) };
+  const addresses = { shared: servers.shared.address, ring: servers.ring.address };
   const browser = await launchChromium(['--disable-gpu']);
   const rounds = [];
-  let device = null;
-  let outputLatencyMs = NaN;
-  for (let round = 0; round < count; round += 1) {
-    console.log(`bench:web: round ${round + 1} of ${count}`);
-    // Its latencies take a minute, and one round of them is enough beside the browser's.
-    const native = await nativeRound(round === count - 1 ? 'latency,inference' : 'inference', events);
-    const touchesMs = {};
-    const missed = {};
-    let measured = null;
-    for (const way of /** @type {const} */ (['ring', 'shared'])) {
-      const page = await openPage(browser, servers[way].address);
-      const found = await measureTouches(page, touches);
-      touchesMs[way] = found.timesMs;
-      missed[way] = found.missed;
-      if (way === 'shared') {
-        measured = await page.evaluate((each) => globalThis.haptoflowPage.haptics.measure({ seconds: each }), seconds);
-        ({ outputLatencyMs } = await page.evaluate(() => globalThis.haptoflowPage.haptics.statistics()));
-        if (round === count - 1) device = await deviceRow(page);
-      }
-      await page.close();
-    }
-    rounds.push({ touchesMs, missed, browser: measured, native });
+  for (let round = 1; round <= count; round += 1) {
+    console.log(`bench:web: round ${round} of ${count}`);
+    const isLast = round === count;
+    // The native latencies take a minute, and one round of them is enough beside the browser's.
+    const native = await nativeRound(isLast ? 'latency,inference' : 'inference', events);
+    rounds.push({ native, ...await browserRound(browser, addresses, { touches, seconds, isLast }) });
   }
+  const { device } = rounds.at(-1);
   const browserName = `Chromium ${browser.version()} without a window`;
   await browser.close();
   Object.values(servers).forEach(({ close }) => close());
   const machine = `${os.cpus()[0].model.trim()}, ${os.cpus().length} cores, load ${rounds[0].native.machine.load_average.before ?? '-'} before`;
   const sha256 = sha256Of(shippedModel);
-  const tables = webTables(rounds, { machine, browserName, outputLatencyMs, deviceRow: device.row });
-  writeFileSync(report, `${JSON.stringify({ date: new Date().toISOString(), model_sha256: sha256, machine, browser: browserName, rounds, device }, null, 2)}\n`);
+  const tables = webTables(rounds, { machine, browserName, outputLatencyMs: device.json.outputLatencyMs, deviceRow: device.row });
+  writeFileSync(report, `${JSON.stringify({ date: new Date().toISOString(), model_sha256: sha256, machine, browser: browserName, rounds }, null, 2)}\n`);
   console.log(`\n${tables}\n\nbench:web: ${report}`);
   if (options.publish) {
     writeFileSync(documentPath, withMeasuredPart(readFileSync(documentPath, 'utf8'), command, `${modelLine(sha256)}\n\n${tables}`));
