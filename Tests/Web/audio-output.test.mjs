@@ -8,7 +8,15 @@ class MadeContext extends EventTarget {
   sinkId = /** @type {any} */ ('');
   state = 'running';
   outputs = 1;
+  /** Listed, though gone. */
+  ghosts = 0;
   refusals = 0;
+  #time = 0;
+
+  get currentTime() {
+    if (this.state === 'running' && (this.sinkId !== '' || this.outputs > 0)) this.#time += 0.1;
+    return this.#time;
+  }
 
   unplug() {
     this.outputs = 0;
@@ -21,7 +29,7 @@ class MadeContext extends EventTarget {
       this.refusals -= 1;
       throw new Error('busy');
     }
-    if (id === '' && this.outputs === 0) throw new Error('the device is not found');
+    if (id === '' && this.outputs + this.ghosts === 0) throw new Error('the device is not found');
     this.sinkId = id;
   }
 
@@ -30,6 +38,10 @@ class MadeContext extends EventTarget {
   }
 }
 
+/** Longer than the watch looks whether time passes. */
+const proven = () => new Promise((resolve) => {
+  setTimeout(resolve, 700);
+});
 const settle = () => new Promise((resolve) => {
   setImmediate(resolve);
 });
@@ -42,7 +54,7 @@ async function watched(/** @type {any} */ context, /** @type {(pass: (seconds: n
   const cleared = mock.method(globalThis, 'clearInterval', (/** @type {number} */ number) => {
     if (number) timers[number - 1] = () => {};
   });
-  const devices = mock.method(navigator, 'mediaDevices', () => ({ enumerateDevices: async () => Array.from({ length: context.outputs }, () => ({ kind: 'audiooutput' })) }), { getter: true });
+  const devices = mock.method(navigator, 'mediaDevices', () => ({ enumerateDevices: async () => Array.from({ length: context.outputs + context.ghosts }, () => ({ kind: 'audiooutput' })) }), { getter: true });
   try {
     /** @type {string[]} */
     const states = [];
@@ -51,6 +63,7 @@ async function watched(/** @type {any} */ context, /** @type {(pass: (seconds: n
       for (let second = 0; second < seconds; second += 1) {
         timers.forEach((tick) => tick());
         await settle();
+        await proven();
       }
     }, states, watch);
     watch.close();
@@ -69,17 +82,33 @@ test('a context whose output is unplugged runs without one, and takes the next; 
     await settle();
     assert.deepEqual(context.sinkId, { type: 'none' });
     assert.equal(context.state, 'running');
-    await pass(5);
+    await pass(2);
     assert.deepEqual(states, ['lost']);
     assert.equal(watch.hasLost, true);
     context.outputs = 1;
-    await pass(2);
+    await pass(1);
     assert.equal(context.sinkId, '');
     assert.deepEqual(states, ['lost', 'back']);
     assert.equal(watch.hasLost, false);
     context.unplug();
     await settle();
     assert.deepEqual(states, ['lost', 'back', 'lost']);
+  });
+});
+
+test('an output that is listed but gone is not taken for one that is back', async () => {
+  const context = new MadeContext();
+  await watched(context, async (pass, states, watch) => {
+    context.ghosts = 1;
+    context.unplug();
+    await pass(2);
+    assert.deepEqual(states, ['lost']);
+    assert.equal(watch.hasLost, true);
+    assert.deepEqual(context.sinkId, { type: 'none' });
+    context.ghosts = 0;
+    context.outputs = 1;
+    await pass(1);
+    assert.deepEqual(states, ['lost', 'back']);
   });
 });
 

@@ -38,7 +38,8 @@ for (const isolated of [true, false]) {
       assert.equal(found.quiet, 0);
       assert.equal(found.engine.sharing, isolated ? 'shared' : 'ring');
       assert.equal(found.engine.sharingNote === '', isolated);
-      assert.equal(found.engine.ringFrames, isolated ? 0 : 2048);
+      // It grows on a busy machine.
+      assert.ok(isolated ? found.engine.ringFrames === 0 : found.engine.ringFrames >= 2048, `${found.engine.ringFrames}`);
       assert.equal(found.voice.underruns, 0);
       assert.equal(found.voice.nonFiniteSamples, 0);
       assert.equal(found.voice.failures, 0);

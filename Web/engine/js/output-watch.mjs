@@ -2,6 +2,12 @@
 // an output it is given none, so that it goes on for motors and pictures, and takes the next that there is.
 
 const lookEveryMs = 1000;
+/** Time passes on an output that is there. One that has just gone may still be listed, and then a context says that it runs. */
+const proofMs = 300;
+
+const pause = (/** @type {number} */ milliseconds) => new Promise((resolve) => {
+  setTimeout(resolve, milliseconds);
+});
 
 /** Keeps a context running without its output, and gives it the next one. */
 export class OutputWatch {
@@ -9,7 +15,7 @@ export class OutputWatch {
   #onChange;
   /** @type {ReturnType<typeof setInterval> | undefined} */
   #timer;
-  #isChanging = false;
+  #isLooking = false;
   #hasLost = false;
 
   /** @param {any} context @param {(state: 'lost' | 'stopped' | 'back') => void} onChange */
@@ -32,37 +38,38 @@ export class OutputWatch {
       return;
     }
     this.#onChange('lost');
-    void this.#change({ type: 'none' });
+    void this.#playTo({ type: 'none' });
     this.#timer = setInterval(() => void this.#look(), lookEveryMs);
   };
 
   /** @returns {Promise<boolean>} whether the context runs on that output */
-  async #change(/** @type {string | {type: 'none'}} */ output) {
-    if (this.#isChanging) return false;
-    this.#isChanging = true;
+  async #playTo(/** @type {string | {type: 'none'}} */ output) {
     try {
       await this.#context.setSinkId(output);
-      await this.#context.resume();
-      return true;
+      // It may wait for an output that never comes.
+      void this.#context.resume().catch(() => {});
     } catch {
       return false;
-    } finally {
-      this.#isChanging = false;
     }
+    const before = this.#context.currentTime;
+    await pause(proofMs);
+    return this.#context.currentTime > before;
   }
 
   async #look() {
-    if (this.#context.sinkId === '') {
-      // The first attempt to go on without an output failed.
-      await this.#change({ type: 'none' });
-      return;
-    }
+    if (this.#isLooking) return;
+    this.#isLooking = true;
     // Chromium takes note of a new output when it is asked for all.
     const devices = await navigator.mediaDevices?.enumerateDevices().catch(() => []);
-    if (!devices?.some(({ kind }) => kind === 'audiooutput') || !(await this.#change(''))) return;
-    clearInterval(this.#timer);
-    this.#hasLost = false;
-    this.#onChange('back');
+    const isBack = devices?.some(({ kind }) => kind === 'audiooutput') === true && await this.#playTo('');
+    if (isBack) {
+      clearInterval(this.#timer);
+      this.#hasLost = false;
+      this.#onChange('back');
+    } else if (this.#context.sinkId === '' || this.#context.state !== 'running') {
+      await this.#playTo({ type: 'none' });
+    }
+    this.#isLooking = false;
   }
 
   close() {
