@@ -161,11 +161,11 @@ async function web({ all }) {
   await buildEngine();
   const folder = inRepository('Tests', 'Web');
   const names = readdirSync(folder).filter((name) => name.endsWith('.test.mjs') && (all || !name.endsWith('.long.test.mjs')));
+  const groupOf = (name) => name.match(/^(live|xr)/)?.[0] ?? 'others';
+  const inGroup = (group) => runNodeTests(names.filter((name) => groupOf(name) === group).map((name) => path.join(folder, name)));
+  const beside = await Promise.all(['xr', 'others'].map(inGroup));
   // What is heard live is judged by time, so that nothing else runs beside it.
-  const [live, others] = [names.filter((name) => name.startsWith('live')), names.filter((name) => !name.startsWith('live'))];
-  let counts = noCounts;
-  for (const group of [others, live]) counts = addCounts(counts, await runNodeTests(group.map((name) => path.join(folder, name))));
-  return counts;
+  return [...beside, await inGroup('live')].reduce(addCounts, noCounts);
 }
 
 /**
