@@ -17,7 +17,6 @@ namespace {
 
 constexpr std::size_t blocksOfEach = 8;
 constexpr std::size_t warmUpRuns = 3;
-constexpr std::size_t requestCount = 64;
 
 /// A tier whose runs are timed.
 struct Contender {

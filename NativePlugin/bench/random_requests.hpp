@@ -10,7 +10,12 @@
 
 namespace haptoflow::bench {
 
-/// Requests like those of live voices: labels and motions of the recorded range, noise as previous waveform and noise.
+/// Requests for which one segment is timed, natively and in browsers: the same number in both, so that they are the
+/// same.
+inline constexpr std::size_t requestCount = 64;
+
+/// Random requests as live voices make them. Labels and motions lie within the recorded range; the previous waveform
+/// and the noise are standard normal.
 class RandomRequests {
 public:
     RandomRequests(const model::ModelFile& model, std::size_t count, std::uint64_t seed);

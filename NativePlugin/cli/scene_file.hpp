@@ -18,7 +18,7 @@ namespace haptoflow::cli {
 /// Reads a scene from parsed JSON; `fileName` is its name in errors.
 [[nodiscard]] headless::Scene parseScene(const nlohmann::json& document, const std::string& fileName);
 
-/// The error of a surface whose material is none of `known`; it names the nearest three.
+/// The message for a surface whose material is not among `known`. It suggests the three nearest names.
 [[nodiscard]] std::string unknownMaterial(const std::string& fileName, const std::string& surface,
                                           const std::string& material, std::span<const std::string> known);
 

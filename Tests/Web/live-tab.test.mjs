@@ -1,12 +1,9 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
+import { pause } from '../../Web/engine/js/pause.mjs';
 import { openBarePage } from './support/bare-browser.mjs';
 import { hasBrowser } from './support/browser.mjs';
 import { hasSoundServer, startSoundServer } from './support/sound-server.mjs';
-
-const pause = (/** @type {number} */ milliseconds) => new Promise((resolve) => {
-  setTimeout(resolve, milliseconds);
-});
 
 /** Notes in the page what sounds, and follows the engine's events. */
 const watch = `(() => {

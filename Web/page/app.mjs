@@ -347,8 +347,11 @@ try {
   const haptics = await HaptoFlow.create({ updateRateHz, onProgress: (share, doing) => start.progress(share, doing) });
   table.setLabels(haptics.labels);
   const tips = [];
-  for (let index = 0; index < tipCount; index += 1) tips.push(new Tip(table, await haptics.openVoice(), haptics.loadScene(scene)));
-  table.follow(haptics.loadScene(scene));
+  for (let index = 0; index < tipCount; index += 1) {
+    const contactScene = haptics.loadScene(scene);
+    tips.push(new Tip(table, await haptics.openVoice(), contactScene));
+    table.follow(contactScene);
+  }
   const page = new Page(haptics, scene, looks, view, table, fills, tips);
   page.run();
   // For tests and for the curious at the console.

@@ -1,6 +1,6 @@
 import { distribution } from '../../Web/engine/js/distribution.mjs';
 
-// What `npm run bench:web` measured, as Markdown.
+// Writes the results of `npm run bench:web` as Markdown tables.
 
 /** @typedef {{tier: string, hotMs: import('../../Web/engine/js/haptoflow.d.ts').Distribution, pacedMs: import('../../Web/engine/js/haptoflow.d.ts').Distribution}} BrowserTier */
 /** @typedef {{touchesMs: {shared: number[], ring: number[]}, missed: {shared: number, ring: number}, browser: BrowserTier[], native: any}} Round native: a report of `haptoflow bench` */
@@ -54,13 +54,13 @@ export function webTables(rounds, { machine, browserName, outputLatencyMs, devic
     touchRow('pointer event to its sample rendered, ring', all('ring'), missed('ring')),
     nativeRow(rounds),
     '',
-    `The output's latency follows, of which the browser states ${outputLatencyMs.toFixed(1)} ms. Goal: 15 ms at the 99th percentile with shared memory.`,
+    `To be heard, a sample takes the output's latency in addition; the browser states ${outputLatencyMs.toFixed(1)} ms for it. The goal is 15 ms at the 99th percentile with shared memory.`,
     '',
     '| one segment, ms (medians) | browser, hot | native, hot | ratio: middle (least to most of the rounds) | browser, paced | native, paced | ratio |',
     '|---|---|---|---|---|---|---|',
     ...rounds[0].browser.map(({ tier }) => tierRow(rounds, tier)),
     '',
-    'Goal: at most 3 times the native time.',
+    'The goal is at most 3 times the native time.',
     '',
     'The row of *Measure this device* on the same machine:',
     '',

@@ -9,7 +9,8 @@ const watchMs = 500;
  * What the page does. It notes when blocks of samples were rendered, and how loud each is: with shared memory by a worker that
  * looks at the audio thread's counter, since the page itself may be drawing; else as its messages come.
  */
-function watchInPage() {
+async function watchInPage() {
+  const { turn } = await import('./panels/device.mjs');
   const [voice] = globalThis.haptoflowPage.voices;
   const tap = voice.waveTap({ seconds: 1 });
   const { shared } = voice.tapSource.memory;
@@ -39,14 +40,7 @@ function watchInPage() {
     const blocks = [];
     while (tap.read(chunk) > 0);
     for (const began = performance.now(); performance.now() - began < milliseconds;) {
-      await new Promise((resolve) => {
-        const { port1, port2 } = new MessageChannel();
-        port1.onmessage = () => {
-          port1.close();
-          resolve(undefined);
-        };
-        port2.postMessage(0);
-      });
+      await turn();
       const frames = tap.read(chunk);
       if (frames > 0) blocks.push({ atMs: performance.timeOrigin + performance.now(), peak: chunk.subarray(0, frames).reduce((most, sample) => Math.max(most, Math.abs(sample)), 0) });
     }

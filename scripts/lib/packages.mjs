@@ -20,7 +20,7 @@ export const packagesByPurpose = {
   // The compiler for browsers, and the browser of its tests.
   web: ['emscripten'],
   browser: ['chromium', 'pulseaudio', 'pulseaudio-utils'],
-  // Firefox, and WebKit's own little browser, which needs a display.
+  // Firefox and the MiniBrowser of WebKitGTK, for the long tests. MiniBrowser draws into a window, so that it needs an X server.
   browsers: [
     'firefox-esr', 'libwebkit2gtk-4.1-0', 'gstreamer1.0-plugins-base', 'gstreamer1.0-plugins-good', 'gstreamer1.0-pulseaudio', 'xvfb', 'xauth',
   ],

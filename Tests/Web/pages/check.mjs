@@ -1,10 +1,8 @@
 import { HaptoFlow } from '../engine/haptoflow.mjs';
+import { pause } from '../engine/pause.mjs';
 
-// For browsers that no test can drive: does its work by itself, and sends what it found to where it came from.
+// Checks engine and live page in a browser that the tests cannot drive, and posts the results to the server of this page.
 
-const pause = (milliseconds) => new Promise((resolve) => {
-  setTimeout(resolve, milliseconds);
-});
 const loudest = (wave) => wave.reduce((most, sample) => Math.max(most, Math.abs(sample)), 0);
 
 async function until(holds, seconds, what) {

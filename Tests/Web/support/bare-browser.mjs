@@ -1,13 +1,10 @@
+import { pause } from '../../../Web/engine/js/pause.mjs';
 import { pageFolder, stagePage } from '../../../scripts/web/build_page.mjs';
 import { chromiumPath } from '../../../scripts/web/chromium.mjs';
 import { startProgram } from './programs.mjs';
 import { serve } from './server.mjs';
 
 // Chromium without Playwright, which keeps every page visible and focused: here a tab behind another one is hidden, as a user's is.
-
-const pause = (/** @type {number} */ milliseconds) => new Promise((resolve) => {
-  setTimeout(resolve, milliseconds);
-});
 
 /** Talks to a browser by its pipe: one JSON text after the other, each ended by a zero. */
 function talkBy(/** @type {import('node:child_process').ChildProcess} */ child) {

@@ -7,14 +7,14 @@ import { startProgram } from './programs.mjs';
 import { serve } from './server.mjs';
 import { startSoundServer } from './sound-server.mjs';
 
-// Browsers that nothing here drives: they open pages/check.html, which does its work by itself and sends a report.
+// Browsers that the tests cannot drive. Each opens pages/check.html, which checks by itself and posts a report.
 
 const limitSeconds = 90;
 /** Below /usr/lib, in a folder named by the machine. */
 const webkit = (existsSync('/usr/lib') ? readdirSync('/usr/lib') : []).map((name) => `/usr/lib/${name}/webkit2gtk-4.1/MiniBrowser`).find((file) => existsSync(file));
 const hasProgram = (/** @type {string} */ name) => spawnSync('sh', ['-c', `command -v ${name}`]).status === 0;
 
-/** Sound without a gesture, and nothing sent anywhere. */
+/** Firefox may play sound without a gesture, and during a test it neither sends data nor updates itself. */
 const firefoxPreferences = {
   'media.autoplay.default': 0,
   'media.autoplay.blocking_policy': 0,
@@ -67,7 +67,7 @@ export async function reportOf(name, { task, isolated = true }) {
     },
   });
   const sound = await startSoundServer();
-  const program = startProgram((home) => words(`${server.address}/pages/check.html`, home), { environment: { ...environment, PULSE_SERVER: sound.environment.PULSE_SERVER } });
+  const program = startProgram((home) => words(`${server.address}/pages/check.html`, home), { environment: { ...environment, ...sound.environment } });
   const late = new Promise((resolve, reject) => {
     setTimeout(() => reject(new Error(`${name} sent no report within ${limitSeconds} s`)), 1000 * limitSeconds).unref();
   });

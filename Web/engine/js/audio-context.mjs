@@ -8,7 +8,11 @@ import { HaptoFlowError } from './errors.mjs';
  */
 export const latencyHintOf = (userAgent) => (/Android/.test(userAgent) ? 'interactive' : 0);
 
-/** The context of a page, or a new one. @param {AudioContext | undefined} given */
+/**
+ * Returns the page's own context, or makes one with the shortest latency that suits the device.
+ * @param {AudioContext | undefined} given
+ * @throws HaptoFlowError "audio-unavailable"
+ */
 export function usableContext(given) {
   if (given) return given;
   try {

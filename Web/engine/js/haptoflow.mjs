@@ -168,6 +168,11 @@ export class HaptoFlow extends EventTarget {
     return new Live({ places: this.#places, module: this.#module, isShared: this.#isShared, onLost: (error) => void this.#recover(error) });
   }
 
+  /** Of every ring, until it has to grow. */
+  get #firstRingFrames() {
+    return this.#options.ringFrames ?? defaultRingFrames;
+  }
+
   get #engineOptions() {
     const { updateRateHz = 72, fullScaleMps2 = 200, seed = 1, leadMs = 0 } = this.#options;
     return { quality: qualityNumber(this.#quality), updateRateHz, fullScaleMps2, seed, leadMs };
@@ -234,7 +239,7 @@ export class HaptoFlow extends EventTarget {
       context: this.context,
       indices: this.#indices,
       contactCore: this.#contactCore,
-      ringFrames: this.#options.ringFrames ?? defaultRingFrames,
+      ringFrames: this.#firstRingFrames,
       fullScaleMps2: this.#options.fullScaleMps2 ?? 200,
       live: () => this.#live,
       onFault: (error) => void this.#recover(error),
@@ -302,7 +307,7 @@ export class HaptoFlow extends EventTarget {
     return {
       sharing: this.#isShared ? 'shared' : 'ring',
       sharingNote: this.#sharingNote,
-      ringFrames: this.#isShared ? 0 : Math.max(this.#options.ringFrames ?? defaultRingFrames, ...this.voices.map(({ ringFrames }) => ringFrames)),
+      ringFrames: this.#isShared ? 0 : Math.max(this.#firstRingFrames, ...this.voices.map(({ ringFrames }) => ringFrames)),
       quality: this.#quality,
       ...found,
       recoveries: this.#recoveryCount,

@@ -1,11 +1,8 @@
 import { asHaptoFlowError, HaptoFlowError } from './errors.mjs';
 import { Core, createMemory } from './module.mjs';
+import { pause } from './pause.mjs';
 
 /** @typedef {{type: string} & Record<string, any>} WorkerRequest what live-worker.mjs answers, by its type */
-
-const pause = (/** @type {number} */ milliseconds) => new Promise((resolve) => {
-  setTimeout(resolve, milliseconds);
-});
 
 /** As in live-worker.mjs. */
 const control = { mail: 0, beat: 1, words: 2 };

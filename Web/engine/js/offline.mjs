@@ -1,6 +1,7 @@
 import { distribution } from './distribution.mjs';
 import { HaptoFlowError } from './errors.mjs';
 import { Core, createMemory } from './module.mjs';
+import { pause } from './pause.mjs';
 
 // What takes seconds: renders, learning, measuring. In a browser in a worker of its own (offline-worker.mjs), in Node here.
 
@@ -85,10 +86,6 @@ function timedSegment(/** @type {Core} */ core) {
   core.call('hapto_measure_segment');
   return performance.now() - began;
 }
-
-const pause = (/** @type {number} */ milliseconds) => new Promise((resolve) => {
-  setTimeout(resolve, milliseconds);
-});
 
 /**
  * Times tiers, hot and at the pace of use.

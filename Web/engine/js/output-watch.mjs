@@ -1,13 +1,12 @@
-// A context whose output was unplugged stops for good in Chromium: not even `resume` starts it when there is another one. Without
-// an output it is given none, so that it goes on for motors and pictures, and takes the next that there is.
+import { pause } from './pause.mjs';
+
+// When the only output of a context is unplugged, Chromium stops the context for good: not even `resume` starts it again, though
+// another output is there. So the context is told to play to no output, which keeps motors and pictures going, and once a second
+// whether there is an output to play to.
 
 const lookEveryMs = 1000;
-/** Time passes on an output that is there. One that has just gone may still be listed, and then a context says that it runs. */
+/** An output that has just gone may still be listed, and a context on it says that it runs. Its time stands still, though. */
 const proofMs = 300;
-
-const pause = (/** @type {number} */ milliseconds) => new Promise((resolve) => {
-  setTimeout(resolve, milliseconds);
-});
 
 /** Keeps a context running without its output, and gives it the next one. */
 export class OutputWatch {

@@ -173,10 +173,9 @@ HAPTO_EXPORT HAPTO_NAMED("hapto_sample_count") std::uint32_t hapto_sample_count(
 /// Loads a tier for hapto_measure_segment.
 HAPTO_EXPORT HAPTO_NAMED("hapto_measure_load") int hapto_measure_load(const char* tier) {
     return guarded([&] {
-        constexpr std::size_t requestCount = 64;
         const auto open = openModel();
         measured = std::make_unique<Measured>(
-            Measured{generatorOf(*open, tier), bench::RandomRequests(open->model, requestCount, 1)});
+            Measured{generatorOf(*open, tier), bench::RandomRequests(open->model, bench::requestCount, 1)});
         return 0;
     });
 }

@@ -1,15 +1,13 @@
 import { distribution } from '../engine/distribution.mjs';
+import { pause } from '../engine/pause.mjs';
 import { find, shown } from '../dom.mjs';
 import { sentenceOf } from '../messages.mjs';
 
 const touches = 40;
 const longestWaitMs = 90;
-const pause = (/** @type {number} */ milliseconds) => new Promise((resolve) => {
-  setTimeout(resolve, milliseconds);
-});
 
 /** Lets messages of the audio thread in, without the rest that timers take. */
-function turn() {
+export function turn() {
   return new Promise((resolve) => {
     const channel = new MessageChannel();
     channel.port1.onmessage = () => {
