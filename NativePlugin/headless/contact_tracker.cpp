@@ -65,6 +65,8 @@ Scene checked(Scene scene, const ContactSettings& settings) {
     require(positive(velocity.minimumStepSeconds), "minimumStepSeconds must be above 0");
     require(notNegative(velocity.minimumMoveMetres), "minimumMoveMetres must be 0 or more");
     require(positive(velocity.maximumSpeedMps), "maximumSpeedMps must be above 0");
+    require(positive(velocity.jumpGainMps), "jumpGainMps must be above 0");
+    require(positive(velocity.jumpAccelerationMps2), "jumpAccelerationMps2 must be above 0");
     require(positive(velocity.minimumJumpSeconds), "minimumJumpSeconds must be above 0");
     for (const SceneSurface& surface : scene.surfaces) {
         require(hasExtent(surface.shape), "every shape must have sizes above 0 and every mesh must be there");
@@ -97,6 +99,7 @@ ContactTracker::ContactTracker(Scene scene, ContactSettings settings)
       settings_(std::move(settings)),
       broadPhase_(scene_.surfaces, scene_.tipRadiusMetres + settings_.releaseDistanceMetres),
       history_(settings_.velocity),
+      path_(settings_.velocity),
       transitions_(scene_.tipRadiusMetres) {
     for (const SceneSurface& surface : scene_.surfaces) {
         stiffnessNewtonsPerMetre_.push_back(stiffnessOf(surface, settings_));
@@ -113,6 +116,7 @@ ContactReading ContactTracker::update(const TipSample& sample) {
         return idle();
     }
     const bool wasTouching = touched_.has_value();
+    continuePath();
     const std::optional<Candidate> contact = chooseContact();
     if (!contact) {
         noteSlideOff();
@@ -154,13 +158,40 @@ bool ContactTracker::acceptSample(const TipSample& sample) {
         return false;
     }
     const TipStep step = history_.add(nowSeconds_, *tipMetres_);
-    statistics_.teleports += step == TipStep::teleported ? 1 : 0;
     statistics_.clockRestarts += step == TipStep::clockRestarted ? 1 : 0;
     if (step != TipStep::continued) {
         forgetContinuity();
         transitions_.forget();
     }
     return true;
+}
+
+/// Adds this frame to the path over the surface that was touched in the last frame.
+void ContactTracker::continuePath() {
+    if (!touched_ || touched_ != pathSurface_) {
+        pathSurface_.reset();
+        return;
+    }
+    const glm::dvec3 local = scene_.surfaces[*touched_].poseAt(nowSeconds_).pointToLocal(*tipMetres_);
+    const TipStep step = path_.add(nowSeconds_, local, *tipMetres_);
+    if (step == TipStep::jumped) {
+        ++statistics_.teleports;
+        forgetContinuity();
+        transitions_.forget();
+    }
+}
+
+/// Makes the path over another surface of the tip's last positions and of where that surface was then.
+void ContactTracker::followPath(std::size_t surface) {
+    if (pathSurface_ == surface) {
+        return;
+    }
+    pathSurface_ = surface;
+    path_.clear();
+    for (const TipHistory::Frame& frame : history_.frames()) {
+        const glm::dvec3 local = scene_.surfaces[surface].poseAt(frame.timeSeconds).pointToLocal(frame.worldMetres);
+        path_.add(frame.timeSeconds, local, frame.worldMetres);
+    }
 }
 
 void ContactTracker::forgetContinuity() noexcept {
@@ -309,8 +340,10 @@ void ContactTracker::countEdge(double heightMetres) noexcept {
 
 ContactReading ContactTracker::describe(const Candidate& contact, bool touchDown, const TipSample& sample) {
     const glm::dvec3 normal = unitOr(contact.pose.directionToWorld(contact.local.normal), {0.0, 1.0, 0.0});
-    const auto [velocity, approach] =
-        relativeVelocity(history_, scene_.surfaces[contact.surface], contact.local.pointMetres);
+    followPath(contact.surface);
+    const auto [localVelocity, localApproach] = relativeVelocity(path_);
+    const glm::dvec3 velocity = contact.pose.directionToWorld(localVelocity);
+    const glm::dvec3 approach = contact.pose.directionToWorld(localApproach);
     const TangentAxes& axes = frames_[contact.surface].update(contact.local.normal, stepSeconds_);
     localNormal_ = contact.local.normal;
     if (touchDown) {

@@ -6,6 +6,7 @@
 #include "headless/scene.hpp"
 #include "headless/tangent_frame.hpp"
 #include "headless/tip_history.hpp"
+#include "headless/tip_path.hpp"
 
 #include <cstddef>
 #include <optional>
@@ -21,6 +22,8 @@ namespace haptoflow::headless {
 /// frame is kept with the same margin, so that the normal does not flip back and forth. Among equally deep surfaces the
 /// first one of the scene wins.
 ///
+/// Velocity, place and jumps are those of the tip in the frame of what it touches: see TipPath.
+///
 /// A frame computes distances only for surfaces near the tip (see BroadPhase) and allocates nothing.
 class ContactTracker {
 public:
@@ -28,7 +31,7 @@ public:
     explicit ContactTracker(Scene scene, ContactSettings settings = {});
 
     /// Processes the next frame. A sample with an unusable position keeps the last one for `lostSeconds`. If the time
-    /// stands still, only the geometry is updated. If it goes backwards, or after a pause or a teleport, the history is
+    /// stands still, only the geometry is updated. If it goes backwards, or after a pause or a jump, the history is
     /// dropped, so that the velocity is zero until the next frame.
     ContactReading update(const TipSample& sample);
 
@@ -54,6 +57,8 @@ private:
     };
 
     [[nodiscard]] bool acceptSample(const TipSample& sample);
+    void continuePath();
+    void followPath(std::size_t surface);
     void forgetContinuity() noexcept;
     [[nodiscard]] std::optional<Candidate> query(std::size_t surface);
     [[nodiscard]] std::optional<SurfacePoint> closestPoint(std::size_t surface, const glm::dvec3& localTip) const;
@@ -75,6 +80,9 @@ private:
     std::vector<double> stiffnessNewtonsPerMetre_;
     std::vector<TangentFrame> frames_;
     TipHistory history_;
+    // Over the surface that was touched last, while it is touched.
+    TipPath path_;
+    std::optional<std::size_t> pathSurface_;
     ContactStatistics statistics_;
 
     double nowSeconds_ = 0.0;

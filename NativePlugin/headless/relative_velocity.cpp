@@ -10,30 +10,30 @@ namespace {
 
 constexpr std::size_t minimumMeasurements = 2;
 
-/// The velocities of `placeOf` the newest frames that `takes` accepts, back to the longest window or to a jump that no
-/// motion explains.
-template <typename Takes, typename PlaceOf>
-RelativeVelocity velocityOf(const TipHistory& history, Takes&& takes, PlaceOf&& placeOf) {
-    const VelocitySettings& settings = history.settings();
-    const auto frames = history.frames();
+/// The velocities of the newest frames that `takes` accepts, back to the longest window or to a jump that no motion
+/// explains.
+template <typename Takes>
+RelativeVelocity velocityOf(const TipPath& path, Takes&& takes) {
+    const VelocitySettings& settings = path.settings();
+    const auto frames = path.frames();
     GrowingFit fit;
     for (auto frame = frames.rbegin(); frame != frames.rend() && !fit.full(); ++frame) {
         if (!takes(*frame)) {
             continue;
         }
-        const glm::dvec3 place = placeOf(*frame);
         if (fit.count() > 0) {
             const bool isWanted =
                 fit.count() < minimumMeasurements || fit.newestSeconds() - frame->timeSeconds <= settings.windowSeconds;
             const double step = fit.oldestSeconds() - frame->timeSeconds;
-            if (!isWanted || glm::distance(place, fit.oldestMetres()) > settings.maximumMoveMetres(step)) {
+            if (!isWanted ||
+                glm::distance(frame->positionMetres, fit.oldestMetres()) > settings.maximumMoveMetres(step)) {
                 break;
             }
         }
-        fit.add(frame->timeSeconds, place);
+        fit.add(frame->timeSeconds, frame->positionMetres);
     }
     const glm::dvec3 mean = fit.meanVelocity(settings.approachSeconds);
-    return {history.isSlow() ? mean : fit.endVelocity(history.noiseMetres()), mean};
+    return {path.isSlow() ? mean : fit.endVelocity(path.noiseMetres()), mean};
 }
 
 glm::dvec3 limited(const glm::dvec3& velocity, double fastest) {
@@ -43,24 +43,16 @@ glm::dvec3 limited(const glm::dvec3& velocity, double fastest) {
 
 }  // namespace
 
-RelativeVelocity relativeVelocity(const TipHistory& history, const SceneSurface& surface,
-                                  const glm::dvec3& localPoint) {
-    // For a surface at rest its coordinates are left out of the sums, where they would only add rounding errors.
-    const auto material = [&](const TipFrame& frame) {
-        return surface.motion ? surface.poseAt(frame.timeSeconds).pointToWorld(localPoint) : glm::dvec3(0.0);
-    };
-    const double confidence = history.confidence();
-    RelativeVelocity velocity = velocityOf(
-        history, [](const TipFrame& frame) { return frame.fresh; },
-        [&](const TipFrame& frame) { return frame.positionMetres - material(frame); });
-    velocity = {confidence * velocity.nowMps, confidence * velocity.approachMps};
-    if (surface.motion && confidence < 1.0) {
-        const RelativeVelocity own = velocityOf(
-            history, [](const TipFrame&) { return true; }, material);
-        velocity.nowMps -= (1.0 - confidence) * own.nowMps;
-        velocity.approachMps -= (1.0 - confidence) * own.approachMps;
+RelativeVelocity relativeVelocity(const TipPath& path) {
+    const double confidence = path.confidence();
+    RelativeVelocity velocity = velocityOf(path, [](const TipFrame& frame) { return frame.fresh; });
+    if (confidence < 1.0) {
+        const RelativeVelocity held =
+            velocityOf(path, [&](const TipFrame& frame) { return frame.timeSeconds >= path.measuredSeconds(); });
+        velocity = {confidence * velocity.nowMps + (1.0 - confidence) * held.nowMps,
+                    confidence * velocity.approachMps + (1.0 - confidence) * held.approachMps};
     }
-    const double fastest = history.settings().maximumSpeedMps;
+    const double fastest = path.settings().maximumSpeedMps;
     return {limited(velocity.nowMps, fastest), limited(velocity.approachMps, fastest)};
 }
 

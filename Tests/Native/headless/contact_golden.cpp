@@ -28,6 +28,8 @@ void visitSettings(Settings& settings, Visit&& visit) {
     visit("velocity_shortest_step_seconds", settings.velocity.minimumStepSeconds);
     visit("velocity_smallest_move_metres", settings.velocity.minimumMoveMetres);
     visit("velocity_fastest_mps", settings.velocity.maximumSpeedMps);
+    visit("velocity_jump_gain_mps", settings.velocity.jumpGainMps);
+    visit("velocity_jump_acceleration_mps2", settings.velocity.jumpAccelerationMps2);
     visit("velocity_shortest_jump_seconds", settings.velocity.minimumJumpSeconds);
 }
 

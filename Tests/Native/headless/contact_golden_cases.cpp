@@ -1,4 +1,5 @@
 #include "contact_golden.hpp"
+#include "scene_file.hpp"
 #include "test_scenes.hpp"
 
 #include <limits>
@@ -192,11 +193,66 @@ Case stepsAndWall() {
                   }));
 }
 
+/// A tray of a passenger's in a vehicle at 60 m/s in a bend, in a frame of its own; the pen comes down on it and draws.
+Case trayInAVehicle() {
+    json keyframes = json::array();
+    for (int index = 0; index <= 16; ++index) {
+        const double angle = 0.1 * index;
+        keyframes.push_back(
+            {{"t", 0.1 * index},
+             {"position", {60.0 * std::sin(angle), 0.02 * std::sin(9.0 * angle), 60.0 - 60.0 * std::cos(angle)}},
+             {"rotation", {0.0, -std::sin(0.5 * angle), 0.02 * std::sin(7.0 * angle), std::cos(0.5 * angle)}}});
+    }
+    json tray = surfaceWith("tray", {{"box", {{"size", {0.4, 0.02, 0.3}}}}});
+    tray["motion"] = {{"loop", false}, {"keyframes", keyframes}};
+    const Scene scene = cli::parseScene(sceneWith({tray}, 0.002), "tray");
+    return caseOf("down onto a tray in a vehicle, and a stroke on it", sceneWith({tray}, 0.002),
+                  sampledPath(1.5, frameRateHz, [&](double time) {
+                      const double height = std::max(0.0112, 0.03 - 0.1 * time);
+                      return scene.surfaces[0].poseAt(time).pointToWorld(
+                          {0.06 * std::cos(4.0 * time), height, 0.05 * std::sin(5.0 * time)});
+                  }));
+}
+
+/// A tracker of 60 Hz, carried by a lift that rises at 3 m/s; then it holds its position in the world while the lift
+/// goes on beneath.
+Case heldInALift() {
+    json lift = surfaceWith("lift", {{"box", {{"size", {4.0, 0.02, 4.0}}}}});
+    lift["motion"] = {{"loop", false},
+                      {"keyframes",
+                       {{{"t", 0.0}, {"position", {0.0, 0.0, 0.0}}},
+                        {{"t", 0.7}, {"position", {0.0, 2.1, 0.0}}},
+                        {{"t", 0.75}, {"position", {0.0, 2.2, 0.0}}},
+                        {{"t", 1.5}, {"position", {0.3, 2.2, 0.0}}}}}};
+    const Scene scene = cli::parseScene(sceneWith({lift}, 0.002), "lift");
+    return caseOf("a slow tracker carried by a lift, then held in the world", sceneWith({lift}, 0.002),
+                  sampledPath(1.5, frameRateHz, [&](double time) {
+                      const double tick = std::floor(60.0 * time + 0.2) / 60.0;
+                      return time < 0.9 ? scene.surfaces[0].poseAt(time).pointToWorld({0.2 * tick, 0.0112, 0.0})
+                                        : glm::dvec3(0.25, 2.2112, 0.0);
+                  }));
+}
+
+/// Snap turns of the rig about the head, half a metre from the pen, which draws on; the last lands it on another board.
+Case snapTurns() {
+    json desk = surfaceWith("desk", {{"box", {{"size", {3.0, 0.02, 1.2}}}}});
+    json other = surfaceWith("other", {{"box", {{"size", {3.0, 0.02, 1.2}}}}}, "stone");
+    other["position"] = {0.0, 0.0003, -1.2};
+    return caseOf("snap turns of 15, 30 and 90 degrees in a stroke", sceneWith({desk, other}, 0.002),
+                  sampledPath(1.2, frameRateHz, [&](double time) {
+                      const double degrees = time < 0.4 ? 0.0 : time < 0.6 ? 15.0 : time < 0.8 ? 45.0 : 135.0;
+                      const glm::dquat rig = testing::turned(degrees, {0.0, 1.0, 0.0});
+                      const glm::dvec3 pen{0.5 + 0.04 * std::cos(5.0 * time), 0.0112, 0.04 * std::sin(5.0 * time)};
+                      return glm::dvec3(0.0, 0.0, -0.3) + rig * pen;
+                  }));
+}
+
 }  // namespace
 
 std::vector<Case> goldenCases() {
-    return {boxEdge(),       deepInsideBox(),  spherePole(),  movingPlate(),  meshAndBlend(), trackerHold(),
-            noisyScribble(), brokenTracking(), seamAndTaps(), stepsAndWall(), carriedPlate()};
+    return {boxEdge(),      deepInsideBox(),  spherePole(),     movingPlate(), meshAndBlend(),
+            trackerHold(),  noisyScribble(),  brokenTracking(), seamAndTaps(), stepsAndWall(),
+            carriedPlate(), trayInAVehicle(), heldInALift(),    snapTurns()};
 }
 
 }  // namespace haptoflow::headless::golden

@@ -2,6 +2,7 @@
 
 #include "headless/contact_tracker.hpp"
 #include "headless/relative_velocity.hpp"
+#include "headless/tip_history.hpp"
 #include "headless/vectors.hpp"
 
 #include <algorithm>
@@ -28,7 +29,11 @@ public:
         if (history_.add(sample.timeSeconds, sample.positionMetres) != TipStep::continued) {
             forget();
         }
+        if (touched_ && addToPath(*touched_, sample.timeSeconds, sample.positionMetres) == TipStep::jumped) {
+            forget();
+        }
         const std::optional<std::size_t> before = touched_;
+        touchedBefore_ = touched_;
         const std::optional<Found> contact = choose(sample);
         if (!contact || before != contact->surface) {
             forget();
@@ -92,6 +97,19 @@ private:
         return current && !overtaken ? current : deepest;
     }
 
+    TipStep addToPath(std::size_t surface, double time, const glm::dvec3& tip) {
+        return path_.add(time, scene_.surfaces[surface].poseAt(time).pointToLocal(tip), tip);
+    }
+
+    void followPath(std::size_t surface) {
+        if (touchedBefore_ != surface) {
+            path_.clear();
+            for (const TipHistory::Frame& frame : history_.frames()) {
+                addToPath(surface, frame.timeSeconds, frame.worldMetres);
+            }
+        }
+    }
+
     void forget() {
         normal_.reset();
         for (TangentFrame& frame : frames_) {
@@ -101,8 +119,10 @@ private:
 
     void describe(const Found& contact, bool touchDown, double stepSeconds) {
         const glm::dvec3 normal = unitOr(contact.pose.directionToWorld(contact.local.normal), {0.0, 1.0, 0.0});
-        const auto [velocity, approach] =
-            relativeVelocity(history_, scene_.surfaces[contact.surface], contact.local.pointMetres);
+        followPath(contact.surface);
+        const auto [localVelocity, localApproach] = relativeVelocity(path_);
+        const glm::dvec3 velocity = contact.pose.directionToWorld(localVelocity);
+        const glm::dvec3 approach = contact.pose.directionToWorld(localApproach);
         const TangentAxes& axes = frames_[contact.surface].update(contact.local.normal, stepSeconds);
         normal_ = contact.local.normal;
         if (touchDown) {
@@ -124,6 +144,8 @@ private:
     Scene scene_;
     ContactSettings settings_;
     TipHistory history_{settings_.velocity};
+    TipPath path_{settings_.velocity};
+    std::optional<std::size_t> touchedBefore_;
     std::vector<TangentFrame> frames_;
     ContactReading last_;
     std::optional<std::size_t> touched_;

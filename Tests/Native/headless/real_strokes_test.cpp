@@ -199,11 +199,12 @@ TEST(RealStrokesTest, TheVelocityOfNowIsNearerToTheTrueOneThanTheMeanOver35Milli
         double ofMean = 0.0;
         for (const auto& [name, samples] : readStrokes()) {
             const EvenPath path(samples);
-            TipHistory history{VelocitySettings{}};
+            TipPath tip{VelocitySettings{}};
             for (double time = -0.5; time < path.seconds(); time += 1.0 / rate) {
                 const auto [place, truth] = path.at(time);
-                history.add(time, place + glm::dvec3{noise(random), noise(random), noise(random)});
-                const RelativeVelocity found = relativeVelocity(history, table, glm::dvec3(0.0));
+                const glm::dvec3 measured = place + glm::dvec3{noise(random), noise(random), noise(random)};
+                tip.add(time, measured, measured);
+                const RelativeVelocity found = relativeVelocity(tip);
                 ASSERT_LT(glm::length(found.nowMps), 4.0) << name << " at " << time;
                 if (time > 0.0) {
                     ofNow += glm::dot(found.nowMps - truth, found.nowMps - truth);

@@ -17,13 +17,34 @@ using testing::surfaceOf;
 
 const SceneSurface table = surfaceOf(Plane{});
 
+/// The path of a tip over a surface, sample by sample.
+class PathOn {
+public:
+    explicit PathOn(const SceneSurface& surface = table) : surface_(surface) {}
+
+    TipStep add(double timeSeconds, const glm::dvec3& tip) {
+        pose_ = surface_.poseAt(timeSeconds);
+        return path_.add(timeSeconds, pose_.pointToLocal(tip), tip);
+    }
+    /// In the world's axes.
+    [[nodiscard]] glm::dvec3 nowMps() const { return pose_.directionToWorld(relativeVelocity(path_).nowMps); }
+    [[nodiscard]] glm::dvec3 approachMps() const { return pose_.directionToWorld(relativeVelocity(path_).approachMps); }
+    [[nodiscard]] bool isSlow() const { return path_.isSlow(); }
+    [[nodiscard]] double noiseMetres() const { return path_.noiseMetres(); }
+
+private:
+    SceneSurface surface_;
+    Pose pose_;
+    TipPath path_{VelocitySettings{}};
+};
+
 /// The speed after each sample.
 std::vector<double> speedsOf(const std::vector<TipSample>& samples, const SceneSurface& surface = table) {
-    TipHistory history{VelocitySettings{}};
+    PathOn history(surface);
     std::vector<double> speeds;
     for (const TipSample& sample : samples) {
         history.add(sample.timeSeconds, sample.positionMetres);
-        speeds.push_back(glm::length(relativeVelocity(history, surface, glm::dvec3(0.0)).nowMps));
+        speeds.push_back(glm::length(history.nowMps()));
     }
     return speeds;
 }
@@ -181,7 +202,7 @@ TEST(VelocityTest, ATrackerThatNeverRepeatsItselfHasStoppedAfterTwoFrames) {
 TEST(VelocityTest, ATrackerThatBecomesSlowIsNoticedAndOneThatBecomesFastIsTrustedAgain) {
     // Every third frame from 1 s on; every frame again from 3 s on.
     const double rate = 90.0;
-    TipHistory history{VelocitySettings{}};
+    PathOn history;
     for (const TipSample& sample : sampledPath(4.0, rate, [&](double time) {
              const double tick = time < 1.0 || time > 3.0 ? 1.0 / rate : 3.0 / rate;
              return alongX(0.2 * tick * std::floor(time / tick + 1e-6));
@@ -192,7 +213,7 @@ TEST(VelocityTest, ATrackerThatBecomesSlowIsNoticedAndOneThatBecomesFastIsTruste
             EXPECT_FALSE(history.isSlow()) << time;
         } else if (time > 1.1 && time < 3.0) {
             EXPECT_TRUE(history.isSlow()) << time;
-            EXPECT_NEAR(relativeVelocity(history, table, glm::dvec3(0.0)).nowMps.x, 0.2, 0.01) << time;
+            EXPECT_NEAR(history.nowMps().x, 0.2, 0.01) << time;
         }
     }
 }
@@ -214,7 +235,7 @@ TEST(VelocityTest, TheNoiseOfATrackerIsFoundFromRestAndFromScribbles) {
         for (const double metres : {2e-5, 1e-4, 3e-4}) {
             for (const double amplitude : {0.0, 0.010}) {
                 Noise noise(metres);
-                TipHistory history{VelocitySettings{}};
+                PathOn history;
                 for (const TipSample& sample : sampledPath(4.0, rate, [&](double time) {
                          return alongX(amplitude * std::sin(6.0 * std::numbers::pi * time)) + noise.next();
                      })) {
@@ -229,7 +250,7 @@ TEST(VelocityTest, TheNoiseOfATrackerIsFoundFromRestAndFromScribbles) {
 
 TEST(VelocityTest, ATrackersNoiseIsBoundedWhateverItSays) {
     Noise wild(0.02);
-    TipHistory history{VelocitySettings{}};
+    PathOn history;
     for (int frame = 0; frame < 2000; ++frame) {
         history.add(frame / 90.0, wild.next());
     }
@@ -244,14 +265,13 @@ TEST(VelocityTest, AKilometreFromTheOriginNothingChanges) {
     const glm::dvec3 far(1000.0, -1000.0, 1000.0);
     Noise here(1e-4);
     Noise there(1e-4);
-    TipHistory near{VelocitySettings{}};
-    TipHistory distant{VelocitySettings{}};
+    PathOn near;
+    PathOn distant;
     for (int frame = 0; frame < 1000; ++frame) {
         const glm::dvec3 place = alongX(0.01 * std::sin(0.2 * frame));
         near.add(frame / 90.0, place + here.next());
         distant.add(frame / 90.0, place + there.next() + far);
-        const glm::dvec3 difference = relativeVelocity(near, table, glm::dvec3(0.0)).nowMps -
-                                      relativeVelocity(distant, table, glm::dvec3(0.0)).nowMps;
+        const glm::dvec3 difference = near.nowMps() - distant.nowMps();
         ASSERT_LT(glm::length(difference), 1e-6) << frame;
     }
 }
@@ -260,13 +280,13 @@ TEST(VelocityTest, AlmostEqualTimesAndHitchesKeepTheVelocityNearTheTrueOne) {
     // Pairs of frames half a millisecond apart, and now and then a frame that takes 80 ms.
     std::mt19937 random(5);
     Noise noise(2e-5);
-    TipHistory history{VelocitySettings{}};
+    PathOn history;
     double time = 0.0;
     double squares = 0.0;
     for (int frame = 0; frame < 5000; ++frame) {
         time += frame % 2 == 0 ? 0.00051 : random() % 20 == 0 ? 0.080 : 0.0215;
         history.add(time, alongX(0.2 * time) + noise.next());
-        const double error = relativeVelocity(history, table, glm::dvec3(0.0)).nowMps.x - 0.2;
+        const double error = history.nowMps().x - 0.2;
         squares += frame < 100 ? 0.0 : error * error;
     }
     EXPECT_LT(std::sqrt(squares / 4900.0), 0.02);
@@ -276,7 +296,7 @@ TEST(VelocityTest, WhateverTheTrackerSaysTheVelocityIsFiniteAndNoFasterThanTheLi
     std::mt19937 random(6);
     std::uniform_real_distribution<double> uniform(-1.0, 1.0);
     for (int round = 0; round < 200; ++round) {
-        TipHistory history{VelocitySettings{}};
+        PathOn history;
         double time = 1000.0 * uniform(random);
         glm::dvec3 place(0.0);
         for (int frame = 0; frame < 300; ++frame) {
@@ -286,7 +306,7 @@ TEST(VelocityTest, WhateverTheTrackerSaysTheVelocityIsFiniteAndNoFasterThanTheLi
                 place += metres * glm::dvec3(uniform(random), uniform(random), uniform(random));
             }
             history.add(time, place);
-            const RelativeVelocity velocity = relativeVelocity(history, table, glm::dvec3(0.0));
+            const RelativeVelocity velocity{history.nowMps(), history.approachMps()};
             ASSERT_LE(glm::length(velocity.nowMps), 20.0 * (1.0 + 1e-12));
             ASSERT_LE(glm::length(velocity.approachMps), 20.0 * (1.0 + 1e-12));
         }
@@ -322,11 +342,11 @@ TEST(VelocityTest, ATipThatMovesWithATurningSurfaceHasZeroVelocity) {
                                                {2.0, {{0.0, 0.2, 0.3}, testing::turned(240.0, {0.0, 1.0, 0.2})}}},
                          false);
     const glm::dvec3 local(0.2, 0.0, 0.1);
-    TipHistory history{VelocitySettings{}};
+    PathOn history(plate);
     for (int frame = 0; frame < 180; ++frame) {
         const double time = frame / 90.0;
         history.add(time, plate.poseAt(time).pointToWorld(local));
-        EXPECT_LT(glm::length(relativeVelocity(history, plate, local).nowMps), 1e-9);
+        EXPECT_LT(glm::length(history.nowMps()), 1e-9);
     }
 }
 
@@ -336,12 +356,11 @@ TEST(VelocityTest, ATipAtRestOnATurntableHasAngularVelocityTimesArm) {
                                                    {1.0, {{}, testing::turned(120.0, {0.0, 1.0, 0.0})}}},
                              false);
     const glm::dvec3 tip(0.1, 0.0, 0.0);
-    TipHistory history{VelocitySettings{}};
+    PathOn history(turntable);
     for (int frame = 0; frame <= 60; ++frame) {
         history.add(frame / 90.0, tip);
     }
-    const double now = 60.0 / 90.0;
-    const glm::dvec3 velocity = relativeVelocity(history, turntable, turntable.poseAt(now).pointToLocal(tip)).nowMps;
+    const glm::dvec3 velocity = history.nowMps();
     const double expected = 0.1 * 120.0 * std::numbers::pi / 180.0;
     EXPECT_NEAR(glm::length(velocity), expected, 0.005 * expected);
     // Unity turns +z towards +x about +y: the material at +x moves towards -z, the tip towards +z relative to it.
@@ -351,12 +370,12 @@ TEST(VelocityTest, ATipAtRestOnATurntableHasAngularVelocityTimesArm) {
 TEST(VelocityTest, APositionHeldOnAMovingSurfaceFadesToTheSurfacesOwnSpeed) {
     SceneSurface belt = surfaceOf(Plane{});
     belt.motion.emplace(std::vector<Keyframe>{{0.0, {}}, {10.0, {{2.0, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}}}, false);
-    TipHistory history{VelocitySettings{}};
+    PathOn history(belt);
     double last = 0.0;
     for (int frame = 0; frame <= 90; ++frame) {
         const double time = frame / 90.0;
         history.add(time, alongX(std::min(time, 0.5) * 0.2));
-        last = relativeVelocity(history, belt, glm::dvec3(0.0)).nowMps.x;
+        last = history.nowMps().x;
         if (frame == 40) {
             EXPECT_NEAR(last, 0.0, 1e-9);
         }
@@ -367,10 +386,10 @@ TEST(VelocityTest, APositionHeldOnAMovingSurfaceFadesToTheSurfacesOwnSpeed) {
 TEST(VelocityTest, ASurfaceThatJumpsBackAtTheEndOfItsLoopIsNotAStroke) {
     SceneSurface plate = surfaceOf(Plane{});
     plate.motion.emplace(std::vector<Keyframe>{{0.0, {}}, {1.0, {{0.5, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}}}, true);
-    TipHistory history{VelocitySettings{}};
+    PathOn history(plate);
     for (int frame = 0; frame <= 270; ++frame) {
         history.add(frame / 90.0, alongX(0.0));
-        EXPECT_LT(glm::length(relativeVelocity(history, plate, glm::dvec3(0.0)).nowMps), 0.51) << frame;
+        EXPECT_LT(glm::length(history.nowMps()), 0.51) << frame;
     }
 }
 

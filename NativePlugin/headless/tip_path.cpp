@@ -1,0 +1,150 @@
+#include "headless/tip_path.hpp"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <limits>
+
+namespace haptoflow::headless {
+namespace {
+
+// A tracker that measured so often without repeating itself is trusted not to.
+constexpr std::size_t trustedMeasurements = 32;
+// The first repetition of a position is no stop at any frame rate: a hitch shows one position for long, once.
+constexpr std::size_t stopRepeats = 2;
+// So many measurements tell how fast the tip was before a step.
+constexpr std::size_t measurementsBefore = 4;
+
+}  // namespace
+
+TipPath::TipPath(const VelocitySettings& settings) : settings_(settings) {
+    frames_.reserve(capacity);
+}
+
+void TipPath::clear() noexcept {
+    frames_.clear();
+    resting_ = false;
+    hasRepeated_ = false;
+    measurementsInRow_ = 0;
+    repeatsInRow_ = 0;
+}
+
+TipStep TipPath::start(TipStep step, double timeSeconds, const glm::dvec3& surfaceMetres,
+                       const glm::dvec3& worldMetres) {
+    frames_.clear();
+    resting_ = false;
+    repeatsInRow_ = 0;
+    noise_.restart();
+    noise_.add(timeSeconds, surfaceMetres);
+    movedSeconds_ = timeSeconds;
+    frames_.push_back({timeSeconds, surfaceMetres, true, std::numeric_limits<double>::infinity()});
+    latestSeconds_ = timeSeconds;
+    measuredSeconds_ = timeSeconds;
+    measuredMetres_ = surfaceMetres;
+    measuredWorldMetres_ = worldMetres;
+    return step;
+}
+
+TipStep TipPath::add(double timeSeconds, const glm::dvec3& surfaceMetres, const glm::dvec3& worldMetres) {
+    if (frames_.empty()) {
+        return start(TipStep::started, timeSeconds, surfaceMetres, worldMetres);
+    }
+    if (timeSeconds < latestSeconds_) {
+        return start(TipStep::clockRestarted, timeSeconds, surfaceMetres, worldMetres);
+    }
+    const double moved = glm::distance(surfaceMetres, measuredMetres_);
+    const double sinceMeasured = timeSeconds - measuredSeconds_;
+    if (timeSeconds - latestSeconds_ > settings_.maximumGapSeconds) {
+        return start(TipStep::resumed, timeSeconds, surfaceMetres, worldMetres);
+    }
+    if (isJump(moved, sinceMeasured)) {
+        return start(TipStep::jumped, timeSeconds, surfaceMetres, worldMetres);
+    }
+    latestSeconds_ = timeSeconds;
+    const double frameSeconds = timeSeconds - frames_.back().timeSeconds;
+    if (frameSeconds < settings_.minimumStepSeconds) {
+        return TipStep::continued;
+    }
+    const bool hasMoved = moved > settings_.minimumMoveMetres &&
+                          glm::distance(worldMetres, measuredWorldMetres_) > settings_.minimumMoveMetres;
+    const double speed = moved / std::max(sinceMeasured, settings_.minimumJumpSeconds);
+    repeatsInRow_ = hasMoved ? 0 : repeatsInRow_ + 1;
+    if (hasMoved) {
+        measure(timeSeconds, surfaceMetres, frameSeconds);
+    } else if (repeatsInRow_ >= stopRepeats && sinceMeasured >= stopSeconds()) {
+        confirmStop(timeSeconds);
+    }
+    if (frames_.size() == capacity) {
+        frames_.erase(frames_.begin());
+    }
+    frames_.push_back({timeSeconds, surfaceMetres, hasMoved || resting_, speed});
+    if (frames_.back().fresh) {
+        measuredSeconds_ = timeSeconds;
+        measuredMetres_ = surfaceMetres;
+        measuredWorldMetres_ = worldMetres;
+    }
+    return TipStep::continued;
+}
+
+bool TipPath::isJump(double moved, double seconds) const noexcept {
+    if (moved > settings_.maximumMoveMetres(seconds)) {
+        return true;
+    }
+    double fastestBefore = 0.0;
+    std::size_t measurements = 0;
+    for (auto frame = frames_.rbegin(); frame != frames_.rend() && measurements < measurementsBefore; ++frame) {
+        if (frame->fresh) {
+            fastestBefore = std::max(fastestBefore, frame->speedMps);
+            ++measurements;
+        }
+    }
+    const double stepSeconds = std::max(seconds, settings_.minimumJumpSeconds);
+    return moved > (fastestBefore + settings_.maximumGainMps(stepSeconds)) * stepSeconds;
+}
+
+/// Learns about the tracker from a position that differs from the last.
+void TipPath::measure(double timeSeconds, const glm::dvec3& surfaceMetres, double frameSeconds) {
+    moveSeconds_ = timeSeconds - movedSeconds_;
+    movedSeconds_ = timeSeconds;
+    resting_ = false;
+    measurementsInRow_ = std::min(measurementsInRow_ + 1, trustedMeasurements);
+    if (moveSeconds_ > frameSeconds) {
+        noise_.restart();
+        if (moveSeconds_ <= settings_.stopSeconds) {
+            hasRepeated_ = true;
+            measurementsInRow_ = 0;
+        }
+    }
+    noise_.add(timeSeconds, surfaceMetres);
+}
+
+void TipPath::confirmStop(double timeSeconds) {
+    if (resting_) {
+        return;
+    }
+    resting_ = true;
+    std::erase_if(frames_, [this](const TipFrame& frame) { return frame.timeSeconds < measuredSeconds_; });
+    for (TipFrame& frame : frames_) {
+        frame.fresh = true;
+    }
+    measuredSeconds_ = timeSeconds;
+}
+
+double TipPath::confidence() const noexcept {
+    // A frame that was skipped has told nothing.
+    const double held = frames_.empty() ? 0.0 : frames_.back().timeSeconds - measuredSeconds_;
+    return std::clamp((stopSeconds() - held) / (stopSeconds() - holdSeconds()), 0.0, 1.0);
+}
+
+bool TipPath::isTrusted() const noexcept {
+    return measurementsInRow_ >= trustedMeasurements;
+}
+
+double TipPath::holdSeconds() const noexcept {
+    return isTrusted() ? std::min(settings_.holdSeconds, 0.5 * moveSeconds_) : settings_.holdSeconds;
+}
+
+double TipPath::stopSeconds() const noexcept {
+    return isTrusted() ? std::min(settings_.stopSeconds, 1.5 * moveSeconds_) : settings_.stopSeconds;
+}
+
+}  // namespace haptoflow::headless

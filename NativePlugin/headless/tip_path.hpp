@@ -1,0 +1,95 @@
+#pragma once
+
+#include "headless/contact_types.hpp"
+#include "headless/tracker_noise.hpp"
+
+#include <cstddef>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+namespace haptoflow::headless {
+
+/// The tip at one frame.
+struct TipFrame {
+    double timeSeconds = 0.0;
+    /// In the surface's coordinates.
+    glm::dvec3 positionMetres{0.0};
+    /// True for a new measurement, false if the tracker repeated its last one.
+    bool fresh = true;
+    /// Speed since the measurement before; infinite if there is none.
+    double speedMps = 0.0;
+};
+
+/// How a frame relates to the previous one.
+enum class TipStep {
+    started,
+    continued,
+    /// No hand makes this way in the time; see `TipPath`.
+    jumped,
+    /// The time went backwards.
+    clockRestarted,
+    /// After a pause so long that the path is dropped.
+    resumed,
+};
+
+/// The way of the tip over one surface in the last tenth of a second, in that surface's coordinates, so that the motion
+/// of the world which both share costs nothing. Distinguishes positions that the tracker holds from stops, and jumps
+/// from strokes.
+///
+/// A tracker slower than the frame rate repeats positions, in the world or, if the tip is carried, on the surface.
+/// Repeated positions are not measurements and are excluded from the velocity until `stopSeconds`; after that, and not
+/// with the first repetition, the tip has really stopped, and all of them count as measurements. A tracker that has
+/// measured in 32 frames in a row is trusted not to repeat positions: the first position that it repeats halves the
+/// weight of the velocity, and the second in a row is a stop. A tracker that has repeated positions and is not trusted
+/// since is slow: its positions may be older than the frames that report them, by up to a frame.
+///
+/// A step is a jump (a teleport, a snap turn, tracking regained) if it is faster than `maximumSpeedMps`, or faster than
+/// the last measurements by more than a hand can accelerate in the time: VelocitySettings::maximumGainMps. A tip that
+/// is stopped, however hard, has not jumped.
+class TipPath {
+public:
+    static constexpr std::size_t capacity = 256;
+
+    explicit TipPath(const VelocitySettings& settings);
+
+    /// Adds a frame; time and positions must be usable. Every result but `continued` means that the path was dropped.
+    TipStep add(double timeSeconds, const glm::dvec3& surfaceMetres, const glm::dvec3& worldMetres);
+    void clear() noexcept;
+
+    /// Oldest first.
+    [[nodiscard]] std::span<const TipFrame> frames() const noexcept { return frames_; }
+    /// Noise of the positions on each axis; learnt, and kept when the path is cleared.
+    [[nodiscard]] double noiseMetres() const noexcept { return noise_.metres(); }
+    /// True if the tracker repeated itself within its last measurements.
+    [[nodiscard]] bool isSlow() const noexcept { return hasRepeated_ && !isTrusted(); }
+    /// Weight of the last measurement's velocity: 1 up to the hold time after it, 0 from the stop time on.
+    [[nodiscard]] double confidence() const noexcept;
+    [[nodiscard]] double measuredSeconds() const noexcept { return measuredSeconds_; }
+    [[nodiscard]] const VelocitySettings& settings() const noexcept { return settings_; }
+
+private:
+    TipStep start(TipStep step, double timeSeconds, const glm::dvec3& surfaceMetres, const glm::dvec3& worldMetres);
+    [[nodiscard]] bool isJump(double moved, double seconds) const noexcept;
+    void confirmStop(double timeSeconds);
+    void measure(double timeSeconds, const glm::dvec3& surfaceMetres, double frameSeconds);
+    [[nodiscard]] bool isTrusted() const noexcept;
+    [[nodiscard]] double holdSeconds() const noexcept;
+    [[nodiscard]] double stopSeconds() const noexcept;
+
+    VelocitySettings settings_;
+    TrackerNoise noise_;
+    std::vector<TipFrame> frames_;
+    double latestSeconds_ = 0.0;
+    double measuredSeconds_ = 0.0;
+    glm::dvec3 measuredMetres_{0.0};
+    glm::dvec3 measuredWorldMetres_{0.0};
+    double movedSeconds_ = 0.0;
+    double moveSeconds_ = 0.0;
+    std::size_t measurementsInRow_ = 0;
+    std::size_t repeatsInRow_ = 0;
+    bool hasRepeated_ = false;
+    bool resting_ = false;
+};
+
+}  // namespace haptoflow::headless
