@@ -112,6 +112,8 @@ namespace HaptoFlow.RepositoryTests
             settings.Velocity.MinimumStepSeconds = json["velocity_shortest_step_seconds"].AsNumber();
             settings.Velocity.MinimumMoveMetres = json["velocity_smallest_move_metres"].AsNumber();
             settings.Velocity.MaximumSpeedMps = json["velocity_fastest_mps"].AsNumber();
+            settings.Velocity.JumpGainMps = json["velocity_jump_gain_mps"].AsNumber();
+            settings.Velocity.JumpAccelerationMps2 = json["velocity_jump_acceleration_mps2"].AsNumber();
             settings.Velocity.MinimumJumpSeconds = json["velocity_shortest_jump_seconds"].AsNumber();
             return settings;
         }

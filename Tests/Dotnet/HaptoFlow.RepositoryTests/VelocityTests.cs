@@ -10,16 +10,13 @@ namespace HaptoFlow.RepositoryTests
     /// native one.</summary>
     public sealed class VelocityTests
     {
-        private TipHistory history = new TipHistory(new VelocitySettings());
+        private TipPath path = NewPath();
         private readonly RelativeVelocity relative = new RelativeVelocity();
-        private readonly PoseHistory table = new PoseHistory();
 
         [SetUp]
         public void Restart()
         {
-            history = new TipHistory(new VelocitySettings());
-            table.Clear();
-            table.Record(0.0, default);
+            path = NewPath();
         }
 
         [TestCase(72.0)]
@@ -67,7 +64,7 @@ namespace HaptoFlow.RepositoryTests
                 new Double3(0.3 * Math.Floor(60.0 * time + 0.2) / 60.0, 0.0, 0.0));
             double sum = 0.0;
             speeds.GetRange(90, speeds.Count - 90).ForEach(speed => sum += speed);
-            Assert.That(history.IsSlow, Is.True);
+            Assert.That(path.IsSlow, Is.True);
             Assert.That(sum / (speeds.Count - 90), Is.EqualTo(0.3).Within(0.003));
         }
 
@@ -102,8 +99,8 @@ namespace HaptoFlow.RepositoryTests
                 {
                     place += Noise(random, Math.Pow(10.0, -9.0 + 8.0 * random.NextDouble()));
                 }
-                history.Add(time, place);
-                TipVelocity velocity = relative.Of(history, table, Double3.Zero);
+                path.Add(time, place, place);
+                TipVelocity velocity = relative.Of(path);
                 Assert.That(velocity.NowMps.Length, Is.LessThanOrEqualTo(20.0 * (1.0 + 1e-12)));
                 Assert.That(velocity.ApproachMps.Length, Is.LessThanOrEqualTo(20.0 * (1.0 + 1e-12)));
             }
@@ -129,18 +126,21 @@ namespace HaptoFlow.RepositoryTests
         {
             for (int frame = 0; frame < places.Length; ++frame)
             {
-                history.Add(frame / 500.0, places[frame]);
-                relative.Of(history, table, Double3.Zero);
+                path.Add(frame / 500.0, places[frame], places[frame]);
+                relative.Of(path);
             }
         }
 
-        private List<double> SpeedsOf(double seconds, double rateHz, Func<double, Double3> path)
+        private static TipPath NewPath() => new TipPath(new VelocitySettings(), new TrackerNoise());
+
+        private List<double> SpeedsOf(double seconds, double rateHz, Func<double, Double3> stroke)
         {
             var speeds = new List<double>();
             for (int frame = 0; frame / rateHz <= seconds; ++frame)
             {
-                history.Add(frame / rateHz, path(frame / rateHz));
-                speeds.Add(relative.Of(history, table, Double3.Zero).NowMps.Length);
+                Double3 place = stroke(frame / rateHz);
+                path.Add(frame / rateHz, place, place);
+                speeds.Add(relative.Of(path).NowMps.Length);
             }
             return speeds;
         }

@@ -188,7 +188,7 @@ namespace HaptoFlow
         {
             contacts ??= new TipContacts(new ContactSettings(), tipRadiusMetres, transform);
             contacts.Tracker.TipRadiusMetres = tipRadiusMetres;
-            isActive =  true;
+            isActive = true;
             HapticSession.Current.Poll();
             MaterialMaps.Poll();
             TerrainWeights.ReadScenes();
@@ -196,7 +196,7 @@ namespace HaptoFlow
 
         private void OnDisable()
         {
-            isActive =  false;
+            isActive = false;
             ForgetMotion();
             voices?.Close();
         }
@@ -211,9 +211,9 @@ namespace HaptoFlow
         {
             if (update == StylusUpdate.RenderedFrames)
             {
-                double now = Time.unscaledTimeAsDouble;
                 double sinceStep = Time.timeAsDouble - Time.fixedTimeAsDouble;
-                UpdateContact(now, Time.timeScale > 0f ? now - sinceStep / Time.timeScale : now);
+                UpdateContact(Time.unscaledTimeAsDouble,
+                    Time.timeScale > 0f ? sinceStep / Time.timeScale : double.NaN);
             }
         }
 
@@ -221,11 +221,11 @@ namespace HaptoFlow
         {
             if (update == StylusUpdate.FixedUpdates)
             {
-                UpdateContact(Time.fixedUnscaledTimeAsDouble, Time.fixedUnscaledTimeAsDouble);
+                UpdateContact(Time.fixedUnscaledTimeAsDouble, 0.0);
             }
         }
 
-        private void UpdateContact(double nowSeconds, double stepSeconds)
+        private void UpdateContact(double nowSeconds, double secondsSinceStep)
         {
             HapticSession session = HapticSession.Current;
             session.Poll();
@@ -234,7 +234,7 @@ namespace HaptoFlow
             ContactReading reading;
             using (Markers.Contact.Auto())
             {
-                reading = contacts.Update(SampleAt(nowSeconds), stepSeconds, layers, session, this);
+                reading = contacts.Update(SampleAt(nowSeconds), secondsSinceStep, layers, session, this);
             }
             RaiseTouchEvents(reading, session);
             // A handler may have disabled the stylus; a voice opened now would never be closed.

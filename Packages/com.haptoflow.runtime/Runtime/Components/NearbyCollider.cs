@@ -8,10 +8,6 @@ namespace HaptoFlow
     /// <summary>A collider near one tip: its material, by its surface or by rules, and its recent poses.</summary>
     internal sealed class NearbyCollider
     {
-        private double lastStepSeconds;
-        private RigidPose lastPose;
-        private bool movesBetweenSteps;
-
         public Collider? Collider { get; private set; }
 
         /// <summary>Null for a collider whose material rules assign.</summary>
@@ -35,8 +31,6 @@ namespace HaptoFlow
             Surface = surface;
             ByRules = byRules;
             Place = default;
-            lastStepSeconds = double.NegativeInfinity;
-            movesBetweenSteps = false;
             Vector3 grain = surface is object
                 ? surface.transform.TransformDirection(surface.Grain)
                 : collider.transform.TransformDirection(Vector3.right);
@@ -62,44 +56,18 @@ namespace HaptoFlow
             return ByRules is object ? ByRules.At(Place, session) : default;
         }
 
-        /// <summary>Records the pose at which the collider is drawn.</summary>
-        /// <remarks>A body without interpolation is drawn at the pose of the last physics step for several frames.
-        /// Recorded at the times of the frames it would alternate between rest and jumps; its pose is therefore
-        /// recorded at the time of the physics step and extrapolated in between.</remarks>
+        /// <summary>Records the pose at which the collider is drawn in a frame.</summary>
         /// <param name="nowSeconds">The tip's clock.</param>
-        /// <param name="stepSeconds">Time of the last physics step, on the same clock.</param>
-        public void Record(double nowSeconds, double stepSeconds, in RigidPose pose)
+        /// <param name="secondsSinceStep">Time since the last physics step, on the same clock; not a number where none
+        /// runs.</param>
+        public void Record(double nowSeconds, double secondsSinceStep, in RigidPose pose)
         {
             if (Surface is object && !Surface.FeelOwnMotion)
             {
                 Tracked.Track.Clear();
                 return;
             }
-            if (movesBetweenSteps || !IsStepped())
-            {
-                Tracked.Track.Record(nowSeconds, pose);
-                return;
-            }
-            if (stepSeconds > lastStepSeconds)
-            {
-                lastStepSeconds = stepSeconds;
-                lastPose = pose;
-                Tracked.Track.Record(stepSeconds, pose);
-            }
-            else if (!pose.Equals(lastPose))
-            {
-                movesBetweenSteps = true;
-                Tracked.Track.Clear();
-                Tracked.Track.Record(nowSeconds, pose);
-            }
-        }
-
-        private bool IsStepped()
-        {
-            Rigidbody body = Collider!.attachedRigidbody!;
-            return body != null
-                ? body.interpolation == RigidbodyInterpolation.None
-                : Collider.attachedArticulationBody != null;
+            Tracked.Track.Record(nowSeconds, pose, Collider!.transform.lossyScale.ToDouble(), secondsSinceStep);
         }
     }
 }

@@ -45,14 +45,15 @@ namespace HaptoFlow
         /// <summary>The collider that <see cref="Update"/> found touched; null without a touch.</summary>
         public NearbyCollider? Touched { get; private set; }
 
-        /// <param name="stepSeconds">Time of the last physics step, on the sample's clock.</param>
+        /// <param name="secondsSinceStep">Time since the last physics step, on the sample's clock; not a number where
+        /// none runs.</param>
         public ContactReading Update(
-            in TipSample sample, double stepSeconds, int layers, HapticSession session, Object context)
+            in TipSample sample, double secondsSinceStep, int layers, HapticSession session, Object context)
         {
             ++update;
             if (Tracker.BeginFrame(sample))
             {
-                Consider(stepSeconds, layers, session, context);
+                Consider(secondsSinceStep, layers, session, context);
                 previousTipMetres = Tracker.TipMetres;
                 hasPreviousTip = true;
             }
@@ -88,16 +89,16 @@ namespace HaptoFlow
             return ColliderProbe.TryClosest(place.Collider, ColliderProbe.PoseOf(place.Collider), question, out found);
         }
 
-        private void Consider(double stepSeconds, int layers, HapticSession session, Object context)
+        private void Consider(double secondsSinceStep, int layers, HapticSession session, Object context)
         {
             using FrontFacesOnly fronts = FrontFacesOnly.Begin();
             if (hasTooMany)
             {
                 // Colliders that the tip may touch take precedence over those that are only tracked.
-                ConsiderWithin(Tracker.ReachMetres + TouchableWithinMetres, stepSeconds, layers, session, true);
+                ConsiderWithin(Tracker.ReachMetres + TouchableWithinMetres, secondsSinceStep, layers, session, true);
             }
             bool hasAll = ConsiderWithin(
-                Tracker.ReachMetres + TrackedWithinMetres, stepSeconds, layers, session, false);
+                Tracker.ReachMetres + TrackedWithinMetres, secondsSinceStep, layers, session, false);
             hasTooMany = !hasAll;
             if (hasTooMany)
             {
@@ -108,7 +109,7 @@ namespace HaptoFlow
         /// <param name="takesPlaces">True to replace colliders that this update has not found near.</param>
         /// <returns>False where there was no room for some.</returns>
         private bool ConsiderWithin(
-            double metres, double stepSeconds, int layers, HapticSession session, bool takesPlaces)
+            double metres, double secondsSinceStep, int layers, HapticSession session, bool takesPlaces)
         {
             // A scene may have been loaded with a physics world of its own, of which Physics knows nothing.
             int count = stylus.gameObject.scene.GetPhysicsScene().OverlapSphere(
@@ -127,7 +128,7 @@ namespace HaptoFlow
                     hasAll &= place != null;
                     if (place != null && place.LastUpdate != update)
                     {
-                        Consider(place, collider, stepSeconds, session);
+                        Consider(place, collider, secondsSinceStep, session);
                     }
                 }
                 colliders[index] = null!;
@@ -135,11 +136,11 @@ namespace HaptoFlow
             return hasAll;
         }
 
-        private void Consider(NearbyCollider place, Collider collider, double stepSeconds, HapticSession session)
+        private void Consider(NearbyCollider place, Collider collider, double secondsSinceStep, HapticSession session)
         {
             place.LastUpdate = update;
             RigidPose pose = ColliderProbe.PoseOf(collider);
-            place.Record(Tracker.NowSeconds, stepSeconds, pose);
+            place.Record(Tracker.NowSeconds, secondsSinceStep, pose);
             var question = new ProbeQuestion(
                 Tracker.TipMetres, Tracker.ReachMetresOf(place.Tracked), Tracker.PreviousLocalNormal(place.Tracked),
                 hasPreviousTip ? previousTipMetres : Tracker.TipMetres, Tracker.Settings.SwitchMarginMetres);

@@ -42,7 +42,7 @@ namespace HaptoFlow.Contact
         /// <summary>Samples with an unusable time, position or force.</summary>
         public ulong SanitisedSamples;
 
-        /// <summary>Jumps faster than a hand can move.</summary>
+        /// <summary>Jumps of the tip over the surface that it touched, which no hand can make.</summary>
         public ulong Teleports;
 
         /// <summary>Times that the clock went backwards and the history was discarded.</summary>

@@ -20,8 +20,8 @@ namespace HaptoFlow.Contact
         // Limits the time step after a pause, so that transported tangent axes turn no further than in a slow frame.
         private const double MaximumFrameSeconds = 0.05;
 
-        private readonly RelativeVelocity relativeVelocity = new RelativeVelocity();
         private readonly TipHistory history;
+        private readonly TouchedPath path;
         private readonly ContactTransitions transitions = new ContactTransitions();
 
         private double tipRadiusMetres;
@@ -49,6 +49,7 @@ namespace HaptoFlow.Contact
         private bool hasCurrent;
         private bool hasDeepest;
         private bool hasNearest;
+        private bool hasContinued;
         private ForceVerdict verdict;
         private ContactStatistics statistics;
 
@@ -58,6 +59,7 @@ namespace HaptoFlow.Contact
             settings.Check();
             Settings = settings;
             history = new TipHistory(settings.Velocity);
+            path = new TouchedPath(settings.Velocity, history);
             TipRadiusMetres = tipRadiusMetres;
         }
 
@@ -104,7 +106,7 @@ namespace HaptoFlow.Contact
         /// <summary>Advances the clock, the tip and its history. False without a usable tip position: no surface needs
         /// to be considered, and <see cref="EndFrame"/> returns a reading without touch.</summary>
         /// <remarks>A sample with an unusable position keeps the last position for the lost time. A time that stands
-        /// still updates the geometry only. A time that goes backwards, a pause or a teleport discards the history: the
+        /// still updates the geometry only. A time that goes backwards, a pause or a jump discards the history: the
         /// velocity is zero until the next frame.</remarks>
         public bool BeginFrame(in TipSample tipSample)
         {
@@ -112,6 +114,7 @@ namespace HaptoFlow.Contact
             hasCurrent = false;
             hasDeepest = false;
             hasNearest = false;
+            hasContinued = false;
             consideredCount = 0;
             ++statistics.Samples;
             bool timeUsable = Vectors.IsUsable(sample.TimeSeconds);
@@ -151,8 +154,16 @@ namespace HaptoFlow.Contact
 
         /// <summary>Local normal of the previous frame's contact with a surface, null without one. It keeps a face
         /// until another is nearer by a margin.</summary>
-        public Double3? PreviousLocalNormal(ContactBody surface) =>
-            ReferenceEquals(touched, surface) ? localNormal : null;
+        /// <remarks>Ask after recording the surface's pose, which tells whether the tip has jumped.</remarks>
+        public Double3? PreviousLocalNormal(ContactBody surface)
+        {
+            if (!ReferenceEquals(touched, surface))
+            {
+                return null;
+            }
+            ContinuePath();
+            return localNormal;
+        }
 
         /// <summary>Adds a surface near the tip. Between equal depths the first is chosen.</summary>
         public void Consider(in ContactCandidate candidate)
@@ -184,6 +195,7 @@ namespace HaptoFlow.Contact
         public ContactReading EndFrame()
         {
             bool wasTouching = touched != null;
+            ContinuePath();
             if (!tipMetres.HasValue || !ChooseContact(out ContactCandidate contact))
             {
                 CountSlideOff();
@@ -226,10 +238,29 @@ namespace HaptoFlow.Contact
         private void AddToHistory(Double3 tip)
         {
             TipStep step = history.Add(nowSeconds, tip);
-            statistics.Teleports += step == TipStep.Teleported ? 1UL : 0UL;
             statistics.ClockRestarts += step == TipStep.ClockRestarted ? 1UL : 0UL;
             if (step != TipStep.Continued)
             {
+                ForgetContinuity();
+                transitions.Forget();
+            }
+        }
+
+        /// <summary>Adds this frame to the path over the surface that was touched in the last frame.</summary>
+        private void ContinuePath()
+        {
+            if (hasContinued)
+            {
+                return;
+            }
+            hasContinued = true;
+            if (touched == null || !ReferenceEquals(path.Surface, touched) || !tipMetres.HasValue)
+            {
+                path.Drop();
+            }
+            else if (path.Continue(nowSeconds, tipMetres.Value) == TipStep.Jumped)
+            {
+                ++statistics.Teleports;
                 ForgetContinuity();
                 transitions.Forget();
             }
@@ -374,7 +405,11 @@ namespace HaptoFlow.Contact
         {
             ContactBody surface = contact.Surface;
             Double3 normal = Vectors.UnitOr(contact.Pose.DirectionToWorld(contact.Local.Normal), Double3.Up);
-            TipVelocity found = relativeVelocity.Of(history, surface.Track, contact.Local.PointMetres);
+            if (!ReferenceEquals(path.Surface, surface))
+            {
+                path.Follow(surface);
+            }
+            TipVelocity found = path.Velocity;
             Double3 velocity = found.NowMps;
             surface.Frame.Update(contact.Local.Normal, stepSeconds);
             localNormal = contact.Local.Normal;

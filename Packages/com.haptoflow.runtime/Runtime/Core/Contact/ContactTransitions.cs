@@ -206,7 +206,7 @@ namespace HaptoFlow.Contact
         private Place ReferencePlace(in ContactCandidate now, double nowSeconds)
         {
             bool isSame = ReferenceEquals(referenceSurface, now.Surface) || referenceSurface!.Track.Count == 0;
-            RigidPose pose = isSame ? now.Pose : referenceSurface!.Track.PoseAt(nowSeconds);
+            RigidPose pose = isSame ? now.Pose : referenceSurface!.Track.Newest;
             return new Place(pose, referencePoint, referenceNormal);
         }
 

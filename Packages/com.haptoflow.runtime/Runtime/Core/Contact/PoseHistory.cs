@@ -3,92 +3,104 @@ using HaptoFlow.Numerics;
 
 namespace HaptoFlow.Contact
 {
-    /// <summary>Recent poses of a surface, for the tip's velocity relative to it.</summary>
+    /// <summary>Where a surface was drawn in the last frames, for the tip's path over it.</summary>
     internal sealed class PoseHistory
     {
-        public const int Capacity = 64;
+        public const int Capacity = TipHistory.Capacity;
 
-        // Extrapolation limit beyond the last pose, in intervals between poses.
-        private const double MaximumExtrapolation = 1.5;
+        // A surface that has not changed its pose for so long is at rest.
+        private const double RestSeconds = 0.35;
 
         private readonly double[] timesSeconds = new double[Capacity];
+        private readonly double[] sinceStepSeconds = new double[Capacity];
         private readonly RigidPose[] poses = new RigidPose[Capacity];
+        private readonly Double3[] scales = new Double3[Capacity];
         private int oldest;
+        private double changedSeconds = double.NegativeInfinity;
 
-        /// <summary>Number of poses kept.</summary>
+        /// <summary>Number of frames kept; 0 for a surface whose own motion is not to be felt.</summary>
         public int Count { get; private set; }
 
-        /// <summary>True where two of the poses differ. A surface at rest costs nothing and adds no rounding.</summary>
-        public bool Moves { get; private set; }
+        /// <summary>True where the pose has changed lately. A surface at rest costs nothing.</summary>
+        public bool Moves => Count > 0 && SecondsAt(Count - 1) - changedSeconds <= RestSeconds;
+
+        /// <summary>The pose of the newest frame; there must be one.</summary>
+        public ref readonly RigidPose Newest => ref PoseAt(Count - 1);
+
+        /// <summary>The scale of the newest frame.</summary>
+        public Double3 NewestScale => ScaleAt(Count - 1);
+
+        public double SecondsAt(int index) => timesSeconds[Slot(index)];
+
+        /// <summary>Age of the last physics step at a frame; not a number where it is unknown.</summary>
+        public double SinceStepSecondsAt(int index) => sinceStepSeconds[Slot(index)];
+
+        /// <summary>The pose at a frame; 0 is the oldest.</summary>
+        public ref readonly RigidPose PoseAt(int index) => ref poses[Slot(index)];
+
+        public Double3 ScaleAt(int index) => scales[Slot(index)];
 
         public void Clear()
         {
             Count = 0;
             oldest = 0;
-            Moves = false;
+            changedSeconds = double.NegativeInfinity;
         }
 
-        /// <summary>Records the surface's pose. The same time as the last replaces it; an earlier one restarts the
-        /// history.</summary>
-        public void Record(double timeSeconds, in RigidPose pose)
+        /// <summary>Records the surface's pose as it is drawn in a frame. A frame at almost the time of the last one
+        /// replaces its pose; an earlier one restarts the history.</summary>
+        /// <param name="timeSeconds">The tip's clock.</param>
+        public void Record(double timeSeconds, in RigidPose pose) =>
+            Record(timeSeconds, pose, new Double3(1.0, 1.0, 1.0), double.NaN);
+
+        /// <summary>As <see cref="Record(double, in RigidPose)"/>, with the object's scale and the time since the last
+        /// physics step, on the tip's clock; not a number where there is none.</summary>
+        public void Record(double timeSeconds, in RigidPose pose, Double3 scale, double secondsSinceStep)
         {
             if (!Vectors.IsUsable(timeSeconds))
             {
                 return;
             }
-            if (Count > 0 && timeSeconds < TimeAt(Count - 1))
+            if (Count > 0 && timeSeconds < SecondsAt(Count - 1))
             {
                 Clear();
             }
-            bool same = Count > 0 && pose.Equals(Recorded(Count - 1));
-            if (Count > 0 && timeSeconds == TimeAt(Count - 1))
+            if (Count > 0 && !pose.Equals(Newest))
             {
-                Moves = Moves || (Count > 1 && !same);
-                poses[Slot(Count - 1)] = pose;
-                return;
+                changedSeconds = timeSeconds;
             }
-            if (Count == Capacity)
+            if (Count == 0 || timeSeconds - SecondsAt(Count - 1) >= MinimumStepSeconds)
             {
-                oldest = (oldest + 1) % Capacity;
-                --Count;
+                if (Count == Capacity)
+                {
+                    oldest = (oldest + 1) % Capacity;
+                    --Count;
+                }
+                ++Count;
+                timesSeconds[Slot(Count - 1)] = timeSeconds;
             }
-            Moves = Moves || (Count > 0 && !same);
-            ++Count;
-            timesSeconds[Slot(Count - 1)] = timeSeconds;
-            poses[Slot(Count - 1)] = pose;
+            int newest = Slot(Count - 1);
+            poses[newest] = pose;
+            scales[newest] = scale;
+            sinceStepSeconds[newest] = secondsSinceStep;
         }
 
-        /// <summary>False for a time before the first pose.</summary>
-        internal bool Knows(double timeSeconds) => Count > 0 && timeSeconds >= TimeAt(0);
-
-        /// <summary>The pose at a time: recorded, interpolated, or extrapolated by at most one and a half intervals.
-        /// Requires at least one pose.</summary>
-        internal RigidPose PoseAt(double timeSeconds)
+        /// <summary>The frame of a time that was recorded; -1 without one.</summary>
+        public int IndexOf(double timeSeconds)
         {
-            int after = Count;
-            while (after > 0 && TimeAt(after - 1) > timeSeconds)
+            for (int index = Count - 1; index >= 0 && SecondsAt(index) >= timeSeconds; --index)
             {
-                --after;
+                if (SecondsAt(index) == timeSeconds)
+                {
+                    return index;
+                }
             }
-            if (after == 0)
-            {
-                return Recorded(0);
-            }
-            if (TimeAt(after - 1) == timeSeconds || Count == 1)
-            {
-                return Recorded(after - 1);
-            }
-            int right = after == Count ? after - 1 : after;
-            double from = TimeAt(right - 1);
-            double share = (timeSeconds - from) / (TimeAt(right) - from);
-            share = share > 1.0 + MaximumExtrapolation ? 1.0 + MaximumExtrapolation : share;
-            return RigidPose.Between(Recorded(right - 1), Recorded(right), share);
+            return -1;
         }
+
+        // As TipHistory, whose frames it shares.
+        private static double MinimumStepSeconds { get; } = new VelocitySettings().MinimumStepSeconds;
 
         private int Slot(int index) => (oldest + index) % Capacity;
-
-        private double TimeAt(int index) => timesSeconds[Slot(index)];
-
-        private RigidPose Recorded(int index) => poses[Slot(index)];
     }
 }

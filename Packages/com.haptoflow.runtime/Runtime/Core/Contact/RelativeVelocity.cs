@@ -3,7 +3,7 @@ using HaptoFlow.Numerics;
 
 namespace HaptoFlow.Contact
 {
-    /// <summary>World axes, m/s, of the tip relative to the surface's material.</summary>
+    /// <summary>The surface's axes, m/s, of the tip relative to the surface.</summary>
     internal readonly struct TipVelocity
     {
         /// <summary>At the newest measurement, for what is felt now.</summary>
@@ -16,10 +16,10 @@ namespace HaptoFlow.Contact
         public TipVelocity(Double3 nowMps, Double3 approachMps) => (NowMps, ApproachMps) = (nowMps, approachMps);
     }
 
-    /// <summary>Velocity of the tip relative to the material of the surface at a point.</summary>
-    /// <remarks>By <see cref="GrowingFit"/> through (tip - material point). A tip at rest on a moving surface therefore
-    /// has velocity zero, and a turning surface contributes its linear velocity plus angular velocity x arm. While the
-    /// tracker repeats itself for longer than the hold time, the tip's share fades to zero.</remarks>
+    /// <summary>Velocity of the tip's path over a surface, by <see cref="GrowingFit"/>.</summary>
+    /// <remarks>A tip that moves along with a surface has velocity zero, and under a tip at rest a turning surface gives
+    /// its linear velocity plus angular velocity x arm. While the tracker repeats itself for longer than the hold time,
+    /// the velocity fades to that of a tip which is held there: zero on a surface at rest.</remarks>
     internal sealed class RelativeVelocity
     {
         private const int MinimumMeasurements = 2;
@@ -28,49 +28,43 @@ namespace HaptoFlow.Contact
 
         /// <summary>Each velocity is limited to the maximum speed of the settings; zero with fewer than two
         /// measurements.</summary>
-        public TipVelocity Of(TipHistory history, PoseHistory track, Double3 localPoint)
+        public TipVelocity Of(TipPath path)
         {
-            double confidence = history.Confidence;
-            TipVelocity measured = Velocity(history, track, localPoint, true);
-            Double3 now = confidence * measured.NowMps;
-            Double3 approach = confidence * measured.ApproachMps;
-            if (track.Moves && confidence < 1.0)
+            double confidence = path.Confidence;
+            TipVelocity velocity = Velocity(path, double.NegativeInfinity);
+            if (confidence < 1.0)
             {
-                TipVelocity own = Velocity(history, track, localPoint, false);
-                now += (1.0 - confidence) * own.NowMps;
-                approach += (1.0 - confidence) * own.ApproachMps;
+                TipVelocity held = Velocity(path, path.MeasuredSeconds);
+                velocity = new TipVelocity(
+                    confidence * velocity.NowMps + (1.0 - confidence) * held.NowMps,
+                    confidence * velocity.ApproachMps + (1.0 - confidence) * held.ApproachMps);
             }
-            double fastest = history.Settings.MaximumSpeedMps;
-            return new TipVelocity(Limited(now, fastest), Limited(approach, fastest));
+            double fastest = path.Settings.MaximumSpeedMps;
+            return new TipVelocity(Limited(velocity.NowMps, fastest), Limited(velocity.ApproachMps, fastest));
         }
 
         /// <summary>Collects positions backwards in time until the longest window's end or a jump, and returns their
-        /// velocity: of the tip relative to the material at the tip's measurements, or of the material alone at all
-        /// frames.</summary>
-        private TipVelocity Velocity(TipHistory history, PoseHistory track, Double3 localPoint, bool withTip)
+        /// velocity: of the measurements, or of all frames since <paramref name="heldSinceSeconds"/>.</summary>
+        private TipVelocity Velocity(TipPath path, double heldSinceSeconds)
         {
-            VelocitySettings settings = history.Settings;
+            bool isHeld = heldSinceSeconds > double.NegativeInfinity;
+            VelocitySettings settings = path.Settings;
             fit.Clear();
-            for (int age = 0; age < history.Count && !fit.IsFull; ++age)
+            for (int age = 0; age < path.Count && !fit.IsFull; ++age)
             {
-                ref readonly TipFrame frame = ref history.Newest(age);
-                if ((withTip && !frame.Fresh) || (track.Moves && !track.Knows(frame.TimeSeconds)))
+                ref readonly TipFrame frame = ref path.Newest(age);
+                if (isHeld ? frame.TimeSeconds < heldSinceSeconds : !frame.Fresh)
                 {
                     continue;
                 }
-                Double3 place = withTip ? frame.PositionMetres : Double3.Zero;
-                if (track.Moves)
-                {
-                    place -= track.PoseAt(frame.TimeSeconds).PointToWorld(localPoint);
-                }
-                if (fit.Count > 0 && !Continues(settings, frame.TimeSeconds, place))
+                if (fit.Count > 0 && !Continues(settings, frame.TimeSeconds, frame.PositionMetres))
                 {
                     break;
                 }
-                fit.Add(frame.TimeSeconds, place);
+                fit.Add(frame.TimeSeconds, frame.PositionMetres);
             }
             Double3 mean = fit.MeanVelocity(settings.ApproachSeconds);
-            return new TipVelocity(history.IsSlow ? mean : fit.EndVelocity(history.NoiseMetres), mean);
+            return new TipVelocity(path.IsSlow ? mean : fit.EndVelocity(path.NoiseMetres), mean);
         }
 
         private bool Continues(VelocitySettings settings, double timeSeconds, Double3 place)

@@ -1,0 +1,283 @@
+#nullable enable
+using System;
+using HaptoFlow.Numerics;
+
+namespace HaptoFlow.Contact
+{
+    /// <summary>The tip in one frame.</summary>
+    internal struct TipFrame
+    {
+        public double TimeSeconds;
+
+        /// <summary>In the surface's coordinates.</summary>
+        public Double3 PositionMetres;
+
+        /// <summary>True for a new measurement, false where the tracker repeated its last one.</summary>
+        public bool Fresh;
+
+        /// <summary>Speed since the measurement before; infinite without one.</summary>
+        public double SpeedMps;
+    }
+
+    /// <summary>Relation of a frame to the one before.</summary>
+    internal enum TipStep
+    {
+        Started,
+        Continued,
+
+        /// <summary>No hand makes this way in the time; see <see cref="TipPath"/>.</summary>
+        Jumped,
+
+        /// <summary>The time went backwards.</summary>
+        ClockRestarted,
+
+        /// <summary>After a pause that makes the path useless.</summary>
+        Resumed,
+    }
+
+    /// <summary>The way of the tip over one surface in the last tenth of a second, in that surface's coordinates, so that
+    /// the motion of the world which both share costs nothing. Distinguishes positions that the tracker holds from
+    /// stops, and jumps from strokes.</summary>
+    /// <remarks>
+    /// <para>A tracker slower than the frame rate repeats positions, in the world or, if the tip is carried, on the
+    /// surface. Repetitions are not measurements and are left out of the velocity until <see
+    /// cref="VelocitySettings.StopSeconds"/>; then, and not with the first repetition, the tip has really stopped and all
+    /// of them count as measurements. A tracker that has measured in 32 frames in a row is trusted not to repeat
+    /// positions: the first position that it repeats halves the weight of the velocity, and the second in a row is a
+    /// stop. A tracker that has repeated positions and is not trusted since is slow: its positions may be older than the
+    /// frames that report them, by up to a frame.</para>
+    /// <para>A step is a jump (a teleport, a snap turn, tracking regained) if it is faster than <see
+    /// cref="VelocitySettings.MaximumSpeedMps"/>, or faster than the last measurements by more than a hand can
+    /// accelerate in the time: <see cref="VelocitySettings.MaximumGainMps"/>. A tip that is stopped, however hard, has
+    /// not jumped.</para>
+    /// </remarks>
+    internal sealed class TipPath
+    {
+        public const int Capacity = 256;
+
+        // A tracker that measured so often without repeating itself is trusted not to.
+        private const int TrustedMeasurements = 32;
+
+        // The first repetition of a position is no stop at any frame rate: a hitch shows one position for long, once.
+        private const int StopRepeats = 2;
+
+        // So many measurements tell how fast the tip was before a step.
+        private const int MeasurementsBefore = 4;
+
+        private readonly TipFrame[] frames = new TipFrame[Capacity];
+        private readonly TrackerNoise noise;
+        private int oldest;
+        private double latestSeconds;
+        private Double3 measuredMetres;
+        private Double3 measuredWorldMetres;
+        private double movedSeconds;
+        private double moveSeconds;
+        private int measurementsInRow;
+        private int repeatsInRow;
+        private bool hasRepeated;
+        private bool resting;
+
+        /// <param name="noise">The tracker's noise, learnt by every path of its tip.</param>
+        public TipPath(VelocitySettings settings, TrackerNoise noise)
+        {
+            Settings = settings;
+            this.noise = noise;
+        }
+
+        public VelocitySettings Settings { get; }
+
+        public int Count { get; private set; }
+
+        /// <summary>Time of the last measurement.</summary>
+        public double MeasuredSeconds { get; private set; }
+
+        /// <summary>Noise of the positions on each axis.</summary>
+        public double NoiseMetres => noise.Metres;
+
+        /// <summary>True if the tracker repeated itself within its last measurements.</summary>
+        public bool IsSlow => hasRepeated && !IsTrusted;
+
+        /// <summary>Weight of the last measurement's velocity: 1 up to the hold time, falling to 0 at the stop
+        /// time.</summary>
+        public double Confidence
+        {
+            get
+            {
+                // A frame that was skipped has told nothing.
+                double held = Count == 0 ? 0.0 : Newest(0).TimeSeconds - MeasuredSeconds;
+                return Vectors.Clamp((StopSeconds - held) / (StopSeconds - HoldSeconds), 0.0, 1.0);
+            }
+        }
+
+        private bool IsTrusted => measurementsInRow >= TrustedMeasurements;
+
+        private double HoldSeconds => IsTrusted
+            ? Math.Min(Settings.HoldSeconds, 0.5 * moveSeconds)
+            : Settings.HoldSeconds;
+
+        private double StopSeconds => IsTrusted
+            ? Math.Min(Settings.StopSeconds, 1.5 * moveSeconds)
+            : Settings.StopSeconds;
+
+        /// <summary>The frame of an age; 0 is the newest.</summary>
+        public ref readonly TipFrame Newest(int age) => ref At(Count - 1 - age);
+
+        public void Clear()
+        {
+            Count = 0;
+            oldest = 0;
+            resting = false;
+            hasRepeated = false;
+            measurementsInRow = 0;
+            repeatsInRow = 0;
+        }
+
+        /// <summary>Adds a frame; time and positions must be usable. Every result except Continued means that the path
+        /// was discarded.</summary>
+        public TipStep Add(double timeSeconds, Double3 surfaceMetres, Double3 worldMetres)
+        {
+            if (Count == 0)
+            {
+                return Start(TipStep.Started, timeSeconds, surfaceMetres, worldMetres);
+            }
+            if (timeSeconds < latestSeconds)
+            {
+                return Start(TipStep.ClockRestarted, timeSeconds, surfaceMetres, worldMetres);
+            }
+            double moved = Double3.Distance(surfaceMetres, measuredMetres);
+            double sinceMeasured = timeSeconds - MeasuredSeconds;
+            if (timeSeconds - latestSeconds > Settings.MaximumGapSeconds)
+            {
+                return Start(TipStep.Resumed, timeSeconds, surfaceMetres, worldMetres);
+            }
+            if (IsJump(moved, sinceMeasured))
+            {
+                return Start(TipStep.Jumped, timeSeconds, surfaceMetres, worldMetres);
+            }
+            latestSeconds = timeSeconds;
+            double frameSeconds = timeSeconds - Newest(0).TimeSeconds;
+            if (frameSeconds < Settings.MinimumStepSeconds)
+            {
+                return TipStep.Continued;
+            }
+            bool hasMoved = moved > Settings.MinimumMoveMetres &&
+                Double3.Distance(worldMetres, measuredWorldMetres) > Settings.MinimumMoveMetres;
+            double speed = moved / Math.Max(sinceMeasured, Settings.MinimumJumpSeconds);
+            repeatsInRow = hasMoved ? 0 : repeatsInRow + 1;
+            if (hasMoved)
+            {
+                Measure(timeSeconds, surfaceMetres, frameSeconds);
+            }
+            else if (repeatsInRow >= StopRepeats && sinceMeasured >= StopSeconds)
+            {
+                ConfirmStop(timeSeconds);
+            }
+            bool fresh = hasMoved || resting;
+            Push(timeSeconds, surfaceMetres, fresh, speed);
+            if (fresh)
+            {
+                MeasuredSeconds = timeSeconds;
+                measuredMetres = surfaceMetres;
+                measuredWorldMetres = worldMetres;
+            }
+            return TipStep.Continued;
+        }
+
+        private TipStep Start(TipStep step, double timeSeconds, Double3 surfaceMetres, Double3 worldMetres)
+        {
+            Count = 0;
+            oldest = 0;
+            resting = false;
+            repeatsInRow = 0;
+            noise.Restart();
+            noise.Add(timeSeconds, surfaceMetres);
+            movedSeconds = timeSeconds;
+            Push(timeSeconds, surfaceMetres, true, double.PositiveInfinity);
+            latestSeconds = timeSeconds;
+            MeasuredSeconds = timeSeconds;
+            measuredMetres = surfaceMetres;
+            measuredWorldMetres = worldMetres;
+            return step;
+        }
+
+        private bool IsJump(double moved, double seconds)
+        {
+            if (moved > Settings.MaximumMoveMetres(seconds))
+            {
+                return true;
+            }
+            double fastestBefore = 0.0;
+            int measurements = 0;
+            for (int age = 0; age < Count && measurements < MeasurementsBefore; ++age)
+            {
+                ref readonly TipFrame frame = ref Newest(age);
+                if (frame.Fresh)
+                {
+                    fastestBefore = Math.Max(fastestBefore, frame.SpeedMps);
+                    ++measurements;
+                }
+            }
+            double stepSeconds = Math.Max(seconds, Settings.MinimumJumpSeconds);
+            return moved > (fastestBefore + Settings.MaximumGainMps(stepSeconds)) * stepSeconds;
+        }
+
+        /// <summary>Learns about the tracker from a position that differs from the last.</summary>
+        private void Measure(double timeSeconds, Double3 surfaceMetres, double frameSeconds)
+        {
+            moveSeconds = timeSeconds - movedSeconds;
+            movedSeconds = timeSeconds;
+            resting = false;
+            measurementsInRow = Math.Min(measurementsInRow + 1, TrustedMeasurements);
+            if (moveSeconds > frameSeconds)
+            {
+                noise.Restart();
+                if (moveSeconds <= Settings.StopSeconds)
+                {
+                    hasRepeated = true;
+                    measurementsInRow = 0;
+                }
+            }
+            noise.Add(timeSeconds, surfaceMetres);
+        }
+
+        private void ConfirmStop(double timeSeconds)
+        {
+            if (resting)
+            {
+                return;
+            }
+            resting = true;
+            while (Count > 0 && At(0).TimeSeconds < MeasuredSeconds)
+            {
+                DropOldest();
+            }
+            for (int index = 0; index < Count; ++index)
+            {
+                At(index).Fresh = true;
+            }
+            MeasuredSeconds = timeSeconds;
+        }
+
+        private ref TipFrame At(int index) => ref frames[(oldest + index) % Capacity];
+
+        private void Push(double timeSeconds, Double3 surfaceMetres, bool fresh, double speedMps)
+        {
+            if (Count == Capacity)
+            {
+                DropOldest();
+            }
+            ++Count;
+            ref TipFrame frame = ref At(Count - 1);
+            frame.TimeSeconds = timeSeconds;
+            frame.PositionMetres = surfaceMetres;
+            frame.Fresh = fresh;
+            frame.SpeedMps = speedMps;
+        }
+
+        private void DropOldest()
+        {
+            oldest = (oldest + 1) % Capacity;
+            --Count;
+        }
+    }
+}

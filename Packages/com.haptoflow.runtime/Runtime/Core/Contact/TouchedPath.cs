@@ -1,0 +1,226 @@
+#nullable enable
+using HaptoFlow.Numerics;
+
+namespace HaptoFlow.Contact
+{
+    /// <summary>The tip's path over the surface that it touches, and its velocity there.</summary>
+    /// <remarks>Tip and surface are read in the same frame, so that a tip which is carried along, by whatever, and
+    /// however it steps, is at rest. A tip that is not carried by a surface which moves in steps slides evenly over the
+    /// surface that its steps describe (<see cref="SteppedPoses"/>). Which of the two it is, the smoother path
+    /// tells.</remarks>
+    internal sealed class TouchedPath
+    {
+        // The path is judged over this time.
+        private const double WindowSeconds = 0.3;
+
+        // Steps must halve the changes of velocity.
+        private const double Better = 0.25;
+
+        private const double RestMetres = 1e-4;
+        private const double RestTurn = 1e-4;
+
+        private readonly TipHistory history;
+        private readonly RelativeVelocity relativeVelocity = new RelativeVelocity();
+        private readonly SteppedPoses steps;
+        private readonly TipPath drawn;
+        private readonly TipPath stepped;
+        private bool isInWorld;
+        private bool isStepped;
+
+        public TouchedPath(VelocitySettings settings, TipHistory history)
+        {
+            this.history = history;
+            steps = new SteppedPoses(settings);
+            drawn = new TipPath(settings, new TrackerNoise());
+            stepped = new TipPath(settings, new TrackerNoise());
+        }
+
+        /// <summary>The surface of the path; null without one.</summary>
+        public ContactBody? Surface { get; private set; }
+
+        /// <summary>The velocity in world axes.</summary>
+        public TipVelocity Velocity
+        {
+            get
+            {
+                TipVelocity local = relativeVelocity.Of(isStepped ? stepped : drawn);
+                return isInWorld ? local : new TipVelocity(
+                    Surface!.Track.Newest.DirectionToWorld(local.NowMps),
+                    Surface.Track.Newest.DirectionToWorld(local.ApproachMps));
+            }
+        }
+
+        public void Drop() => Surface = null;
+
+        /// <summary>Adds a frame of a surface whose path goes on. Jumped where no hand makes the way.</summary>
+        public TipStep Continue(double nowSeconds, Double3 tipMetres)
+        {
+            ContactBody surface = Surface!;
+            PoseHistory track = surface.Track;
+            bool isNear = track.Count == 0 ||
+                nowSeconds - track.SecondsAt(track.Count - 1) < drawn.Settings.MinimumStepSeconds;
+            if (!isNear)
+            {
+                Drop();
+                return TipStep.Started;
+            }
+            bool hasOtherCoordinates = isInWorld != (track.Count == 0) || (!isInWorld && HasNewScale(track));
+            if (hasOtherCoordinates)
+            {
+                Follow(surface);
+                return TipStep.Continued;
+            }
+            Double3 local = isInWorld ? tipMetres : track.Newest.PointToLocal(tipMetres);
+            TipStep step = drawn.Add(nowSeconds, local, tipMetres);
+            return Judge() ?? step;
+        }
+
+        /// <summary>Makes the path over another surface, of the tip's last positions and of where the surface was
+        /// then.</summary>
+        public void Follow(ContactBody surface)
+        {
+            ContactBody? before = Surface != null && IsAtRestOn(surface, Surface) ? Surface : null;
+            Surface = surface;
+            isInWorld = surface.Track.Count == 0;
+            drawn.Clear();
+            for (int index = 0; index < history.Count; ++index)
+            {
+                double seconds = history.SecondsAt(index);
+                Double3 tip = history.WorldMetresAt(index);
+                if (TryToLocal(surface, before, seconds, tip, out Double3 local))
+                {
+                    drawn.Add(seconds, local, tip);
+                }
+            }
+            Judge();
+        }
+
+        /// <summary>The tip at an earlier frame in the surface's coordinates of now. False where the surface was not
+        /// known then.</summary>
+        private static bool TryToLocal(
+            ContactBody surface, ContactBody? before, double seconds, Double3 tip, out Double3 local)
+        {
+            local = tip;
+            PoseHistory track = surface.Track;
+            if (track.Count == 0)
+            {
+                return true;
+            }
+            int frame = track.IndexOf(seconds);
+            if (frame >= 0)
+            {
+                local = Rescaled(track.PoseAt(frame).PointToLocal(tip), track.ScaleAt(frame), track.NewestScale);
+                return true;
+            }
+            int earlier = before?.Track.IndexOf(seconds) ?? -1;
+            if (earlier >= 0)
+            {
+                Double3 onBefore = before!.Track.PoseAt(earlier).PointToLocal(tip);
+                local = track.Newest.PointToLocal(before.Track.Newest.PointToWorld(onBefore));
+            }
+            return earlier >= 0;
+        }
+
+        /// <summary>Whether a surface has not moved relative to the one before while both are known, so that the path
+        /// over that one is one over this.</summary>
+        private static bool IsAtRestOn(ContactBody surface, ContactBody before)
+        {
+            PoseHistory track = surface.Track;
+            int earlier = track.Count < 2 ? -1 : before.Track.IndexOf(track.SecondsAt(0));
+            if (earlier < 0 || ReferenceEquals(surface, before))
+            {
+                return false;
+            }
+            ref readonly RigidPose then = ref before.Track.PoseAt(earlier);
+            ref readonly RigidPose now = ref before.Track.Newest;
+            Double3 moved = then.PointToLocal(track.PoseAt(0).PositionMetres) -
+                now.PointToLocal(track.Newest.PositionMetres);
+            Double3 turned = then.DirectionToLocal(track.PoseAt(0).DirectionToWorld(new Double3(1.0, 1.0, -1.0))) -
+                now.DirectionToLocal(track.Newest.DirectionToWorld(new Double3(1.0, 1.0, -1.0)));
+            return moved.Length < RestMetres && turned.Length < RestTurn;
+        }
+
+        private static bool HasNewScale(PoseHistory track) =>
+            track.Count > 1 && !track.NewestScale.Equals(track.ScaleAt(track.Count - 2));
+
+        private static Double3 Rescaled(Double3 local, Double3 then, Double3 now) => then.Equals(now)
+            ? local
+            : new Double3(Rescaled(local.X, then.X, now.X), Rescaled(local.Y, then.Y, now.Y),
+                Rescaled(local.Z, then.Z, now.Z));
+
+        private static double Rescaled(double local, double then, double now) =>
+            then * now > 1e-12 || then * now < -1e-12 ? local * (now / then) : local;
+
+        /// <summary>Decides which path is the tip's. The newest step on the stepped path if it is that one; null
+        /// otherwise.</summary>
+        private TipStep? Judge()
+        {
+            PoseHistory track = Surface!.Track;
+            isStepped = !isInWorld && track.Moves && history.Count > 0 && HasSmootherSteps(track);
+            if (!isStepped)
+            {
+                return null;
+            }
+            stepped.Clear();
+            TipStep step = TipStep.Started;
+            for (int index = 0; index < history.Count; ++index)
+            {
+                double seconds = history.SecondsAt(index);
+                Double3 tip = history.WorldMetresAt(index);
+                if (track.IndexOf(seconds) >= 0)
+                {
+                    step = stepped.Add(seconds, steps.PoseAt(seconds).PointToLocal(tip), tip);
+                }
+            }
+            return step;
+        }
+
+        private bool HasSmootherSteps(PoseHistory track)
+        {
+            Double3 tipNow = history.WorldMetresAt(history.Count - 1);
+            if (!steps.Find(track, track.Newest.PointToLocal(tipNow)))
+            {
+                return false;
+            }
+            double sinceSeconds = history.SecondsAt(history.Count - 1) - WindowSeconds;
+            var drawnMotion = new Roughness();
+            var steppedMotion = new Roughness();
+            for (int index = 0; index < history.Count; ++index)
+            {
+                double seconds = history.SecondsAt(index);
+                int frame = seconds < sinceSeconds ? -1 : track.IndexOf(seconds);
+                if (frame >= 0)
+                {
+                    Double3 tip = history.WorldMetresAt(index);
+                    drawnMotion.Add(seconds, track.PoseAt(frame).PointToLocal(tip));
+                    steppedMotion.Add(seconds, steps.PoseAt(seconds).PointToLocal(tip));
+                }
+            }
+            return steppedMotion.Squares < Better * drawnMotion.Squares;
+        }
+
+        /// <summary>The sum of the squares of the changes of velocity.</summary>
+        private struct Roughness
+        {
+            private int count;
+            private double seconds;
+            private Double3 place;
+            private Double3 velocity;
+
+            public double Squares { get; private set; }
+
+            public void Add(double timeSeconds, Double3 placeMetres)
+            {
+                if (count > 0)
+                {
+                    Double3 now = (placeMetres - place) / (timeSeconds - seconds);
+                    Squares += count > 1 ? Double3.Dot(now - velocity, now - velocity) : 0.0;
+                    velocity = now;
+                }
+                seconds = timeSeconds;
+                place = placeMetres;
+                ++count;
+            }
+        }
+    }
+}
