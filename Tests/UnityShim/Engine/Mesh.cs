@@ -24,6 +24,21 @@ namespace UnityEngine
 
         public Vector2[] uv2 { get; set; } = Array.Empty<Vector2>();
 
+        /// <summary>The box around the vertices. As in Unity, it follows when triangles are assigned; here it always
+        /// does.</summary>
+        public Bounds bounds
+        {
+            get
+            {
+                var found = new Bounds(vertices.Length > 0 ? vertices[0] : Vector3.zero, Vector3.zero);
+                foreach (Vector3 vertex in vertices)
+                {
+                    found.Encapsulate(vertex);
+                }
+                return found;
+            }
+        }
+
         public bool isReadable { get; private set; } = true;
 
         /// <summary>The triangles of all submeshes.</summary>

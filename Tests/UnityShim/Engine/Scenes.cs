@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 using System.Linq;
 using UnityEngine.SceneManagement;
@@ -74,15 +75,24 @@ namespace UnityEngine.SceneManagement
 
 namespace UnityEngine
 {
-    public partial struct PhysicsScene
+    public partial struct PhysicsScene : IEquatable<PhysicsScene>
     {
         internal int Number;
+
+        public bool Equals(PhysicsScene other) => Number == other.Number;
 
         public int OverlapSphere(Vector3 position, float radius, Collider[] results, int layerMask,
             QueryTriggerInteraction queryTriggerInteraction)
         {
             World.RequireMainThread();
-            return PhysicsWorld.Overlap(Number, position, radius, results, layerMask, queryTriggerInteraction);
+            return PhysicsWorld.Overlap(Number, position, position, radius, results, layerMask, queryTriggerInteraction);
+        }
+
+        public int OverlapCapsule(Vector3 point0, Vector3 point1, float radius, Collider[] results, int layerMask,
+            QueryTriggerInteraction queryTriggerInteraction)
+        {
+            World.RequireMainThread();
+            return PhysicsWorld.Overlap(Number, point0, point1, radius, results, layerMask, queryTriggerInteraction);
         }
 
         public bool Raycast(Vector3 origin, Vector3 direction, out RaycastHit hitInfo, float maxDistance,

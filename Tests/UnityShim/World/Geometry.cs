@@ -7,7 +7,22 @@ namespace UnityShim
     /// terrains.</summary>
     internal static class Geometry
     {
-        public static bool Reaches(Collider collider, Vector3 centre, float radius)
+        /// <summary>Whether a sphere that is swept from one point to another reaches a collider, where physics holds
+        /// it. The sweep goes in steps of half a radius.</summary>
+        public static bool Reaches(Collider collider, Vector3 from, Vector3 to, float radius)
+        {
+            int steps = (int)Math.Ceiling(Vector3.Distance(from, to) / (0.5f * radius));
+            for (int step = 0; step <= steps; ++step)
+            {
+                if (Reaches(collider, steps == 0 ? from : Vector3.Lerp(from, to, (float)step / steps), radius))
+                {
+                    return true;
+                }
+            }
+            return false;
+        }
+
+        private static bool Reaches(Collider collider, Vector3 centre, float radius)
         {
             Vector3 nearest = collider is MeshCollider || collider is TerrainCollider
                 ? Triangles.Closest(collider, centre, collider.PhysicsPosition, collider.PhysicsRotation)

@@ -15,7 +15,7 @@ namespace UnityShim
         {
             hitInfo = default;
             bool hasHit = false;
-            int count = PhysicsWorld.Overlap(world, ray.origin, maxDistance, Found, layerMask, queryTriggerInteraction);
+            int count = PhysicsWorld.Overlap(world, ray.origin, ray.origin, maxDistance, Found, layerMask, queryTriggerInteraction);
             for (int index = 0; index < count; ++index)
             {
                 Collider collider = Found[index];

@@ -65,8 +65,8 @@ namespace UnityShim
         }
 
         /// <param name="world">Number of the physics scene.</param>
-        public static int Overlap(
-            int world, Vector3 position, float radius, Collider[] results, int layerMask, QueryTriggerInteraction triggers)
+        public static int Overlap(int world, Vector3 from, Vector3 to, float radius, Collider[] results, int layerMask,
+            QueryTriggerInteraction triggers)
         {
             int count = 0;
             for (int index = 0; index < Colliders.Count && count < results.Length; ++index)
@@ -76,7 +76,7 @@ namespace UnityShim
                     collider.gameObject.scene.PhysicsNumber == world &&
                     (layerMask & (1 << collider.gameObject.layer)) != 0 &&
                     (!collider.isTrigger || triggers != QueryTriggerInteraction.Ignore);
-                if (isCandidate && Geometry.Reaches(collider, position, radius))
+                if (isCandidate && Geometry.Reaches(collider, from, to, radius))
                 {
                     results[count++] = collider;
                 }

@@ -50,6 +50,59 @@ namespace HaptoFlow
             ? Conversions.PoseOf(collider.transform.position, Quaternion.identity)
             : Conversions.PoseOf(collider.transform);
 
+        /// <summary>No point of the collider, where it is drawn, is nearer to a point than this, in metres.</summary>
+        public static double DistanceBoundMetres(Collider collider, Double3 pointMetres)
+        {
+            Double3 scale = collider.transform.lossyScale.ToDouble();
+            LocalBounds(collider, out Vector3 middle, out Vector3 size);
+            Double3 local = PoseOf(collider).PointToLocal(pointMetres) - Double3.Scale(middle.ToDouble(), scale);
+            Double3 half = 0.5 * Double3.Scale(size.ToDouble(), scale).Absolute;
+            Double3 outside = local.Absolute - half;
+            return new Double3(
+                Math.Max(0.0, outside.X), Math.Max(0.0, outside.Y), Math.Max(0.0, outside.Z)).Length;
+        }
+
+        /// <summary>A box around the collider in its local frame, before its scale.</summary>
+        private static void LocalBounds(Collider collider, out Vector3 middle, out Vector3 size)
+        {
+            switch (collider)
+            {
+                case BoxCollider box:
+                    (middle, size) = (box.center, box.size);
+                    break;
+                case SphereCollider sphere:
+                    // The radius follows the largest scale.
+                    (middle, size) = (sphere.center, Around(collider, 2f * sphere.radius));
+                    break;
+                case CapsuleCollider capsule:
+                    (middle, size) = (capsule.center,
+                        Around(collider, Mathf.Max(2f * capsule.radius, capsule.height)));
+                    break;
+                case CharacterController controller:
+                    (middle, size) = (controller.center,
+                        Around(collider, Mathf.Max(2f * controller.radius, controller.height)));
+                    break;
+                case MeshCollider mesh when mesh.sharedMesh != null:
+                    Bounds bounds = mesh.sharedMesh.bounds;
+                    (middle, size) = (bounds.center, bounds.size);
+                    break;
+                case TerrainCollider terrain when terrain.terrainData != null:
+                    (middle, size) = (0.5f * terrain.terrainData.size, terrain.terrainData.size);
+                    break;
+                default:
+                    (middle, size) = (Vector3.zero, new Vector3(1e6f, 1e6f, 1e6f));
+                    break;
+            }
+        }
+
+        /// <summary>A cube of a size that the largest scale of the collider gives all axes.</summary>
+        private static Vector3 Around(Collider collider, float size)
+        {
+            Double3 scale = collider.transform.lossyScale.ToDouble().Absolute;
+            double Axis(double own) => size * scale.Largest / Math.Max(own, 1e-9);
+            return new Double3(Axis(scale.X), Axis(scale.Y), Axis(scale.Z)).ToVector();
+        }
+
         /// <summary>False where no point is within reach, or the kind of collider is not supported.</summary>
         public static bool TryClosest(
             Collider collider, in RigidPose pose, in ProbeQuestion question, out SurfacePoint found) =>

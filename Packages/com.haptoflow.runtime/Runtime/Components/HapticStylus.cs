@@ -68,6 +68,8 @@ namespace HaptoFlow
         private bool isActive;
         private bool touching;
         private bool hasSaidHand;
+        private int steppedFrame = -1;
+        private Vector3 steppedPlace;
         private HapticContact contact;
 
         /// <summary>The tip touched a surface. Main thread.</summary>
@@ -219,10 +221,30 @@ namespace HaptoFlow
 
         private void FixedUpdate()
         {
-            if (update == StylusUpdate.FixedUpdates)
+            if (update != StylusUpdate.FixedUpdates)
+            {
+                return;
+            }
+            if (RepeatsItselfInThisFrame())
+            {
+                contacts!.Tracker.Pass(Time.fixedUnscaledTimeAsDouble);
+            }
+            else
             {
                 UpdateContact(Time.fixedUnscaledTimeAsDouble, 0.0);
             }
+        }
+
+        /// <summary>True for a further step of the same rendered frame in which the tip has not moved. After a hitch
+        /// physics makes many steps at once, and what follows a hand waits in all of them for the frame: no stop of the
+        /// hand.</summary>
+        private bool RepeatsItselfInThisFrame()
+        {
+            Vector3 place = TipPosition;
+            bool repeats = steppedFrame == Time.frameCount && steppedPlace.Equals(place);
+            steppedFrame = Time.frameCount;
+            steppedPlace = place;
+            return repeats;
         }
 
         private void UpdateContact(double nowSeconds, double secondsSinceStep)

@@ -24,6 +24,13 @@ namespace HaptoFlow
         /// <summary>Number of the last update in which the collider was near.</summary>
         public long LastUpdate { get; set; }
 
+        /// <summary>Number of the last update in which a search found the collider.</summary>
+        public long LastFound { get; set; }
+
+        /// <summary>True for a mesh without a body that has moved lately.</summary>
+        public bool IsMovedMesh =>
+            Collider is MeshCollider && Tracked.Track.Moves && Collider != null && Collider.attachedRigidbody == null;
+
         /// <param name="surface">Null for a collider whose material rules assign.</param>
         public void Begin(Collider collider, HapticSurface? surface, MappedCollider? byRules)
         {
@@ -37,6 +44,10 @@ namespace HaptoFlow
             Tracked.Restart(ColliderProbe.PoseOf(collider).DirectionToLocal(grain.ToDouble()), 0.0);
             Tracked.Seed = SurfaceSeeds.Of(collider, surface);
         }
+
+        /// <summary>True for this collider with the same source of its material.</summary>
+        public bool Is(Collider collider, HapticSurface? surface, MappedCollider? byRules) =>
+            ReferenceEquals(Collider, collider) && ReferenceEquals(Surface, surface) && ReferenceEquals(ByRules, byRules);
 
         public void End()
         {

@@ -11,17 +11,22 @@ namespace HaptoFlow
     /// construction.</summary>
     internal sealed class TipContacts : IContactGeometry
     {
-        private const int MaximumColliders = 128;
         private const int MaximumNearbyColliders = 32;
 
-        // Colliders are tracked before they are touched, so that their velocity is known at touch-down.
+        // Colliders are tracked before they are touched, so that the tip's path over them is known at touch-down.
         private const double TrackedWithinMetres = 0.05;
+
+        // The tip's way of a frame counts, too, up to this.
+        private const double TrackedAheadMetres = 0.5;
+
+        // What the search finds no longer is kept for so many updates: physics holds it elsewhere than it is drawn.
+        private const int GraceUpdates = 4;
 
         // With too many colliders, those within this distance have priority.
         private const double TouchableWithinMetres = 0.003;
 
         private readonly Transform stylus;
-        private readonly Collider[] colliders = new Collider[MaximumColliders];
+        private readonly ColliderSearch search = new ColliderSearch();
         private readonly NearbyCollider[] near = new NearbyCollider[MaximumNearbyColliders];
         private Double3 previousTipMetres;
         private bool hasPreviousTip;
@@ -53,6 +58,7 @@ namespace HaptoFlow
             ++update;
             if (Tracker.BeginFrame(sample))
             {
+                search.BeginFrame(Tracker.TipMetres, Tracker.NowSeconds);
                 Consider(secondsSinceStep, layers, session, context);
                 previousTipMetres = Tracker.TipMetres;
                 hasPreviousTip = true;
@@ -68,6 +74,7 @@ namespace HaptoFlow
             Tracker.Forget();
             Touched = null;
             hasPreviousTip = false;
+            search.Forget();
             foreach (NearbyCollider surface in near)
             {
                 surface.End();
@@ -92,13 +99,16 @@ namespace HaptoFlow
         private void Consider(double secondsSinceStep, int layers, HapticSession session, Object context)
         {
             using FrontFacesOnly fronts = FrontFacesOnly.Begin();
+            SyncMovedMeshes();
             if (hasTooMany)
             {
                 // Colliders that the tip may touch take precedence over those that are only tracked.
                 ConsiderWithin(Tracker.ReachMetres + TouchableWithinMetres, secondsSinceStep, layers, session, true);
             }
-            bool hasAll = ConsiderWithin(
-                Tracker.ReachMetres + TrackedWithinMetres, secondsSinceStep, layers, session, false);
+            double trackedMetres =
+                Tracker.ReachMetres + TrackedWithinMetres + System.Math.Min(search.WayMetres, TrackedAheadMetres);
+            bool hasAll = ConsiderWithin(trackedMetres, secondsSinceStep, layers, session, false);
+            ConsiderKept(trackedMetres, secondsSinceStep, layers, session);
             hasTooMany = !hasAll;
             if (hasTooMany)
             {
@@ -111,29 +121,86 @@ namespace HaptoFlow
         private bool ConsiderWithin(
             double metres, double secondsSinceStep, int layers, HapticSession session, bool takesPlaces)
         {
-            // A scene may have been loaded with a physics world of its own, of which Physics knows nothing.
-            int count = stylus.gameObject.scene.GetPhysicsScene().OverlapSphere(
-                Tracker.TipMetres.ToVector(), (float)metres, colliders, layers, QueryTriggerInteraction.Ignore);
-            bool hasAll = count < colliders.Length;
-            for (int index = 0; index < count; ++index)
+            bool hasAll = true;
+            for (int number = 0; number < search.Searches; ++number)
             {
-                Collider collider = colliders[index];
-                HapticSurface? surface = SurfaceOf(collider);
-                MappedCollider? byRules = surface is object || IsOfStylus(collider)
-                    ? null
-                    : MappedColliders.Resolve(collider);
-                if (surface is object || byRules is object)
+                // A scene may have been loaded with a physics world of its own, of which Physics knows nothing.
+                search.Find(stylus.gameObject.scene.GetPhysicsScene(), Tracker.TipMetres, metres, layers, number);
+                hasAll &= !search.IsFull;
+                for (int index = 0; index < search.Count; ++index)
                 {
-                    NearbyCollider? place = PlaceFor(collider, surface, byRules, takesPlaces);
-                    hasAll &= place != null;
-                    if (place != null && place.LastUpdate != update)
-                    {
-                        Consider(place, collider, secondsSinceStep, session);
-                    }
+                    hasAll &= ConsiderFound(search[index], metres, secondsSinceStep, session, takesPlaces);
                 }
-                colliders[index] = null!;
+                search.Clear();
             }
             return hasAll;
+        }
+
+        /// <returns>False where there was no room for the collider.</returns>
+        private bool ConsiderFound(
+            Collider collider, double metres, double secondsSinceStep, HapticSession session, bool takesPlaces)
+        {
+            bool hasMaterial = Resolve(collider, out HapticSurface? surface, out MappedCollider? byRules);
+            if (!hasMaterial || (search.IsWide && !IsDrawnWithin(collider, metres)))
+            {
+                return true;
+            }
+            NearbyCollider? place = PlaceFor(collider, surface, byRules, takesPlaces);
+            if (place != null && place.LastUpdate != update)
+            {
+                place.LastFound = update;
+                Consider(place, collider, secondsSinceStep, session);
+            }
+            return place != null;
+        }
+
+        /// <summary>Colliders that the search no longer finds, although they are drawn near the tip.</summary>
+        private void ConsiderKept(double metres, double secondsSinceStep, int layers, HapticSession session)
+        {
+            foreach (NearbyCollider each in near)
+            {
+                Collider? collider = each.Collider;
+                bool isKept = !(collider is null) && each.LastUpdate != update &&
+                    (ReferenceEquals(each.Tracked, Tracker.Touched) || update - each.LastFound <= GraceUpdates) &&
+                    IsTouchable(collider, layers) && IsDrawnWithin(collider, metres);
+                if (isKept && Resolve(collider!, out HapticSurface? surface, out MappedCollider? byRules) &&
+                    each.Is(collider!, surface, byRules))
+                {
+                    Consider(each, collider!, secondsSinceStep, session);
+                }
+            }
+        }
+
+        /// <summary>The material of a collider: its surface's, or that of rules. False without one.</summary>
+        private bool Resolve(Collider collider, out HapticSurface? surface, out MappedCollider? byRules)
+        {
+            surface = SurfaceOf(collider);
+            byRules = surface is object || IsOfStylus(collider) ? null : MappedColliders.Resolve(collider);
+            return surface is object || byRules is object;
+        }
+
+        private bool IsDrawnWithin(Collider collider, double metres) =>
+            ColliderProbe.DistanceBoundMetres(collider, Tracker.TipMetres) <= metres;
+
+        /// <summary>True for a collider that the search could find: it may have been destroyed, switched off, or moved to
+        /// another layer.</summary>
+        private bool IsTouchable(Collider collider, int layers) =>
+            collider != null && collider.enabled && !collider.isTrigger && collider.gameObject.activeInHierarchy &&
+            (layers & (1 << collider.gameObject.layer)) != 0 &&
+            collider.gameObject.scene.GetPhysicsScene().Equals(stylus.gameObject.scene.GetPhysicsScene());
+
+        /// <summary>Rays hit a mesh without a body where physics holds it; of one that a script moves, that is its pose of
+        /// the last step.</summary>
+        private void SyncMovedMeshes()
+        {
+            foreach (NearbyCollider each in near)
+            {
+                if (each.IsMovedMesh)
+                {
+                    Physics.SyncTransforms();
+                    return;
+                }
+            }
         }
 
         private void Consider(NearbyCollider place, Collider collider, double secondsSinceStep, HapticSession session)
@@ -203,8 +270,7 @@ namespace HaptoFlow
             NearbyCollider? free = null;
             foreach (NearbyCollider each in near)
             {
-                if (ReferenceEquals(each.Collider, collider) && ReferenceEquals(each.Surface, surface) &&
-                    ReferenceEquals(each.ByRules, byRules))
+                if (each.Is(collider, surface, byRules))
                 {
                     return each;
                 }

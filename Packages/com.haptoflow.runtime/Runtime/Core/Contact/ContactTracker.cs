@@ -152,6 +152,13 @@ namespace HaptoFlow.Contact
             return true;
         }
 
+        /// <summary>Lets time pass without a frame: physics catches up, and the tip has not been read again.</summary>
+        public void Pass(double timeSeconds)
+        {
+            history.Pass(timeSeconds);
+            path.Pass(timeSeconds);
+        }
+
         /// <summary>Local normal of the previous frame's contact with a surface, null without one. It keeps a face
         /// until another is nearer by a margin.</summary>
         /// <remarks>Ask after recording the surface's pose, which tells whether the tip has jumped.</remarks>

@@ -1,4 +1,5 @@
 #nullable enable
+using System;
 using HaptoFlow.Numerics;
 
 namespace HaptoFlow.Contact
@@ -30,6 +31,9 @@ namespace HaptoFlow.Contact
             Count = 0;
             oldest = 0;
         }
+
+        /// <summary>Lets time pass in which nothing was measured, so that it counts as no pause.</summary>
+        public void Pass(double nowSeconds) => latestSeconds = Math.Max(latestSeconds, nowSeconds);
 
         /// <summary>Adds a frame; time and position must be usable. Every result except Continued means that the history
         /// was discarded.</summary>

@@ -132,6 +132,9 @@ namespace HaptoFlow.Contact
             repeatsInRow = 0;
         }
 
+        /// <summary>Lets time pass in which nothing was measured, so that it counts as no pause.</summary>
+        public void Pass(double nowSeconds) => latestSeconds = Math.Max(latestSeconds, nowSeconds);
+
         /// <summary>Adds a frame; time and positions must be usable. Every result except Continued means that the path
         /// was discarded.</summary>
         public TipStep Add(double timeSeconds, Double3 surfaceMetres, Double3 worldMetres)

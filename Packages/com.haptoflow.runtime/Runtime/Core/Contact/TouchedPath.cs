@@ -52,6 +52,9 @@ namespace HaptoFlow.Contact
 
         public void Drop() => Surface = null;
 
+        /// <summary>Lets time pass in which nothing was measured, so that it counts as no pause.</summary>
+        public void Pass(double nowSeconds) => drawn.Pass(nowSeconds);
+
         /// <summary>Adds a frame of a surface whose path goes on. Jumped where no hand makes the way.</summary>
         public TipStep Continue(double nowSeconds, Double3 tipMetres)
         {
