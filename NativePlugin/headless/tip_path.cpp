@@ -13,6 +13,7 @@ constexpr std::size_t trustedMeasurements = 32;
 constexpr std::size_t stopRepeats = 2;
 // So many measurements tell how fast the tip was before a step.
 constexpr std::size_t measurementsBefore = 4;
+constexpr double unknownSpeed = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
@@ -28,15 +29,15 @@ void TipPath::clear() noexcept {
     repeatsInRow_ = 0;
 }
 
-TipStep TipPath::start(TipStep step, double timeSeconds, const glm::dvec3& surfaceMetres,
-                       const glm::dvec3& worldMetres) {
+TipStep TipPath::start(TipStep step, double timeSeconds, const glm::dvec3& surfaceMetres, const glm::dvec3& worldMetres,
+                       double speedMps) {
     frames_.clear();
     resting_ = false;
     repeatsInRow_ = 0;
     noise_.restart();
     noise_.add(timeSeconds, surfaceMetres);
     movedSeconds_ = timeSeconds;
-    frames_.push_back({timeSeconds, surfaceMetres, true, std::numeric_limits<double>::infinity()});
+    frames_.push_back({timeSeconds, surfaceMetres, true, speedMps});
     latestSeconds_ = timeSeconds;
     measuredSeconds_ = timeSeconds;
     measuredMetres_ = surfaceMetres;
@@ -46,27 +47,32 @@ TipStep TipPath::start(TipStep step, double timeSeconds, const glm::dvec3& surfa
 
 TipStep TipPath::add(double timeSeconds, const glm::dvec3& surfaceMetres, const glm::dvec3& worldMetres) {
     if (frames_.empty()) {
-        return start(TipStep::started, timeSeconds, surfaceMetres, worldMetres);
+        return start(TipStep::started, timeSeconds, surfaceMetres, worldMetres, unknownSpeed);
     }
     if (timeSeconds < latestSeconds_) {
-        return start(TipStep::clockRestarted, timeSeconds, surfaceMetres, worldMetres);
+        return start(TipStep::clockRestarted, timeSeconds, surfaceMetres, worldMetres, unknownSpeed);
     }
     const double moved = glm::distance(surfaceMetres, measuredMetres_);
+    const double movedInWorld = glm::distance(worldMetres, measuredWorldMetres_);
     const double sinceMeasured = timeSeconds - measuredSeconds_;
+    const double speed = moved / std::max(sinceMeasured, settings_.minimumJumpSeconds);
     if (timeSeconds - latestSeconds_ > settings_.maximumGapSeconds) {
-        return start(TipStep::resumed, timeSeconds, surfaceMetres, worldMetres);
+        return start(TipStep::resumed, timeSeconds, surfaceMetres, worldMetres, unknownSpeed);
     }
-    if (isJump(moved, sinceMeasured)) {
-        return start(TipStep::jumped, timeSeconds, surfaceMetres, worldMetres);
+    // Under a tip that rests in the world each frame measures the surface.
+    const bool isHeld = movedInWorld <= settings_.minimumMoveMetres;
+    if (isHeld ? isJump(glm::distance(surfaceMetres, frames_.back().positionMetres),
+                        timeSeconds - frames_.back().timeSeconds, true)
+               : isJump(moved, sinceMeasured, false)) {
+        // What goes on at the speed of a jump is motion from then on.
+        return start(TipStep::jumped, timeSeconds, surfaceMetres, worldMetres, speed);
     }
     latestSeconds_ = timeSeconds;
     const double frameSeconds = timeSeconds - frames_.back().timeSeconds;
     if (frameSeconds < settings_.minimumStepSeconds) {
         return TipStep::continued;
     }
-    const bool hasMoved = moved > settings_.minimumMoveMetres &&
-                          glm::distance(worldMetres, measuredWorldMetres_) > settings_.minimumMoveMetres;
-    const double speed = moved / std::max(sinceMeasured, settings_.minimumJumpSeconds);
+    const bool hasMoved = moved > settings_.minimumMoveMetres && !isHeld;
     repeatsInRow_ = hasMoved ? 0 : repeatsInRow_ + 1;
     if (hasMoved) {
         measure(timeSeconds, surfaceMetres, frameSeconds);
@@ -85,7 +91,7 @@ TipStep TipPath::add(double timeSeconds, const glm::dvec3& surfaceMetres, const 
     return TipStep::continued;
 }
 
-bool TipPath::isJump(double moved, double seconds) const noexcept {
+bool TipPath::isJump(double moved, double seconds, bool isHeld) const noexcept {
     if (moved > settings_.maximumMoveMetres(seconds)) {
         return true;
     }
@@ -96,6 +102,10 @@ bool TipPath::isJump(double moved, double seconds) const noexcept {
             fastestBefore = std::max(fastestBefore, frame->speedMps);
             ++measurements;
         }
+    }
+    if (isHeld && fastestBefore == unknownSpeed) {
+        // A tip whose speed is not known yet may be fast, but not one that rests in the world.
+        fastestBefore = 0.0;
     }
     const double stepSeconds = std::max(seconds, settings_.minimumJumpSeconds);
     return moved > (fastestBefore + settings_.maximumGainMps(stepSeconds)) * stepSeconds;

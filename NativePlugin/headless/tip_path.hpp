@@ -17,7 +17,7 @@ struct TipFrame {
     glm::dvec3 positionMetres{0.0};
     /// True for a new measurement, false if the tracker repeated its last one.
     bool fresh = true;
-    /// Speed since the measurement before; infinite if there is none.
+    /// Speed since the measurement before; infinite if it is not known.
     double speedMps = 0.0;
 };
 
@@ -69,8 +69,9 @@ public:
     [[nodiscard]] const VelocitySettings& settings() const noexcept { return settings_; }
 
 private:
-    TipStep start(TipStep step, double timeSeconds, const glm::dvec3& surfaceMetres, const glm::dvec3& worldMetres);
-    [[nodiscard]] bool isJump(double moved, double seconds) const noexcept;
+    TipStep start(TipStep step, double timeSeconds, const glm::dvec3& surfaceMetres, const glm::dvec3& worldMetres,
+                  double speedMps);
+    [[nodiscard]] bool isJump(double moved, double seconds, bool isHeld) const noexcept;
     void confirmStop(double timeSeconds);
     void measure(double timeSeconds, const glm::dvec3& surfaceMetres, double frameSeconds);
     [[nodiscard]] bool isTrusted() const noexcept;

@@ -47,6 +47,12 @@ namespace HaptoFlow.Contact
             chosen = frames;
         }
 
+        /// <summary>The time of the first step that is known.</summary>
+        public double FirstSeconds => chosen.Seconds(0);
+
+        /// <summary>True where the times of steps are estimates.</summary>
+        public bool IsEstimated => ReferenceEquals(chosen, regular);
+
         /// <summary>Judges a surface's motion. False where its poses are best taken as drawn in their frames.</summary>
         /// <param name="localPoint">The point of the surface whose motion is judged, in its coordinates.</param>
         public bool Find(PoseHistory history, Double3 localPoint)
@@ -106,7 +112,8 @@ namespace HaptoFlow.Contact
         private bool FindPhysicsSteps(double sinceSeconds)
         {
             physics.Clear();
-            for (int index = 1; index < track.Count; ++index)
+            int changed = 0;
+            for (int index = 0; index < track.Count; ++index)
             {
                 double now = track.SecondsAt(index);
                 double since = track.SinceStepSecondsAt(index);
@@ -114,17 +121,22 @@ namespace HaptoFlow.Contact
                 {
                     continue;
                 }
-                bool hasStepped = since < now - track.SecondsAt(index - 1) + ClockSlackSeconds;
-                if (hasStepped && (physics.Count == 0 || now - since > physics.LastSeconds + ClockSlackSeconds))
+                // The first pose is that of the step before it.
+                bool isFirst = physics.Count == 0 && !double.IsNaN(since);
+                bool hasStepped = isFirst || (now - since > physics.LastSeconds + ClockSlackSeconds &&
+                    since < now - track.SecondsAt(index - 1) + ClockSlackSeconds);
+                if (hasStepped)
                 {
                     physics.Add(now - since, index);
                 }
-                else if (HasChanged(index))
+                bool hasChanged = !isFirst && index > 0 && HasChanged(index);
+                changed += hasChanged ? 1 : 0;
+                if (hasChanged && !hasStepped)
                 {
                     return false;
                 }
             }
-            return physics.Count >= 2;
+            return changed >= 2;
         }
 
         /// <summary>False where no frame repeats a pose between changes.</summary>
@@ -171,7 +183,9 @@ namespace HaptoFlow.Contact
                     double usual = count > 1
                         ? (track.SecondsAt(changes[0]) - track.SecondsAt(changes[count - 1])) / (count - 1)
                         : WindowSeconds / RestSteps;
-                    if (gap > RestSteps * usual)
+                    // Each change is seen up to a frame late.
+                    double frame = track.SecondsAt(index + 1) - track.SecondsAt(index);
+                    if (gap > RestSteps * usual + 2.0 * frame)
                     {
                         break;
                     }
@@ -241,7 +255,7 @@ namespace HaptoFlow.Contact
 
             public int Count { get; private set; }
 
-            public double LastSeconds => seconds[Count - 1];
+            public double LastSeconds => Count == 0 ? double.NegativeInfinity : seconds[Count - 1];
 
             public double Seconds(int step) => seconds[step];
 

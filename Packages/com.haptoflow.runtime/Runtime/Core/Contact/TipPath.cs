@@ -15,7 +15,7 @@ namespace HaptoFlow.Contact
         /// <summary>True for a new measurement, false where the tracker repeated its last one.</summary>
         public bool Fresh;
 
-        /// <summary>Speed since the measurement before; infinite without one.</summary>
+        /// <summary>Speed since the measurement before; infinite where it is not known.</summary>
         public double SpeedMps;
     }
 
@@ -141,21 +141,31 @@ namespace HaptoFlow.Contact
         {
             if (Count == 0)
             {
-                return Start(TipStep.Started, timeSeconds, surfaceMetres, worldMetres);
+                return Start(TipStep.Started, timeSeconds, surfaceMetres, worldMetres, double.PositiveInfinity);
             }
             if (timeSeconds < latestSeconds)
             {
-                return Start(TipStep.ClockRestarted, timeSeconds, surfaceMetres, worldMetres);
+                return Start(
+                    TipStep.ClockRestarted, timeSeconds, surfaceMetres, worldMetres, double.PositiveInfinity);
             }
             double moved = Double3.Distance(surfaceMetres, measuredMetres);
+            double movedInWorld = Double3.Distance(worldMetres, measuredWorldMetres);
             double sinceMeasured = timeSeconds - MeasuredSeconds;
+            double speed = moved / Math.Max(sinceMeasured, Settings.MinimumJumpSeconds);
             if (timeSeconds - latestSeconds > Settings.MaximumGapSeconds)
             {
-                return Start(TipStep.Resumed, timeSeconds, surfaceMetres, worldMetres);
+                return Start(TipStep.Resumed, timeSeconds, surfaceMetres, worldMetres, double.PositiveInfinity);
             }
-            if (IsJump(moved, sinceMeasured))
+            // Under a tip that rests in the world each frame measures the surface.
+            bool isHeld = movedInWorld <= Settings.MinimumMoveMetres;
+            bool isJump = isHeld
+                ? IsJump(Double3.Distance(surfaceMetres, Newest(0).PositionMetres),
+                    timeSeconds - Newest(0).TimeSeconds, true)
+                : IsJump(moved, sinceMeasured, false);
+            if (isJump)
             {
-                return Start(TipStep.Jumped, timeSeconds, surfaceMetres, worldMetres);
+                // What goes on at the speed of a jump is motion from then on.
+                return Start(TipStep.Jumped, timeSeconds, surfaceMetres, worldMetres, speed);
             }
             latestSeconds = timeSeconds;
             double frameSeconds = timeSeconds - Newest(0).TimeSeconds;
@@ -163,9 +173,7 @@ namespace HaptoFlow.Contact
             {
                 return TipStep.Continued;
             }
-            bool hasMoved = moved > Settings.MinimumMoveMetres &&
-                Double3.Distance(worldMetres, measuredWorldMetres) > Settings.MinimumMoveMetres;
-            double speed = moved / Math.Max(sinceMeasured, Settings.MinimumJumpSeconds);
+            bool hasMoved = moved > Settings.MinimumMoveMetres && !isHeld;
             repeatsInRow = hasMoved ? 0 : repeatsInRow + 1;
             if (hasMoved)
             {
@@ -186,7 +194,8 @@ namespace HaptoFlow.Contact
             return TipStep.Continued;
         }
 
-        private TipStep Start(TipStep step, double timeSeconds, Double3 surfaceMetres, Double3 worldMetres)
+        private TipStep Start(
+            TipStep step, double timeSeconds, Double3 surfaceMetres, Double3 worldMetres, double speedMps)
         {
             Count = 0;
             oldest = 0;
@@ -195,7 +204,7 @@ namespace HaptoFlow.Contact
             noise.Restart();
             noise.Add(timeSeconds, surfaceMetres);
             movedSeconds = timeSeconds;
-            Push(timeSeconds, surfaceMetres, true, double.PositiveInfinity);
+            Push(timeSeconds, surfaceMetres, true, speedMps);
             latestSeconds = timeSeconds;
             MeasuredSeconds = timeSeconds;
             measuredMetres = surfaceMetres;
@@ -203,7 +212,7 @@ namespace HaptoFlow.Contact
             return step;
         }
 
-        private bool IsJump(double moved, double seconds)
+        private bool IsJump(double moved, double seconds, bool isHeld)
         {
             if (moved > Settings.MaximumMoveMetres(seconds))
             {
@@ -219,6 +228,11 @@ namespace HaptoFlow.Contact
                     fastestBefore = Math.Max(fastestBefore, frame.SpeedMps);
                     ++measurements;
                 }
+            }
+            if (isHeld && double.IsPositiveInfinity(fastestBefore))
+            {
+                // A tip whose speed is not known yet may be fast, but not one that rests in the world.
+                fastestBefore = 0.0;
             }
             double stepSeconds = Math.Max(seconds, Settings.MinimumJumpSeconds);
             return moved > (fastestBefore + Settings.MaximumGainMps(stepSeconds)) * stepSeconds;

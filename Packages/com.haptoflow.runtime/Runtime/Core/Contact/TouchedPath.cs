@@ -1,4 +1,5 @@
 #nullable enable
+using System;
 using HaptoFlow.Numerics;
 
 namespace HaptoFlow.Contact
@@ -44,6 +45,11 @@ namespace HaptoFlow.Contact
             get
             {
                 TipVelocity local = relativeVelocity.Of(isStepped ? stepped : drawn);
+                if (isStepped && steps.IsEstimated)
+                {
+                    // As with a slow tracker, whose positions are as little dated.
+                    local = new TipVelocity(local.ApproachMps, local.ApproachMps);
+                }
                 return isInWorld ? local : new TipVelocity(
                     Surface!.Track.Newest.DirectionToWorld(local.NowMps),
                     Surface.Track.Newest.DirectionToWorld(local.ApproachMps));
@@ -170,7 +176,7 @@ namespace HaptoFlow.Contact
             {
                 double seconds = history.SecondsAt(index);
                 Double3 tip = history.WorldMetresAt(index);
-                if (track.IndexOf(seconds) >= 0)
+                if (seconds >= steps.FirstSeconds && track.IndexOf(seconds) >= 0)
                 {
                     step = stepped.Add(seconds, steps.PoseAt(seconds).PointToLocal(tip), tip);
                 }
@@ -185,7 +191,8 @@ namespace HaptoFlow.Contact
             {
                 return false;
             }
-            double sinceSeconds = history.SecondsAt(history.Count - 1) - WindowSeconds;
+            double sinceSeconds = Math.Max(
+                history.SecondsAt(history.Count - 1) - WindowSeconds, steps.FirstSeconds);
             var drawnMotion = new Roughness();
             var steppedMotion = new Roughness();
             for (int index = 0; index < history.Count; ++index)
