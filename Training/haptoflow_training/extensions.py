@@ -2,7 +2,7 @@
 
 A configuration class names the classes that train it and write it (`trained_by`, `exported_as`), so
 a derived one may bring further keys, rules, networks, objectives and kinds of tiers. haptoflow_training itself has no
-branch for them; of haptoflow_paper's keys it knows the names, with the value that changes nothing, to read files and
+branch for them. It knows the names of the evaluation's keys, each with the value that changes nothing, to read files and
 checkpoints that state them (config.py). Importing a package that calls `use_configuration` changes what `load_config` reads.
 """
 

@@ -648,7 +648,7 @@ typedef uint64_t haptoflow_voice;
  * nothing. */
 typedef int32_t haptoflow_effect;
 enum {
-    /* The vibration that the network generates while the tip slides. */
+    /* The vibration while the tip slides. */
     HAPTOFLOW_EFFECT_TEXTURE = 0,
     /* The impact of a landing: decaying sinusoids of the label, with an amplitude proportional to the approach
      * speed. */
