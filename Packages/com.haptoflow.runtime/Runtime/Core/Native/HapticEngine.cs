@@ -29,8 +29,8 @@ namespace HaptoFlow
     /// <summary>For fields in which assets keep a quality.</summary>
     public static class HapticQualityExtensions
     {
-        /// <summary>The quality itself; Standard in place of a number that is no quality, as an asset of an earlier version
-        /// may hold it. Any thread.</summary>
+        /// <summary>The quality itself; Standard in place of a number that is no quality, as an asset of an earlier
+        /// version may hold it. Any thread.</summary>
         public static HapticQuality OrStandard(this HapticQuality quality) =>
             quality is HapticQuality.Auto or HapticQuality.Draft or HapticQuality.Standard or HapticQuality.Sketch
                 ? quality
