@@ -15,12 +15,18 @@ const defaults = [
 const help = `usage: ./run train [ARGUMENTS]
 
 Trains the default model, all tiers, and writes its .haptoflow file and the golden file that the tests compare it with.
-Interrupted, it goes on where it was. With arguments, those of \`haptoflow-training train\` and none of the defaults.
+Interrupted, it goes on where it was. With arguments, those of \`haptoflow-training train\` and none of the defaults; with
+\`train-tiers\` as the first, those of \`haptoflow-training train-tiers\`, which trains a whole model.
 After a training on recordings of your own (--recordings and --export), the model is compared with their held-out parts
 and with what \`haptoflow learn\` makes of the others (about 10 s a label); the last line says whether it is worth using,
 and the exit code is 3 if it is not. --no-judgement leaves that out.
 Paths are relative to the current folder.
 With the Python packages in place, PYTHONPATH=Training /usr/bin/python3 -m haptoflow_training train --help lists them.`;
+
+function commandOf(words) {
+  if (words.length === 0) return defaults;
+  return words[0] === 'train-tiers' ? words : ['train', ...words];
+}
 
 await runMain('train', async (words) => {
   await setUp(['python']);
@@ -29,6 +35,6 @@ await runMain('train', async (words) => {
   const python = async (...args) => (await run(pythonOrFail(), ['-m', ...args], {
     cwd: callerFolder(), env: { PYTHONPATH: inRepository('Training'), OPENBLAS_NUM_THREADS: '1' },
   })).exitCode;
-  const exitCode = await python('haptoflow_training', ...(own.length > 0 ? ['train', ...own] : defaults));
+  const exitCode = await python('haptoflow_training', ...commandOf(own));
   return exitCode === 0 && judgement ? python('haptoflow_benchmark', ...judgement) : exitCode;
 }, { help });

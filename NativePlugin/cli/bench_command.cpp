@@ -91,7 +91,8 @@ void addBenchCommand(CLI::App& app, CommandOutcome& outcome) {
     command
         ->add_option(
             "--only", options->only,
-            "Only these measurements: callback, events, effects, outputs, latency, inference, voices, idle, contact")
+            "Only these measurements: callback, events, effects, blends, outputs, latency, inference, voices, idle, "
+            "contact")
         ->delimiter(',')
         ->check(
             CLI::IsMember(std::vector<std::string>(bench::measurementNames.begin(), bench::measurementNames.end())));

@@ -121,8 +121,8 @@ namespace HaptoFlow.Samples.SimilarityStudy
                 Require(each.Model != null, $"method \"{each.Name}\"",
                     "has no model; choose a .haptoflow asset in its field Model");
                 Require(each.Quality != HapticQuality.Auto, $"method \"{each.Name}\"",
-                    "has the quality Auto, which changes the tier while participants feel it; choose Draft, Standard " +
-                    "or Fine");
+                    "has the quality Auto, which changes the tier while participants feel it; choose Sketch, " +
+                    "Draft or Standard");
             }
             float smallest = Mathf.Min(sampleMetres.x, sampleMetres.z);
             Require(smallest >= 0.02f && sampleMetres.y > 0f, "Sample Metres",

@@ -35,6 +35,6 @@ namespace HaptoFlow.Samples.SimilarityStudy
         public HapticModelAsset? Model => model;
 
         /// <summary>The quality, which chooses the tier of the model.</summary>
-        public HapticQuality Quality => quality;
+        public HapticQuality Quality => quality.OrStandard();
     }
 }

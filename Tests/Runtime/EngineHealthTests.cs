@@ -44,7 +44,7 @@ namespace HaptoFlow.Tests
             FinishLoading();
             HapticEngine engine = HapticSession.Current.Engine!;
             uint draft = engine.Statistics().Tier;
-            Haptics.SetQuality(HapticQuality.Fine);
+            Haptics.SetQuality(HapticQuality.Sketch);
             Haptics.SetQuality(HapticQuality.Standard);
             HapticSession.Current.FinishQualityChange();
             engine.Step();
@@ -57,7 +57,7 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator ShuttingDownDuringLoadingCausesNoError()
         {
-            HaptoFlowSettings.Active.Quality = HapticQuality.Fine;
+            HaptoFlowSettings.Active.Quality = HapticQuality.Standard;
             HapticSession loading = HapticSession.Current;
             HapticSession.ShutDown();
             loading.FinishLoading();

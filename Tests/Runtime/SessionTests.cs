@@ -117,8 +117,8 @@ namespace HaptoFlow.Tests
         public IEnumerator QualityCanBeChangedDuringATouch()
         {
             FinishLoading();
-            Haptics.SetQuality(HapticQuality.Fine);
-            Assert.That(HaptoFlowSettings.Active.Quality, Is.EqualTo(HapticQuality.Fine));
+            Haptics.SetQuality(HapticQuality.Standard);
+            Assert.That(HaptoFlowSettings.Active.Quality, Is.EqualTo(HapticQuality.Standard));
             Assert.That(Haptics.Labels, Does.Contain("wood"));
             yield return null;
         }

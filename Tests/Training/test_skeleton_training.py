@@ -14,10 +14,12 @@ import onnx
 import pytest
 import scipy.signal
 import torch
+from dataset_samples import small_recording
 from test_export import PROVENANCE
 from test_trainer import ALONE, _config, ask_to_stop_after
 from training_fixtures import FakeStore, make_store, travelled_mm
 
+from haptoflow_training.cli import main
 from haptoflow_training.closed_loop.level_calibration import TierSource
 from haptoflow_training.closed_loop.phase_track import SurfaceStatistics
 from haptoflow_training.closed_loop.render import run_closed_loop
@@ -30,6 +32,7 @@ from haptoflow_training.export.model_file import ModelFile, model_space, read_mo
 from haptoflow_training.export.trained_tier import load_tiers
 from haptoflow_training.models.skeleton_model import SkeletonModel
 from haptoflow_training.models.surface_waves import path_of
+from haptoflow_training.recordings.dataset_writer import TextureEntry, write_recording, write_texture_list
 from haptoflow_training.recordings.wander import RibWander, StickSlip
 from haptoflow_training.training import skeleton_losses
 from haptoflow_training.training.batches import SegmentBatch, SegmentBatches
@@ -151,7 +154,7 @@ def test_a_base_without_a_skeleton_is_refused_for_a_refinement_with_the_remedy(
 
 
 def test_tiers_with_and_without_a_skeleton_do_not_share_a_file(runs: Path, tmp_path: Path, store: FakeStore) -> None:
-    config = dataclasses.replace(_config(steps=2), tier="fine")
+    config = dataclasses.replace(_config(steps=2), tier="draft")
     Trainer(config, store, tmp_path / "field", ALONE, wave_vectors=WAVE_VECTORS).run()
     with pytest.raises(InputError, match="with a skeleton and tiers without do not share a file"):
         load_tiers([runs / "sketch", tmp_path / "field"])
@@ -430,3 +433,74 @@ def test_the_default_model_s_base_is_its_sketch_and_becomes_a_tier_of_the_file(
     assert train_tiers.run(parser.parse_args(words)) == 0
     assert trained == ["base", "standard", "draft"]
     assert written[0].name == "standard" and sorted(folder.name for folder in written) == ["base", "draft", "standard"]
+
+
+SMALL_BASE = """
+name = "small"
+tier = "sketch"
+threads = 1
+[data]
+source = "folders"
+[model]
+network = "skeleton"
+hidden = 8
+[optimiser]
+batch_size = 4
+level_steps = 2
+steps = 2
+level_polish_steps = 0
+warm_up_steps = 1
+[batch]
+machine_share = 1.0
+[recipe]
+filter_steps = 2
+energy_steps = 1
+self_forcing_steps = 1
+energy_batch_size = 2
+"""
+SMALL_STANDARD = """
+extends = "base.toml"
+tier = "standard"
+[model]
+network = "refinement"
+width = 8
+previous_width = 4
+levels = 1
+[optimiser]
+steps = 0
+[recipe]
+filter_steps = 0
+shares_base = true
+"""
+
+
+def test_recordings_from_a_folder_become_a_model_of_the_shipped_kind(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setenv("PYTHONPATH", str(Path(__file__).parents[2] / "Training"))
+    recordings = tmp_path / "recordings"
+    for texture in (0, 66):
+        for direction in range(0, 360, 45):
+            write_recording(recordings, small_recording(f"{texture}_{direction}_50_500_0", seconds=2.0))
+    write_texture_list(recordings, [TextureEntry(0, "denim", {}), TextureEntry(66, "felt", {})])
+    labels = tmp_path / "labels.toml"
+    labels.write_text(
+        "".join(
+            f'[[label]]\nname = "{name}"\ncategory = "cloth"\nstiffness_newtons_per_metre = 250.0\n'
+            f'friction_coefficient = 0.4\ntextures = ["{name}"]\nwave_vectors_per_mm = []\n'
+            for name in ("denim", "felt")
+        )
+    )
+    configs = tmp_path / "configs"
+    configs.mkdir()
+    (configs / "base.toml").write_text(SMALL_BASE)
+    (configs / "standard.toml").write_text(SMALL_STANDARD)
+    model = tmp_path / "felt.haptoflow"
+    words = ["--configs", str(configs), "--out", str(tmp_path / "runs"), "--lanes", "2", "--export", str(model)]
+    assert main(["train-tiers", "--recordings", str(recordings), "--labels", str(labels), *words]) == 0
+    header = read_model_file(model).header
+    assert [(tier["name"], tier["kind"]) for tier in header["tiers"]] == [
+        ("sketch", "skeleton"), ("standard", "refine"),
+    ]  # fmt: skip
+    assert [label["name"] for label in header["labels"]] == ["denim", "felt"]
+    assert "synthetic" not in header["provenance"]["statement"]

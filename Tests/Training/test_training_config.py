@@ -9,6 +9,7 @@ import pytest
 from haptoflow_paper.rows.row_plan import load_plan
 from haptoflow_training.errors import InputError
 from haptoflow_training.models.haptoflow_model import FieldModel
+from haptoflow_training.recordings.labels import load_labels
 from haptoflow_training.training.config import TrainingConfig, config_from_dict, load_config
 from haptoflow_training.training.trainer import Trainer, build_model, planned_steps
 
@@ -25,7 +26,7 @@ def _load(tmp_path: Path, text: str) -> TrainingConfig:
 
 TRAININGS = sorted(
     path.relative_to(TRAINING).as_posix()
-    for pattern in ("configs/cluster.toml", "configs/own.toml", "configs/*/*.toml", "haptoflow_paper/configs/*.toml")
+    for pattern in ("configs/own.toml", "configs/*/*.toml", "haptoflow_paper/configs/*.toml")
     for path in TRAINING.glob(pattern)
     if path.name not in ("rows.toml", "codec-small.toml")
 )
@@ -36,8 +37,19 @@ def test_the_shipped_configurations_load_and_plan_steps(name: str) -> None:
     assert sum(planned_steps(load_config(TRAINING / name))) > 0
 
 
-def test_the_cluster_trains_a_field_without_a_filter() -> None:
-    config = load_config(CONFIGURATIONS / "cluster.toml")
+@pytest.mark.parametrize("name", ["base", "draft", "standard"])
+def test_what_is_trained_on_the_cluster_data_set_is_what_ships(name: str) -> None:
+    shipped, cluster = (load_config(CONFIGURATIONS / folder / f"{name}.toml") for folder in ("default", "cluster"))
+    assert cluster.data.source == "folders" and cluster.name == "cluster" and cluster.licence == "CC BY 4.0"
+    for part in ("tier", "seed", "model", "optimiser", "recipe", "solver"):
+        assert getattr(cluster, part) == getattr(shipped, part), part
+    known = {definition.name for definition in load_labels(CONFIGURATIONS / "labels-cluster.toml").definitions}
+    assert set(cluster.batch.emphasised_labels) == set(shipped.batch.emphasised_labels) & known
+    assert not cluster.batch.held_out_speed_mps and not cluster.batch.held_out_force_newtons
+
+
+def test_the_paper_s_own_settings_train_a_field_without_a_filter() -> None:
+    config = load_config(PAPER / "paper.toml")
     assert config.model.network == "field" and isinstance(build_model(config, [(), ()]), FieldModel)
     objectives = [phase.objective for phase in Trainer.phases(config)]
     assert objectives[:2] == ["level", "flow"] and "filter" not in objectives
@@ -65,6 +77,16 @@ def test_a_configuration_takes_what_it_does_not_set_from_the_one_it_extends(tmp_
     (tmp_path / "base.toml").write_text("seed = 5\n[optimiser]\nsteps = 7\nbatch_size = 3\n", encoding="utf-8")
     config = _load(tmp_path, 'extends = "base.toml"\n[optimiser]\nsteps = 9\n')
     assert (config.seed, config.optimiser.steps, config.optimiser.batch_size) == (5, 9, 3)
+
+
+def test_of_several_extended_configurations_the_later_one_goes_before(tmp_path: Path) -> None:
+    (tmp_path / "one.toml").write_text("seed = 5\n[optimiser]\nsteps = 7\nbatch_size = 3\n", encoding="utf-8")
+    (tmp_path / "two.toml").write_text("seed = 6\n[optimiser]\nsteps = 8\n", encoding="utf-8")
+    config = _load(tmp_path, 'extends = ["one.toml", "two.toml"]\n[optimiser]\nlevel_steps = 4\n')
+    assert (config.seed, config.optimiser.steps) == (6, 8)
+    assert (config.optimiser.batch_size, config.optimiser.level_steps) == (3, 4)
+    with pytest.raises(InputError, match="'extends' is .*, or a list of such names"):
+        _load(tmp_path, 'extends = ["one.toml", 3]')
 
 
 def test_a_configuration_that_extends_itself_is_refused(tmp_path: Path) -> None:
@@ -119,7 +141,7 @@ def test_a_wrong_plan_is_refused_with_row_and_key_named(tmp_path: Path, text: st
         ("[model]\nnetwork = 'gan'", "'model.network' is out of range, expected 'field', 'skeleton' or 'refinement'"),
         ("[model]\nnetwork = 'refinement'", "'recipe.shares_base' is out of range, expected true"),
         ("[model]\nnetwork = 'skeleton'\nhidden = 4", "'model.hidden' is out of range"),
-        ("tier = 'quick'", "'tier' is out of range, expected one of sketch, draft, standard, fine"),
+        ("tier = 'quick'", "'tier' is out of range, expected one of sketch, draft, standard"),
         ("[batch]\nheld_out_speed_mps = [0.3, 0.2]", "'batch.held_out_speed_mps' is out of range"),
         ("extends = 'nowhere.toml'", "nowhere.toml"),
         ("[batch]\nhop_samples = [50, 20]", "'batch.hop_samples' is out of range"),

@@ -15,8 +15,8 @@ _COMMANDS = {
     "measure-full-scale": "measure which acceleration should be full scale, from recorded strokes on every label",
     "measure-carriers": "measure what a device with one carrier plays of every label",
 }
-_DESCRIPTION = """Measures a model, the shipped one or your own: accuracy beside recordings, labels told apart, materials
-learnt from seconds of recording, ribs found, the full scale, carriers for controllers. Each command measures one property.
+_DESCRIPTION = """Measures a model, the shipped one or your own: accuracy beside recordings and beside
+learning, labels told apart, ribs found, lag, the full scale, carriers for controllers. Each command measures one property.
 To train and export a model, `haptoflow-training` is enough; the comparison with rivals is `haptoflow-paper`.
 """
 

@@ -20,16 +20,16 @@ _COMMANDS = {
     "report-recorder": "compare the synthetic recorder with its published targets, material by material",
     "inspect": "count and validate the recordings of a data set folder",
     "prepare": "turn recordings into memory-mapped 2 kHz training arrays",
-    "train": "train the level model and the network from one TOML file; resumable",
-    "train-tiers": "train a model file with several tiers over one embedding and level model",
+    "train": "train one run from a TOML file: labels of your own, a skeleton, or a network; resumable",
+    "train-tiers": "train a whole model file as the shipped one: several tiers over one embedding, level and skeleton",
     "export": "write a trained run into a .haptoflow model file",
     "add-material": "add a material to a model, or write a material file, from ten seconds of recording",
     "sliders": "find a designer's sliders in a model's embedding space",
     "stroke": "write a hand-like stroke as CSV for `haptoflow render`",
     "study": "the two user studies: simulate, check, merge and analyse their logs",
 }
-_DESCRIPTION = """Turns recordings into a .haptoflow model file: reads or synthesises recordings, prepares them, trains the
-networks and exports them; adds materials from seconds of recording; analyses the user studies.
+_DESCRIPTION = """Turns recordings into a .haptoflow model file: reads or synthesises recordings, prepares them, trains
+skeletons and networks and exports them; adds materials from seconds of recording; analyses the user studies.
 `haptoflow-benchmark` measures a model; `haptoflow-paper` compares it with rivals.
 """
 

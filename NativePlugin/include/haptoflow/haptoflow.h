@@ -11,6 +11,10 @@
  *   newer caller), the library ignores the fields that it does not know. A struct that the library fills is filled up
  *   to the smaller of the two sizes, and struct_size then holds the number of bytes that were filled. Set struct_size
  *   before each call.
+ * - That is all that two versions promise each other before 1.0: structs may grow at their end, but functions, values
+ * of enums and meanings may still change or go. Where the library could be of another version than this header, compare
+ *   haptoflow_version() with HAPTOFLOW_VERSION_TEXT. The Unity package's C# does, and refuses a library of any other
+ *   version, or with a struct of another size.
  * - Handles are opaque and never reused. A call with a closed handle, or with anything else that is not an open handle
  *   of that kind, returns HAPTOFLOW_INVALID_ARGUMENT. An open handle keeps alive the objects that it was created from.
  * - Text is UTF-8 and ends with a zero byte. Text that the library returns belongs to the library.
@@ -486,9 +490,8 @@ enum {
     HAPTOFLOW_QUALITY_DRAFT = 1,
     /* The tier "standard", or the model's default tier if it has no such tier. */
     HAPTOFLOW_QUALITY_STANDARD = 2,
-    /* The tier "fine", or the model's most accurate tier if it has no such tier. */
-    HAPTOFLOW_QUALITY_FINE = 3,
-    /* The tier "sketch", which plays without a network, or the model's first tier if it has no such tier. */
+    /* The tier "sketch", which plays without a network, or the model's first tier if it has no such tier. (3 belonged
+     * to an earlier quality and is refused.) */
     HAPTOFLOW_QUALITY_SKETCH = 4
 };
 
@@ -645,7 +648,7 @@ typedef uint64_t haptoflow_voice;
  * nothing. */
 typedef int32_t haptoflow_effect;
 enum {
-    /* The vibration that the network generates while the tip slides. */
+    /* The vibration while the tip slides. */
     HAPTOFLOW_EFFECT_TEXTURE = 0,
     /* The impact of a landing: decaying sinusoids of the label, with an amplitude proportional to the approach
      * speed. */

@@ -41,10 +41,9 @@ std::size_t tierOfQuality(const model::ModelHeader& header, haptoflow_quality qu
             return named("draft", 0);
         case HAPTOFLOW_QUALITY_SKETCH:
             return named("sketch", 0);
-        case HAPTOFLOW_QUALITY_FINE:
-            return named("fine", model::tiersByAccuracy(header.tiers).back());
         default:
-            throw std::invalid_argument("quality is " + std::to_string(quality) + "; expected 0 to 4");
+            throw std::invalid_argument("quality is " + std::to_string(quality) +
+                                        "; expected 0 (auto), 1 (draft), 2 (standard) or 4 (sketch)");
     }
 }
 

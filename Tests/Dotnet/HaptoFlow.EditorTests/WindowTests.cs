@@ -44,10 +44,23 @@ namespace HaptoFlow.EditorTests
         {
             HaptoFlowSettings settings = Settings();
             Assert.That(Page().Single(item => item.Label == "Budget Share").Enabled, Is.True);
-            settings.Quality = HapticQuality.Fine;
+            settings.Quality = HapticQuality.Standard;
             Assert.That(Page().Single(item => item.Label == "Budget Share").Enabled, Is.False);
             settings.Model = null;
             Assert.That(Page().Select(item => item.Label), Has.Member("The field Model is empty: nothing is felt."));
+        }
+
+        [Test]
+        public void AQualityThatTheSettingsHoldFromAnEarlierVersionIsStandardAndIsRepaired()
+        {
+            HaptoFlowSettings settings = Settings();
+            settings.Quality = (HapticQuality)3;
+            Assert.That(settings.Quality, Is.EqualTo(HapticQuality.Standard), "in a player, where nothing validates");
+            Assert.That(new SerializedObject(settings).FindProperty("quality").intValue, Is.EqualTo(3));
+            EditorScreen.Enter("Update Rate (Hz)", 90f);
+            EditorScreen.Draw(HaptoFlowSettingsPage.Draw);
+            Assert.That(new SerializedObject(settings).FindProperty("quality").intValue, Is.EqualTo(2));
+            Assert.That(settings.UpdateRateHz, Is.EqualTo(90f));
         }
 
         [Test]

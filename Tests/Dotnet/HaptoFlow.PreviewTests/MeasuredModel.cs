@@ -28,7 +28,6 @@ namespace HaptoFlow.PreviewTests
         {
             ["draft"] = TierTiming.Of(new[] { 0.21, 0.22, 0.29 }),
             ["standard"] = TierTiming.Of(new[] { 0.45, 0.47, 0.58 }),
-            ["fine"] = TierTiming.Of(new[] { 0.85, 0.87, 1.12 }),
         };
     }
 }

@@ -18,7 +18,7 @@ namespace HaptoFlow.RepositoryTests
             ModelHeader header = ModelHeader.Read(File.ReadAllBytes(RepositoryFiles.DefaultModel));
             Assert.That(header.Provenance.Statement, Is.EqualTo("trained on synthetic recordings"));
             Assert.That(header.Labels.Select(label => label.Name), Does.Contain("wood").Or.Contain("oak"));
-            Assert.That(header.Tiers.Select(tier => tier.Name), Is.SubsetOf(new[] { "sketch", "draft", "standard", "fine" }));
+            Assert.That(header.Tiers.Select(tier => tier.Name), Is.SubsetOf(new[] { "sketch", "draft", "standard" }));
             Assert.That(header.SpeedMps.Minimum, Is.LessThan(header.SpeedMps.Maximum));
         }
 

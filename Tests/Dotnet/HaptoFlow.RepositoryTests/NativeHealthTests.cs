@@ -67,6 +67,26 @@ namespace HaptoFlow.RepositoryTests
             Assert.That(stepped.Statistics().WorkerIsAlive, Is.True);
         }
 
+        [TestCase(-1)]
+        [TestCase(3)]
+        [TestCase(5)]
+        public void ANumberThatIsNoQualityIsRefusedByTheEngineAndIsStandardInAnAsset(int number)
+        {
+            using HapticEngine engine = Engine(default);
+            Assert.That(Assert.Throws<HaptoFlowException>(() => engine.SetQuality((HapticQuality)number))!.Message,
+                Does.Contain($"quality is {number}; expected 0 (auto), 1 (draft), 2 (standard) or 4 (sketch)"));
+            Assert.That(((HapticQuality)number).OrStandard(), Is.EqualTo(HapticQuality.Standard));
+        }
+
+        [Test]
+        public void EveryQualityThatThereIsStaysWhatItIs()
+        {
+            foreach (HapticQuality quality in (HapticQuality[])Enum.GetValues(typeof(HapticQuality)))
+            {
+                Assert.That(quality.OrStandard(), Is.EqualTo(quality));
+            }
+        }
+
         [Test]
         public void ACancelledLoadReturnsTheStatusCancelled()
         {

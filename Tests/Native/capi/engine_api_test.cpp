@@ -250,10 +250,10 @@ TEST(EngineApiTest, AnEngineWithAWorkerRefusesSteps) {
 }
 
 TEST(EngineApiTest, TheTierOfAQualityIsReportedWithItsMeasuredTime) {
-    OpenEngine open(tinyModelPath, false, HAPTOFLOW_QUALITY_FINE);
+    OpenEngine open(tinyModelPath, false, HAPTOFLOW_QUALITY_STANDARD);
     uint32_t tiers = 0;
     ASSERT_EQ(haptoflow_model_tier_count(open.model, &tiers), HAPTOFLOW_OK);
-    EXPECT_EQ(open.engineStatistics().tier, 2U);
+    EXPECT_EQ(open.engineStatistics().tier, 1U);
     ASSERT_EQ(haptoflow_engine_set_quality(open.engine, HAPTOFLOW_QUALITY_DRAFT), HAPTOFLOW_OK);
     for (int update = 0; update < 5; ++update) {
         (void)open.update(slidingState());
@@ -266,7 +266,16 @@ TEST(EngineApiTest, TheTierOfAQualityIsReportedWithItsMeasuredTime) {
     EXPECT_EQ(times.runs, 5U);
     EXPECT_GT(times.median_ms, 0.0);
     EXPECT_EQ(haptoflow_engine_tier_times(open.engine, tiers, &times), HAPTOFLOW_INVALID_ARGUMENT);
-    EXPECT_EQ(haptoflow_engine_set_quality(open.engine, -1), HAPTOFLOW_INVALID_ARGUMENT);
+}
+
+TEST(EngineApiTest, AQualityThatThereIsNotIsRefusedAndThePresentOneStays) {
+    OpenEngine open(tinyModelPath, false, HAPTOFLOW_QUALITY_STANDARD);
+    for (const haptoflow_quality quality : {-1, 3, 5}) {
+        EXPECT_EQ(haptoflow_engine_set_quality(open.engine, quality), HAPTOFLOW_INVALID_ARGUMENT) << quality;
+        EXPECT_THAT(message(),
+                    ::testing::HasSubstr("quality is " + std::to_string(quality) + "; expected 0 (auto), 1"));
+        EXPECT_EQ(open.engineStatistics().tier, 1U);
+    }
 }
 
 TEST(EngineApiTest, PanicSilencesEveryVoiceOfTheProcess) {

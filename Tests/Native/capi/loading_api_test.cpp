@@ -20,7 +20,6 @@ using Graphs = std::map<std::string, Bytes>;
 
 constexpr uint32_t draftTier = 0;
 constexpr uint32_t standardTier = 1;
-constexpr uint32_t fineTier = 2;
 
 class LoadingApiTest : public ::testing::Test {
 protected:
@@ -95,39 +94,33 @@ protected:
 TEST_F(LoadingApiTest, AnEngineWithAFixedQualityLoadsOnlyItsTier) {
     openModel({{"flow_field", model::testing::loopingLevel()}});
     EXPECT_EQ(tierOf(open(engineOptions(HAPTOFLOW_QUALITY_DRAFT))), draftTier);
-    for (const haptoflow_quality quality :
-         {HAPTOFLOW_QUALITY_AUTO, HAPTOFLOW_QUALITY_STANDARD, HAPTOFLOW_QUALITY_FINE}) {
-        const char* tier = quality == HAPTOFLOW_QUALITY_FINE ? "fine" : "standard";
+    for (const haptoflow_quality quality : {HAPTOFLOW_QUALITY_AUTO, HAPTOFLOW_QUALITY_STANDARD}) {
         expectRefused(engineOptions(quality), HAPTOFLOW_MODEL_INCONSISTENT,
-                      std::string("tier \"") + tier + "\", graph \"flow_field\": uses the operator \"Loop\"");
+                      "tier \"standard\", graph \"flow_field\": uses the operator \"Loop\"");
     }
 }
 
-TEST_F(LoadingApiTest, AQualityWithoutATierOfItsNameUsesTheFirstTheDefaultOrTheMostAccurateTier) {
-    const auto keepTiers = [this](const std::vector<double>& errorsDb, const std::vector<std::string>& names) {
+TEST_F(LoadingApiTest, AQualityWithoutATierOfItsNameUsesTheFirstOrTheDefaultTier) {
+    const auto keepTiers = [this](const std::vector<std::string>& names) {
         openModel({}, [&](nlohmann::json& header) {
             nlohmann::json tiers = nlohmann::json::array();
             for (std::size_t tier = 0; tier < names.size(); ++tier) {
                 tiers.push_back(header["tiers"][tier]);
                 tiers[tier]["name"] = names[tier];
-                tiers[tier]["accuracy"] = {{"lsd_db", errorsDb[tier]}, {"level_error_p90_db", 0.5}};
             }
             header["tiers"] = tiers;
             header["default_tier"] = names[1];
         });
     };
     const auto tierFor = [this](haptoflow_quality quality) { return tierOf(open(engineOptions(quality))); };
-    keepTiers({2.0, 1.0}, {"draft", "standard"});
+    keepTiers({"draft", "standard"});
     EXPECT_EQ(tierFor(HAPTOFLOW_QUALITY_DRAFT), 0U);
     EXPECT_EQ(tierFor(HAPTOFLOW_QUALITY_STANDARD), 1U);
-    EXPECT_EQ(tierFor(HAPTOFLOW_QUALITY_FINE), 1U);
     EXPECT_EQ(tierFor(HAPTOFLOW_QUALITY_SKETCH), 0U);
-    keepTiers({1.0, 2.0}, {"draft", "standard"});
-    EXPECT_EQ(tierFor(HAPTOFLOW_QUALITY_FINE), 0U) << "chosen by its figures, not by its position";
-    keepTiers({2.0, 3.0, 1.0}, {"small", "medium", "large"});
+    keepTiers({"small", "medium", "large"});
     EXPECT_EQ(tierFor(HAPTOFLOW_QUALITY_DRAFT), 0U);
     EXPECT_EQ(tierFor(HAPTOFLOW_QUALITY_STANDARD), 1U);
-    EXPECT_EQ(tierFor(HAPTOFLOW_QUALITY_FINE), 2U);
+    EXPECT_EQ(tierFor(HAPTOFLOW_QUALITY_SKETCH), 0U);
 }
 
 TEST_F(LoadingApiTest, AutomaticQualityUsesTheMostAccurateTierByItsFiguresAndNotTheLast) {
@@ -161,13 +154,12 @@ TEST_F(LoadingApiTest, AnotherQualityIsLoadedOnRequestAndKeepsTheModelsIndex) {
     haptoflow_voice voice = 0;
     ASSERT_EQ(haptoflow_voice_create(engine, 48000.0, &voice), HAPTOFLOW_OK);
     slide(engine, voice, 1);
-    ASSERT_EQ(haptoflow_engine_set_quality(engine, HAPTOFLOW_QUALITY_FINE), HAPTOFLOW_OK) << message();
+    ASSERT_EQ(haptoflow_engine_set_quality(engine, HAPTOFLOW_QUALITY_STANDARD), HAPTOFLOW_OK) << message();
     slide(engine, voice, 1);
-    EXPECT_EQ(tierOf(engine), fineTier);
+    EXPECT_EQ(tierOf(engine), standardTier);
     slide(engine, voice, 1);
     EXPECT_EQ(runsOf(engine, draftTier), 1U);
-    EXPECT_EQ(runsOf(engine, standardTier), 0U);
-    EXPECT_EQ(runsOf(engine, fineTier), 2U);
+    EXPECT_EQ(runsOf(engine, standardTier), 2U);
     ASSERT_EQ(haptoflow_engine_set_quality(engine, HAPTOFLOW_QUALITY_DRAFT), HAPTOFLOW_OK) << message();
     slide(engine, voice, 1);
     EXPECT_EQ(runsOf(engine, draftTier), 2U);
@@ -213,7 +205,7 @@ TEST_F(LoadingApiTest, QualitiesRequestedByTwoThreadsWhileTheWorkerGeneratesAreL
     haptoflow_voice voice = 0;
     ASSERT_EQ(haptoflow_voice_create(engine, 48000.0, &voice), HAPTOFLOW_OK);
     std::vector<std::thread> askers;
-    for (const haptoflow_quality quality : {HAPTOFLOW_QUALITY_STANDARD, HAPTOFLOW_QUALITY_FINE}) {
+    for (const haptoflow_quality quality : {HAPTOFLOW_QUALITY_STANDARD, HAPTOFLOW_QUALITY_AUTO}) {
         askers.emplace_back([engine, quality] {
             for (int ask = 0; ask < 20; ++ask) {
                 EXPECT_EQ(haptoflow_engine_set_quality(engine, quality), HAPTOFLOW_OK) << message();
@@ -230,7 +222,8 @@ TEST_F(LoadingApiTest, QualitiesRequestedByTwoThreadsWhileTheWorkerGeneratesAreL
     for (std::thread& asker : askers) {
         asker.join();
     }
-    EXPECT_NE(tierOf(engine), draftTier);
+    ASSERT_EQ(haptoflow_engine_set_quality(engine, HAPTOFLOW_QUALITY_STANDARD), HAPTOFLOW_OK) << message();
+    EXPECT_EQ(tierOf(engine), standardTier);
 }
 
 TEST_F(LoadingApiTest, AModelWithALoopIsRefusedAtOnceByGeneratorAndEngine) {
@@ -248,9 +241,9 @@ TEST_F(LoadingApiTest, AModelWithALoopIsRefusedAtOnceByGeneratorAndEngine) {
 
 TEST_F(LoadingApiTest, ATierThatIsTooSlowIsNamedByGeneratorAndEngine) {
     openModel({{"level", model::testing::slowLevel()}});
-    haptoflow_engine_options options = engineOptions(HAPTOFLOW_QUALITY_FINE);
+    haptoflow_engine_options options = engineOptions(HAPTOFLOW_QUALITY_STANDARD);
     options.probe_limit_ms = 2.0;
-    expectRefused(options, HAPTOFLOW_TIER_TOO_SLOW, "tier \"fine\", graph \"level\"");
+    expectRefused(options, HAPTOFLOW_TIER_TOO_SLOW, "tier \"standard\", graph \"level\"");
     haptoflow_generator_options generatorOptions{};
     generatorOptions.struct_size = sizeof(generatorOptions);
     generatorOptions.runtime = runtime_;
@@ -350,7 +343,7 @@ TEST_F(LoadingApiTest, MessagesOfOnnxRuntimeReachTheLogUntilTheRuntimeIsClosed) 
                                                                    ::testing::Le(HAPTOFLOW_LOG_FATAL))));
     ASSERT_EQ(haptoflow_runtime_close(&logged), HAPTOFLOW_OK);
     const std::size_t before = lines.texts.size();
-    EXPECT_EQ(haptoflow_engine_set_quality(engine, HAPTOFLOW_QUALITY_FINE), HAPTOFLOW_OK) << message();
+    EXPECT_EQ(haptoflow_engine_set_quality(engine, HAPTOFLOW_QUALITY_STANDARD), HAPTOFLOW_OK) << message();
     EXPECT_EQ(lines.texts.size(), before);
 }
 

@@ -63,7 +63,7 @@ struct Subject {
 inline const auto subjects =
     ::testing::Values(Subject{"ShippedDraft", &defaultModelPath, HAPTOFLOW_QUALITY_DRAFT},
                       Subject{"ShippedStandard", &defaultModelPath, HAPTOFLOW_QUALITY_STANDARD},
-                      Subject{"ShippedFine", &defaultModelPath, HAPTOFLOW_QUALITY_FINE},
+                      Subject{"ShippedSketch", &defaultModelPath, HAPTOFLOW_QUALITY_SKETCH},
                       Subject{"Untrained", &tinyModelPath, HAPTOFLOW_QUALITY_DRAFT});
 
 /// The test name of a subject and a named case.

@@ -70,8 +70,8 @@ TEST_P(RangeSweepSoundTest, TheLevelGrowsWithoutAStepFromNoForceToTenNewtons) {
 }
 
 INSTANTIATE_TEST_SUITE_P(OnModel, RangeSweepSoundTest,
-                         ::testing::Combine(::testing::Values(HAPTOFLOW_QUALITY_DRAFT, HAPTOFLOW_QUALITY_STANDARD,
-                                                              HAPTOFLOW_QUALITY_FINE),
+                         ::testing::Combine(::testing::Values(HAPTOFLOW_QUALITY_SKETCH, HAPTOFLOW_QUALITY_DRAFT,
+                                                              HAPTOFLOW_QUALITY_STANDARD),
                                             ::testing::Values(0U, 7U, 13U)),
                          [](const auto& parameters) {
                              return "ShippedQuality" + std::to_string(std::get<0>(parameters.param)) + "Label" +

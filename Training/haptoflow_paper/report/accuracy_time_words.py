@@ -18,7 +18,7 @@ INTRODUCTION = """\
 | paper-codec | flow matching on the latents of a small codec, as in the paper; `paper-codec-size` has the sizes of the paper's networks, untrained, to measure time only |
 
 The paper is Eguchi, Hiroi and Hiraki, *HaptoFlow: High-Fidelity Real-Time Vibrotactile Generation via Flow Matching for
-Virtual Reality* (2026, to appear in an IEEE VGTC sponsored conference;
+Virtual Reality* (ISMAR 2026, [arXiv 2608.01974](https://arxiv.org/abs/2608.01974);
 [project page](https://tamago117.github.io/HaptoFlow/)). It also names SPSI, DSTN and the Transformer as its rivals; their
 sizes are not published, so ours are sensible small ones. Every figure is defined [below](#what-the-figures-mean).
 """

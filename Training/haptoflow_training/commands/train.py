@@ -36,16 +36,15 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.epilog = (
         "examples:\n"
         "  haptoflow-training train --recordings recordings --labels labels.toml --out out/own --export own.haptoflow\n"
-        "  haptoflow-training train --config cluster.toml --recordings ~/cluster-haptic --out out/train/real\n"
         "  haptoflow-training train --config Training/configs/default/base.toml --out out/train/base\n"
         "  torchrun --redirects 1 --tee 1 --nproc_per_node 2 -m haptoflow_training train --config … --out …\n"
-        "`haptoflow-training train-tiers` trains the whole default model."
+        "`haptoflow-training train-tiers` trains a whole model as the shipped one, on recordings of any origin."
     )
     parser.add_argument(
         "--config",
         type=Path,
         default=OWN_CONFIGURATION,
-        help="the run's TOML file, for example Training/configs/cluster.toml (default: Training/configs/own.toml)",
+        help="the run's TOML file, for example Training/configs/default/base.toml (default: Training/configs/own.toml)",
     )
     parser.add_argument(
         "--out", type=Path, required=True,
@@ -54,14 +53,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--store", type=Path, help="folder of the prepared recordings (default: `store` beside the run's folder)"
     )
-    parser.add_argument(
-        "--recordings", type=Path, nargs="+", metavar="PATH",
-        help="folders of recordings, or files, in place of the configuration's",
-    )  # fmt: skip
-    parser.add_argument(
-        "--labels", type=Path, metavar="FILE",
-        help="TOML file of labels and their textures (as configs/labels-cluster.toml)",
-    )  # fmt: skip
+    add_recordings_options(parser)
     parser.add_argument(
         "--minutes", type=_minutes, metavar="N",
         help="end with a whole, exported model after about N minutes: preparing, training and measuring levels share them",
@@ -91,17 +83,31 @@ def _minutes(text: str) -> float:
     return minutes
 
 
+def add_recordings_options(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--recordings", type=Path, nargs="+", metavar="PATH",
+        help="folders of recordings, or files, in place of the configuration's",
+    )  # fmt: skip
+    parser.add_argument(
+        "--labels", type=Path, metavar="FILE",
+        help="TOML file of labels and their textures (as configs/labels-cluster.toml)",
+    )  # fmt: skip
+
+
+def with_recordings(config: TrainingConfig, options: argparse.Namespace) -> TrainingConfig:
+    """The configuration with the command line's --recordings and --labels applied."""
+    data = config.data
+    if options.recordings:
+        folders = tuple(str(folder.resolve()) for folder in options.recordings)
+        data = dataclasses.replace(data, source="folders", folders=folders)
+    if options.labels:
+        data = dataclasses.replace(data, labels_file=str(options.labels.resolve()))
+    return dataclasses.replace(config, data=data)
+
+
 def configuration(options: argparse.Namespace) -> TrainingConfig:
     """The configuration file, with the command line's --recordings, --labels and --seed applied."""
-    config = load_config(options.config)
-    if options.recordings:
-        data = dataclasses.replace(
-            config.data, source="folders", folders=tuple(str(folder.resolve()) for folder in options.recordings)
-        )
-        config = dataclasses.replace(config, data=data)
-    if options.labels:
-        data = dataclasses.replace(config.data, labels_file=str(options.labels.resolve()))
-        config = dataclasses.replace(config, data=data)
+    config = with_recordings(load_config(options.config), options)
     if options.seed is not None:
         config = dataclasses.replace(config, seed=options.seed)
     return config

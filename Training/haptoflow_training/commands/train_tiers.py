@@ -10,8 +10,8 @@ from tqdm import tqdm
 
 from haptoflow_training.closed_loop.measured_levels import measured_levels
 from haptoflow_training.commands.export import write_model
+from haptoflow_training.commands.train import add_recordings_options, report_left_out, with_recordings
 from haptoflow_training.errors import InputError
-from haptoflow_training.export.level_table import MeasuredLevels
 from haptoflow_training.training.config import load_config
 from haptoflow_training.training.job_lanes import Job, run_jobs
 from haptoflow_training.training.recordings_source import open_source
@@ -30,6 +30,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.epilog = (
         "example:\n"
         "  haptoflow-training train-tiers --out out/train/default --export default.haptoflow\n"
+        "  haptoflow-training train-tiers --configs Training/configs/cluster --recordings ~/cluster-haptic-texture \\\n"
+        "    --out out/train/cluster --export cluster.haptoflow\n"
         "Each tier's log and curves lie in its folder below --out."
     )
     parser.add_argument(
@@ -39,6 +41,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--out", type=Path, required=True, help="folder of the runs; created if absent, otherwise its runs are resumed"
     )
+    add_recordings_options(parser)
     parser.add_argument("--lanes", type=int, default=os.cpu_count() or 1, help="trainings at a time (default: cores)")
     parser.add_argument("--workers", type=int, default=2, help="processes that prepare recordings (default: 2)")
     parser.add_argument("--export", type=Path, metavar="FILE", help="write the .haptoflow model file here at the end")
@@ -47,22 +50,26 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     base_file = options.configs / "base.toml"
-    config = load_config(base_file)
+    config = with_recordings(load_config(base_file), options)
     tier_files = sorted(path for path in options.configs.glob("*.toml") if path != base_file)
     if not tier_files:
         raise InputError(f"{options.configs}: no tier beside base.toml; write one that extends it")
     store = options.out / "store"
     source = open_source(config.data, store, options.workers)
+    if config.data.source == "folders":
+        report_left_out(source)
     base = options.out / "base"
-    _train_all([base_file], options.out, 1, [])
+    given = ["--recordings", *map(str, options.recordings)] if options.recordings else []
+    given += ["--labels", str(options.labels)] if options.labels else []
+    _train_all([base_file], options.out, 1, given)
     # The longest training first, so that the short ones fill the lane beside it.
     tier_files.sort(key=lambda path: -sum(planned_steps(load_config(path))) * load_config(path).model.width)
-    _train_all(tier_files, options.out, options.lanes, ["--base", str(base)])
+    _train_all(tier_files, options.out, options.lanes, ["--base", str(base), *given])
     if options.export is None:
         return 0
     folders = [options.out / path.stem for path in tier_files]
     default = options.out / "standard" if options.out / "standard" in folders else folders[0]
-    levels = MeasuredLevels(measured_levels(default, source).offsets_db)
+    levels = measured_levels(default, source)
     further = [folder for folder in folders if folder != default]
     if config.model.network == "skeleton":
         further.append(base)

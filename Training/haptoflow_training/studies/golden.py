@@ -16,7 +16,7 @@ LEVELS_MS = (tuple(range(50, 251, 20)), (50, 110, 170, 230))
 MATERIALS_AND_METHODS = (
     (("ceramic", "jute", "wood", "plastic", "fur", "metal"), ("haptoflow", "transformer", "dstn", "spsi")),
     (("jute", "wood", "fur"), ("haptoflow", "dstn", "spsi")),
-    (("wood", "metal"), ("draft", "standard", "fine", "transformer", "dstn", "spsi")),
+    (("wood", "metal"), ("draft", "standard", "sketch", "transformer", "dstn", "spsi")),
 )
 _RANDOM_VALUES = 8
 _SHUFFLES = (1, 2, 4, 11)

@@ -13,7 +13,7 @@ from haptoflow_training.extensions import configuration_class
 
 Rule = tuple[bool, str, str]
 # The order of tiers in a file; the most accurate comes last.
-TIER_NAMES = ("sketch", "draft", "standard", "fine")
+TIER_NAMES = ("sketch", "draft", "standard")
 # Keys of the evaluation's own configurations, with the value for which a run does what every run here does: files and
 # checkpoints that say so are read.
 _EVALUATION_KEYS: dict[str, Any] = {
@@ -286,7 +286,8 @@ def _read_section(section: type[_Section], table: dict[str, Any], prefix: str, p
 def load_config(path: Path) -> TrainingConfig:
     """Read and check a run's TOML file; InputError names file, key and the expected value.
 
-    `extends = "other.toml"` takes every key that the file does not set from that file beside it.
+    `extends = "other.toml"` takes every key that the file does not set from that file beside it; of a list of files, a
+    later one goes before an earlier one.
     """
     return config_from_dict(_read_table(path, ()), path)
 
@@ -301,12 +302,16 @@ def _read_table(path: Path, extended_by: tuple[Path, ...]) -> dict[str, Any]:
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise InputError(f"{path}: is not TOML ({error})") from error
     _from_the_file(table, path)
-    parent = table.pop("extends", None)
-    if parent is None:
-        return table
-    if not isinstance(parent, str):
-        raise InputError(f"{path}: key 'extends' is {parent!r}, expected the name of a TOML file beside it")
-    return _merged(_read_table(path.parent / parent, (*extended_by, path)), table)
+    named = table.pop("extends", [])
+    parents = [named] if isinstance(named, str) else named
+    if not isinstance(parents, list) or not all(isinstance(parent, str) for parent in parents):
+        raise InputError(
+            f"{path}: key 'extends' is {named!r}, expected the name of a TOML file beside it, or a list of such names"
+        )
+    merged: dict[str, Any] = {}
+    for parent in parents:
+        merged = _merged(merged, _read_table(path.parent / parent, (*extended_by, path)))
+    return _merged(merged, table)
 
 
 def _from_the_file(table: dict[str, Any], path: Path) -> None:

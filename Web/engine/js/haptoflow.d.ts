@@ -6,7 +6,7 @@
  */
 
 /** The sketch plays without a network; "auto" measures this device and takes the most accurate quality that it keeps up with. */
-export type Quality = 'sketch' | 'draft' | 'standard' | 'fine' | 'auto';
+export type Quality = 'sketch' | 'draft' | 'standard' | 'auto';
 
 /** A label of the model or the name of an added material, or up to four of them with weights from 0 to 1. */
 export type Material = string | Record<string, number>;

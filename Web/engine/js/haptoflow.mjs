@@ -14,7 +14,7 @@ export { HaptoFlowError };
 /** @typedef {import('./haptoflow.d.ts').CreateOptions} CreateOptions */
 /** @typedef {import('./haptoflow.d.ts').Quality} Quality */
 
-const qualities = { auto: 0, draft: 1, standard: 2, fine: 3, sketch: 4 };
+const qualities = { auto: 0, draft: 1, standard: 2, sketch: 4 };
 const defaultRingFrames = 2048;
 const watchMs = 100;
 const pingEveryMs = 1000;

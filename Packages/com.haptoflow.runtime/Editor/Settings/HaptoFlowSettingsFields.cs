@@ -14,7 +14,7 @@ namespace HaptoFlow.Editor
         /// <summary>The words under which the search box of Project Settings finds the page.</summary>
         public static readonly string[] Keywords =
         {
-            "HaptoFlow", "haptic", "texture", "model", "quality", "sketch", "draft", "standard", "fine", "update rate",
+            "HaptoFlow", "haptic", "texture", "model", "quality", "sketch", "draft", "standard", "update rate",
             "display", "ceiling", "full scale", "material map", "rules",
         };
 

@@ -47,13 +47,13 @@ namespace HaptoFlow
         [SerializeField]
         private ForceDecision forceDecision = new ForceDecision();
 
-        [SerializeField, Tooltip("The wave plays on this output. When it is empty, it plays on the scene's output, " +
-            "or on one that play mode adds.")]
+        [SerializeField, Tooltip("The wave plays on this output. When it is empty, it plays on the device in the " +
+            "hand, on the scene's output, or on one that play mode adds.")]
         private HapticOutput? output;
 
-        [SerializeField, Tooltip("This hand holds the stylus. Outputs that vibrate in a hand need it, and in a scene " +
-            "without outputs the wave plays on the device in this hand. With None, it is the hand in which the tip " +
-            "force is measured. An XR Pen sets the field.")]
+        [SerializeField, Tooltip("This hand holds the stylus. Outputs that vibrate in a hand need it, and the wave " +
+            "plays on the device in this hand unless an output is named or has a channel of its own. With None, it is " +
+            "the hand in which the tip force is measured. An XR Pen sets the field.")]
         private HapticHand hand = HapticHand.None;
 
         [SerializeField, Range(0f, 1f), Tooltip("Strength is a gain from 0 to 1, multiplied with those of surface " +

@@ -17,8 +17,7 @@ namespace HaptoFlow
         private HapticModelAsset? model;
 
         [SerializeField, Tooltip("The quality chooses the tier of the model. Auto measures this machine and chooses " +
-            "the most accurate tier that fits the budget. Fine chooses the most accurate tier if the model has none " +
-            "of that name.")]
+            "the most accurate tier that fits the budget. Sketch plays without a network, for slow machines.")]
         private HapticQuality quality = HapticQuality.Auto;
 
         [SerializeField, Range(0.01f, 1f), Tooltip("With the quality Auto, inference may take this share of the time " +
@@ -54,7 +53,7 @@ namespace HaptoFlow
         public HapticModelAsset? Model { get => model; set => model = value; }
 
         /// <summary>Selects the tier.</summary>
-        public HapticQuality Quality { get => quality; set => quality = value; }
+        public HapticQuality Quality { get => quality.OrStandard(); set => quality = value; }
 
         /// <summary>With the quality Auto, share of the time between two contact states that inference may take, above
         /// 0 to 1.</summary>
@@ -122,5 +121,7 @@ namespace HaptoFlow
                 preloaded = this;
             }
         }
+
+        private void OnValidate() => quality = quality.OrStandard();
     }
 }

@@ -43,13 +43,13 @@ namespace HaptoFlow.SampleTests.Similarity
             Refused(settings, "method \"SPSI\"", "quality Auto");
         }
 
-        [Test]
-        public void TheSameTierUnderTwoNamesStopsTheStudy()
+        [TestCase(HapticQuality.Standard)]
+        [TestCase((HapticQuality)3, Description = "a settings asset of an earlier version")]
+        public void TheSameTierUnderTwoNamesStopsTheStudy(HapticQuality quality)
         {
             SimilarityStudySettings settings = Settings(1, 3);
-            // The package's model has no tier "fine"; its most accurate one is "standard".
             settings.Compare(settings.Materials, settings.Methods.Append(
-                new StudyMethod("Best", DefaultModel.Asset(), HapticQuality.Fine)));
+                new StudyMethod("Best", DefaultModel.Asset(), quality)));
             Refused(settings, "\"Ours\" and \"Best\" are the same tier \"standard\"");
         }
 

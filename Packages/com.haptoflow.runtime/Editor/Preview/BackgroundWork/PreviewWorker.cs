@@ -123,9 +123,8 @@ namespace HaptoFlow.Preview
             "sketch" => HapticQuality.Sketch,
             "draft" => HapticQuality.Draft,
             "standard" => HapticQuality.Standard,
-            "fine" => HapticQuality.Fine,
             _ => throw new HaptoFlowException(HaptoFlowStatus.InvalidArgument,
-                $"tier \"{tier}\" cannot be previewed; expected sketch, draft, standard or fine"),
+                $"tier \"{tier}\" cannot be previewed; expected sketch, draft or standard"),
         };
 
         /// <summary>True if the sounds of a request can be used for another one, as far as they do not depend on the

@@ -9,7 +9,7 @@ namespace HaptoFlow.Editor
     /// <summary>Labels and tiers of a model. Main thread.</summary>
     internal sealed class PreviewModel
     {
-        private static readonly string[] Playable = { "sketch", "draft", "standard", "fine" };
+        private static readonly string[] Playable = { "sketch", "draft", "standard" };
 
         private PreviewModel(byte[] file, ModelHeader? header, string? problem)
         {

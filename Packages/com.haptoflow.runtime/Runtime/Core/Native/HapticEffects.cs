@@ -10,7 +10,7 @@ namespace HaptoFlow
         /// <summary>No value was set: the texture alone.</summary>
         Unspecified = 0,
 
-        /// <summary>The texture that the network generates while the tip slides.</summary>
+        /// <summary>The vibration while the tip slides.</summary>
         Texture = 0x1,
 
         /// <summary>The impact of a landing: it grows with the approach speed and depends on the label.</summary>
@@ -26,7 +26,7 @@ namespace HaptoFlow
     /// <summary>The stages of a voice in the order of processing, except for the last three.</summary>
     public enum HapticEffect
     {
-        /// <summary>The texture that the network generates while the tip slides.</summary>
+        /// <summary>The vibration while the tip slides.</summary>
         Texture = 0,
 
         /// <summary>The impact of a landing.</summary>

@@ -19,12 +19,22 @@ namespace HaptoFlow
         /// <summary>The tier "standard"; where the model has none, its default tier.</summary>
         Standard = 2,
 
-        /// <summary>The tier "fine"; where the model has none, its most accurate.</summary>
-        Fine = 3,
+        // 3 was Fine, which assets of earlier versions may hold (HapticQualityExtensions).
 
         /// <summary>The tier "sketch", which plays without a network, for machines that are too slow for one; where the
         /// model has none, its first tier.</summary>
         Sketch = 4,
+    }
+
+    /// <summary>For fields in which assets keep a quality.</summary>
+    public static class HapticQualityExtensions
+    {
+        /// <summary>The quality itself; Standard in place of a number that is no quality, as an asset of an earlier
+        /// version may hold it. Any thread.</summary>
+        public static HapticQuality OrStandard(this HapticQuality quality) =>
+            quality is HapticQuality.Auto or HapticQuality.Draft or HapticQuality.Standard or HapticQuality.Sketch
+                ? quality
+                : HapticQuality.Standard;
     }
 
     /// <summary>Options of an engine. Zeros select the native library's defaults.</summary>

@@ -75,7 +75,7 @@ namespace HaptoFlow
         /// <summary>Index among the model's tiers.</summary>
         public int Index { get; }
 
-        /// <summary>Usually "sketch", "draft", "standard" or "fine".</summary>
+        /// <summary>Usually "sketch", "draft" or "standard".</summary>
         public string Name { get; }
 
         /// <summary>"flow", "average-velocity" or "direct".</summary>

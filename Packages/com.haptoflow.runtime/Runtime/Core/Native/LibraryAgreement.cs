@@ -4,8 +4,9 @@ using System.Collections.Generic;
 
 namespace HaptoFlow.Native
 {
-    /// <summary>Refuses a native library that belongs to another version of the package. A struct of another size would
-    /// be read or written beyond its end, or in the wrong place.</summary>
+    /// <summary>Refuses a native library that belongs to another version of the package. struct_size lets structs grow,
+    /// but does not say that functions, numbers of enums or meanings changed, and structs in arrays do not have it.
+    /// </summary>
     internal static unsafe class LibraryAgreement
     {
         /// <summary>The package's version, which the library has, too.</summary>
