@@ -89,6 +89,8 @@ void VoiceRenderer::readContact() noexcept {
     updatesBefore_ = updates_;
     if (channels_.toAudio.fetch()) {
         hasContact_ = true;
+        const std::uint64_t states = std::max<std::uint64_t>(1, contact().updates - updates_);
+        staleness_.noteState(static_cast<double>(contactAgeFrames_ / states) / voice_.outputRateHz());
         contactAgeFrames_ = 0;
         updates_ = contact().updates;
         isUnsketched_ = true;
@@ -139,7 +141,7 @@ std::size_t VoiceRenderer::framesUntilStale(std::size_t frames) const noexcept {
     if (!hasContact_) {
         return frames;
     }
-    const auto limit = static_cast<std::uint64_t>(staleSeconds * voice_.outputRateHz());
+    const auto limit = static_cast<std::uint64_t>(staleness_.seconds() * voice_.outputRateHz());
     return static_cast<std::size_t>(std::min<std::uint64_t>(frames, limit - std::min(limit, contactAgeFrames_)));
 }
 
@@ -238,7 +240,7 @@ void VoiceRenderer::takeBlows(std::size_t frames) noexcept {
     framesRendered_ = 0;
     const bool maySound = silence_ == Silence::none || silence_ == Silence::rest;
     const bool waitsForRate = silence_ == Silence::rate && channels_.isRateSupported.load(std::memory_order_relaxed);
-    if (waitedSeconds_ > staleSeconds || (!maySound && !waitsForRate)) {
+    if (waitedSeconds_ > staleness_.seconds() || (!maySound && !waitsForRate)) {
         // Blows that occurred long ago or during another silence are not played later.
         waiting_ = {};
     }
@@ -252,7 +254,7 @@ void VoiceRenderer::takeBlows(std::size_t frames) noexcept {
     }
     // After a device has stopped for a while, the blows of that time are not played all at once.
     const auto blockSamples = static_cast<double>(std::max(longestBlock_[0], longestBlock_[1]));
-    const double oldestSeconds = staleSeconds + 2.0 * blockSamples / inference::waveformRateHz;
+    const double oldestSeconds = staleness_.seconds() + 2.0 * blockSamples / inference::waveformRateHz;
     const double nowSeconds = channels_.isRealTime ? channels_.clock() : 0.0;
     for (const Blow& blow : blows) {
         const bool isTooOld = channels_.isRealTime && nowSeconds - blow.publishedSeconds > oldestSeconds;
@@ -292,7 +294,7 @@ void VoiceRenderer::schedule(const Blow& blow, std::size_t frames) noexcept {
     const std::uint64_t audible = framesUntilStale(frames);
     const auto place = states == 0 ? std::int64_t{0} : static_cast<std::int64_t>(before * audible / states);
     const auto apartFrames = static_cast<double>(place - lastPlace_);
-    const bool followsNone = lastPlace_ < 0 && apartFrames > staleSeconds * voice_.outputRateHz();
+    const bool followsNone = lastPlace_ < 0 && apartFrames > staleness_.seconds() * voice_.outputRateHz();
     advanceFrames_ = followsNone ? place : std::min(advanceFrames_, place);
     lastPlace_ = place;
     if (place == advanceFrames_) {

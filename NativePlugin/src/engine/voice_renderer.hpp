@@ -1,6 +1,7 @@
 #pragma once
 
 #include "engine/silence.hpp"
+#include "engine/staleness.hpp"
 #include "engine/voice.hpp"
 #include "engine/voice_channels.hpp"
 
@@ -21,8 +22,6 @@ namespace haptoflow::engine {
 /// beginning of each block. Within a block, it changes only if the contact becomes stale or a tap ends.
 class VoiceRenderer {
 public:
-    /// Time without a contact state after which the contact is stale.
-    static constexpr double staleSeconds = 0.1;
     /// Duration of a tap that began and ended between two states.
     static constexpr double tapSeconds = 0.01;
 
@@ -115,6 +114,7 @@ private:
     // A state came with this block and has not been sketched.
     bool isUnsketched_ = false;
     std::uint64_t contactAgeFrames_ = 0;
+    Staleness staleness_;
 
     std::uint32_t seenPanics_ = 0;
     std::uint64_t silencedTouch_ = 0;

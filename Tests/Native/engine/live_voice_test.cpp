@@ -163,6 +163,35 @@ TEST_F(LiveVoiceTest, AStaleContactFallsSilentAfter100MillisecondsAndResumesWith
     EXPECT_GT(testing::peak(from(device, again)), 0.5F / 60.0F);
 }
 
+TEST_F(LiveVoiceTest, StatesThatComeSeldomByDesignAreNotStale) {
+    for (const double period : {0.1, 0.15, 0.2}) {
+        testing::DeviceSettings settings;
+        settings.updateHz = 1.0 / period;
+        SimulatedDevice device(model_, tone_, settings);
+        // The period is known before the touch.
+        device.run(1.0, [](double) { return testing::lifted(); });
+        device.run(3.0, slide);
+        EXPECT_EQ(device.counters().staleStops, 0U) << period;
+        const std::size_t begin = device.output.size();
+        device.run(1.0, [](double) { return std::nullopt; });
+        EXPECT_EQ(device.counters().staleStops, 1U) << period;
+        const auto until = static_cast<std::size_t>(2.5 * period * rateHz) + 256 + 240;
+        EXPECT_LT(testing::peak(from(device, begin + until)), silence) << period;
+    }
+}
+
+TEST_F(LiveVoiceTest, ALongFrameDoesNotMakeStatesGoodForLonger) {
+    SimulatedDevice device(model_, tone_);
+    device.run(0.4, slide);
+    device.run(0.5, [](double) { return std::nullopt; });
+    device.run(0.1, slide);
+    device.publish(testing::sliding());
+    const std::size_t begin = device.output.size();
+    device.run(0.3, [](double) { return std::nullopt; });
+    EXPECT_EQ(device.counters().staleStops, 2U);
+    EXPECT_LT(testing::peak(from(device, begin + 4800 + 256 + 240)), silence);
+}
+
 TEST_F(LiveVoiceTest, PauseMuteAndAnEndedWorkerSilenceWithinABlockAndFiveMilliseconds) {
     const std::vector<std::function<void(SimulatedDevice&, bool)>> switches{
         [](SimulatedDevice& device, bool off) { device.controls().paused = off; },

@@ -664,7 +664,7 @@ TEST_F(ProcessorsTest, MutePausePanicMissingStatesAndCeilingActAfterTheDelay) {
         {"pause", [](SimulatedDevice& device) { device.controls().paused = true; }},
         {"ceiling", [](SimulatedDevice& device) { device.controls().ceiling = 0.0F; }},
         {"panic", [](SimulatedDevice& device) { device.voice().channels.panic(); }},
-        {"missing states", [](SimulatedDevice&) {}, false, VoiceRenderer::staleSeconds + 1.0 / 72.0},
+        {"missing states", [](SimulatedDevice&) {}, false, Staleness::minimumSeconds + 1.0 / 72.0},
     };
     for (const Stop& stop : stops) {
         SimulatedDevice device(model_, tone_);
