@@ -122,7 +122,7 @@ namespace HaptoFlow.ShimTests
         private static Vector3 Circle(double seconds) => new Vector3(
             0.05f * (float)Math.Cos(4.0 * seconds), 0.001f, 0.05f * (float)Math.Sin(4.0 * seconds));
 
-        private void Clear(params GameObject[] made)
+        private static void Clear(params GameObject[] made)
         {
             foreach (GameObject each in made)
             {
@@ -250,6 +250,280 @@ namespace HaptoFlow.ShimTests
                     Clear(pen.gameObject, ground.gameObject);
                 }
             }
+        }
+
+        [Test]
+        public void AShiftOfTheWorldIsOneTouchAtOneSpeed([Values] bool isMesh, [Values] bool withBody)
+        {
+            GameObject world = Make("World");
+            HapticSurface ground = isMesh
+                ? Tagged<MeshCollider>("wood", mesh => mesh.sharedMesh = TestMeshes.Box(1f))
+                : Tagged<BoxCollider>("wood");
+            ground.transform.SetParent(world.transform, false);
+            ground.transform.localPosition = new Vector3(0f, -0.5f, 0f);
+            if (withBody)
+            {
+                ground.gameObject.AddComponent<Rigidbody>().isKinematic = true;
+            }
+            HapticStylus pen = Pen(Circle, world);
+            var log = new List<string>();
+            World.Frames(40);
+            pen.TouchBegan += (HapticStylus _, in HapticContact _) => log.Add("began");
+            pen.TouchEnded += (HapticStylus _, in HapticContact _) => log.Add("ended");
+            for (int shift = 0; shift < 4; ++shift)
+            {
+                world.transform.position = new Vector3(700f * (shift % 2 == 0 ? 1f : -1f), 0f, 3000f * (shift / 2));
+                for (int frame = 0; frame < 17; ++frame)
+                {
+                    World.Frame();
+                    // At three kilometres positions are rounded to a quarter of a millimetre.
+                    Assert.That(pen.IsTouching, Is.True, $"shift {shift}, frame {frame}");
+                    Assert.That(pen.Contact.TangentialVelocity.magnitude, Is.EqualTo(0.2f).Within(0.03f), $"shift {shift}, frame {frame}");
+                }
+            }
+            Assert.That(log, Is.Empty);
+            Assert.That(pen.Contact.TouchCounter, Is.EqualTo(1U));
+        }
+
+        /// <summary>Rig and pen turn, jump or are recentred in one frame, while the pen draws on the desk.</summary>
+        [Test]
+        public void SnapTurnsAndTeleportsMakeNoSound(
+            [Values(72.0, 90.0, 120.0)] double framesPerSecond, [Values(15f, 45f, 90f, 180f, 0f)] float degrees)
+        {
+            FinishLoading();
+            SetFrameRate(framesPerSecond);
+            Ground(4f);
+            AudioTap tap = Output(out _);
+            GameObject rig = Make("Rig");
+            HapticStylus pen = Pen(seconds => new Vector3(0.4f, 0f, 0f) + Circle(seconds), rig);
+            World.Frames(90);
+            float before = tap.Peak();
+            tap.Restart();
+            for (int turn = 0; turn < 3; ++turn)
+            {
+                if (degrees > 0f)
+                {
+                    rig.transform.rotation = Quaternion.AngleAxis(degrees, Vector3.up) * rig.transform.rotation;
+                }
+                else
+                {
+                    rig.transform.position = new Vector3(0.4f * (turn + 1), 0f, -0.2f * turn);
+                }
+                for (int frame = 0; frame < 30; ++frame)
+                {
+                    World.Frame();
+                    Assert.That(pen.Contact.TangentialVelocity.magnitude, Is.LessThan(0.21f), $"turn {turn}, frame {frame}");
+                }
+                Assert.That(pen.Contact.TangentialVelocity.magnitude, Is.EqualTo(0.2f).Within(0.01f));
+            }
+            Assert.That(tap.Peak(), Is.GreaterThan(0.3f * before).And.LessThan(2f * before));
+            Assert.That(pen.ContactStatistics.Teleports, Is.EqualTo(3UL));
+        }
+
+        [Test]
+        public void WhatAppearsUnderARestingPenIsSilent([Values(0.0, 1.5, 20.0)] double mps,
+            [Values("switched on", "from a pool", "a second collider", "loaded")] string how)
+        {
+            FinishLoading();
+            AudioTap tap = Output(out _);
+            GameObject vehicle = Make("Vehicle");
+            HapticSurface board = Board();
+            board.transform.SetParent(vehicle.transform, false);
+            vehicle.AddComponent<Mover>().Path = now => new Vector3((float)(mps * now), 0f, 0f);
+            HapticStylus pen = Pen(_ => new Vector3(0.02f, 0.001f, 0.01f), vehicle);
+            var collider = board.GetComponent<BoxCollider>();
+            if (how == "a second collider" || how == "loaded")
+            {
+                collider.enabled = how != "loaded";
+                World.Frames(30);
+                GameObject second = how == "loaded" ? Tagged<BoxCollider>("stone").gameObject : board.gameObject;
+                second.transform.SetParent(vehicle.transform, false);
+                BoxCollider added = how == "loaded" ? second.GetComponent<BoxCollider>() : second.AddComponent<BoxCollider>();
+                added.size = new Vector3(0.4f, 0.02f, 0.4f);
+                added.center = new Vector3(0f, -0.0095f, 0f);
+            }
+            else if (how == "switched on")
+            {
+                collider.enabled = false;
+                World.Frames(30);
+                collider.enabled = true;
+            }
+            else
+            {
+                board.transform.localPosition = new Vector3(0f, -100f, 0f);
+                World.Frames(30);
+                board.transform.localPosition = Vector3.zero;
+            }
+            tap.Restart();
+            for (int frame = 0; frame < 40; ++frame)
+            {
+                World.Frame();
+                Assert.That(pen.Contact.TangentialVelocity.magnitude, Is.LessThan(StillMps), $"frame {frame}");
+                Assert.That(pen.Contact.ApproachSpeedMps, Is.LessThan(StillMps), $"frame {frame}");
+            }
+            Assert.That(pen.IsTouching, Is.True);
+            Assert.That(tap.Peak(), Is.LessThan(0.001f));
+        }
+
+        /// <summary>Slow motion and hitches beyond the largest step: the pen follows the world's clock on a platform of
+        /// physics.</summary>
+        [Test]
+        public void APenAtRestOnAPlatformIsAtRestInSlowMotionAndAfterHitches([Values] Carrier carrier)
+        {
+            HapticSurface ground = Ground(40f);
+            double late = Clock.FixedSeconds;
+            Carry(ground.gameObject, carrier, carrier == Carrier.Stepped || carrier == Carrier.Interpolated
+                ? now => new Vector3(0.2f * (float)(now + late), 0f, 0f)
+                : now => new Vector3(0.2f * (float)now, 0f, 0f));
+            if (ground.TryGetComponent(out Mover mover))
+            {
+                mover.Scaled = true;
+            }
+            HapticStylus pen = Pen(_ => Vector3.zero);
+            Mover hand = pen.GetComponent<Mover>();
+            hand.Scaled = true;
+            hand.Path = now => new Vector3(0.2f * (float)now, 0.001f, 0f);
+            World.Frames(60);
+            foreach (double scale in new[] { 1.0, 0.5, 0.1, 1.0, 2.0, 0.05, 1.0 })
+            {
+                Clock.Scale = scale;
+                World.Frames(40);
+                float most = 0f;
+                for (int frame = 0; frame < 60; ++frame)
+                {
+                    World.Frame(frame == 30 ? 0.21 : frame == 50 ? 0.9 : 1.0 / 90.0);
+                    most = Math.Max(most, pen.Contact.TangentialVelocity.magnitude);
+                }
+                // A hitch beyond the largest step sets the clocks apart; platform and pen lose the same time.
+                Assert.That(most, Is.LessThan(0.02f), $"time at {scale}");
+            }
+        }
+
+        [TestCase(0.1f)]
+        [TestCase(0.5f)]
+        [TestCase(3f)]
+        [TestCase(10f)]
+        public void UnderAScaledRigSpeedDepthAndForceAreTheHands(float scale)
+        {
+            Ground(40f);
+            GameObject rig = Make("Rig");
+            rig.transform.localScale = new Vector3(scale, scale, scale);
+            HapticStylus pen = Pen(Circle, rig);
+            World.Frames(90);
+            Assert.That(pen.IsTouching, Is.True);
+            Assert.That(pen.Contact.TangentialVelocity.magnitude, Is.EqualTo(0.2f).Within(0.004f));
+            Assert.That(pen.Contact.PenetrationMetres, Is.EqualTo(0.001f).Within(2e-5f));
+            Assert.That(pen.Contact.ForceNewtons, Is.GreaterThan(0.1f));
+            Assert.That(pen.Contact.Point.x, Is.EqualTo(scale * 0.05f * (float)Math.Cos(4.0 * Clock.UnscaledSeconds)).Within(1e-4f * scale));
+            // The rig grows in the hand of its user: no stroke.
+            float grown = 1.5f * scale;
+            rig.transform.localScale = new Vector3(grown, grown, grown);
+            for (int frame = 0; frame < 60; ++frame)
+            {
+                World.Frame();
+                Assert.That(pen.Contact.TangentialVelocity.magnitude, Is.LessThan(0.21f), $"frame {frame}");
+            }
+            Assert.That(pen.Contact.TangentialVelocity.magnitude, Is.EqualTo(0.2f).Within(0.004f));
+        }
+
+        [Test]
+        public void ThePensOwnScaleIsNoRig()
+        {
+            Ground(4f);
+            HapticStylus pen = Pen(Circle);
+            pen.transform.localScale = new Vector3(0.01f, 0.01f, 0.01f);
+            World.Frames(90);
+            Assert.That(pen.Contact.TangentialVelocity.magnitude, Is.EqualTo(0.2f).Within(0.004f));
+        }
+
+        /// <summary>Board and pen ride on a rig whose scale changes steadily.</summary>
+        [Test]
+        public void AWorldThatGrowsWithThePenIsNotFelt()
+        {
+            GameObject world = Make("World");
+            HapticSurface board = Board();
+            board.transform.SetParent(world.transform, false);
+            HapticStylus pen = Pen(_ => new Vector3(0.1f, 0.001f, 0.05f), world);
+            pen.Rig = Make("Rig").transform;
+            World.Frames(20);
+            for (int frame = 0; frame < 90; ++frame)
+            {
+                float size = 1f + 0.005f * frame;
+                world.transform.localScale = new Vector3(size, size, size);
+                World.Frame();
+                Assert.That(pen.Contact.TangentialVelocity.magnitude, Is.LessThan(StillMps), $"frame {frame}");
+            }
+        }
+
+        /// <summary>A random carrier, its turn and its steps, and a stroke that both worlds share: what is heard is what
+        /// is heard in a world at rest.</summary>
+        [Test]
+        public void RandomCarriersSoundLikeAWorldAtRest([NUnit.Framework.Range(0, 19)] int seed)
+        {
+            FinishLoading();
+            double[] rest = Play(seed, false);
+            EndScene();
+            BeginScene();
+            FinishLoading();
+            double[] carried = Play(seed, true);
+            Assert.That(20.0 * Math.Log10(carried[0] / rest[0]), Is.InRange(-3.0, 3.0), "level, dB");
+            Assert.That(20.0 * Math.Log10(carried[1] / rest[1]), Is.LessThan(6.0), "loudest sample, dB");
+        }
+
+        /// <returns>Root mean square and peak at the device.</returns>
+        private double[] Play(int seed, bool isCarried)
+        {
+            var random = new Random(seed);
+            double Number(double from, double to) => from + (to - from) * random.NextDouble();
+            SetFrameRate(new[] { 72.0, 90.0, 120.0 }[random.Next(3)]);
+            Clock.FixedStepSeconds = 1.0 / new[] { 50.0, 72.0, 90.0, 100.0, 120.0 }[random.Next(5)];
+            var carrier = (Carrier)random.Next(5);
+            double speed = Math.Pow(10.0, Number(-1.0, 2.4));
+            double turn = random.Next(2) == 0 ? 0.0 : Number(-1.5, 1.5);
+            double handMps = Number(0.05, 0.6);
+            double ticks = random.Next(3) == 0 ? Number(20.0, 60.0) : 0.0;
+            Output(out _);
+            GameObject vehicle = Make("Vehicle");
+            HapticSurface board = Board();
+            board.transform.SetParent(vehicle.transform, false);
+            if (isCarried)
+            {
+                double Stepped(double now) => ticks > 0.0 ? Math.Floor(now * ticks) / ticks : now;
+                Func<double, Vector3> drive = now => new Vector3(
+                    (float)(speed * Stepped(now)), 0.1f * (float)Math.Sin(3.0 * Stepped(now)), 0f);
+                if (turn != 0.0)
+                {
+                    Mover mover = vehicle.AddComponent<Mover>();
+                    mover.Path = drive;
+                    mover.Turn = now => Quaternion.AngleAxis((float)(57.3 * turn * Stepped(now)), Vector3.up);
+                }
+                else
+                {
+                    Carry(vehicle, carrier, drive);
+                }
+            }
+            Pen(now => new Vector3(0.05f * (float)Math.Cos(handMps / 0.05 * now), 0.001f,
+                0.05f * (float)Math.Sin(handMps / 0.05 * now)), vehicle);
+            World.Frames(20);
+            AudioDevice.Forget();
+            for (int frame = 0; frame < 150; ++frame)
+            {
+                if (isCarried && frame % 50 == 25)
+                {
+                    // Everything is shifted, as a floating origin does.
+                    vehicle.transform.position += new Vector3(-300f, 0f, 100f);
+                }
+                World.Frame();
+            }
+            double squares = 0.0;
+            double peak = 0.0;
+            for (int frame = 0; frame < AudioDevice.RecordedFrames; ++frame)
+            {
+                double sample = Math.Abs(AudioDevice.Sample(frame, 0));
+                squares += sample * sample;
+                peak = Math.Max(peak, sample);
+            }
+            return new[] { Math.Sqrt(squares), peak };
         }
 
         private static void AssertSpeed(HapticStylus pen, float speed, double fromSeconds, string what)

@@ -34,6 +34,8 @@ namespace UnityEngine
         }
 
         /// <summary>Correct unless a rotated child below a non-uniform scale is sheared.</summary>
+        public Transform root => above == null ? this : above.root;
+
         public Vector3 lossyScale => above == null ? localScale : Vector3.Scale(above.lossyScale, localScale);
 
         public void SetParent(Transform? parent, bool worldPositionStays)

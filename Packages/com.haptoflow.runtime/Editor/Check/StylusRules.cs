@@ -25,6 +25,16 @@ namespace HaptoFlow.Editor
                         $"{stylus.name} has no layer in its field Layers: it feels nothing.", new[] { stylus },
                         new Repair("Feel All Layers", () => FeelAllLayers(stylus)));
                 }
+                double scale = RigScale.Of(RigScale.RigOf(stylus));
+                if (scale != 1.0)
+                {
+                    Transform rig = RigScale.RigOf(stylus)!;
+                    yield return new Finding(MessageType.Info,
+                        $"{rig.name}, the rig of {stylus.name}, has the scale {scale:0.###}: a centimetre of the hand is " +
+                        $"{scale:0.###} cm of the world. Speed, depth, force and the tip's radius are the hand's; surfaces " +
+                        "and their features keep their size in the world. If the pen is drawn at another scale, but its " +
+                        "hand is not, choose its tracking space in the field Rig.", new Object[] { stylus, rig });
+                }
                 if (stylus.TipRadiusMetres > MaximumTipMetres)
                 {
                     yield return new Finding(MessageType.Warning,

@@ -4,7 +4,8 @@ using UnityEngine;
 namespace HaptoFlow
 {
     /// <summary>A touch of a stylus, in world space: metres, m/s, newtons. What a handler gets: Unity's types, and
-    /// surface and material, instead of the model's reading.</summary>
+    /// surface and material, instead of the model's reading. Speeds and depth are in metres of the hand, which differ
+    /// from the world's under a scaled rig.</summary>
     public readonly struct HapticContact
     {
         private readonly MappedCollider? byRules;

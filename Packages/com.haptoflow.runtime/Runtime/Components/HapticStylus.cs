@@ -25,8 +25,8 @@ namespace HaptoFlow
             "the tip.")]
         private Transform? tip;
 
-        [SerializeField, Min(0f), Tooltip("The tip sphere has this radius, in metres, and contact begins this far " +
-            "from a surface. A pen has 0.002.")]
+        [SerializeField, Min(0f), Tooltip("The tip sphere has this radius, in metres of the hand, and contact begins " +
+            "this far from a surface. A pen has 0.002.")]
         private float tipRadiusMetres = 0.002f;
 
         [SerializeField, Tooltip("The stylus feels colliders on these layers.")]
@@ -60,11 +60,17 @@ namespace HaptoFlow
             "and output.")]
         private float strength = 1f;
 
+        [SerializeField, Tooltip("The scale of this object says how many metres of the world a metre of the hand is, in " +
+            "a doll house or for a giant. When it is empty, it is the object that carries the main camera and the pen, " +
+            "or the root above the pen.")]
+        private Transform? rig;
+
         [SerializeField]
         private HapticStylusEvents events = new HapticStylusEvents();
 
         private TipContacts? contacts;
         private StylusVoices? voices;
+        private RigScale? rigScale;
         private bool isActive;
         private bool touching;
         private bool hasSaidHand;
@@ -88,7 +94,7 @@ namespace HaptoFlow
         /// <summary>Transform at the centre of the tip; null for this object.</summary>
         public Transform? Tip { get => tip; set => tip = value; }
 
-        /// <summary>Radius of the tip sphere, in metres, 0 or more.</summary>
+        /// <summary>Radius of the tip sphere, in metres of the hand, 0 or more.</summary>
         public float TipRadiusMetres
         {
             get => tipRadiusMetres;
@@ -134,6 +140,10 @@ namespace HaptoFlow
 
         /// <summary>Gain, 0 to 1, multiplied with the surface's and the output's.</summary>
         public float Strength { get => strength; set => strength = Mathf.Clamp01(value); }
+
+        /// <summary>The object whose scale is that of the hand's metre; null to find it, as the tooltip says. Velocity,
+        /// depth and force are the hand's; surfaces and their features keep their size in the world.</summary>
+        public Transform? Rig { get => rig; set => rig = value; }
 
         /// <summary>True while the tip touches a surface.</summary>
         public bool IsTouching => touching;
@@ -252,7 +262,9 @@ namespace HaptoFlow
             HapticSession session = HapticSession.Current;
             session.Poll();
             MaterialMaps.Poll();
-            contacts!.Tracker.Force = touchBy == TouchDecision.MeasuredForce ? forceDecision.Detector() : null;
+            rigScale ??= new RigScale(this);
+            contacts!.Scale = rigScale.Update(!touching);
+            contacts.Tracker.Force = touchBy == TouchDecision.MeasuredForce ? forceDecision.Detector() : null;
             ContactReading reading;
             using (Markers.Contact.Auto())
             {
@@ -267,14 +279,14 @@ namespace HaptoFlow
             using (Markers.Publish.Auto())
             {
                 // After the handlers, which may have changed the surface's material.
-                Voices.Publish(reading, contacts.Touched?.Feel(session) ?? default, session);
+                Voices.Publish(reading, contacts.Touched?.Feel(session).On(contacts.Scale) ?? default, session);
             }
         }
 
         private TipSample SampleAt(double nowSeconds)
         {
             double? measured = TryReadForce(out float newtons) ? newtons : (double?)null;
-            return new TipSample(nowSeconds, TipPosition.ToDouble(), measured);
+            return new TipSample(nowSeconds, TipPosition.ToDouble() / contacts!.Scale, measured);
         }
 
         private bool TryReadForce(out float newtons)

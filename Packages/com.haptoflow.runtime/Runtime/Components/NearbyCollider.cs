@@ -27,9 +27,20 @@ namespace HaptoFlow
         /// <summary>Number of the last update in which a search found the collider.</summary>
         public long LastFound { get; set; }
 
-        /// <summary>True for a mesh without a body that has moved lately.</summary>
-        public bool IsMovedMesh =>
-            Collider is MeshCollider && Tracked.Track.Moves && Collider != null && Collider.attachedRigidbody == null;
+        /// <summary>True for a mesh that is drawn elsewhere than in the last update and is not interpolated: physics may
+        /// not know yet.</summary>
+        /// <param name="scale">Metres of the world for a metre of the hand.</param>
+        public bool IsMovedMesh(double scale)
+        {
+            if (!(Collider is MeshCollider mesh) || mesh == null || Tracked.Track.Count == 0)
+            {
+                return false;
+            }
+            Rigidbody body = mesh.attachedRigidbody!;
+            bool isDrawnByPhysics = body != null && body.interpolation != RigidbodyInterpolation.None;
+            return !isDrawnByPhysics &&
+                !RigScale.ToHand(ColliderProbe.PoseOf(mesh), scale).Equals(Tracked.Track.Newest);
+        }
 
         /// <param name="surface">Null for a collider whose material rules assign.</param>
         public void Begin(Collider collider, HapticSurface? surface, MappedCollider? byRules)

@@ -1,5 +1,6 @@
 #nullable enable
 using HaptoFlow.Contact;
+using HaptoFlow.Numerics;
 using UnityEngine;
 
 namespace HaptoFlow
@@ -10,6 +11,7 @@ namespace HaptoFlow
     {
         private readonly HapticStylus stylus;
         private readonly MotionGate motion = new MotionGate();
+        private ContactBody? movedOn;
         private HapticVoice? voice;
         private HapticEngine? engine;
         private HapticEngine? refusedBy;
@@ -83,7 +85,7 @@ namespace HaptoFlow
                 state.Variation = felt.Variation;
                 SetStrength(felt.Strength * stylus.Strength * output!.Strength);
             }
-            bool moves = motion.Update(reading.TimeSeconds, reading.State.Touching, reading.PointMetres);
+            bool moves = Moves(reading);
             if (output!.PlaysSignal)
             {
                 state.FirstVelocityMps = moves ? (float)motion.SpeedMps : 0f;
@@ -104,6 +106,19 @@ namespace HaptoFlow
             voice = null;
             engine = null;
             output = null;
+        }
+
+        /// <summary>Whether the tip moves over what it touches, in its frame.</summary>
+        private bool Moves(in ContactReading reading)
+        {
+            PlaceVector place = reading.State.PlaceMetres;
+            var point = new Double3(place.X, place.Y, place.Z);
+            if (!ReferenceEquals(movedOn, reading.Surface))
+            {
+                movedOn = reading.Surface;
+                motion.Continue(reading.TimeSeconds, point);
+            }
+            return motion.Update(reading.TimeSeconds, reading.State.Touching, point);
         }
 
         private void SetStrength(float wanted)

@@ -33,6 +33,7 @@ namespace HaptoFlow
         private bool hasTooMany;
         private bool hasWarned;
         private long update;
+        private double scale = 1.0;
 
         /// <param name="stylus">The stylus, whose own colliders the rules must not match.</param>
         public TipContacts(ContactSettings settings, double tipRadiusMetres, Transform stylus)
@@ -50,6 +51,25 @@ namespace HaptoFlow
         /// <summary>The collider that <see cref="Update"/> found touched; null without a touch.</summary>
         public NearbyCollider? Touched { get; private set; }
 
+        /// <summary>Metres of the world for a metre of the hand. The tracker and its readings are in metres of the
+        /// hand, the reading's point excepted.</summary>
+        public double Scale
+        {
+            get => scale;
+            set
+            {
+                if (scale != value)
+                {
+                    scale = value;
+                    Tracker.ForgetPath();
+                }
+            }
+        }
+
+        // In the world.
+        private Double3 TipInWorld => scale * Tracker.TipMetres;
+
+        /// <param name="sample">The tip in metres of the hand.</param>
         /// <param name="secondsSinceStep">Time since the last physics step, on the sample's clock; not a number where
         /// none runs.</param>
         public ContactReading Update(
@@ -58,12 +78,13 @@ namespace HaptoFlow
             ++update;
             if (Tracker.BeginFrame(sample))
             {
-                search.BeginFrame(Tracker.TipMetres, Tracker.NowSeconds);
+                search.BeginFrame(TipInWorld, Tracker.NowSeconds);
                 Consider(secondsSinceStep, layers, session, context);
-                previousTipMetres = Tracker.TipMetres;
+                previousTipMetres = TipInWorld;
                 hasPreviousTip = true;
             }
             ContactReading reading = Tracker.EndFrame();
+            reading.PointMetres = scale * reading.PointMetres;
             Touched = Find(reading.Surface);
             ReleaseDistant();
             return reading;
@@ -90,10 +111,14 @@ namespace HaptoFlow
                 return false;
             }
             using FrontFacesOnly fronts = FrontFacesOnly.Begin();
+            Double3 tip = scale * tipMetres;
             var question = new ProbeQuestion(
-                tipMetres, Tracker.TipRadiusMetres + ContactTransitions.SlideOffReachMetres,
-                Tracker.PreviousLocalNormal(surface), tipMetres, Tracker.Settings.SwitchMarginMetres);
-            return ColliderProbe.TryClosest(place.Collider, ColliderProbe.PoseOf(place.Collider), question, out found);
+                tip, scale * (Tracker.TipRadiusMetres + ContactTransitions.SlideOffReachMetres),
+                Tracker.PreviousLocalNormal(surface), tip, scale * Tracker.Settings.SwitchMarginMetres);
+            bool isNear = ColliderProbe.TryClosest(
+                place.Collider, ColliderProbe.PoseOf(place.Collider), question, out found);
+            found = RigScale.ToHand(found, scale);
+            return isNear;
         }
 
         private void Consider(double secondsSinceStep, int layers, HapticSession session, Object context)
@@ -103,10 +128,11 @@ namespace HaptoFlow
             if (hasTooMany)
             {
                 // Colliders that the tip may touch take precedence over those that are only tracked.
-                ConsiderWithin(Tracker.ReachMetres + TouchableWithinMetres, secondsSinceStep, layers, session, true);
+                ConsiderWithin(
+                    scale * (Tracker.ReachMetres + TouchableWithinMetres), secondsSinceStep, layers, session, true);
             }
-            double trackedMetres =
-                Tracker.ReachMetres + TrackedWithinMetres + System.Math.Min(search.WayMetres, TrackedAheadMetres);
+            double trackedMetres = scale * (Tracker.ReachMetres + TrackedWithinMetres) +
+                System.Math.Min(search.WayMetres, scale * TrackedAheadMetres);
             bool hasAll = ConsiderWithin(trackedMetres, secondsSinceStep, layers, session, false);
             ConsiderKept(trackedMetres, secondsSinceStep, layers, session);
             hasTooMany = !hasAll;
@@ -125,7 +151,7 @@ namespace HaptoFlow
             for (int number = 0; number < search.Searches; ++number)
             {
                 // A scene may have been loaded with a physics world of its own, of which Physics knows nothing.
-                search.Find(stylus.gameObject.scene.GetPhysicsScene(), Tracker.TipMetres, metres, layers, number);
+                search.Find(stylus.gameObject.scene.GetPhysicsScene(), TipInWorld, metres, layers, number);
                 hasAll &= !search.IsFull;
                 for (int index = 0; index < search.Count; ++index)
                 {
@@ -180,7 +206,7 @@ namespace HaptoFlow
         }
 
         private bool IsDrawnWithin(Collider collider, double metres) =>
-            ColliderProbe.DistanceBoundMetres(collider, Tracker.TipMetres) <= metres;
+            ColliderProbe.DistanceBoundMetres(collider, TipInWorld) <= metres;
 
         /// <summary>True for a collider that the search could find: it may have been destroyed, switched off, or moved to
         /// another layer.</summary>
@@ -189,13 +215,13 @@ namespace HaptoFlow
             (layers & (1 << collider.gameObject.layer)) != 0 &&
             collider.gameObject.scene.GetPhysicsScene().Equals(stylus.gameObject.scene.GetPhysicsScene());
 
-        /// <summary>Rays hit a mesh without a body where physics holds it; of one that a script moves, that is its pose of
-        /// the last step.</summary>
+        /// <summary>Rays hit a mesh where physics holds it; of one that a script moves, that is its pose of the last
+        /// step.</summary>
         private void SyncMovedMeshes()
         {
             foreach (NearbyCollider each in near)
             {
-                if (each.IsMovedMesh)
+                if (each.IsMovedMesh(scale))
                 {
                     Physics.SyncTransforms();
                     return;
@@ -207,15 +233,16 @@ namespace HaptoFlow
         {
             place.LastUpdate = update;
             RigidPose pose = ColliderProbe.PoseOf(collider);
-            place.Record(Tracker.NowSeconds, secondsSinceStep, pose);
+            RigidPose inHand = RigScale.ToHand(pose, scale);
+            place.Record(Tracker.NowSeconds, secondsSinceStep, inHand);
             var question = new ProbeQuestion(
-                Tracker.TipMetres, Tracker.ReachMetresOf(place.Tracked), Tracker.PreviousLocalNormal(place.Tracked),
-                hasPreviousTip ? previousTipMetres : Tracker.TipMetres, Tracker.Settings.SwitchMarginMetres);
+                TipInWorld, scale * Tracker.ReachMetresOf(place.Tracked), Tracker.PreviousLocalNormal(place.Tracked),
+                hasPreviousTip ? previousTipMetres : TipInWorld, scale * Tracker.Settings.SwitchMarginMetres);
             if (ColliderProbe.TryClosest(collider, pose, question, out SurfacePoint local, out RaycastHit? hit))
             {
                 place.Place = new TouchedPlace(collider, local.PointMetres, hit);
                 place.Tracked.StiffnessNewtonsPerMetre = place.Feel(session).StiffnessNewtonsPerMetre;
-                Tracker.Consider(new ContactCandidate(place.Tracked, pose, local));
+                Tracker.Consider(new ContactCandidate(place.Tracked, inHand, RigScale.ToHand(local, scale)));
             }
         }
 

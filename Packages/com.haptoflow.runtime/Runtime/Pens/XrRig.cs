@@ -125,7 +125,8 @@ namespace HaptoFlow
             float wantedYaw = YawDegrees(camera.transform.rotation);
             float headYaw = YawDegrees(rotation!.ReadValue<Quaternion>());
             transform.rotation = Quaternion.AngleAxis(wantedYaw - headYaw, Vector3.up);
-            transform.position = camera.transform.position - transform.rotation * position!.ReadValue<Vector3>();
+            transform.position = camera.transform.position -
+                transform.rotation * Vector3.Scale(transform.lossyScale, position!.ReadValue<Vector3>());
             camera.transform.SetParent(transform, false);
             var driver = camera.gameObject.AddComponent<TrackedPoseDriver>();
 #if HAPTOFLOW_INPUT_SYSTEM_1_1

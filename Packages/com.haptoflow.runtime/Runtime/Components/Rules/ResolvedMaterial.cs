@@ -1,10 +1,15 @@
 #nullable enable
+using HaptoFlow.Numerics;
 
 namespace HaptoFlow
 {
     /// <summary>The material at one place: the part of a contact state that describes it.</summary>
     internal struct ResolvedMaterial
     {
+        // The engine's own limits: contact_state.hpp.
+        private const double SmallestFeatureScale = 0.25;
+        private const double LargestFeatureScale = 4.0;
+
         /// <summary>None where the place has no material.</summary>
         public LabelBlend Labels;
 
@@ -28,6 +33,18 @@ namespace HaptoFlow
 
         /// <summary>The submesh or terrain layer with the largest weight.</summary>
         public int Part;
+
+        /// <summary>The material under a hand whose metre is another than the world's: its features keep their size in
+        /// the world, as far as the engine can scale them.</summary>
+        /// <param name="scale">Metres of the world for a metre of the hand.</param>
+        public ResolvedMaterial On(double scale)
+        {
+            ResolvedMaterial material = this;
+            material.FeatureScale = scale == 1.0
+                ? FeatureScale
+                : (float)Vectors.Clamp(FeatureScale / scale, SmallestFeatureScale, LargestFeatureScale);
+            return material;
+        }
 
         /// <summary>A single material.</summary>
         public static ResolvedMaterial Of(MaterialDescription description, MaterialLookUp lookUp) => new ResolvedMaterial

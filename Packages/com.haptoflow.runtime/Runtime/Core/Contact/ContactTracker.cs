@@ -231,6 +231,15 @@ namespace HaptoFlow.Contact
             verdict = ForceVerdict.Unknown;
         }
 
+        /// <summary>Discards the tip's path: the metre has changed. The touch goes on.</summary>
+        public void ForgetPath()
+        {
+            history.Clear();
+            path.Drop();
+            ForgetContinuity();
+            transitions.Forget();
+        }
+
         /// <summary>Removes a surface that was destroyed, disabled, or whose entry is reused.</summary>
         public void Release(ContactBody surface)
         {

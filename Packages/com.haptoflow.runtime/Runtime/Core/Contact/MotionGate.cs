@@ -3,7 +3,7 @@ using HaptoFlow.Numerics;
 
 namespace HaptoFlow.Contact
 {
-    /// <summary>Detects from frame to frame whether a tip moves over a surface at rest, for signals that start and stop
+    /// <summary>Detects from frame to frame whether a tip moves over a surface, for signals that start and stop
     /// with the motion: by the last two measurements alone, whatever came before.</summary>
     /// <remarks>Two thresholds keep a tracker's noise and a hand's tremor (some 10 mm/s) from switching a signal at
     /// rest. The difference of two frames lags by half a frame, which is counted as part of the pose
@@ -32,7 +32,8 @@ namespace HaptoFlow.Contact
         public double SpeedMps { get; private set; }
 
         /// <summary>Processes one frame.</summary>
-        /// <param name="pointMetres">Contact point in world space.</param>
+        /// <param name="pointMetres">Contact point, in the surface's frame or, over a surface at rest, in the
+        /// world.</param>
         /// <returns><see cref="Moves"/>.</returns>
         public bool Update(double nowSeconds, bool touching, in Double3 pointMetres)
         {
@@ -59,6 +60,9 @@ namespace HaptoFlow.Contact
             }
             return Moves;
         }
+
+        /// <summary>The tip has slid to another surface, where its point has other coordinates.</summary>
+        public void Continue(double nowSeconds, in Double3 pointMetres) => Measure(nowSeconds, pointMetres);
 
         private void Measure(double nowSeconds, in Double3 pointMetres)
         {

@@ -13,8 +13,9 @@ namespace HaptoFlow.Contact
     /// nothing is known yet, and the step is spread over the time before.</remarks>
     internal sealed class SteppedPoses
     {
-        // Motion is judged over this time.
+        // Motion is judged over this time, and over so many frames at least: a hitch may be longer.
         private const double WindowSeconds = 0.3;
+        private const int WindowFrames = 6;
 
         // Another explanation than the frames must halve the changes of speed.
         private const double Better = 0.25;
@@ -60,11 +61,12 @@ namespace HaptoFlow.Contact
             track = history;
             chosen = frames;
             frames.Clear();
-            double newest = track.SecondsAt(track.Count - 1);
+            double since = Math.Min(track.SecondsAt(track.Count - 1) - WindowSeconds,
+                track.SecondsAt(Math.Max(0, track.Count - WindowFrames)));
             for (int index = 0; index < track.Count; ++index)
             {
                 points[index] = track.PoseAt(index).PointToWorld(localPoint);
-                if (track.SecondsAt(index) >= newest - WindowSeconds)
+                if (track.SecondsAt(index) >= since)
                 {
                     frames.Add(track.SecondsAt(index), index);
                 }
@@ -81,7 +83,7 @@ namespace HaptoFlow.Contact
                 chosen = regular;
             }
             // The clock of physics is exact where it applies: among two good explanations it is the better one.
-            if (FindPhysicsSteps(newest - WindowSeconds) && Roughness(physics) < Math.Max(least, LeastMps * LeastMps))
+            if (FindPhysicsSteps(since) && Roughness(physics) < Math.Max(least, LeastMps * LeastMps))
             {
                 chosen = physics;
             }
@@ -116,18 +118,18 @@ namespace HaptoFlow.Contact
             for (int index = 0; index < track.Count; ++index)
             {
                 double now = track.SecondsAt(index);
-                double since = track.SinceStepSecondsAt(index);
+                double age = track.SinceStepSecondsAt(index);
                 if (now < sinceSeconds)
                 {
                     continue;
                 }
                 // The first pose is that of the step before it.
-                bool isFirst = physics.Count == 0 && !double.IsNaN(since);
-                bool hasStepped = isFirst || (now - since > physics.LastSeconds + ClockSlackSeconds &&
-                    since < now - track.SecondsAt(index - 1) + ClockSlackSeconds);
+                bool isFirst = physics.Count == 0 && !double.IsNaN(age);
+                bool hasStepped = isFirst || (now - age > physics.LastSeconds + ClockSlackSeconds &&
+                    age < now - track.SecondsAt(index - 1) + ClockSlackSeconds);
                 if (hasStepped)
                 {
-                    physics.Add(now - since, index);
+                    physics.Add(now - age, index);
                 }
                 bool hasChanged = !isFirst && index > 0 && HasChanged(index);
                 changed += hasChanged ? 1 : 0;

@@ -17,6 +17,9 @@ namespace HaptoFlow.Contact
         // Steps must halve the changes of velocity.
         private const double Better = 0.25;
 
+        // Fewer frames tell nothing: after a hitch what was found before it stands.
+        private const int LeastFrames = 4;
+
         private const double RestMetres = 1e-4;
         private const double RestTurn = 1e-4;
 
@@ -89,6 +92,7 @@ namespace HaptoFlow.Contact
         public void Follow(ContactBody surface)
         {
             ContactBody? before = Surface != null && IsAtRestOn(surface, Surface) ? Surface : null;
+            isStepped = isStepped && ReferenceEquals(surface, Surface);
             Surface = surface;
             isInWorld = surface.Track.Count == 0;
             drawn.Clear();
@@ -206,30 +210,33 @@ namespace HaptoFlow.Contact
                     steppedMotion.Add(seconds, steps.PoseAt(seconds).PointToLocal(tip));
                 }
             }
-            return steppedMotion.Squares < Better * drawnMotion.Squares;
+            return drawnMotion.Count < LeastFrames && isStepped
+                ? true
+                : steppedMotion.Squares < Better * drawnMotion.Squares;
         }
 
         /// <summary>The sum of the squares of the changes of velocity.</summary>
         private struct Roughness
         {
-            private int count;
             private double seconds;
             private Double3 place;
             private Double3 velocity;
+
+            public int Count { get; private set; }
 
             public double Squares { get; private set; }
 
             public void Add(double timeSeconds, Double3 placeMetres)
             {
-                if (count > 0)
+                if (Count > 0)
                 {
                     Double3 now = (placeMetres - place) / (timeSeconds - seconds);
-                    Squares += count > 1 ? Double3.Dot(now - velocity, now - velocity) : 0.0;
+                    Squares += Count > 1 ? Double3.Dot(now - velocity, now - velocity) : 0.0;
                     velocity = now;
                 }
                 seconds = timeSeconds;
                 place = placeMetres;
-                ++count;
+                ++Count;
             }
         }
     }
