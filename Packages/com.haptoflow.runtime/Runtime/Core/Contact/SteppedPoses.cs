@@ -13,9 +13,10 @@ namespace HaptoFlow.Contact
     /// nothing is known yet, and the step is spread over the time before.</remarks>
     internal sealed class SteppedPoses
     {
-        // Motion is judged over this time, and over so many frames at least: a hitch may be longer.
+        // Motion is judged over this time, and over so many frames and changes at least: a hitch may be longer.
         private const double WindowSeconds = 0.3;
         private const int WindowFrames = 6;
+        private const int WindowChanges = 3;
 
         // Another explanation than the frames must halve the changes of speed.
         private const double Better = 0.25;
@@ -61,8 +62,7 @@ namespace HaptoFlow.Contact
             track = history;
             chosen = frames;
             frames.Clear();
-            double since = Math.Min(track.SecondsAt(track.Count - 1) - WindowSeconds,
-                track.SecondsAt(Math.Max(0, track.Count - WindowFrames)));
+            double since = track.SecondsAt(WindowStart());
             for (int index = 0; index < track.Count; ++index)
             {
                 points[index] = track.PoseAt(index).PointToWorld(localPoint);
@@ -108,6 +108,23 @@ namespace HaptoFlow.Contact
             double share = (timeSeconds - from) / (chosen.Seconds(right) - from);
             return RigidPose.Between(track.PoseAt(chosen.Frame(right - 1)), track.PoseAt(chosen.Frame(right)),
                 Math.Min(share, 1.0 + MaximumStepsAhead));
+        }
+
+        /// <summary>The first frame of the window: in slow motion few of them show a step.</summary>
+        private int WindowStart()
+        {
+            double newest = track.SecondsAt(track.Count - 1);
+            int start = track.Count - 1;
+            for (int changed = 0; start > 0; --start)
+            {
+                bool isLong = track.SecondsAt(start) <= newest - WindowSeconds && track.Count - start >= WindowFrames;
+                if (isLong && changed >= WindowChanges)
+                {
+                    break;
+                }
+                changed += HasChanged(start) ? 1 : 0;
+            }
+            return start;
         }
 
         /// <summary>False where a pose changed in a frame without a physics step.</summary>
