@@ -128,7 +128,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void ThePresenceOfASecondStylusDoesNotChangeTheFirstsSoundAndTheSumIsNotClipped()
+        public void TwoStylusesOnOneOutputAreLimitedAsASumAndNotClipped()
         {
             HaptoFlowSettings.Active.FullScaleMps2 = 1f;
             Sounding(out _, out _);
@@ -137,7 +137,8 @@ namespace HaptoFlow.ShimTests
             World.Frames(60);
             AudioDevice.Forget();
             World.Frames(60);
-            int clipped = Enumerable.Range(0, AudioDevice.RecordedFrames).Count(frame => Math.Abs(AudioDevice.Sample(frame, 0)) >= 1f);
+            int clipped = Enumerable.Range(0, AudioDevice.RecordedFrames)
+                .Count(frame => Math.Abs(AudioDevice.Sample(frame, 0)) >= 1f);
             Assert.That((alone > 0.8f, clipped), Is.EqualTo((true, 0)));
         }
 
@@ -175,15 +176,16 @@ namespace HaptoFlow.ShimTests
             float[] heard = device.End();
             stalls.Sort();
             double p99 = stalls[(int)Math.Ceiling(0.99 * rounds) - 1];
-            TestContext.Progress.WriteLine(
-                FormattableString.Invariant($"main thread at a disable: median {stalls[rounds / 2]:0.000} ms, p99 {p99:0.000} ms"));
+            TestContext.Progress.WriteLine(FormattableString.Invariant(
+                $"main thread at a disable: median {stalls[rounds / 2]:0.000} ms, p99 {p99:0.000} ms"));
             Assert.That(p99, Is.LessThan(1.0), "ms");
             // A hard cut leaves zeros after any sample; the fade arrives at them.
             int ends = 0;
             float worst = 0f;
             for (int frame = 1; frame < heard.Length - FadeFrames; ++frame)
             {
-                if (heard[frame] == 0f && heard[frame - 1] != 0f && heard.Skip(frame).Take(64).All(sample => sample == 0f))
+                if (heard[frame] == 0f && heard[frame - 1] != 0f &&
+                    heard.AsSpan(frame, 64).SequenceEqual(new float[64]))
                 {
                     ++ends;
                     worst = Math.Max(worst, Math.Abs(heard[frame - 1]));

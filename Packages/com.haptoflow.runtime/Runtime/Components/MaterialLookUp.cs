@@ -3,8 +3,9 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>Resolves a description to labels of the running engine, again only after the description or the model's
-    /// labels changed, and to none once its asset was unloaded. Main thread; no garbage while nothing changes.</summary>
+    /// <summary>Resolves a description to labels of the running engine, again only after the description or the
+    /// model's labels changed, and to none once its asset was unloaded. Main thread; no garbage while nothing
+    /// changes.</summary>
     internal sealed class MaterialLookUp
     {
         private MaterialDescription? knownDescription;

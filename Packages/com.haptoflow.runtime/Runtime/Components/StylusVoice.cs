@@ -5,8 +5,8 @@ using UnityEngine;
 namespace HaptoFlow
 {
     /// <summary>The voice of one stylus on one output: opens it when engine and output are available, reopens it when
-    /// either changes, and publishes contact states to it. The voice that it leaves fades on its output. Main thread, no
-    /// garbage while nothing changes.</summary>
+    /// either changes, and publishes contact states to it. The voice that it leaves fades on its output. Main thread,
+    /// no garbage while nothing changes.</summary>
     internal sealed class StylusVoice
     {
         private const double RetrySeconds = 0.5;
@@ -141,8 +141,8 @@ namespace HaptoFlow
             return true;
         }
 
-        /// <summary>False where the same was refused a moment ago. What kept it from being served may pass: another voice
-        /// ends, a device returns.</summary>
+        /// <summary>False where the same was refused a moment ago. What kept it from being served may pass: another
+        /// voice ends, a device returns.</summary>
         private bool MayOpen(HapticEngine asked, IVoiceTarget wanted) =>
             refusal == null || Time.unscaledTimeAsDouble >= retrySeconds ||
             refused != (asked, wanted, wanted.SampleRateHz);
@@ -157,7 +157,8 @@ namespace HaptoFlow
             {
                 if (refusal != refusing.Message)
                 {
-                    Debug.LogError($"HaptoFlow: {stylus.PenName} gets no voice, and asks again: {refusing.Message}", stylus);
+                    Debug.LogError(
+                        $"HaptoFlow: {stylus.PenName} gets no voice, and asks again: {refusing.Message}", stylus);
                 }
                 refusal = refusing.Message;
                 refused = (session.Engine, wanted, wanted.SampleRateHz);
@@ -183,8 +184,8 @@ namespace HaptoFlow
             if (!ReferenceEquals(leftOutput, output))
             {
                 leftOutput = output;
-                Debug.Log($"HaptoFlow: {stylus.PenName} lost {NameOf(output)} during a touch: its sound fades there, and " +
-                    (wanted == null ? "it is silent until it has an output again." : $"goes on on {NameOf(wanted)}."),
+                Debug.Log($"HaptoFlow: {stylus.PenName} lost {NameOf(output)} during a touch: its sound fades there, " +
+                    "and " + (wanted == null ? "it is silent until it has an output again." : $"goes on on {NameOf(wanted)}."),
                     stylus);
             }
         }

@@ -69,8 +69,8 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>Writes the sum of voices as <see cref="Render"/> writes one, limited as a whole. Sets the number of a
-        /// voice to 0 that is closed and has faded. For the audio callback.</summary>
+        /// <summary>Writes the sum of voices as <see cref="Render"/> writes one, limited as a whole. Sets the number of
+        /// a voice to 0 that is closed and has faded. For the audio callback.</summary>
         internal static void RenderSum(
             ulong[] ids, Span<float> interleaved, int channelCount, int channel, double sampleRateHz)
         {
