@@ -185,8 +185,9 @@ namespace HaptoFlow
             {
                 leftOutput = output;
                 Debug.Log($"HaptoFlow: {stylus.PenName} lost {NameOf(output)} during a touch: its sound fades there, " +
-                    "and " + (wanted == null ? "it is silent until it has an output again." : $"goes on on {NameOf(wanted)}."),
-                    stylus);
+                    "and " + (wanted == null
+                        ? "it is silent until it has an output again."
+                        : $"goes on on {NameOf(wanted)}."), stylus);
             }
         }
 
