@@ -106,6 +106,25 @@ for (const isolated of [true, false]) {
       assert.equal(found.voices, 1);
     });
 
+    test('a voice that is closed while it sounds is heard to the end of its fade', async () => {
+      const found = await inPage(async () => {
+        const { started, hand, slide } = globalThis.tools;
+        const { haptics, voice } = await started({ quality: 'sketch' });
+        const tap = voice.waveTap();
+        await hand(voice, 0.6, slide('wood'));
+        await voice.close();
+        const wave = new Float32Array(24000);
+        tap.latest(wave);
+        const last = wave.findLastIndex((sample) => sample !== 0);
+        const peak = (samples) => samples.reduce((most, sample) => Math.max(most, Math.abs(sample)), 0);
+        const result = { silent: wave.length - 1 - last, loudest: peak(wave), end: peak(wave.subarray(last - 4, last + 1)) };
+        await haptics.close();
+        return result;
+      });
+      assert.ok(found.silent > 0 && found.loudest > 1e-4, JSON.stringify(found));
+      assert.ok(found.end < 0.1 * found.loudest, `a step at the end: ${JSON.stringify(found)}`);
+    });
+
     test('a lost worker is told, and the voice sounds again by itself', async () => {
       const found = await inPage(async () => {
         const { started, hand, slide, rms, pause } = globalThis.tools;

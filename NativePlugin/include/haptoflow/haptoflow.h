@@ -572,7 +572,7 @@ HAPTOFLOW_API haptoflow_status haptoflow_engine_create(const haptoflow_engine_op
 
 /* Ends the worker, destroys the engine's voices as haptoflow_voice_destroy does and sets *engine to null; a null handle
  * is allowed. Errors: INVALID_ARGUMENT.
- * [loader-thread] Blocks for the present round of inference, the present blocks and, while voices sound, their fade. */
+ * [loader-thread] Blocks for the present round of inference. */
 HAPTOFLOW_API haptoflow_status haptoflow_engine_close(haptoflow_engine** engine);
 
 /* Sets the quality from the next segment on. The calling thread first loads the tiers that this quality uses and that
@@ -802,9 +802,10 @@ typedef struct haptoflow_voice_statistics {
 HAPTOFLOW_API haptoflow_status haptoflow_voice_create(haptoflow_engine* engine, double sample_rate_hz,
                                                       haptoflow_voice* voice);
 
-/* Fades the voice, destroys it and sets *voice to 0; 0 is allowed. Errors: INVALID_ARGUMENT.
- * [loader-thread] Blocks for running calls on this voice and, if the voice sounds, for the block that fades it, at most
- * 48 ms; never for inference. */
+/* Ends the voice and sets *voice to 0; 0 is allowed. A voice that sounds fades within a block and 5 ms: for as long,
+ * haptoflow_voice_render and haptoflow_voices_render still take its number, and every other function refuses it. Its
+ * memory is freed by a later call that creates or destroys a voice or closes an engine. Errors: INVALID_ARGUMENT.
+ * [loader-thread] Blocks while another voice is created or destroyed; never for a block, a fade or inference. */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_destroy(haptoflow_voice* voice);
 
 /* Publishes what the tip does now: once a frame, also while nothing touches. A touch sounds from the next block on and
@@ -818,11 +819,20 @@ HAPTOFLOW_API haptoflow_status haptoflow_voice_publish(haptoflow_voice voice, co
  * HAPTOFLOW_ALL_CHANNELS; other channels are not changed. Samples are within +-1. channel_count is 1 to 64.
  * If sample_rate_hz differs from the last block's, the voice fades within 5 ms and is silent until the worker has
  * prepared for the new rate; a touch that still continues then sounds again, according to its newest state. At a rate
- * outside 8 to 192 kHz the voice stays silent and its statistics report the rate. For a voice that is not open, or that
- * another thread is rendering, zeros are written. Errors: INVALID_ARGUMENT, BUSY; this function sets no message.
+ * outside 8 to 192 kHz the voice stays silent and its statistics report the rate. For a voice that is not open and has
+ * faded, or that another thread is rendering, zeros are written. Errors: INVALID_ARGUMENT, BUSY; this function sets no message.
  * [audio-callback] */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_render(haptoflow_voice voice, float* interleaved, uint32_t frame_count,
                                                       uint32_t channel_count, int32_t channel, double sample_rate_hz);
+
+/* Writes the sum of the voices as haptoflow_voice_render writes one voice, also for none. The sum passes the limiter's
+ * curve once, below the lowest ceiling above 0 of the voices; a single voice sounds as haptoflow_voice_render gives it.
+ * Sets voices[i] to 0 if that voice is not open and has faded. BUSY if another thread is rendering one of the voices,
+ * which is then missing in the sum. Errors: INVALID_ARGUMENT, BUSY; this function sets no message.
+ * [audio-callback] */
+HAPTOFLOW_API haptoflow_status haptoflow_voices_render(haptoflow_voice* voices, uint32_t voice_count,
+                                                       float* interleaved, uint32_t frame_count, uint32_t channel_count,
+                                                       int32_t channel, double sample_rate_hz);
 
 /* Sets the gain of the output before the limiter, 0 to 1. It changes within 10 ms while the voice sounds, delayed sound
  * included; set while the voice is silent, it applies from the first sample of the next touch.

@@ -143,7 +143,17 @@ haptoflow_status haptoflow_voice_render(haptoflow_voice voice, float* interleave
     if (!target.isValid()) {
         return HAPTOFLOW_INVALID_ARGUMENT;
     }
-    return renderInto(voices().use(voice), target, sample_rate_hz);
+    return renderInto(voices().useToRender(voice), target, sample_rate_hz);
+}
+
+haptoflow_status haptoflow_voices_render(haptoflow_voice* voices, uint32_t voice_count, float* interleaved,
+                                         uint32_t frame_count, uint32_t channel_count, int32_t channel,
+                                         double sample_rate_hz) {
+    const ChannelTarget target{interleaved, frame_count, channel_count, channel};
+    if (!target.isValid() || (voices == nullptr && voice_count != 0)) {
+        return HAPTOFLOW_INVALID_ARGUMENT;
+    }
+    return renderSum(capi::voices(), {voices, voice_count}, target, sample_rate_hz);
 }
 
 haptoflow_status haptoflow_voice_set_strength(haptoflow_voice voice, float strength) {

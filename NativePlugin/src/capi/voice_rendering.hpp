@@ -4,6 +4,7 @@
 #include "haptoflow/haptoflow.h"
 
 #include <cstdint>
+#include <span>
 
 namespace haptoflow::capi {
 
@@ -35,5 +36,11 @@ struct ChannelTarget {
 /// Wait-free, for the audio callback.
 [[nodiscard]] haptoflow_status renderInto(const VoiceTable::Use& use, const ChannelTarget& target,
                                           double sampleRateHz) noexcept HAPTOFLOW_NONBLOCKING;
+
+/// The same for the sum of several voices, limited as a whole. Sets a handle to 0 whose voice has ended, and leaves out
+/// a voice that another thread renders (HAPTOFLOW_BUSY).
+[[nodiscard]] haptoflow_status renderSum(VoiceTable& table, std::span<haptoflow_voice> voices,
+                                         const ChannelTarget& target,
+                                         double sampleRateHz) noexcept HAPTOFLOW_NONBLOCKING;
 
 }  // namespace haptoflow::capi

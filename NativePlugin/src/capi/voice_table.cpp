@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
-#include <thread>
-#include <utility>
-#include <vector>
+#include <string>
 
 namespace haptoflow::capi {
 namespace {
@@ -29,68 +27,91 @@ VoiceTable& voices() noexcept {
     return lasting.table;
 }
 
-haptoflow_voice VoiceTable::open(std::unique_ptr<OpenVoice> voice) {
-    const std::lock_guard lock(mutex_);
-    for (std::size_t index = 0; index < capacity; ++index) {
-        Place& place = places_[index];
-        if (place.voice != nullptr) {
-            continue;
-        }
-        ++place.generation;
-        const haptoflow_voice handle = (place.generation << generationShift) | index;
-        place.voice = std::move(voice);
-        place.handle.store(handle);
-        return handle;
+bool VoiceTable::Use::isClosed() const noexcept {
+    return get()->voice->channels.controls.closing.load();
+}
+
+void VoiceTable::Use::endOnceSilent() const noexcept {
+    if (isClosed() && !get()->voice->channels.audible.load(std::memory_order_relaxed)) {
+        place_->handle.store(0);
     }
-    throw std::invalid_argument("all " + std::to_string(capacity) + " voices are in use: destroy one first");
+}
+
+haptoflow_voice VoiceTable::open(std::unique_ptr<OpenVoice> voice) {
+    Ended ended;
+    const std::lock_guard lock(mutex_);
+    collect(ended);
+    if (freePlace() == nullptr) {
+        collect(ended, true);
+    }
+    Place* place = freePlace();
+    if (place == nullptr) {
+        throw std::invalid_argument("all " + std::to_string(capacity) + " voices are in use: destroy one first");
+    }
+    ++place->generation;
+    const auto index = static_cast<haptoflow_voice>(place - places_.data());
+    const haptoflow_voice handle = (place->generation << generationShift) | index;
+    place->voice = std::move(voice);
+    place->handle.store(handle);
+    return handle;
 }
 
 bool VoiceTable::close(haptoflow_voice handle) {
+    Ended ended;
     const std::lock_guard lock(mutex_);
-    const std::size_t index = handle & placeBits;
-    if (handle == 0 || index >= capacity || places_[index].handle.load() != handle) {
+    const std::size_t index = placeOf(handle);
+    if (index == capacity) {
         return false;
     }
-    Place* place = &places_[index];
-    fadeOut({&place, 1});
-    remove(*place);
+    beginToClose(places_[index]);
+    collect(ended);
     return true;
 }
 
 void VoiceTable::closeAll(const engine::LiveEngine& engine) {
+    Ended ended;
     const std::lock_guard lock(mutex_);
-    std::vector<Place*> closing;
     for (Place& place : places_) {
         if (place.voice != nullptr && place.voice->engine.get() == &engine) {
-            closing.push_back(&place);
+            beginToClose(place);
         }
     }
-    fadeOut(closing);
-    std::ranges::for_each(closing, [](Place* place) { remove(*place); });
+    collect(ended);
 }
 
-void VoiceTable::fadeOut(std::span<Place* const> places) {
-    const auto channels = [](const Place* place) -> engine::VoiceChannels& { return place->voice->voice->channels; };
-    std::ranges::for_each(places, [&](Place* place) { channels(place).controls.closing.store(true); });
-    const auto deadline = std::chrono::steady_clock::now() + fadeLimit;
-    const auto isAudible = [&](const Place* place) { return channels(place).audible.load(std::memory_order_acquire); };
-    while (std::ranges::any_of(places, isAudible) && std::chrono::steady_clock::now() < deadline) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+VoiceTable::Place* VoiceTable::freePlace() noexcept {
+    const auto found = std::ranges::find_if(places_, [](const Place& place) { return place.voice == nullptr; });
+    return found == places_.end() ? nullptr : &*found;
+}
+
+void VoiceTable::beginToClose(Place& place) noexcept {
+    OpenVoice& closing = *place.voice;
+    if (!closing.voice->channels.controls.closing.exchange(true)) {
+        closing.engine->removeVoice(*closing.voice);
+        place.closedAt = std::chrono::steady_clock::now();
     }
 }
 
-void VoiceTable::remove(Place& place) {
-    // From here on no new user gets the voice; present users are waited for. Both operations are sequentially
-    // consistent, so that either this thread sees the user or the user sees that the handle is gone.
-    place.handle.store(0);
-    while (place.users.load() != 0) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+void VoiceTable::collect(Ended& ended, bool endsFades) {
+    const auto now = std::chrono::steady_clock::now();
+    for (Place& place : places_) {
+        if (place.voice == nullptr || !place.voice->voice->channels.controls.closing.load()) {
+            continue;
+        }
+        // A block that began before the voice was closed may still make it audible; a later one cannot.
+        const bool isSilent = place.users.load() == 0 && !place.voice->voice->channels.audible.load();
+        if (isSilent || endsFades || now - place.closedAt > fadeLimit) {
+            place.handle.store(0);
+        }
+        // All operations are sequentially consistent, so that either this thread sees a user or the user sees that the
+        // handle is gone.
+        if (place.handle.load() == 0 && place.users.load() == 0) {
+            ended.push_back(std::move(place.voice));
+        }
     }
-    place.voice->engine->removeVoice(*place.voice->voice);
-    place.voice.reset();
 }
 
-VoiceTable::Use VoiceTable::use(haptoflow_voice handle) noexcept {
+VoiceTable::Use VoiceTable::useToRender(haptoflow_voice handle) noexcept {
     const std::size_t index = handle & placeBits;
     if (handle == 0 || index >= capacity) {
         return {};
@@ -101,16 +122,20 @@ VoiceTable::Use VoiceTable::use(haptoflow_voice handle) noexcept {
         place.users.fetch_sub(1, std::memory_order_release);
         return {};
     }
-    return {&place.users, place.voice.get()};
+    return Use(&place);
+}
+
+VoiceTable::Use VoiceTable::use(haptoflow_voice handle) noexcept {
+    Use found = useToRender(handle);
+    return found && !found.isClosed() ? std::move(found) : Use{};
 }
 
 VoiceTable::Use VoiceTable::useAt(std::size_t place) noexcept {
-    return place < capacity ? use(places_[place].handle.load()) : Use{};
+    return place < capacity ? useToRender(places_[place].handle.load()) : Use{};
 }
 
-std::size_t VoiceTable::placeOf(haptoflow_voice handle) const noexcept {
-    const std::size_t index = handle & placeBits;
-    return handle != 0 && index < capacity && places_[index].handle.load() == handle ? index : capacity;
+std::size_t VoiceTable::placeOf(haptoflow_voice handle) noexcept {
+    return use(handle) ? static_cast<std::size_t>(handle & placeBits) : capacity;
 }
 
 }  // namespace haptoflow::capi

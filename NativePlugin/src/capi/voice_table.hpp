@@ -9,8 +9,8 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
-#include <span>
 #include <utility>
+#include <vector>
 
 namespace haptoflow::capi {
 
@@ -26,12 +26,23 @@ struct OpenVoice {
 };
 
 /// The voices of the process in a fixed number of slots. A handle combines a slot and the number of its uses, so that a
-/// lookup needs no lock and a destroyed voice is detected. Destroying a voice waits for its users.
+/// lookup needs no lock and a closed voice is detected. Nothing waits for a fade: a closed voice is used only by its
+/// renderer, which fades it and ends it with the fade. A later call of `open`, `close` or `closeAll` frees its memory.
 class VoiceTable {
+    struct Place {
+        // The handle, or 0 while the slot is free or its voice has ended.
+        std::atomic<haptoflow_voice> handle{0};
+        std::atomic<std::uint32_t> users{0};
+        std::unique_ptr<OpenVoice> voice;
+        std::uint64_t generation = 0;
+        std::chrono::steady_clock::time_point closedAt{};
+    };
+
 public:
     static constexpr std::size_t capacity = HAPTOFLOW_MAXIMUM_VOICES;
-    /// Time limit of a fade: the longest common block, 1024 frames at 24 kHz, and 5 ms.
-    static constexpr std::chrono::milliseconds fadeLimit{48};
+    /// Time after which a closed voice has ended although it still sounds, because nobody renders it. Longer than the
+    /// longest common block, 4096 frames at 44.1 kHz, and a fade of 5 ms.
+    static constexpr std::chrono::milliseconds fadeLimit{250};
 
     /// A user's reference to a voice; null if the handle is not open. Wait-free.
     class Use {
@@ -39,50 +50,51 @@ public:
         Use() = default;
         Use(const Use&) = delete;
         Use& operator=(const Use&) = delete;
-        Use(Use&& other) noexcept : users_(std::exchange(other.users_, nullptr)), voice_(other.voice_) {}
+        Use(Use&& other) noexcept : place_(std::exchange(other.place_, nullptr)) {}
         Use& operator=(Use&&) = delete;
         ~Use() {
-            if (users_ != nullptr) {
-                users_->fetch_sub(1, std::memory_order_release);
+            if (place_ != nullptr) {
+                place_->users.fetch_sub(1, std::memory_order_release);
             }
         }
-        [[nodiscard]] OpenVoice* get() const noexcept { return voice_; }
-        [[nodiscard]] OpenVoice* operator->() const noexcept { return voice_; }
-        [[nodiscard]] explicit operator bool() const noexcept { return voice_ != nullptr; }
+        [[nodiscard]] OpenVoice* get() const noexcept { return place_ != nullptr ? place_->voice.get() : nullptr; }
+        [[nodiscard]] OpenVoice* operator->() const noexcept { return get(); }
+        [[nodiscard]] explicit operator bool() const noexcept { return place_ != nullptr; }
+        [[nodiscard]] bool isClosed() const noexcept;
+        /// Ends a closed voice that is silent. For its renderer.
+        void endOnceSilent() const noexcept;
 
     private:
         friend class VoiceTable;
-        Use(std::atomic<std::uint32_t>* users, OpenVoice* voice) noexcept : users_(users), voice_(voice) {}
+        explicit Use(Place* place) noexcept : place_(place) {}
 
-        std::atomic<std::uint32_t>* users_ = nullptr;
-        OpenVoice* voice_ = nullptr;
+        Place* place_ = nullptr;
     };
 
-    /// Throws std::invalid_argument if all slots are in use.
+    /// Throws std::invalid_argument if all slots are in use; a voice that still fades gives up its slot.
     [[nodiscard]] haptoflow_voice open(std::unique_ptr<OpenVoice> voice);
-    /// Waits until the voice has faded and has no users; at most `fadeLimit` for the fade, because nobody may be
-    /// rendering it. Returns false if the handle is not open.
+    /// Begins the fade of a voice and takes it from its engine. Waits for nothing. Returns false if the handle is not
+    /// open.
     bool close(haptoflow_voice handle);
-    /// Closes all voices of an engine with a common fade.
+    /// Closes all voices of an engine.
     void closeAll(const engine::LiveEngine& engine);
 
+    /// The voice of an open handle.
     [[nodiscard]] Use use(haptoflow_voice handle) noexcept;
-    /// The voice in a slot, if there is one.
+    /// The voice of a handle that is open, or closed and still fading.
+    [[nodiscard]] Use useToRender(haptoflow_voice handle) noexcept;
+    /// The same for the voice in a slot, if there is one.
     [[nodiscard]] Use useAt(std::size_t place) noexcept;
     /// The slot of an open handle; capacity otherwise.
-    [[nodiscard]] std::size_t placeOf(haptoflow_voice handle) const noexcept;
+    [[nodiscard]] std::size_t placeOf(haptoflow_voice handle) noexcept;
 
 private:
-    struct Place {
-        // The handle, or 0 while the slot is free.
-        std::atomic<haptoflow_voice> handle{0};
-        std::atomic<std::uint32_t> users{0};
-        std::unique_ptr<OpenVoice> voice;
-        std::uint64_t generation = 0;
-    };
+    /// Moved out under the mutex, to be destroyed outside of it.
+    using Ended = std::vector<std::unique_ptr<OpenVoice>>;
 
-    static void fadeOut(std::span<Place* const> places);
-    static void remove(Place& place);
+    [[nodiscard]] Place* freePlace() noexcept;
+    static void beginToClose(Place& place) noexcept;
+    void collect(Ended& ended, bool endsFades = false);
 
     std::mutex mutex_;
     std::array<Place, capacity> places_;

@@ -39,20 +39,32 @@ float SoftLimiter::bend(float aboveKnee) const noexcept {
 }
 
 float SoftLimiter::limit(float mps2) const noexcept {
-    if (!std::isfinite(mps2)) {
-        return 0.0F;
-    }
-    const float scaled = mps2 / fullScaleMps2_;
+    return std::isfinite(mps2) ? limitScaled(mps2 / fullScaleMps2_) : 0.0F;
+}
+
+float SoftLimiter::limitScaled(float scaled) const noexcept {
     const float magnitude = std::abs(scaled);
     return magnitude <= kneeStart_ ? scaled : std::copysign(bend(magnitude), scaled);
 }
 
 void SoftLimiter::process(std::span<float> samples) noexcept {
+    scale(samples);
+    processScaled(samples);
+}
+
+void SoftLimiter::scale(std::span<float> samples) noexcept {
     for (float& sample : samples) {
         if (!std::isfinite(sample)) {
             ++nonFiniteCount_;
+            sample = 0.0F;
         }
-        sample = limit(sample);
+        sample /= fullScaleMps2_;
+    }
+}
+
+void SoftLimiter::processScaled(std::span<float> samples) noexcept {
+    for (float& sample : samples) {
+        sample = limitScaled(sample);
         if (std::abs(sample) > kneeStart_) {
             ++limitedCount_;
         }

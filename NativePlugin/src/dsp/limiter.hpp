@@ -28,14 +28,20 @@ public:
     [[nodiscard]] float limit(float mps2) const noexcept;
     /// Limits in place and counts.
     void process(std::span<float> samples) noexcept;
+    /// The two halves of `process`, for a sum that is limited as a whole: m/s^2 to shares of full scale without limit,
+    /// and the curve on such shares.
+    void scale(std::span<float> samples) noexcept;
+    void processScaled(std::span<float> samples) noexcept;
+    [[nodiscard]] float ceiling() const noexcept { return ceiling_; }
 
-    /// Number of non-finite samples that `process` replaced by 0.
+    /// Number of non-finite samples that `scale` replaced by 0.
     [[nodiscard]] std::uint64_t nonFiniteCount() const noexcept { return nonFiniteCount_; }
-    /// Number of samples that `process` found above the knee.
+    /// Number of samples that `processScaled` found above the knee.
     [[nodiscard]] std::uint64_t limitedCount() const noexcept { return limitedCount_; }
 
 private:
     [[nodiscard]] float bend(float aboveKnee) const noexcept;
+    [[nodiscard]] float limitScaled(float scaled) const noexcept;
 
     float fullScaleMps2_;
     float ceiling_ = 1.0F;

@@ -47,13 +47,13 @@ RoundResult InferenceRound::run(std::span<LiveVoice* const> voices, inference::S
     while (!pending_.empty()) {
         generate(generator, result);
     }
-    balanceBlends(generator);
+    balanceBlends(generator, result);
     const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - began;
     result.milliseconds = result.voices > 0 ? spent.count() : 0.0;
     return result;
 }
 
-void InferenceRound::balanceBlends(inference::SegmentGenerator& generator) {
+void InferenceRound::balanceBlends(inference::SegmentGenerator& generator, RoundResult& result) {
     requests_.clear();
     std::erase_if(balancing_, [this](LiveVoice* voice) {
         voice->planner.balance().request(requests_);
@@ -62,6 +62,7 @@ void InferenceRound::balanceBlends(inference::SegmentGenerator& generator) {
     if (requests_.empty()) {
         return;
     }
+    result.generated += requests_.size();
     segments_.resize(requests_.size() * inference::segmentSamples);
     std::string failure;
     if (!nanosecondsOf(generator, requests_, segments_, noSketches, failure)) {
@@ -82,6 +83,7 @@ void InferenceRound::generate(inference::SegmentGenerator& generator, RoundResul
     for (const LiveVoice* voice : pending_) {
         requests_.push_back(voice->planner.request());
     }
+    result.generated += requests_.size();
     segments_.resize(requests_.size() * inference::segmentSamples);
     sketches_.resize(segments_.size());
     isSketched_.assign(requests_.size(), false);

@@ -14,7 +14,10 @@ namespace haptoflow::engine {
 struct RoundResult {
     /// Number of voices that needed a segment; 0 if nothing was run.
     std::size_t voices = 0;
+    /// Number of segments that voices got.
     std::size_t segments = 0;
+    /// Number of segments generated, also those that only balance a blend.
+    std::size_t generated = 0;
     /// Whether the run of a voice failed, and the message of the newest failure.
     bool failed = false;
     std::string failure;
@@ -33,7 +36,7 @@ public:
 
 private:
     void generate(inference::SegmentGenerator& generator, RoundResult& result);
-    void balanceBlends(inference::SegmentGenerator& generator);
+    void balanceBlends(inference::SegmentGenerator& generator, RoundResult& result);
 
     std::vector<LiveVoice*> pending_;
     std::vector<LiveVoice*> balancing_;

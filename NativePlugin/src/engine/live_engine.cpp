@@ -165,7 +165,7 @@ RoundResult LiveEngine::step() {
             ++figures_.failedRounds;
             noteFailure(result.failure.c_str());
         } else {
-            quality_.recordRound(result.milliseconds, result.voices);
+            quality_.recordRound(result.milliseconds, result.voices, result.generated);
         }
     }
     publishQuality();

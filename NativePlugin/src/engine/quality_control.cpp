@@ -124,11 +124,11 @@ std::optional<std::size_t> QualityControl::betterTier() const noexcept {
     return std::nullopt;
 }
 
-void QualityControl::recordRound(double milliseconds, std::size_t voices) noexcept {
-    if (voices == 0) {
+void QualityControl::recordRound(double milliseconds, std::size_t voices, std::size_t segments) noexcept {
+    if (voices == 0 || segments == 0) {
         return;
     }
-    note(tier_, milliseconds / static_cast<double>(voices));
+    note(tier_, milliseconds / static_cast<double>(segments));
     if (!isAutomatic()) {
         return;
     }

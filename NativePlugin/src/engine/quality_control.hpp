@@ -9,7 +9,7 @@
 
 namespace haptoflow::engine {
 
-/// Times in milliseconds of a tier's last runs, per segment of one voice. One thread adds; any thread reads without
+/// Times in milliseconds of a tier's last runs, per segment. One thread adds; any thread reads without
 /// waiting or allocating, and sorts on its own stack.
 class RunTimes {
 public:
@@ -59,8 +59,9 @@ public:
     [[nodiscard]] std::optional<std::size_t> tierToMeasure() const noexcept;
     /// Records a measuring run of one segment. After the last one, automatic quality takes its first decision.
     void recordMeasurement(std::size_t tier, double milliseconds) noexcept;
-    /// Records a live round of the present tier for `voices` voices.
-    void recordRound(double milliseconds, std::size_t voices) noexcept;
+    /// Records a live round of the present tier that generated `segments` segments for `voices` voices: a voice may
+    /// need several in a round.
+    void recordRound(double milliseconds, std::size_t voices, std::size_t segments) noexcept;
     void setSettings(const QualitySettings& settings) noexcept;
 
     [[nodiscard]] double budgetMs() const noexcept { return settings_.budgetMs; }

@@ -207,8 +207,16 @@ void Voice::render(std::span<float> out) noexcept {
         }
         output_->effects.addSources(block, figures_);
         output_->effects.process(block, output_->strength, figures_);
-        limiter_.process(block);
+        limiter_.scale(block);
+        if (limit_ == Limit::voice) {
+            limiter_.processScaled(block);
+        }
     }
+}
+
+void Voice::limitSum(std::span<float> sum, float ceiling) noexcept {
+    limiter_.setCeiling(ceiling);
+    limiter_.processScaled(sum);
 }
 
 void Voice::renderStop(std::span<float> out) noexcept {

@@ -30,6 +30,9 @@ public:
     virtual void tookOver(std::int64_t sample) noexcept = 0;
 };
 
+/// Where the limiter acts: on the voice, or on a sum that the voice is rendered for.
+enum class Limit { voice, sum };
+
 /// The signal of one stylus tip. Its stages in order: timeline, level of the newest state, tone, high-pass, range law,
 /// reading rate, output rate, gate, blows and signal, delay, compensation, strength, exposure guard, the gate of all
 /// effects, limiter.
@@ -105,8 +108,11 @@ public:
     /// Sets the limiter's ceiling, 0 to 1, at once.
     void setCeiling(float ceiling) noexcept { limiter_.setCeiling(ceiling); }
 
-    /// Writes the next samples, +-1.
+    /// Writes the next samples, +-1; without limit while `setLimit` says that they are part of a sum.
     void render(std::span<float> out) noexcept;
+    void setLimit(Limit limit) noexcept { limit_ = limit; }
+    /// Limits a sum of voices that were rendered without limit, and counts its limited samples as this voice's.
+    void limitSum(std::span<float> sum, float ceiling) noexcept;
 
     [[nodiscard]] double outputRateHz() const noexcept { return output_->rateHz; }
     /// Changes to the output stage of another rate; the voice must be silent. Returns the old stage, for another thread
@@ -142,6 +148,7 @@ private:
     dsp::LevelSmoother level_;
     dsp::RateWarp warp_;
     dsp::SoftLimiter limiter_;
+    Limit limit_ = Limit::voice;
     double readingRate_ = 1.0;
     std::unique_ptr<Sketcher> sketcher_;
     EffectFigures& figures_;

@@ -22,8 +22,9 @@ VoiceRenderer::VoiceRenderer(VoiceChannels& channels, const std::atomic<bool>& w
       voice_(outputRateHz, fullScaleMps2, channels.counters.effects, std::move(sketcher)),
       track_(track) {}
 
-void VoiceRenderer::render(std::span<float> out, double rateHz) noexcept {
+void VoiceRenderer::render(std::span<float> out, double rateHz, Limit limit) noexcept {
     const dsp::ScopedFlushDenormals flush;
+    voice_.setLimit(limit);
     // Read the contact first, so that settings made before it was published take effect with it.
     readContact();
     readControls();

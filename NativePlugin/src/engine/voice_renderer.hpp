@@ -31,10 +31,12 @@ public:
     VoiceRenderer(VoiceChannels& channels, const std::atomic<bool>& workerAlive, double outputRateHz,
                   float fullScaleMps2, const SurfaceTrack& track, std::unique_ptr<Sketcher> sketcher = nullptr);
 
-    /// Writes the next samples, +-1. At a new rate, the voice fades and stays silent until the worker has made an
-    /// output stage; a touch that still lasts then resumes. At a rate outside 8-192 kHz it stays silent and counts the
-    /// block.
-    void render(std::span<float> out, double rateHz) noexcept;
+    /// Writes the next samples, +-1 unless they are part of a sum. At a new rate, the voice fades and stays silent
+    /// until the worker has made an output stage; a touch that still lasts then resumes. At a rate outside 8-192 kHz it
+    /// stays silent and counts the block.
+    void render(std::span<float> out, double rateHz, Limit limit = Limit::voice) noexcept;
+    /// See Voice::limitSum.
+    void limitSum(std::span<float> sum, float ceiling) noexcept { voice_.limitSum(sum, ceiling); }
 
     [[nodiscard]] const Voice& voice() const noexcept { return voice_; }
     /// Null for none. See Voice::setSink.

@@ -8,6 +8,9 @@
 #define NOMINMAX
 #endif
 #include <windows.h>
+
+#include <array>
+#include <cmath>
 #elif defined(__EMSCRIPTEN__)
 #include <atomic>
 #include <cstdint>
@@ -30,30 +33,48 @@ namespace haptoflow::engine {
 
 #if defined(_WIN32)
 
+#ifndef CREATE_WAITABLE_TIMER_HIGH_RESOLUTION
+#define CREATE_WAITABLE_TIMER_HIGH_RESOLUTION 0x00000002
+#endif
+
 struct WakeSignal::Semaphore {
-    HANDLE handle = CreateEventW(nullptr, FALSE, FALSE, nullptr);
+    HANDLE event = CreateEventW(nullptr, FALSE, FALSE, nullptr);
+    // Other waits end with a tick of the system's timer, up to 15.6 ms late. Null before Windows 10, version 1803.
+    HANDLE timer = CreateWaitableTimerExW(nullptr, nullptr, CREATE_WAITABLE_TIMER_HIGH_RESOLUTION,
+                                          SYNCHRONIZE | TIMER_MODIFY_STATE);
 };
 
 WakeSignal::WakeSignal() : semaphore_(std::make_unique<Semaphore>()) {
-    if (semaphore_->handle == nullptr) {
+    if (semaphore_->event == nullptr) {
         throw std::system_error(static_cast<int>(GetLastError()), std::system_category(), "wake signal");
     }
 }
 
 WakeSignal::~WakeSignal() {
-    CloseHandle(semaphore_->handle);
+    CloseHandle(semaphore_->event);
+    if (semaphore_->timer != nullptr) {
+        CloseHandle(semaphore_->timer);
+    }
 }
 
 void WakeSignal::post() noexcept {
-    SetEvent(semaphore_->handle);
+    SetEvent(semaphore_->event);
 }
 
 void WakeSignal::wait() noexcept {
-    WaitForSingleObject(semaphore_->handle, INFINITE);
+    WaitForSingleObject(semaphore_->event, INFINITE);
 }
 
 bool WakeSignal::waitFor(double milliseconds) noexcept {
-    return WaitForSingleObject(semaphore_->handle, static_cast<DWORD>(milliseconds)) == WAIT_OBJECT_0;
+    LARGE_INTEGER due;
+    // Negative for a time from now, in units of 100 ns.
+    due.QuadPart = -static_cast<LONGLONG>(milliseconds * 1e4);
+    if (semaphore_->timer == nullptr || SetWaitableTimer(semaphore_->timer, &due, 0, nullptr, nullptr, FALSE) == 0) {
+        return WaitForSingleObject(semaphore_->event, static_cast<DWORD>(std::ceil(milliseconds))) == WAIT_OBJECT_0;
+    }
+    // Of two that are signalled, the first is reported.
+    const std::array<HANDLE, 2> either{semaphore_->event, semaphore_->timer};
+    return WaitForMultipleObjects(static_cast<DWORD>(either.size()), either.data(), FALSE, INFINITE) == WAIT_OBJECT_0;
 }
 
 bool raiseThisThreadsPriority() noexcept {

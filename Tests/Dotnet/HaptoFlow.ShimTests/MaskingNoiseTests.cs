@@ -144,6 +144,8 @@ namespace HaptoFlow.ShimTests
             float[] felt = Channel(HapticChannel);
             UnityEngine.Object.DestroyImmediate(stylus.gameObject);
             UnityEngine.Object.DestroyImmediate(board.gameObject);
+            // The end of this stroke's sound is not part of the next.
+            World.Frames(3);
             return felt;
         }
 

@@ -191,8 +191,11 @@ private:
         const std::int32_t channel = static_cast<std::int32_t>(next() % (channels + 3)) - 2;
         std::vector<float> block(std::size_t{frames} * channels + 1);
         float* const samples = oneIn(32) ? nullptr : block.data();
+        std::array<haptoflow_voice, 3> voices{};
+        std::ranges::generate(voices, [this] { return handles_.voices.any(next()); });
         const haptoflow_status status =
-            haptoflow_voice_render(handles_.voices.any(next()), samples, frames, channels, channel, rateHz());
+            oneIn(2) ? haptoflow_voice_render(voices[0], samples, frames, channels, channel, rateHz())
+                     : haptoflow_voices_render(voices.data(), next() % 4, samples, frames, channels, channel, rateHz());
         isSound_ = isSound_ && allFinite(block) && peak(block) <= 1.0F;
         hasSounded_ = hasSounded_ || peak(block) > 0.0F;
         return status;

@@ -103,49 +103,86 @@ TEST(EngineApiTest, AVoiceThatIsNotOpenIsRefusedEverywhereAndItsBlockIsSilent) {
     }
 }
 
-TEST(EngineApiTest, ClosingTheEngineSilencesAndDestroysItsVoices) {
-    OpenEngine open(tinyModelPath);
-    open.publish(slidingState());
-    EXPECT_GT(peak(open.render(256)), 0.0F);
-    ASSERT_EQ(haptoflow_engine_close(&open.engine), HAPTOFLOW_OK);
-    EXPECT_EQ(open.engine, nullptr);
-    std::array<float, 64> samples{};
-    EXPECT_EQ(haptoflow_voice_render(open.voice, samples.data(), 64, 1, 0, 48000.0), HAPTOFLOW_INVALID_ARGUMENT);
-    EXPECT_EQ(samples, (std::array<float, 64>{}));
-}
-
-/// The blocks of a voice that is removed while it sounds, until it is gone.
-std::vector<float> blocksUntilGone(OpenEngine& open, const std::function<void()>& removeVoice) {
+/// The output of a voice that is removed while it sounds, in blocks of `frames` until its number is refused.
+std::vector<float> outputUntilGone(OpenEngine& open, uint32_t frames, const std::function<void()>& removeVoice) {
     const haptoflow_voice voice = open.voice;
     std::vector<float> output = open.update(slidingState(), 2048);
-    std::thread taker(removeVoice);
-    for (haptoflow_status status = HAPTOFLOW_OK; status == HAPTOFLOW_OK;) {
-        std::array<float, 256> block{};
-        status = haptoflow_voice_render(voice, block.data(), 256, 1, 0, 48000.0);
+    removeVoice();
+    std::vector<float> block(frames);
+    while (haptoflow_voice_render(voice, block.data(), frames, 1, 0, 48000.0) == HAPTOFLOW_OK) {
         output.insert(output.end(), block.begin(), block.end());
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
-    taker.join();
+    EXPECT_EQ(block, std::vector<float>(frames)) << "a voice that has ended writes zeros";
     return output;
 }
 
-TEST(EngineApiTest, AVoiceDestroyedWhileItSoundsEndsWithoutAStep) {
-    OpenEngine open(tinyModelPath);
-    const float usual = largestStep(open.update(slidingState(), 2048));
-    ASSERT_GT(usual, 0.0F);
-    const auto output =
-        blocksUntilGone(open, [&] { EXPECT_EQ(haptoflow_voice_destroy(&open.voice), HAPTOFLOW_OK) << message(); });
-    EXPECT_EQ(output.back(), 0.0F);
-    EXPECT_LE(largestStep(output), 1.5F * usual);
+class EndOfVoiceTest : public ::testing::TestWithParam<uint32_t> {
+protected:
+    void expectAFade(const std::function<void(OpenEngine&)>& remove) {
+        OpenEngine open(tinyModelPath);
+        const float usual = largestStep(open.update(slidingState(), 2048));
+        ASSERT_GT(usual, 0.0F);
+        const auto began = std::chrono::steady_clock::now();
+        auto spent = began - began;
+        const std::vector<float> output = outputUntilGone(open, GetParam(), [&] {
+            const auto before = std::chrono::steady_clock::now();
+            remove(open);
+            spent = std::chrono::steady_clock::now() - before;
+        });
+        EXPECT_LT(spent, std::chrono::milliseconds(20)) << "nobody waits for blocks that nobody renders";
+        EXPECT_EQ(output.back(), 0.0F);
+        EXPECT_LE(largestStep(output), 1.5F * usual);
+        const std::size_t fade = output.size() - 2048;
+        EXPECT_GE(fade, 240U) << "5 ms at 48 kHz";
+        EXPECT_LE(fade, 240U + 2 * GetParam());
+    }
+};
+
+TEST_P(EndOfVoiceTest, AVoiceDestroyedWhileItSoundsIsHeardForItsFadeWithoutAStepAndWithoutAWait) {
+    expectAFade([](OpenEngine& open) { EXPECT_EQ(haptoflow_voice_destroy(&open.voice), HAPTOFLOW_OK) << message(); });
 }
 
-TEST(EngineApiTest, AnEngineClosedWhileItsVoiceSoundsEndsItWithoutAStep) {
+TEST_P(EndOfVoiceTest, AnEngineClosedWhileItsVoiceSoundsEndsItWithoutAStepAndWithoutAWait) {
+    expectAFade([](OpenEngine& open) { EXPECT_EQ(haptoflow_engine_close(&open.engine), HAPTOFLOW_OK) << message(); });
+}
+
+INSTANTIATE_TEST_SUITE_P(BlockFrames, EndOfVoiceTest, ::testing::Values(1U, 64U, 256U, 1024U, 4096U),
+                         ::testing::PrintToStringParamName());
+
+TEST(EngineApiTest, AVoiceThatNobodyRendersEndsWithAQuarterOfASecondAndItsMemoryWithTheNextVoice) {
     OpenEngine open(tinyModelPath);
-    const float usual = largestStep(open.update(slidingState(), 2048));
-    const auto output =
-        blocksUntilGone(open, [&] { EXPECT_EQ(haptoflow_engine_close(&open.engine), HAPTOFLOW_OK) << message(); });
-    EXPECT_EQ(output.back(), 0.0F);
-    EXPECT_LE(largestStep(output), 1.5F * usual);
+    (void)open.update(slidingState(), 2048);
+    const haptoflow_voice left = open.voice;
+    ASSERT_EQ(haptoflow_voice_destroy(&open.voice), HAPTOFLOW_OK);
+    EXPECT_EQ(open.engineStatistics().voices, 0U);
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    ASSERT_EQ(haptoflow_voice_create(open.engine, 0.0, &open.voice), HAPTOFLOW_OK);
+    std::array<float, 64> samples{};
+    EXPECT_EQ(haptoflow_voice_render(left, samples.data(), 64, 1, 0, 48000.0), HAPTOFLOW_INVALID_ARGUMENT);
+}
+
+TEST(EngineApiTest, VoicesThatFadeDoNotKeepNewOnesFromTheirPlaces) {
+    OpenEngine open(tinyModelPath);
+    std::vector<haptoflow_voice> voices(HAPTOFLOW_MAXIMUM_VOICES - 1);
+    std::array<float, 256> samples{};
+    const haptoflow_contact_state state = slidingState();
+    for (haptoflow_voice& voice : voices) {
+        ASSERT_EQ(haptoflow_voice_create(open.engine, 0.0, &voice), HAPTOFLOW_OK) << message();
+        ASSERT_EQ(haptoflow_voice_publish(voice, &state), HAPTOFLOW_OK);
+        ASSERT_EQ(haptoflow_voice_render(voice, samples.data(), 256, 1, 0, 48000.0), HAPTOFLOW_OK);
+        ASSERT_GT(peak({samples.begin(), samples.end()}), 0.0F);
+    }
+    for (haptoflow_voice& voice : voices) {
+        ASSERT_EQ(haptoflow_voice_destroy(&voice), HAPTOFLOW_OK);
+    }
+    for (haptoflow_voice& voice : voices) {
+        EXPECT_EQ(haptoflow_voice_create(open.engine, 0.0, &voice), HAPTOFLOW_OK) << message();
+    }
+    haptoflow_voice tooMany = 0;
+    EXPECT_EQ(haptoflow_voice_create(open.engine, 0.0, &tooMany), HAPTOFLOW_INVALID_ARGUMENT);
+    for (haptoflow_voice& voice : voices) {
+        EXPECT_EQ(haptoflow_voice_destroy(&voice), HAPTOFLOW_OK);
+    }
 }
 
 TEST(EngineApiTest, SixtyFourVoicesHaveDifferentPlacesAndTheNextIsRefused) {

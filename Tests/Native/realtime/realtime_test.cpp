@@ -196,6 +196,39 @@ TEST(RealTimeTest, NoCallbackThatSketchesAllocatesLocksOrEntersTheKernel) {
     watchCallbacksOf(HAPTOFLOW_TEST_GOLDEN_DIR "/model/skeleton.haptoflow");
 }
 
+TEST(RealTimeTest, NoCallbackOfASumWhoseVoicesComeAndGoAllocatesLocksOrEntersTheKernel) {
+    const OpenEngine open(capi::testing::defaultModelPath, true, HAPTOFLOW_QUALITY_STANDARD);
+    OutputRecord record;
+    std::array<float, 128> block{};
+    std::atomic<haptoflow_voice> other{0};
+    std::atomic<bool> isOver{false};
+    std::uint64_t ended = 0;
+    std::thread changing([&] {
+        const haptoflow_contact_state state = capi::testing::slidingState();
+        while (!isOver) {
+            haptoflow_voice voice = 0;
+            ASSERT_EQ(haptoflow_voice_create(open.engine, 48000.0, &voice), HAPTOFLOW_OK);
+            (void)haptoflow_voice_publish(voice, &state);
+            other = voice;
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+            ASSERT_EQ(haptoflow_voice_destroy(&voice), HAPTOFLOW_OK);
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        }
+    });
+    watchUnderLoad(open, [&](std::uint32_t frames, std::uint32_t rateHz) {
+        std::array<haptoflow_voice, 2> voices{open.voice, other};
+        const bool isOpen = voices[1] != 0;
+        (void)haptoflow_voices_render(voices.data(), 2, block.data(), frames, 1, 0, rateHz);
+        ended += isOpen && voices[1] == 0 ? 1 : 0;
+        record.note(std::span(block).first(frames));
+    });
+    isOver = true;
+    changing.join();
+    EXPECT_GT(ended, 3U);
+    EXPECT_TRUE(record.isFinite);
+    EXPECT_GT(record.loudest, 0.001F);
+}
+
 TEST(RealTimeTest, NoCallbackOfTheMixerEffectUnderLoadAllocatesLocksOrEntersTheKernel) {
     const OpenEngine open(capi::testing::defaultModelPath, true);
     const unity::testing::UnityHost host;

@@ -83,13 +83,17 @@ TEST_F(SeveralEffectsTest, TheSecondEffectTakesOver100MsAfterTheLastCallOfTheFir
     EXPECT_THAT(play(voice_, first, 1).channel(0), Each(0.0F)) << "the second effect now has the voice";
 }
 
-TEST_F(SeveralEffectsTest, AClosedVoiceLeavesSilenceAndTheNextVoiceAtItsPlaceSounds) {
+TEST_F(SeveralEffectsTest, AClosedVoiceFadesAndTheNextVoiceAtItsPlaceSounds) {
     HostedEffect effect(definition());
     std::optional<SteppedVoice> second(std::in_place, runtime_, model_);
     const float place = second->place();
     effect.set("Voice", place);
-    EXPECT_GT(peak(play(*second, effect, 3).samples), 1e-3F);
-    second.reset();
+    std::vector<float> output = play(*second, effect, 3).channel(0);
+    const float usualStep = largestStep(output);
+    second->close();
+    const std::vector<float> end = effect.process(frameOfAudio).channel(0);
+    EXPECT_LE(largestStepFrom(output.back(), end), usualStep) << "the effect plays the fade";
+    EXPECT_GT(peak(end), 1e-3F);
     EXPECT_THAT(effect.process(frameOfAudio).samples, Each(0.0F));
     second.emplace(runtime_, model_);
     ASSERT_EQ(second->place(), place);

@@ -7,11 +7,13 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 
 namespace haptoflow::unity::testing {
 
+using haptoflow::testing::largestStep;
 using haptoflow::testing::largestStepFrom;
 using haptoflow::testing::peak;
 
@@ -35,7 +37,16 @@ public:
     }
     SteppedVoice(const SteppedVoice&) = delete;
     SteppedVoice& operator=(const SteppedVoice&) = delete;
-    ~SteppedVoice() { EXPECT_EQ(haptoflow_engine_close(&engine_), HAPTOFLOW_OK) << haptoflow_last_message(); }
+    /// Also renders what is left of the voice, so that its place is free again.
+    ~SteppedVoice() {
+        close();
+        std::array<float, frameOfAudio> rest{};
+        while (haptoflow_voice_render(voice_, rest.data(), std::uint32_t{frameOfAudio}, 1, 0, 48000.0) ==
+               HAPTOFLOW_OK) {
+        }
+    }
+
+    void close() { EXPECT_EQ(haptoflow_engine_close(&engine_), HAPTOFLOW_OK) << haptoflow_last_message(); }
 
     /// Publishes a sliding state that differs a little each time.
     void slide() {

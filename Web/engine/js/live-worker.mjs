@@ -25,19 +25,27 @@ class Ring {
     this.samples = core.allocate(4 * ringChunk);
   }
 
+  /** Renders a block into the ring. Returns false once the voice is closed and has faded. */
+  write() {
+    const isHeard = this.core.exports.hapto_voice_render(this.voice, this.samples, ringChunk, this.rateHz) === 0;
+    const block = this.core.f32.slice(this.samples >> 2, (this.samples >> 2) + ringChunk);
+    this.port.postMessage(block, [block.buffer]);
+    this.written += ringChunk;
+    return isHeard;
+  }
+
   /** Renders until the ring is full. */
   fill() {
     while (this.written - this.consumed < this.ahead) {
-      this.core.exports.hapto_voice_render(this.voice, this.samples, ringChunk, this.rateHz);
-      const block = this.core.f32.slice(this.samples >> 2, (this.samples >> 2) + ringChunk);
-      this.port.postMessage(block, [block.buffer]);
-      this.written += ringChunk;
+      this.write();
       // Inference for what the next block will need.
       if (this.core.call('hapto_engine_turn', 0) === 0) throw new Error('the engine has ended');
     }
   }
 
+  /** Renders the fade of the closed voice. */
   close() {
+    while (this.write());
     this.port.close();
     this.core.free(this.samples);
   }
@@ -130,9 +138,12 @@ class LiveWorker {
   }
 
   #closeVoice(/** @type {number} */ voice) {
-    this.#rings.get(voice)?.close();
-    this.#rings.delete(voice);
-    return this.core.call('hapto_voice_destroy', voice);
+    try {
+      return this.core.call('hapto_voice_destroy', voice);
+    } finally {
+      this.#rings.get(voice)?.close();
+      this.#rings.delete(voice);
+    }
   }
 
   #setActuator(/** @type {any} */ { voice, profile }) {
@@ -162,9 +173,10 @@ class LiveWorker {
 
   #close() {
     this.#isClosed = true;
+    const done = this.core.call('hapto_engine_close');
     for (const ring of this.#rings.values()) ring.close();
     this.#rings.clear();
-    return this.core.call('hapto_engine_close');
+    return done;
   }
 
   /** Marks a request as handled, and waits for contact states until the next. */

@@ -11,6 +11,9 @@ const ringStepFrames = 1024;
 const longestRingFrames = 8192;
 const stallMs = 250;
 
+/** A closed voice falls silent within 5 ms and the blocks that a device asks for at once. */
+const fadeMs = 30;
+
 /**
  * @typedef {object} VoiceHost what a voice needs of its engine
  * @property {AudioContext} context
@@ -259,6 +262,9 @@ export class Voice {
     this.#host.forget(this);
     const live = this.#host.live();
     await live.ask({ type: 'close-voice', voice: this.#index }).catch(() => {});
+    // Until the fade is played, behind what a ring holds.
+    const queuedMs = live.isShared ? 0 : (1000 * this.#ringFrames) / this.#host.context.sampleRate;
+    await new Promise((resolve) => setTimeout(resolve, fadeMs + queuedMs));
     this.detach();
   }
 

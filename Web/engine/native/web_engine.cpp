@@ -21,6 +21,10 @@ haptoflow_runtime* openRuntime = nullptr;
 haptoflow_model* openModel = nullptr;
 haptoflow_engine* openEngine = nullptr;
 std::array<haptoflow_voice, HAPTOFLOW_MAXIMUM_VOICES> openVoices{};
+// For the audio thread, which also renders the fade of a voice that is no longer open.
+std::array<haptoflow_voice, HAPTOFLOW_MAXIMUM_VOICES> heardVoices{};
+// The newest voice's. Places are given in turn, so that a fading voice keeps its own.
+std::size_t newestPlace = 0;
 
 template <typename Struct>
 Struct sized() {
@@ -292,14 +296,19 @@ HAPTO_EXPORT HAPTO_NAMED("hapto_material_add") int hapto_material_add(const char
 
 HAPTO_EXPORT HAPTO_NAMED("hapto_voice_create") int hapto_voice_create(double rateHz) {
     return guarded([&] {
-        const auto free = std::find(openVoices.begin(), openVoices.end(), haptoflow_voice{0});
-        if (free == openVoices.end()) {
-            throw WebError("invalid-argument", "all voices are in use: close one first");
-        }
-        haptoflow_voice voice = 0;
-        require(haptoflow_voice_create(theEngine(), rateHz, &voice));
-        *free = voice;
-        return static_cast<int>(free - openVoices.begin());
+        std::size_t place = newestPlace;
+        do {
+            place = (place + 1) % openVoices.size();
+            if (openVoices[place] == 0) {
+                haptoflow_voice voice = 0;
+                require(haptoflow_voice_create(theEngine(), rateHz, &voice));
+                openVoices[place] = voice;
+                heardVoices[place] = voice;
+                newestPlace = place;
+                return static_cast<int>(place);
+            }
+        } while (place != newestPlace);
+        throw WebError("invalid-argument", "all voices are in use: close one first");
     });
 }
 
@@ -323,8 +332,8 @@ HAPTO_EXPORT HAPTO_NAMED("hapto_voice_publish") int hapto_voice_publish(int inde
 /// On the audio thread: no exception is thrown, nothing allocates.
 HAPTO_EXPORT HAPTO_NAMED("hapto_voice_render") int hapto_voice_render(int index, float* samples, std::uint32_t frames,
                                                                       double rateHz) {
-    const bool isKnown = index >= 0 && static_cast<std::size_t>(index) < openVoices.size();
-    return haptoflow_voice_render(isKnown ? openVoices[static_cast<std::size_t>(index)] : 0, samples, frames, 1, 0,
+    const bool isKnown = index >= 0 && static_cast<std::size_t>(index) < heardVoices.size();
+    return haptoflow_voice_render(isKnown ? heardVoices[static_cast<std::size_t>(index)] : 0, samples, frames, 1, 0,
                                   rateHz);
 }
 

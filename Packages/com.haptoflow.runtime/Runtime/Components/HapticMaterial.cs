@@ -74,6 +74,10 @@ namespace HaptoFlow
             }
         }
 
+        /// <summary>True where the asset that contains this description, or its learnt material, was destroyed: nobody
+        /// knows what it was like.</summary>
+        internal bool IsUnloaded => HapticMaterial.IsUnloaded(owner) || HapticMaterial.IsUnloaded(learnt);
+
         /// <summary>Name of a second label to blend with; empty for none.</summary>
         public string SecondLabel { get => secondLabel; set => Change(ref secondLabel, value); }
 
@@ -231,6 +235,11 @@ namespace HaptoFlow
             learnt = text;
             Announce();
         }
+
+        /// <summary>True for a reference to a material that was destroyed. In the editor, an empty field of a component
+        /// is no null reference either; it has no instance.</summary>
+        internal static bool IsUnloaded(HapticMaterial? material) =>
+            material is object && material.GetInstanceID() != 0 && material == null;
 
         /// <summary>The labels and their weights for the engine, looked up again only after a change.</summary>
         /// <param name="user">Object that a warning about an unknown label names.</param>

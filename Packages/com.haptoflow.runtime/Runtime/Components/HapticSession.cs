@@ -23,6 +23,7 @@ namespace HaptoFlow
         private readonly EngineHealth health = new EngineHealth();
         private QualityChange? qualityChange;
         private readonly bool isAdditional;
+        private readonly byte[]? modelFile;
         private Task<HapticModelDelay>? measuring;
         private bool reported;
 
@@ -40,6 +41,7 @@ namespace HaptoFlow
                 return;
             }
             byte[] file = model.File;
+            modelFile = file;
             HapticEngineOptions options = OptionsOf(settings);
             // Auto is chosen by what the worker measures, and refused without one.
             options.Quality = options.WithoutWorker && quality == HapticQuality.Auto ? HapticQuality.Draft : quality;
@@ -50,8 +52,19 @@ namespace HaptoFlow
             loading = Task.Run(() => Load(file, options));
         }
 
-        /// <summary>The session in use; starts that of the settings where there is none.</summary>
-        public static HapticSession Current => replacingSession ?? (settingsSession ??= NewSettingsSession());
+        /// <summary>The session in use; starts that of the settings where there is none, and again where it failed and
+        /// another model is there.</summary>
+        public static HapticSession Current
+        {
+            get
+            {
+                if (replacingSession == null && settingsSession?.CanSucceedNow() == true)
+                {
+                    Restart();
+                }
+                return replacingSession ?? (settingsSession ??= NewSettingsSession());
+            }
+        }
 
         /// <summary>Null until the first stylus is enabled.</summary>
         public static HapticSession? Existing => replacingSession ?? settingsSession;
@@ -265,6 +278,16 @@ namespace HaptoFlow
         {
             HaptoFlowSettings settings = HaptoFlowSettings.Active;
             return new HapticSession(settings, settings.Model, settings.Quality, false);
+        }
+
+        private bool CanSucceedNow()
+        {
+            if (!reported || Engine != null)
+            {
+                return false;
+            }
+            HapticModelAsset? model = HaptoFlowSettings.Active.Model;
+            return model != null && !ReferenceEquals(model.File, modelFile);
         }
 
         /// <summary>Cancels loading and waits for it: native code must not run on when the process or the application

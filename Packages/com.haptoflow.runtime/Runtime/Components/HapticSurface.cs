@@ -68,9 +68,9 @@ namespace HaptoFlow
         {
             get
             {
-                if (sharedMaterial != null)
+                if (IsShared)
                 {
-                    own.CopyFrom(sharedMaterial.Description);
+                    own.CopyFrom(sharedMaterial!.Description);
                     sharedMaterial = null;
                 }
                 return own;
@@ -79,7 +79,7 @@ namespace HaptoFlow
 
         /// <summary>The description in effect, for reading: the shared material's, or the surface's own. A change to a
         /// shared one affects the asset and every surface that shares it.</summary>
-        public MaterialDescription SharedDescription => sharedMaterial != null ? sharedMaterial.Description : own;
+        public MaterialDescription SharedDescription => IsShared ? sharedMaterial!.Description : own;
 
         /// <summary>True to include colliders of children.</summary>
         public bool IncludeChildren
@@ -182,8 +182,11 @@ namespace HaptoFlow
             return whole;
         }
 
-        private MaterialLookUp LookUp(HapticSession session) => sharedMaterial != null
-            ? sharedMaterial.LookUp(session, this)
+        // A shared material that was unloaded is not replaced by the surface's own description.
+        private bool IsShared => sharedMaterial != null || HapticMaterial.IsUnloaded(sharedMaterial);
+
+        private MaterialLookUp LookUp(HapticSession session) => IsShared
+            ? sharedMaterial!.LookUp(session, this)
             : ownLookUp.Of(own, session, this);
 
         // Unity calls it only in the editor, for a new component and for Reset in its menu.

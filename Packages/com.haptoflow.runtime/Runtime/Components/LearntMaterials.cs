@@ -80,6 +80,7 @@ namespace HaptoFlow
             if (!found.IsUnderWay)
             {
                 Release(found);
+                StartNext();
             }
             return true;
         }
@@ -136,13 +137,15 @@ namespace HaptoFlow
                 return;
             }
             var next = new List<MaterialRegistration>();
+            var withoutPlace = new List<Known>();
             foreach (Known each in waiting)
             {
                 each.Text = each.Material.Learnt;
                 if (each.Index < 0 && free.Count == 0 && taken == HapticEngine.MaximumMaterials)
                 {
                     Refuse(each, $"{HapticEngine.MaximumMaterials} learnt materials are in use, which is the most " +
-                        "that an engine takes. Use fewer of them in what is loaded at one time.");
+                        "that an engine takes. It gets a place when another one is unloaded.");
+                    withoutPlace.Add(each);
                     continue;
                 }
                 int place = each.Index >= 0 ? each.Index : free.Count > 0 ? free.Pop() : MaterialRegistration.NewPlace;
@@ -151,6 +154,7 @@ namespace HaptoFlow
                 next.Add(new MaterialRegistration(each, each.Text, place));
             }
             waiting.Clear();
+            waiting.AddRange(withoutPlace);
             if (next.Count > 0)
             {
                 running = Task.Run(() =>
@@ -196,6 +200,10 @@ namespace HaptoFlow
 
         private void Refuse(Known material, string why)
         {
+            if (material.IsRefused && material.Refusal == why)
+            {
+                return;
+            }
             SetRefused(material, true);
             material.Refusal = why;
             HapticMaterial asset = material.Material;

@@ -33,7 +33,7 @@ namespace HaptoFlow
         public LabelBlend Blend(
             MaterialDescription material, Object user, out double stiffnessNewtonsPerMetre)
         {
-            LabelBlend blend = Named(material, user);
+            LabelBlend blend = material.IsUnloaded ? default : Named(material, user);
             stiffnessNewtonsPerMetre = 0.0;
             for (int entry = 0; entry < blend.Count; ++entry)
             {

@@ -6,20 +6,27 @@ using UnityEngine;
 namespace HaptoFlow
 {
     /// <summary>The voice of one stylus on one output: opens it when engine and output are available, reopens it when
-    /// either changes, and publishes contact states to it. Main thread, no garbage while nothing changes.</summary>
+    /// either changes, and publishes contact states to it. The voice that it leaves fades on its output. Main thread,
+    /// no garbage while nothing changes.</summary>
     internal sealed class StylusVoice
     {
+        private const double RetrySeconds = 0.5;
+
         private readonly HapticStylus stylus;
         private readonly MotionGate motion = new MotionGate();
         private ContactBody? movedOn;
         private HapticVoice? voice;
         private HapticEngine? engine;
-        private HapticEngine? refusedBy;
         private IVoiceTarget? output;
         private float publishedStrength;
 
-        // A voice of the previous engine: it fades out while the present one begins.
-        private readonly FadingVoice leaving = new FadingVoice();
+        // Why the last attempt to open a voice failed, what was asked for, and when to ask for the same again.
+        private string? refusal;
+        private (HapticEngine? Engine, IVoiceTarget? Output, int RateHz) refused;
+        private double retrySeconds;
+
+        // The output of which the console said last that the stylus left it during a touch.
+        private IVoiceTarget? leftOutput;
 
         // The touch counter of the newest reading, whether or not a voice played it.
         private uint? newestTouch;
@@ -64,7 +71,6 @@ namespace HaptoFlow
         public void Publish(
             in ContactReading reading, in ResolvedMaterial felt, HapticSession session, IVoiceTarget? wanted)
         {
-            leaving.Update();
             bool isReady = MakeReady(session, wanted, reading.State);
             newestTouch = reading.State.TouchCounter;
             if (!isReady)
@@ -96,13 +102,13 @@ namespace HaptoFlow
 
         public void Close()
         {
-            leaving.Close();
-            if (voice == null)
-            {
-                return;
-            }
-            output!.Remove(voice);
-            voice.Dispose();
+            EndVoice();
+            refusal = null;
+        }
+
+        private void EndVoice()
+        {
+            voice?.Dispose();
             voice = null;
             engine = null;
             output = null;
@@ -132,37 +138,29 @@ namespace HaptoFlow
 
         private bool MakeReady(HapticSession session, IVoiceTarget? wanted, in ContactState tip)
         {
-            if (session.Engine == null)
-            {
-                Close();
-                return false;
-            }
-            if (wanted == null)
-            {
-                Close();
-                return false;
-            }
             if (voice != null && ReferenceEquals(engine, session.Engine) && ReferenceEquals(output, wanted))
             {
                 return true;
             }
-            if (voice != null && ReferenceEquals(output, wanted))
+            bool isUnderWay = tip.Touching && (newestTouch ?? tip.TouchCounter) == tip.TouchCounter;
+            if (isUnderWay && voice != null && !ReferenceEquals(output, wanted))
             {
-                leaving.Take(voice, wanted);
-                voice = null;
+                SayThatTheOutputChanged(wanted);
             }
-            else
-            {
-                Close();
-            }
-            if (ReferenceEquals(refusedBy, session.Engine) || !Open(session, wanted))
+            EndVoice();
+            if (session.Engine == null || wanted == null || !MayOpen(session.Engine, wanted) || !Open(session, wanted))
             {
                 return false;
             }
-            bool isUnderWay = tip.Touching && (newestTouch ?? tip.TouchCounter) == tip.TouchCounter;
             missedLanding = isUnderWay ? (tip.TouchCounter, tip.LandingCounter) : ((uint, uint)?)null;
             return true;
         }
+
+        /// <summary>False where the same was refused a moment ago. What kept it from being served may pass: another
+        /// voice ends, a device returns.</summary>
+        private bool MayOpen(HapticEngine asked, IVoiceTarget wanted) =>
+            refusal == null || Time.unscaledTimeAsDouble >= retrySeconds ||
+            refused != (asked, wanted, wanted.SampleRateHz);
 
         private bool Open(HapticSession session, IVoiceTarget wanted)
         {
@@ -170,11 +168,22 @@ namespace HaptoFlow
             {
                 voice = session.Engine!.OpenVoice(wanted.SampleRateHz);
             }
-            catch (HaptoFlowException refusal)
+            catch (HaptoFlowException refusing)
             {
-                refusedBy = session.Engine;
-                Debug.LogError($"HaptoFlow: {stylus.name} gets no voice: {refusal.Message}", stylus);
+                if (refusal != refusing.Message)
+                {
+                    Debug.LogError(
+                        $"HaptoFlow: {stylus.PenName} gets no voice, and asks again: {refusing.Message}", stylus);
+                }
+                refusal = refusing.Message;
+                refused = (session.Engine, wanted, wanted.SampleRateHz);
+                retrySeconds = Time.unscaledTimeAsDouble + RetrySeconds;
                 return false;
+            }
+            if (refusal != null)
+            {
+                refusal = null;
+                Debug.Log($"HaptoFlow: {stylus.PenName} has got its voice.", stylus);
             }
             voice.SetCeiling(session.Settings.Ceiling);
             publishedStrength = stylus.Strength * wanted.Strength;
@@ -184,5 +193,20 @@ namespace HaptoFlow
             wanted.Add(voice);
             return true;
         }
+
+        private void SayThatTheOutputChanged(IVoiceTarget? wanted)
+        {
+            if (!ReferenceEquals(leftOutput, output))
+            {
+                leftOutput = output;
+                Debug.Log($"HaptoFlow: {stylus.PenName} lost {NameOf(output)} during a touch: its sound fades there, " +
+                    "and " + (wanted == null
+                        ? "it is silent until it has an output again."
+                        : $"goes on on {NameOf(wanted)}."), stylus);
+            }
+        }
+
+        private static string NameOf(IVoiceTarget? target) =>
+            target is Object known && known != null ? known.name : "an output that is gone";
     }
 }

@@ -54,7 +54,6 @@ namespace HaptoFlow.DeviceCheck
         public void Dispose()
         {
             output.Recorder = null;
-            ((IVoiceTarget)output).Remove(voice);
             voice.Dispose();
             if (output != null)
             {

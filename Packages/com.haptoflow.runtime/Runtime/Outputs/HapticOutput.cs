@@ -216,8 +216,6 @@ namespace HaptoFlow
             }
         }
 
-        void IVoiceTarget.Remove(HapticVoice voice) => mixer.Remove(voice);
-
         /// <summary>Records every block; null for none.</summary>
         internal DeviceCheck.BlockRecorder? Recorder
         {
@@ -308,8 +306,6 @@ namespace HaptoFlow
         private void ReadConfiguration()
         {
             sampleRateHz = AudioSettings.outputSampleRate;
-            AudioSettings.GetDSPBufferSize(out int blockFrames, out _);
-            mixer.Prepare(blockFrames);
         }
 
         private void PlaySource()

@@ -14,10 +14,7 @@ namespace HaptoFlow
         /// motion.</summary>
         bool PlaysSignal { get; }
 
-        /// <summary>Starts rendering the voice. A voice has one output at a time.</summary>
+        /// <summary>Renders the voice until it is closed and has faded. A voice has one output.</summary>
         void Add(HapticVoice voice);
-
-        /// <summary>Stops rendering the voice.</summary>
-        void Remove(HapticVoice voice);
     }
 }

@@ -4,34 +4,21 @@ using System.Threading;
 
 namespace HaptoFlow
 {
-    /// <summary>The voices of one channel. The main thread adds and removes voices; the audio thread renders them
-    /// without locks and without garbage.</summary>
+    /// <summary>The voices of one channel. The main thread adds them; the audio thread renders them without locks and
+    /// without garbage. A voice that is closed is heard until it has faded.</summary>
     internal sealed class VoiceMixer
     {
+        // The main thread's: those that may be set.
         private HapticVoice[] voices = Array.Empty<HapticVoice>();
-        private float[] scratch = Array.Empty<float>();
 
-        /// <summary>Allocates for blocks of this length. Call it before the audio thread renders them. Main
-        /// thread.</summary>
-        public void Prepare(int blockFrames)
-        {
-            if (Volatile.Read(ref scratch).Length < blockFrames)
-            {
-                Volatile.Write(ref scratch, new float[blockFrames]);
-            }
-        }
+        // The audio thread's: also those that fade; 0 for one that has.
+        private ulong[] sounding = Array.Empty<ulong>();
 
         public void Add(HapticVoice voice)
         {
-            HapticVoice[] before = voices;
-            var after = new HapticVoice[before.Length + 1];
-            before.CopyTo(after, 0);
-            after[before.Length] = voice;
-            Volatile.Write(ref voices, after);
+            voices = With(Array.FindAll(voices, each => each.Id != 0), voice);
+            Volatile.Write(ref sounding, With(Array.FindAll(sounding, each => each != 0), voice.Id));
         }
-
-        public void Remove(HapticVoice voice) =>
-            Volatile.Write(ref voices, Array.FindAll(voices, each => !ReferenceEquals(each, voice)));
 
         /// <summary>Calls an action with every voice that is still open. Main thread.</summary>
         public void ForEach<T>(Action<HapticVoice, T> act, T argument)
@@ -40,22 +27,25 @@ namespace HaptoFlow
             {
                 try
                 {
-                    act(voice, argument);
+                    if (voice.Id != 0)
+                    {
+                        act(voice, argument);
+                    }
                 }
                 catch (HaptoFlowException closed) when (closed.Status == HaptoFlowStatus.InvalidArgument)
                 {
-                    // The engine was restarted in this frame; the stylus removes the voice in the next.
+                    // The engine was restarted in this frame; the stylus closes the voice in the next.
                 }
             }
         }
 
-        /// <summary>True where every voice is muted, paused, turned down to 0, silenced by a panic, or closing. Main
+        /// <summary>True where every voice is muted, paused, turned down to 0, silenced by a panic, or closed. Main
         /// thread.</summary>
         public bool AllAreStopped()
         {
             foreach (HapticVoice voice in voices)
             {
-                if (!IsStopped(voice))
+                if (voice.Id != 0 && !IsStopped(voice))
                 {
                     return false;
                 }
@@ -64,22 +54,14 @@ namespace HaptoFlow
         }
 
         /// <summary>Overwrites the channel with the sum of the voices, limited to +-1. Audio thread.</summary>
-        public void Render(Span<float> interleaved, int channels, int channel, int sampleRateHz)
+        public void Render(Span<float> interleaved, int channels, int channel, int sampleRateHz) =>
+            HapticVoice.RenderSum(Volatile.Read(ref sounding), interleaved, channels, channel, sampleRateHz);
+
+        private static T[] With<T>(T[] before, T added)
         {
-            HapticVoice[] sounding = Volatile.Read(ref voices);
-            if (sounding.Length == 0)
-            {
-                Silence(interleaved, channels, channel);
-                return;
-            }
-            sounding[0].Render(interleaved, channels, channel, sampleRateHz);
-            float[] room = Volatile.Read(ref scratch);
-            for (int index = 1; index < sounding.Length; ++index)
-            {
-                Span<float> samples = room.AsSpan(0, Math.Min(room.Length, interleaved.Length / channels));
-                sounding[index].Render(samples, 1, 0, sampleRateHz);
-                AddTo(interleaved, channels, channel, samples);
-            }
+            Array.Resize(ref before, before.Length + 1);
+            before[before.Length - 1] = added;
+            return before;
         }
 
         private static bool IsStopped(HapticVoice voice)
@@ -94,30 +76,6 @@ namespace HaptoFlow
             catch (HaptoFlowException closed) when (closed.Status == HaptoFlowStatus.InvalidArgument)
             {
                 return true;
-            }
-        }
-
-        private static void Silence(Span<float> interleaved, int channels, int channel)
-        {
-            int first = Math.Max(0, channel);
-            int last = channel < 0 ? channels - 1 : channel;
-            for (int frame = 0; frame < interleaved.Length / channels; ++frame)
-            {
-                interleaved.Slice(frame * channels + first, last - first + 1).Clear();
-            }
-        }
-
-        private static void AddTo(Span<float> interleaved, int channels, int channel, ReadOnlySpan<float> samples)
-        {
-            int first = Math.Max(0, channel);
-            int last = channel < 0 ? channels - 1 : channel;
-            for (int frame = 0; frame < samples.Length; ++frame)
-            {
-                for (int place = first; place <= last; ++place)
-                {
-                    ref float sample = ref interleaved[frame * channels + place];
-                    sample = Math.Max(-1f, Math.Min(1f, sample + samples[frame]));
-                }
             }
         }
     }

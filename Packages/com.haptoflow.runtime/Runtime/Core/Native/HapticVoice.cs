@@ -6,8 +6,8 @@ using HaptoFlow.Native;
 
 namespace HaptoFlow
 {
-    /// <summary>The signal of one stylus tip. After it is closed, rendering gives silence and every other call
-    /// throws.</summary>
+    /// <summary>The signal of one stylus tip. After it is closed, <see cref="Render"/> gives silence and every other
+    /// call throws; an output that plays it fades it out.</summary>
     public sealed unsafe class HapticVoice : IDisposable
     {
         /// <summary>Channel number for all channels.</summary>
@@ -29,7 +29,8 @@ namespace HaptoFlow
         /// <summary>Closes a voice that was not disposed.</summary>
         ~HapticVoice() => Close();
 
-        private ulong Id => unchecked((ulong)Interlocked.Read(ref voice));
+        /// <summary>The library's number of the voice; 0 once it is closed.</summary>
+        internal ulong Id => unchecked((ulong)Interlocked.Read(ref voice));
 
         /// <summary>Publishes the state of the tip. Call it once a frame, also while nothing is touched. Any thread
         /// except the audio callback; no garbage.</summary>
@@ -65,6 +66,19 @@ namespace HaptoFlow
                 int status = NativeMethods.VoiceRender(
                     Id, samples, (uint)(interleaved.Length / channelCount), (uint)channelCount, channel, sampleRateHz);
                 return status == (int)HaptoFlowStatus.Ok;
+            }
+        }
+
+        /// <summary>Writes the sum of voices as <see cref="Render"/> writes one, limited as a whole. Sets the number of
+        /// a voice to 0 that is closed and has faded. For the audio callback.</summary>
+        internal static void RenderSum(
+            ulong[] ids, Span<float> interleaved, int channelCount, int channel, double sampleRateHz)
+        {
+            fixed (ulong* voices = ids)
+            fixed (float* samples = interleaved)
+            {
+                NativeMethods.VoicesRender(voices, (uint)ids.Length, samples,
+                    (uint)(interleaved.Length / channelCount), (uint)channelCount, channel, sampleRateHz);
             }
         }
 
@@ -185,8 +199,8 @@ namespace HaptoFlow
             return (int)place;
         }
 
-        /// <summary>Closes the voice. Blocks while a block is being rendered, at most 48 ms; never for
-        /// inference.</summary>
+        /// <summary>Closes the voice. Waits for nothing: an output that plays it goes on until it has faded, within a
+        /// block and 5 ms.</summary>
         public void Dispose()
         {
             Close();

@@ -154,6 +154,11 @@ namespace HaptoFlow.Native
         public static extern int VoiceRender(
             ulong voice, float* interleaved, uint frameCount, uint channelCount, int channel, double sampleRateHz);
 
+        [DllImport(Library, EntryPoint = "haptoflow_voices_render")]
+        public static extern int VoicesRender(
+            ulong* voices, uint voiceCount, float* interleaved, uint frameCount, uint channelCount, int channel,
+            double sampleRateHz);
+
         [DllImport(Library, EntryPoint = "haptoflow_voice_set_strength")]
         public static extern int VoiceSetStrength(ulong voice, float strength);
 

@@ -144,8 +144,6 @@ namespace HaptoFlow
             source.Add(voice);
         }
 
-        void IVoiceTarget.Remove(HapticVoice voice) => source.Remove(voice);
-
         /// <summary>True for an output created for a stylus without one.</summary>
         internal virtual bool IsMade => false;
 

@@ -7,37 +7,20 @@ namespace HaptoFlow
     /// <summary>The voices of a device output, as the source of its queue. Main thread.</summary>
     internal sealed class VoiceSource : IWaveSource
     {
-        // A voice closes within 5 ms.
+        // A voice falls silent within 5 ms.
         private const double ClosingSeconds = 0.01;
 
         private readonly VoiceMixer mixer = new VoiceMixer();
         private readonly float[] closing = new float[(int)(ClosingSeconds * WaveHistory.RateHz)];
-
-        public VoiceSource() => mixer.Prepare((int)(WaveHistory.CapacitySeconds * WaveHistory.RateHz));
 
         /// <inheritdoc/>
         public bool IsStopped => mixer.AllAreStopped();
 
         public void Add(HapticVoice voice) => mixer.Add(voice);
 
-        /// <summary>Mutes the voice and renders its end into nothing before removing it: a voice closes only when
-        /// rendered.</summary>
-        public void Remove(HapticVoice voice)
-        {
-            ForEach((each, leaving) =>
-            {
-                if (ReferenceEquals(each, leaving))
-                {
-                    each.SetMuted(true);
-                }
-            }, voice);
-            Discard();
-            mixer.Remove(voice);
-        }
-
         public void ForEach<T>(Action<HapticVoice, T> act, T argument) => mixer.ForEach(act, argument);
 
-        /// <summary>Renders and discards as many samples as a voice needs to close.</summary>
+        /// <summary>Renders and discards as many samples as a voice needs to fall silent.</summary>
         public void Discard() => Render(closing);
 
         /// <summary>Discards impacts and edges that came while no device could play them.</summary>
