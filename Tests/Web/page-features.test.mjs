@@ -130,6 +130,28 @@ describe('the live page in a browser with', { skip: !hasBrowser }, () => {
   });
 });
 
+test('a headset that refuses to be entered costs itself and one line, until it lets the visitor in', { skip: !hasBrowser }, async () => {
+  opened = await openLivePage({
+    before: () => {
+      const xr = { isSessionSupported: async () => true, requestSession: async () => { throw new DOMException('no floor', 'NotSupportedError'); } };
+      Object.defineProperty(Navigator.prototype, 'xr', { value: xr });
+    },
+  });
+  try {
+    const { page } = opened;
+    await page.locator('#enter-vr').click();
+    await page.locator('#missing li').waitFor();
+    assert.match(await page.locator('#missing').innerText(), /^Headset: the browser fails at it \(no floor\)\.$/);
+    assert.equal(await page.locator('#enter-vr').isEnabled(), true);
+    await page.evaluate(() => { navigator.xr.requestSession = () => new Promise(() => {}); });
+    await page.locator('#enter-vr').click();
+    assert.equal(await page.locator('#missing').isHidden(), true);
+    assert.deepEqual(opened.complaints, []);
+  } finally {
+    await opened.close();
+  }
+});
+
 const everything = ['accelerometer', 'autoplay', 'camera', 'clipboard-read', 'clipboard-write', 'cross-origin-isolated', 'display-capture', 'encrypted-media',
   'fullscreen', 'gamepad', 'geolocation', 'gyroscope', 'idle-detection', 'magnetometer', 'microphone', 'midi', 'payment', 'picture-in-picture', 'screen-wake-lock',
   'serial', 'speaker-selection', 'storage-access', 'sync-xhr', 'unload', 'usb', 'web-share', 'window-management', 'xr-spatial-tracking'];

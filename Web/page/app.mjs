@@ -259,11 +259,13 @@ class Page {
       const { xr } = /** @type {any} */ (navigator);
       if (!xr) messages.missing(headsetName, 'this browser has no WebXR');
       if (!(await xr?.isSessionSupported('immersive-vr'))) return;
-      const { enterHeadset } = await import('./xr/headset.mjs');
+      const { enterHeadset, headsetIsPossible } = await import('./xr/headset.mjs');
+      if (!(await headsetIsPossible())) return;
       const button = find('#enter-vr');
       button.hidden = false;
       button.addEventListener('click', () => {
         this.hand.releaseAll();
+        messages.found(headsetName);
         button.disabled = true;
         void this.haptics.resume();
         enterHeadset({
@@ -279,7 +281,7 @@ class Page {
           },
         }).catch((/** @type {any} */ error) => {
           button.disabled = false;
-          messages.error(error);
+          messages.missing(headsetName, error);
         });
       });
     } catch (error) {
