@@ -84,7 +84,7 @@ const lacks = [
   ['a shared memory that is refused', () => { globalThis.SharedArrayBuffer = class SharedArrayBuffer { constructor() { throw new RangeError('Array buffer allocation failed'); } }; }, [], (found) => assert.equal(found.sharing, 'ring')],
   ['no full screen', () => { delete Element.prototype.requestFullscreen; }, []],
   ['no canvas off the screen', () => { delete globalThis.OffscreenCanvas; }, []],
-  ['pictures that may not be read', () => { HTMLCanvasElement.prototype.toDataURL = () => { throw new DOMException('denied', 'SecurityError'); }; }, ['Pictures of the materials']],
+  ['pictures that may not be read', () => { HTMLCanvasElement.prototype.toDataURL = () => { throw new DOMException('denied', 'SecurityError'); }; }, []],
   ['pictures of the signal that cannot be drawn', () => { delete globalThis.ImageData; }, ['Pictures of the signal']],
   ['no media devices, workers for pushes, locks or permissions', () => { for (const name of ['mediaDevices', 'serviceWorker', 'locks', 'permissions', 'userActivation', 'hardwareConcurrency', 'getBattery']) delete Navigator.prototype[name]; }, []],
   ['no events of pointers but the plain ones', () => {
@@ -203,6 +203,12 @@ describe('the live page under a policy', { skip: !hasBrowser }, () => {
       assert.equal(found.sharing, 'ring');
     });
   }
+
+  test('that forbids pictures from data plays', async () => {
+    judge(await live({ headers: { 'Content-Security-Policy': "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'self' blob:" } }), []);
+    // The icon alone.
+    assert.ok(opened.complaints.every((text) => /image 'data:,'/.test(text)), opened.complaints.join('\n'));
+  });
 
   test('that forbids WebAssembly says so, with the remedy', async () => {
     opened = await openLivePage({ browser, waits: false, headers: { 'Content-Security-Policy': "default-src 'self'" } });

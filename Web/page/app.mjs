@@ -102,7 +102,7 @@ class Page {
     });
     this.#makePresets();
     this.palette = new Palette({
-      haptics, fills, messages,
+      haptics, fills,
       objects: scene.surfaces.map((/** @type {any} */ surface, /** @type {number} */ index) => ({ value: String(index), text: this.titleOf(index) })),
       paint: (index, material) => this.paint(index, material),
       onSelect: (index) => {

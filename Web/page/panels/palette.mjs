@@ -4,7 +4,6 @@ import { fillSelect, find, make, slider } from '../dom.mjs';
 export class Palette {
   #haptics;
   #fills;
-  #messages;
   #paint;
   #list = find('#labels');
   #words = find('#label-words');
@@ -16,12 +15,11 @@ export class Palette {
 
   /**
    * @param {{haptics: import('../../engine/js/haptoflow.d.ts').HaptoFlow, fills: import('../table/fills.mjs').Fills,
-   *   messages: import('../messages.mjs').Messages, objects: {value: string, text: string}[], paint: (index: number, material: any) => void, onSelect: (index: number) => void, restore: () => void}} parts
+   *   objects: {value: string, text: string}[], paint: (index: number, material: any) => void, onSelect: (index: number) => void, restore: () => void}} parts
    */
-  constructor({ haptics, fills, messages, objects, paint, onSelect, restore }) {
+  constructor({ haptics, fills, objects, paint, onSelect, restore }) {
     this.#haptics = haptics;
     this.#fills = fills;
-    this.#messages = messages;
     this.#paint = paint;
     fillSelect(this.#object, objects);
     this.#object.addEventListener('change', () => onSelect(Number(this.#object.value)));
@@ -41,13 +39,8 @@ export class Palette {
     this.#list.replaceChildren(...labels.map(({ name, isAdded }) => {
       const input = make('input', { type: 'radio', name: 'label', value: name, checked: name === this.chosen });
       input.addEventListener('change', () => this.choose(name));
-      const swatch = make('span', { className: 'swatch' });
-      swatch.style.backgroundColor = this.#fills.look(name).colour;
-      try {
-        swatch.style.backgroundImage = `url(${this.#fills.tile(name).toDataURL()})`;
-      } catch (error) {
-        this.#messages.missing('Pictures of the materials', error);
-      }
+      const swatch = make('canvas', { className: 'swatch', width: 240, height: 107, 'aria-hidden': 'true' });
+      swatch.getContext('2d').drawImage(this.#fills.tile(name), 0, 0);
       return make('label', { className: isAdded ? 'chip added' : 'chip', title: this.#fills.look(name).words }, [input, swatch, make('span', { className: 'chip-name', textContent: name })]);
     }));
     fillSelect(this.#second, [{ value: '', text: 'nothing' }, ...labels.map(({ name }) => ({ value: name, text: name }))]);
