@@ -70,3 +70,54 @@ test('the live page offers the headset, loads three.js only on entering, and sho
     await close();
   }
 });
+
+test('a headset\'s browser without graphics, states of sight, joints or motors costs these, and the page goes on', { skip: !hasBrowser }, async () => {
+  const { page, complaints, close } = await openLivePage({ viewport: { width: 200, height: 150 } });
+  try {
+    await page.addInitScript({ path: path.join(repository, 'node_modules', 'iwer', 'build', 'iwer.js') });
+    await page.addInitScript(emulate);
+    await page.addInitScript(() => {
+      const { getContext } = HTMLCanvasElement.prototype;
+      globalThis.hasGraphics = false;
+      HTMLCanvasElement.prototype.getContext = function (kind, ...more) {
+        return kind === '2d' || globalThis.hasGraphics ? getContext.call(this, kind, ...more) : null;
+      };
+      Object.defineProperty(globalThis.XRSession.prototype, 'visibilityState', { get: () => undefined });
+      delete globalThis.XRFrame.prototype.getJointPose;
+      for (const { inputSource } of Object.values(globalThis.device.controllers)) {
+        Object.defineProperty(inputSource.gamepad, 'hapticActuators', { get() { throw new DOMException('denied', 'SecurityError'); } });
+        Object.defineProperty(inputSource.gamepad, 'vibrationActuator', { get() { throw new DOMException('denied', 'SecurityError'); } });
+      }
+    });
+    await page.reload();
+    await page.waitForSelector('#enter-vr:not([hidden])', { state: 'attached', timeout: 30000 });
+    const click = () => page.evaluate(() => document.querySelector('#enter-vr').click());
+    await click();
+    await page.waitForFunction(() => /^Headset: /.test(document.querySelector('#missing').textContent), null, { timeout: 20000 });
+    assert.equal(await page.evaluate(() => globalThis.haptoflowPage.haptics.voices.length), 2, 'the voices of the failed visit are closed');
+    await page.evaluate(() => { globalThis.hasGraphics = true; });
+    await click();
+    await page.waitForFunction(() => globalThis.haptoflowPage.haptics.voices.length === 4, null, { timeout: 20000 });
+    const sounded = await page.evaluate(async () => {
+      const { device, haptoflowPage } = globalThis;
+      const [, , , right] = haptoflowPage.haptics.voices;
+      let hasSounded = false;
+      // Over the sandpaper: the bench stands 0.4 m ahead of the emulated head and 0.45 m below it; the nib is 0.06 m ahead of the hand.
+      for (let frame = 0; frame < 900 && !hasSounded; frame += 1) {
+        device.controllers.right.position.set(-0.185 + 0.03 * Math.sin(frame / 8), 0.8505, -0.4 + 0.112 + 0.06);
+        await new Promise((resolve) => { requestAnimationFrame(resolve); });
+        hasSounded = right.silence === 'none' && right.isTouching;
+      }
+      device.primaryInputMode = 'hand';
+      for (let frame = 0; frame < 5; frame += 1) await new Promise((resolve) => { requestAnimationFrame(resolve); });
+      await device.activeSession.end();
+      return hasSounded;
+    });
+    assert.equal(sounded, true);
+    await page.waitForFunction(() => !document.querySelector('#enter-vr').disabled);
+    assert.equal(await page.locator('#message').isHidden(), true, await page.locator('#message').textContent());
+    assert.deepEqual(complaints.filter((text) => !/WebGL/.test(text)), []);
+  } finally {
+    await close();
+  }
+});

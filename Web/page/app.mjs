@@ -23,9 +23,13 @@ const updateRateHz = 120;
 const tipCount = 2;
 const statisticsEveryMs = 250;
 const announceEveryMs = 1200;
+const scopeName = 'Pictures of the signal';
+const headsetName = 'Headset';
 const epochMs = performance.now();
 
 const messages = new Messages();
+// Whatever fails from here on is said by the page itself.
+find('#not-started').remove();
 const readJson = async (/** @type {string} */ name) => {
   const address = new URL(name, import.meta.url);
   const response = await fetch(address);
@@ -64,6 +68,8 @@ class Page {
   /** The engine is closed for good. */
   #isOver = false;
   #shownRingFrames = NaN;
+  /** Null where the browser cannot draw it. @type {Scope | null} */
+  scope = null;
   /** Lets a voice follow the page's controls. @type {(voice: import('../engine/js/haptoflow.d.ts').Voice) => void} */
   adopt;
 
@@ -123,9 +129,13 @@ class Page {
       this.palette.refresh();
       this.compare.refresh();
     });
-    this.outputs = new Outputs(this.voices);
+    this.outputs = new Outputs(this.voices, messages);
     this.device = new DevicePanel(haptics, this.hand, this.voices[0]);
-    this.scope = new Scope(this.voices.map((voice) => voice.waveTap()));
+    try {
+      this.scope = new Scope(this.voices.map((voice) => voice.waveTap()));
+    } catch (error) {
+      messages.missing(scopeName, error);
+    }
     const listen = find('#listen');
     const ears = new Ears(haptics.context, haptics.output);
     const applyListen = (/** @type {import('../engine/js/haptoflow.d.ts').Voice} */ voice) => (listen.checked ? ears.take(voice) : ears.release(voice));
@@ -244,16 +254,18 @@ class Page {
   }
 
   async #offerHeadset() {
-    // The headset's scripts are loaded only where there may be a headset.
-    const isSupported = await /** @type {any} */ (navigator).xr?.isSessionSupported('immersive-vr').catch(() => false);
-    if (!isSupported) return;
     try {
+      // The headset's scripts are loaded only where there may be a headset.
+      const { xr } = /** @type {any} */ (navigator);
+      if (!xr) messages.missing(headsetName, 'this browser has no WebXR');
+      if (!(await xr?.isSessionSupported('immersive-vr'))) return;
       const { enterHeadset, headsetIsPossible } = await import('./xr/headset.mjs');
       if (!(await headsetIsPossible())) return;
       const button = find('#enter-vr');
       button.hidden = false;
       button.addEventListener('click', () => {
         this.hand.releaseAll();
+        messages.found(headsetName);
         button.disabled = true;
         void this.haptics.resume();
         enterHeadset({
@@ -269,11 +281,11 @@ class Page {
           },
         }).catch((/** @type {any} */ error) => {
           button.disabled = false;
-          messages.error(error);
+          messages.missing(headsetName, error);
         });
       });
     } catch (error) {
-      messages.show(`The headset cannot be entered: ${/** @type {Error} */ (error).message}`);
+      messages.missing(headsetName, error);
     }
   }
 
@@ -298,7 +310,7 @@ class Page {
         const lean = place.orientation ? [-2 * /** @type {number[]} */ (place.orientation)[2], 2 * /** @type {number[]} */ (place.orientation)[0]] : null;
         return { x: ahead?.x ?? place.x, z: ahead?.z ?? place.z, forceNewtons: place.forceNewtons, isDown, lean };
       }));
-      this.scope.frame(nowMs);
+      this.#drawSignal(nowMs);
       this.outputs.frame(nowMs);
       this.record.frame();
       const name = this.#showReading();
@@ -312,6 +324,15 @@ class Page {
       }
     };
     requestAnimationFrame(frame);
+  }
+
+  #drawSignal(/** @type {number} */ nowMs) {
+    try {
+      this.scope?.frame(nowMs);
+    } catch (error) {
+      this.scope = null;
+      messages.missing(scopeName, error);
+    }
   }
 
   #showReading() {

@@ -1,4 +1,4 @@
-import { find } from './dom.mjs';
+import { find, make } from './dom.mjs';
 
 // Every failure of the engine in a sentence for somebody who came to draw.
 
@@ -40,6 +40,15 @@ export function sentenceOf(error) {
   return `${opening.slice(0, -1)}: ${detail}${/[.!?]$/.test(detail) ? '' : '.'}`;
 }
 
+const forbidden = 'this page may not use it: its server (Permissions-Policy) or the frame that it stands in forbids it';
+
+/** Why something cannot be used. @param {any} why what was thrown, or words */
+const reasonOf = (why) => {
+  if (typeof why === 'string') return why;
+  if (['SecurityError', 'NotAllowedError'].includes(why?.name)) return forbidden;
+  return `the browser fails at it (${String(why?.message ?? why).replace(/\.$/, '')})`;
+};
+
 /** The message for a silence; empty where there is nothing to say. @param {string} reason */
 export const silenceSentence = (reason) => silences[reason] ?? '';
 
@@ -48,6 +57,9 @@ export class Messages {
   #box = find('#message');
   #text = find('#message-text');
   #key = '';
+  #missing = find('#missing');
+  /** @type {Map<string, HTMLElement>} */
+  #lines = new Map();
 
   constructor() {
     find('#message-close').addEventListener('click', () => this.clear());
@@ -70,6 +82,22 @@ export class Messages {
     this.#box.hidden = true;
     this.#text.textContent = '';
     this.#key = '';
+  }
+
+  /** One line, for good or until it is `found`, for what the page does without. @param {string} feature @param {any} why what was thrown, or words */
+  missing(feature, why = 'this browser has none for pages') {
+    if (this.#lines.has(feature)) return;
+    const line = make('li', { textContent: `${feature}: ${reasonOf(why)}.` });
+    this.#lines.set(feature, line);
+    this.#missing.append(line);
+    this.#missing.hidden = false;
+  }
+
+  /** @param {string} feature that works after all */
+  found(feature) {
+    this.#lines.get(feature)?.remove();
+    this.#lines.delete(feature);
+    this.#missing.hidden = this.#lines.size === 0;
   }
 
   /** @param {any} error */

@@ -5,44 +5,73 @@ import { serve } from './server.mjs';
 
 let isStaged = false;
 
-/** The live page in Chromium, under a path of its own. Waits until it plays, unless told not to. */
-export async function openLivePage({ isolated = true, viewport = { width: 1280, height: 860 }, colorScheme = 'light', reducedMotion = 'no-preference', changes = {}, waits = true } = {}) {
+/**
+ * The live page in Chromium, under a path of its own. Waits until it plays, unless told not to.
+ * @param {object} [options]
+ * @param {boolean} [options.isolated] @param {{width: number, height: number}} [options.viewport] @param {string} [options.colorScheme]
+ * @param {string} [options.reducedMotion] @param {Record<string, (bytes: Buffer) => Buffer | number>} [options.changes] @param {boolean} [options.waits]
+ * @param {Record<string, string>} [options.headers] of every file besides @param {Record<string, string>} [options.mediaTypes] by a file's ending
+ * @param {() => void} [options.before] runs in the page before its first script
+ * @param {string} [options.frame] attributes of a frame in a page of another origin, in which the live page then stands
+ * @param {Record<string, (route: import('playwright-core').Route) => any>} [options.routes] what becomes of files, by their names
+ * @param {import('playwright-core').BrowserContextOptions} [options.context] more of Playwright's own
+ * @param {import('playwright-core').Browser} [options.browser] one that stays open; else one is started
+ */
+export async function openLivePage({
+  isolated = true, viewport = { width: 1280, height: 860 }, colorScheme = 'light', reducedMotion = 'no-preference', changes = {}, waits = true,
+  headers = {}, mediaTypes = {}, before, frame, routes = {}, context: more = {}, browser: given,
+} = {}) {
   if (!isStaged || !existsSync(pageFolder())) stagePage();
   isStaged = true;
-  const server = await serve({ folders: { somewhere: pageFolder() }, isolated });
+  const place = '/somewhere/index.html';
+  const server = await serve({ folders: { somewhere: pageFolder() }, isolated, headers, mediaTypes });
+  server.documents.set('/outer.html', `<!doctype html><iframe src="${server.address}${place}" ${frame} style="width: 1200px; height: 800px"></iframe>`);
   for (const [name, change] of Object.entries(changes)) server.changes.set(`/somewhere/${name}`, change);
-  const browser = await launchChromium(['--disable-gpu']);
-  const context = await browser.newContext({ viewport, colorScheme: /** @type {any} */ (colorScheme), reducedMotion: /** @type {any} */ (reducedMotion) });
-  const page = await context.newPage();
+  const browser = given ?? await launchChromium(['--disable-gpu']);
+  const context = await browser.newContext({ viewport, colorScheme: /** @type {any} */ (colorScheme), reducedMotion: /** @type {any} */ (reducedMotion), ...more });
+  if (before) await context.addInitScript(before);
+  for (const [name, handle] of Object.entries(routes)) await context.route(`**/somewhere/${name}`, handle);
+  const outer = await context.newPage();
   /** @type {string[]} */
   const complaints = [];
   /** @type {string[]} */
   const strangers = [];
   /** Paths of what was loaded, within the page's folder. @type {Set<string>} */
   const loaded = new Set();
-  page.on('pageerror', (error) => complaints.push(error.message));
-  page.on('console', (message) => {
+  outer.on('pageerror', (error) => complaints.push(error.message));
+  outer.on('console', (message) => {
     if (message.type() === 'error') complaints.push(message.text());
   });
-  page.on('request', (request) => {
+  outer.on('request', (request) => {
     if (/^(data|blob):/.test(request.url())) return;
     const { origin, pathname } = new URL(request.url());
     if (origin !== server.address) strangers.push(request.url());
     else if (pathname.startsWith('/somewhere/')) loaded.add(pathname.slice('/somewhere/'.length));
   });
-  await page.goto(`${server.address}/somewhere/index.html`);
-  if (waits) await page.waitForFunction(() => 'haptoflowPage' in globalThis, null, { timeout: 30000 });
+  const close = async () => {
+    await context.close();
+    if (!given) await browser.close();
+    await server.close();
+  };
+  // The frame's page is of another origin.
+  await outer.goto(frame === undefined ? `${server.address}${place}` : `${server.address.replace('127.0.0.1', 'localhost')}/outer.html`, { waitUntil: waits || frame !== undefined ? 'load' : 'commit' });
+  const page = frame === undefined ? outer : /** @type {import('playwright-core').Page} */ (/** @type {unknown} */ (outer.frames()[1]));
+  if (waits) {
+    await page.waitForFunction(() => 'haptoflowPage' in globalThis, null, { timeout: 30000 }).catch(async (error) => {
+      const said = await page.evaluate(() => document.body.innerText.slice(0, 400));
+      await close();
+      throw new Error(`${error.message}; the page says: ${said}`);
+    });
+  }
   return {
-    page, complaints, strangers, loaded,
+    /** In a frame, the frame. */
+    page, outer, complaints, strangers, loaded,
     /** Where places of the table are in the window, now. */
     pointsOf: (/** @type {[number, number][]} */ places) => page.evaluate((wanted) => wanted.map(([x, z]) => {
       const { clientX, clientY } = globalThis.haptoflowPage.view.pointOf(x, z);
       return [clientX, clientY];
     }), places),
-    close: async () => {
-      await browser.close();
-      await server.close();
-    },
+    close,
   };
 }
 

@@ -7,13 +7,15 @@ const isolation = { 'Cross-Origin-Opener-Policy': 'same-origin', 'Cross-Origin-E
 
 /**
  * Serves folders on the loopback address.
- * @param {{folders: Record<string, string>, isolated?: boolean, answers?: Record<string, (body: string) => string>}} options folders by the
- *   first part of the path; answers: what a path answers to what was sent to it, as JSON
- * @returns {Promise<{address: string, changes: Map<string, (bytes: Buffer) => Buffer | number>, close: () => Promise<void>}>} changes: what a
- *   path answers instead of its file: other bytes, or a status
+ * @param {{folders: Record<string, string>, isolated?: boolean, headers?: Record<string, string>, mediaTypes?: Record<string, string>,
+ *   answers?: Record<string, (body: string) => string>}} options folders by the first part of the path; headers: of every answer besides;
+ *   mediaTypes: by ending, instead of the usual; answers: what a path answers to what was sent to it, as JSON
+ * @returns {Promise<{address: string, changes: Map<string, (bytes: Buffer) => Buffer | number>, documents: Map<string, string>, close: () => Promise<void>}>} changes: what a
+ *   path answers instead of its file: other bytes, or a status; documents: HTML by its path
  */
-export async function serve({ folders, isolated = true, answers = {} }) {
+export async function serve({ folders, isolated = true, headers: more = {}, mediaTypes = {}, answers = {} }) {
   const changes = new Map();
+  const documents = new Map();
   const server = createServer(async (request, response) => {
     const { pathname } = new URL(request.url ?? '/', 'http://localhost');
     const [, first, ...rest] = pathname.split('/');
@@ -21,8 +23,13 @@ export async function serve({ folders, isolated = true, answers = {} }) {
       response.writeHead(204).end();
       return;
     }
+    const document = documents.get(pathname);
+    if (document !== undefined) {
+      response.writeHead(200, { 'Content-Type': types['.html'] }).end(document);
+      return;
+    }
     const file = folders[first] && path.join(folders[first], ...rest.map(decodeURIComponent));
-    const headers = { 'Cache-Control': 'no-store', ...(isolated ? isolation : {}) };
+    const headers = { 'Cache-Control': 'no-store', ...(isolated ? isolation : {}), ...more };
     if (answers[pathname]) {
       let body = '';
       for await (const bytes of request) body += bytes;
@@ -38,7 +45,7 @@ export async function serve({ folders, isolated = true, answers = {} }) {
       response.writeHead(changed, headers).end();
       return;
     }
-    response.writeHead(200, { ...headers, 'Content-Type': types[path.extname(file)] ?? 'application/octet-stream', 'Content-Length': changed.length }).end(changed);
+    response.writeHead(200, { ...headers, 'Content-Type': mediaTypes[path.extname(file)] ?? types[path.extname(file)] ?? 'application/octet-stream', 'Content-Length': changed.length }).end(changed);
   });
   await new Promise((resolve) => {
     server.listen(0, '127.0.0.1', () => resolve(undefined));
@@ -47,6 +54,7 @@ export async function serve({ folders, isolated = true, answers = {} }) {
   return {
     address: `http://127.0.0.1:${port}`,
     changes,
+    documents,
     close: () => new Promise((resolve) => {
       server.closeAllConnections();
       server.close(() => resolve(undefined));

@@ -69,11 +69,16 @@ async function collected(/** @type {ReadableStream<Uint8Array>} */ body, /** @ty
 export async function engineModule(places, signal) {
   const address = new URL('engine.wasm', places.base);
   const remedy = 'the folder of haptoflow.mjs must hold engine.wasm, or `base` name the folder that does';
+  if (typeof WebAssembly !== 'object') throw new HaptoFlowError('engine-unreachable', 'this browser has no WebAssembly, or it is switched off: use another browser, or allow it for this page');
   const bytes = await bytesOf(address, { code: 'engine-unreachable', remedy, signal });
   try {
     return await WebAssembly.compile(/** @type {BufferSource} */ (bytes));
   } catch (error) {
-    throw new HaptoFlowError('engine-unreachable', `${address}: is not the engine (${/** @type {Error} */ (error).message}); ${remedy}`);
+    const { message } = /** @type {Error} */ (error);
+    if (bytes.length > 0 && WebAssembly.validate(/** @type {BufferSource} */ (bytes))) {
+      throw new HaptoFlowError('engine-unreachable', `${address}: this page may not compile WebAssembly (${message}); its Content-Security-Policy must have script-src with 'wasm-unsafe-eval'`);
+    }
+    throw new HaptoFlowError('engine-unreachable', `${address}: is not the engine (${message}); ${remedy}. If it does: this browser lacks what it is compiled for, which is WebAssembly with SIMD, exceptions and shared memory`);
   }
 }
 

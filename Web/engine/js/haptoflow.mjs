@@ -28,7 +28,18 @@ function qualityNumber(quality) {
   return number;
 }
 
-const canShare = () => globalThis.crossOriginIsolated === true && typeof SharedArrayBuffer === 'function';
+/** Made and posted for trial: a browser may have the name alone. */
+function canShare() {
+  if (globalThis.crossOriginIsolated !== true) return false;
+  try {
+    const { port1 } = new MessageChannel();
+    port1.postMessage(new SharedArrayBuffer(4));
+    port1.close();
+    return true;
+  } catch {
+    return false;
+  }
+}
 
 const isolation = 'Cross-Origin-Opener-Policy: same-origin and Cross-Origin-Embedder-Policy: require-corp';
 

@@ -1,6 +1,7 @@
 import { asHaptoFlowError, HaptoFlowError } from './errors.mjs';
 import { Core, createMemory } from './module.mjs';
 import { pause } from './pause.mjs';
+import { startWorker } from './start-worker.mjs';
 
 /** @typedef {{type: string} & Record<string, any>} WorkerRequest what live-worker.mjs answers, by its type */
 
@@ -35,7 +36,7 @@ export class Live {
     this.core = null;
     /** @type {{address: number} | null} */
     this.audioThread = null;
-    this.#worker = new Worker(new URL('live-worker.mjs', places.base), { type: 'module', name: 'haptoflow' });
+    this.#worker = startWorker('live-worker.mjs', places, 'haptoflow');
     this.#worker.onmessage = ({ data }) => this.#take(data);
     this.#worker.onerror = (event) => {
       event.preventDefault?.();

@@ -1,5 +1,6 @@
 import { asHaptoFlowError, HaptoFlowError, requireNotAborted } from './errors.mjs';
 import { engineModule, modelBytes, placesOf } from './files.mjs';
+import { startWorker } from './start-worker.mjs';
 
 /**
  * Runs a task of offline.mjs in a worker of its own, which a signal ends at once.
@@ -13,7 +14,7 @@ export async function runTask(task, { signal, onProgress = () => {}, base, onnxR
   onProgress(0, 'loading');
   const [compiled, bytes] = await Promise.all([module ?? engineModule(places, signal), modelBytes(model, places, signal)]);
   requireNotAborted(signal);
-  const worker = new Worker(new URL('offline-worker.mjs', places.base), { type: 'module', name: `haptoflow ${task}` });
+  const worker = startWorker('offline-worker.mjs', places, `haptoflow ${task}`);
   try {
     return await new Promise((resolve, reject) => {
       signal?.addEventListener('abort', () => reject(new HaptoFlowError('aborted', 'aborted by the caller')));

@@ -39,8 +39,8 @@ export class Palette {
     this.#list.replaceChildren(...labels.map(({ name, isAdded }) => {
       const input = make('input', { type: 'radio', name: 'label', value: name, checked: name === this.chosen });
       input.addEventListener('change', () => this.choose(name));
-      const swatch = make('span', { className: 'swatch' });
-      swatch.style.backgroundImage = `url(${this.#fills.tile(name).toDataURL()})`;
+      const swatch = make('canvas', { className: 'swatch', width: 240, height: 107, 'aria-hidden': 'true' });
+      swatch.getContext('2d').drawImage(this.#fills.tile(name), 0, 0);
       return make('label', { className: isAdded ? 'chip added' : 'chip', title: this.#fills.look(name).words }, [input, swatch, make('span', { className: 'chip-name', textContent: name })]);
     }));
     fillSelect(this.#second, [{ value: '', text: 'nothing' }, ...labels.map(({ name }) => ({ value: name, text: name }))]);

@@ -29,7 +29,7 @@ export class Scope {
   #summed = 0;
   #every;
   #column = new ImageData(1, bandCount);
-  #image = new OffscreenCanvas(1, 1);
+  #image = document.createElement('canvas');
   #fresh;
   #freshOther;
   #isStepped = matchMedia('(prefers-reduced-motion: reduce)');
@@ -98,8 +98,8 @@ export class Scope {
   #putColumn() {
     const { width } = this.#spectrogramCanvas.getBoundingClientRect();
     const columns = Math.max(120, Math.round(width / 2));
-    if (this.#image.width !== columns) this.#image = new OffscreenCanvas(columns, bandCount);
-    const context = /** @type {OffscreenCanvasRenderingContext2D} */ (this.#image.getContext('2d'));
+    if (this.#image.width !== columns || this.#image.height !== bandCount) Object.assign(this.#image, { width: columns, height: bandCount });
+    const context = /** @type {CanvasRenderingContext2D} */ (this.#image.getContext('2d'));
     context.globalCompositeOperation = 'copy';
     context.drawImage(this.#image, -1, 0);
     context.globalCompositeOperation = 'source-over';

@@ -37,7 +37,7 @@ class Side {
   track(frame, space) {
     const { source, profile } = this;
     const place = source && (profile.joint ? source.hand.get(profile.joint) : source.targetRaySpace);
-    const pose = place ? (profile.joint ? frame.getJointPose(place, space) : frame.getPose(place, space)) : null;
+    const pose = place ? (profile.joint ? frame.getJointPose?.(place, space) : frame.getPose(place, space)) : null;
     if (pose && !pose.emulatedPosition) this.#measures = true;
     this.isTracked = Boolean(pose) && !(pose.emulatedPosition && this.#measures) && !isDocked(profile, source.gamepad);
     if (!this.isTracked) return;

@@ -10,7 +10,12 @@ export class Pulses {
 
   /** The gamepad of an XRInputSource; null for none. A motor that failed is tried again. */
   attach(gamepad) {
-    this.#actuator = gamepad?.hapticActuators?.[0] ?? gamepad?.vibrationActuator ?? null;
+    try {
+      this.#actuator = gamepad?.hapticActuators?.[0] ?? gamepad?.vibrationActuator ?? null;
+    } catch {
+      // A policy that forbids gamepads may forbid this, too.
+      this.#actuator = null;
+    }
   }
 
   get isAvailable() {

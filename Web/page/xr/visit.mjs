@@ -120,7 +120,7 @@ export class Visit {
   #bind = () => this.#hands.bind(this.#session.inputSources);
 
   #look = () => {
-    this.#hands.isSuspended = this.#session.visibilityState !== 'visible';
+    this.#hands.isSuspended = (this.#session.visibilityState ?? 'visible') !== 'visible';
   };
 
   #onReset = () => {
