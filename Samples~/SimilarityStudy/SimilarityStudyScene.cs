@@ -97,7 +97,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
             }
             try
             {
-                string? missing = WhatIsMissing() ?? noise.Problem;
+                string? missing = noise.Problem ?? WhatIsMissing();
                 if (missing != null)
                 {
                     throw new StudyException(missing);

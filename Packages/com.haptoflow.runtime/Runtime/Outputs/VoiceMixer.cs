@@ -11,6 +11,9 @@ namespace HaptoFlow
         private HapticVoice[] voices = Array.Empty<HapticVoice>();
         private float[] scratch = Array.Empty<float>();
 
+        /// <summary>True where there is something to render.</summary>
+        public bool HasVoices => voices.Length > 0;
+
         /// <summary>Allocates for blocks of this length. Call it before the audio thread renders them. Main
         /// thread.</summary>
         public void Prepare(int blockFrames)
@@ -49,6 +52,17 @@ namespace HaptoFlow
             }
         }
 
+        /// <summary>The frames that the present voices have rendered, together. Main thread.</summary>
+        public ulong RenderedFrames()
+        {
+            ulong frames = 0UL;
+            foreach (HapticVoice voice in voices)
+            {
+                frames += FramesOf(voice);
+            }
+            return frames;
+        }
+
         /// <summary>True where every voice is muted, paused, turned down to 0, silenced by a panic, or closing. Main
         /// thread.</summary>
         public bool AllAreStopped()
@@ -79,6 +93,18 @@ namespace HaptoFlow
                 Span<float> samples = room.AsSpan(0, Math.Min(room.Length, interleaved.Length / channels));
                 sounding[index].Render(samples, 1, 0, sampleRateHz);
                 AddTo(interleaved, channels, channel, samples);
+            }
+        }
+
+        private static ulong FramesOf(HapticVoice voice)
+        {
+            try
+            {
+                return voice.Statistics().RenderedFrames;
+            }
+            catch (HaptoFlowException closed) when (closed.Status == HaptoFlowStatus.InvalidArgument)
+            {
+                return 0UL;
             }
         }
 

@@ -44,6 +44,7 @@ namespace HaptoFlow.Studies
         private volatile float wantedGain;
         private volatile bool isPink;
         private volatile int sampleRateHz = 48000;
+        private AudioFilter? filter;
         private int channelCount;
         private float gain;
         private string? loggedProblem;
@@ -63,7 +64,8 @@ namespace HaptoFlow.Studies
             set => levelDecibels = Mathf.Clamp(value, MinimumDecibels, MaximumDecibels);
         }
 
-        /// <summary>Why there is no noise; null while there is.</summary>
+        /// <summary>Why there is no noise; null while there is. Where Unity's audio is switched off, a study cannot be
+        /// run.</summary>
         public string? Problem { get; private set; }
 
         private void OnEnable()
@@ -75,17 +77,30 @@ namespace HaptoFlow.Studies
         private void OnDisable()
         {
             AudioSettings.OnAudioConfigurationChanged -= ReadConfiguration;
+            Retire();
             gain = 0f;
         }
 
         private void ReadConfiguration(bool deviceWasChanged)
         {
-            sampleRateHz = AudioSettings.outputSampleRate;
+            sampleRateHz = UnityAudio.RateHz;
             channelCount = StudyPlayer.Channels;
+            Retire();
+            filter = AudioFilter.AddTo(gameObject, AddNoise);
+        }
+
+        private void Retire()
+        {
+            if (filter != null)
+            {
+                filter.Retire();
+            }
+            filter = null;
         }
 
         private void Update()
         {
+            UnityAudio.Poll();
             Problem = WhyNot();
             hapticChannel = Problem == null ? output!.Channel : HapticVoice.AllChannels;
             isPink = colour == NoiseColour.Pink;
@@ -99,6 +114,10 @@ namespace HaptoFlow.Studies
 
         private string? WhyNot()
         {
+            if (UnityAudio.Problem != null)
+            {
+                return "there is neither masking noise nor anything to feel: " + UnityAudio.Problem;
+            }
             if (output == null)
             {
                 return "there is no masking noise: choose the output whose channel carries no noise in the field " +
@@ -116,7 +135,7 @@ namespace HaptoFlow.Studies
         }
 
         // Audio thread: no garbage, no locks.
-        private void OnAudioFilterRead(float[] data, int channels)
+        private void AddNoise(float[] data, int channels)
         {
             int excluded = hapticChannel;
             if (excluded < 0)

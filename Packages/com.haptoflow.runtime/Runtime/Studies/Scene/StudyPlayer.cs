@@ -10,13 +10,13 @@ namespace HaptoFlow.Studies
         /// <summary>Default folder for logs: "Studies" in the player's persistent folder.</summary>
         public static string DefaultFolder => Path.Combine(Application.persistentDataPath, "Studies");
 
-        /// <summary>Duration of an audio block, in ms.</summary>
+        /// <summary>Duration of an audio block, in ms; where Unity's audio is switched off, of one at 48 kHz.</summary>
         public static double BlockMilliseconds
         {
             get
             {
                 AudioSettings.GetDSPBufferSize(out int frames, out _);
-                return 1000.0 * frames / AudioSettings.outputSampleRate;
+                return 1000.0 * frames / UnityAudio.RateHz;
             }
         }
 
