@@ -37,6 +37,9 @@ namespace UnityShim
         /// </summary>
         public static bool IsSwitchedOff { get; set; }
 
+        /// <summary>Whether no block is asked for and the clock stands still, as without an audio device.</summary>
+        public static bool StandsStill { get; set; }
+
         /// <summary>Whether sources play on request. In the editor they do not where the project disables Unity's audio,
         /// although the audio's clock advances.</summary>
         public static bool IgnoresPlay { get; set; }
@@ -92,6 +95,7 @@ namespace UnityShim
             DetachesFilters = false;
             DetachesSources = false;
             IsSwitchedOff = false;
+            StandsStill = false;
             IgnoresPlay = false;
             playedFrames = 0;
             Prepare();
@@ -116,7 +120,7 @@ namespace UnityShim
 
         internal static void Advance(double seconds)
         {
-            if (IsSwitchedOff)
+            if (IsSwitchedOff || StandsStill)
             {
                 return;
             }
