@@ -64,6 +64,13 @@ namespace HaptoFlow.ShimTests
             World.Frames(60);
             Assert.That(Peak(1), Is.GreaterThan(Audible), "the vibration");
             Assert.That(Peak(0), Is.GreaterThan(Audible), "the noise");
+            AudioDevice.DropAll();
+            LogAssert.Expect(LogType.Warning, new Regex("Listener is silent: for a second"));
+            LogAssert.Expect(LogType.Warning, new Regex("the masking noise of Listener is silent: for a second"));
+            World.Frames(120);
+            AudioDevice.Forget();
+            World.Frames(60);
+            Assert.That((Peak(0) > Audible, Peak(1) > Audible), Is.EqualTo((true, true)), "both return");
         }
 
         [Test]
@@ -83,6 +90,19 @@ namespace HaptoFlow.ShimTests
             World.Frames(90);
             stylus.TryGetStatistics(out VoiceStatistics after);
             Assert.That(after.RenderedFrames - before.RenderedFrames, Is.EqualTo((ulong)AudioDevice.RecordedFrames));
+        }
+
+        [Test]
+        public void AFilterThatWasReplacedRendersNothingThoughTheEngineStillCallsItInThatFrame()
+        {
+            int calls = 0;
+            var filter = AudioFilter.AddTo(Make("Filter"), (_, _) => ++calls);
+            var read = (Action<float[], int>)Delegate.CreateDelegate(
+                typeof(Action<float[], int>), filter, "OnAudioFilterRead");
+            read(new float[8], 2);
+            filter.Retire();
+            read(new float[8], 2);
+            Assert.That(calls, Is.EqualTo(1));
         }
 
         [Test]

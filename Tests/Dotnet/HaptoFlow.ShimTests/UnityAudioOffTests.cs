@@ -27,6 +27,19 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
+        public void WithoutAnOutputOneSentenceNamesTheStylusAndNoOutputIsMadeUntilTheAudioRuns()
+        {
+            AudioDevice.IsSwitchedOff = true;
+            LogAssert.Expect(LogType.Warning, new Regex("Stylus is silent: Unity's audio does not run"));
+            World.Frames(200);
+            Assert.That(Log.Lines, Has.Count.EqualTo(1));
+            Assert.That(All<HapticOutput>(), Is.Empty);
+            AudioDevice.IsSwitchedOff = false;
+            World.Frames(20);
+            Assert.That(All<HapticOutput>(), Has.Length.EqualTo(1));
+        }
+
+        [Test]
         public void DeviceOutputsGoOnWithAClockOfTheirOwn()
         {
             AudioDevice.IsSwitchedOff = true;
@@ -48,7 +61,7 @@ namespace HaptoFlow.ShimTests
             output.Channel = 0;
             World.Frames(40);
             AudioDevice.StandsStill = true;
-            LogAssert.Expect(LogType.Warning, new Regex("there is no audio device"));
+            LogAssert.Expect(LogType.Warning, new Regex("there is no audio output"));
             World.Frames(120);
             Assert.That(UnityAudio.Problem, Is.Not.Null);
             AudioDevice.StandsStill = false;
@@ -102,6 +115,23 @@ namespace HaptoFlow.ShimTests
             Assert.That(OVRInput.Waves.SelectMany(wave => wave.Samples).Select(Math.Abs).DefaultIfEmpty().Max(), Is.Zero);
             Assert.That(XrHand.Right.Impulses.Max(each => each.Amplitude), Is.GreaterThan(0.01f), "it plays while paused");
             Time.timeScale = 1f;
+            AudioListener.pause = false;
+            World.Frames(60);
+            Assert.That(OVRInput.Waves.Max(wave => wave.Samples.Max(Math.Abs)), Is.GreaterThan(0.01f));
+        }
+
+        [Test]
+        public void APenThatWakesDuringAPauseIsSilentOnItsDeviceUntilTheEnd()
+        {
+            OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
+            Add<ControllerWaveformOutput>();
+            Pen.enabled = false;
+            World.Frames(60);
+            AudioListener.pause = true;
+            World.Frames(5);
+            Pen.enabled = true;
+            World.Frames(72);
+            Assert.That(OVRInput.Waves.SelectMany(wave => wave.Samples).Select(Math.Abs).DefaultIfEmpty().Max(), Is.Zero);
             AudioListener.pause = false;
             World.Frames(60);
             Assert.That(OVRInput.Waves.Max(wave => wave.Samples.Max(Math.Abs)), Is.GreaterThan(0.01f));

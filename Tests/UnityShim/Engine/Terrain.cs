@@ -111,9 +111,9 @@ namespace UnityEngine
         public static void GetActiveTerrains(List<Terrain> terrainList)
         {
             terrainList.Clear();
-            foreach (GameObject each in World.AllObjects)
+            for (int index = 0; index < World.AllObjects.Count; ++index)
             {
-                if (each.TryGetComponent(out Terrain terrain) && terrain.isActiveAndEnabled)
+                if (World.AllObjects[index].TryGetComponent(out Terrain terrain) && terrain.isActiveAndEnabled)
                 {
                     terrainList.Add(terrain);
                 }

@@ -91,7 +91,7 @@ namespace HaptoFlow.Editor
             {
                 return new Finding(MessageType.Error,
                     $"{output.name} has the route Listener Channel, but its object has no Audio Listener: nothing is " +
-                    "felt. Move it to the Audio Listener's object, below every other filter.", objects);
+                    "felt. Move it to the Audio Listener's object.", objects);
             }
             int channels = SpeakerChannels.Count(device.speakerMode);
             return output.Channel < channels

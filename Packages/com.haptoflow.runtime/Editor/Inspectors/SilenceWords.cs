@@ -34,6 +34,10 @@ namespace HaptoFlow.Editor
             {
                 return "none: the scene's output is switched off";
             }
+            if (output == null && UnityAudio.Problem != null)
+            {
+                return "none: " + UnityAudio.Problem;
+            }
             return stylus.isActiveAndEnabled ? "none yet" : "none: the stylus is switched off";
         }
     }

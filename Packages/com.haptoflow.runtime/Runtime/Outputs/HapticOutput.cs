@@ -285,7 +285,7 @@ namespace HaptoFlow
             UnityAudio.Poll();
             if (UnityAudio.Problem != null)
             {
-                UnityAudio.SayProblem(this);
+                UnityAudio.SayProblem(name, this);
                 watch.Restart();
             }
             else if (watch.Misses(CallCount(), AreCallsExpected()))

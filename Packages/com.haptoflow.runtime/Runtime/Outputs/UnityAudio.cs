@@ -1,6 +1,7 @@
 #nullable enable
 using System;
 using UnityEngine;
+using Object = UnityEngine.Object;
 
 namespace HaptoFlow
 {
@@ -43,18 +44,18 @@ namespace HaptoFlow
             if (Problem == null && (IsOff() || stillFor.Add()))
             {
                 Problem = "Unity's audio does not run, since it is switched off in Project Settings > Audio > Disable " +
-                    "Unity Audio, as FMOD and Wwise ask for, or there is no audio device";
+                    "Unity Audio, as FMOD and Wwise ask for, or there is no audio output";
             }
         }
 
-        /// <summary>Logs once that an output on the audio device is silent.</summary>
-        public static void SayProblem(HapticOutput output)
+        /// <summary>Logs once that what plays on the audio device is silent.</summary>
+        public static void SayProblem(string name, Object context)
         {
             if (!saidOff)
             {
                 saidOff = true;
-                Debug.LogWarning($"HaptoFlow: {output.name} is silent: {Problem}. Outputs that vibrate in a hand play " +
-                    "all the same; for an actuator on the audio device, let Unity's audio run.", output);
+                Debug.LogWarning($"HaptoFlow: {name} is silent: {Problem}. Outputs that vibrate in a hand play " +
+                    "all the same; for an actuator on the audio device, let Unity's audio run.", context);
             }
         }
 

@@ -44,6 +44,8 @@ namespace HaptoFlow.Studies
         private volatile float wantedGain;
         private volatile bool isPink;
         private volatile int sampleRateHz = 48000;
+        private volatile int callCount;
+        private CallWatch watch;
         private AudioFilter? filter;
         private int channelCount;
         private float gain;
@@ -85,6 +87,13 @@ namespace HaptoFlow.Studies
         {
             sampleRateHz = UnityAudio.RateHz;
             channelCount = StudyPlayer.Channels;
+            watch.Restart();
+            Renew();
+        }
+
+        // The engine may have dropped the filter.
+        private void Renew()
+        {
             Retire();
             filter = AudioFilter.AddTo(gameObject, AddNoise);
         }
@@ -110,6 +119,13 @@ namespace HaptoFlow.Studies
                 Debug.LogError($"HaptoFlow: {Problem}", this);
             }
             loggedProblem = Problem;
+            if (watch.Misses((ulong)callCount, Problem == null && !AudioListener.pause))
+            {
+                Debug.LogWarning($"HaptoFlow: the masking noise of {name} is silent: for a second, Unity's audio has not " +
+                    "asked it for samples. It tries once more now; if that does not help, put it on the object of the " +
+                    "Audio Listener that is in use.", this);
+                Renew();
+            }
         }
 
         private string? WhyNot()
@@ -137,6 +153,7 @@ namespace HaptoFlow.Studies
         // Audio thread: no garbage, no locks.
         private void AddNoise(float[] data, int channels)
         {
+            callCount = unchecked(callCount + 1);
             int excluded = hapticChannel;
             if (excluded < 0)
             {
