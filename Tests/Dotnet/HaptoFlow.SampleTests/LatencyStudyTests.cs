@@ -167,6 +167,7 @@ namespace HaptoFlow.SampleTests
         public void WithoutUnitysAudioTheStudyIsRefusedWithTheReason()
         {
             AudioDevice.IsSwitchedOff = true;
+            World.Frame();
             Press(3);
             Assert.That(study.Session, Is.Null);
             Assert.That(study.View.Problem, Does.Contain("Disable Unity Audio"));
