@@ -97,7 +97,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
             }
             try
             {
-                string? missing = WhatIsMissing() ?? noise.Problem;
+                string? missing = noise.Problem ?? WhatIsMissing();
                 if (missing != null)
                 {
                     throw new StudyException(missing);
@@ -314,7 +314,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
         {
             AudioSettings.GetDSPBufferSize(out int frames, out _);
             double blockMilliseconds = StudyPlayer.BlockMilliseconds;
-            HapticModelDelay delay = await model.MeasureDelay(AudioSettings.outputSampleRate, frames)
+            HapticModelDelay delay = await model.MeasureDelay(StudyPlayer.OutputRateHz, frames)
                 .ConfigureAwait(false);
             // The lead includes one audio block, which the system delay counts already.
             return Math.Max(delay.InferenceMedianMilliseconds, delay.LeadMilliseconds - blockMilliseconds);

@@ -150,46 +150,9 @@ namespace HaptoFlow.EditorTests
             Only("is silent while Use Experimental Feature is off");
         }
 
-        [Test]
-        public void TheRouteAudioSourceBesideAnAudioListenerIsARemark()
-        {
-            ScenesOutput.gameObject.AddComponent<AudioListener>();
-            Assert.That(Only("the sound comes from a child object").Severity, Is.EqualTo(MessageType.Info));
-        }
-
-        [Test]
-        public void AFilterBelowAnExclusiveChannelIsAFinding()
-        {
-            GameObject listener = Make("Ears");
-            listener.AddComponent<AudioListener>();
-            listener.AddComponent<EarlyFilter>();
-            var output = listener.AddComponent<HapticOutput>();
-            output.Route = OutputRoute.ListenerChannel;
-            output.Channel = 1;
-            Assert.That(Texts(), Is.Empty, "the filter comes first");
-            var late = listener.AddComponent<LateFilter>();
-            Only("these filters come after it and change that channel: Late Filter.");
-            late.enabled = false;
-            Assert.That(Texts(), Is.Empty);
-        }
-
         private static string Summary() => StylusPlaces.Summary(new SceneContents());
 
         private static StylusPlaces Places(HapticStylus stylus) =>
             StylusPlaces.Of(new SceneContents()).Single(each => each.Stylus == stylus);
-
-        private sealed class EarlyFilter : MonoBehaviour
-        {
-            private void OnAudioFilterRead(float[] data, int channels)
-            {
-            }
-        }
-
-        private sealed class LateFilter : MonoBehaviour
-        {
-            private void OnAudioFilterRead(float[] data, int channels)
-            {
-            }
-        }
     }
 }

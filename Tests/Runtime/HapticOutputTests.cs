@@ -387,7 +387,7 @@ namespace HaptoFlow.Tests
             Assert.That(statistics.RenderedFrames, Is.GreaterThan(0UL));
             Assert.That(second.TryGetStatistics(out _), Is.True);
             HapticOutput made = SceneOutputs.For(first)!;
-            Assert.That(made.GetComponent<AudioSource>().isPlaying, Is.True);
+            Assert.That(made.GetComponentInChildren<AudioSource>(true).isPlaying, Is.True);
             Object.DestroyImmediate(made.gameObject);
         }
     }

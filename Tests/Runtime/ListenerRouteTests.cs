@@ -50,43 +50,157 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator APausedListenerAtVolumeZeroDoesNotSilenceTheHaptics()
+        public IEnumerator AListenerAtVolumeZeroSilencesNoHapticsUnlessTheyObeyIt()
         {
             FinishLoading();
             Board();
-            AudioTap tap = Output(out HapticOutput output);
+            Output(out HapticOutput output);
             Circling();
             yield return null;
-            AudioListener.pause = true;
-            AudioListener.volume = 0f;
-            yield return Frames(40);
-            Assert.That(tap.Blocks, Is.GreaterThan(0));
-            Assert.That(tap.Peak(), Is.GreaterThan(Audible));
-            Assert.That(output.GetComponent<AudioSource>().ignoreListenerVolume, Is.True);
+            var source = output.GetComponentInChildren<AudioSource>(true);
+            Assert.That(source.ignoreListenerVolume, Is.True);
             output.ObeyListener = true;
-            yield return null;
-            tap.Restart();
-            yield return Frames(10);
-            Assert.That(tap.Blocks, Is.Zero, "with ObeyListener the source pauses with the listener");
-            Assert.That(output.GetComponent<AudioSource>().ignoreListenerVolume, Is.False);
-            AudioListener.pause = false;
-            AudioListener.volume = 1f;
+            Assert.That(source.ignoreListenerVolume, Is.False);
         }
 
         [UnityTest]
-        public IEnumerator ASourceBypassesTheListenersEffectsAndNotItsOwn()
+        public IEnumerator APauseMenuSilencesTheHapticsAndTheyReturnAfterwards()
         {
             FinishLoading();
             Board();
-            GameObject owner = Make("Output");
-            owner.AddComponent<AudioSource>().bypassEffects = true;
+            Output(out HapticOutput output);
+            HapticStylus stylus = Circling();
+            yield return Frames(40);
+            Assert.That(output.Level, Is.GreaterThan(Audible));
+            Time.timeScale = 0f;
+            AudioListener.pause = true;
+            yield return Frames(20);
+            Assert.That(stylus.TryGetStatistics(out VoiceStatistics before), Is.True);
+            Assert.That(before.Silence, Is.EqualTo(HapticSilence.Paused));
+            yield return Frames(60);
+            Assert.That(output.Level, Is.LessThan(Audible));
+            stylus.TryGetStatistics(out VoiceStatistics paused);
+            Assert.That(paused.Inferences, Is.EqualTo(before.Inferences), "a pause costs nothing");
+            Time.timeScale = 1f;
+            AudioListener.pause = false;
+            yield return Frames(40);
+            Assert.That(output.Level, Is.GreaterThan(Audible));
+        }
+
+        [UnityTest]
+        public IEnumerator AStylusThatComesDuringAPauseIsSilentUntilItsEnd()
+        {
+            FinishLoading();
+            Board();
+            Output(out HapticOutput output);
+            AudioListener.pause = true;
+            yield return Frames(5);
+            Circling();
+            yield return Frames(60);
+            Assert.That(output.Level, Is.Zero);
+            AudioListener.pause = false;
+            yield return Frames(40);
+            Assert.That(output.Level, Is.GreaterThan(Audible));
+        }
+
+        [UnityTest]
+        public IEnumerator AnOutputThatPlaysWhilePausedGoesOnInAPauseMenu()
+        {
+            FinishLoading();
+            Board();
+            Output(out HapticOutput output);
+            output.PlayWhilePaused = true;
+            Circling();
+            Time.timeScale = 0f;
+            AudioListener.pause = true;
+            yield return Frames(60);
+            Assert.That(output.Level, Is.GreaterThan(Audible));
+            output.PlayWhilePaused = false;
+            yield return Frames(60);
+            Assert.That(output.Level, Is.LessThan(Audible), "the switch acts during the pause");
+            Time.timeScale = 1f;
+            AudioListener.pause = false;
+        }
+
+        [UnityTest]
+        public IEnumerator AnApplicationThatReturnsIntoAPauseMenuStaysSilent()
+        {
+            FinishLoading();
+            Board();
+            Output(out HapticOutput output);
+            Circling();
+            AudioListener.pause = true;
+            yield return Frames(10);
+            output.SendMessage("OnApplicationPause", true);
+            output.SendMessage("OnApplicationPause", false);
+            yield return Frames(60);
+            Assert.That(output.Level, Is.LessThan(Audible));
+            AudioListener.pause = false;
+        }
+
+        [UnityTest]
+        public IEnumerator ASlowMotionOfZeroAloneIsNoPauseAsForSounds()
+        {
+            FinishLoading();
+            Board();
+            Output(out HapticOutput output);
+            Circling();
+            Time.timeScale = 0f;
+            yield return Frames(60);
+            Assert.That(output.Level, Is.GreaterThan(Audible));
+            Time.timeScale = 1f;
+        }
+
+        [UnityTest]
+        public IEnumerator TheAuthorsSourceOnTheOutputsObjectIsLeftAlone()
+        {
+            FinishLoading();
+            Board();
+            GameObject owner = Make("Radio");
+            var music = owner.AddComponent<AudioSource>();
+            (music.spatialBlend, music.priority, music.dopplerLevel, music.bypassEffects) = (1f, 200, 0.5f, true);
+            var tone = owner.AddComponent<SteadySource>();
             var output = owner.AddComponent<HapticOutput>();
             Circling();
             yield return Frames(40);
-            var source = owner.GetComponent<AudioSource>();
-            Assert.That(source.bypassEffects, Is.False, "the output is a filter of its source");
-            Assert.That(source.bypassListenerEffects && source.bypassReverbZones, Is.True);
             Assert.That(output.Level, Is.GreaterThan(Audible));
+            Assert.That((music.spatialBlend, music.priority, music.dopplerLevel, music.bypassEffects, music.playOnAwake),
+                Is.EqualTo((1f, 200, 0.5f, true, true)));
+            Assert.That((music.ignoreListenerPause, music.ignoreListenerVolume, music.bypassListenerEffects),
+                Is.EqualTo((false, false, false)));
+            output.enabled = false;
+            yield return Frames(5);
+            Assert.That(music.isPlaying, Is.True, "a disabled output stops its own source only");
+            Assert.That(tone, Is.Not.Null);
+            music.Stop();
+            output.enabled = true;
+            yield return Frames(40);
+            Assert.That(music.isPlaying, Is.False);
+            Assert.That(output.Level, Is.GreaterThan(Audible));
+        }
+
+        [UnityTest]
+        public IEnumerator AnOutputSwitchedOnWithItsObjectPlaysFromOneSourceOnly()
+        {
+            FinishLoading();
+            Board();
+            Output(out HapticOutput output);
+            Circling();
+            yield return Frames(10);
+            for (int round = 0; round < 5; ++round)
+            {
+                output.gameObject.SetActive(false);
+                yield return Frames(3);
+                output.gameObject.SetActive(true);
+                yield return Frames(3);
+            }
+            yield return Frames(40);
+            Assert.That(output.transform.childCount, Is.EqualTo(1));
+            Assert.That(output.Level, Is.GreaterThan(Audible));
+            Transform owner = output.transform;
+            UnityEngine.Object.DestroyImmediate(output);
+            yield return Frames(3);
+            Assert.That(owner.childCount, Is.Zero, "it takes its source along");
         }
 
         [UnityTest]

@@ -259,7 +259,7 @@ namespace HaptoFlow.EditorTests
             HapticOutput output = Output();
             Assert.That(Fields(output), Is.EqualTo(new[]
             {
-                "Route", "Channel", "Obey Listener", "Strength", "Muted", "Listen", "Actuator", "Exposure Guard",
+                "Route", "Channel", "Play While Paused", "Obey Listener", "Strength", "Muted", "Listen", "Actuator", "Exposure Guard",
                 "Delay (ms)",
             }));
             EditorScreen.Enter("Route", OutputRoute.MixerEffect);
@@ -268,8 +268,8 @@ namespace HaptoFlow.EditorTests
             Assert.That(Fields(output),
                 Is.EqualTo(new[]
                 {
-                    "Route", "Audio Mixer", "Voice Parameter", "Strength", "Muted", "Listen", "Actuator",
-                    "Exposure Guard",
+                    "Route", "Audio Mixer", "Voice Parameter", "Play While Paused", "Strength", "Muted", "Listen",
+                    "Actuator", "Exposure Guard",
                     "Delay (ms)",
                 }));
         }
@@ -279,7 +279,7 @@ namespace HaptoFlow.EditorTests
         public void TheInspectorsAreTheSameInBothSkins(bool dark)
         {
             EditorSession.DarkSkin = dark;
-            Assert.That(Fields(Output()), Has.Length.EqualTo(9));
+            Assert.That(Fields(Output()), Has.Length.EqualTo(10));
             Assert.That(Draw(Tagged("Table", "wood")), Is.Not.Empty);
         }
 

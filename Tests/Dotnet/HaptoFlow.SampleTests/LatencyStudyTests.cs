@@ -164,6 +164,17 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
+        public void WithoutUnitysAudioTheStudyIsRefusedWithTheReason()
+        {
+            AudioDevice.IsSwitchedOff = true;
+            World.Frame();
+            Press(3);
+            Assert.That(study.Session, Is.Null);
+            Assert.That(study.View.Problem, Does.Contain("Disable Unity Audio"));
+            Assert.That(Directory.Exists(folder), Is.False);
+        }
+
+        [Test]
         public void UnreachableLevelsAreRefusedBeforeAnythingIsWritten()
         {
             settings.DeviceDelayMilliseconds = 60f;

@@ -61,7 +61,7 @@ namespace HaptoFlow.ShimTests
             Output(out HapticOutput output);
             Circling();
             World.Frames(30);
-            output.GetComponent<AudioSource>().Stop();
+            output.GetComponentInChildren<AudioSource>(true).Stop();
             second.Use();
             World.Frames(20);
             Assert.That(before.Statistics().Voices, Is.Zero);

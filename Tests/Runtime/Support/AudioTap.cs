@@ -4,11 +4,14 @@ using UnityEngine;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>Records the output of the filters above it on the same object.</summary>
+    /// <summary>Records what an output on its object plays: behind the newest filter of the output, on whichever object
+    /// that is. Without an output, and on an Audio Listener, what the filters of its own object play.</summary>
     internal sealed class AudioTap : MonoBehaviour
     {
         private const int MostChannels = 8;
         private readonly float[] peaks = new float[MostChannels];
+        private AudioFilter? tapped;
+        private TapFilter? filter;
         private volatile int blocks;
         private volatile int broken;
 
@@ -28,7 +31,7 @@ namespace HaptoFlow.Tests
             broken = 0;
         }
 
-        private void OnAudioFilterRead(float[] data, int channels)
+        internal void Record(float[] data, int channels)
         {
             for (int index = 0; index < data.Length; ++index)
             {
@@ -42,5 +45,48 @@ namespace HaptoFlow.Tests
             }
             blocks = blocks + 1;
         }
+
+        private void LateUpdate()
+        {
+            bool ofOutput = TryGetComponent(out HapticOutput output) && output.Route == OutputRoute.AudioSource &&
+                !TryGetComponent(out AudioListener _);
+            AudioFilter? found = ofOutput ? FilterOfSource() : null;
+            GameObject owner = found != null ? found.gameObject : gameObject;
+            if (!ofOutput && TryGetComponent(out AudioFilter last))
+            {
+                found = last;
+            }
+            if (filter == null || !ReferenceEquals(found, tapped))
+            {
+                if (filter != null)
+                {
+                    filter.Tap = null;
+                    Destroy(filter);
+                }
+                tapped = found;
+                filter = owner.AddComponent<TapFilter>();
+                filter.Tap = this;
+            }
+        }
+
+        private AudioFilter? FilterOfSource()
+        {
+            for (int child = 0; child < transform.childCount; ++child)
+            {
+                if (transform.GetChild(child).TryGetComponent(out AudioFilter found))
+                {
+                    return found;
+                }
+            }
+            return null;
+        }
+    }
+
+    /// <summary>The filter of a tap.</summary>
+    internal sealed class TapFilter : MonoBehaviour
+    {
+        internal AudioTap? Tap { get; set; }
+
+        private void OnAudioFilterRead(float[] data, int channels) => Tap?.Record(data, channels);
     }
 }

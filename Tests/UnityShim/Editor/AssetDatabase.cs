@@ -42,6 +42,10 @@ namespace UnityEditor
             return Assets.TryGetValue(assetPath, out Object? asset) ? asset : null;
         }
 
+        public static Object[] LoadAllAssetsAtPath(string assetPath) => assetPath == AudioManager.Path
+            ? new Object[] { AudioManager.OfProject }
+            : LoadMainAssetAtPath(assetPath) is { } asset ? new[] { asset } : Array.Empty<Object>();
+
         public static void ImportAsset(string path)
         {
             ScriptedImporter? importer = ScriptedImporters.For(path);

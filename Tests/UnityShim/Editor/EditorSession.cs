@@ -23,6 +23,9 @@ namespace UnityShim
         /// <summary>The path of the settings page that was opened last.</summary>
         public static string? OpenedSettings { get; internal set; }
 
+        /// <summary>Whether Disable Unity Audio is on in the project's settings.</summary>
+        public static bool DisablesUnityAudio { set => AudioManager.DisablesAudio = value; }
+
         internal static bool StartsPlaying { get; private set; }
 
         /// <summary>Starts an editor with an empty scene and a project with an Assets folder and this package.
@@ -31,6 +34,7 @@ namespace UnityShim
         {
             World.BeginEditing();
             AudioDevice.Reset();
+            DisablesUnityAudio = false;
             ProjectFiles.Begin(packageFolder);
             AssetDatabase.Reset();
             Undo.Reset();

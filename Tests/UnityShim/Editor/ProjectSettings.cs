@@ -65,3 +65,19 @@ namespace UnityEditor
         public static void SetPreloadedAssets(Object[] assets) => preloaded = (Object[])assets.Clone();
     }
 }
+
+namespace UnityShim
+{
+    /// <summary>The project's audio settings, which scripts read as an asset.</summary>
+    internal sealed class AudioManager : Object
+    {
+        public const string Path = "ProjectSettings/AudioManager.asset";
+
+        public static readonly AudioManager OfProject = new AudioManager();
+
+        [SerializeField]
+        private bool m_DisableAudio;
+
+        public static bool DisablesAudio { set => OfProject.m_DisableAudio = value; }
+    }
+}

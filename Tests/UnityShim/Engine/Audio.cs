@@ -38,9 +38,11 @@ namespace UnityEngine
             get
             {
                 World.RequireMainThread();
-                return AudioDevice.Configuration.sampleRate;
+                return AudioDevice.IsSwitchedOff ? 0 : AudioDevice.Configuration.sampleRate;
             }
         }
+
+        public static double dspTime => AudioDevice.DspSeconds;
 
         public static void GetDSPBufferSize(out int bufferLength, out int numBuffers)
         {
@@ -75,6 +77,7 @@ namespace UnityEngine
 
     public sealed class AudioSource : AudioBehaviour
     {
+        internal readonly int Generation = AudioDevice.Generation;
         internal bool Playing;
 
         public float volume { get; set; } = 1f;
@@ -94,7 +97,7 @@ namespace UnityEngine
         public void Play()
         {
             World.RequireMainThread();
-            Playing = true;
+            Playing = !AudioDevice.IsSwitchedOff && !AudioDevice.IgnoresPlay;
         }
 
         public void Stop()

@@ -63,11 +63,15 @@ namespace UnityEngine.SceneManagement
     {
         private static int count;
 
+        public static event Events.UnityAction<Scene>? sceneUnloaded;
+
         public static Scene CreateScene(string sceneName, CreateSceneParameters parameters) => new Scene
         {
             Number = ++count,
             PhysicsNumber = (parameters.localPhysicsMode & LocalPhysicsMode.Physics3D) != 0 ? count : 0,
         };
+
+        internal static void AnnounceUnloaded(Scene scene) => sceneUnloaded?.Invoke(scene);
 
         public static void MoveGameObjectToScene(GameObject go, Scene scene) => go.OwnScene = scene;
     }

@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using System.Linq;
 using UnityShim;
 
@@ -106,6 +107,18 @@ namespace UnityEngine
         public TerrainData? terrainData { get; set; }
 
         public bool drawHeightmap { get; set; } = true;
+
+        public static void GetActiveTerrains(List<Terrain> terrainList)
+        {
+            terrainList.Clear();
+            for (int index = 0; index < World.AllObjects.Count; ++index)
+            {
+                if (World.AllObjects[index].TryGetComponent(out Terrain terrain) && terrain.isActiveAndEnabled)
+                {
+                    terrainList.Add(terrain);
+                }
+            }
+        }
 
         public static GameObject CreateTerrainGameObject(TerrainData assignTerrain)
         {

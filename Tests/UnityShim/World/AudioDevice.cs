@@ -15,6 +15,7 @@ namespace UnityShim
         private static Thread? thread;
         private static AudioConfiguration configuration;
         private static double owedFrames;
+        private static long playedFrames;
         private static float[] mix = Array.Empty<float>();
         private static float[] pastListener = Array.Empty<float>();
         private static float[] source = Array.Empty<float>();
@@ -23,6 +24,30 @@ namespace UnityShim
         public static event AudioSettings.AudioConfigurationChangeHandler? ConfigurationChanged;
 
         public static AudioConfiguration Configuration => configuration;
+
+        /// <summary>Whether a change of the device leaves earlier filters without calls, as reported of Unity on macOS and
+        /// Android (livekit/client-sdk-unity, pull requests 274 and 311).</summary>
+        public static bool DetachesFilters { get; set; }
+
+        /// <summary>Whether a change of the device leaves earlier sources unheard (decentraland/unity-explorer, pull
+        /// request 8590).</summary>
+        public static bool DetachesSources { get; set; }
+
+        /// <summary>Whether the project disables Unity's audio, as a player behaves then: no clock, no rate, no blocks.
+        /// </summary>
+        public static bool IsSwitchedOff { get; set; }
+
+        /// <summary>Whether no block is asked for and the clock stands still, as without an audio device.</summary>
+        public static bool StandsStill { get; set; }
+
+        /// <summary>Whether sources play on request. In the editor they do not where the project disables Unity's audio,
+        /// although the audio's clock advances.</summary>
+        public static bool IgnoresPlay { get; set; }
+
+        /// <summary>The number of times that the audio graph was rebuilt.</summary>
+        internal static int Generation { get; private set; }
+
+        internal static double DspSeconds => IsSwitchedOff ? 0.0 : (double)playedFrames / configuration.sampleRate;
 
         public static int Channels => configuration.speakerMode == AudioSpeakerMode.Mono ? 1
             : configuration.speakerMode == AudioSpeakerMode.Quad ? 4 : 2;
@@ -48,6 +73,13 @@ namespace UnityShim
         public static void ChangeDevice(int sampleRateHz, int blockFrames, AudioSpeakerMode mode) => Restart(
             new AudioConfiguration { sampleRate = sampleRateHz, dspBufferSize = blockFrames, speakerMode = mode }, true);
 
+        /// <summary>Calls no filter any more that exists now, without telling scripts.</summary>
+        public static void DropAll()
+        {
+            DetachesFilters = true;
+            ++Generation;
+        }
+
         internal static void Reset()
         {
             configuration = new AudioConfiguration
@@ -60,6 +92,12 @@ namespace UnityShim
             };
             AudioListener.volume = 1f;
             AudioListener.pause = false;
+            DetachesFilters = false;
+            DetachesSources = false;
+            IsSwitchedOff = false;
+            StandsStill = false;
+            IgnoresPlay = false;
+            playedFrames = 0;
             Prepare();
             Forget();
             Failure = null;
@@ -68,6 +106,7 @@ namespace UnityShim
         internal static void Restart(AudioConfiguration changed, bool deviceWasChanged)
         {
             configuration = changed;
+            ++Generation;
             Prepare();
             foreach (GameObject gameObject in World.AllObjects)
             {
@@ -81,10 +120,16 @@ namespace UnityShim
 
         internal static void Advance(double seconds)
         {
+            if (IsSwitchedOff || StandsStill)
+            {
+                return;
+            }
             owedFrames += seconds * configuration.sampleRate;
             while (owedFrames >= configuration.dspBufferSize)
             {
                 owedFrames -= configuration.dspBufferSize;
+                // A paused listener freezes the audio clock.
+                playedFrames += AudioListener.pause ? 0 : configuration.dspBufferSize;
                 RunBlock();
             }
         }
@@ -142,6 +187,7 @@ namespace UnityShim
             {
                 GameObject gameObject = World.AllObjects[index];
                 if (gameObject.TryGetComponent(out AudioSource playing) && playing.isPlaying &&
+                    (!DetachesSources || playing.Generation == Generation) &&
                     (!AudioListener.pause || playing.ignoreListenerPause))
                 {
                     float volume = playing.ignoreListenerVolume ? 1f : AudioListener.volume;

@@ -7,6 +7,7 @@ namespace UnityShim
     internal sealed class ScriptState
     {
         private readonly Messages messages;
+        private readonly int audioGeneration = AudioDevice.Generation;
         private bool awake;
         private bool on;
         private bool begun;
@@ -22,7 +23,8 @@ namespace UnityShim
 
         public int Order { get; }
 
-        public System.Action<float[], int>? AudioFilter => on ? messages.AudioFilter : null;
+        public System.Action<float[], int>? AudioFilter =>
+            on && (!AudioDevice.DetachesFilters || audioGeneration == AudioDevice.Generation) ? messages.AudioFilter : null;
 
         public void Refresh()
         {

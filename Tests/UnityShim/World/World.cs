@@ -63,7 +63,11 @@ namespace UnityShim
         }
 
         /// <summary>Destroys the objects of the scene, except those that are kept across scenes.</summary>
-        public static void LoadEmptyScene() => DestroyAll(false);
+        public static void LoadEmptyScene()
+        {
+            DestroyAll(false);
+            UnityEngine.SceneManagement.SceneManager.AnnounceUnloaded(default);
+        }
 
         public static void Frame() => Frame(1.0 / FrameRateHz);
 

@@ -35,10 +35,6 @@ namespace HaptoFlow.Editor
             AudioConfiguration device = AudioSettings.GetConfiguration();
             foreach (HapticOutput output in scene.Outputs)
             {
-                foreach (Finding beside in ListenerRules.Check(output))
-                {
-                    yield return beside;
-                }
                 Finding? finding = CheckRoute(output, device);
                 if (finding != null)
                 {
@@ -58,10 +54,25 @@ namespace HaptoFlow.Editor
                         "it plays uncompensated. Choose a profile.", new[] { output });
                 }
             }
+            if (ProjectAudio.IsDisabled())
+            {
+                yield return UnityAudioIsOff(scene, made);
+                yield break;
+            }
             foreach (Finding finding in CheckDevice(device))
             {
                 yield return finding;
             }
+        }
+
+        private static Finding UnityAudioIsOff(SceneContents scene, HapticStylus[] withMadeOutput)
+        {
+            Object[] silent = scene.Outputs.Concat<Object>(withMadeOutput).ToArray();
+            return new Finding(silent.Length > 0 ? MessageType.Error : MessageType.Info,
+                "Project Settings > Audio > Disable Unity Audio is on, as FMOD and Wwise ask for, so nothing can be felt " +
+                "through Unity's sound output. Outputs that vibrate in a hand work; switch the setting off for an " +
+                "actuator on a sound output.",
+                silent, new Repair("Open Audio Settings", OpenAudioSettings));
         }
 
         private static Finding? CheckRoute(HapticOutput output, in AudioConfiguration device)
@@ -80,7 +91,7 @@ namespace HaptoFlow.Editor
             {
                 return new Finding(MessageType.Error,
                     $"{output.name} has the route Listener Channel, but its object has no Audio Listener: nothing is " +
-                    "felt. Move it to the Audio Listener's object, below every other filter.", objects);
+                    "felt. Move it to the Audio Listener's object.", objects);
             }
             int channels = SpeakerChannels.Count(device.speakerMode);
             return output.Channel < channels

@@ -43,6 +43,7 @@ namespace HaptoFlow.Editor
                 EditorGUILayout.PropertyField(route);
             }
             DrawDestination(several || !byMixer, several || byMixer);
+            EditorGUILayout.PropertyField(serializedObject.FindProperty("playWhilePaused"));
             if (several || bySource)
             {
                 EditorGUILayout.PropertyField(serializedObject.FindProperty("obeyListener"));

@@ -11,7 +11,7 @@ namespace HaptoFlow.Editor
             HapticSilence.Rest => "rest: nothing touches, or the tip does not slide",
             HapticSilence.Stale => "stale: no contact state came for 100 ms",
             HapticSilence.Muted => "muted",
-            HapticSilence.Paused => "the application is paused",
+            HapticSilence.Paused => "paused: with the application, or by AudioListener.pause",
             HapticSilence.Panic => "panic: it plays again from the next touch-down on",
             HapticSilence.Rate when !voice.IsRateSupported =>
                 $"the device's sample rate is outside {OutputRules.MinimumRateHz} to {OutputRules.MaximumRateHz} Hz",
@@ -33,6 +33,10 @@ namespace HaptoFlow.Editor
             if (output == null && SceneOutputs.AreSwitchedOff)
             {
                 return "none: the scene's output is switched off";
+            }
+            if (output == null && UnityAudio.Problem != null)
+            {
+                return "none: " + UnityAudio.Problem;
             }
             return stylus.isActiveAndEnabled ? "none yet" : "none: the stylus is switched off";
         }

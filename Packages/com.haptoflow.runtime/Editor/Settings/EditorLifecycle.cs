@@ -18,6 +18,7 @@ namespace HaptoFlow.Editor
         {
             HaptoFlowSettings.FindProjectSettings = SettingsOfProject;
             HelpPages.FindFolder = FolderOfPages;
+            UnityAudio.IsDisabledByProject = ProjectAudio.IsDisabled;
             AssemblyReloadEvents.beforeAssemblyReload += HapticSession.ShutDown;
             AssemblyReloadEvents.beforeAssemblyReload += HapticLearning.EndAll;
             AssemblyReloadEvents.beforeAssemblyReload += ForgetBuiltIn;

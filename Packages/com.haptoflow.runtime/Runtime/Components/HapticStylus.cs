@@ -203,7 +203,6 @@ namespace HaptoFlow
             isActive = true;
             HapticSession.Current.Poll();
             MaterialMaps.Poll();
-            TerrainWeights.ReadScenes();
         }
 
         private void OnDisable()

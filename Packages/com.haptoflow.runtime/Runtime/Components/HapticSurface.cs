@@ -1,4 +1,5 @@
 #nullable enable
+using System;
 using System.Collections.Generic;
 using UnityEngine;
 
@@ -14,6 +15,8 @@ namespace HaptoFlow
     [HelpPage(HelpPages.Components + "haptic-surface")]
     public sealed class HapticSurface : MonoBehaviour
     {
+        private const int MinimumBeforeSweep = 64;
+
         [SerializeField, Tooltip("The shared material is a Haptic Material asset that several surfaces may use. When " +
             "it is empty, the surface has the material described below.")]
         private HapticMaterial? sharedMaterial;
@@ -45,7 +48,9 @@ namespace HaptoFlow
             "with the same label, at most as much as the recorded pieces did. The seed says in what it differs.")]
         private float variation;
 
+        private static readonly Predicate<Collider> IsDestroyed = collider => collider == null;
         private readonly List<Collider> registered = new List<Collider>();
+        private int sweepAt;
         private bool isStale;
         private readonly MaterialLookUp ownLookUp = new MaterialLookUp();
 
@@ -126,6 +131,7 @@ namespace HaptoFlow
                 {
                     Refresh();
                 }
+                registered.RemoveAll(IsDestroyed);
                 return registered;
             }
         }
@@ -157,12 +163,21 @@ namespace HaptoFlow
             {
                 Refresh();
             }
-            if (!registered.Contains(collider))
+            if (SurfaceRegistry.IsOf(collider, this))
             {
-                registered.Add(collider);
+                return;
             }
+            if (registered.Count >= sweepAt)
+            {
+                registered.RemoveAll(IsDestroyed);
+                sweepAt = Math.Max(MinimumBeforeSweep, 2 * registered.Count);
+            }
+            registered.Add(collider);
             SurfaceRegistry.Add(collider, this);
         }
+
+        /// <summary>Forgets a collider that belongs elsewhere now.</summary>
+        internal void Disown(Collider collider) => registered.Remove(collider);
 
         /// <summary>The labels and their weights for the engine, looked up again only after a change.</summary>
         internal LabelBlend BlendFor(HapticSession session) => LookUp(session).Labels;

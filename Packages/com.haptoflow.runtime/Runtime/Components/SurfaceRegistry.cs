@@ -1,5 +1,4 @@
 #nullable enable
-using System.Collections.Generic;
 using UnityEngine;
 
 namespace HaptoFlow
@@ -7,20 +6,35 @@ namespace HaptoFlow
     /// <summary>Maps colliders to surfaces. Main thread; a look-up makes no garbage.</summary>
     internal static class SurfaceRegistry
     {
-        private static readonly Dictionary<Collider, HapticSurface> Surfaces =
-            new Dictionary<Collider, HapticSurface>();
+        private static readonly ObjectCache<Collider, HapticSurface> Surfaces =
+            new ObjectCache<Collider, HapticSurface>();
 
         private static readonly UntaggedColliders Untagged = new UntaggedColliders();
 
-        public static void Add(Collider collider, HapticSurface surface) => Surfaces[collider] = surface;
+        /// <summary>The number of registered colliders, with the destroyed ones that are not swept yet.</summary>
+        public static int Count => Surfaces.Count;
+
+        /// <summary>Registers a collider, and takes it from the surface that had it.</summary>
+        public static void Add(Collider collider, HapticSurface surface)
+        {
+            if (Surfaces.TryGetValue(collider, out HapticSurface before) && !ReferenceEquals(before, surface))
+            {
+                before.Disown(collider);
+            }
+            Surfaces.Set(collider, surface);
+        }
 
         public static void Remove(Collider collider, HapticSurface surface)
         {
-            if (Surfaces.TryGetValue(collider, out HapticSurface registered) && ReferenceEquals(registered, surface))
+            if (IsOf(collider, surface))
             {
                 Surfaces.Remove(collider);
             }
         }
+
+        /// <summary>True where the collider is registered for the surface.</summary>
+        public static bool IsOf(Collider collider, HapticSurface surface) =>
+            Surfaces.TryGetValue(collider, out HapticSurface registered) && ReferenceEquals(registered, surface);
 
         /// <summary>Registers the learnt materials of all surfaces before they are touched.</summary>
         public static void PrepareAll(HapticSession session)
@@ -33,8 +47,7 @@ namespace HaptoFlow
 
         /// <summary>True where the collider still belongs to the surface that was looked up for it.</summary>
         public static bool Holds(Collider collider, HapticSurface surface) =>
-            Surfaces.TryGetValue(collider, out HapticSurface registered) && ReferenceEquals(registered, surface) &&
-            surface.Keeps(collider);
+            IsOf(collider, surface) && surface.Keeps(collider);
 
         /// <summary>Has colliders of no surface searched again: a surface came, changed or moved.</summary>
         public static void Changed() => Untagged.Forget();
@@ -52,7 +65,11 @@ namespace HaptoFlow
             HapticSurface? owner = OwnerOf(collider.transform);
             if (owner == null || !owner.isActiveAndEnabled || !owner.Reaches(collider))
             {
-                Surfaces.Remove(collider);
+                if (Surfaces.TryGetValue(collider, out HapticSurface before))
+                {
+                    before.Disown(collider);
+                    Surfaces.Remove(collider);
+                }
                 Untagged.Remember(collider);
                 return null;
             }

@@ -8,12 +8,12 @@ namespace HaptoFlow
     /// <summary>How an output reaches the audio device.</summary>
     public enum OutputRoute
     {
-        /// <summary>A playing audio source without clip on this object. The haptic channel also carries what other
-        /// sources play.</summary>
+        /// <summary>A playing audio source on a child object, which the output makes. The haptic channel also carries
+        /// what other sources play.</summary>
         AudioSource,
 
         /// <summary>A filter on the audio listener that overwrites one channel, which then carries nothing else. Put
-        /// the output on the listener's object, below every other filter.</summary>
+        /// the output on the listener's object. The filter is the last of those there when play begins.</summary>
         ListenerChannel,
 
         /// <summary>The mixer effect "HaptoFlow Voice": the native library plays inside an Audio Mixer, and this
@@ -43,8 +43,12 @@ namespace HaptoFlow
         [SerializeField, Tooltip("A muted output is silent, and runs no inference.")]
         private bool muted;
 
-        [SerializeField, Tooltip("AudioListener.pause and AudioListener.volume also apply to the haptics. When it is " +
-            "off, the haptics stay as they are when a game turns its sound down.")]
+        [SerializeField, Tooltip("The haptics go on while AudioListener.pause is on, as pause menus set it. When it is " +
+            "off, they are silent meanwhile.")]
+        private bool playWhilePaused;
+
+        [SerializeField, Tooltip("AudioListener.volume also applies to the haptics. When it is off, the haptics stay as " +
+            "they are when a game turns its sound down.")]
         private bool obeyListener;
 
         [SerializeField, Tooltip("The Audio Mixer contains the effect HaptoFlow Voice.")]
@@ -62,14 +66,17 @@ namespace HaptoFlow
 
         private readonly VoiceMixer mixer = new VoiceMixer();
         private readonly OutputMeter meter = new OutputMeter();
-        private AudioSource? source;
+        private AudioCalls? calls;
+        private CallWatch watch;
+        private OutputPause pause;
         private double signalHz;
         private double signalMps2;
         private bool started;
-        private bool isBesideListener;
+        private bool isOpen;
+        private bool mixerKnowsVoice;
         private volatile int sampleRateHz = 48000;
         private volatile int renderedChannel;
-        private volatile bool rendersHere;
+        private volatile int callCount;
 
         /// <summary>The route; it can be set until the output's first frame.</summary>
         public OutputRoute Route
@@ -107,16 +114,19 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>True to apply AudioListener.pause and AudioListener.volume to the haptics as well, with <see
-        /// cref="OutputRoute.AudioSource"/>. Off by default: a game that lowers or pauses its sound keeps its
-        /// haptics.</summary>
+        /// <summary>True to go on while AudioListener.pause is on, as a sound with AudioSource.ignoreListenerPause does.
+        /// Off by default: a pause menu silences the haptics.</summary>
+        public bool PlayWhilePaused { get => playWhilePaused; set => playWhilePaused = value; }
+
+        /// <summary>True to apply AudioListener.volume to the haptics as well, with <see
+        /// cref="OutputRoute.AudioSource"/>. Off by default: a game that lowers its sound keeps its haptics.</summary>
         public bool ObeyListener
         {
             get => obeyListener;
             set
             {
                 obeyListener = value;
-                ConfigureSource();
+                calls?.ObeyVolume(value);
             }
         }
 
@@ -207,6 +217,7 @@ namespace HaptoFlow
         void IVoiceTarget.Add(HapticVoice voice)
         {
             voice.SetMuted(muted);
+            voice.SetPaused(pause.IsPaused);
             processing.Apply(voice, this);
             voice.SetSignal(signalHz, signalMps2);
             mixer.Add(voice);
@@ -225,10 +236,11 @@ namespace HaptoFlow
         /// <summary>Calls an action with every voice of this output. Main thread.</summary>
         internal void ForEachVoice<T>(Action<HapticVoice, T> act, T argument) => mixer.ForEach(act, argument);
 
+        /// <summary>Tells the mixer effect which voice to play; where that fails, the console says so.</summary>
         private void NameVoice(HapticVoice voice)
         {
-            bool named = audioMixer != null && audioMixer.SetFloat(voiceParameter, voice.Place());
-            if (!named)
+            mixerKnowsVoice = audioMixer != null && audioMixer.SetFloat(voiceParameter, voice.Place());
+            if (!mixerKnowsVoice)
             {
                 Debug.LogWarning($"HaptoFlow: {name} has no mixer that exposes a parameter \"{voiceParameter}\": " +
                     "expose the parameter Voice of the effect HaptoFlow Voice under that name.", this);
@@ -241,11 +253,11 @@ namespace HaptoFlow
         {
             UpdateRendering();
             ReadConfiguration();
+            pause.Update(playWhilePaused);
             AudioSettings.OnAudioConfigurationChanged += OnConfigurationChanged;
             SceneOutputs.Add(this);
             if (started)
             {
-                PlaySource();
                 ReportMissingChannel();
             }
         }
@@ -254,35 +266,58 @@ namespace HaptoFlow
         {
             started = true;
             UpdateRendering();
-            PlaySource();
+            Open();
             ReportMissingChannel();
+        }
+
+        private void Update()
+        {
+            if (!isOpen)
+            {
+                Open();
+            }
+            if (pause.Update(playWhilePaused))
+            {
+                PauseVoices();
+            }
+            UnityAudio.Poll();
+            if (UnityAudio.Problem != null)
+            {
+                UnityAudio.SayProblem(name, this);
+                watch.Restart();
+            }
+            else if (watch.Misses(CallCount(), AreCallsExpected()))
+            {
+                SayThatNoCallComes();
+                Open();
+            }
         }
 
         private void OnDisable()
         {
             AudioSettings.OnAudioConfigurationChanged -= OnConfigurationChanged;
             SceneOutputs.Remove(this);
-            if (source != null)
-            {
-                source.Stop();
-            }
+            calls?.Close();
+            isOpen = false;
         }
 
-        private void OnApplicationPause(bool paused) => mixer.ForEach((voice, on) => voice.SetPaused(on), paused);
+        private void OnApplicationPause(bool paused)
+        {
+            if (pause.PauseApplication(paused, playWhilePaused))
+            {
+                PauseVoices();
+            }
+        }
 
         private void OnValidate()
         {
             UpdateRendering();
-            ConfigureSource();
+            calls?.ObeyVolume(obeyListener);
         }
 
         private bool LacksChannel => route == OutputRoute.ListenerChannel && channel < 0;
 
-        private void UpdateRendering()
-        {
-            renderedChannel = channel;
-            rendersHere = route != OutputRoute.MixerEffect && !LacksChannel && !isBesideListener;
-        }
+        private void UpdateRendering() => renderedChannel = LacksChannel ? int.MaxValue : channel;
 
         private void ReportMissingChannel()
         {
@@ -293,77 +328,58 @@ namespace HaptoFlow
             }
         }
 
+        // The engine may have stopped the source, dropped the filter, and loaded the mixers again.
         private void OnConfigurationChanged(bool deviceWasChanged)
         {
             ReadConfiguration();
-            if (source != null)
+            watch.Restart();
+            if (started)
             {
-                // A change of configuration stops every source.
-                source.Play();
+                Open();
             }
         }
 
         private void ReadConfiguration()
         {
-            sampleRateHz = AudioSettings.outputSampleRate;
+            sampleRateHz = UnityAudio.RateHz;
         }
 
-        private void PlaySource()
+        private void Open()
         {
-            if (route != OutputRoute.AudioSource)
+            isOpen = true;
+            calls ??= new AudioCalls(Render);
+            calls.Open(gameObject, route, obeyListener);
+            if (mixerKnowsVoice)
             {
-                return;
+                mixer.ForEach((voice, output) => output.NameVoice(voice), this);
             }
-            if (source == null)
-            {
-                source = FindSource();
-            }
-            source.playOnAwake = false;
-            source.spatialBlend = 0f;
-            source.priority = 0;
-            source.dopplerLevel = 0f;
-            source.bypassReverbZones = true;
-            source.bypassListenerEffects = true;
-            // This component is itself a filter of the source.
-            source.bypassEffects = false;
-            ConfigureSource();
-            source.Play();
         }
 
-        /// <summary>The source on this object. Beside an Audio Listener this component would filter what the listener
-        /// hears, and overwrite it; there the source gets an object of its own.</summary>
-        private AudioSource FindSource()
+        private void PauseVoices() => mixer.ForEach((voice, on) => voice.SetPaused(on), pause.IsPaused);
+
+        /// <summary>The native library counts for the mixer effect.</summary>
+        private ulong CallCount() => route == OutputRoute.MixerEffect ? mixer.RenderedFrames() : (ulong)callCount;
+
+        private bool AreCallsExpected() => !AudioListener.pause &&
+            (route != OutputRoute.MixerEffect || (mixerKnowsVoice && mixer.HasVoices));
+
+        private void SayThatNoCallComes()
         {
-            if (TryGetComponent(out AudioListener _))
+            string remedy = route switch
             {
-                isBesideListener = true;
-                UpdateRendering();
-                return OutputSource.Of(this);
-            }
-            return TryGetComponent(out AudioSource found) ? found : gameObject.AddComponent<AudioSource>();
+                OutputRoute.ListenerChannel => "put it on the object of the Audio Listener that is in use",
+                OutputRoute.MixerEffect => "switch auto-suspend off, on the mixer and its groups",
+                _ => "restart the audio with AudioSettings.Reset",
+            };
+            Debug.LogWarning($"HaptoFlow: {name} is silent: for a second, Unity's audio has not asked it for samples. It " +
+                $"tries once more now; if that does not help, {remedy}.", this);
         }
 
-        private void ConfigureSource()
-        {
-            if (source != null)
-            {
-                source.ignoreListenerPause = !obeyListener;
-                source.ignoreListenerVolume = !obeyListener;
-            }
-        }
-
-        // Audio thread: no garbage, no locks.
-        private void OnAudioFilterRead(float[] data, int channels)
-        {
-            if (rendersHere)
-            {
-                Render(data, channels);
-            }
-        }
-
-        /// <summary>Overwrites the output's channel of a block with the voices. Audio thread.</summary>
+        /// <summary>Overwrites the output's channel of a block with the voices. Audio thread: no garbage, no
+        /// locks.</summary>
         internal void Render(float[] data, int channels)
         {
+            callCount = unchecked(callCount + 1);
             int wanted = renderedChannel;
             if (wanted >= channels)
             {

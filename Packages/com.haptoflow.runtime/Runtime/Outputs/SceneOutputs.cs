@@ -128,8 +128,14 @@ namespace HaptoFlow
         }
 
         // The created output belongs to the scene that had none; the next scene starts over.
-        private static HapticOutput Make(HapticStylus asker)
+        private static HapticOutput? Make(HapticStylus asker)
         {
+            UnityAudio.Poll();
+            if (UnityAudio.Problem != null)
+            {
+                UnityAudio.SayProblem(asker.PenName, asker);
+                return null;
+            }
             made = HapticOutput.Make();
             Debug.Log("HaptoFlow: the scene has no Haptic Output, so one was created that plays on every channel of " +
                 "the audio device. Add one to choose a channel.", asker);

@@ -14,9 +14,12 @@ namespace HaptoFlow
         // The audio thread's: also those that fade; 0 for one that has.
         private ulong[] sounding = Array.Empty<ulong>();
 
+        /// <summary>True where there is a voice that is not closed.</summary>
+        public bool HasVoices => Array.Exists(voices, IsOpen);
+
         public void Add(HapticVoice voice)
         {
-            voices = With(Array.FindAll(voices, each => each.Id != 0), voice);
+            voices = With(Array.FindAll(voices, IsOpen), voice);
             Volatile.Write(ref sounding, With(Array.FindAll(sounding, each => each != 0), voice.Id));
         }
 
@@ -27,7 +30,7 @@ namespace HaptoFlow
             {
                 try
                 {
-                    if (voice.Id != 0)
+                    if (IsOpen(voice))
                     {
                         act(voice, argument);
                     }
@@ -39,13 +42,24 @@ namespace HaptoFlow
             }
         }
 
+        /// <summary>The frames that the present voices have rendered, together. Main thread.</summary>
+        public ulong RenderedFrames()
+        {
+            ulong frames = 0UL;
+            foreach (HapticVoice voice in voices)
+            {
+                frames += IsOpen(voice) ? FramesOf(voice) : 0UL;
+            }
+            return frames;
+        }
+
         /// <summary>True where every voice is muted, paused, turned down to 0, silenced by a panic, or closed. Main
         /// thread.</summary>
         public bool AllAreStopped()
         {
             foreach (HapticVoice voice in voices)
             {
-                if (voice.Id != 0 && !IsStopped(voice))
+                if (IsOpen(voice) && !IsStopped(voice))
                 {
                     return false;
                 }
@@ -57,11 +71,25 @@ namespace HaptoFlow
         public void Render(Span<float> interleaved, int channels, int channel, int sampleRateHz) =>
             HapticVoice.RenderSum(Volatile.Read(ref sounding), interleaved, channels, channel, sampleRateHz);
 
+        private static bool IsOpen(HapticVoice voice) => voice.Id != 0;
+
         private static T[] With<T>(T[] before, T added)
         {
             Array.Resize(ref before, before.Length + 1);
             before[before.Length - 1] = added;
             return before;
+        }
+
+        private static ulong FramesOf(HapticVoice voice)
+        {
+            try
+            {
+                return voice.Statistics().RenderedFrames;
+            }
+            catch (HaptoFlowException closed) when (closed.Status == HaptoFlowStatus.InvalidArgument)
+            {
+                return 0UL;
+            }
         }
 
         private static bool IsStopped(HapticVoice voice)

@@ -152,6 +152,18 @@ namespace HaptoFlow.SampleTests.Similarity
         }
 
         [Test]
+        public void WithoutUnitysAudioTheStudyIsRefusedWithTheReason()
+        {
+            AudioDevice.IsSwitchedOff = true;
+            Open(Settings(1, 2));
+            Prepare();
+            scene.Begin(7);
+            Assert.That(scene.Problem, Does.Contain("Disable Unity Audio"));
+            Assert.That(scene.Session, Is.Null);
+            Assert.That(Directory.Exists(folder), Is.False, "nothing was begun");
+        }
+
+        [Test]
         public void AResumedSessionKeepsItsDelay()
         {
             SimilarityStudySettings settings = Settings(1, 2);

@@ -38,11 +38,7 @@ namespace HaptoFlow
             }
         }
 
-        private void OnEnable()
-        {
-            MaterialMaps.Add(this);
-            TerrainWeights.ReadScenes();
-        }
+        private void OnEnable() => MaterialMaps.Add(this);
 
         private void OnDisable() => MaterialMaps.Remove(this);
 

@@ -112,7 +112,7 @@ namespace HaptoFlow
 
         private ResolvedMaterial OnTerrain(TerrainData terrain, in TouchedPlace place, HapticSession session)
         {
-            float[] weights = TerrainWeights.Of(terrain).At(place.LocalMetres, terrain.size.ToDouble());
+            float[] weights = TerrainWeights.Of((TerrainCollider)Collider, terrain).At(place.LocalMetres, terrain.size.ToDouble());
             MaterialMix mix = MaterialMix.Shared;
             mix.Begin();
             for (int layer = 0; layer < parts.Length && layer < weights.Length; ++layer)

@@ -1,7 +1,7 @@
 #nullable enable
-using System;
 using System.Collections.Generic;
 using UnityEngine;
+using UnityEngine.SceneManagement;
 
 namespace HaptoFlow
 {
@@ -9,11 +9,8 @@ namespace HaptoFlow
     /// known collider that has not changed.</summary>
     internal static class MappedColliders
     {
-        private const int MinimumBeforeSweep = 256;
-        private static readonly Dictionary<Collider, MappedCollider> Known = new Dictionary<Collider, MappedCollider>();
+        private static readonly ObjectCache<Collider, MappedCollider> Known = new ObjectCache<Collider, MappedCollider>();
         private static readonly List<HapticMaterialMap> Maps = new List<HapticMaterialMap>();
-        private static readonly List<Collider> Gone = new List<Collider>();
-        private static int sweepAt = MinimumBeforeSweep;
 
         /// <summary>Number of cached colliders.</summary>
         public static int Count => Known.Count;
@@ -25,12 +22,11 @@ namespace HaptoFlow
             {
                 return null;
             }
-            if (!Known.TryGetValue(collider, out MappedCollider? felt))
+            if (!Known.TryGetValue(collider, out MappedCollider felt))
             {
-                Sweep();
                 MaterialMaps.CollectFor(collider.gameObject.scene, Maps);
                 felt = new MappedCollider(collider, Maps) { MapsVersion = MaterialMaps.Version };
-                Known.Add(collider, felt);
+                Known.Set(collider, felt);
             }
             else if (felt.MapsVersion != MaterialMaps.Version || !felt.IsUpToDate())
             {
@@ -41,33 +37,14 @@ namespace HaptoFlow
             return felt.CanBeFelt ? felt : null;
         }
 
-        /// <summary>Removes destroyed colliders whenever the cache has doubled.</summary>
-        private static void Sweep()
-        {
-            if (Known.Count < sweepAt)
-            {
-                return;
-            }
-            foreach (KeyValuePair<Collider, MappedCollider> entry in Known)
-            {
-                if (entry.Key == null)
-                {
-                    Gone.Add(entry.Key!);
-                }
-            }
-            foreach (Collider collider in Gone)
-            {
-                Known.Remove(collider);
-            }
-            Gone.Clear();
-            sweepAt = Math.Max(MinimumBeforeSweep, 2 * Known.Count);
-        }
-
         [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.SubsystemRegistration)]
         private static void Forget()
         {
             Known.Clear();
-            sweepAt = MinimumBeforeSweep;
+            SceneManager.sceneUnloaded -= OnSceneUnloaded;
+            SceneManager.sceneUnloaded += OnSceneUnloaded;
         }
+
+        private static void OnSceneUnloaded(Scene scene) => Known.Sweep();
     }
 }

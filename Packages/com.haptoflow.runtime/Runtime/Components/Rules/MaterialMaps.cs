@@ -19,7 +19,7 @@ namespace HaptoFlow
 
         public static void Change() => ++Version;
 
-        /// <summary>Call once a frame: detects a change of the project's map.</summary>
+        /// <summary>Call once a frame: detects a change of the project's map, and reads terrains ahead.</summary>
         public static void Poll()
         {
             HapticMaterialMap? chosen = HaptoFlowSettings.Active.MaterialMap;
@@ -29,6 +29,7 @@ namespace HaptoFlow
                 project = chosen;
                 Change();
             }
+            TerrainWeights.Poll();
         }
 
         public static void Add(HapticMaterialMapScope scope)

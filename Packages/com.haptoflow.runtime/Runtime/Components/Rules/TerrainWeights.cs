@@ -3,70 +3,89 @@ using System;
 using System.Collections.Generic;
 using HaptoFlow.Numerics;
 using UnityEngine;
-using Object = UnityEngine.Object;
+using UnityEngine.SceneManagement;
 
 namespace HaptoFlow
 {
-    /// <summary>The weights of a terrain's layers at each place: read once into a byte per layer and texel, since
-    /// Unity's own query makes garbage. Texels of a large terrain are averaged. Main thread.</summary>
+    /// <summary>The weights of a terrain's layers at each place: read into a byte per layer and texel, since Unity's own
+    /// query makes garbage. They are read in strips of rows, one in a frame before the terrain is touched, and the strip
+    /// under a tip at once. Texels of a large terrain are averaged. Main thread.</summary>
     internal sealed class TerrainWeights
     {
-        // Reading a large terrain in strips makes a few megabytes of garbage instead of hundreds.
         private const int RowsAtOnce = 64;
         private const long MaximumBytes = 16L << 20;
-        private static readonly Dictionary<TerrainData, TerrainWeights> Known =
-            new Dictionary<TerrainData, TerrainWeights>();
+        private const int FramesBetweenSearches = 30;
+        private static readonly ObjectCache<TerrainCollider, TerrainWeights> Known =
+            new ObjectCache<TerrainCollider, TerrainWeights>();
+
+        private static readonly List<Terrain> Active = new List<Terrain>();
+        private static readonly List<TerrainWeights> Unread = new List<TerrainWeights>();
+        private static int polledFrame = -1;
+        private static int framesToSearch;
 
         private readonly TerrainData terrain;
-        private byte[] texels = Array.Empty<byte>();
+        private byte[]?[] strips = Array.Empty<byte[]?>();
         private float[] found = Array.Empty<float>();
         private int sourceResolution;
         private int texelsInOne = 1;
+        private int rowsOfStrip = 1;
         private int resolution;
         private int layers;
-        private bool isStale = true;
 
         private TerrainWeights(TerrainData terrain) => this.terrain = terrain;
 
-        public static TerrainWeights Of(TerrainData terrain)
+        /// <summary>Number of terrains whose weights are kept.</summary>
+        public static int Count => Known.Count;
+
+        /// <summary>Number of strips that were read since play began.</summary>
+        public static long StripsRead { get; private set; }
+
+        /// <summary>The weights for a collider; kept until the collider is destroyed.</summary>
+        public static TerrainWeights Of(TerrainCollider collider, TerrainData terrain)
         {
-            if (!Known.TryGetValue(terrain, out TerrainWeights? weights))
+            if (!Known.TryGetValue(collider, out TerrainWeights weights) || !ReferenceEquals(weights.terrain, terrain))
             {
+                // A terrain may take megabytes.
+                Known.Sweep();
                 weights = new TerrainWeights(terrain);
-                Known.Add(terrain, weights);
+                Known.Set(collider, weights);
             }
             return weights;
         }
 
-        /// <summary>Reads the terrains of the open scenes where maps are in effect, so that no frame of a touch has
-        /// to.</summary>
-        public static void ReadScenes()
+        /// <summary>Reads one strip of the terrains that maps are in effect for, whenever they were loaded. Call it in
+        /// every frame; further calls in a frame do nothing.</summary>
+        public static void Poll()
         {
-            if (!MaterialMaps.Any)
+            if (!MaterialMaps.Any || Time.frameCount == polledFrame)
             {
                 return;
             }
-            foreach (TerrainCollider collider in Object.FindObjectsByType<TerrainCollider>(
-                FindObjectsInactive.Exclude, FindObjectsSortMode.None))
+            polledFrame = Time.frameCount;
+            if (Unread.Count == 0 && --framesToSearch < 0)
             {
-                if (collider.terrainData != null)
-                {
-                    Of(collider.terrainData).Read();
-                }
+                framesToSearch = FramesBetweenSearches;
+                Search();
+            }
+            while (Unread.Count > 0 && !Unread[Unread.Count - 1].ReadNextStrip())
+            {
+                Unread.RemoveAt(Unread.Count - 1);
             }
         }
 
-        /// <summary>Discards all weights; each terrain is read again at its next query.</summary>
-        public static void Forget() => Known.Clear();
+        /// <summary>Discards all weights, which are then read again.</summary>
+        public static void Forget()
+        {
+            Known.Clear();
+            Unread.Clear();
+            framesToSearch = 0;
+        }
 
         /// <summary>Weights of the layers at a place. The array is reused by the next query.</summary>
         /// <param name="localMetres">Position relative to the terrain's corner.</param>
         public float[] At(Double3 localMetres, Double3 sizeMetres)
         {
-            if (isStale)
-            {
-                Read();
-            }
+            Measure();
             Array.Clear(found, 0, found.Length);
             if (layers == 0)
             {
@@ -84,33 +103,66 @@ namespace HaptoFlow
             return found;
         }
 
-        private void Read()
+        private static void Search()
         {
-            if (!isStale || terrain == null)
+            Terrain.GetActiveTerrains(Active);
+            foreach (Terrain each in Active)
+            {
+                if (each.TryGetComponent(out TerrainCollider collider) && collider.terrainData != null &&
+                    MappedColliders.Resolve(collider) is { IsUniform: false })
+                {
+                    TerrainWeights weights = Of(collider, collider.terrainData);
+                    if (!weights.IsRead())
+                    {
+                        Unread.Add(weights);
+                    }
+                }
+            }
+            Active.Clear();
+        }
+
+        /// <summary>Begins again where the terrain has another resolution or number of layers than before.</summary>
+        private void Measure()
+        {
+            if (terrain == null || (terrain.alphamapResolution == sourceResolution && terrain.alphamapLayers == layers))
             {
                 return;
             }
-            isStale = false;
+            texelsInOne = 1;
             sourceResolution = terrain.alphamapResolution;
             layers = terrain.alphamapLayers;
-            texelsInOne = 1;
             resolution = sourceResolution;
             while ((long)resolution * resolution * layers > MaximumBytes && texelsInOne < RowsAtOnce)
             {
                 texelsInOne *= 2;
                 resolution = Math.Max(1, sourceResolution / texelsInOne);
             }
-            Array.Resize(ref texels, resolution * resolution * layers);
-            Array.Resize(ref found, layers);
-            int rowsOfStrip = RowsAtOnce / texelsInOne;
-            for (int row = 0; layers > 0 && row < resolution; row += rowsOfStrip)
-            {
-                ReadStrip(row, Math.Min(rowsOfStrip, resolution - row));
-            }
+            rowsOfStrip = RowsAtOnce / texelsInOne;
+            strips = new byte[]?[layers > 0 ? (resolution + rowsOfStrip - 1) / rowsOfStrip : 0];
+            found = new float[layers];
         }
 
-        private void ReadStrip(int firstRow, int rows)
+        private bool IsRead() => sourceResolution > 0 && Array.IndexOf(strips, null) < 0;
+
+        /// <summary>False where there was none to read.</summary>
+        private bool ReadNextStrip()
         {
+            Measure();
+            int next = terrain != null ? Array.IndexOf(strips, null) : -1;
+            if (next < 0)
+            {
+                return false;
+            }
+            strips[next] = ReadStrip(next);
+            return true;
+        }
+
+        private byte[] ReadStrip(int strip)
+        {
+            ++StripsRead;
+            int firstRow = strip * rowsOfStrip;
+            int rows = Math.Min(rowsOfStrip, resolution - firstRow);
+            var texels = new byte[rows * resolution * layers];
             float[,,] source = terrain.GetAlphamaps(
                 0, firstRow * texelsInOne, resolution * texelsInOne, rows * texelsInOne);
             float inOne = texelsInOne * texelsInOne;
@@ -126,11 +178,12 @@ namespace HaptoFlow
                             sum += source[row * texelsInOne + part / texelsInOne,
                                 column * texelsInOne + part % texelsInOne, layer];
                         }
-                        texels[((firstRow + row) * resolution + column) * layers + layer] =
+                        texels[(row * resolution + column) * layers + layer] =
                             (byte)(Mathf.Clamp01(sum / inOne) * byte.MaxValue + 0.5f);
                     }
                 }
             }
+            return texels;
         }
 
         private (int Texel, float ShareOfNext) Texel(double metres, double sizeMetres)
@@ -144,10 +197,32 @@ namespace HaptoFlow
 
         private void Add(int x, int z, float share)
         {
-            int first = (z * resolution + x) * layers;
+            int strip = z / rowsOfStrip;
+            byte[]? texels = strips[strip];
+            if (texels == null)
+            {
+                if (terrain == null)
+                {
+                    return;
+                }
+                texels = ReadStrip(strip);
+                strips[strip] = texels;
+            }
+            int first = ((z - strip * rowsOfStrip) * resolution + x) * layers;
             for (int layer = 0; layer < layers; ++layer)
             {
                 found[layer] += share * texels[first + layer] / byte.MaxValue;
+            }
+        }
+
+        /// <summary>Has the strips with changed rows read again.</summary>
+        private void Discard(int firstSourceRow, int sourceRows)
+        {
+            int rowsOfSource = rowsOfStrip * texelsInOne;
+            int last = Math.Min((firstSourceRow + sourceRows - 1) / rowsOfSource, strips.Length - 1);
+            for (int strip = Math.Max(0, firstSourceRow / rowsOfSource); strip <= last; ++strip)
+            {
+                strips[strip] = null;
             }
         }
 
@@ -155,17 +230,34 @@ namespace HaptoFlow
         private static void OnSubsystemRegistration()
         {
             Forget();
+            polledFrame = -1;
+            StripsRead = 0;
             TerrainCallbacks.textureChanged -= OnPainted;
             TerrainCallbacks.textureChanged += OnPainted;
+            SceneManager.sceneUnloaded -= OnSceneUnloaded;
+            SceneManager.sceneUnloaded += OnSceneUnloaded;
+        }
+
+        private static void OnSceneUnloaded(Scene scene)
+        {
+            Known.Sweep();
+            Unread.Clear();
+            framesToSearch = 0;
         }
 
         // Reading before the change has arrived from the graphics card would return the old weights.
         private static void OnPainted(Terrain painted, string textureName, RectInt texels, bool hasArrived)
         {
-            if (hasArrived && painted.terrainData != null &&
-                Known.TryGetValue(painted.terrainData, out TerrainWeights? weights))
+            if (!hasArrived || painted.terrainData == null)
             {
-                weights.isStale = true;
+                return;
+            }
+            foreach (TerrainWeights weights in Known.Values)
+            {
+                if (ReferenceEquals(weights.terrain, painted.terrainData))
+                {
+                    weights.Discard(texels.y, texels.height);
+                }
             }
         }
     }

@@ -17,7 +17,7 @@ namespace HaptoFlow
         /// <summary>The output is muted.</summary>
         Muted = 3,
 
-        /// <summary>The application is paused.</summary>
+        /// <summary>The application is paused, or its sound is and the output pauses with it.</summary>
         Paused = 4,
 
         /// <summary>A panic silenced this touch; the next one sounds.</summary>

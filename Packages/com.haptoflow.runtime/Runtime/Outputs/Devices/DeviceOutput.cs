@@ -33,6 +33,10 @@ namespace HaptoFlow
         [SerializeField, Tooltip("A muted output is silent and costs no inference.")]
         private bool muted;
 
+        [SerializeField, Tooltip("The output goes on while AudioListener.pause is on, as pause menus set it. When it is " +
+            "off, it is silent meanwhile.")]
+        private bool playWhilePaused;
+
         [SerializeField, Range(0f, MaximumDeviceLoudness), Tooltip("How strongly the device plays: 1 is fitted so that " +
             "every shipped label is felt, 0 is silent. It has no effect with True Level.")]
         private float deviceLoudness = 1f;
@@ -54,6 +58,7 @@ namespace HaptoFlow
         private HapticStylus? namedIn;
         [NonSerialized]
         private HapticHand openedFor;
+        private OutputPause pause;
         private double nextSearchSeconds;
         private bool wasThere;
 
@@ -94,6 +99,10 @@ namespace HaptoFlow
                 }
             }
         }
+
+        /// <summary>True to go on while AudioListener.pause is on, as a sound with AudioSource.ignoreListenerPause does.
+        /// Off by default: a pause menu silences the device.</summary>
+        public bool PlayWhilePaused { get => playWhilePaused; set => playWhilePaused = value; }
 
         /// <summary>How strongly the device plays, 0 to <see cref="MaximumDeviceLoudness"/>: a gain after the loudness
         /// law. Has no effect with <see cref="TrueLevel"/>.</summary>
@@ -141,6 +150,7 @@ namespace HaptoFlow
         void IVoiceTarget.Add(HapticVoice voice)
         {
             voice.SetMuted(muted);
+            voice.SetPaused(pause.IsPaused);
             source.Add(voice);
         }
 
@@ -180,6 +190,7 @@ namespace HaptoFlow
 
         private void OnEnable()
         {
+            pause.Update(playWhilePaused);
             Attach();
             nextSearchSeconds = 0.0;
         }
@@ -206,8 +217,16 @@ namespace HaptoFlow
 
         private void OnApplicationPause(bool paused)
         {
-            source.ForEach((voice, on) => voice.SetPaused(on), paused);
-            if (paused)
+            if (pause.PauseApplication(paused, playWhilePaused))
+            {
+                PauseVoices();
+            }
+        }
+
+        private void PauseVoices()
+        {
+            source.ForEach((voice, on) => voice.SetPaused(on), pause.IsPaused);
+            if (pause.IsPaused)
             {
                 DiscardSubmitted();
             }
@@ -216,6 +235,10 @@ namespace HaptoFlow
         // Runs after the styluses have published: see the execution order of each output.
         private void LateUpdate()
         {
+            if (pause.Update(playWhilePaused))
+            {
+                PauseVoices();
+            }
             double now = Time.realtimeSinceStartupAsDouble;
             if (wasThere && !HasDevice)
             {
@@ -239,7 +262,7 @@ namespace HaptoFlow
                 bool isThere = HasDevice;
                 if (isThere && !wasThere)
                 {
-                    source.Forget();
+                    source.Forget(pause.IsPaused);
                 }
                 wasThere = isThere;
                 queue.YieldUntilSeconds = HandYields.UntilSeconds(openedFor);

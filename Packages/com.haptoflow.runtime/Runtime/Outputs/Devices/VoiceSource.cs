@@ -24,11 +24,12 @@ namespace HaptoFlow
         public void Discard() => Render(closing);
 
         /// <summary>Discards impacts and edges that came while no device could play them.</summary>
-        public void Forget()
+        /// <param name="staysPaused">True where the output is paused, and its voices with it.</param>
+        public void Forget(bool staysPaused)
         {
             ForEach((voice, _) => voice.SetPaused(true), 0);
             Discard();
-            ForEach((voice, _) => voice.SetPaused(false), 0);
+            ForEach((voice, stays) => voice.SetPaused(stays), staysPaused);
         }
 
         /// <inheritdoc/>

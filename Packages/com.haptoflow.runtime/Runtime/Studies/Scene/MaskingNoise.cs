@@ -44,6 +44,9 @@ namespace HaptoFlow.Studies
         private volatile float wantedGain;
         private volatile bool isPink;
         private volatile int sampleRateHz = 48000;
+        private volatile int callCount;
+        private CallWatch watch;
+        private AudioFilter? filter;
         private int channelCount;
         private float gain;
         private string? loggedProblem;
@@ -63,7 +66,8 @@ namespace HaptoFlow.Studies
             set => levelDecibels = Mathf.Clamp(value, MinimumDecibels, MaximumDecibels);
         }
 
-        /// <summary>Why there is no noise; null while there is.</summary>
+        /// <summary>Why there is no noise; null while there is. Where Unity's audio is switched off, a study cannot be
+        /// run.</summary>
         public string? Problem { get; private set; }
 
         private void OnEnable()
@@ -75,17 +79,37 @@ namespace HaptoFlow.Studies
         private void OnDisable()
         {
             AudioSettings.OnAudioConfigurationChanged -= ReadConfiguration;
+            Retire();
             gain = 0f;
         }
 
         private void ReadConfiguration(bool deviceWasChanged)
         {
-            sampleRateHz = AudioSettings.outputSampleRate;
+            sampleRateHz = UnityAudio.RateHz;
             channelCount = StudyPlayer.Channels;
+            watch.Restart();
+            Renew();
+        }
+
+        // The engine may have dropped the filter.
+        private void Renew()
+        {
+            Retire();
+            filter = AudioFilter.AddTo(gameObject, AddNoise);
+        }
+
+        private void Retire()
+        {
+            if (filter != null)
+            {
+                filter.Retire();
+            }
+            filter = null;
         }
 
         private void Update()
         {
+            UnityAudio.Poll();
             Problem = WhyNot();
             hapticChannel = Problem == null ? output!.Channel : HapticVoice.AllChannels;
             isPink = colour == NoiseColour.Pink;
@@ -95,10 +119,21 @@ namespace HaptoFlow.Studies
                 Debug.LogError($"HaptoFlow: {Problem}", this);
             }
             loggedProblem = Problem;
+            if (watch.Misses((ulong)callCount, Problem == null && !AudioListener.pause))
+            {
+                Debug.LogWarning($"HaptoFlow: the masking noise of {name} is silent: for a second, Unity's audio has not " +
+                    "asked it for samples. It tries once more now; if that does not help, put it on the object of the " +
+                    "Audio Listener that is in use.", this);
+                Renew();
+            }
         }
 
         private string? WhyNot()
         {
+            if (UnityAudio.Problem != null)
+            {
+                return "there is neither masking noise nor anything to feel: " + UnityAudio.Problem;
+            }
             if (output == null)
             {
                 return "there is no masking noise: choose the output whose channel carries no noise in the field " +
@@ -116,8 +151,9 @@ namespace HaptoFlow.Studies
         }
 
         // Audio thread: no garbage, no locks.
-        private void OnAudioFilterRead(float[] data, int channels)
+        private void AddNoise(float[] data, int channels)
         {
+            callCount = unchecked(callCount + 1);
             int excluded = hapticChannel;
             if (excluded < 0)
             {

@@ -10,13 +10,16 @@ namespace HaptoFlow.Studies
         /// <summary>Default folder for logs: "Studies" in the player's persistent folder.</summary>
         public static string DefaultFolder => Path.Combine(Application.persistentDataPath, "Studies");
 
+        /// <summary>Rate of the audio device, in Hz; 48000 where Unity's audio is switched off.</summary>
+        public static int OutputRateHz => UnityAudio.RateHz;
+
         /// <summary>Duration of an audio block, in ms.</summary>
         public static double BlockMilliseconds
         {
             get
             {
                 AudioSettings.GetDSPBufferSize(out int frames, out _);
-                return 1000.0 * frames / AudioSettings.outputSampleRate;
+                return 1000.0 * frames / OutputRateHz;
             }
         }
 
@@ -37,7 +40,7 @@ namespace HaptoFlow.Studies
                 Platform = Application.platform.ToString(),
                 Headset = headset,
                 RefreshRateHz = hertz,
-                OutputRateHz = AudioSettings.outputSampleRate,
+                OutputRateHz = OutputRateHz,
                 BlockFrames = frames,
             };
         }
