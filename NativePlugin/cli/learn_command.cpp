@@ -13,9 +13,9 @@
 #include "option_values.hpp"
 #include "output_file.hpp"
 #include "progress_bar.hpp"
-#include "recordings/csv_lines.hpp"
 #include "recordings/material_words.hpp"
 #include "recordings/recording_reader.hpp"
+#include "recordings/table_rows.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -230,6 +230,15 @@ void addLearnCommand(CLI::App& app, CommandOutcome& outcome) {
         ->check(decimalBetween(0.001, 10.0, "m/s"));
     command->add_option("--force-newtons", options->words.forceNewtons, "Force in N, for a recording without force")
         ->check(decimalBetween(0.02, 100.0, "N"));
+    command
+        ->add_option("--force-sign", options->words.forceSign,
+                     "-1 where the force's column counts pressing as negative (default: the sidecar's, or 1)")
+        ->check(CLI::IsMember({"1", "-1"}))
+        ->type_name("1|-1");
+    command
+        ->add_option("--force-rest-newtons", options->words.forceRestNewtons,
+                     "What the force's column reads in the air, which is subtracted (default: the sidecar's, or 0)")
+        ->check(decimalBetween(-100.0, 100.0, "N"));
     command
         ->add_option("--full-scale-mps2", options->words.fullScaleMps2, "Acceleration in m/s^2 that is +-1 in the WAV")
         ->check(decimalBetween(0.01, 100'000.0, "m/s^2"));

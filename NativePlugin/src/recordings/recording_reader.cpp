@@ -1,5 +1,6 @@
 #include "recordings/recording_reader.hpp"
 
+#include "recordings/force_zero.hpp"
 #include "recordings/plausibility.hpp"
 #include "recordings/recording_sidecar.hpp"
 #include "recordings/tip_motion.hpp"
@@ -41,9 +42,9 @@ bool isTable(const fs::path& path) {
 }
 
 void requireKnownEnding(const fs::path& path) {
-    if (!isTable(path) && endingOf(path) != ".wav") {
+    if (!isTable(path) && endingOf(path) != ".wav" && endingOf(path) != ".w64") {
         throw RecordingUnusable(utf8Of(path) + ": has the ending '" + utf8Of(path.extension()) +
-                                "'; expected a recording that ends with .csv or .wav (a Parquet table is read by "
+                                "'; expected a recording that ends with .csv, .wav or .w64 (a Parquet table is read by "
                                 "`haptoflow-training`; here, save it as CSV)");
     }
 }
@@ -51,7 +52,8 @@ void requireKnownEnding(const fs::path& path) {
 std::string bytesOf(RecordingFiles& files, const std::string& role, const fs::path& path) {
     std::optional<std::string> bytes = files.read(role, path);
     if (!bytes) {
-        throw RecordingUnusable(utf8Of(path) + ": does not exist; expected a recording that ends with .csv or .wav");
+        throw RecordingUnusable(utf8Of(path) +
+                                ": does not exist; expected a recording that ends with .csv, .wav or .w64");
     }
     return std::move(*bytes);
 }
@@ -81,6 +83,8 @@ public:
             readMotionFile(*sidecar_.motion);
         }
         takeConstants();
+        checkZeroOfForce();
+        clampForce();
         if (!recording_.velocityMps.empty()) {
             noteLag(path_, recording_.view(), notes());
         }
@@ -92,6 +96,11 @@ private:
 
     void readWave(const std::string& bytes) {
         const WaveFile wave = readWaveFile(path_, bytes);
+        if (!wave.isSizeKnown) {
+            notes().push_back(path_ +
+                              ": does not say how many samples it has, as files do whose writer could not go "
+                              "back to their head; it is read to its end");
+        }
         const std::optional<double> fullScale = words_.fullScaleMps2 ? words_.fullScaleMps2 : sidecar_.fullScaleMps2;
         if (!fullScale) {
             fail(utf8Of(sidecar_.path), "no key 'full_scale_mps2' for " + utf8Of(file_.filename()),
@@ -202,11 +211,35 @@ private:
             }
             recording_.tracks.force = trackOf(table, *table.force);
             checkForce(table.path, *table.force, recording_.tracks.force);
+            correctForce();
             recording_.forceNewtons = onGrid(recording_.tracks.force);
-            // A load cell that is not zeroed reads less than nothing in the air.
-            for (float& force : recording_.forceNewtons) {
-                force = force < 0.0F ? 0.0F : force;
-            }
+            forcePath_ = table.path;
+            forceColumn_ = table.force->columns;
+        }
+    }
+
+    void correctForce() {
+        const double sign = words_.forceSign.value_or(sidecar_.forceSign.value_or(1.0));
+        const double rest = words_.forceRestNewtons.value_or(sidecar_.forceRestNewtons.value_or(0.0));
+        for (double& force : recording_.tracks.force.values) {
+            force = sign * (force - rest);
+        }
+    }
+
+    void checkZeroOfForce() {
+        if (!recording_.hasMotion() || recording_.forceNewtons.empty()) {
+            return;
+        }
+        checkForceZero(forcePath_, forceColumn_, utf8Of(sidecar_.path.filename()), recording_.view(), notes());
+    }
+
+    /// A load cell trembles around nothing in the air.
+    void clampForce() {
+        for (float& force : recording_.forceNewtons) {
+            force = force < 0.0F ? 0.0F : force;
+        }
+        for (double& force : recording_.tracks.force.values) {
+            force = std::max(force, 0.0);
         }
     }
 
@@ -246,6 +279,9 @@ private:
     RecordingSidecar sidecar_;
     MaterialRecording recording_;
     double startSeconds_ = 0.0;
+    /// Of the measured force, for messages.
+    std::string forcePath_;
+    std::string forceColumn_;
 };
 
 }  // namespace
