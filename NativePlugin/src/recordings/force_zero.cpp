@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <iterator>
 #include <limits>
+#include <numbers>
 
 namespace haptoflow::recordings {
 namespace {
@@ -27,6 +28,8 @@ constexpr double notedRestShare = 0.15;
 constexpr double clearDrift = 0.7;
 constexpr double driftShare = 0.6;
 constexpr double steadyLevelDb = 1.0;
+constexpr double fallingExponent = -0.2;
+constexpr double clearFall = 0.25;
 
 /// A frame of the recording in which the tip moves.
 struct MovingFrame {
@@ -160,6 +163,30 @@ void noteDrift(const std::string& place, const std::vector<MovingFrame>& frames,
     }
 }
 
+/// Pressing makes every known surface stronger, or hardly matters.
+void noteFall(const std::string& place, const std::vector<MovingFrame>& frames, std::vector<std::string>& notes) {
+    std::vector<MovingFrame> pressed;
+    std::ranges::copy_if(frames, std::back_inserter(pressed),
+                         [](const MovingFrame& frame) { return frame.newtons > noiseNewtons; });
+    if (pressed.size() < minimumFrames) {
+        return;
+    }
+    const auto logSpeed = [](const MovingFrame& frame) { return frame.logSpeed; };
+    const auto logForce = [](const MovingFrame& frame) { return std::log(frame.newtons); };
+    const Line levelBySpeed = lineOf(pressed, logSpeed, [](const MovingFrame& frame) { return frame.levelDb; });
+    const Line forceBySpeed = lineOf(pressed, logSpeed, logForce);
+    const Line law = lineOf(
+        pressed, [&](const MovingFrame& frame) { return logForce(frame) - forceBySpeed.slope * frame.logSpeed; },
+        [&](const MovingFrame& frame) { return frame.levelDb - levelBySpeed.slope * frame.logSpeed; });
+    const double exponent = law.slope * std::numbers::ln10 / 20.0;
+    if (exponent < fallingExponent && law.explained > clearFall) {
+        notes.push_back(place + ": the vibration grows weaker where it grows, as force^" +
+                        plainNumber(std::round(100.0 * exponent) / 100.0) +
+                        "; does the column count pressing as negative? Then give the key \"force_sign\": -1 or "
+                        "--force-sign -1, and what the column reads in the air");
+    }
+}
+
 }  // namespace
 
 void checkForceZero(const std::string& path, const std::string& column, const std::string& sidecar,
@@ -218,6 +245,7 @@ void checkForceZero(const std::string& path, const std::string& column, const st
     if (frames.size() >= minimumFrames) {
         noteRest(place, frames, usual, notes);
         noteDrift(place, frames, usual, notes);
+        noteFall(place, frames, notes);
     }
 }
 

@@ -455,6 +455,13 @@ def make_signs_of_force() -> None:
     measured("drift_up", s.force + 1.5 * s.time)
     read("drift_up.csv", "a force that rises while the level stays", 1000.0, s.wave, s.speed, s.force + 1.5 * s.time,
          notes=["over the recording, and the level does not follow; does the sensor drift?"])  # fmt: skip
+    strong = s.wave * s.force / 1.2
+    write("turned_above_zero.csv", table(plain(s, acceleration_mps2=strong, force_newtons=3.0 - s.force)))
+    read("turned_above_zero.csv", "pressing counted as negative from a rest of 3 N", 1000.0, strong, s.speed,
+         3.0 - s.force, notes=["force_newtons: the vibration grows weaker where it grows, as force^-1", "does the "
+         "column count pressing as negative?"])  # fmt: skip
+    write("follows.csv", table(plain(s, acceleration_mps2=strong)))
+    read("follows.csv", "a vibration that grows with the force", 1000.0, strong, s.speed, s.force)
     lifted = np.where(s.time > 1.2, 0.0, 1.0)
     quiet = s.wave * lifted + 0.0005 * np.random.default_rng(4).standard_normal(len(s.time))
     write("rest_in_air.csv", table(plain(s, acceleration_mps2=quiet, force_newtons=s.force * lifted + 0.5)))
