@@ -51,6 +51,8 @@ TableRows::TableRows(std::string_view text, std::span<const std::string_view> kn
         return;
     }
     line_ = nextLine_;
+    // Programs for numbers mark the names as a comment.
+    at_ += text_[at_] == '#' ? 1U : 0U;
     Extent extent = read(at_, separator_, names_);
     const auto known = [&](const std::vector<std::string_view>& names) {
         return std::ranges::count_if(

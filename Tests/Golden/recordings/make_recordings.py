@@ -404,6 +404,8 @@ def make_laboratory_tables() -> None:
     write("quoted_commas.csv", "\n".join(",".join(f'"{cell.replace(".", ",")}"' for cell in row.split(","))
           for row in rows) + "\n")  # fmt: skip
     answer("quoted_commas.csv", "decimal commas in quotes")
+    write("comment.csv", "# " + text.replace(",", " "))
+    answer("comment.csv", "names behind a mark of comments, as NumPy writes them")
     write("carriage_returns.csv", text.replace("\n", "\r"))
     answer("carriage_returns.csv", "lines that end with a carriage return alone")
     write("minus_signs.csv", text.replace("-", "\u2212"))
