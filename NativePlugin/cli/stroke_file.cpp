@@ -3,12 +3,15 @@
 #include "decimal_text.hpp"
 #include "exit_codes.hpp"
 #include "input_file.hpp"
+#include "recordings/recording.hpp"
 #include "recordings/table_rows.hpp"
+#include "time_unit.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <optional>
 
 namespace haptoflow::cli {
@@ -17,6 +20,7 @@ namespace {
 constexpr double maximumValue = 1e9;
 /// Seconds since 1970 until the year 5138; milliseconds are beyond it.
 constexpr double maximumClockSeconds = 1e11;
+constexpr double maximumStepSeconds = 600.0;
 constexpr std::size_t maximumFrames = 10'000'000;
 constexpr std::array<std::string_view, 9> columnNames{"t", "x", "y", "z", "force", "qx", "qy", "qz", "qw"};
 constexpr std::string_view headerForm = "t,x,y,z[,force][,qx,qy,qz,qw]";
@@ -54,10 +58,14 @@ public:
             if (count > 1 && stroke.samples[count - 1].timeSeconds < stroke.samples[count - 2].timeSeconds) {
                 fail(0, "expected a time not before the line above");
             }
+            if (count > 1) {
+                takeStep(stroke.samples[count - 1].timeSeconds - stroke.samples[count - 2].timeSeconds);
+            }
         }
         if (stroke.samples.empty()) {
             failAt(1, "expected one or more samples after the header, found none");
         }
+        requireSeconds(stroke);
         return stroke;
     }
 
@@ -168,8 +176,37 @@ private:
         return sample;
     }
 
+    void takeStep(double seconds) {
+        steps_.push_back(seconds);
+        if (seconds > longestStepSeconds_) {
+            longestStepSeconds_ = seconds;
+            longestStepLine_ = rows_.number();
+        }
+    }
+
+    /// Refuses times in another unit, and gaps of which a render would be gigabytes of silence.
+    void requireSeconds(const Stroke& stroke) {
+        double metres = 0.0;
+        for (std::size_t i = 1; i < stroke.samples.size(); ++i) {
+            metres += glm::distance(stroke.samples[i].positionMetres, stroke.samples[i - 1].positionMetres);
+        }
+        const std::string unit = unitOfTimes(steps_, metres);
+        if (!unit.empty()) {
+            throw InputError(file_ + ": column t: " + unit);
+        }
+        if (longestStepSeconds_ > maximumStepSeconds) {
+            failAt(longestStepLine_, "column t: is " + recordings::plainNumber(longestStepSeconds_) +
+                                         " s after the line above; expected steps of " +
+                                         recordings::plainNumber(maximumStepSeconds) +
+                                         " s at most: are there two recordings in the file, or times in another unit?");
+        }
+    }
+
     std::string_view text_;
     recordings::TableRows rows_;
+    std::vector<double> steps_;
+    double longestStepSeconds_ = 0.0;
+    std::size_t longestStepLine_ = 0;
     const std::string& file_;
     Layout layout_;
     bool isFirst_ = true;

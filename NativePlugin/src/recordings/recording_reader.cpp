@@ -160,7 +160,8 @@ private:
         const Track& acceleration = recording_.tracks.acceleration;
         double span = acceleration.timeSeconds.back() - startSeconds_;
         if (span > maximumSeconds) {
-            notes().push_back(path_ + ": only the first " + plainNumber(maximumSeconds) + " s are learnt from");
+            notes().push_back(path_ + ": only the first " + plainNumber(maximumSeconds) + " s are learnt from" +
+                              gapIn(acceleration));
             span = maximumSeconds;
         }
         // The last sample may lie a rounding error before its time.
@@ -183,6 +184,23 @@ private:
         }
     }
 
+    /// What a gap of minutes, such as a pause of the recorder, takes of the recording; empty without one.
+    std::string gapIn(const Track& acceleration) const {
+        constexpr double notedSeconds = 60.0;
+        double longest = 0.0;
+        double start = 0.0;
+        for (std::size_t i = 1; i < acceleration.count(); ++i) {
+            const double step = acceleration.timeSeconds[i] - acceleration.timeSeconds[i - 1];
+            if (step > longest) {
+                longest = step;
+                start = acceleration.timeSeconds[i - 1] - startSeconds_;
+            }
+        }
+        return longest < notedSeconds ? ""
+                                      : ", in which time_s has a gap of " + plainNumber(longest) + " s after " +
+                                            plainNumber(start) + " s: cut it out";
+    }
+
     void readMotionFile(const fs::path& path) {
         const std::string name = utf8Of(path);
         const RecordingTable table = readRecordingTable(name, bytesOf(files_, "the motion file", path), false);
@@ -190,7 +208,23 @@ private:
         if (table.timeSeconds.empty()) {
             fail(name, "no column time_s", "a column time_s: the motion has a clock of its own");
         }
+        requireReadings(name, table);
         takeMotion(table);
+    }
+
+    /// Readings so far apart are no motion: in milliseconds, or of a log of something else.
+    static void requireReadings(const std::string& name, const RecordingTable& table) {
+        for (const std::optional<TableSeries>* series : {&table.motion, &table.force}) {
+            if (!*series) {
+                continue;
+            }
+            const double step = medianStepSeconds(trackOf(table, **series));
+            if (step > longestMotionStepSeconds) {
+                fail(name, "column time_s rises by " + plainNumber(step) + " s from reading to reading in the median",
+                     "seconds, with a reading every " + plainNumber(longestMotionStepSeconds) +
+                         " s at least: divide milliseconds by 1000");
+            }
+        }
     }
 
     void takeMotion(const RecordingTable& table) {

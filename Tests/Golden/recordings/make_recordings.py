@@ -228,6 +228,12 @@ def make_clocks() -> None:
     write("pause.csv", table(plain(s, time_s=late)))
     read("pause.csv", "a pause of a minute splits the recording", 1000.0, s.wave, s.speed, s.force, missing=60000,
          samples=60500, tolerance=0.02)  # fmt: skip
+    hours = np.where(s.time < 0.25, s.time, s.time + 7200.0)
+    write("hours.csv", table(plain(s, time_s=hours)))
+    first = slice(0, 250)
+    read("hours.csv", "a gap of two hours", 1000.0, s.wave[first], s.speed[first], s.force[first],
+         missing=300001 - 250, samples=300001, tolerance=0.1, own_samples=500,
+         notes=["only the first 300 s are learnt from, in which time_s has a gap of 7200 s after 0.249 s"])  # fmt: skip
     jitter = s.time + np.random.default_rng(3).uniform(-0.0002, 0.0002, len(s.time))
     slow = 2.0 * np.sin(2.0 * np.pi * 60.0 * jitter)
     write("uneven.csv", table(plain(s, time_s=jitter - jitter[0], acceleration_mps2=slow), {"time_s": "%.7f"}))
@@ -266,6 +272,11 @@ def make_sidecars() -> None:
     write("tracked.motion.csv", table(motion))
     sidecar("tracked.json", motion="tracked.motion.csv")
     read("tracked.csv", "motion in a file with a clock of its own", 1000.0, s.wave, 0.05, 0.7)
+    write("slow_motion.csv", table(wave))
+    write("slow_motion.motion.csv", table(motion | {"time_s": 1000.0 * own}, {"time_s": "%.1f"}))
+    sidecar("slow_motion.json", motion="slow_motion.motion.csv")
+    refuse("slow_motion.csv", "milliseconds in the motion file", "column time_s rises by 10 s from reading to reading "
+           "in the median; expected seconds, with a reading every 0.25 s at least: divide milliseconds by 1000")  # fmt: skip
     for name, text, message in (
         ("outside", {"motion": "../victim.csv"}, "key 'motion' names ../victim.csv, which is outside the folder of "
          "outside.json; expected a table beside the recording: copy it there"),
