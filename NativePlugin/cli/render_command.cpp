@@ -288,7 +288,7 @@ void explainSilence(const RenderOptions& options, const engine::OfflineFigures& 
 
 void runRender(const RenderOptions& options) {
     requireSoundOptions(options);
-    const headless::Scene scene = readSceneFile(options.scenePath);
+    headless::Scene scene = readSceneFile(options.scenePath);
     const Stroke stroke = readStrokeFile(options.strokePath);
     const std::filesystem::path modelPath = findModel(options.modelPath);
     const model::ModelFile model = readModel(modelPath);

@@ -253,7 +253,7 @@ TEST_F(RenderCommandTest, AMisspeltCommandOptionOrQualityIsRefusedWithASuggestio
 
 TEST_F(RenderCommandTest, AnUnknownLabelIsRefusedWithTheNearestThreeAndTheListOfAll) {
     for (const auto& [written, meant] : {std::pair{"wod", "'wood'"},
-                                         {"Wood", "'wood'"},
+                                         {"Woods", "'wood'"},
                                          {"metal_mesh", "'metal mesh'"},
                                          {"sandpapper", "'sandpaper'"},
                                          {"cork", "'fur'"}}) {
@@ -329,6 +329,14 @@ TEST_F(RenderCommandTest, TapsBetweenTwoFramesAreCountedInANote) {
     EXPECT_EQ(nlohmann::json::parse(read("felt.json"))["missed_touches"], 1);
 }
 
+TEST_F(RenderCommandTest, ALabelIsFoundInEveryCase) {
+    ASSERT_EQ(render("-o felt.wav --quiet").exitCode, 0);
+    write("scene.json", R"({"surfaces": [{"name": "floor", "shape": {"plane": {}}, "material": "Wood"}]})");
+    ASSERT_EQ(render("-o capital.wav --quiet --report capital.json").exitCode, 0);
+    EXPECT_TRUE(read("capital.wav") == read("felt.wav"));
+    EXPECT_EQ(nlohmann::json::parse(read("capital.json")).at("labels").dump(), R"(["wood"])");
+}
+
 TEST_F(RenderCommandTest, AnOrdinaryStrokeIsRenderedWithoutANote) {
     const Finished rendered = render("-o felt.wav");
     EXPECT_EQ(rendered.exitCode, 0);
@@ -341,8 +349,7 @@ TEST_F(RenderCommandTest, AStrokeTooLongForAWaveFileIsRefusedBeforeRendering) {
     write("stroke.csv", restingStroke(28));
     const Finished rendered = render("-o felt.wav --rate 192000");
     EXPECT_EQ(rendered.exitCode, 3);
-    EXPECT_THAT(rendered.errors,
-                HasSubstr("stroke.csv: lasts 16800 s; a WAV file at this --rate has room for 5592 s"));
+    EXPECT_THAT(rendered.errors, HasSubstr("stroke.csv: lasts 16800 s; a WAV file at this --rate has room for 5592 s"));
     EXPECT_FALSE(exists("felt.wav"));
 }
 
