@@ -15,6 +15,7 @@ from own_samples import csv_one_axis, stroke, with_sidecar
 from haptoflow_training.cli import main
 from haptoflow_training.preprocessing.plausibility import implausible
 from haptoflow_training.preprocessing.preparation import prepare_store
+from haptoflow_training.recordings.labels import plain_name
 from haptoflow_training.recordings.own_dataset import open_own_dataset
 
 ROOT = Path(__file__).parents[2]
@@ -106,3 +107,10 @@ def test_a_data_set_whose_force_counts_pressing_as_negative_is_implausible() -> 
     assert not any(one.sensor == "force" for one in implausible(recording))
     (found,) = (one for one in implausible(turned) if one.sensor == "force")
     assert "is negative in 100 % of the samples" in str(found)
+
+
+def test_names_of_every_script_are_told_apart_and_known_however_their_accents_are_encoded() -> None:
+    assert plain_name("A\u0308hre 2") == plain_name("\u00c4hre-2") == "\u00e4hre2"
+    assert plain_name("Metal_Mesh") == plain_name("metal mesh") == "metalmesh"
+    names = ("\u5e03", "\u9244", "\u00e4hre", "\u00f6hre", "\u0939\u093f", "\u0939\u0940")
+    assert len({plain_name(name) for name in names}) == len(names) and "" not in map(plain_name, names)

@@ -19,20 +19,17 @@ namespace HaptoFlow.Model
 
         /// <summary>True for two spellings of one label. Allocates only where one has letters beyond ASCII.</summary>
         public bool Equals(string? first, string? second) =>
-            first == null || second == null || (IsAscii(first) && IsAscii(second))
-                ? string.Equals(first, second, StringComparison.OrdinalIgnoreCase)
-                : string.Equals(Key(first), Key(second), StringComparison.Ordinal);
+            string.Equals(Key(first), Key(second), StringComparison.OrdinalIgnoreCase);
 
         /// <summary>The same number for all spellings of one label.</summary>
-        public int GetHashCode(string label) => StringComparer.OrdinalIgnoreCase.GetHashCode(Key(label));
+        public int GetHashCode(string label) => StringComparer.OrdinalIgnoreCase.GetHashCode(Key(label)!);
 
         /// <summary>The text with composed accents, for a comparison letter by letter; itself where all is ASCII.
         /// </summary>
         internal static string Composed(string text) => Normalized(text, NormalizationForm.FormC);
 
-        private static string Key(string label) => IsAscii(label)
-            ? label
-            : Normalized(label, NormalizationForm.FormD).ToUpperInvariant();
+        private static string? Key(string? label) =>
+            label == null ? null : Normalized(label, NormalizationForm.FormD);
 
         private static string Normalized(string text, NormalizationForm form)
         {
