@@ -127,27 +127,27 @@ std::string plotOf(const Identification& found) {
 }
 
 void describe(const ActuatorProfile& profile) {
-    std::cout << model::printable(profile.name) << (profile.isApproximate ? " (approximate)" : "") << '\n'
-              << model::printable(profile.provenance) << '\n';
-    std::cout << "  range         " << fixedDecimals(profile.frequencyHz.front(), 1) << " to "
-              << fixedDecimals(profile.frequencyHz.back(), 1) << " Hz, " << profile.frequencyHz.size() << " points"
-              << (profile.phaseDegrees.empty() ? ", no phase" : "") << '\n';
-    std::cout << "  resonances   ";
+    resultStream() << model::printable(profile.name) << (profile.isApproximate ? " (approximate)" : "") << '\n'
+                   << model::printable(profile.provenance) << '\n';
+    resultStream() << "  range         " << fixedDecimals(profile.frequencyHz.front(), 1) << " to "
+                   << fixedDecimals(profile.frequencyHz.back(), 1) << " Hz, " << profile.frequencyHz.size() << " points"
+                   << (profile.phaseDegrees.empty() ? ", no phase" : "") << '\n';
+    resultStream() << "  resonances   ";
     for (const double hz : profile.resonancesHz) {
-        std::cout << ' ' << fixedDecimals(hz, 1);
+        resultStream() << ' ' << fixedDecimals(hz, 1);
     }
-    std::cout << (profile.resonancesHz.empty() ? " none" : " Hz") << '\n';
-    std::cout << "  rated level   "
-              << (profile.ratedLevelMps2
-                      ? fixedDecimals(*profile.ratedLevelMps2, 2) + " m/s^2 at 0 dB for an output of 1"
-                      : "unknown")
-              << '\n';
+    resultStream() << (profile.resonancesHz.empty() ? " none" : " Hz") << '\n';
+    resultStream() << "  rated level   "
+                   << (profile.ratedLevelMps2
+                           ? fixedDecimals(*profile.ratedLevelMps2, 2) + " m/s^2 at 0 dB for an output of 1"
+                           : "unknown")
+                   << '\n';
     if (profile.measurement) {
         const effects::ActuatorMeasurement& measured = *profile.measurement;
-        std::cout << "  measurement   delay " << fixedDecimals(measured.delaySeconds * 1000.0, 2) << " ms, distortion "
-                  << fixedDecimals(measured.distortionPercent, 2) << " %, signal to noise "
-                  << fixedDecimals(measured.signalToNoiseDecibels, 1) << " dB, at "
-                  << fixedDecimals(measured.sampleRateHz, 0) << " Hz\n";
+        resultStream() << "  measurement   delay " << fixedDecimals(measured.delaySeconds * 1000.0, 2)
+                       << " ms, distortion " << fixedDecimals(measured.distortionPercent, 2) << " %, signal to noise "
+                       << fixedDecimals(measured.signalToNoiseDecibels, 1) << " dB, at "
+                       << fixedDecimals(measured.sampleRateHz, 0) << " Hz\n";
     }
 }
 
@@ -205,33 +205,34 @@ double microsecondsPerBlock(effects::Compensation& compensation, std::vector<flo
 
 void describeCompensation(const ActuatorProfile& profile, effects::Compensation& compensation,
                           const effects::CompensationSettings& settings) {
-    std::cout << "\nCompensation, at most +" << fixedDecimals(settings.maximumBoostDecibels, 1) << " dB\n";
+    resultStream() << "\nCompensation, at most +" << fixedDecimals(settings.maximumBoostDecibels, 1) << " dB\n";
     if (compensation.isTransparent()) {
-        std::cout << "  none: the profile asks for no change\n";
+        resultStream() << "  none: the profile asks for no change\n";
         return;
     }
     constexpr std::size_t blockSamples = 480;
     std::vector<float> block(blockSamples);
     const double microseconds = microsecondsPerBlock(compensation, block);
     const effects::EffectDeclaration declared = compensation.declaration();
-    std::cout << "  band          " << fixedDecimals(compensation.bandHz()[0], 0) << " to "
-              << fixedDecimals(compensation.bandHz()[1], 0) << " Hz, levelled to "
-              << fixedDecimals(compensation.levelDecibels(), 1) << " dB\n"
-              << "  latency       " << fixedDecimals(declared.latencySeconds * 1000.0, 1)
-              << " ms at the latest frequency of the band, "
-              << fixedDecimals(compensation.groupDelaySeconds(250.0) * 1000.0, 1) << " ms at 250 Hz\n"
-              << "  tail, memory  " << fixedDecimals(declared.tailSeconds, 2) << " s, " << declared.memoryBytes
-              << " bytes\n"
-              << "  cost          " << fixedDecimals(microseconds, 1) << " us for 10 ms at 48 kHz on this machine, "
-              << fixedDecimals(microseconds / 100.0, 2) << " % of it\n\n"
-              << "      Hz  actuator dB  compensation dB  together dB\n";
+    resultStream() << "  band          " << fixedDecimals(compensation.bandHz()[0], 0) << " to "
+                   << fixedDecimals(compensation.bandHz()[1], 0) << " Hz, levelled to "
+                   << fixedDecimals(compensation.levelDecibels(), 1) << " dB\n"
+                   << "  latency       " << fixedDecimals(declared.latencySeconds * 1000.0, 1)
+                   << " ms at the latest frequency of the band, "
+                   << fixedDecimals(compensation.groupDelaySeconds(250.0) * 1000.0, 1) << " ms at 250 Hz\n"
+                   << "  tail, memory  " << fixedDecimals(declared.tailSeconds, 2) << " s, " << declared.memoryBytes
+                   << " bytes\n"
+                   << "  cost          " << fixedDecimals(microseconds, 1)
+                   << " us for 10 ms at 48 kHz on this machine, " << fixedDecimals(microseconds / 100.0, 2)
+                   << " % of it\n\n"
+                   << "      Hz  actuator dB  compensation dB  together dB\n";
     for (const double hz : {20.0, 25.0, 31.5, 40.0, 50.0, 63.0, 80.0, 100.0, 125.0, 160.0, 200.0, 250.0, 315.0, 400.0,
                             500.0, 630.0, 800.0, 1000.0}) {
         const double actuator = profile.magnitudeDecibelsAt(hz);
         const double gain = compensation.gainDecibels(hz);
-        std::cout << std::setw(8) << fixedDecimals(hz, 1) << std::setw(13) << fixedDecimals(actuator, 1)
-                  << std::setw(17) << fixedDecimals(gain, 1) << std::setw(13) << fixedDecimals(actuator + gain, 1)
-                  << '\n';
+        resultStream() << std::setw(8) << fixedDecimals(hz, 1) << std::setw(13) << fixedDecimals(actuator, 1)
+                       << std::setw(17) << fixedDecimals(gain, 1) << std::setw(13) << fixedDecimals(actuator + gain, 1)
+                       << '\n';
     }
 }
 
@@ -262,13 +263,13 @@ void describeLabels(const ShowOptions& options, const ActuatorProfile& profile) 
     for (const TextureDistance& each : distances) {
         width = std::max(width, each.label.size());
     }
-    std::cout << "\nLog-spectral distance between the texture and what this actuator plays, 20-1000 Hz, dB\n  "
-              << std::left << std::setw(static_cast<int>(width)) << "label" << std::right
-              << "  uncompensated  compensated\n";
+    resultStream() << "\nLog-spectral distance between the texture and what this actuator plays, 20-1000 Hz, dB\n  "
+                   << std::left << std::setw(static_cast<int>(width)) << "label" << std::right
+                   << "  uncompensated  compensated\n";
     for (const TextureDistance& each : distances) {
-        std::cout << "  " << std::left << std::setw(static_cast<int>(width)) << each.label << std::right
-                  << std::setw(15) << fixedDecimals(each.uncompensatedDecibels, 2) << std::setw(13)
-                  << fixedDecimals(each.compensatedDecibels, 2) << '\n';
+        resultStream() << "  " << std::left << std::setw(static_cast<int>(width)) << each.label << std::right
+                       << std::setw(15) << fixedDecimals(each.uncompensatedDecibels, 2) << std::setw(13)
+                       << fixedDecimals(each.compensatedDecibels, 2) << '\n';
     }
 }
 

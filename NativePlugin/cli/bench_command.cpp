@@ -4,6 +4,7 @@
 #include "commands.hpp"
 #include "exit_codes.hpp"
 #include "inference/onnx_runtime.hpp"
+#include "messages.hpp"
 #include "model_location.hpp"
 #include "option_values.hpp"
 #include "output_file.hpp"
@@ -67,9 +68,9 @@ void runBench(const BenchCommandOptions& options) {
     const nlohmann::ordered_json report = measure(options, files);
     const std::string text = report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
     if (options.json) {
-        std::cout << text;
+        resultStream() << text;
     } else {
-        bench::printTables(std::cout, report);
+        bench::printTables(resultStream(), report);
     }
     if (output) {
         writeText(*output, text);

@@ -2,6 +2,7 @@
 
 #include "exit_codes.hpp"
 
+#include <algorithm>
 #include <system_error>
 #include <vector>
 
@@ -28,6 +29,9 @@ std::vector<OutputClaim>& outputs() {
 /// True if `path` names the file that the output will write, whether that file exists or not.
 bool isSameFile(const OutputClaim& output, const fs::path& path) {
     std::error_code ignored;
+    if (isStandardOutput(output.path) || isStandardOutput(path)) {
+        return output.path == path;
+    }
     if (isDevice(output.target) || isDevice(path)) {
         return false;
     }
@@ -78,6 +82,16 @@ void claimOutput(const OutputClaim& output) {
         }
     }
     outputs().push_back(output);
+}
+
+bool isStandardOutput(const fs::path& path) noexcept {
+    return path == "-";
+}
+
+bool isStandardOutputTaken() noexcept {
+    return std::ranges::any_of(outputs(), [](const OutputClaim& output) {
+        return isStandardOutput(output.path) || output.path == "/dev/stdout";
+    });
 }
 
 void releaseOutput(const fs::path& path) noexcept {

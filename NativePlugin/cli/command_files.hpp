@@ -29,6 +29,11 @@ void claimOutput(const OutputClaim& output);
 /// The output is complete or given up.
 void releaseOutput(const std::filesystem::path& path) noexcept;
 
+/// The path that stands for standard output: "-".
+[[nodiscard]] bool isStandardOutput(const std::filesystem::path& path) noexcept;
+/// True while standard output is an output of this command, so that messages go elsewhere.
+[[nodiscard]] bool isStandardOutputTaken() noexcept;
+
 /// True for something that exists and is neither a file nor a folder: a device or a pipe.
 [[nodiscard]] bool isDevice(const std::filesystem::path& path) noexcept;
 

@@ -62,8 +62,9 @@ bool asksForStiffness(const headless::Scene& scene) {
 }
 
 void runContact(const ContactOptions& options) {
-    const headless::Scene scene = readSceneFile(options.scenePath);
+    headless::Scene scene = readSceneFile(options.scenePath);
     const Stroke stroke = readStrokeFile(options.strokePath);
+    noteLateKeyframes(scene, stroke, options.scenePath);
     headless::ContactSettings settings = options.settings;
     std::optional<model::ModelFile> model;
     std::optional<SceneMaterials> materials;

@@ -13,9 +13,9 @@
 #include "option_values.hpp"
 #include "output_file.hpp"
 #include "progress_bar.hpp"
-#include "recordings/csv_lines.hpp"
 #include "recordings/material_words.hpp"
 #include "recordings/recording_reader.hpp"
+#include "recordings/table_rows.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -92,40 +92,41 @@ std::string noiseOf(const learning::LearningReport& report) {
 }
 
 void tell(const learning::LearningReport& report, const std::string& name, const fs::path& output) {
-    std::cout << "Learnt " << name << " from " << fixedDecimals(report.slidingSeconds, 1) << " s of sliding in "
-              << fixedDecimals(report.seconds, 1) << " s: " << model::printable(output.string()) << '\n'
-              << "  start label        " << report.startLabel << " (" << fixedDecimals(report.startDistanceDb, 1)
-              << " dB away, " << fixedDecimals(report.fittedDistanceDb, 1) << " dB after the fit, "
-              << fixedDecimals(report.spectralDistanceDb, 1) << " dB between the mean spectra behind the tone)\n"
-              << "  nearest label      " << report.nearestLabel << '\n'
-              << "  level error        " << fixedDecimals(report.levelErrorDb, 2) << " dB at most over the speeds\n"
-              << "  sensor noise       " << noiseOf(report) << '\n'
-              << "  speed              " << inMillimetres(report.speedMps[0]) << " to "
-              << inMillimetres(report.speedMps[1]) << " mm/s, level as speed^" << fixedDecimals(report.speedExponent, 2)
-              << '\n'
-              << "  force              " << fixedDecimals(report.forceNewtons[0], 2) << " to "
-              << fixedDecimals(report.forceNewtons[1], 2) << " N, level as force^"
-              << fixedDecimals(report.forceExponent, 2) << '\n'
-              << "  ribs               ";
+    resultStream() << "Learnt " << name << " from " << fixedDecimals(report.slidingSeconds, 1) << " s of sliding in "
+                   << fixedDecimals(report.seconds, 1) << " s: " << model::printable(output.string()) << '\n'
+                   << "  start label        " << report.startLabel << " (" << fixedDecimals(report.startDistanceDb, 1)
+                   << " dB away, " << fixedDecimals(report.fittedDistanceDb, 1) << " dB after the fit, "
+                   << fixedDecimals(report.spectralDistanceDb, 1) << " dB between the mean spectra behind the tone)\n"
+                   << "  nearest label      " << report.nearestLabel << '\n'
+                   << "  level error        " << fixedDecimals(report.levelErrorDb, 2)
+                   << " dB at most over the speeds\n"
+                   << "  sensor noise       " << noiseOf(report) << '\n'
+                   << "  speed              " << inMillimetres(report.speedMps[0]) << " to "
+                   << inMillimetres(report.speedMps[1]) << " mm/s, level as speed^"
+                   << fixedDecimals(report.speedExponent, 2) << '\n'
+                   << "  force              " << fixedDecimals(report.forceNewtons[0], 2) << " to "
+                   << fixedDecimals(report.forceNewtons[1], 2) << " N, level as force^"
+                   << fixedDecimals(report.forceExponent, 2) << '\n'
+                   << "  ribs               ";
     if (report.waveVectors.empty()) {
-        std::cout << "none found";
+        resultStream() << "none found";
     }
     for (std::size_t i = 0; i < report.waveVectors.size(); ++i) {
         const learning::WaveVector& each = report.waveVectors[i];
-        std::cout << (i > 0 ? ", " : "every ") << fixedDecimals(1.0 / std::hypot(each.x, each.y), 2) << " mm";
+        resultStream() << (i > 0 ? ", " : "every ") << fixedDecimals(1.0 / std::hypot(each.x, each.y), 2) << " mm";
     }
     if (!report.waveVectors.empty()) {
-        std::cout << "; the material's first axis lies across them, " << fixedDecimals(report.turnDegrees, 0)
-                  << " degrees from the recording's";
+        resultStream() << "; the material's first axis lies across them, " << fixedDecimals(report.turnDegrees, 0)
+                       << " degrees from the recording's";
     }
-    std::cout << '\n';
+    resultStream() << '\n';
     if (!report.recordNext.empty()) {
-        std::cout << "  to gain most       " << report.recordNext << '\n';
+        resultStream() << "  to gain most       " << report.recordNext << '\n';
     }
     for (const learning::TierDistance& each : report.otherTiers) {
         if (each.isFurtherOff) {
-            std::cout << "  tier " << each.tier << " is further off: " << fixedDecimals(each.spectralDistanceDb, 1)
-                      << " dB between the mean spectra; the tone was fitted for another tier\n";
+            resultStream() << "  tier " << each.tier << " is further off: " << fixedDecimals(each.spectralDistanceDb, 1)
+                           << " dB between the mean spectra; the tone was fitted for another tier\n";
         }
     }
     std::ranges::for_each(report.warnings, note);
@@ -230,6 +231,15 @@ void addLearnCommand(CLI::App& app, CommandOutcome& outcome) {
         ->check(decimalBetween(0.001, 10.0, "m/s"));
     command->add_option("--force-newtons", options->words.forceNewtons, "Force in N, for a recording without force")
         ->check(decimalBetween(0.02, 100.0, "N"));
+    command
+        ->add_option("--force-sign", options->words.forceSign,
+                     "-1 where the force's column counts pressing as negative (default: the sidecar's, or 1)")
+        ->check(CLI::IsMember({"1", "-1"}))
+        ->type_name("1|-1");
+    command
+        ->add_option("--force-rest-newtons", options->words.forceRestNewtons,
+                     "What the force's column reads in the air, which is subtracted (default: the sidecar's, or 0)")
+        ->check(decimalBetween(-100.0, 100.0, "N"));
     command
         ->add_option("--full-scale-mps2", options->words.fullScaleMps2, "Acceleration in m/s^2 that is +-1 in the WAV")
         ->check(decimalBetween(0.01, 100'000.0, "m/s^2"));

@@ -10,7 +10,13 @@
 #include <csignal>
 #include <cstdio>
 #include <fstream>
+#include <iostream>
 #include <system_error>
+
+#ifdef _WIN32
+#include <fcntl.h>
+#include <io.h>
+#endif
 
 namespace haptoflow::cli {
 namespace {
@@ -22,7 +28,8 @@ constexpr const char* remedy = ": cannot be written: name a file in an existing 
 /// True for something that a rename would replace although it is no file of its own.
 bool isSpecial(const fs::path& path) {
     const std::string name = path.generic_string();
-    return isDevice(path) || name.starts_with("/dev/std") || name.starts_with("/dev/fd/") || name.starts_with("/proc/");
+    return isStandardOutput(path) || isDevice(path) || name.starts_with("/dev/std") || name.starts_with("/dev/fd/") ||
+           name.starts_with("/proc/");
 }
 
 /// Creates a new file with a unique name beside `target` (or with its name in `folder`).
@@ -86,6 +93,19 @@ void forgetUnfinished(const fs::path& partial) {
     }
 }
 
+void copyToStandardOutput(const fs::path& partial) {
+#ifdef _WIN32
+    _setmode(_fileno(stdout), _O_BINARY);
+#endif
+    std::ifstream from(partial, std::ios::binary);
+    if (from.peek() != std::ifstream::traits_type::eof()) {
+        std::cout << from.rdbuf();
+    }
+    if (from.bad() || !std::cout.flush()) {
+        throw InputError("standard output could not be written to its end");
+    }
+}
+
 }  // namespace
 
 OutputFile::OutputFile(const std::string& role, const fs::path& path)
@@ -121,6 +141,10 @@ void OutputFile::removePartial() const noexcept {
 
 void OutputFile::commit() {
     std::error_code error;
+    if (isStandardOutput(path_)) {
+        copyToStandardOutput(partial_);
+        return;
+    }
     if (isWrittenInPlace_) {
         std::ifstream from(partial_, std::ios::binary);
         std::ofstream to(target_, std::ios::binary);

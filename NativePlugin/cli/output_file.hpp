@@ -6,8 +6,8 @@
 namespace haptoflow::cli {
 
 /// A file that is either written completely or not created. The content goes to `partial()`; `commit` moves it to its
-/// final name. Links are followed and kept. Devices, pipes, /dev/stdout and its kin are written directly and never
-/// replaced. Without `commit`, and after SIGINT or SIGTERM, no partial file remains.
+/// final name. "-" is standard output. Links are followed and kept. Devices, pipes, /dev/stdout and its kin are written
+/// directly and never replaced. Without `commit`, and after SIGINT or SIGTERM, no partial file remains.
 class OutputFile {
 public:
     /// `role` is the option that names the path: "--report". Throws UsageError if the path is an input or another

@@ -288,7 +288,7 @@ void explainSilence(const RenderOptions& options, const engine::OfflineFigures& 
 
 void runRender(const RenderOptions& options) {
     requireSoundOptions(options);
-    const headless::Scene scene = readSceneFile(options.scenePath);
+    headless::Scene scene = readSceneFile(options.scenePath);
     const Stroke stroke = readStrokeFile(options.strokePath);
     const std::filesystem::path modelPath = findModel(options.modelPath);
     const model::ModelFile model = readModel(modelPath);
@@ -303,6 +303,7 @@ void runRender(const RenderOptions& options) {
     useStiffnessOfMaterials(settings, materials);
     headless::ContactTracker tracker(scene, settings);
     const std::size_t frames = frameCount(stroke, scene.updateRateHz, options.strokePath);
+    noteLateKeyframes(scene, stroke, options.scenePath);
     requireRoom(scene, frames, options);
     engine::OfflineSettings engineSettings = options.engine;
     engineSettings.delaySeconds = 1e-3 * options.delayMs;
@@ -362,7 +363,8 @@ void addRenderCommand(CLI::App& app, CommandOutcome& outcome) {
         ->type_name("STROKE.csv");
     command
         ->add_option("-o,--output", options->outputs,
-                     "OUT.wav: one channel of 32-bit float. OUT.json: frames for a device with one carrier, with "
+                     "OUT.wav: one channel of 32-bit float; - for standard output. OUT.json: frames for a device with "
+                     "one carrier, with "
                      "amplitude, frequency and transients every 5 ms at the perceived intensity of the wave. May be "
                      "given once for each")
         ->required()

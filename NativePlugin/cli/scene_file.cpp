@@ -4,6 +4,7 @@
 #include "input_file.hpp"
 #include "model/plain_text.hpp"
 #include "near_words.hpp"
+#include "time_unit.hpp"
 
 #include <algorithm>
 #include <array>
@@ -148,6 +149,24 @@ headless::Pose readPose(const Node& node) {
     return pose;
 }
 
+void requireSeconds(const Node& node, const std::vector<headless::Keyframe>& keyframes) {
+    std::vector<double> steps;
+    double metres = 0.0;
+    for (std::size_t i = 1; i < keyframes.size(); ++i) {
+        const headless::Pose& from = keyframes[i - 1].pose;
+        const headless::Pose& to = keyframes[i].pose;
+        steps.push_back(keyframes[i].timeSeconds - keyframes[i - 1].timeSeconds);
+        // A turn moves a surface's points by about a decimetre for each radian.
+        constexpr double metresPerRadian = 0.1;
+        const double cosine = std::min(1.0, std::abs(glm::dot(from.rotation, to.rotation)));
+        metres += glm::distance(from.positionMetres, to.positionMetres) + metresPerRadian * 2.0 * std::acos(cosine);
+    }
+    const std::string unit = unitOfTimes(steps, metres);
+    if (!unit.empty()) {
+        node.failWith("t " + unit);
+    }
+}
+
 headless::Motion readMotion(const Node& node) {
     node.requireObject({"keyframes", "loop"});
     std::vector<headless::Keyframe> keyframes;
@@ -159,6 +178,7 @@ headless::Motion readMotion(const Node& node) {
         }
         keyframes.push_back({time, readPose(element)});
     }
+    requireSeconds(node.at("keyframes"), keyframes);
     bool loop = false;
     if (node.has("loop")) {
         if (!node.at("loop").raw().is_boolean()) {

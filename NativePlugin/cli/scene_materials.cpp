@@ -3,8 +3,10 @@
 #include "command_files.hpp"
 #include "engine/material_library.hpp"
 #include "exit_codes.hpp"
+#include "model/label_key.hpp"
 #include "scene_file.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -43,29 +45,40 @@ std::uint32_t SceneMaterials::read(const std::filesystem::path& path, const std:
 void SceneMaterials::add(const std::string& path) {
     const std::uint32_t index = read(path, "");
     const std::string& name = files_.back().label.name;
-    if (!indices_.emplace(name, index).second) {
+    if (spelling(name) != nullptr || !indices_.emplace(name, index).second) {
         throw InputError(
             path + ": its name is \"" + name +
             "\", which is already that of a label of the model or of another material: change the key \"name\"");
     }
 }
 
-void SceneMaterials::require(const headless::Scene& scene) {
-    for (const headless::SceneSurface& surface : scene.surfaces) {
-        for (const auto& [name, weight] : surface.material) {
-            requireKnown(name, surface.name);
+void SceneMaterials::require(headless::Scene& scene) {
+    for (headless::SceneSurface& surface : scene.surfaces) {
+        for (auto& [name, weight] : surface.material) {
+            name = known(name, surface.name);
         }
     }
 }
 
-void SceneMaterials::requireKnown(const std::string& name, const std::string& surface) {
+const std::string* SceneMaterials::spelling(const std::string& name) const {
+    const std::string key = model::labelKey(name);
+    const auto found = std::ranges::find_if(indices_, [&](const auto& entry) {
+        return !entry.first.ends_with(materialSuffix) && model::labelKey(entry.first) == key;
+    });
+    return found == indices_.end() ? nullptr : &found->first;
+}
+
+std::string SceneMaterials::known(const std::string& name, const std::string& surface) {
     if (indices_.contains(name)) {
-        return;
+        return name;
+    }
+    if (const std::string* label = spelling(name)) {
+        return *label;
     }
     if (name.ends_with(materialSuffix)) {
         const std::filesystem::path path = std::filesystem::path(scenePath_).parent_path() / name;
         indices_.emplace(name, read(path, scenePath_ + ": surface '" + surface + "': "));
-        return;
+        return name;
     }
     std::vector<std::string> names;
     for (const model::Label& label : model_.header().labels) {

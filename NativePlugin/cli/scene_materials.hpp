@@ -26,7 +26,8 @@ public:
     void add(const std::string& path);
     /// Reads the material files that the scene names. Throws InputError for an invalid file, and for an unknown name
     /// with the scene, the surface and the three nearest names.
-    void require(const headless::Scene& scene);
+    /// Spells the names in the scene as model and material files do: case and the form of accents do not matter.
+    void require(headless::Scene& scene);
 
     /// The label or material of this name; null if there is none.
     [[nodiscard]] const model::Label* find(std::string_view name) const;
@@ -36,7 +37,9 @@ public:
     [[nodiscard]] const std::vector<model::MaterialFile>& files() const noexcept { return files_; }
 
 private:
-    void requireKnown(const std::string& name, const std::string& surface);
+    /// The name as it is known.
+    [[nodiscard]] std::string known(const std::string& name, const std::string& surface);
+    [[nodiscard]] const std::string* spelling(const std::string& name) const;
     [[nodiscard]] std::uint32_t read(const std::filesystem::path& path, const std::string& complaint);
 
     const model::ModelFile& model_;

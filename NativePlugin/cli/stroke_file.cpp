@@ -3,13 +3,15 @@
 #include "decimal_text.hpp"
 #include "exit_codes.hpp"
 #include "input_file.hpp"
-#include "recordings/csv_lines.hpp"
-#include "recordings/decimal_number.hpp"
+#include "recordings/recording.hpp"
+#include "recordings/table_rows.hpp"
+#include "time_unit.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <optional>
 
 namespace haptoflow::cli {
@@ -18,16 +20,10 @@ namespace {
 constexpr double maximumValue = 1e9;
 /// Seconds since 1970 until the year 5138; milliseconds are beyond it.
 constexpr double maximumClockSeconds = 1e11;
+constexpr double maximumStepSeconds = 600.0;
 constexpr std::size_t maximumFrames = 10'000'000;
 constexpr std::array<std::string_view, 9> columnNames{"t", "x", "y", "z", "force", "qx", "qy", "qz", "qw"};
 constexpr std::string_view headerForm = "t,x,y,z[,force][,qx,qy,qz,qw]";
-
-std::vector<std::string_view> trimmedCells(std::string_view line) {
-    std::vector<std::string_view> cells;
-    recordings::splitCells(line, cells);
-    std::ranges::transform(cells, cells.begin(), [](std::string_view cell) { return recordings::trimmed(cell); });
-    return cells;
-}
 
 struct Layout {
     bool force = false;
@@ -38,19 +34,22 @@ struct Layout {
     }
 };
 
-/// Reads the text line by line and knows the position for errors.
+/// Reads the text row by row and knows the position for errors.
 class StrokeReader {
 public:
-    StrokeReader(std::string_view text, const std::string& file) : lines_(text), file_(file) {}
+    StrokeReader(std::string_view text, const std::string& file) : text_(text), rows_(text, columnNames), file_(file) {}
 
     Stroke read() {
-        if (!lines_.next()) {
-            fail("expected the header " + std::string(headerForm) + ", found an empty file");
+        if (const std::string_view encoding = recordings::otherEncoding(text_); !encoding.empty()) {
+            failAt(1, "is " + std::string(encoding) + "; expected UTF-8");
+        }
+        if (rows_.names().empty()) {
+            failAt(1, "expected the header " + std::string(headerForm) + ", found an empty file");
         }
         readHeader();
         Stroke stroke;
-        while (lines_.next()) {
-            if (recordings::trimmed(lines_.line()).empty()) {
+        while (rows_.next()) {
+            if (rows_.isBlank()) {
                 requireNothingMore();
                 break;
             }
@@ -59,54 +58,64 @@ public:
             if (count > 1 && stroke.samples[count - 1].timeSeconds < stroke.samples[count - 2].timeSeconds) {
                 fail(0, "expected a time not before the line above");
             }
+            if (count > 1) {
+                takeStep(stroke.samples[count - 1].timeSeconds - stroke.samples[count - 2].timeSeconds);
+            }
         }
         if (stroke.samples.empty()) {
-            fail("expected one or more samples after the header, found none");
+            failAt(1, "expected one or more samples after the header, found none");
         }
+        requireSeconds(stroke);
         return stroke;
     }
 
 private:
-    [[noreturn]] void fail(const std::string& complaint) const { failAt(lines_.number(), complaint); }
-
     [[noreturn]] void failAt(std::size_t line, const std::string& complaint) const {
-        throw InputError(file_ + ":" + std::to_string(std::max<std::size_t>(1, line)) + ": " + complaint);
+        throw InputError(file_ + ":" + std::to_string(line) + ": " + complaint);
     }
 
     [[noreturn]] void fail(std::size_t column, const std::string& expected) const {
-        const std::vector<std::string_view> cells = trimmedCells(lines_.line());
-        fail("column " + std::string(layout_.nameOf(column)) + ": " + expected + ", found \"" +
-             std::string(cells[column].substr(0, 40)) + "\"");
+        failAt(rows_.number(), "column " + std::string(layout_.nameOf(column)) + ": " + expected + ", found \"" +
+                                   std::string(rows_.cells()[column].substr(0, 40)) + "\"");
     }
 
     void readHeader() {
-        const std::vector<std::string_view> cells = trimmedCells(lines_.line());
+        std::vector<std::string_view> names = rows_.names();
+        // Spreadsheets end lines with separators of empty columns.
+        while (names.size() > 1 && names.back().empty()) {
+            names.pop_back();
+        }
         for (const bool force : {false, true}) {
             for (const bool orientation : {false, true}) {
                 layout_ = {force, orientation};
-                bool same = cells.size() == layout_.columns();
-                for (std::size_t column = 0; same && column < cells.size(); ++column) {
-                    same = cells[column] == layout_.nameOf(column);
+                bool same = names.size() == layout_.columns();
+                for (std::size_t column = 0; same && column < names.size(); ++column) {
+                    same = names[column] == layout_.nameOf(column);
                 }
                 if (same) {
                     return;
                 }
             }
         }
-        fail("expected the header " + std::string(headerForm) + " with commas between the names, found \"" +
-             std::string(recordings::trimmed(lines_.line()).substr(0, 80)) + "\"");
+        std::string found;
+        for (const std::string_view name : names) {
+            found.append(found.empty() ? "" : ",").append(name);
+        }
+        failAt(rows_.number(),
+               "expected the header " + std::string(headerForm) + ", found \"" + found.substr(0, 80) + "\"");
     }
 
     void requireNothingMore() {
-        while (lines_.next()) {
-            if (!recordings::trimmed(lines_.line()).empty()) {
-                failAt(lines_.number() - 1, "an empty line between samples; remove it");
+        const std::size_t line = rows_.number();
+        while (rows_.next()) {
+            if (!rows_.isBlank()) {
+                failAt(line, "an empty line between samples; remove it");
             }
         }
     }
 
-    double number(const std::vector<std::string_view>& cells, std::size_t column) const {
-        const std::optional<double> value = recordings::decimalNumber(cells[column]);
+    double number(std::size_t column) {
+        const std::optional<double> value = rows_.decimal(column);
         if (!value || !(std::abs(*value) <= maximumValue)) {
             fail(column, "expected a number within +-1e9 with a decimal point");
         }
@@ -114,16 +123,17 @@ private:
     }
 
     /// Times of a clock that started long ago, such as seconds since 1970, count from the first row.
-    double time(const std::vector<std::string_view>& cells) {
-        const std::optional<double> value = recordings::decimalNumber(cells[0]);
+    double time() {
+        const std::optional<double> value = rows_.decimal(0);
         if (!value || !(std::abs(*value) <= maximumClockSeconds)) {
             fail(0, "expected seconds within +-1e11 with a decimal point");
         }
         if (isFirst_ && std::abs(*value) > maximumValue) {
-            clockStart_ = cells[0];
+            clockStart_ = rows_.withPoint(0);
         }
         isFirst_ = false;
-        const double seconds = clockStart_ ? decimalDifference(cells[0], *clockStart_).value_or(*value) : *value;
+        const double seconds =
+            clockStart_ ? decimalDifference(rows_.withPoint(0), *clockStart_).value_or(*value) : *value;
         if (!(std::abs(seconds) <= maximumValue)) {
             fail(0, "expected a time within 1e9 s of the first");
         }
@@ -131,27 +141,32 @@ private:
     }
 
     headless::TipSample readSample() {
-        const std::vector<std::string_view> cells = trimmedCells(lines_.line());
-        if (cells.size() != layout_.columns()) {
-            fail("expected " + std::to_string(layout_.columns()) + " values as in the header, found " +
-                 std::to_string(cells.size()) + " (decimals need a point, not a comma)");
+        const std::vector<std::string_view>& cells = rows_.cells();
+        const bool hasMore =
+            std::any_of(cells.begin() + static_cast<std::ptrdiff_t>(std::min(cells.size(), layout_.columns())),
+                        cells.end(), [](std::string_view cell) { return !cell.empty(); });
+        if (cells.size() < layout_.columns() || hasMore) {
+            failAt(rows_.number(), "expected " + std::to_string(layout_.columns()) +
+                                       " values as in the header, found " + std::to_string(cells.size()) +
+                                       " (decimals need a point, not a comma)");
         }
         headless::TipSample sample;
-        sample.timeSeconds = time(cells);
-        sample.positionMetres = {number(cells, 1), number(cells, 2), number(cells, 3)};
+        sample.timeSeconds = time();
+        sample.positionMetres = {number(1), number(2), number(3)};
         std::size_t column = 4;
         if (layout_.force) {
-            if (!cells[column].empty()) {
-                sample.forceNewtons = number(cells, column);
+            if (!recordings::isMissing(cells[column])) {
+                sample.forceNewtons = number(column);
                 if (*sample.forceNewtons < 0.0) {
-                    fail(column, "expected newtons, 0 or more, or nothing where the stylus measured none");
+                    fail(column,
+                         "expected newtons that grow as the tip presses, 0 or more, or nothing where the stylus "
+                         "measured none: turn the sign or subtract what the sensor reads in the air");
                 }
             }
             ++column;
         }
         if (layout_.orientation) {
-            const glm::dquat turn(number(cells, column + 3), number(cells, column), number(cells, column + 1),
-                                  number(cells, column + 2));
+            const glm::dquat turn(number(column + 3), number(column), number(column + 1), number(column + 2));
             const double length = glm::length(turn);
             if (!(length > 1e-6)) {
                 fail(column, "expected a quaternion qx,qy,qz,qw other than zero");
@@ -161,12 +176,42 @@ private:
         return sample;
     }
 
-    recordings::CsvLines lines_;
+    void takeStep(double seconds) {
+        steps_.push_back(seconds);
+        if (seconds > longestStepSeconds_) {
+            longestStepSeconds_ = seconds;
+            longestStepLine_ = rows_.number();
+        }
+    }
+
+    /// Refuses times in another unit, and gaps of which a render would be gigabytes of silence.
+    void requireSeconds(const Stroke& stroke) {
+        double metres = 0.0;
+        for (std::size_t i = 1; i < stroke.samples.size(); ++i) {
+            metres += glm::distance(stroke.samples[i].positionMetres, stroke.samples[i - 1].positionMetres);
+        }
+        const std::string unit = unitOfTimes(steps_, metres);
+        if (!unit.empty()) {
+            throw InputError(file_ + ": column t: " + unit);
+        }
+        if (longestStepSeconds_ > maximumStepSeconds) {
+            failAt(longestStepLine_, "column t: is " + recordings::plainNumber(longestStepSeconds_) +
+                                         " s after the line above; expected steps of " +
+                                         recordings::plainNumber(maximumStepSeconds) +
+                                         " s at most: are there two recordings in the file, or times in another unit?");
+        }
+    }
+
+    std::string_view text_;
+    recordings::TableRows rows_;
+    std::vector<double> steps_;
+    double longestStepSeconds_ = 0.0;
+    std::size_t longestStepLine_ = 0;
     const std::string& file_;
     Layout layout_;
     bool isFirst_ = true;
     /// The first row's time, of a clock whose times count from there.
-    std::optional<std::string_view> clockStart_;
+    std::optional<std::string> clockStart_;
 };
 
 }  // namespace

@@ -3,6 +3,7 @@ using System;
 using System.Collections.Generic;
 using System.Linq;
 using System.Threading.Tasks;
+using HaptoFlow.Model;
 using HaptoFlow.Studies;
 
 namespace HaptoFlow.Samples.SimilarityStudy
@@ -123,7 +124,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
             }
             foreach (string label in LabelsOf(material))
             {
-                if (!model.Labels.Contains(label, StringComparer.OrdinalIgnoreCase))
+                if (!model.Labels.Contains(label, LabelSpelling.Same))
                 {
                     throw new StudyException($"material \"{material.Name}\": the model of method \"{method.Name}\" " +
                         $"has no label \"{label}\"; its labels are {string.Join(", ", model.Labels)}");

@@ -34,7 +34,7 @@ def mean_speed(recording: MaterialRecording) -> float:
 
 
 def read(path: Path) -> MaterialRecording:
-    (recording,) = read_material_recordings(material_files([path]))
+    (recording,) = read_material_recordings(material_files([path], print), print)
     return recording
 
 
@@ -217,7 +217,7 @@ def test_a_table_that_cannot_be_read_is_named_with_what_was_found_and_expected(t
     ("text", "words"),
     [
         ("", "is empty"),
-        ("time_s;acceleration_mps2\n0,1;2\n", "separated by semicolons"),
+        ("time_s;acceleration_mps2\n0,1;2\n", "1 rows; expected 4 rows at least"),
         ("time_s,acceleration_mps2,speed_mps,force_newtons\n0,a,1,1\n1,2,1,1\n", 'column acceleration_mps2: is "a"; expected a number'),
         ("time_s,acceleration_mps2\n0,1\n0.001,1\n", "2 rows; expected 4 rows at least"),
     ],
@@ -255,9 +255,9 @@ def test_a_file_of_another_kind_and_an_empty_folder_are_named(tmp_path: Path) ->
         read(tmp_path / "a.wav")
     (tmp_path / "empty").mkdir()
     with pytest.raises(InputError, match=r"empty: no recording in it; expected files that end with \.csv"):
-        material_files([tmp_path / "empty"])
+        material_files([tmp_path / "empty"], print)
     with pytest.raises(InputError, match="does not exist"):
-        material_files([tmp_path / "gone"])
+        material_files([tmp_path / "gone"], print)
 
 
 def test_parquet_is_read_where_pandas_has_an_engine_and_refused_with_the_remedy_elsewhere(tmp_path: Path) -> None:

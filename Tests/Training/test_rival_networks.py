@@ -18,6 +18,7 @@ from haptoflow_paper.rivals import ARCHITECTURES, Rival, build_rival
 from haptoflow_paper.rivals.autoregressive import ORDER, AutoregressiveRival
 from haptoflow_paper.rivals.segment_network import INPUTS, SegmentNetworkGraph
 from haptoflow_paper.rivals.spsi import SinglePassInversion, SpsiRival, magnitude_spectrum
+from haptoflow_training.export.onnx_graphs import trace_graph
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE
 from haptoflow_training.models.level_model import PREVIOUS_LIMIT
 from haptoflow_training.models.velocity_field import parameter_count
@@ -279,15 +280,7 @@ def _exported(baseline: Rival, batch: int) -> onnx.ModelProto:
     buffer = io.BytesIO()
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        torch.onnx.export(
-            SegmentNetworkGraph(baseline),
-            tuple(given.values()),
-            buffer,
-            opset_version=16,
-            input_names=list(given),
-            output_names=["segment"],
-            dynamic_axes={name: {0: "batch"} for name in (*given, "segment")},
-        )
+        trace_graph(SegmentNetworkGraph(baseline), tuple(given.values()), buffer, list(given), ["segment"])
     return onnx.load_from_string(buffer.getvalue())
 
 

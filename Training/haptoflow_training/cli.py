@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import argparse
 import importlib
+import io
 import sys
 from collections.abc import Collection, Mapping, Sequence
 
@@ -48,6 +49,9 @@ def run_program(
     the exit code.
     """
     words = list(sys.argv[1:] if arguments is None else arguments)
+    # Names of files and cells of tables are bytes, which need not be text in the terminal's encoding.
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        sys.stdout.reconfigure(errors="backslashreplace")
     chosen = next((word for word in words if word in commands), None)
     parser = argparse.ArgumentParser(
         prog=name,

@@ -67,7 +67,7 @@ class NativeModel:
     def __init__(self, library: NativeLibrary, path: Path) -> None:
         self._library = library
         self.handle = ctypes.c_void_p()
-        options = options_of(_ModelOptions, path=str(path).encode())
+        options = options_of(_ModelOptions, path=os.fsencode(path))
         library.call("haptoflow_model_open", ctypes.byref(options), ctypes.byref(self.handle))
 
     def __enter__(self) -> NativeModel:
@@ -98,7 +98,7 @@ def open_runtime(library: NativeLibrary, onnx_runtime: Path) -> ctypes.c_void_p:
         remedy = f"run `npm ci`, or set {RUNTIME_VARIABLE} to ONNX Runtime's library"
         raise InputError(f"{onnx_runtime} does not exist: {remedy}")
     runtime = ctypes.c_void_p()
-    options = options_of(_RuntimeOptions, library_path=str(onnx_runtime).encode())
+    options = options_of(_RuntimeOptions, library_path=os.fsencode(onnx_runtime))
     library.call("haptoflow_runtime_open", ctypes.byref(options), ctypes.byref(runtime))
     return runtime
 

@@ -1044,7 +1044,7 @@ typedef struct haptoflow_recording_options {
     uint32_t struct_size;
     /* 0 for files on disk. */
     uint32_t file_count;
-    /* Path of the .csv or .wav file in UTF-8, or its name among `files`. */
+    /* Path of the .csv, .wav or .w64 file in UTF-8, or its name among `files`. */
     const char* path;
     /* The recording and what lies beside it; read during the call only. */
     const haptoflow_recording_file* files;

@@ -2,7 +2,7 @@
 
 #include "model/name_index.hpp"
 #include "model/plain_text.hpp"
-#include "recordings/csv_lines.hpp"
+#include "recordings/table_rows.hpp"
 
 #include <cctype>
 

@@ -331,7 +331,11 @@ void noteLag(const std::string& path, const Recording& recording, std::vector<st
         return;
     }
     const Frames frames = framesOf(recording);
-    if (frames.level.size() < minimumFrames) {
+    std::size_t known = 0;
+    for (std::size_t i = 0; i < frames.level.size(); ++i) {
+        known += std::isfinite(frames.level[i]) && std::isfinite(frames.speed[i]) ? 1U : 0U;
+    }
+    if (known < minimumFrames) {
         return;
     }
     const double without = correlation(frames, 0);

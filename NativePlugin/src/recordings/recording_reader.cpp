@@ -1,5 +1,6 @@
 #include "recordings/recording_reader.hpp"
 
+#include "recordings/force_zero.hpp"
 #include "recordings/plausibility.hpp"
 #include "recordings/recording_sidecar.hpp"
 #include "recordings/tip_motion.hpp"
@@ -41,9 +42,9 @@ bool isTable(const fs::path& path) {
 }
 
 void requireKnownEnding(const fs::path& path) {
-    if (!isTable(path) && endingOf(path) != ".wav") {
+    if (!isTable(path) && endingOf(path) != ".wav" && endingOf(path) != ".w64") {
         throw RecordingUnusable(utf8Of(path) + ": has the ending '" + utf8Of(path.extension()) +
-                                "'; expected a recording that ends with .csv or .wav (a Parquet table is read by "
+                                "'; expected a recording that ends with .csv, .wav or .w64 (a Parquet table is read by "
                                 "`haptoflow-training`; here, save it as CSV)");
     }
 }
@@ -51,7 +52,8 @@ void requireKnownEnding(const fs::path& path) {
 std::string bytesOf(RecordingFiles& files, const std::string& role, const fs::path& path) {
     std::optional<std::string> bytes = files.read(role, path);
     if (!bytes) {
-        throw RecordingUnusable(utf8Of(path) + ": does not exist; expected a recording that ends with .csv or .wav");
+        throw RecordingUnusable(utf8Of(path) +
+                                ": does not exist; expected a recording that ends with .csv, .wav or .w64");
     }
     return std::move(*bytes);
 }
@@ -81,6 +83,8 @@ public:
             readMotionFile(*sidecar_.motion);
         }
         takeConstants();
+        checkZeroOfForce();
+        clampForce();
         if (!recording_.velocityMps.empty()) {
             noteLag(path_, recording_.view(), notes());
         }
@@ -92,6 +96,11 @@ private:
 
     void readWave(const std::string& bytes) {
         const WaveFile wave = readWaveFile(path_, bytes);
+        if (!wave.isSizeKnown) {
+            notes().push_back(path_ +
+                              ": does not say how many samples it has, as files do whose writer could not go "
+                              "back to their head; it is read to its end");
+        }
         const std::optional<double> fullScale = words_.fullScaleMps2 ? words_.fullScaleMps2 : sidecar_.fullScaleMps2;
         if (!fullScale) {
             fail(utf8Of(sidecar_.path), "no key 'full_scale_mps2' for " + utf8Of(file_.filename()),
@@ -151,7 +160,8 @@ private:
         const Track& acceleration = recording_.tracks.acceleration;
         double span = acceleration.timeSeconds.back() - startSeconds_;
         if (span > maximumSeconds) {
-            notes().push_back(path_ + ": only the first " + plainNumber(maximumSeconds) + " s are learnt from");
+            notes().push_back(path_ + ": only the first " + plainNumber(maximumSeconds) + " s are learnt from" +
+                              gapIn(acceleration));
             span = maximumSeconds;
         }
         // The last sample may lie a rounding error before its time.
@@ -174,6 +184,23 @@ private:
         }
     }
 
+    /// What a gap of minutes, such as a pause of the recorder, takes of the recording; empty without one.
+    std::string gapIn(const Track& acceleration) const {
+        constexpr double notedSeconds = 60.0;
+        double longest = 0.0;
+        double start = 0.0;
+        for (std::size_t i = 1; i < acceleration.count(); ++i) {
+            const double step = acceleration.timeSeconds[i] - acceleration.timeSeconds[i - 1];
+            if (step > longest) {
+                longest = step;
+                start = acceleration.timeSeconds[i - 1] - startSeconds_;
+            }
+        }
+        return longest < notedSeconds ? ""
+                                      : ", in which time_s has a gap of " + plainNumber(longest) + " s after " +
+                                            plainNumber(start) + " s: cut it out";
+    }
+
     void readMotionFile(const fs::path& path) {
         const std::string name = utf8Of(path);
         const RecordingTable table = readRecordingTable(name, bytesOf(files_, "the motion file", path), false);
@@ -181,7 +208,23 @@ private:
         if (table.timeSeconds.empty()) {
             fail(name, "no column time_s", "a column time_s: the motion has a clock of its own");
         }
+        requireReadings(name, table);
         takeMotion(table);
+    }
+
+    /// Readings so far apart are no motion: in milliseconds, or of a log of something else.
+    static void requireReadings(const std::string& name, const RecordingTable& table) {
+        for (const std::optional<TableSeries>* series : {&table.motion, &table.force}) {
+            if (!*series) {
+                continue;
+            }
+            const double step = medianStepSeconds(trackOf(table, **series));
+            if (step > longestMotionStepSeconds) {
+                fail(name, "column time_s rises by " + plainNumber(step) + " s from reading to reading in the median",
+                     "seconds, with a reading every " + plainNumber(longestMotionStepSeconds) +
+                         " s at least: divide milliseconds by 1000");
+            }
+        }
     }
 
     void takeMotion(const RecordingTable& table) {
@@ -202,11 +245,35 @@ private:
             }
             recording_.tracks.force = trackOf(table, *table.force);
             checkForce(table.path, *table.force, recording_.tracks.force);
+            correctForce();
             recording_.forceNewtons = onGrid(recording_.tracks.force);
-            // A load cell that is not zeroed reads less than nothing in the air.
-            for (float& force : recording_.forceNewtons) {
-                force = force < 0.0F ? 0.0F : force;
-            }
+            forcePath_ = table.path;
+            forceColumn_ = table.force->columns;
+        }
+    }
+
+    void correctForce() {
+        const double sign = words_.forceSign.value_or(sidecar_.forceSign.value_or(1.0));
+        const double rest = words_.forceRestNewtons.value_or(sidecar_.forceRestNewtons.value_or(0.0));
+        for (double& force : recording_.tracks.force.values) {
+            force = sign * (force - rest);
+        }
+    }
+
+    void checkZeroOfForce() {
+        if (!recording_.hasMotion() || recording_.forceNewtons.empty()) {
+            return;
+        }
+        checkForceZero(forcePath_, forceColumn_, utf8Of(sidecar_.path.filename()), recording_.view(), notes());
+    }
+
+    /// A load cell trembles around nothing in the air.
+    void clampForce() {
+        for (float& force : recording_.forceNewtons) {
+            force = force < 0.0F ? 0.0F : force;
+        }
+        for (double& force : recording_.tracks.force.values) {
+            force = std::max(force, 0.0);
         }
     }
 
@@ -246,6 +313,9 @@ private:
     RecordingSidecar sidecar_;
     MaterialRecording recording_;
     double startSeconds_ = 0.0;
+    /// Of the measured force, for messages.
+    std::string forcePath_;
+    std::string forceColumn_;
 };
 
 }  // namespace

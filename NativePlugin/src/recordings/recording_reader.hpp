@@ -13,12 +13,16 @@
 
 namespace haptoflow::recordings {
 
-/// Properties of a recording given by the caller, for what its files do not contain. `fullScaleMps2` replaces that of
-/// the sidecar.
+/// Properties of a recording given by the caller, for what its files do not contain. `fullScaleMps2`, `forceSign` and
+/// `forceRestNewtons` replace those of the sidecar.
 struct RecordingWords {
     std::optional<double> speedMps{};
     std::optional<double> forceNewtons{};
     std::optional<double> fullScaleMps2{};
+    /// 1 or -1: the sign with which the force's column counts pressing.
+    std::optional<double> forceSign{};
+    /// What the force's column reads where the tip touches nothing.
+    std::optional<double> forceRestNewtons{};
 };
 
 /// What is read of the files beside a recording, and of its column names.

@@ -4,8 +4,8 @@
 #include "model/model_error.hpp"
 #include "model/model_header.hpp"
 #include "model/plain_text.hpp"
-#include "recordings/csv_lines.hpp"
 #include "recordings/recording.hpp"
+#include "recordings/table_rows.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -19,9 +19,11 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
+constexpr const char* signs = "1, or -1 where the sensor counts pressing as negative";
 constexpr const char* defaultsFile = "recordings.json";
-constexpr std::array keys{"label",  "full_scale_mps2", "speed_mps", "velocity_mps", "force_newtons",
-                          "motion", "rate_hz",         "licence",   "source"};
+constexpr std::array keys{"label",      "full_scale_mps2",    "speed_mps", "velocity_mps", "force_newtons",
+                          "force_sign", "force_rest_newtons", "motion",    "rate_hz",      "licence",
+                          "source"};
 
 std::string allKeys() {
     std::string text;
@@ -139,6 +141,11 @@ public:
         return path;
     }
 
+    [[noreturn]] void refuse(const std::string& key, const std::string& expected) const {
+        fail(origins_.at(key), "key '" + key + "' is " + std::string(model::shortened(values_.at(key).dump(), 60)),
+             expected);
+    }
+
 private:
     void add(const std::string& role, const fs::path& file) {
         const json document = documentIn(files_, role, file);
@@ -159,11 +166,6 @@ private:
         return found == values_.end() ? nullptr : &found->second;
     }
 
-    [[noreturn]] void refuse(const std::string& key, const std::string& expected) const {
-        fail(origins_.at(key), "key '" + key + "' is " + std::string(model::shortened(values_.at(key).dump(), 60)),
-             expected);
-    }
-
     RecordingFiles& files_;
     std::map<std::string, json> values_;
     std::map<std::string, fs::path> origins_;
@@ -179,6 +181,11 @@ RecordingSidecar readRecordingSidecar(RecordingFiles& files, const fs::path& rec
     sidecar.fullScaleMps2 = values.number("full_scale_mps2", 0.01, 1e5, "m/s^2 at +-1, 0.01 to 100000");
     sidecar.velocityMps = values.velocity();
     sidecar.forceNewtons = values.number("force_newtons", 0.0, 100.0, "newtons, 0 to 100 (a thousandth of mN)");
+    sidecar.forceSign = values.number("force_sign", -1.0, 1.0, signs);
+    if (sidecar.forceSign && std::abs(*sidecar.forceSign) != 1.0) {
+        values.refuse("force_sign", signs);
+    }
+    sidecar.forceRestNewtons = values.number("force_rest_newtons", -100.0, 100.0, "newtons, -100 to 100");
     sidecar.motion = values.motion();
     sidecar.rateHz = values.number("rate_hz", lowestRateHz, highestRateHz, "samples a second, 1000 to 192000");
     sidecar.licence = values.text("licence");

@@ -18,6 +18,10 @@ struct RecordingSidecar {
     /// A given speed is a velocity along the first axis.
     std::optional<std::array<double, 2>> velocityMps;
     std::optional<double> forceNewtons;
+    /// 1 or -1: the sign with which a measured force counts pressing.
+    std::optional<double> forceSign;
+    /// What a measured force is where the tip touches nothing.
+    std::optional<double> forceRestNewtons;
     /// A table of motion and force with its own time stamps.
     std::optional<std::filesystem::path> motion;
     std::optional<double> rateHz;

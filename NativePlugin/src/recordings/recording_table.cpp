@@ -1,8 +1,8 @@
 #include "recordings/recording_table.hpp"
 
-#include "recordings/csv_lines.hpp"
-#include "recordings/decimal_number.hpp"
+#include "model/plain_text.hpp"
 #include "recordings/recording.hpp"
+#include "recordings/table_rows.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -63,14 +63,29 @@ std::string namesOf(const std::vector<ColumnForm>& forms) {
     return text;
 }
 
-std::string_view bareCell(std::string_view text) {
-    return trimmed(text, " \t\r\"");
+const std::vector<std::string_view>& knownNames() {
+    static const std::vector<std::string_view> names = [] {
+        std::vector<std::string_view> all{timeColumn};
+        for (const auto* forms : {&accelerationForms(), &allMotionForms(), &allForceForms()}) {
+            for (const ColumnForm& form : *forms) {
+                all.insert(all.end(), form.columns.begin(), form.columns.end());
+            }
+        }
+        return all;
+    }();
+    return names;
+}
+
+bool isKnown(std::string_view name) {
+    return std::ranges::find(knownNames(), name) != knownNames().end();
 }
 
 class TableReader {
 public:
-    TableReader(const std::string& path, const std::string& text) : path_(path), lines_(text) {
-        refuseOtherEncodings(text);
+    TableReader(const std::string& path, const std::string& text) : path_(path), rows_(text, knownNames()) {
+        if (const std::string_view encoding = otherEncoding(text); !encoding.empty()) {
+            fail("is " + std::string(encoding), "a table in UTF-8: save it as CSV UTF-8");
+        }
         readHeader();
     }
 
@@ -110,56 +125,38 @@ public:
         return table;
     }
 
+    /// Each name once.
     [[nodiscard]] std::vector<std::string> unknownNames() const {
         std::vector<std::string> unknown;
         for (const std::string& name : names_) {
-            const auto knows = [&](const std::vector<ColumnForm>& forms) {
-                return std::ranges::any_of(forms, [&](const ColumnForm& form) {
-                    return std::ranges::find(form.columns, name) != form.columns.end();
-                });
-            };
-            if (name != timeColumn && !knows(accelerationForms()) && !knows(allMotionForms()) &&
-                !knows(allForceForms())) {
-                unknown.push_back(name);
+            const std::string shown = name.empty() ? "(without a name)" : name;
+            if (!isKnown(name) && std::ranges::find(unknown, shown) == unknown.end()) {
+                unknown.push_back(shown);
             }
         }
         return unknown;
     }
 
 private:
-    void refuseOtherEncodings(const std::string& text) const {
-        constexpr std::string_view zeroByte("\0", 1);
-        if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
-            fail("is text in UTF-16", "UTF-8: save the table as CSV UTF-8");
-        }
-        if (text.find(zeroByte) != std::string::npos) {
-            fail("is not text: it has bytes of zero", "a table (CSV) in UTF-8");
-        }
-    }
-
     [[noreturn]] void fail(const std::string& found, const std::string& expected) const {
         throw RecordingUnusable(path_ + ": " + found + "; expected " + expected);
     }
 
     void readHeader() {
-        if (!lines_.next()) {
+        const std::vector<std::string_view>& names = rows_.names();
+        if (names.empty()) {
             fail("is empty", "a table (CSV) with the columns time_s and acceleration_mps2");
         }
-        const std::string_view line = lines_.line();
-        if (line.find(';') != std::string_view::npos && line.find(',') == std::string_view::npos) {
-            fail("columns separated by semicolons", "commas between columns and points in numbers");
-        }
-        if (static_cast<std::size_t>(std::ranges::count(line, ',')) >= maximumColumns) {
+        if (names.size() > maximumColumns) {
             fail("more than " + std::to_string(maximumColumns) + " columns", "a recording's");
         }
-        std::vector<std::string_view> cells;
-        splitCells(line, cells);
-        for (const std::string_view cell : cells) {
-            names_.emplace_back(bareCell(cell).substr(0, 80));
+        for (const std::string_view name : names) {
+            // In messages, which are UTF-8 whatever the file is.
+            names_.push_back(model::printable(model::shortened(name, 80)));
         }
         for (const std::string& name : names_) {
-            if (std::ranges::count(names_, name) > 1) {
-                fail("column " + name + " twice", "each column once");
+            if (isKnown(name) && std::ranges::count(names_, name) > 1) {
+                fail("column " + name + " twice", "it once");
             }
         }
     }
@@ -199,44 +196,52 @@ private:
         return found;
     }
 
-    [[nodiscard]] double number(std::string_view cell, std::size_t column) const {
-        const std::string_view text = bareCell(cell);
-        if (text.empty() || text == "nan" || text == "NaN" || text == "NA" || text == "inf" || text == "-inf") {
+    [[nodiscard]] double number(std::size_t column) {
+        const std::string_view cell = rows_.cells()[column];
+        if (isMissing(cell)) {
             return std::numeric_limits<double>::quiet_NaN();
         }
-        const std::optional<double> value = decimalNumber(text);
+        const std::optional<double> value = rows_.decimal(column);
         if (!value) {
-            throw RecordingUnusable(path_ + ":" + std::to_string(lines_.number()) + ": column " + names_[column] +
-                                    ": is \"" + std::string(text.substr(0, 40)) +
+            throw RecordingUnusable(path_ + ":" + std::to_string(rows_.number()) + ": column " + names_[column] +
+                                    ": is \"" + model::printable(model::shortened(cell, 40)) +
                                     "\"; expected a number with a decimal point");
         }
         return *value;
     }
 
+    /// Cells of ignored columns at a row's end may be missing.
+    void requireCells(std::size_t wanted) const {
+        if (!(rows_.isComplete() || (rows_.cells().size() < names_.size() && rows_.cells().size() >= wanted))) {
+            throw RecordingUnusable(path_ + ":" + std::to_string(rows_.number()) + ": " +
+                                    std::to_string(rows_.cells().size()) + " values; expected " +
+                                    std::to_string(names_.size()) +
+                                    " as in the first line (decimals need a point, not a comma)");
+        }
+    }
+
     void readRows(const std::vector<std::pair<std::vector<std::size_t>, std::vector<double>*>>& wanted,
                   std::optional<std::size_t> time, RecordingTable& table) {
-        std::vector<std::string_view> cells;
         std::size_t rows = 0;
+        std::size_t neededCells = 0;
+        for (const auto& [places, unused] : wanted) {
+            neededCells = std::max(neededCells, std::ranges::max(places) + 1);
+        }
         int timeDecimals = 0;
-        while (lines_.next()) {
-            if (bareCell(lines_.line()).empty()) {
+        while (rows_.next()) {
+            // Separators alone are a row without numbers, which takes its time.
+            if (rows_.cells().size() == 1 && rows_.isBlank()) {
                 continue;
             }
-            splitCells(lines_.line(), cells);
-            if (cells.size() != names_.size()) {
-                throw RecordingUnusable(path_ + ":" + std::to_string(lines_.number()) + ": " +
-                                        std::to_string(cells.size()) + " values; expected " +
-                                        std::to_string(names_.size()) +
-                                        " as in the first line (decimals need a point, not a comma)");
-            }
+            requireCells(neededCells);
             for (const auto& [places, values] : wanted) {
                 for (const std::size_t column : places) {
-                    values->push_back(number(cells[column], column));
+                    values->push_back(number(column));
                 }
             }
-            table.lines.push_back(static_cast<std::uint32_t>(lines_.number()));
+            table.lines.push_back(static_cast<std::uint32_t>(rows_.number()));
             if (time) {
-                timeDecimals = std::max(timeDecimals, decimalsOf(bareCell(cells[*time])));
+                timeDecimals = std::max(timeDecimals, decimalsOf(rows_.cells()[*time]));
             }
             if (++rows > maximumRows) {
                 fail("more than " + std::to_string(maximumRows) + " rows", "five minutes of recording at most");
@@ -251,7 +256,7 @@ private:
     /// Digits after the point; a number with an exponent has all that a double has.
     static int decimalsOf(std::string_view text) {
         constexpr int allDecimals = 17;
-        const std::size_t point = text.find('.');
+        const std::size_t point = text.find_first_of(".,");
         return text.find_first_of("eE") != std::string_view::npos ? allDecimals
                : point == std::string_view::npos                  ? 0
                                                                   : static_cast<int>(text.size() - point - 1);
@@ -265,7 +270,7 @@ private:
     }
 
     const std::string& path_;
-    CsvLines lines_;
+    TableRows rows_;
     std::vector<std::string> names_;
 };
 

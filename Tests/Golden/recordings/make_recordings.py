@@ -228,6 +228,12 @@ def make_clocks() -> None:
     write("pause.csv", table(plain(s, time_s=late)))
     read("pause.csv", "a pause of a minute splits the recording", 1000.0, s.wave, s.speed, s.force, missing=60000,
          samples=60500, tolerance=0.02)  # fmt: skip
+    hours = np.where(s.time < 0.25, s.time, s.time + 7200.0)
+    write("hours.csv", table(plain(s, time_s=hours)))
+    first = slice(0, 250)
+    read("hours.csv", "a gap of two hours", 1000.0, s.wave[first], s.speed[first], s.force[first],
+         missing=300001 - 250, samples=300001, tolerance=0.1, own_samples=500,
+         notes=["only the first 300 s are learnt from, in which time_s has a gap of 7200 s after 0.249 s"])  # fmt: skip
     jitter = s.time + np.random.default_rng(3).uniform(-0.0002, 0.0002, len(s.time))
     slow = 2.0 * np.sin(2.0 * np.pi * 60.0 * jitter)
     write("uneven.csv", table(plain(s, time_s=jitter - jitter[0], acceleration_mps2=slow), {"time_s": "%.7f"}))
@@ -266,6 +272,11 @@ def make_sidecars() -> None:
     write("tracked.motion.csv", table(motion))
     sidecar("tracked.json", motion="tracked.motion.csv")
     read("tracked.csv", "motion in a file with a clock of its own", 1000.0, s.wave, 0.05, 0.7)
+    write("slow_motion.csv", table(wave))
+    write("slow_motion.motion.csv", table(motion | {"time_s": 1000.0 * own}, {"time_s": "%.1f"}))
+    sidecar("slow_motion.json", motion="slow_motion.motion.csv")
+    refuse("slow_motion.csv", "milliseconds in the motion file", "column time_s rises by 10 s from reading to reading "
+           "in the median; expected seconds, with a reading every 0.25 s at least: divide milliseconds by 1000")  # fmt: skip
     for name, text, message in (
         ("outside", {"motion": "../victim.csv"}, "key 'motion' names ../victim.csv, which is outside the folder of "
          "outside.json; expected a table beside the recording: copy it there"),
@@ -302,17 +313,184 @@ def make_waves() -> None:
     write("wave_cut.wav", wav(scaled, 2000, 16)[:700])
     sidecar("wave_cut.json", full_scale_mps2=25.0)
     refuse("wave_cut.wav", "half a WAV file", "FILE: cannot be read to its end; expected a whole file; is it cut off?")
+    pcm = wav(scaled, 2000, 16)
+    form, body = pcm[12:36], pcm[44:]
+    unsaid = ["does not say how many samples it has"]
+
+    def wave_file(name: str, why: str, content: bytes, notes: Sequence[str] = ()) -> None:
+        write(name, content)
+        sidecar(name[:-4] + ".json", full_scale_mps2=25.0, speed_mps=0.08, force_newtons=1.0)
+        read(name, why, 2000.0, s.wave, 0.08, 1.0, notes=notes, tolerance=0.001)
+
+    def riff(*chunks: bytes, tag: bytes = b"RIFF", size: int | None = None) -> bytes:
+        content = b"WAVE" + b"".join(chunks)
+        return tag + struct.pack("<I", len(content) if size is None else size) + content
+
+    def chunk(tag: bytes, content: bytes, size: int | None = None) -> bytes:
+        return tag + struct.pack("<I", len(content) if size is None else size) + content
+
+    for name, size in (("piped", 0xFFFFFFFF), ("zero", 0), ("sox", 0x7FFFF000), ("arecord", 0x80000000),
+                       ("less_a_head", 0xFFFFFFFF - 36)):  # fmt: skip
+        wave_file(f"wave_{name}.wav", f"a writer that could not seek leaves the size {size:#x}",
+                  riff(form, chunk(b"data", body, size), size=size), unsaid)  # fmt: skip
+    odd = chunk(b"LIST", b"INFOIART\x05\x00\x00\x00Anna\x00")
+    wave_file("wave_list.wav", "a chunk of odd size that is not filled up", riff(form, odd, chunk(b"data", body)))
+    wave_file("wave_list_filled.wav", "the same filled up", riff(form, odd, b"\0", chunk(b"data", body)))
+    wave_file("wave_list_letter.wav", "filled up with a letter", riff(form, odd, b"x", chunk(b"data", body)))
+
+    def sizes(data: int) -> bytes:
+        return chunk(b"ds64", struct.pack("<QQQI", 0, data, data // 2, 0))
+
+    unknown = 0xFFFFFFFF
+    wave_file("wave_rf64.wav", "RF64", riff(sizes(len(body)), form, chunk(b"data", body, unknown), chunk(b"LIST", b"INFO"),
+              tag=b"RF64", size=unknown))  # fmt: skip
+    wave_file("wave_rf64_piped.wav", "RF64 whose writer could not seek",
+              riff(sizes(0), form, chunk(b"data", body, unknown), tag=b"RF64", size=unknown), unsaid)  # fmt: skip
+
+    def wave64(tag: bytes, content: bytes, size: int | None = None) -> bytes:
+        whole = len(content) + 24 if size is None else size
+        rest = b"\xf3\xac\xd3\x11\x8c\xd1\x00\xc0\x4f\x8e\xdb\x8a"
+        return tag + rest + struct.pack("<Q", whole) + content + b"\0" * (-len(content) % 8)
+
+    riff64 = b"riff\x2e\x91\xcf\x11\xa5\xd6\x28\xdb\x04\xc1\x00\x00"
+    wave_id = b"wave\xf3\xac\xd3\x11\x8c\xd1\x00\xc0\x4f\x8e\xdb\x8a"
+    chunks = wave64(b"fmt ", form[8:]) + wave64(b"fact", struct.pack("<Q", len(s.wave))) + wave64(b"levl", b"odd")
+    for name, size, notes in (("wave.w64", len(body) + 24, ()), ("wave_piped.w64", 0, unsaid)):
+        wave_file(name, "Sony Wave64", riff64 + struct.pack("<Q", 0) + wave_id + chunks + wave64(b"data", body, size),
+                  notes)  # fmt: skip
+    write("wave_cut.w64", (riff64 + struct.pack("<Q", 0) + wave_id + chunks + wave64(b"data", body))[:-500])
+    sidecar("wave_cut.json", full_scale_mps2=25.0)
+    refuse("wave_cut.w64", "half a Wave64 file", "FILE: cannot be read to its end")
+    write("wave_cut_rf64.wav", riff(sizes(len(body)), form, chunk(b"data", body[:300], unknown), tag=b"RF64"))
+    sidecar("wave_cut_rf64.json", full_scale_mps2=25.0)
+    refuse("wave_cut_rf64.wav", "half an RF64 file", "FILE: cannot be read to its end")
+    write("wave_empty.wav", riff(form, chunk(b"data", b""), chunk(b"LIST", b"INFO")))
+    sidecar("wave_empty.json", full_scale_mps2=25.0)
+    refuse("wave_empty.wav", "no sample, which another chunk after it shows", "FILE: 0 samples; expected 4 at least")
+    write("flac.wav", b"fLaC" + body)
+    sidecar("flac.json", full_scale_mps2=25.0)
+    refuse("flac.wav", "another format under the name of WAV", "FILE: is FLAC; expected a WAV file")
     write("wave_stereo.wav", wav(np.column_stack([scaled, scaled]), 2000, 16))
     sidecar("wave_stereo.json", full_scale_mps2=25.0)
     refuse("wave_stereo.wav", "two channels", "FILE: 2 channels; expected 1 or 3: one axis, or X, Y and Z")
 
 
+def make_laboratory_tables() -> None:
+    """What spreadsheets and instruments make of a table."""
+    s = Stroke(1000.0, 0.5)
+    text = table(plain(s))
+    rows = text.splitlines()
+
+    def answer(name: str, why: str, *notes: str, force: _Numbers = s.force) -> None:
+        read(name, why, 1000.0, s.wave, s.speed, force, notes=notes)
+
+    def beside(heads: str, cells: str, rows: Sequence[str] = rows) -> str:
+        return "\n".join([rows[0] + heads, *(row + cells for row in rows[1:])]) + "\n"
+
+    ignored = "are not known and are ignored"
+    write("empty_columns.csv", beside(",,,", ",,,"))
+    answer("empty_columns.csv", "a spreadsheet's empty columns", f"columns (without a name) {ignored}")
+    write("repeated_columns.csv", beside(",Untitled,Untitled", ",0.1,7"))
+    answer("repeated_columns.csv", "ignored columns of one name", f"columns Untitled {ignored}")
+    write("quoted_columns.csv", beside(',"Remark, of the ""day"""', ',"rough, then\n""smooth"", 5"'))
+    answer("quoted_columns.csv", "an ignored column with separators, quotes and line ends in its cells",
+           f'columns Remark, of the ""day"" {ignored}')  # fmt: skip
+    write("inches.csv", beside(",Size", ',5"'))
+    answer("inches.csv", "a quote that opens nothing", f"columns Size {ignored}")
+    write("latin1.csv", beside(",Temp (\xb0C),Ma\xdf", ",21\xb0,\xfc").encode("latin-1"))
+    answer("latin1.csv", "an ignored column in Latin-1", f"columns Temp (\\xB0C), Ma\\xDF {ignored}")
+    write("left_off.csv", beside(",Remark,,", "", rows[:-1]) + rows[-1] + ",smooth,,\n")
+    answer("left_off.csv", "rows without the empty cells of ignored columns at their ends")
+    _answers[-1]["notes"] = [f"columns Remark, (without a name) {ignored}"]
+    write("semicolons.csv", text.replace(",", ";"))
+    answer("semicolons.csv", "semicolons between columns")
+    write("tabs.csv", text.replace(",", "\t"))
+    answer("tabs.csv", "tabs between columns")
+    write("blanks.csv", "".join("  " + line.replace(",", "   ") + " \n" for line in rows))
+    answer("blanks.csv", "blanks between columns")
+    write("excel.csv", "sep=;\r\n" + text.replace(",", ";").replace(".", ",").replace("\n", "\r\n"))
+    answer("excel.csv", "Excel's line sep=; and its decimal commas")
+    write("excel_bars.csv", '"sep=|"\n' + text.replace(",", "|"))
+    answer("excel_bars.csv", "a separator that only the line sep= names")
+    write("quoted_commas.csv", "\n".join(",".join(f'"{cell.replace(".", ",")}"' for cell in row.split(","))
+          for row in rows) + "\n")  # fmt: skip
+    answer("quoted_commas.csv", "decimal commas in quotes")
+    write("comment.csv", "# " + text.replace(",", " "))
+    answer("comment.csv", "names behind a mark of comments, as NumPy writes them")
+    write("carriage_returns.csv", text.replace("\n", "\r"))
+    answer("carriage_returns.csv", "lines that end with a carriage return alone")
+    write("minus_signs.csv", text.replace("-", "\u2212"))
+    answer("minus_signs.csv", "the minus sign of Swedish programs")
+    words = ["N/A", "null", "NULL", "None", "NaN", "#N/A", "na", "-nan(ind)", "-", ""]
+    cells = [f"{force:.6f}" if i % 8 == 0 or i == len(s.time) - 1 else words[i % len(words)]
+             for i, force in enumerate(s.force)]  # fmt: skip
+    write("words_for_nothing.csv", table(plain(s, force_newtons=cells)))
+    answer("words_for_nothing.csv", "words for a missing number")
+    write("mixed_marks.csv", text.replace(",", ";").replace("0.08", "0,08"))
+    refuse("mixed_marks.csv", "points and commas in the numbers of one file", "expected a number with a decimal point")
+    write("known_twice.csv", beside(",speed_mps", ",0.1"))
+    refuse("known_twice.csv", "a known column twice", "FILE: column speed_mps twice; expected it once")
+    write("truncated.csv", "\n".join([*rows[:-1], ",".join(rows[-1].split(",")[:3])]))
+    refuse("truncated.csv", "a last row that was cut", "FILE:501: 3 values; expected 4 as in the first line")
+
+
+def make_signs_of_force() -> None:
+    """A force whose sign or zero is not what the column says, and what corrects it."""
+    s = Stroke(1000.0, 2.0)
+    still = s.speed < 0.05
+    sliding = ~still
+
+    def measured(name: str, force: _Numbers, **words: Any) -> None:
+        write(f"{name}.csv", table(plain(s, force_newtons=force), {"force_newtons": "%.3f"}))
+        if words:
+            sidecar(f"{name}.json", **words)
+
+    keys = 'give the key "force_sign": -1 in'
+    measured("compression", -s.force)
+    refuse("compression.csv", "pressing counted as negative", "FILE: force_newtons is negative in 100 % of the "
+           "sliding, between -1.5 N and -0.9 N; expected a force that grows from 0 as the tip presses: where pressing "
+           f"counts as negative, {keys} compression.json or --force-sign -1")  # fmt: skip
+    measured("compression_known", -s.force, force_sign=-1)
+    read("compression_known.csv", "the sidecar says the sign", 1000.0, s.wave, s.speed, s.force)
+    low = s.force - 1.2
+    share = 100.0 * np.mean(low[s.speed > 0.2 * np.quantile(s.speed, 0.95)] < -0.03)
+    assert 20.0 < share < 80.0
+    measured("offset", low)
+    refuse("offset.csv", "a sensor that was zeroed while pressed", f"FILE: force_newtons is negative in {share:.3g} % "
+           "of the sliding, between -0.3 N and 0.3 N; expected a force that grows from 0 as the tip presses: where the "
+           'sensor was not zeroed, subtract what it reads in the air, by the key "force_rest_newtons"')  # fmt: skip
+    measured("offset_known", low, force_rest_newtons=-1.2)
+    read("offset_known.csv", "the sidecar says what the sensor reads at rest", 1000.0, s.wave, s.speed, s.force)
+    measured("offset_turned", -low, force_sign=-1, force_rest_newtons=1.2)
+    read("offset_turned.csv", "sign and rest: the rest is what the column reads", 1000.0, s.wave, s.speed, s.force)
+    measured("drift_down", s.force - 1.5 * s.time)
+    refuse("drift_down.csv", "a sensor that drifts below nothing", "% of the sliding, between -1.5")
+    measured("drift_up", s.force + 1.5 * s.time)
+    read("drift_up.csv", "a force that rises while the level stays", 1000.0, s.wave, s.speed, s.force + 1.5 * s.time,
+         notes=["over the recording, and the level does not follow; does the sensor drift?"])  # fmt: skip
+    strong = s.wave * s.force / 1.2
+    write("turned_above_zero.csv", table(plain(s, acceleration_mps2=strong, force_newtons=3.0 - s.force)))
+    read("turned_above_zero.csv", "pressing counted as negative from a rest of 3 N", 1000.0, strong, s.speed,
+         3.0 - s.force, notes=["force_newtons: the vibration grows weaker where it grows, as force^-1", "does the "
+         "column count pressing as negative?"])  # fmt: skip
+    write("follows.csv", table(plain(s, acceleration_mps2=strong)))
+    read("follows.csv", "a vibration that grows with the force", 1000.0, strong, s.speed, s.force)
+    lifted = np.where(s.time > 1.2, 0.0, 1.0)
+    quiet = s.wave * lifted + 0.0005 * np.random.default_rng(4).standard_normal(len(s.time))
+    write("rest_in_air.csv", table(plain(s, acceleration_mps2=quiet, force_newtons=s.force * lifted + 0.5)))
+    read("rest_in_air.csv", "a sensor that measures a force in the air", 1000.0, quiet, s.speed, s.force * lifted + 0.5,
+         notes=["force_newtons is 0.5 N where the tip moves without a sound, which is in the air; is the sensor "
+                "zeroed?"])  # fmt: skip
+    air = s.force * lifted - 0.05 * (1.0 - lifted)
+    write("zero_below.csv", table(plain(s, acceleration_mps2=quiet, force_newtons=air)))
+    read("zero_below.csv", "a zero a little below nothing in the air", 1000.0, quiet, s.speed, s.force * lifted,
+         notes=["force_newtons is below 0 in 40 % of its samples, down to -0.05 N, and taken as 0 there; is the sensor "
+                "zeroed?"])  # fmt: skip
+
+
 def make_broken_files() -> None:
     s = Stroke(1000.0, 0.2)
     text = table(plain(s))
-    write("semicolons.csv", text.replace(",", ";"))
-    refuse("semicolons.csv", "semicolons between columns", "FILE: columns separated by semicolons; expected commas "
-           "between columns and points in numbers")  # fmt: skip
     rows = text.splitlines()
     write("decimal_commas.csv", "\n".join([rows[0], *(row.replace(".", ",") for row in rows[1:])]) + "\n")
     refuse("decimal_commas.csv", "decimal commas", "FILE:2: 8 values; expected 4 as in the first line (decimals need "
@@ -322,9 +500,9 @@ def make_broken_files() -> None:
     refuse("text_cell.csv", "a word among the numbers", 'FILE:11: column speed_mps: is "fast"; expected a number with '
            'a decimal point')  # fmt: skip
     write("utf16.csv", b"\xff\xfe" + text.encode("utf-16-le"))
-    refuse("utf16.csv", "UTF-16", "FILE: is text in UTF-16; expected UTF-8: save the table as CSV UTF-8")
+    refuse("utf16.csv", "UTF-16", "FILE: is text in UTF-16; expected a table in UTF-8: save it as CSV UTF-8")
     write("binary.csv", bytes(range(256)) * 8)
-    refuse("binary.csv", "no text at all", "FILE: is not text: it has bytes of zero; expected a table (CSV) in UTF-8")
+    refuse("binary.csv", "no text at all", "FILE: is not text: it has bytes of zero; expected a table in UTF-8")
     write("empty.csv", "")
     refuse("empty.csv", "an empty file", "FILE: is empty; expected a table (CSV)")
     write("short.csv", "\n".join(rows[:4]) + "\n")
@@ -338,8 +516,8 @@ def make_broken_files() -> None:
     refuse("two_axes.csv", "two axes of three", "without acceleration_z_mps2; expected acceleration_x_mps2, "
            "acceleration_y_mps2, acceleration_z_mps2")  # fmt: skip
     write("table.parquet", b"PAR1")
-    refuse("table.parquet", "Parquet", "FILE: has the ending '.parquet'; expected a recording that ends with .csv or "
-           ".wav")  # fmt: skip
+    refuse("table.parquet", "Parquet", "FILE: has the ending '.parquet'; expected a recording that ends with .csv, "
+           ".wav or .w64")  # fmt: skip
 
 
 def make_wrong_units() -> None:
@@ -408,7 +586,8 @@ def make_sensor_faults() -> None:
 
 def main() -> None:
     for make in (
-        make_columns, make_clocks, make_sidecars, make_waves, make_broken_files, make_wrong_units, make_sensor_faults,
+        make_columns, make_clocks, make_sidecars, make_waves, make_laboratory_tables, make_signs_of_force, make_broken_files,
+        make_wrong_units, make_sensor_faults,
     ):  # fmt: skip
         make()
     (FOLDER / "expected.json").write_text(json.dumps(_answers, indent=1) + "\n", encoding="utf-8")

@@ -98,6 +98,21 @@ private:
     }
 };
 
+TEST_F(ContactProgramTest, KeyframesLongAfterTheStrokeAreSaidToBeInAnotherUnit) {
+    const auto scene = [](const std::string& time) {
+        return R"({"surfaces": [{"name": "door", "shape": {"plane": {}}, "material": "wood", "motion": {"keyframes": )"
+               R"([{"t": 0, "position": [0, 0, 0]}, {"t": )" +
+               time + R"(, "position": [0.1, 0, 0]}]}}]})";
+    };
+    write("moving.json", scene("250"));
+    const testing::Finished late = run("contact moving.json --stroke stroke.csv");
+    EXPECT_EQ(late.exitCode, 0);
+    EXPECT_THAT(late.errors,
+                ::testing::HasSubstr("moving.json: the motion of \"door\" goes on to 250 s, the stroke to"));
+    write("moving.json", scene("2.5"));
+    EXPECT_EQ(run("contact moving.json --stroke stroke.csv").errors, "");
+}
+
 TEST_F(ContactProgramTest, ItPrintsTheStatesAndWritesTheSameTextToAFile) {
     const auto printed = contact();
     ASSERT_EQ(printed.exitCode, exitDone) << printed.errors;

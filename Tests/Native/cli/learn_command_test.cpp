@@ -254,7 +254,7 @@ TEST_F(LearnCommandTest, GapsInTheTimesAndCellsWithoutANumberAreMissingSamples) 
 TEST_F(LearnCommandTest, ErrorsNameTheFileTheColumnOrKeyAndARemedy) {
     expectRefused("none.csv", "none.csv: does not exist");
     write("table.parquet", "PAR1");
-    expectRefused("table.parquet", "expected a recording that ends with .csv or .wav");
+    expectRefused("table.parquet", "expected a recording that ends with .csv, .wav or .w64");
     write("a.csv", "time_s,speed_mps,force_newtons\n0,1,1\n");
     expectRefused("a.csv",
                   "a.csv: columns time_s, speed_mps, force_newtons; expected acceleration: acceleration_mps2 | ");
@@ -268,7 +268,7 @@ TEST_F(LearnCommandTest, ErrorsNameTheFileTheColumnOrKeyAndARemedy) {
     write("e.csv", csvOf(made_, "time_s,acceleration_mps2,velocity_x_mps,b,force_newtons"));
     expectRefused("e.csv", "without velocity_y_mps");
     write("f.csv", "time_s;acceleration_mps2;speed_mps\n0;1;2\n");
-    expectRefused("f.csv", "columns separated by semicolons");
+    expectRefused("f.csv", "f.csv: 1 rows; expected 4 rows at least");
     write("g.csv", "time_s,acceleration_mps2,speed_mps,force_newtons\n0,1,2,3\n0.001,x,2,3\n");
     expectRefused("g.csv", "g.csv:3: column acceleration_mps2: is \"x\"; expected a number with a decimal point");
     write("h.csv", "time_s,acceleration_mps2,speed_mps,force_newtons\n0,1,2,3\n0.001,1,2\n");
@@ -300,6 +300,30 @@ TEST_F(LearnCommandTest, ErrorsForImplausibleNumbersSuggestAUnit) {
     }
     write("g.csv", text.str());
     expectRefused("g.csv", "acceleration_x_mps2 rests at 1, which looks like g");
+}
+
+TEST_F(LearnCommandTest, AForceWithTheOtherSignOrAnOffsetIsRefusedUntilTheCommandLineSaysWhatItMeans) {
+    write("true.csv", csv_);
+    ASSERT_EQ(learn("true.csv -o true.haptomaterial").exitCode, 0);
+    const auto measured = [&](const std::string& name, float sign, float offset) {
+        MadeRecording changed = made_;
+        std::ranges::transform(changed.force, changed.force.begin(),
+                               [&](float force) { return sign * force + offset; });
+        write(name, csvOf(changed));
+    };
+    measured("turned.csv", -1.0F, 0.0F);
+    expectRefused("turned.csv", "turned.csv: force_newtons is negative in 100 % of the sliding, between -");
+    expectRefused("turned.csv", "give the key \"force_sign\": -1 in turned.json or --force-sign -1");
+    measured("offset.csv", 1.0F, -0.75F);
+    expectRefused("offset.csv", "subtract what it reads in the air, by the key \"force_rest_newtons\"");
+    expectRefused("turned.csv --force-sign 2", "--force-sign", 2);
+    EXPECT_EQ(learn("turned.csv --force-sign -1 --name true -o turned.haptomaterial").exitCode, 0);
+    EXPECT_EQ(learn("offset.csv --force-rest-newtons -0.75 --name true -o offset.haptomaterial").exitCode, 0);
+    const auto laws = [&](const std::string& name) {
+        return nlohmann::json::parse(read(name)).at("level_exponents").dump();
+    };
+    EXPECT_EQ(laws("turned.haptomaterial"), laws("true.haptomaterial"));
+    EXPECT_EQ(laws("offset.haptomaterial"), laws("true.haptomaterial"));
 }
 
 TEST_F(LearnCommandTest, OptionsThatContradictTheFileAreUsageErrors) {

@@ -61,6 +61,20 @@ protected:
     std::string space_;
 };
 
+TEST_F(MaterialCommandTest, AMaterialsNameIsFoundInEveryCaseAndFormOfItsAccents) {
+    json material = json::parse(read("denim.haptomaterial"));
+    material["name"] = "\xC3\xA4hre";
+    write("own.haptomaterial", material.dump());
+    writeScene("A\xCC\x88HRE");
+    EXPECT_EQ(rendered("--material own.haptomaterial").at("labels"), json({"\xC3\xA4hre"}));
+    material["name"] = "a\xCC\x88hre";
+    write("same.haptomaterial", material.dump());
+    std::filesystem::remove(at("felt.wav"));
+    expectRefused("--material own.haptomaterial --material same.haptomaterial", 3, "which is already that of a label");
+    writeScene("ahre");
+    expectRefused("--material own.haptomaterial", 3, "which the model does not know");
+}
+
 TEST_F(MaterialCommandTest, AMaterialPathInASceneIsRelativeToTheScene) {
     writeScene("denim.haptomaterial");
     const json report = rendered();

@@ -160,6 +160,25 @@ TEST_F(OutputFilesTest, StandardInputAndOutputThatAreFilesAreFilesLikeOthers) {
     EXPECT_THAT(pipe.output, HasSubstr("touch_counter"));
 }
 
+TEST_F(OutputFilesTest, ADashIsStandardOutputAndMessagesGoElsewhere) {
+    const std::size_t before = contents().size();
+    ASSERT_EQ(run("render scene.json --stroke stroke.csv -o sound.wav --quiet").exitCode, 0);
+    const Finished rendered = run("render scene.json --stroke stroke.csv -o - --quiet");
+    EXPECT_EQ(rendered.exitCode, 0) << rendered.errors;
+    EXPECT_TRUE(rendered.output == read("sound.wav")) << rendered.output.size();
+    const Finished contact = run("contact scene.json --stroke stroke.csv -o -");
+    EXPECT_EQ(contact.output, run("contact scene.json --stroke stroke.csv").output);
+    const Finished learnt = run("learn tile.csv --model model.haptoflow --quiet -o -");
+    EXPECT_EQ(learnt.exitCode, 0) << learnt.errors;
+    EXPECT_TRUE(nlohmann::json::accept(learnt.output)) << learnt.output.substr(0, 200);
+    EXPECT_THAT(learnt.errors, HasSubstr("Learnt tile from "));
+    const Finished both = run("render scene.json --stroke stroke.csv -o - --report - --quiet");
+    EXPECT_EQ(both.exitCode, 2) << both.errors;
+    EXPECT_THAT(both.errors, HasSubstr("--report -: is the same file as -o -"));
+    EXPECT_EQ(both.output, "");
+    EXPECT_EQ(contents().size(), before + 1) << "a file named - was written";
+}
+
 TEST_F(OutputFilesTest, AFullDiskLeavesTheOldFileAndNothingElse) {
     write("felt.wav", "old");
     write("states.csv", "old");

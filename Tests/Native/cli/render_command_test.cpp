@@ -173,8 +173,17 @@ TEST_F(RenderCommandTest, ARenderThatFailsLeavesNoFileAndTheOldOneUnchanged) {
     EXPECT_EQ(read("felt.wav.part"), "somebody else's");
 }
 
+/// A tip that hovers, with rows ten minutes apart.
+std::string restingStroke(int steps) {
+    std::string text = "t,x,y,z\n";
+    for (int row = 0; row <= steps; ++row) {
+        text += std::to_string(600 * row) + ",0,0.5,0\n";
+    }
+    return text;
+}
+
 TEST_F(RenderCommandTest, ARenderThatIsStoppedLeavesNoFile) {
-    write("stroke.csv", "t,x,y,z\n0,0,0.5,0\n9000,0.03,0.5,0\n");
+    write("stroke.csv", restingStroke(15));
     const std::size_t before = fileCount();
     const Finished stopped = testing::runHaptoFlow(
         "render scene.json --stroke stroke.csv -o felt.wav --waveform raw.wav --rate 96000 & child=$!; "
@@ -244,7 +253,7 @@ TEST_F(RenderCommandTest, AMisspeltCommandOptionOrQualityIsRefusedWithASuggestio
 
 TEST_F(RenderCommandTest, AnUnknownLabelIsRefusedWithTheNearestThreeAndTheListOfAll) {
     for (const auto& [written, meant] : {std::pair{"wod", "'wood'"},
-                                         {"Wood", "'wood'"},
+                                         {"Woods", "'wood'"},
                                          {"metal_mesh", "'metal mesh'"},
                                          {"sandpapper", "'sandpaper'"},
                                          {"cork", "'fur'"}}) {
@@ -320,6 +329,14 @@ TEST_F(RenderCommandTest, TapsBetweenTwoFramesAreCountedInANote) {
     EXPECT_EQ(nlohmann::json::parse(read("felt.json"))["missed_touches"], 1);
 }
 
+TEST_F(RenderCommandTest, ALabelIsFoundInEveryCase) {
+    ASSERT_EQ(render("-o felt.wav --quiet").exitCode, 0);
+    write("scene.json", R"({"surfaces": [{"name": "floor", "shape": {"plane": {}}, "material": "Wood"}]})");
+    ASSERT_EQ(render("-o capital.wav --quiet --report capital.json").exitCode, 0);
+    EXPECT_TRUE(read("capital.wav") == read("felt.wav"));
+    EXPECT_EQ(nlohmann::json::parse(read("capital.json")).at("labels").dump(), R"(["wood"])");
+}
+
 TEST_F(RenderCommandTest, AnOrdinaryStrokeIsRenderedWithoutANote) {
     const Finished rendered = render("-o felt.wav");
     EXPECT_EQ(rendered.exitCode, 0);
@@ -329,11 +346,10 @@ TEST_F(RenderCommandTest, AnOrdinaryStrokeIsRenderedWithoutANote) {
 TEST_F(RenderCommandTest, AStrokeTooLongForAWaveFileIsRefusedBeforeRendering) {
     write("scene.json",
           R"({"surfaces": [{"name": "floor", "shape": {"plane": {}}, "material": "wood"}], "update_rate": 1})");
-    write("stroke.csv", "t,x,y,z\n0,0,0.5,0\n100000,0.03,0.5,0\n");
+    write("stroke.csv", restingStroke(28));
     const Finished rendered = render("-o felt.wav --rate 192000");
     EXPECT_EQ(rendered.exitCode, 3);
-    EXPECT_THAT(rendered.errors,
-                HasSubstr("stroke.csv: lasts 100000 s; a WAV file at this --rate has room for 5592 s"));
+    EXPECT_THAT(rendered.errors, HasSubstr("stroke.csv: lasts 16800 s; a WAV file at this --rate has room for 5592 s"));
     EXPECT_FALSE(exists("felt.wav"));
 }
 

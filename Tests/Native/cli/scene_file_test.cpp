@@ -174,6 +174,39 @@ TEST(SceneFileTest, ErrorsForWrongValuesNameFilePathAndExpectedValue) {
     }
 }
 
+std::string keyframesAt(double unitsPerSecond, int count, double keyframesPerSecond) {
+    nlohmann::json keyframes;
+    for (int i = 0; i < count; ++i) {
+        const double seconds = i / keyframesPerSecond;
+        keyframes.push_back({{"t", seconds * unitsPerSecond}, {"position", {0.3 * seconds, 0, 0}}});
+    }
+    return nlohmann::json{{"surfaces",
+                           {{{"name", "lift"},
+                             {"shape", {{"plane", nlohmann::json::object()}}},
+                             {"material", "wood"},
+                             {"motion", {{"keyframes", keyframes}}}}}}}
+        .dump();
+}
+
+TEST(SceneFileTest, KeyframesInMillisecondsAreRefused) {
+    const auto complaint = [](const std::string& text) -> std::string {
+        try {
+            static_cast<void>(parseSceneText(text, "scene.json"));
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "no complaint";
+    };
+    for (const auto& [count, perSecond] : {std::pair{300, 90.0}, {10, 10.0}, {4, 1.0}, {2, 0.5}}) {
+        SCOPED_TRACE(count);
+        EXPECT_EQ(complaint(keyframesAt(1.0, count, perSecond)), "no complaint");
+        EXPECT_THAT(complaint(keyframesAt(1e3, count, perSecond)),
+                    HasSubstr("scene.json: surfaces[0].motion.keyframes: t rises by "));
+        EXPECT_THAT(complaint(keyframesAt(1e3, count, perSecond)),
+                    HasSubstr("are these milliseconds? Divide them by 1000"));
+    }
+}
+
 TEST(SceneFileTest, ErrorsForUnknownAndMissingKeysNameTheKnownOnes) {
     EXPECT_THAT(complaintAbout("/surfaces/0/colour", "red"),
                 AllOf(HasSubstr("surfaces[0]: unknown key \"colour\""), HasSubstr("material, stiffness")));

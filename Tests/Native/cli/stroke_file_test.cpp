@@ -57,6 +57,65 @@ TEST(StrokeFileTest, WindowsLineEndsByteOrderMarkSpacesAndTrailingEmptyLinesAreA
     EXPECT_EQ(parseStroke("t,x,y,z\n0,1,2,3", "stroke.csv").samples.size(), 1U);
 }
 
+TEST(StrokeFileTest, TablesOfSpreadsheetsAndInstrumentsAreRead) {
+    for (const std::string text : {
+             "t;x;y;z;force\n0;0,5;-1;2;0,25\n0,01;0;0;0;\n",
+             "sep=;\r\nt;x;y;z;force\r\n0;0,5;-1;2;0,25\r\n0,01;0;0;0;N/A\r\n",
+             "t\tx\ty\tz\tforce\r0\t0.5\t-1\t2\t0.25\r0.01\t0\t0\t0\tnull\r",
+             " t  x y z force\n 0 0.5  \xE2\x88\x92"
+             "1 2 0.25 \n0.01 0 0 0 nan\n",
+             "\"t\",\"x\",\"y\",\"z\",\"force\",,\n0,\"0,5\",-1,2,\"0,25\",,\n\"0,01\",0,0,0,None,,\n,,,,,,\n",
+         }) {
+        SCOPED_TRACE(text);
+        const Stroke stroke = parseStroke(text, "stroke.csv");
+        ASSERT_EQ(stroke.samples.size(), 2U);
+        EXPECT_EQ(stroke.samples[0].positionMetres, glm::dvec3(0.5, -1.0, 2.0));
+        EXPECT_DOUBLE_EQ(stroke.samples[0].forceNewtons.value_or(-1.0), 0.25);
+        EXPECT_DOUBLE_EQ(stroke.samples[1].timeSeconds, 0.01);
+        EXPECT_FALSE(stroke.samples[1].forceNewtons);
+    }
+    EXPECT_THAT(complaintAbout("t;x;y;z\n0;0,5;0.5;0\n"), HasSubstr("stroke.csv:2: column y"));
+    EXPECT_THAT(complaintAbout("t;x;y;z\n0;0;0;0;0,1\n"), HasSubstr("stroke.csv:2: expected 4 values"));
+    const Stroke epoch = parseStroke("t;x;y;z\n1700000000,25;0;0;0\n1700000000,5;1;0;0\n", "s");
+    EXPECT_DOUBLE_EQ(epoch.samples[1].timeSeconds, 0.25);
+}
+
+/// A tip that moves back and forth with up to 0.13 m/s, at a rate, in a unit of time.
+std::string strokeAt(double rowsPerSecond, double unitsPerSecond, int rows, double amplitudeMetres = 0.04) {
+    std::ostringstream text;
+    text.imbue(std::locale::classic());
+    text.precision(10);
+    text << "t,x,y,z\n";
+    for (int row = 0; row < rows; ++row) {
+        const double seconds = row / rowsPerSecond;
+        text << seconds * unitsPerSecond << ',' << amplitudeMetres * std::sin(3.3 * seconds) << ",0,0\n";
+    }
+    return text.str();
+}
+
+TEST(StrokeFileTest, TimesInAnotherUnitAreRefusedWithItsName) {
+    for (const double each : {30.0, 72.0, 90.0, 120.0, 500.0, 1000.0}) {
+        SCOPED_TRACE(each);
+        const int rows = static_cast<int>(3.0 * each);
+        EXPECT_EQ(complaintAbout(strokeAt(each, 1.0, rows)), "no complaint");
+        EXPECT_THAT(complaintAbout(strokeAt(each, 1e3, rows)),
+                    AllOf(HasSubstr("stroke.csv: column t: rises by "),
+                          HasSubstr("expected seconds: are these milliseconds? Divide them by 1000")));
+        EXPECT_THAT(complaintAbout(strokeAt(each, 1e6, rows)), HasSubstr("are these microseconds?"));
+        EXPECT_EQ(complaintAbout(strokeAt(each, 1.0, rows, 0.0)), "no complaint");
+    }
+    EXPECT_THAT(complaintAbout(strokeAt(90.0, 1e3, 200, 0.0)), HasSubstr("are these milliseconds?"));
+}
+
+TEST(StrokeFileTest, AGapOfManyMinutesIsRefusedAndWaypointsAndSlowStrokesAreNot) {
+    EXPECT_THAT(complaintAbout("t,x,y,z\n0,0,0,0\n0.01,0,0,0\n7200,0,0,0\n7200.01,0,0,0\n"),
+                HasSubstr("stroke.csv:4: column t: is 7200 s after the line above; expected steps of 600 s at most"));
+    EXPECT_EQ(complaintAbout("t,x,y,z\n0,0,0,0\n30,0,0,0\n31,0.05,0,0\n32,0,0,0\n"), "no complaint");
+    EXPECT_EQ(complaintAbout("t,x,y,z\n0,0,0,0\n100,0.05,0,0\n"), "no complaint");
+    EXPECT_EQ(complaintAbout(strokeAt(90.0, 1.0, 900, 0.0002)), "no complaint");
+    EXPECT_EQ(complaintAbout(strokeAt(1.0, 1.0, 20, 0.05)), "no complaint");
+}
+
 TEST(StrokeFileTest, SecondsSince1970CountFromTheFirstRowWithEveryDigit) {
     const Stroke stroke = parseStroke(
         "t,x,y,z\n1700000000.999999987,0,0,0\n1700000001.000000012,1,0,0\n1.7000000025e9,2,0,0\n", "stroke.csv");
@@ -76,7 +135,8 @@ TEST(StrokeFileTest, SecondsSince1970CountFromTheFirstRowWithEveryDigit) {
 TEST(StrokeFileTest, ErrorsNameFileLineAndColumn) {
     EXPECT_THAT(complaintAbout(""), HasSubstr("stroke.csv:1: expected the header t,x,y,z"));
     EXPECT_THAT(complaintAbout("t,x,y\n"), HasSubstr("stroke.csv:1: expected the header"));
-    EXPECT_THAT(complaintAbout("t;x;y;z\n0;0;0;0\n"), HasSubstr("commas between the names, found \"t;x;y;z\""));
+    EXPECT_THAT(complaintAbout("t/x/y/z\n0/0/0/0\n"), HasSubstr("found \"t/x/y/z\""));
+    EXPECT_THAT(complaintAbout("\xFF\xFEt\0,\0x\0"), HasSubstr("stroke.csv:1: is text in UTF-16; expected UTF-8"));
     EXPECT_THAT(complaintAbout("t,x,y,z,qx\n"), HasSubstr("expected the header"));
     EXPECT_THAT(complaintAbout("t,x,y,z\n"), HasSubstr("stroke.csv:1: expected one or more samples"));
     EXPECT_THAT(complaintAbout("t,x,y,z\n0,0,zero,0\n"),

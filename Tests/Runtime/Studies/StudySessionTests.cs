@@ -1,4 +1,5 @@
 #nullable enable
+using System.Globalization;
 using System.IO;
 using System.Linq;
 using HaptoFlow.Model;
@@ -49,6 +50,9 @@ namespace HaptoFlow.Tests
         private static string Field(string row, string column) =>
             row.Split(',')[StudyKind.Latency.Columns.ToList().IndexOf(column)];
 
+        private static double SecondsOf(string row) =>
+            double.Parse(Field(row, "elapsed_seconds"), CultureInfo.InvariantCulture);
+
         [Test]
         public void EveryTrialIsRunOnceAndTheSidecarMarksTheSessionFinished()
         {
@@ -71,7 +75,7 @@ namespace HaptoFlow.Tests
             AnswerOne();
             AnswerOne();
             Assert.That(Field(folder.Rows[0], "response_seconds"), Is.EqualTo("0.5"));
-            Assert.That(double.Parse(Field(folder.Rows[1], "elapsed_seconds")), Is.EqualTo(5.0).Within(0.011));
+            Assert.That(SecondsOf(folder.Rows[1]), Is.EqualTo(5.0).Within(0.011));
         }
 
         [Test]
@@ -119,7 +123,7 @@ namespace HaptoFlow.Tests
             Assert.That(session.Answer(StudyFolder.Yes()), Is.False, "the question is closed");
             AnswerOne();
             Assert.That((Field(folder.Rows[0], "trial"), Field(folder.Rows[0], "attempt")), Is.EqualTo(("1", "3")));
-            Assert.That(double.Parse(Field(folder.Rows[0], "elapsed_seconds")), Is.EqualTo(4.5).Within(0.011));
+            Assert.That(SecondsOf(folder.Rows[0]), Is.EqualTo(4.5).Within(0.011));
             Assert.That(session.Attempt, Is.EqualTo(1), "the next trial is at its first attempt");
         }
 
@@ -157,7 +161,7 @@ namespace HaptoFlow.Tests
             Assert.That(folder.Rows, Has.Length.EqualTo(8));
             Assert.That(folder.Rows.Select(row => Field(row, "attempt")),
                 Is.EqualTo(new[] { "1", "1", "2", "1", "1", "1", "1", "1" }));
-            double[] elapsed = folder.Rows.Select(row => double.Parse(Field(row, "elapsed_seconds"))).ToArray();
+            double[] elapsed = folder.Rows.Select(SecondsOf).ToArray();
             Assert.That(elapsed, Is.Ordered);
             Assert.That(elapsed[2], Is.EqualTo(7.5).Within(0.03), "the time continues from the last row");
         }

@@ -17,7 +17,7 @@ from haptoflow_paper.codec.representation_base import Representation
 from haptoflow_paper.codec.resampled_encodec import DEFAULT_WAVEFORM_SCALE, ResampledEnCodec
 from haptoflow_paper.codec.small_codec import SmallCodec
 from haptoflow_training.errors import InputError
-from haptoflow_training.export.onnx_graphs import OPSET
+from haptoflow_training.export.onnx_graphs import trace_graph
 from haptoflow_training.waveform import SEGMENT_SAMPLES
 
 _Port = tuple[str, tuple[int, int]]
@@ -86,15 +86,7 @@ class CodecRepresentation(Representation):
             # The exporter warns that lengths become constants, which is intended, and about the LSTM without initial
             # state, which works for any batch.
             warnings.simplefilter("ignore")
-            torch.onnx.export(
-                _Graph(self.codec, function).eval(),
-                (example,),
-                str(path),
-                opset_version=OPSET,
-                input_names=[source[0]],
-                output_names=[target[0]],
-                dynamic_axes={name: {0: "batch"} for name, _ in (source, target)},
-            )
+            trace_graph(_Graph(self.codec, function), (example,), str(path), [source[0]], [target[0]])
         model = onnx.load(str(path))
         # The exporter does not infer lengths after slices; store the output shape for readers of the graph.
         dimensions = model.graph.output[0].type.tensor_type.shape.dim[1:]

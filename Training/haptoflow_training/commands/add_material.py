@@ -7,6 +7,7 @@ import argparse
 import json
 import math
 import re
+import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -82,7 +83,7 @@ def run(options: argparse.Namespace) -> int:
     if not 0.0 < options.seconds_limit <= 3600.0:
         raise InputError(f"--seconds-limit {options.seconds_limit:g}: expected above 0 to 3600")
     wave_vectors = _wave_vectors(options.wave_vector)
-    files = material_files(options.recording)
+    files = material_files(options.recording, _tell)
     # One file is learnt as `haptoflow learn` does it, byte for byte; several are joined as training prepares them.
     is_one_file = len(options.recording) == 1 and options.recording[0].is_file()
     read = read_own(options.recording[0]) if is_one_file else None
@@ -91,7 +92,9 @@ def run(options: argparse.Namespace) -> int:
     if out.suffix != SUFFIX:
         require_new_name(model, name)
     check_writable(out)
-    recording = read.even if read else joined(read_material_recordings(files))
+    for note in read.notes if read else ():
+        _tell(note)
+    recording = read.even if read else joined(read_material_recordings(files, _tell))
     assert recording is not None
     with tqdm(total=100, desc=name, unit="%", disable=None) as progress:
         learnt = learn_material(
@@ -109,6 +112,10 @@ def run(options: argparse.Namespace) -> int:
         write_model_file(out, with_label(model, json.loads(learnt.text)))
     _report(out, name, learnt.report)
     return 0
+
+
+def _tell(line: str) -> None:
+    print(line, file=sys.stderr)
 
 
 def _name(options: argparse.Namespace, files: Sequence[RecordingFile], of_one_file: str | None) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import time
+from collections.abc import Collection
 from pathlib import Path
 
 from haptoflow_training.errors import InputError
@@ -79,7 +80,7 @@ def run(options: argparse.Namespace) -> int:
             provenance={"recordings": [dataset.provenance for dataset in datasets]},
             workers=options.workers,
         )
-    _report(store, time.perf_counter() - begun)
+    _report(store, time.perf_counter() - begun, [note for dataset in datasets for note in dataset.notes])
     return 0
 
 
@@ -92,7 +93,7 @@ def _labels(datasets: list[Dataset], labels_path: Path | None) -> list[str]:
     return [name for name in order.names if name in present]
 
 
-def _report(store: SegmentStore, elapsed_seconds: float) -> None:
+def _report(store: SegmentStore, elapsed_seconds: float, said: Collection[str]) -> None:
     seconds = len(store.waveform) / store.sample_rate_hz
     shares = ", ".join(f"{name} {len(store.split(name))}" for name in SPLITS)
     print(
@@ -102,3 +103,6 @@ def _report(store: SegmentStore, elapsed_seconds: float) -> None:
     )
     for skipped in store.skipped:
         print(f"skipped: {skipped}")
+    for note in store.notes:
+        if note not in said:
+            print(note)

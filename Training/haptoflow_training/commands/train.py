@@ -117,7 +117,7 @@ def report_left_out(source: Source) -> None:
     """Print which recordings are not used for training, and why."""
     for skipped in source.store.skipped:
         print(f"skipped: {skipped}", file=sys.stderr)
-    for line in source.left_out:
+    for line in dict.fromkeys((*source.left_out, *source.store.notes)):
         print(line, file=sys.stderr)
     for info in source.labels:
         if (degrees := source.turned_degrees.get(info.name)) is not None:

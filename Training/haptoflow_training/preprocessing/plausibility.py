@@ -23,6 +23,10 @@ _WEAKEST_NEWTONS = 0.002
 _MAXIMUM_RATIO_OF_A_HAND = 30.0
 _MINIMUM_COMPARED_SPEED_MMPS = 20.0
 _MAXIMUM_SPEED_MPS = 10.0
+# A sensor without load trembles around nothing.
+_NOISE_NEWTONS = 0.02
+_NOISE_SHARE = 0.1
+_MAXIMUM_NEGATIVE_SHARE = 0.05
 _SPIKE_NEWTONS = 20.0
 _SPIKE_RATIO = 8.0
 _CLIPPED_RUN = 4
@@ -72,7 +76,8 @@ def _acceleration(recording: Recording) -> Iterator[Implausibility]:
 
 
 def _force(recording: Recording) -> Iterator[Implausibility]:
-    values = np.abs(np.asarray(recording.force_newtons, dtype=np.float64))
+    measured = np.asarray(recording.force_newtons, dtype=np.float64)
+    values = np.abs(measured)
     median, usual = float(np.median(values)), float(np.percentile(values, 95))
     nominal = recording.identity.force_millinewtons / 1000.0 if recording.identity.protocol == "machine" else 0.0
     ratio = median / nominal if nominal > 0.0 else 1.0
@@ -82,6 +87,13 @@ def _force(recording: Recording) -> Iterator[Implausibility]:
         yield Implausibility("force", f"is {median:.4g}{named}", expected)
     elif usual < _WEAKEST_NEWTONS:
         yield Implausibility("force", f"is {usual:.2g} at most", "newtons (times 1000 for kN), and a tip that touches")
+    negative = float(np.mean(measured < -max(_NOISE_NEWTONS, _NOISE_SHARE * usual)))
+    if negative > _MAXIMUM_NEGATIVE_SHARE:
+        found = f"is negative in {100.0 * negative:.0f} % of the samples, down to {measured.min():.2g} N"
+        yield Implausibility(
+            "force", found, "newtons that grow from 0 as the tip presses: turn the sign, or subtract what the sensor "
+            "reads in the air",
+        )  # fmt: skip
     strongest = float(values.max())
     if strongest > max(_SPIKE_NEWTONS, _SPIKE_RATIO * usual):
         yield Implausibility("force", f"has a spike of {strongest:.0f} where {usual:.1f} is usual", "no glitches")

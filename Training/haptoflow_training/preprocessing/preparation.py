@@ -60,6 +60,8 @@ class _Prepared:
     split: Split | None = None
     piece: int = 0
     specimen: int | None = None
+    # Of the reader of the whole recording.
+    notes: tuple[str, ...] = ()
 
     @property
     def name(self) -> str:
@@ -100,7 +102,7 @@ def prepare_store(
         prepared = _prepare_each(recordings, labels, settings, seed, workers, cut_labels)
         with deferred():
             bar = tqdm(prepared, disable=not progress, unit=" recordings", desc="prepare")
-            stored, skipped = _append_all(bar, labels, unfinished, settings, seed)
+            stored, skipped, notes = _append_all(bar, labels, unfinished, settings, seed)
         peak_mps2 = _peak(stored, skipped)
         _rescale(unfinished / store_module.WAVEFORM_FILE, peak_mps2)
         store_module.write_header(
@@ -108,6 +110,7 @@ def prepare_store(
             labels=labels,
             recordings=stored,
             skipped=skipped,
+            notes=notes,
             peak_mps2=peak_mps2,
             seed=seed,
             settings=settings,
@@ -227,7 +230,7 @@ def _prepare_one(
             piece = _prepare_part(item, number, cut(part, time), settings, seed, time.split, pieces[time.split])
             pieces[time.split] += 1
             prepared.append(piece)
-    return [dataclasses.replace(one, specimen=recording.specimen) for one in prepared]
+    return [dataclasses.replace(one, specimen=recording.specimen, notes=recording.notes) for one in prepared]
 
 
 def _prepare_part(
@@ -249,14 +252,16 @@ def _prepare_part(
 
 def _append_all(
     prepared: Iterable[list[_Prepared]], labels: list[str], folder: Path, settings: PreprocessingSettings, seed: int
-) -> tuple[list[StoredRecording], list[SkippedRecording]]:
+) -> tuple[list[StoredRecording], list[SkippedRecording], list[str]]:
     stored: list[StoredRecording] = []
     skipped: list[SkippedRecording] = []
+    notes: dict[str, None] = {}
     start = 0
     with ExitStack() as opened:
         files = [opened.enter_context((folder / name).open("wb")) for name in store_module.ARRAY_FILES]
         for item in (part for parts in prepared for part in parts):
             end_if_stopped()
+            notes.update(dict.fromkeys(item.notes))
             if item.padded is None:
                 skipped.append(SkippedRecording(item.name, item.problem or "", item.label))
                 continue
@@ -285,7 +290,7 @@ def _append_all(
                 )
             )
             start += length
-    return stored, skipped
+    return stored, skipped, list(notes)
 
 
 def _stored_wander(turns: NDArray[np.float64]) -> NDArray[np.float32]:

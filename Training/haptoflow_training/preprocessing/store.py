@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import dataclasses
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -82,7 +82,8 @@ class SegmentStore:
     3] float32: vx, vy in m/s, force in N. position_mm: [total, 2] float32: the place on the surface. wander_turns:
     [total, 3] float32: as of Wander (recording.py), the last column modulo 1. All are read-only memory maps, which
     processes can share. ribs_followed: the wander is that of the vibration's fundamental (rib_phases.py), which the filter
-    of a surface delays, instead of the surface's own."""
+    of a surface delays, instead of the surface's own. notes: what the reader of the recordings ignored or corrected, one
+    sentence each."""
 
     path: Path
     waveform: NDArray[np.float32]
@@ -98,6 +99,7 @@ class SegmentStore:
     settings: PreprocessingSettings
     provenance: dict[str, Any]
     ribs_followed: bool = False
+    notes: list[str] = field(default_factory=list)
 
     def split(self, name: Split) -> list[StoredRecording]:
         return [recording for recording in self.recordings if recording.split == name]
@@ -126,6 +128,7 @@ class SegmentStore:
                 seed=int(header["seed"]),
                 settings=PreprocessingSettings.from_json(header["settings"]),
                 provenance=header["provenance"],
+                notes=list(header.get("notes", ())),
             )
         except (KeyError, TypeError, ValueError) as error:
             raise InputError(f"{root / STORE_FILE}: damaged ({error}); run prepare again") from error
@@ -137,6 +140,7 @@ def write_header(
     labels: list[str],
     recordings: list[StoredRecording],
     skipped: list[SkippedRecording],
+    notes: list[str],
     peak_mps2: float,
     seed: int,
     settings: PreprocessingSettings,
@@ -151,6 +155,7 @@ def write_header(
         "seed": seed,
         "settings": settings.to_json(),
         "provenance": provenance,
+        "notes": notes,
         "skipped": [dataclasses.asdict(entry) for entry in skipped],
         "recordings": [dataclasses.asdict(recording) for recording in recordings],
     }

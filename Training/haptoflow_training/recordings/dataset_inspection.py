@@ -36,6 +36,7 @@ def inspect_dataset(dataset: Dataset, recordings: Iterable[RecordingFile] | None
     clocks: dict[str, list[tuple[float, float]]] = defaultdict(list)
     quantiles: dict[str, list[NDArray[np.float64]]] = defaultdict(list)
     noises: list[SensorNoise] = []
+    notes = list(dataset.notes)
     problems = list(dataset.problems)
     for entry in dataset if recordings is None else recordings:
         try:
@@ -43,6 +44,7 @@ def inspect_dataset(dataset: Dataset, recordings: Iterable[RecordingFile] | None
         except DatasetFileError as error:
             problems.append(error)
             continue
+        notes += (note for note in recording.notes if note not in notes)
         for one in implausible(recording):
             problems.append(DatasetFileError(entry.path_of(one.sensor), f"{one.sensor} {one.found}", one.expected))
         if recording.has_sensor_noise:
@@ -78,7 +80,7 @@ def inspect_dataset(dataset: Dataset, recordings: Iterable[RecordingFile] | None
             },
         },
         "coverage": _coverage(readable),
-        "notes": list(dataset.notes),
+        "notes": notes,
         "problems": [
             {"file": str(problem.path), "found": problem.found, "expected": problem.expected} for problem in problems
         ],

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import re
 import tomllib
+import unicodedata
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -53,8 +53,10 @@ class LabelMap:
 
 
 def plain_name(name: str) -> str:
-    """A texture's name in lower case without spaces and punctuation, because releases spell names differently."""
-    return re.sub(r"[^a-z0-9]", "", name.casefold())
+    """A texture's name in lower case without spaces and punctuation, because releases spell names differently; of any
+    script, however its accents are encoded."""
+    composed = unicodedata.normalize("NFC", unicodedata.normalize("NFC", name).casefold())
+    return "".join(letter for letter in composed if unicodedata.category(letter)[0] not in "PSZC")
 
 
 def load_labels(path: Path | str | None = None) -> LabelMap:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -36,29 +36,43 @@ class MaterialRecording:
         return len(self.vibration_mps2) / 2000.0
 
 
-def material_files(paths: Sequence[Path | str]) -> list[RecordingFile]:
+def material_files(paths: Sequence[Path | str], tell: Callable[[str], None]) -> list[RecordingFile]:
     """Every recording in files and folders (own files, or the published data set's layout), described and not yet read.
 
-    InputError if one cannot be used, naming file, column or key, what was found and what is expected; and if there is
-    none.
+    tell: called with a line for each recording of a folder that cannot be used. InputError, naming file, column or key,
+    what was found and what is expected, if a file that was named itself cannot be used, or if nothing can.
     """
     files: list[RecordingFile] = []
     for path in paths:
         dataset = open_recordings(path)
+        found = (*dataset.recordings, *dataset.unlabelled)
         for problem in dataset.problems:
-            raise InputError(str(problem))
-        files += (*dataset.recordings, *dataset.unlabelled)
+            if not found:
+                raise InputError(str(problem))
+            tell(f"skipped: {problem}")
+        files += found
     if not files:
         raise InputError(f"{', '.join(map(str, paths))}: no recording; expected .csv, .parquet or .wav files")
     return files
 
 
-def read_material_recordings(files: Sequence[RecordingFile]) -> list[MaterialRecording]:
-    """The samples of recordings, prepared as for training; InputError as of `material_files`."""
+def read_material_recordings(files: Sequence[RecordingFile], tell: Callable[[str], None]) -> list[MaterialRecording]:
+    """The samples of recordings, prepared as for training. tell: called with a line for each one that cannot be used,
+    and with what the reader ignored or corrected. InputError if none can be used."""
     settings = PreprocessingSettings()
     recordings: list[MaterialRecording] = []
     for entry in files:
-        for number, part in enumerate(preprocess_parts(entry.load(), settings)):
+        try:
+            read = entry.load()
+            parts = preprocess_parts(read, settings)
+        except InputError as error:
+            if len(files) == 1:
+                raise
+            tell(f"skipped: {error}")
+            continue
+        for note in read.notes:
+            tell(note)
+        for number, part in enumerate(parts):
             name = entry.identity.name if number == 0 else f"{entry.identity.name} part {number + 1}"
             recordings.append(
                 MaterialRecording(
@@ -66,4 +80,6 @@ def read_material_recordings(files: Sequence[RecordingFile]) -> list[MaterialRec
                     entry.licence, entry.source,
                 )  # fmt: skip
             )
+    if not recordings:
+        raise InputError("no recording could be used")
     return recordings

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -122,11 +123,11 @@ def read_native(
     DatasetFileError names file, line and column or key, what was found and what is expected.
     """
     library = native_library()
-    given = [_File(name.encode(), content, len(content)) for name, content in (files or {}).items()]
+    given = [_File(os.fsencode(name), content, len(content)) for name, content in (files or {}).items()]
     options = options_of(
         _Options,
         file_count=len(given),
-        path=str(path).encode(),
+        path=os.fsencode(path),
         files=(_File * len(given))(*given) if given else None,
         without_samples=not samples,
         needs_motion_and_force=complete,
@@ -176,18 +177,23 @@ def _even(info: _Info, velocity: tuple[float, float] | None, force: float | None
     )
 
 
+def _text(content: bytes) -> str:
+    """A sentence or a name: whatever bytes a file's name has, they can be printed."""
+    return content.decode("utf-8", "backslashreplace")
+
+
 def _copied(info: _Info) -> NativeRecording:
     x, y = info.constant_velocity_mps[:]
     velocity = None if np.isnan(x) else (x, y)
     force = None if np.isnan(info.constant_force_newtons) else info.constant_force_newtons
-    motion_path = info.motion_path.decode()
+    motion_path = os.fsdecode(info.motion_path)
     return NativeRecording(
-        label=info.label.decode(),
-        material_name=info.material_name.decode(),
-        licence=info.licence.decode(),
-        source=info.source.decode(),
+        label=_text(info.label),
+        material_name=_text(info.material_name),
+        licence=_text(info.licence),
+        source=_text(info.source),
         motion_path=Path(motion_path) if motion_path else None,
-        notes=tuple(info.notes.decode().splitlines()),
+        notes=tuple(_text(info.notes).split("\n")) if info.notes else (),
         even=_even(info, velocity, force),
         acceleration=_track(info.acceleration),
         motion=_track(info.motion),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import replace
 from pathlib import Path
 
@@ -24,7 +25,7 @@ def open_own_dataset(root: Path, labels: LabelMap | None = None) -> Dataset:
     described: list[OwnRecordingFile] = []
     for path in _files(root):
         try:
-            described.append(described_file(path, path.relative_to(base).as_posix()))
+            described.append(described_file(path, _name(path.relative_to(base))))
         except DatasetFileError as error:
             broken[path] = error
     motions = {entry.motion_path.resolve() for entry in described if entry.motion_path is not None}
@@ -47,6 +48,11 @@ def open_own_dataset(root: Path, labels: LabelMap | None = None) -> Dataset:
         root, tuple(complete), tuple(unlabelled), tuple(problems), {**provenance, "synthetic": False},
         _left_out(root, unlabelled), tuple(notes), is_own=True,
     )  # fmt: skip
+
+
+def _name(path: Path) -> str:
+    """Also of bytes that are not UTF-8, which no report and no store could hold."""
+    return os.fsencode(path.as_posix()).decode("utf-8", "backslashreplace")
 
 
 def _is_motion(path: Path, named: set[Path]) -> bool:

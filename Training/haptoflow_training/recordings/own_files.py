@@ -17,7 +17,7 @@ from haptoflow_training.recordings.file_names import beside, ending_of, sidecar_
 from haptoflow_training.recordings.native_recording import NativeRecording, Track, read_native
 from haptoflow_training.recordings.recording import STANDARD_GRAVITY_MPS2, Recording, RecordingIdentity
 
-OWN_ENDINGS = (".csv", ".parquet", ".wav")
+OWN_ENDINGS = (".csv", ".parquet", ".wav", ".w64")
 DEFAULTS_FILE = "recordings.json"
 _MOTION_MARK = ".motion"
 # Above this rate a recording is filtered before it is resampled, to prevent aliasing.
@@ -122,7 +122,7 @@ def _recording(read: NativeRecording, identity: RecordingIdentity, label: str) -
     time, values = _band_limited(read.acceleration)
     return Recording(
         identity, label, time, values / STANDARD_GRAVITY_MPS2, force.time_seconds, force.values[:, 0], position_time,
-        position_mm, velocity_mps=velocity, has_sensor_noise=read.motion is not None,
+        position_mm, velocity_mps=velocity, has_sensor_noise=read.motion is not None, notes=read.notes,
     )  # fmt: skip
 
 

@@ -79,7 +79,8 @@ class Recording:
     position_mm: [k, 2] float, millimetres, X and Y of the scan area. specimen: the piece of the material that a
     synthetic recording is of; None for files. velocity_mps: [k, 2] at position_time_seconds if velocity was recorded
     and the position is its integral; None if it is to be derived from the position. wander: None for files.
-    has_sensor_noise: whether preparation is to find the accelerometer's noise and remove it.
+    has_sensor_noise: whether preparation is to find the accelerometer's noise and remove it. notes: what its reader
+    ignored or corrected, one sentence each.
     """
 
     identity: RecordingIdentity
@@ -94,6 +95,7 @@ class Recording:
     velocity_mps: NDArray[np.floating] | None = None
     wander: Wander | None = None
     has_sensor_noise: bool = False
+    notes: tuple[str, ...] = ()
 
     @property
     def vibration_g(self) -> NDArray[np.float64]:

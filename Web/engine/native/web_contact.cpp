@@ -1,5 +1,6 @@
 #include "contact_states.hpp"
 #include "input_file.hpp"
+#include "model/label_key.hpp"
 #include "scene_file.hpp"
 #include "web_imports.hpp"
 #include "web_scene.hpp"
@@ -23,9 +24,16 @@ namespace haptoflow::web {
 ResolvedScene resolveScene(const std::string& text, const KnownMaterials& materials) {
     const std::string name = "scene";
     ResolvedScene resolved{.scene = cli::parseSceneText(text, name), .surfaces = {}, .settings = {}};
-    for (const headless::SceneSurface& surface : resolved.scene.surfaces) {
-        for (const auto& [material, weight] : surface.material) {
+    for (headless::SceneSurface& surface : resolved.scene.surfaces) {
+        for (auto& [material, weight] : surface.material) {
             if (materials.contains(material)) {
+                continue;
+            }
+            const auto same = std::ranges::find_if(materials, [key = model::labelKey(material)](const auto& each) {
+                return model::labelKey(each.first) == key;
+            });
+            if (same != materials.end()) {
+                material = same->first;
                 continue;
             }
             std::vector<std::string> names;

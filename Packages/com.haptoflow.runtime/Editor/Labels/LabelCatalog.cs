@@ -16,7 +16,7 @@ namespace HaptoFlow.Editor
         private readonly byte[] file;
         private readonly Dictionary<string, string> texts = new Dictionary<string, string>(StringComparer.Ordinal);
         private readonly Dictionary<string, string> stiffness =
-            new Dictionary<string, string>(StringComparer.OrdinalIgnoreCase);
+            new Dictionary<string, string>(LabelSpelling.Same);
 
         private LabelCatalog(byte[] file, HapticModelAsset? model)
         {

@@ -14,7 +14,7 @@ namespace HaptoFlow
     {
         private readonly LabelNames names;
         private readonly double[] stiffness;
-        private readonly HashSet<string> warned = new HashSet<string>(StringComparer.OrdinalIgnoreCase);
+        private readonly HashSet<string> warned = new HashSet<string>(LabelSpelling.Same);
 
         public ModelLabels(IEnumerable<HapticLabel> labels)
         {

@@ -163,7 +163,8 @@ namespace HaptoFlow.Editor
                 (changed, number) => changed.SpeedMps = number);
             DrawNumber(Force, state.ForceNewtons, NewMaterialState.MaximumForceNewtons, knowsForce,
                 (changed, number) => changed.ForceNewtons = number);
-            bool isWave = state.Path.EndsWith(".wav", StringComparison.OrdinalIgnoreCase);
+            bool isWave = state.Path.EndsWith(".wav", StringComparison.OrdinalIgnoreCase) ||
+                state.Path.EndsWith(".w64", StringComparison.OrdinalIgnoreCase);
             DrawNumber(FullScale, state.FullScaleMps2, 1e5f, !isWave,
                 (changed, number) => changed.FullScaleMps2 = number);
         }

@@ -11,7 +11,7 @@ namespace HaptoFlow.Editor
     /// compares both, and saves the material as an asset. Learning and rendering run in the background.</summary>
     internal sealed class NewMaterialWindow : PreviewWindow<NewMaterialState>
     {
-        private static readonly string[] FileFilters = { "Recordings", "csv,wav" };
+        private static readonly string[] FileFilters = { "Recordings", "csv,wav,w64" };
 
         private EditorPicture? picture;
         private NewMaterialControls? controls;

@@ -1,14 +1,18 @@
 #nullable enable
+using HaptoFlow.Model;
 
 namespace HaptoFlow
 {
     /// <summary>Matches names against patterns in which <c>*</c> stands for any number of characters. Case is ignored.
-    /// Not by Regex, which allocates per match and interprets user text as a pattern language.</summary>
+    /// So is the form of accents: some systems write a name with them apart from their letters. Not by Regex, which
+    /// allocates per match and interprets user text as a pattern language.</summary>
     internal static class NamePattern
     {
         /// <summary>True where the pattern matches the whole name; an empty pattern matches nothing.</summary>
         public static bool Matches(string pattern, string name)
         {
+            pattern = LabelSpelling.Composed(pattern);
+            name = LabelSpelling.Composed(name);
             int inPattern = 0;
             int inName = 0;
             int lastStar = -1;

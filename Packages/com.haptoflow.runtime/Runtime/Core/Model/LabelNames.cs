@@ -8,8 +8,12 @@ namespace HaptoFlow.Model
     /// <summary>Finds labels by name, and suggests labels for a misspelt name.</summary>
     public sealed class LabelNames
     {
-        private readonly Dictionary<string, int> indices =
-            new Dictionary<string, int>(StringComparer.OrdinalIgnoreCase);
+        private const int RememberedSpellings = 1024;
+
+        private readonly Dictionary<string, int> indices = new Dictionary<string, int>(LabelSpelling.Same);
+
+        // Spellings that were asked for: a surface asks each frame, and a comparison beyond ASCII allocates.
+        private readonly Dictionary<string, int> asked = new Dictionary<string, int>(StringComparer.Ordinal);
         private readonly string[] names;
 
         /// <param name="labels">Names in the order of their indices.</param>
@@ -25,8 +29,22 @@ namespace HaptoFlow.Model
         /// <summary>Names in the order of their indices.</summary>
         public IReadOnlyList<string> All => names;
 
-        /// <summary>Finds the index of a name; case is ignored.</summary>
-        public bool TryFind(string name, out int index) => indices.TryGetValue(name, out index);
+        /// <summary>Finds the index of a name; case and the form of accents are ignored (<see cref="LabelSpelling"/>).
+        /// One thread at a time.</summary>
+        public bool TryFind(string name, out int index)
+        {
+            if (!asked.TryGetValue(name, out index))
+            {
+                index = indices.TryGetValue(name, out int found) ? found : -1;
+                if (asked.Count < RememberedSpellings)
+                {
+                    asked[name] = index;
+                }
+            }
+            bool isKnown = index >= 0;
+            index = Math.Max(index, 0);
+            return isKnown;
+        }
 
         /// <summary>Up to three labels with at most two different letters, or of which one name contains the other, in
         /// order of similarity.</summary>

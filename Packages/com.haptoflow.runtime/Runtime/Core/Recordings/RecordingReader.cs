@@ -13,7 +13,7 @@ namespace HaptoFlow.Recordings
     public static unsafe class RecordingReader
     {
         /// <summary>Reads a file with the files NAME.json, recordings.json and motion file beside it.</summary>
-        /// <param name="path">Path of a .csv or .wav file.</param>
+        /// <param name="path">Path of a .csv, .wav or .w64 file.</param>
         /// <param name="fullScaleMps2">The acceleration of +-1 for a WAV file, in place of its sidecar's; null for the
         /// sidecar's.</param>
         /// <exception cref="HaptoFlowException">Names the file, the line and column or the key, what was found and what
@@ -22,7 +22,7 @@ namespace HaptoFlow.Recordings
             Read(path, Array.Empty<KeyValuePair<string, byte[]>>(), fullScaleMps2);
 
         /// <summary>Reads bytes, for recordings that are part of an application.</summary>
-        /// <param name="name">Name of the recording among the files, which ends in .csv or .wav.</param>
+        /// <param name="name">Name of the recording among the files, which ends in .csv, .wav or .w64.</param>
         /// <param name="files">The recording and what lies beside it, by their names with ending and without folder.
         /// </param>
         /// <param name="fullScaleMps2">As for a file on disk.</param>
