@@ -216,7 +216,7 @@ MeshPoint TriangleMesh::describe(const Nearest& nearest, const glm::dvec3& point
     const glm::dvec3& side = sides.normals[nearest.feature];
     const glm::dvec3 offset = point - nearest.pointMetres;
     MeshPoint result{nearest.pointMetres, side, std::sqrt(nearest.squaredDistance), glm::dot(offset, side) < 0.0,
-                     sides.rim[nearest.feature]};
+                     sides.rim[nearest.feature], sides.normals[faceFeature]};
     // At an edge or a corner the surface is rounded: the normal is the direction to the point, unless that is rounding
     // error.
     if (nearest.feature != faceFeature && result.distanceMetres > 1e-9 * boundsRadius()) {
@@ -246,6 +246,34 @@ std::optional<MeshPoint> TriangleMesh::closestPointFacing(const glm::dvec3& poin
         return std::nullopt;
     }
     return describe(nearest, point);
+}
+
+std::optional<MeshCrossing> TriangleMesh::firstCrossing(const glm::dvec3& from, const glm::dvec3& to) const {
+    const glm::dvec3 path = to - from;
+    // A path along the edge of two triangles goes through one of them.
+    const double allowance = 1e-9 * boundsRadius();
+    const double within = 0.5 * glm::length(path) + allowance;
+    std::optional<MeshCrossing> first;
+    std::uint32_t firstTriangle = 0;
+    tree_.visitNear(0.5 * (from + to), within * within, [&](std::uint32_t triangle) {
+        const Triangle& corners = triangles_[triangle];
+        const glm::dvec3& normal = sides_[triangle].normals[faceFeature];
+        const double towards = -glm::dot(path, normal);
+        const double height = glm::dot(from - vertices_[corners[0]], normal);
+        const double share = height / towards;
+        const bool isFirst = !first || share < first->share || (share == first->share && triangle < firstTriangle);
+        if (towards > 0.0 && height >= 0.0 && share <= 1.0 && isFirst) {
+            const glm::dvec3 point = from + share * path;
+            const OnTriangle found =
+                closestOnTriangle(vertices_[corners[0]], vertices_[corners[1]], vertices_[corners[2]], point);
+            if (glm::distance(point, found.pointMetres) <= allowance) {
+                first = MeshCrossing{point, normal, share};
+                firstTriangle = triangle;
+            }
+        }
+        return within * within;
+    });
+    return first;
 }
 
 MeshPoint TriangleMesh::closestPointOfAll(const glm::dvec3& point) const {

@@ -21,6 +21,16 @@ struct MeshPoint {
     bool behind = false;
     /// On an edge that belongs to a single triangle.
     bool onRim = false;
+    /// Normal of the nearest triangle.
+    glm::dvec3 faceNormal{0.0, 1.0, 0.0};
+};
+
+/// Where a path goes through the front of a triangle.
+struct MeshCrossing {
+    glm::dvec3 pointMetres{0.0};
+    glm::dvec3 normal{0.0, 1.0, 0.0};
+    /// The part of the path before it, 0 to 1.
+    double share = 0.0;
 };
 
 /// A triangle mesh, convex or not. The front of a triangle (a, b, c) is the side that (b - a) x (c - a) points to: in
@@ -43,6 +53,8 @@ public:
     /// The nearest point on triangles that face `direction` within 45 degrees; empty if there are none.
     [[nodiscard]] std::optional<MeshPoint> closestPointFacing(const glm::dvec3& point,
                                                               const glm::dvec3& direction) const;
+    /// The first triangle that the straight path goes through from its front.
+    [[nodiscard]] std::optional<MeshCrossing> firstCrossing(const glm::dvec3& from, const glm::dvec3& to) const;
     /// The result of `closestPoint` by a search through all triangles: the reference in tests of the tree.
     [[nodiscard]] MeshPoint closestPointOfAll(const glm::dvec3& point) const;
 
