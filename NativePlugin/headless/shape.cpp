@@ -44,26 +44,20 @@ SurfacePoint belowFace(const Face& face, const glm::dvec3& half, const glm::dvec
 }
 
 SurfacePoint insideBox(const glm::dvec3& half, const glm::dvec3& point, const QueryOptions& options) {
-    std::optional<Face> kept;
-    if (options.previousNormal) {
-        kept = faceAlong(*options.previousNormal);
-    }
-    const bool holds = kept && depthBelow(*kept, point, half) <= heldDepthMetres;
-    const auto faceOf = [&](glm::length_t axis) {
-        return holds && axis == kept->axis ? *kept : Face{axis, point[axis] < 0.0 ? -1.0 : 1.0};
+    const auto nearestSide = [&](glm::length_t axis) { return Face{axis, point[axis] < 0.0 ? -1.0 : 1.0}; };
+    const auto nearer = [&](const Face& one, const Face& other) {
+        return depthBelow(other, point, half) < depthBelow(one, point, half) ? other : one;
     };
-    Face nearest = faceOf(1);
-    for (const glm::length_t axis : {0, 2}) {
-        if (depthBelow(faceOf(axis), point, half) < depthBelow(nearest, point, half)) {
-            nearest = faceOf(axis);
-        }
+    if (!options.previousNormal) {
+        return belowFace(nearer(nearer(nearestSide(1), nearestSide(0)), nearestSide(2)), half, point);
     }
-    const bool isThinner = holds && half[kept->axis] < half[nearest.axis];
-    if (kept && (isThinner ||
-                 depthBelow(*kept, point, half) <= depthBelow(nearest, point, half) + options.faceMarginMetres)) {
-        nearest = *kept;
-    }
-    return belowFace(nearest, half, point);
+    const Face kept = faceAlong(*options.previousNormal);
+    const bool holds = options.cameFromOutside && depthBelow(kept, point, half) <= heldDepthMetres;
+    const Face beside = nearer(nearestSide(kept.axis == 1 ? 0 : 1), nearestSide(kept.axis == 2 ? 0 : 2));
+    const Face nearest = holds ? beside : nearer(nearestSide(kept.axis), beside);
+    const bool isThinner = holds && half[kept.axis] < half[beside.axis];
+    const bool isNear = depthBelow(kept, point, half) <= depthBelow(nearest, point, half) + options.faceMarginMetres;
+    return belowFace(isThinner || isNear ? kept : nearest, half, point);
 }
 
 /// The held face of a box for a point that went through the box and is `outsideMetres` beyond it.
@@ -93,7 +87,7 @@ SurfacePoint closestOn(const Box& box, const glm::dvec3& point, const QueryOptio
     if (distance <= onSurface) {
         return insideBox(half, nearest, options);
     }
-    if (options.previousNormal) {
+    if (options.previousNormal && options.cameFromOutside) {
         if (const auto held = throughBox(half, point, *options.previousNormal, distance)) {
             return *held;
         }
@@ -106,12 +100,12 @@ SurfacePoint aroundCore(const glm::dvec3& core, double radius, const glm::dvec3&
                         const QueryOptions& options) {
     const glm::dvec3 offset = point - core;
     const double distance = glm::length(offset);
-    if (options.previousNormal) {
+    if (options.previousNormal && options.cameFromOutside) {
         const glm::dvec3& held = *options.previousNormal;
         const double height = glm::dot(offset, held);
-        // The point went past the core, below the side that it entered.
-        if (height < -TriangleMesh::sameSideCosine * distance && glm::length(offset - height * held) <= radius &&
-            radius - height <= heldDepthMetres) {
+        // Near the core and past it the nearest side changes at the slightest movement.
+        const bool isPast = height < 0.0 || distance < 0.5 * radius;
+        if (isPast && glm::length(offset - height * held) <= radius && radius - height <= heldDepthMetres) {
             return {core + radius * held, held, height - radius, std::max(0.0, distance - radius)};
         }
     }
@@ -147,45 +141,43 @@ double thickness(const TriangleMesh& mesh, const glm::dvec3& point, const MeshPo
 /// The face within 45 degrees of the previous normal, for a point straight below it; empty for a point beside it.
 std::optional<MeshPoint> heldFace(const TriangleMesh& mesh, const glm::dvec3& point, const glm::dvec3& previousNormal) {
     const auto kept = mesh.closestPointFacing(point, previousNormal);
-    // The cosine of 5 degrees.
-    constexpr double straight = 0.9962;
-    return kept && kept->behind && glm::dot(kept->normal, kept->faceNormal) > straight ? kept : std::nullopt;
+    return kept && kept->behind && kept->isStraight ? kept : std::nullopt;
 }
 
-/// Whether a face that the point is held by stays although another one is nearer.
-bool holdsAgainst(const TriangleMesh& mesh, const glm::dvec3& point, const MeshPoint& held, const MeshPoint& nearest,
-                  const QueryOptions& options) {
-    if (held.distanceMetres <= nearest.distanceMetres + options.faceMarginMetres) {
-        return true;
+/// The face of a mesh that a point inside is held by, or another one that is nearer.
+MeshPoint heldOrNearer(const TriangleMesh& mesh, const glm::dvec3& point, const MeshPoint& held, MeshPoint nearest,
+                       const QueryOptions& options) {
+    const auto beside =
+        mesh.closestPointFacing(point, held.normal, -TriangleMesh::sameSideCosine, TriangleMesh::sameSideCosine);
+    if (options.cameFromOutside && beside && held.distanceMetres <= heldDepthMetres) {
+        if (thickness(mesh, point, held) < thickness(mesh, point, *beside)) {
+            return held;
+        }
+        nearest = *beside;
     }
-    if (held.distanceMetres > heldDepthMetres) {
-        return false;
-    }
-    return glm::dot(nearest.normal, held.normal) < -TriangleMesh::sameSideCosine ||
-           thickness(mesh, point, held) < thickness(mesh, point, nearest);
+    return held.distanceMetres <= nearest.distanceMetres + options.faceMarginMetres ? held : nearest;
 }
 
 std::optional<SurfacePoint> closestOn(const std::shared_ptr<const TriangleMesh>& mesh, const glm::dvec3& point,
                                       const QueryOptions& options) {
     MeshPoint found = mesh->closestPoint(point);
-    std::optional<MeshPoint> held;
-    if (options.previousNormal && glm::dot(found.normal, *options.previousNormal) < TriangleMesh::sameSideCosine) {
-        held = heldFace(*mesh, point, *options.previousNormal);
-    }
-    if (held && found.behind && holdsAgainst(*mesh, point, *held, found, options)) {
-        found = *held;
-    }
-    const bool isAway = glm::dot(found.normal, options.previousNormal.value_or(found.normal)) <
-                        -TriangleMesh::sameSideCosine;
-    if (held && !found.behind && isAway && held->distanceMetres <= heldDepthMetres) {
-        return SurfacePoint{held->pointMetres, held->normal, -held->distanceMetres, found.distanceMetres};
+    const double sameSide =
+        options.previousNormal ? glm::dot(found.normal, *options.previousNormal) : TriangleMesh::sameSideCosine;
+    if (sameSide < TriangleMesh::sameSideCosine) {
+        if (const auto held = heldFace(*mesh, point, *options.previousNormal)) {
+            if (!found.behind && options.cameFromOutside && sameSide < -TriangleMesh::sameSideCosine &&
+                held->distanceMetres <= heldDepthMetres) {
+                return SurfacePoint{held->pointMetres, held->normal, -held->distanceMetres, found.distanceMetres};
+            }
+            found = found.behind ? heldOrNearer(*mesh, point, *held, found, options) : found;
+        }
     }
     if (!mesh->isClosed() && found.behind && (found.onRim || found.distanceMetres > options.openMeshDepthMetres)) {
-        if (found.onRim || !options.previousNormal || found.distanceMetres > heldDepthMetres) {
+        if (found.onRim || !options.cameFromOutside || !options.previousNormal ||
+            found.distanceMetres > heldDepthMetres) {
             return std::nullopt;
         }
-        return SurfacePoint{found.pointMetres, found.normal, -found.distanceMetres,
-                            std::numeric_limits<double>::infinity()};
+        return SurfacePoint{found.pointMetres, found.normal, -found.distanceMetres, found.distanceMetres};
     }
     return SurfacePoint{found.pointMetres, found.normal, found.behind ? -found.distanceMetres : found.distanceMetres};
 }
@@ -234,9 +226,7 @@ std::optional<SurfaceEntry> entryOf(const Capsule& capsule, const glm::dvec3& fr
     const double radius = capsule.radiusMetres;
     const double half = std::max(0.0, 0.5 * capsule.heightMetres - radius);
     const glm::dvec3 path = to - from;
-    const auto coreAt = [&](const glm::dvec3& point) {
-        return glm::dvec3(0.0, std::clamp(point.y, -half, half), 0.0);
-    };
+    const auto coreAt = [&](const glm::dvec3& point) { return glm::dvec3(0.0, std::clamp(point.y, -half, half), 0.0); };
     if (glm::distance(from, coreAt(from)) < radius) {
         return std::nullopt;
     }

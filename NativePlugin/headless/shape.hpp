@@ -38,8 +38,8 @@ struct SurfacePoint {
     glm::dvec3 normal{0.0, 1.0, 0.0};
     /// Negative inside the material.
     double signedDistanceMetres = 0.0;
-    /// For a point that went through the shape: its distance from the shape, beyond the face that it entered; infinite
-    /// behind an open mesh. `signedDistanceMetres` is measured from the face that was entered. 0 otherwise.
+    /// For a point that went through the shape: its distance from the shape's far side, or from an open mesh.
+    /// `signedDistanceMetres` is then measured from the face that was entered. 0 otherwise.
     double beyondMetres = 0.0;
 };
 
@@ -57,10 +57,12 @@ inline constexpr double heldDepthMetres = 0.05;
 
 /// The face that the point is held by, so that it does not change for the nearest one at every depth.
 struct QueryOptions {
-    /// Local normal of the face that was entered, or of the previous frame's contact with the same surface. The
-    /// opposite face does not replace it, and a face beside it only if it is nearer by the margin and the shape is not
-    /// thinner below the held face than below the other.
+    /// Local normal of the face that was entered, or of the previous frame's contact with the same surface. A face that
+    /// is nearer by the margin replaces it.
     std::optional<glm::dvec3> previousNormal;
+    /// The touch began on this surface: then the face that was entered is held. The opposite face does not replace it,
+    /// and one beside it only where the shape is not thinner below the held face than below that one.
+    bool cameFromOutside = false;
     /// Inside a shape, another face is used only if it is nearer by this much.
     double faceMarginMetres = 0.0005;
     /// Depth behind an open mesh up to which a point counts as inside.

@@ -17,6 +17,10 @@ namespace {
 
 constexpr std::uint32_t faceFeature = 6;
 
+// Of the angle between a triangle and the mean of it and its neighbour: neighbours that differ by up to 50 degrees are
+// one face.
+constexpr double creaseCosine = 0.9;
+
 constexpr double everywhere = std::numeric_limits<double>::infinity();
 
 struct OnTriangle {
@@ -216,11 +220,14 @@ MeshPoint TriangleMesh::describe(const Nearest& nearest, const glm::dvec3& point
     const glm::dvec3& side = sides.normals[nearest.feature];
     const glm::dvec3 offset = point - nearest.pointMetres;
     MeshPoint result{nearest.pointMetres, side, std::sqrt(nearest.squaredDistance), glm::dot(offset, side) < 0.0,
-                     sides.rim[nearest.feature], sides.normals[faceFeature]};
+                     sides.rim[nearest.feature]};
     // At an edge or a corner the surface is rounded: the normal is the direction to the point, unless that is rounding
     // error.
     if (nearest.feature != faceFeature && result.distanceMetres > 1e-9 * boundsRadius()) {
         result.normal = unitOr(result.behind ? -offset : offset, side);
+        const glm::dvec3& face = sides.normals[faceFeature];
+        const bool isCrease = !result.onRim && glm::dot(side, face) > creaseCosine;
+        result.isStraight = isCrease || glm::dot(result.normal, face) > 1.0 - 1e-9;
     }
     return result;
 }
@@ -234,10 +241,12 @@ MeshPoint TriangleMesh::closestPoint(const glm::dvec3& point) const {
     return describe(nearest, point);
 }
 
-std::optional<MeshPoint> TriangleMesh::closestPointFacing(const glm::dvec3& point, const glm::dvec3& direction) const {
+std::optional<MeshPoint> TriangleMesh::closestPointFacing(const glm::dvec3& point, const glm::dvec3& direction,
+                                                          double lowestCosine, double highestCosine) const {
     Nearest nearest;
     tree_.visitNear(point, everywhere, [&](std::uint32_t triangle) {
-        if (glm::dot(sides_[triangle].normals[faceFeature], direction) > sameSideCosine) {
+        const double cosine = glm::dot(sides_[triangle].normals[faceFeature], direction);
+        if (cosine > lowestCosine && cosine < highestCosine) {
             improve(nearest, triangle, point);
         }
         return nearest.squaredDistance;

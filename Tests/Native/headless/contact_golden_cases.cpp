@@ -239,9 +239,9 @@ Case fastPasses() {
     json plate = surfaceWith("mesh", matMesh({0.05, 0.0015, 0.05}));
     plate["position"] = {0.6, 0.0, 0.0};
     json lift = surfaceWith("lift", {{"box", {{"size", {0.1, 0.003, 0.1}}}}});
-    lift["motion"] = {{"loop", false},
-                      {"keyframes",
-                       {{{"t", 0.0}, {"position", {0.8, 0.0, 0.0}}}, {{"t", 12.0}, {"position", {0.8, 24.0, 0.0}}}}}};
+    lift["motion"] = {
+        {"loop", false},
+        {"keyframes", {{{"t", 0.0}, {"position", {0.8, 0.0, 0.0}}}, {{"t", 12.0}, {"position", {0.8, 24.0, 0.0}}}}}};
     return caseOf("passes at 3 m/s and 10 Hz through a box, a ball, a rod, a mesh and a box on a lift",
                   sceneWith({box, ball, rod, plate, lift}, 0.002), sampledPath(9.9, 10.0, [](double time) {
                       const int frame = static_cast<int>(std::lround(10.0 * time));
@@ -255,9 +255,9 @@ Case fastPasses() {
 /// A tip that rests above a platform which lifts it by more than its thickness in every frame.
 Case restingOnALift() {
     json lift = surfaceWith("lift", {{"box", {{"size", {0.1, 0.003, 0.1}}}}});
-    lift["motion"] = {{"loop", false},
-                      {"keyframes",
-                       {{{"t", 0.0}, {"position", {0.0, 0.0, 0.0}}}, {{"t", 2.0}, {"position", {0.0, 6.0, 0.0}}}}}};
+    lift["motion"] = {
+        {"loop", false},
+        {"keyframes", {{{"t", 0.0}, {"position", {0.0, 0.0, 0.0}}}, {{"t", 2.0}, {"position", {0.0, 6.0, 0.0}}}}}};
     return caseOf("above a platform that is lifted at 3 m/s, then on it", sceneWith({lift}, 0.002),
                   sampledPath(1.0, frameRateHz, [](double time) {
                       return glm::dvec3(0.01, 3.0 * time + (time < 0.5 ? 0.008 : 0.0025), 0.0);
