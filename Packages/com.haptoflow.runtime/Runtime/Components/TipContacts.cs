@@ -23,8 +23,6 @@ namespace HaptoFlow
         private readonly Transform stylus;
         private readonly Collider[] colliders = new Collider[MaximumColliders];
         private readonly NearbyCollider[] near = new NearbyCollider[MaximumNearbyColliders];
-        private Double3 previousTipMetres;
-        private bool hasPreviousTip;
         private bool hasTooMany;
         private bool hasWarned;
         private long update;
@@ -53,8 +51,6 @@ namespace HaptoFlow
             if (Tracker.BeginFrame(sample))
             {
                 Consider(stepSeconds, layers, session, context);
-                previousTipMetres = Tracker.TipMetres;
-                hasPreviousTip = true;
             }
             ContactReading reading = Tracker.EndFrame();
             Touched = Find(reading.Surface);
@@ -66,7 +62,6 @@ namespace HaptoFlow
         {
             Tracker.Forget();
             Touched = null;
-            hasPreviousTip = false;
             foreach (NearbyCollider surface in near)
             {
                 surface.End();
@@ -84,8 +79,11 @@ namespace HaptoFlow
             using FrontFacesOnly fronts = FrontFacesOnly.Begin();
             var question = new ProbeQuestion(
                 tipMetres, Tracker.TipRadiusMetres + ContactTransitions.SlideOffReachMetres,
-                Tracker.PreviousLocalNormal(surface), tipMetres, Tracker.Settings.SwitchMarginMetres);
-            return ColliderProbe.TryClosest(place.Collider, ColliderProbe.PoseOf(place.Collider), question, out found);
+                Tracker.HeldFaceOf(surface));
+            bool isNear = ColliderProbe.TryClosest(
+                place.Collider, ColliderProbe.PoseOf(place.Collider), question, out ProbeAnswer answer);
+            found = answer.Point;
+            return isNear;
         }
 
         private void Consider(double stepSeconds, int layers, HapticSession session, Object context)
@@ -99,6 +97,11 @@ namespace HaptoFlow
             bool hasAll = ConsiderWithin(
                 Tracker.ReachMetres + TrackedWithinMetres, stepSeconds, layers, session, false);
             hasTooMany = !hasAll;
+            if (Tracker.PassedWithinMetres > TrackedWithinMetres)
+            {
+                // With slow frames a hand comes from farther away, and passes what is then far behind it.
+                ConsiderWithin(Tracker.ReachMetres + Tracker.PassedWithinMetres, stepSeconds, layers, session, false);
+            }
             if (hasTooMany)
             {
                 WarnTooManyColliders(context);
@@ -141,13 +144,13 @@ namespace HaptoFlow
             RigidPose pose = ColliderProbe.PoseOf(collider);
             place.Record(Tracker.NowSeconds, stepSeconds, pose);
             var question = new ProbeQuestion(
-                Tracker.TipMetres, Tracker.ReachMetresOf(place.Tracked), Tracker.PreviousLocalNormal(place.Tracked),
-                hasPreviousTip ? previousTipMetres : Tracker.TipMetres, Tracker.Settings.SwitchMarginMetres);
-            if (ColliderProbe.TryClosest(collider, pose, question, out SurfacePoint local, out RaycastHit? hit))
+                Tracker.TipMetres, Tracker.ReachMetresOf(place.Tracked), Tracker.HeldFaceOf(place.Tracked),
+                Tracker.AdvancePath(place.Tracked, pose));
+            if (ColliderProbe.TryClosest(collider, pose, question, out ProbeAnswer answer))
             {
-                place.Place = new TouchedPlace(collider, local.PointMetres, hit);
+                place.Place = new TouchedPlace(collider, answer.Point.PointMetres, answer.Hit);
                 place.Tracked.StiffnessNewtonsPerMetre = place.Feel(session).StiffnessNewtonsPerMetre;
-                Tracker.Consider(new ContactCandidate(place.Tracked, pose, local));
+                Tracker.Consider(new ContactCandidate(place.Tracked, pose, answer.Point, answer.EntryShare));
             }
         }
 
