@@ -163,20 +163,23 @@ namespace HaptoFlow
 
             public void Try(Double3 outward)
             {
-                Try(outward, ShortLiftMetres + reach, MaximumDepthMetres);
+                Try(outward, ShortLiftMetres, false);
                 if (!Found)
                 {
-                    Try(outward, MaximumDepthMetres + reach, MaximumDepthMetres);
+                    Try(outward, MaximumDepthMetres, false);
                 }
             }
 
             /// <summary>Searches the face that holds the tip, and decides whether it still does.</summary>
             public void TryHeld(Double3 outward, in HeldFace held)
             {
-                Try(outward);
-                if (!Found && held.CameFromOutside)
+                if (!held.CameFromOutside)
                 {
-                    Try(outward, HeldFace.MaximumDepthMetres + reach, HeldFace.MaximumDepthMetres);
+                    Try(outward);
+                }
+                else if (!TryThrough(outward, ShortLiftMetres) && !TryThrough(outward, MaximumDepthMetres))
+                {
+                    TryThrough(outward, HeldFace.MaximumDepthMetres);
                 }
                 if (!Found || Distance >= 0.0)
                 {
@@ -190,6 +193,12 @@ namespace HaptoFlow
                 {
                     TryBeside(held);
                 }
+            }
+
+            private bool TryThrough(Double3 outward, double lift)
+            {
+                Try(outward, lift, true);
+                return Found;
             }
 
             /// <summary>A front face between the held face and the tip is that of the far side: the tip went through.
@@ -258,8 +267,12 @@ namespace HaptoFlow
             private bool CastTo(Double3 from, Double3 direction, double metres, out RaycastHit hit) =>
                 collider.Raycast(new Ray(from.ToVector(), direction.ToVector()), out hit, (float)metres);
 
-            private void Try(Double3 outward, double lift, double maximumDepth)
+            /// <param name="isHeld">True for a face that the tip may have gone through to the far side and
+            /// beyond.</param>
+            private void Try(Double3 outward, double liftMetres, bool isHeld)
             {
+                double lift = liftMetres + reach;
+                double maximumDepth = isHeld ? HeldFace.MaximumDepthMetres : MaximumDepthMetres;
                 if (!Cast(outward, lift, out Double3 point, out Double3 normal, out RaycastHit hit))
                 {
                     return;
@@ -281,6 +294,11 @@ namespace HaptoFlow
                 double distance = beside ? offset.Length : along;
                 if (distance < -maximumDepth || distance > reach || Math.Abs(distance) >= Math.Abs(Distance))
                 {
+                    return;
+                }
+                if (!isHeld && distance < 0.0 && CastTo(tip, normal, -distance, out _))
+                {
+                    // Another front face lies between: the tip is in front of that one, not behind this one.
                     return;
                 }
                 Found = true;
