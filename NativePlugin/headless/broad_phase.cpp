@@ -34,6 +34,16 @@ bool BroadPhase::reaches(std::size_t surface, const glm::dvec3& localTipMetres) 
     return glm::distance(localTipMetres, sphere.centreMetres) <= sphere.radiusMetres + reachMetres_;
 }
 
+bool BroadPhase::passes(std::size_t surface, const glm::dvec3& tipBefore, const Pose& poseBefore,
+                        const glm::dvec3& tipMetres, const Pose& pose) const noexcept {
+    const BoundingSphere& sphere = spheres_[surface];
+    const glm::dvec3 from = tipBefore - poseBefore.pointToWorld(sphere.centreMetres);
+    const glm::dvec3 path = tipMetres - pose.pointToWorld(sphere.centreMetres) - from;
+    const double square = glm::dot(path, path);
+    const double share = square > 0.0 ? glm::clamp(-glm::dot(from, path) / square, 0.0, 1.0) : 0.0;
+    return glm::length(from + share * path) <= sphere.radiusMetres + reachMetres_;
+}
+
 Bounds BroadPhase::withinReachOf(const SceneSurface& surface, const BoundingSphere& sphere) const noexcept {
     Bounds box;
     double around = sphere.radiusMetres + reachMetres_;

@@ -21,12 +21,17 @@ public:
     BroadPhase(const std::vector<SceneSurface>& surfaces, double reachMetres);
 
     /// Calls `consider(surface)` once for every surface that `reaches` would accept, and for a few more, in no
-    /// particular order. `tipMetres` must be usable.
+    /// particular order. `tipMetres` must be usable. With a distance, for every surface that would be accepted up to
+    /// that far from the tip.
     template <typename Consider>
-    void visitNear(const glm::dvec3& tipMetres, Consider&& consider) const;
+    void visitNear(const glm::dvec3& tipMetres, Consider&& consider, double withinMetres = 0.0) const;
 
     /// Whether the surface's bounding sphere is within reach of the tip, which is given in the surface's local frame.
     [[nodiscard]] bool reaches(std::size_t surface, const glm::dvec3& localTipMetres) const noexcept;
+    /// Whether the tip came within reach of the surface's bounding sphere on its way between two positions relative to
+    /// the surface's pose then and now.
+    [[nodiscard]] bool passes(std::size_t surface, const glm::dvec3& tipBefore, const Pose& poseBefore,
+                              const glm::dvec3& tipMetres, const Pose& pose) const noexcept;
 
 private:
     [[nodiscard]] Bounds withinReachOf(const SceneSurface& surface, const BoundingSphere& sphere) const noexcept;
@@ -41,14 +46,14 @@ private:
 };
 
 template <typename Consider>
-void BroadPhase::visitNear(const glm::dvec3& tipMetres, Consider&& consider) const {
+void BroadPhase::visitNear(const glm::dvec3& tipMetres, Consider&& consider, double withinMetres) const {
     for (const std::uint32_t surface : endless_) {
         consider(std::size_t{surface});
     }
-    constexpr double onlyInside = 0.0;
-    tree_.visitNear(tipMetres, onlyInside, [&](std::uint32_t item) {
+    const double squaredLimit = withinMetres * withinMetres;
+    tree_.visitNear(tipMetres, squaredLimit, [&](std::uint32_t item) {
         consider(std::size_t{bounded_[item]});
-        return onlyInside;
+        return squaredLimit;
     });
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -128,6 +129,7 @@ ContactReading ContactTracker::update(const TipSample& sample) {
         forgetContinuity();
         frames_[contact->surface].reset();
         touched_ = contact->surface;
+        beganHere_ = !wasTouching;
     }
     return describe(*contact, !wasTouching, sample);
 }
@@ -142,6 +144,8 @@ bool ContactTracker::acceptSample(const TipSample& sample) {
         ++statistics_.sanitisedSamples;
     }
     const double before = nowSeconds_;
+    pathBefore_ = pathStart_;
+    pathStart_ = tipMetres_ ? std::optional(PathStart{before, *tipMetres_}) : std::nullopt;
     if (timeUsable) {
         nowSeconds_ = sample.timeSeconds;
     }
@@ -162,6 +166,7 @@ bool ContactTracker::acceptSample(const TipSample& sample) {
     if (step != TipStep::continued) {
         forgetContinuity();
         transitions_.forget();
+        pathStart_.reset();
     }
     return true;
 }
@@ -204,52 +209,151 @@ void ContactTracker::forgetContinuity() noexcept {
 std::optional<ContactTracker::Candidate> ContactTracker::query(std::size_t surface) {
     const Pose pose = scene_.surfaces[surface].poseAt(nowSeconds_);
     const glm::dvec3 tip = pose.pointToLocal(*tipMetres_);
-    if (!broadPhase_.reaches(surface, tip)) {
+    const std::optional<glm::dvec3> from = pathInto(surface, pose);
+    if (!from && touched_ != surface && !broadPhase_.reaches(surface, tip)) {
         ++statistics_.surfacesRuledOut;
         return std::nullopt;
     }
     ++statistics_.surfaceQueries;
-    const std::optional<SurfacePoint> local = closestPoint(surface, tip);
+    const Shape& shape = scene_.surfaces[surface].shape;
+    const std::optional<SurfaceEntry> entry = from ? entryInto(shape, *from, tip) : std::nullopt;
+    std::optional<SurfacePoint> local = closestPoint(surface, tip, entry);
+    if (touched_ != surface && entry && (!local || local->beyondMetres > 0.0 || local->signedDistanceMetres > 0.0)) {
+        // The tip came out again within the frame: it touched where it went in.
+        local = SurfacePoint{entry->pointMetres, entry->normal, glm::dot(tip - entry->pointMetres, entry->normal),
+                             std::numeric_limits<double>::infinity()};
+    }
     if (!local) {
         return std::nullopt;
     }
-    return Candidate{surface, *local, pose, scene_.tipRadiusMetres - local->signedDistanceMetres};
+    Candidate candidate{surface, *local, pose, scene_.tipRadiusMetres - local->signedDistanceMetres};
+    if (entry) {
+        candidate.entryShare = entry->share;
+    }
+    return candidate;
 }
 
-std::optional<SurfacePoint> ContactTracker::closestPoint(std::size_t surface, const glm::dvec3& localTip) const {
-    QueryOptions options{std::nullopt, settings_.switchMarginMetres, settings_.openMeshDepthMetres};
-    if (touched_ == surface) {
+/// The previous position of the tip in the surface's own frame, if the tip's way from there may have led through the
+/// surface. Empty after a jump of the tip or of the surface.
+std::optional<glm::dvec3> ContactTracker::pathInto(std::size_t surface, const Pose& pose) const {
+    if (!pathStart_) {
+        return std::nullopt;
+    }
+    const Pose before = scene_.surfaces[surface].poseAt(pathStart_->timeSeconds);
+    const glm::dvec3 from = before.pointToLocal(pathStart_->tipMetres);
+    const double metres = glm::distance(from, pose.pointToLocal(*tipMetres_));
+    const VelocitySettings& velocity = settings_.velocity;
+    const double seconds = std::max(nowSeconds_ - pathStart_->timeSeconds, velocity.minimumJumpSeconds);
+    double speedBefore = std::numeric_limits<double>::infinity();
+    if (pathBefore_) {
+        const glm::dvec3 earlier =
+            scene_.surfaces[surface].poseAt(pathBefore_->timeSeconds).pointToLocal(pathBefore_->tipMetres);
+        speedBefore = glm::distance(earlier, from) /
+                      std::max(pathStart_->timeSeconds - pathBefore_->timeSeconds, velocity.minimumJumpSeconds);
+    }
+    const bool isJump = metres > velocity.maximumMoveMetres(seconds) ||
+                        metres > (speedBefore + velocity.maximumGainMps(seconds)) * seconds;
+    return !isJump && broadPhase_.passes(surface, pathStart_->tipMetres, before, *tipMetres_, pose)
+               ? std::optional(from)
+               : std::nullopt;
+}
+
+std::optional<SurfacePoint> ContactTracker::closestPoint(std::size_t surface, const glm::dvec3& localTip,
+                                                         const std::optional<SurfaceEntry>& entry) const {
+    QueryOptions options{std::nullopt, !touched_ || (touched_ == surface && beganHere_), settings_.switchMarginMetres,
+                         settings_.openMeshDepthMetres};
+    if (entry) {
+        options.previousNormal = entry->normal;
+        // Only what is already touched has a face to stay on.
+        options.faceMarginMetres = touched_ == surface ? settings_.switchMarginMetres : 0.0;
+    } else if (touched_ == surface) {
         options.previousNormal = localNormal_;
     }
     return closestSurfacePoint(scene_.surfaces[surface].shape, localTip, options);
 }
 
+/// Visits the contact with every surface but the touched one that is near the tip or that it passed since the previous
+/// frame.
+template <typename Visit>
+void ContactTracker::visitOthers(Visit&& visit) {
+    const glm::dvec3 from = pathStart_ ? pathStart_->tipMetres : *tipMetres_;
+    const auto consider = [&](std::size_t surface) {
+        const std::optional<Candidate> candidate = touched_ != surface ? query(surface) : std::nullopt;
+        if (candidate) {
+            visit(*candidate);
+        }
+    };
+    broadPhase_.visitNear(0.5 * (from + *tipMetres_), consider, 0.5 * glm::distance(from, *tipMetres_));
+}
+
 ContactTracker::Nearby ContactTracker::findNearby() {
     Nearby nearby;
-    broadPhase_.visitNear(*tipMetres_, [&](std::size_t surface) {
-        const std::optional<Candidate> candidate = query(surface);
-        if (!candidate) {
-            return;
-        }
-        if (touched_ == surface) {
-            nearby.current = candidate;
-        }
-        if (!nearby.deepest || candidate->isDeeperThan(*nearby.deepest)) {
+    if (touched_) {
+        nearby.current = query(*touched_);
+    }
+    visitOthers([&](const Candidate& candidate) {
+        const bool isInside = candidate.local.beyondMetres == 0.0;
+        if (isInside && (!nearby.deepest || candidate.isDeeperThan(*nearby.deepest))) {
             nearby.deepest = candidate;
+        }
+        if (candidate.penetrationMetres > 0.0 && (!nearby.first || candidate.isMetBefore(*nearby.first))) {
+            nearby.first = candidate;
         }
     });
     return nearby;
 }
 
+/// Whether the tip came out of the touched surface's far side: it did not if it is in another surface that is so near
+/// to that side that the tip was never free between the two.
+bool ContactTracker::hasLeft(const Candidate& current) {
+    const double freeMetres = scene_.tipRadiusMetres + settings_.releaseDistanceMetres;
+    if (current.local.beyondMetres <= freeMetres) {
+        return false;
+    }
+    const glm::dvec3 normal = current.pose.directionToWorld(current.local.normal);
+    const glm::dvec3 farSide = *tipMetres_ + current.local.beyondMetres * normal;
+    bool isInNext = false;
+    visitOthers([&](const Candidate& other) {
+        if (other.penetrationMetres > 0.0 && other.local.beyondMetres == 0.0) {
+            const auto next = closestPoint(other.surface, other.pose.pointToLocal(farSide));
+            isInNext |= next && next->signedDistanceMetres <= scene_.tipRadiusMetres + freeMetres;
+        }
+    });
+    return !isInNext;
+}
+
+/// Whether a tip that rests on the touched surface meets the other one.
+bool ContactTracker::isAheadAtRest(const Candidate& current, const Candidate& other) const {
+    const glm::dvec3 normal = current.pose.directionToWorld(current.local.normal);
+    const glm::dvec3 tip = *tipMetres_ + std::max(0.0, current.penetrationMetres) * normal;
+    const auto atRest = closestPoint(other.surface, other.pose.pointToLocal(tip));
+    return atRest && scene_.tipRadiusMetres - atRest->signedDistanceMetres - std::min(0.0, current.penetrationMetres) >
+                         settings_.switchMarginMetres;
+}
+
 std::optional<ContactTracker::Candidate> ContactTracker::chooseContact() {
     const Nearby nearby = findNearby();
-    const bool kept = nearby.current && nearby.current->penetrationMetres >= -settings_.releaseDistanceMetres;
-    if (!nearby.deepest || nearby.deepest->penetrationMetres <= 0.0) {
-        return kept ? nearby.current : std::nullopt;
+    const std::optional<Candidate>& current = nearby.current;
+    if (!current || current->penetrationMetres < -settings_.releaseDistanceMetres || hasLeft(*current)) {
+        // A tip that slides from one surface to another one touches where it is, not what it passed on the way.
+        const bool isIn = touched_ && nearby.deepest && nearby.deepest->penetrationMetres > 0.0;
+        return isIn ? nearby.deepest : nearby.first;
     }
-    const double lead =
-        kept ? nearby.deepest->penetrationMetres - nearby.current->penetrationMetres : settings_.switchMarginMetres;
-    return kept && lead <= settings_.switchMarginMetres ? nearby.current : nearby.deepest;
+    const auto isAhead = [&](const Candidate& other) {
+        return other.penetrationMetres > 0.0 &&
+               other.penetrationMetres - current->penetrationMetres > settings_.switchMarginMetres;
+    };
+    if (!nearby.deepest || !isAhead(*nearby.deepest)) {
+        return current;
+    }
+    std::optional<Candidate> next;
+    visitOthers([&](const Candidate& other) {
+        if (other.local.beyondMetres == 0.0 && isAhead(other) && (!next || other.isDeeperThan(*next)) &&
+            isAheadAtRest(*current, other)) {
+            next = other;
+        }
+    });
+    return next ? next : current;
 }
 
 /// Visits every surface that the tip could touch at its present position.

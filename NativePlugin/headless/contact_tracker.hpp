@@ -16,11 +16,12 @@ namespace haptoflow::headless {
 
 /// Tracks one stylus tip in a scene and reports, frame by frame, what it touches. Not thread-safe.
 ///
-/// A touch begins when the tip sphere penetrates a surface and ends when the gap exceeds `releaseDistanceMetres`. Among
-/// several surfaces the deepest contact wins, but another surface replaces the touched one only if it is deeper by
-/// `switchMarginMetres`. Inside a box or a closed mesh the normal is that of the nearest face; the face of the previous
-/// frame is kept with the same margin, so that the normal does not flip back and forth. Among equally deep surfaces the
-/// first one of the scene wins.
+/// A touch begins when the tip sphere penetrates a surface, or passes through one between two frames, and ends when the
+/// gap exceeds `releaseDistanceMetres`. Among several surfaces the one that the tip's path entered first is touched,
+/// else the deepest. Another surface replaces the touched one only if it is deeper by `switchMarginMetres`, and still
+/// would be for a tip that rests on the touched one: what lies below a thin mat does not replace it, a wall beside it
+/// does. Inside a shape the face that was entered is held (see QueryOptions), and beyond the far side of a thin shape,
+/// too, while the tip is in another surface there. Among equally deep surfaces the first one of the scene wins.
 ///
 /// Velocity, place and jumps are those of the tip in the frame of what it touches: see TipPath.
 ///
@@ -44,16 +45,29 @@ private:
         SurfacePoint local;
         Pose pose;
         double penetrationMetres = 0.0;
+        /// The part of the tip's last way before it entered the surface; more than 1 if it did not.
+        double entryShare = 2.0;
 
         /// A total order, so that the result does not depend on the order of the search.
         [[nodiscard]] bool isDeeperThan(const Candidate& other) const noexcept {
             return penetrationMetres > other.penetrationMetres ||
                    (penetrationMetres == other.penetrationMetres && surface < other.surface);
         }
+        [[nodiscard]] bool isMetBefore(const Candidate& other) const noexcept {
+            return entryShare < other.entryShare || (entryShare == other.entryShare && isDeeperThan(other));
+        }
     };
     struct Nearby {
         std::optional<Candidate> current;
+        /// The deepest other surface.
         std::optional<Candidate> deepest;
+        /// The other surface that the tip entered first.
+        std::optional<Candidate> first;
+    };
+    /// The tip in the previous frame.
+    struct PathStart {
+        double timeSeconds = 0.0;
+        glm::dvec3 tipMetres{0.0};
     };
 
     [[nodiscard]] bool acceptSample(const TipSample& sample);
@@ -61,8 +75,14 @@ private:
     void followPath(std::size_t surface);
     void forgetContinuity() noexcept;
     [[nodiscard]] std::optional<Candidate> query(std::size_t surface);
-    [[nodiscard]] std::optional<SurfacePoint> closestPoint(std::size_t surface, const glm::dvec3& localTip) const;
+    [[nodiscard]] std::optional<glm::dvec3> pathInto(std::size_t surface, const Pose& pose) const;
+    [[nodiscard]] std::optional<SurfacePoint> closestPoint(
+        std::size_t surface, const glm::dvec3& localTip, const std::optional<SurfaceEntry>& entry = std::nullopt) const;
+    template <typename Visit>
+    void visitOthers(Visit&& visit);
     [[nodiscard]] Nearby findNearby();
+    [[nodiscard]] bool hasLeft(const Candidate& current);
+    [[nodiscard]] bool isAheadAtRest(const Candidate& current, const Candidate& other) const;
     [[nodiscard]] std::optional<Candidate> chooseContact();
     template <typename Visit>
     void visitWithinReach(Visit&& visit) const;
@@ -90,8 +110,12 @@ private:
     bool started_ = false;
     std::optional<glm::dvec3> tipMetres_;
     double tipSeconds_ = 0.0;
+    std::optional<PathStart> pathStart_;
+    std::optional<PathStart> pathBefore_;
 
     std::optional<std::size_t> touched_;
+    /// The touch began on the touched surface.
+    bool beganHere_ = false;
     std::optional<glm::dvec3> localNormal_;
     std::uint32_t touchCounter_ = 0;
     double approachSpeedMps_ = 0.0;

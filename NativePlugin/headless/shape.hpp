@@ -38,14 +38,32 @@ struct SurfacePoint {
     glm::dvec3 normal{0.0, 1.0, 0.0};
     /// Negative inside the material.
     double signedDistanceMetres = 0.0;
+    /// For a point that went through the shape: its distance from the shape's far side, or from an open mesh.
+    /// `signedDistanceMetres` is then measured from the face that was entered. 0 otherwise.
+    double beyondMetres = 0.0;
 };
 
-/// The state of the previous frame that keeps a normal from flipping between two equally near faces.
+/// Where a path first goes into a shape.
+struct SurfaceEntry {
+    glm::dvec3 pointMetres{0.0};
+    /// Outward unit normal of the face.
+    glm::dvec3 normal{0.0, 1.0, 0.0};
+    /// The part of the path before it, 0 to 1.
+    double share = 0.0;
+};
+
+/// A face that was entered is held up to this depth below it.
+inline constexpr double heldDepthMetres = 0.05;
+
+/// The face that the point is held by, so that it does not change for the nearest one at every depth.
 struct QueryOptions {
-    /// Local normal of the previous frame's contact with the same surface.
+    /// Local normal of the face that was entered, or of the previous frame's contact with the same surface. A face that
+    /// is nearer by the margin replaces it.
     std::optional<glm::dvec3> previousNormal;
-    /// Inside a shape, another face is used only if it is nearer by this much (at most a tenth of a box's half
-    /// thickness).
+    /// The touch began on this surface: then the face that was entered is held. The opposite face does not replace it,
+    /// and one beside it only where the shape is not thinner below the held face than below that one.
+    bool cameFromOutside = false;
+    /// Inside a shape, another face is used only if it is nearer by this much.
     double faceMarginMetres = 0.0005;
     /// Depth behind an open mesh up to which a point counts as inside.
     double openMeshDepthMetres = 0.005;
@@ -57,6 +75,10 @@ struct QueryOptions {
 /// mesh, deeper than its depth or beyond its rim.
 [[nodiscard]] std::optional<SurfacePoint> closestSurfacePoint(const Shape& shape, const glm::dvec3& point,
                                                               const QueryOptions& options);
+
+/// Where the straight path between two points first enters the shape from outside, or an open mesh from its front.
+/// Both points are in the shape's local frame and usable.
+[[nodiscard]] std::optional<SurfaceEntry> entryInto(const Shape& shape, const glm::dvec3& from, const glm::dvec3& to);
 
 /// A sphere around the shape in its local frame; a radius of infinity for the plane.
 struct BoundingSphere {

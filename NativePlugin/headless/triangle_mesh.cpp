@@ -17,6 +17,10 @@ namespace {
 
 constexpr std::uint32_t faceFeature = 6;
 
+// Of the angle between a triangle and the mean of it and its neighbour: neighbours that differ by up to 50 degrees are
+// one face.
+constexpr double creaseCosine = 0.9;
+
 constexpr double everywhere = std::numeric_limits<double>::infinity();
 
 struct OnTriangle {
@@ -221,6 +225,9 @@ MeshPoint TriangleMesh::describe(const Nearest& nearest, const glm::dvec3& point
     // error.
     if (nearest.feature != faceFeature && result.distanceMetres > 1e-9 * boundsRadius()) {
         result.normal = unitOr(result.behind ? -offset : offset, side);
+        const glm::dvec3& face = sides.normals[faceFeature];
+        const bool isCrease = !result.onRim && glm::dot(side, face) > creaseCosine;
+        result.isStraight = isCrease || glm::dot(result.normal, face) > 1.0 - 1e-9;
     }
     return result;
 }
@@ -234,10 +241,12 @@ MeshPoint TriangleMesh::closestPoint(const glm::dvec3& point) const {
     return describe(nearest, point);
 }
 
-std::optional<MeshPoint> TriangleMesh::closestPointFacing(const glm::dvec3& point, const glm::dvec3& direction) const {
+std::optional<MeshPoint> TriangleMesh::closestPointFacing(const glm::dvec3& point, const glm::dvec3& direction,
+                                                          double lowestCosine, double highestCosine) const {
     Nearest nearest;
     tree_.visitNear(point, everywhere, [&](std::uint32_t triangle) {
-        if (glm::dot(sides_[triangle].normals[faceFeature], direction) > sameSideCosine) {
+        const double cosine = glm::dot(sides_[triangle].normals[faceFeature], direction);
+        if (cosine > lowestCosine && cosine < highestCosine) {
             improve(nearest, triangle, point);
         }
         return nearest.squaredDistance;
@@ -246,6 +255,34 @@ std::optional<MeshPoint> TriangleMesh::closestPointFacing(const glm::dvec3& poin
         return std::nullopt;
     }
     return describe(nearest, point);
+}
+
+std::optional<MeshCrossing> TriangleMesh::firstCrossing(const glm::dvec3& from, const glm::dvec3& to) const {
+    const glm::dvec3 path = to - from;
+    // A path along the edge of two triangles goes through one of them.
+    const double allowance = 1e-9 * boundsRadius();
+    const double within = 0.5 * glm::length(path) + allowance;
+    std::optional<MeshCrossing> first;
+    std::uint32_t firstTriangle = 0;
+    tree_.visitNear(0.5 * (from + to), within * within, [&](std::uint32_t triangle) {
+        const Triangle& corners = triangles_[triangle];
+        const glm::dvec3& normal = sides_[triangle].normals[faceFeature];
+        const double towards = -glm::dot(path, normal);
+        const double height = glm::dot(from - vertices_[corners[0]], normal);
+        const double share = height / towards;
+        const bool isFirst = !first || share < first->share || (share == first->share && triangle < firstTriangle);
+        if (towards > 0.0 && height >= 0.0 && share <= 1.0 && isFirst) {
+            const glm::dvec3 point = from + share * path;
+            const OnTriangle found =
+                closestOnTriangle(vertices_[corners[0]], vertices_[corners[1]], vertices_[corners[2]], point);
+            if (glm::distance(point, found.pointMetres) <= allowance) {
+                first = MeshCrossing{point, normal, share};
+                firstTriangle = triangle;
+            }
+        }
+        return within * within;
+    });
+    return first;
 }
 
 MeshPoint TriangleMesh::closestPointOfAll(const glm::dvec3& point) const {

@@ -21,6 +21,16 @@ struct MeshPoint {
     bool behind = false;
     /// On an edge that belongs to a single triangle.
     bool onRim = false;
+    /// The other point is straight above or below the triangles that were searched, not beside their border.
+    bool isStraight = true;
+};
+
+/// Where a path goes through the front of a triangle.
+struct MeshCrossing {
+    glm::dvec3 pointMetres{0.0};
+    glm::dvec3 normal{0.0, 1.0, 0.0};
+    /// The part of the path before it, 0 to 1.
+    double share = 0.0;
 };
 
 /// A triangle mesh, convex or not. The front of a triangle (a, b, c) is the side that (b - a) x (c - a) points to: in
@@ -32,7 +42,7 @@ class TriangleMesh {
 public:
     using Triangle = std::array<std::uint32_t, 3>;
 
-    /// Normals closer than this cosine (45 degrees) count as the same side in `closestPointFacing`.
+    /// Normals closer than this cosine (45 degrees) count as the same side.
     static constexpr double sameSideCosine = 0.7071;
 
     /// Throws std::invalid_argument if a vertex is not finite, an index is out of range, or no triangle has an area.
@@ -40,9 +50,13 @@ public:
     TriangleMesh(std::vector<glm::dvec3> vertices, const std::vector<Triangle>& triangles);
 
     [[nodiscard]] MeshPoint closestPoint(const glm::dvec3& point) const;
-    /// The nearest point on triangles that face `direction` within 45 degrees; empty if there are none.
-    [[nodiscard]] std::optional<MeshPoint> closestPointFacing(const glm::dvec3& point,
-                                                              const glm::dvec3& direction) const;
+    /// The nearest point on triangles whose normals have a cosine to `direction` between the two; empty if there are
+    /// none.
+    [[nodiscard]] std::optional<MeshPoint> closestPointFacing(const glm::dvec3& point, const glm::dvec3& direction,
+                                                              double lowestCosine = sameSideCosine,
+                                                              double highestCosine = 2.0) const;
+    /// The first triangle that the straight path goes through from its front.
+    [[nodiscard]] std::optional<MeshCrossing> firstCrossing(const glm::dvec3& from, const glm::dvec3& to) const;
     /// The result of `closestPoint` by a search through all triangles: the reference in tests of the tree.
     [[nodiscard]] MeshPoint closestPointOfAll(const glm::dvec3& point) const;
 

@@ -25,6 +25,7 @@ namespace HaptoFlow.RepositoryTests
                 .Select(row => new Double3(row[0].AsNumber(), row[1].AsNumber(), row[2].AsNumber())).ToArray();
             triangles = raw["triangles"].AsArray()
                 .Select(row => row.AsArray().Select(corner => corner.AsInteger()).ToArray()).ToArray();
+            JoinVertices();
             sides = new Double3[triangles.Length][];
             FindSides();
             double volume = triangles.Sum(corners => Double3.Dot(
@@ -35,18 +36,85 @@ namespace HaptoFlow.RepositoryTests
             }
         }
 
-        public SurfacePoint? Closest(Double3 point, Double3? previous, ContactSettings settings)
+        /// <summary>For closed meshes only.</summary>
+        public SurfacePoint? Closest(Double3 point, in HeldFace held)
         {
             Found found = Nearest(point, _ => true)!.Value;
-            if (found.Behind && previous.HasValue && Double3.Dot(found.Normal, previous.Value) < SameSideCosine)
+            if (held.Normal.HasValue && Double3.Dot(found.Normal, held.Normal.Value) < SameSideCosine)
             {
-                Found? kept = Nearest(point, triangle => Double3.Dot(sides[triangle][Face], previous.Value) > SameSideCosine);
-                if (kept.HasValue && kept.Value.Behind && kept.Value.Distance <= found.Distance + settings.SwitchMarginMetres)
+                Double3 normal = held.Normal.Value;
+                Found? kept = Facing(point, normal, SameSideCosine, 2.0);
+                if (kept.HasValue && kept.Value.Behind && kept.Value.IsStraight)
                 {
-                    found = kept.Value;
+                    bool isAway = Double3.Dot(found.Normal, normal) < -SameSideCosine;
+                    if (!found.Behind && isAway && held.Holds(kept.Value.Distance))
+                    {
+                        return new SurfacePoint(
+                            kept.Value.Point, kept.Value.Normal, -kept.Value.Distance, found.Distance);
+                    }
+                    found = found.Behind ? HeldOrNearer(point, kept.Value, found, held) : found;
                 }
             }
             return new SurfacePoint(found.Point, found.Normal, found.Behind ? -found.Distance : found.Distance);
+        }
+
+        public SurfaceEntry? EntryInto(Double3 from, Double3 to)
+        {
+            SurfaceEntry? first = null;
+            for (int index = 0; index < triangles.Length; ++index)
+            {
+                int[] corners = triangles[index];
+                Double3 normal = sides[index][Face];
+                double towards = -Double3.Dot(to - from, normal);
+                double height = Double3.Dot(from - vertices[corners[0]], normal);
+                double share = height / towards;
+                if (towards > 0.0 && height >= 0.0 && share <= 1.0 && !(share >= first?.Share))
+                {
+                    Double3 point = from + (to - from) * share;
+                    (Double3 place, _) = TriangleGeometry.Closest(
+                        vertices[corners[0]], vertices[corners[1]], vertices[corners[2]], point);
+                    if (Double3.Distance(point, place) <= 1e-10)
+                    {
+                        first = new SurfaceEntry(point, normal, share);
+                    }
+                }
+            }
+            return first;
+        }
+
+        private Found HeldOrNearer(Double3 point, Found kept, Found nearest, in HeldFace held)
+        {
+            Found? beside = Facing(point, kept.Normal, -SameSideCosine, SameSideCosine);
+            if (beside.HasValue && held.Holds(kept.Distance))
+            {
+                if (Thickness(point, kept) < Thickness(point, beside.Value))
+                {
+                    return kept;
+                }
+                nearest = beside.Value;
+            }
+            return kept.Distance <= nearest.Distance + held.MarginMetres ? kept : nearest;
+        }
+
+        private double Thickness(Double3 point, Found side) =>
+            side.Distance + (Facing(point, -side.Normal, SameSideCosine, 2.0)?.Distance ?? double.PositiveInfinity);
+
+        private Found? Facing(Double3 point, Double3 direction, double lowest, double highest) =>
+            Nearest(point, triangle =>
+            {
+                double cosine = Double3.Dot(sides[triangle][Face], direction);
+                return cosine > lowest && cosine < highest;
+            });
+
+        private void JoinVertices()
+        {
+            foreach (int[] corners in triangles)
+            {
+                for (int corner = 0; corner < 3; ++corner)
+                {
+                    corners[corner] = Array.FindIndex(vertices, each => each.Equals(vertices[corners[corner]]));
+                }
+            }
         }
 
         private Found? Nearest(Double3 point, Func<int, bool> isCandidate)
@@ -55,6 +123,7 @@ namespace HaptoFlow.RepositoryTests
             Double3 nearest = Double3.Zero;
             Double3 side = Double3.Up;
             bool onFace = true;
+            Double3 face = Double3.Up;
             for (int triangle = 0; triangle < triangles.Length; ++triangle)
             {
                 if (!isCandidate(triangle))
@@ -71,17 +140,22 @@ namespace HaptoFlow.RepositoryTests
                     nearest = place;
                     side = sides[triangle][feature];
                     onFace = feature == Face;
+                    face = sides[triangle][Face];
                 }
             }
-            return double.IsInfinity(best) ? (Found?)null : Describe(point, nearest, side, onFace);
+            return double.IsInfinity(best) ? (Found?)null : Describe(point, nearest, side, face, onFace);
         }
 
-        private static Found Describe(Double3 point, Double3 nearest, Double3 side, bool onFace)
+        private static Found Describe(Double3 point, Double3 nearest, Double3 side, Double3 face, bool onFace)
         {
             Double3 offset = point - nearest;
             bool behind = Double3.Dot(offset, side) < 0.0;
             Double3 normal = onFace || offset.Length < 1e-10 ? side : Vectors.UnitOr(behind ? -offset : offset, side);
-            return new Found { Point = nearest, Normal = normal, Distance = offset.Length, Behind = behind };
+            bool isStraight = onFace || Double3.Dot(side, face) > 0.9 || Double3.Dot(normal, face) > 1.0 - 1e-9;
+            return new Found
+            {
+                Point = nearest, Normal = normal, Distance = offset.Length, Behind = behind, IsStraight = isStraight,
+            };
         }
 
         private void FindSides()
@@ -128,6 +202,7 @@ namespace HaptoFlow.RepositoryTests
             public Double3 Normal;
             public double Distance;
             public bool Behind;
+            public bool IsStraight;
         }
     }
 }

@@ -145,35 +145,66 @@ namespace HaptoFlow.RepositoryTests
         {
             RigidPose pose = PoseAt(frame);
             Tracked.Track.Record(tracker.NowSeconds, pose);
-            SurfacePoint? local = Closest(tracker, frame, tracker.TipMetres);
+            Double3? from = tracker.AdvancePath(Tracked, pose);
+            Double3 tip = pose.PointToLocal(tracker.TipMetres);
+            SurfaceEntry? entry = from.HasValue ? EntryInto(from.Value, tip) : null;
+            HeldFace held = tracker.HeldFaceOf(Tracked);
+            held = entry.HasValue ? held.EnteredBy(entry.Value) : held;
+            SurfacePoint? local = Closest(tip, held, tracker.Settings);
+            if (entry.HasValue && !held.IsTouched &&
+                !(local.HasValue && local.Value.BeyondMetres <= 0.0 && local.Value.SignedDistanceMetres <= 0.0))
+            {
+                local = entry.Value.PassedBy(tip);
+            }
             if (local.HasValue && local.Value.SignedDistanceMetres <= tracker.ReachMetresOf(Tracked))
             {
-                tracker.Consider(new ContactCandidate(Tracked, pose, local.Value));
+                tracker.Consider(new ContactCandidate(Tracked, pose, local.Value, entry?.Share ?? 2.0));
             }
         }
 
-        public SurfacePoint? Closest(ContactTracker tracker, int frame, Double3 tipMetres) => Closest(
-            PoseAt(frame).PointToLocal(tipMetres), tracker.PreviousLocalNormal(Tracked), tracker.Settings);
+        public SurfacePoint? Closest(ContactTracker tracker, int frame, Double3 tipMetres) =>
+            Closest(PoseAt(frame).PointToLocal(tipMetres), tracker.HeldFaceOf(Tracked), tracker.Settings);
 
         private RigidPose PoseAt(int frame) => Poses == null
             ? restingPose
             : new RigidPose(VectorAt(Poses[frame], 0), RotationOf(Poses[frame], 3));
 
-        private SurfacePoint? Closest(Double3 tip, Double3? previous, ContactSettings settings)
+        private SurfacePoint? Closest(Double3 tip, in HeldFace held, ContactSettings settings)
         {
             if (shape.Find("box") is { } box)
             {
-                return Shapes.OnBox(VectorAt(box["size"], 0), tip, previous, settings.SwitchMarginMetres);
+                return Shapes.OnBox(VectorAt(box["size"], 0), tip, held);
             }
+            if (RoundSize() is { } round)
+            {
+                return Shapes.OnCapsule(round.Radius, round.Height, tip, held);
+            }
+            return mesh == null ? Shapes.OnPlane(tip) : mesh.Closest(tip, held);
+        }
+
+        private SurfaceEntry? EntryInto(Double3 from, Double3 tip)
+        {
+            if (shape.Find("box") is { } box)
+            {
+                return Shapes.EntryOfBox(VectorAt(box["size"], 0), from, tip);
+            }
+            if (RoundSize() is { } round)
+            {
+                return Shapes.EntryOfCapsule(round.Radius, round.Height, from, tip);
+            }
+            return mesh == null ? Shapes.EntryOfPlane(from, tip) : mesh.EntryInto(from, tip);
+        }
+
+        /// <summary>Radius and height of a sphere or a capsule.</summary>
+        private (double Radius, double Height)? RoundSize()
+        {
             if (shape.Find("sphere") is { } sphere)
             {
-                return Shapes.OnSphere(sphere["radius"].AsNumber(), tip, previous);
+                return (sphere["radius"].AsNumber(), 0.0);
             }
-            if (shape.Find("capsule") is { } capsule)
-            {
-                return Shapes.OnCapsule(capsule["radius"].AsNumber(), capsule["height"].AsNumber(), tip, previous);
-            }
-            return mesh == null ? Shapes.OnPlane(tip) : mesh.Closest(tip, previous, settings);
+            return shape.Find("capsule") is { } capsule
+                ? (capsule["radius"].AsNumber(), capsule["height"].AsNumber())
+                : ((double, double)?)null;
         }
 
         private static double StiffnessOf(JsonValue surface, JsonValue labelStiffness)

@@ -247,12 +247,100 @@ Case snapTurns() {
                   }));
 }
 
+json matMesh(const glm::dvec3& half) {
+    const testing::RawMesh raw = testing::rawBoxMesh(half);
+    json vertices = json::array();
+    for (const glm::dvec3& vertex : raw.vertices) {
+        vertices.push_back({vertex.x, vertex.y, vertex.z});
+    }
+    return {{"mesh", {{"vertices", vertices}, {"triangles", raw.triangles}}}};
+}
+
+/// A hand that presses through a mat of 3 mm into the table, slides off the mat's rim, and is lifted.
+Case matOnTable(const std::string& kind, json shape) {
+    json table = surfaceWith("table", {{"box", {{"size", {0.6, 0.02, 0.4}}}}});
+    table["position"] = {0.0, -0.01, 0.0};
+    json mat = surfaceWith("mat", std::move(shape), "carpet");
+    mat["position"] = {0.0, 0.0015, 0.0};
+    return caseOf("through a mat into the table, off the mat, up: the mat is a " + kind, sceneWith({table, mat}, 0.002),
+                  sampledPath(1.8, frameRateHz, [](double time) {
+                      const double down = 0.006 - 0.014 * std::min(time, 1.0);
+                      return glm::dvec3(0.01 + 0.13 * std::max(0.0, std::min(time, 1.6) - 0.6),
+                                        time < 1.6 ? down : down + 0.08 * (time - 1.6), 0.01 * time);
+                  }));
+}
+
+/// Down through a plate of 3 mm in the air, and up again into its lower side.
+Case thinPlate() {
+    const json box = surfaceWith("box", {{"box", {{"size", {0.1, 0.003, 0.1}}}}});
+    json mesh = surfaceWith("mesh", matMesh({0.05, 0.0015, 0.05}));
+    mesh["position"] = {0.2, 0.0, 0.0};
+    return caseOf("down through a plate in the air and up into its lower side, a box and a mesh",
+                  sceneWith({box, mesh}, 0.002), sampledPath(2.4, frameRateHz, [](double time) {
+                      const double local = time < 1.2 ? time : time - 1.2;
+                      return glm::dvec3((time < 1.2 ? 0.01 : 0.21) + 0.02 * local,
+                                        local < 0.6 ? 0.006 - 0.025 * local : -0.009 + 0.012 * (local - 0.6), 0.005);
+                  }));
+}
+
+/// Passes at 3 m/s between two samples: one touch on each pass, whatever the kind of the shape, moving or not.
+Case fastPasses() {
+    json box = surfaceWith("box", {{"box", {{"size", {0.1, 0.003, 0.1}}}}});
+    json ball = surfaceWith("ball", {{"sphere", {{"radius", 0.01}}}});
+    ball["position"] = {0.2, 0.0, 0.0};
+    json rod = surfaceWith("rod", {{"capsule", {{"radius", 0.004}, {"height", 0.06}}}});
+    rod["position"] = {0.4, 0.0, 0.0};
+    rod["rotation"] = {0.7071067811865476, 0.0, 0.0, 0.7071067811865476};
+    json plate = surfaceWith("mesh", matMesh({0.05, 0.0015, 0.05}));
+    plate["position"] = {0.6, 0.0, 0.0};
+    json lift = surfaceWith("lift", {{"box", {{"size", {0.1, 0.003, 0.1}}}}});
+    lift["motion"] = {
+        {"loop", false},
+        {"keyframes", {{{"t", 0.0}, {"position", {0.8, 0.0, 0.0}}}, {{"t", 12.0}, {"position", {0.8, 24.0, 0.0}}}}}};
+    return caseOf("passes at 3 m/s and 10 Hz through a box, a ball, a rod, a mesh and a box on a lift",
+                  sceneWith({box, ball, rod, plate, lift}, 0.002), sampledPath(9.9, 10.0, [](double time) {
+                      const int frame = static_cast<int>(std::lround(10.0 * time));
+                      const int shape = frame / 20;
+                      const double side = (frame / 3) % 2 == 0 ? 1.0 : -1.0;
+                      const double height = side * (0.12 + 0.05 * std::sin(2.1 * frame));
+                      return glm::dvec3(0.2 * shape + 0.001, height + (shape == 4 ? 2.0 * time : 0.0), 0.002);
+                  }));
+}
+
+/// A tip that rests above a platform which lifts it by more than its thickness in every frame.
+Case restingOnALift() {
+    json lift = surfaceWith("lift", {{"box", {{"size", {0.1, 0.003, 0.1}}}}});
+    lift["motion"] = {
+        {"loop", false},
+        {"keyframes", {{{"t", 0.0}, {"position", {0.0, 0.0, 0.0}}}, {{"t", 2.0}, {"position", {0.0, 6.0, 0.0}}}}}};
+    return caseOf("above a platform that is lifted at 3 m/s, then on it", sceneWith({lift}, 0.002),
+                  sampledPath(1.0, frameRateHz, [](double time) {
+                      return glm::dvec3(0.01, 3.0 * time + (time < 0.5 ? 0.008 : 0.0025), 0.0);
+                  }));
+}
+
 }  // namespace
 
 std::vector<Case> goldenCases() {
-    return {boxEdge(),      deepInsideBox(),  spherePole(),     movingPlate(), meshAndBlend(),
-            trackerHold(),  noisyScribble(),  brokenTracking(), seamAndTaps(), stepsAndWall(),
-            carriedPlate(), trayInAVehicle(), heldInALift(),    snapTurns()};
+    return {boxEdge(),
+            deepInsideBox(),
+            spherePole(),
+            movingPlate(),
+            meshAndBlend(),
+            trackerHold(),
+            noisyScribble(),
+            brokenTracking(),
+            seamAndTaps(),
+            stepsAndWall(),
+            carriedPlate(),
+            matOnTable("box", {{"box", {{"size", {0.2, 0.003, 0.2}}}}}),
+            matOnTable("mesh", matMesh({0.1, 0.0015, 0.1})),
+            thinPlate(),
+            fastPasses(),
+            restingOnALift(),
+            trayInAVehicle(),
+            heldInALift(),
+            snapTurns()};
 }
 
 }  // namespace haptoflow::headless::golden

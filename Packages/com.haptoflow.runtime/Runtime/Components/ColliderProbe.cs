@@ -14,24 +14,27 @@ namespace HaptoFlow
         /// <summary>Surfaces farther away are ignored.</summary>
         public readonly double ReachMetres;
 
-        /// <summary>Normal of the last frame's contact with this collider, in the collider's local frame; null without
-        /// one.</summary>
-        public readonly Double3? PreviousLocalNormal;
+        /// <summary>The face of the collider that holds the tip.</summary>
+        public readonly HeldFace Held;
 
-        /// <summary>Position of the tip in the last frame.</summary>
-        public readonly Double3 PreviousTipMetres;
+        /// <summary>Position of the tip in the last frame, in the collider's local frame; null where the tip's way into
+        /// the collider does not matter.</summary>
+        public readonly Double3? PathStart;
 
-        public readonly double FaceMarginMetres;
+        public ProbeQuestion(Double3 tipMetres, double reachMetres, in HeldFace held, Double3? pathStart = null) =>
+            (TipMetres, ReachMetres, Held, PathStart) = (tipMetres, reachMetres, held, pathStart);
+    }
 
-        public ProbeQuestion(Double3 tipMetres, double reachMetres, Double3? previousLocalNormal,
-            Double3 previousTipMetres, double faceMarginMetres)
-        {
-            TipMetres = tipMetres;
-            ReachMetres = reachMetres;
-            PreviousLocalNormal = previousLocalNormal;
-            PreviousTipMetres = previousTipMetres;
-            FaceMarginMetres = faceMarginMetres;
-        }
+    /// <summary>The answer of a search for the closest point.</summary>
+    internal struct ProbeAnswer
+    {
+        public SurfacePoint Point;
+
+        /// <summary>The part of the tip's last way before it entered the collider; more than 1 if it did not.</summary>
+        public double EntryShare;
+
+        /// <summary>The ray hit that found the point; null where no ray was needed.</summary>
+        public RaycastHit? Hit;
     }
 
     /// <summary>Finds the point of a collider that is closest to the tip, at the pose where the collider is drawn; the
@@ -105,92 +108,142 @@ namespace HaptoFlow
 
         /// <summary>False where no point is within reach, or the kind of collider is not supported.</summary>
         public static bool TryClosest(
-            Collider collider, in RigidPose pose, in ProbeQuestion question, out SurfacePoint found) =>
-            TryClosest(collider, pose, question, out found, out _);
-
-        /// <summary>False where no point is within reach, or the kind of collider is not supported.</summary>
-        /// <param name="hit">The ray hit that found the point; null where no ray was needed.</param>
-        public static bool TryClosest(Collider collider, in RigidPose pose, in ProbeQuestion question,
-            out SurfacePoint found, out RaycastHit? hit)
+            Collider collider, in RigidPose pose, in ProbeQuestion question, out ProbeAnswer answer)
         {
-            hit = null;
+            answer = new ProbeAnswer { EntryShare = 2.0 };
             Double3 tip = pose.PointToLocal(question.TipMetres);
             Double3 scale = collider.transform.lossyScale.ToDouble();
+            RaycastHit? entryHit = null;
+            SurfaceEntry? entry = question.PathStart.HasValue
+                ? EntryInto(collider, pose, scale, question.PathStart.Value, tip, out entryHit)
+                : null;
+            HeldFace held = entry.HasValue ? question.Held.EnteredBy(entry.Value) : question.Held;
+            bool isNear = TryClosest(collider, pose, scale, tip, held, question, ref answer);
+            if (!entry.HasValue)
+            {
+                return isNear;
+            }
+            answer.EntryShare = entry.Value.Share;
+            bool isIn = isNear && answer.Point.BeyondMetres <= 0.0 && answer.Point.SignedDistanceMetres <= 0.0;
+            if (!isIn && !held.IsTouched)
+            {
+                // The tip came out again within the frame: it touched where it went in.
+                answer.Point = entry.Value.PassedBy(tip);
+                answer.Hit = entryHit;
+                return true;
+            }
+            return isNear;
+        }
+
+        private static bool TryClosest(Collider collider, in RigidPose pose, Double3 scale, Double3 tip,
+            in HeldFace held, in ProbeQuestion question, ref ProbeAnswer answer)
+        {
             switch (collider)
             {
                 case BoxCollider box:
-                    found = OnBox(box, tip, scale, question);
+                    Double3 centre = Centre(box.center, scale);
+                    answer.Point = Moved(Shapes.OnBox(SizeOf(box, scale), tip - centre, held), centre);
                     break;
-                case SphereCollider sphere:
-                    found = OnSphere(sphere, tip, scale, question);
-                    break;
-                case CapsuleCollider capsule:
-                    found = OnCapsule(capsule, tip, scale, question);
-                    break;
-                case CharacterController controller:
-                    found = OnController(controller, tip, scale, question);
-                    break;
-                case MeshCollider mesh when mesh.convex && ConvexProbe.TryOutside(mesh, pose, question, out found):
+                case MeshCollider mesh when mesh.convex &&
+                    ConvexProbe.TryOutside(mesh, pose, question, held, ref answer):
                     break;
                 case MeshCollider _:
                 case TerrainCollider _:
-                    bool isNear = RayProbe.TryClosest(collider, pose, question, out found, out RaycastHit place);
-                    hit = place;
-                    return isNear;
+                    return RayProbe.TryClosest(collider, pose, question, held, ref answer);
                 default:
-                    found = default;
+                    if (!IsRound(collider, scale, out RoundShape round))
+                    {
+                        return false;
+                    }
+                    answer.Point = round.Closest(tip, held);
+                    break;
+            }
+            return answer.Point.SignedDistanceMetres <= question.ReachMetres;
+        }
+
+        private static SurfaceEntry? EntryInto(Collider collider, in RigidPose pose, Double3 scale, Double3 from,
+            Double3 tip, out RaycastHit? hit)
+        {
+            hit = null;
+            switch (collider)
+            {
+                case BoxCollider box:
+                    Double3 centre = Centre(box.center, scale);
+                    return Shapes.EntryOfBox(SizeOf(box, scale), from - centre, tip - centre)?.MovedBy(centre);
+                case MeshCollider _:
+                case TerrainCollider _:
+                    return RayProbe.EntryInto(collider, pose, from, tip, out hit);
+                default:
+                    return IsRound(collider, scale, out RoundShape round) ? round.EntryOf(from, tip) : null;
+            }
+        }
+
+        private static Double3 SizeOf(BoxCollider box, Double3 scale) =>
+            Double3.Scale(box.size.ToDouble(), scale).Absolute;
+
+        private static bool IsRound(Collider collider, Double3 scale, out RoundShape round)
+        {
+            Double3 size = scale.Absolute;
+            switch (collider)
+            {
+                case SphereCollider sphere:
+                    round = new RoundShape(Centre(sphere.center, scale), sphere.radius * size.Largest, 0.0, 1);
+                    return true;
+                case CapsuleCollider capsule:
+                    int axis = capsule.direction;
+                    round = new RoundShape(Centre(capsule.center, scale),
+                        capsule.radius * size.With(axis, 0.0).Largest, capsule.height * size[axis], axis);
+                    return true;
+                case CharacterController controller:
+                    round = new RoundShape(Centre(controller.center, scale),
+                        controller.radius * Math.Max(size.X, size.Z), controller.height * size.Y, 1);
+                    return true;
+                default:
+                    round = default;
                     return false;
             }
-            return found.SignedDistanceMetres <= question.ReachMetres;
-        }
-
-        private static SurfacePoint OnBox(BoxCollider box, Double3 tip, Double3 scale, in ProbeQuestion question)
-        {
-            Double3 centre = Centre(box.center, scale);
-            Double3 size = Double3.Scale(box.size.ToDouble(), scale).Absolute;
-            return Moved(
-                Shapes.OnBox(size, tip - centre, question.PreviousLocalNormal, question.FaceMarginMetres), centre);
-        }
-
-        private static SurfacePoint OnSphere(
-            SphereCollider sphere, Double3 tip, Double3 scale, in ProbeQuestion question)
-        {
-            Double3 centre = Centre(sphere.center, scale);
-            double radius = sphere.radius * scale.Absolute.Largest;
-            return Moved(Shapes.OnSphere(radius, tip - centre, question.PreviousLocalNormal), centre);
-        }
-
-        private static SurfacePoint OnCapsule(
-            CapsuleCollider capsule, Double3 tip, Double3 scale, in ProbeQuestion question)
-        {
-            int axis = capsule.direction;
-            Double3 size = scale.Absolute;
-            double radius = capsule.radius * size.With(axis, 0.0).Largest;
-            Double3 centre = Centre(capsule.center, scale);
-            Double3? previous = question.PreviousLocalNormal;
-            // Shapes.OnCapsule expects the axis along y: swap that coordinate before and after.
-            SurfacePoint upright = Shapes.OnCapsule(radius, capsule.height * size[axis], Swapped(tip - centre, axis),
-                previous.HasValue ? Swapped(previous.Value, axis) : (Double3?)null);
-            return new SurfacePoint(Swapped(upright.PointMetres, axis) + centre, Swapped(upright.Normal, axis),
-                upright.SignedDistanceMetres);
-        }
-
-        private static SurfacePoint OnController(
-            CharacterController controller, Double3 tip, Double3 scale, in ProbeQuestion question)
-        {
-            Double3 size = scale.Absolute;
-            Double3 centre = Centre(controller.center, scale);
-            return Moved(Shapes.OnCapsule(controller.radius * Math.Max(size.X, size.Z), controller.height * size.Y,
-                tip - centre, question.PreviousLocalNormal), centre);
         }
 
         private static Double3 Centre(Vector3 centre, Double3 scale) => Double3.Scale(centre.ToDouble(), scale);
 
         private static SurfacePoint Moved(in SurfacePoint point, Double3 by) =>
-            new SurfacePoint(point.PointMetres + by, point.Normal, point.SignedDistanceMetres);
+            new SurfacePoint(
+                point.PointMetres + by, point.Normal, point.SignedDistanceMetres, point.BeyondMetres);
 
-        private static Double3 Swapped(Double3 vector, int axis) => axis == 0
-            ? new Double3(vector.Y, vector.X, vector.Z)
-            : axis == 2 ? new Double3(vector.X, vector.Z, vector.Y) : vector;
+        /// <summary>A sphere or a capsule.</summary>
+        private readonly struct RoundShape
+        {
+            private readonly Double3 centre;
+            private readonly double radius;
+            private readonly double height;
+            private readonly int axis;
+
+            public RoundShape(Double3 centre, double radius, double height, int axis) =>
+                (this.centre, this.radius, this.height, this.axis) = (centre, radius, height, axis);
+
+            public SurfacePoint Closest(Double3 tip, in HeldFace held)
+            {
+                Double3? normal = held.Normal.HasValue ? Swapped(held.Normal.Value) : (Double3?)null;
+                var swapped = new HeldFace(normal, held.CameFromOutside, held.MarginMetres, held.IsTouched);
+                SurfacePoint upright = Shapes.OnCapsule(radius, height, Swapped(tip - centre), swapped);
+                return new SurfacePoint(Swapped(upright.PointMetres) + centre, Swapped(upright.Normal),
+                    upright.SignedDistanceMetres, upright.BeyondMetres);
+            }
+
+            public SurfaceEntry? EntryOf(Double3 from, Double3 to)
+            {
+                SurfaceEntry? upright =
+                    Shapes.EntryOfCapsule(radius, height, Swapped(from - centre), Swapped(to - centre));
+                return upright.HasValue
+                    ? new SurfaceEntry(Swapped(upright.Value.PointMetres) + centre, Swapped(upright.Value.Normal),
+                        upright.Value.Share)
+                    : (SurfaceEntry?)null;
+            }
+
+            /// <summary>Shapes expects the axis along y: swaps that coordinate, before and after.</summary>
+            private Double3 Swapped(Double3 vector) => axis == 0
+                ? new Double3(vector.Y, vector.X, vector.Z)
+                : axis == 2 ? new Double3(vector.X, vector.Z, vector.Y) : vector;
+        }
     }
 }

@@ -10,14 +10,15 @@ namespace HaptoFlow
     /// outside against front faces.</summary>
     /// <remarks>
     /// <para>A ray starts above the tip, away from the surface, and runs back through it; the normal of a hit gives the
-    /// next, better direction. The first directions are the last contact's normal, the direction from which the tip
-    /// came, and the six axes. A short ray goes first, so that the far side of a thin wall is not taken for the
-    /// surface.</para>
+    /// next, better direction. The first direction is the normal of the face that holds the tip: the last contact's, or
+    /// that of the face which the tip's way since the last frame goes through. Then come the six axes. A short ray goes
+    /// first, so that the far side of a thin wall is not taken for the surface.</para>
     /// <para>No ray is cast for a tip out of reach of the collider's bounds. A tip that was touching, or that crossed
     /// the surface since the last frame, may be outside flat bounds and is still tested.</para>
-    /// <para>Limits: a tip deeper than <see cref="MaximumDepthMetres"/> behind a face counts as outside; in a corner the
-    /// face that was touched first stays; an object without rigid body that a script moves is hit at its pose of the
-    /// last physics step, unless physics transforms are synchronised.</para>
+    /// <para>Limits: a tip deeper than <see cref="MaximumDepthMetres"/> behind a face counts as outside, unless the
+    /// touch began there and rays find the mesh's far side or the tip is in another surface; an object without rigid
+    /// body that a script moves is hit at its pose of the last physics step, unless physics transforms are
+    /// synchronised.</para>
     /// </remarks>
     internal static class RayProbe
     {
@@ -30,27 +31,23 @@ namespace HaptoFlow
         private const double BoundsSlackMetres = 1e-4;
         private const int Refinements = 2;
 
-        /// <param name="hit">The ray hit that found the point.</param>
+        // A mesh that is wider counts as endless.
+        private const double MaximumWidthMetres = 10.0;
+
         public static bool TryClosest(Collider collider, in RigidPose pose, in ProbeQuestion question,
-            out SurfacePoint found, out RaycastHit hit)
+            in HeldFace held, ref ProbeAnswer answer)
         {
-            hit = default;
             RigidPose physics = PhysicsPose(collider, pose);
             Double3 tip = physics.PointToWorld(pose.PointToLocal(question.TipMetres));
-            Double3 cameFrom = question.PreviousTipMetres - question.TipMetres;
-            if (IsOutOfBounds(collider, tip, question, cameFrom.Length))
+            double behind = held.Normal.HasValue ? HeldFace.MaximumDepthMetres : 0.0;
+            if (IsOutOfBounds(collider, tip, question.ReachMetres + behind))
             {
-                found = default;
                 return false;
             }
             var search = new Search(collider, question.ReachMetres, tip);
-            if (question.PreviousLocalNormal.HasValue)
+            if (held.Normal.HasValue)
             {
-                search.Try(physics.DirectionToWorld(question.PreviousLocalNormal.Value));
-            }
-            if (!search.Found && cameFrom.Length > MinimumMoveMetres)
-            {
-                search.Try(physics.DirectionToWorld(pose.DirectionToLocal(cameFrom / cameFrom.Length)));
+                search.TryHeld(physics.DirectionToWorld(held.Normal.Value), held);
             }
             if (!search.Found)
             {
@@ -60,20 +57,59 @@ namespace HaptoFlow
                     search.Try(physics.DirectionToWorld(Double3.Zero.With(axis, -1.0)));
                 }
             }
-            found = search.Found
-                ? new SurfacePoint(
-                    physics.PointToLocal(search.Point), physics.DirectionToLocal(search.Normal), search.Distance)
-                : default;
-            hit = search.Hit;
-            return search.Found && search.Distance <= question.ReachMetres;
+            if (!search.Found || search.Distance > question.ReachMetres)
+            {
+                return false;
+            }
+            answer.Point = new SurfacePoint(physics.PointToLocal(search.Point),
+                physics.DirectionToLocal(search.Normal), search.Distance, search.Beyond);
+            answer.Hit = search.Hit;
+            return true;
         }
 
-        private static bool IsOutOfBounds(Collider collider, Double3 tip, in ProbeQuestion question, double movedMetres)
+        /// <summary>Where the tip's way first goes through a front face.</summary>
+        /// <param name="from">Start of the way, in the collider's local frame.</param>
+        /// <param name="tip">End of the way, in the collider's local frame.</param>
+        public static SurfaceEntry? EntryInto(
+            Collider collider, in RigidPose pose, Double3 from, Double3 tip, out RaycastHit? hit)
         {
-            double behind = question.PreviousLocalNormal.HasValue
-                ? MaximumDepthMetres
-                : Math.Min(movedMetres, MaximumDepthMetres);
-            double margin = question.ReachMetres + behind + BoundsSlackMetres;
+            hit = null;
+            Double3 path = tip - from;
+            double length = path.Length;
+            if (length <= MinimumMoveMetres)
+            {
+                return null;
+            }
+            RigidPose physics = PhysicsPose(collider, pose);
+            if (IsOutOfBounds(collider, physics.PointToWorld(tip), length))
+            {
+                return null;
+            }
+            var ray = new Ray(physics.PointToWorld(from).ToVector(),
+                (physics.DirectionToWorld(path) / length).ToVector());
+            if (!collider.Raycast(ray, out RaycastHit place, (float)length))
+            {
+                return null;
+            }
+            hit = place;
+            Double3 normal = physics.DirectionToLocal(Vectors.UnitOr(place.normal.ToDouble(), Double3.Up));
+            return new SurfaceEntry(physics.PointToLocal(place.point.ToDouble()), normal, place.distance / length);
+        }
+
+        /// <summary>True for a tip that went through a mesh and is straight below the face that holds it.</summary>
+        public static bool IsThrough(
+            Collider collider, in RigidPose pose, in ProbeQuestion question, in HeldFace held)
+        {
+            RigidPose physics = PhysicsPose(collider, pose);
+            Double3 tip = physics.PointToWorld(pose.PointToLocal(question.TipMetres));
+            var search = new Search(collider, question.ReachMetres, tip);
+            search.TryHeld(physics.DirectionToWorld(held.Normal!.Value), held);
+            return search.Found && search.Beyond > 0.0;
+        }
+
+        private static bool IsOutOfBounds(Collider collider, Double3 tip, double withinMetres)
+        {
+            double margin = withinMetres + BoundsSlackMetres;
             return collider.bounds.SqrDistance(tip.ToVector()) > margin * margin;
         }
 
@@ -107,6 +143,7 @@ namespace HaptoFlow
                 Point = Double3.Zero;
                 Normal = Double3.Up;
                 Distance = double.PositiveInfinity;
+                Beyond = 0.0;
                 Hit = default;
             }
 
@@ -117,20 +154,125 @@ namespace HaptoFlow
             /// <summary>Signed distance in metres, negative inside.</summary>
             public double Distance { get; private set; }
 
+            /// <summary>Distance from the mesh's far side for a tip that went through it, 0 for one that did
+            /// not.</summary>
+            public double Beyond { get; private set; }
+
             /// <summary>The ray hit that found the point.</summary>
             public RaycastHit Hit { get; private set; }
 
             public void Try(Double3 outward)
             {
-                Try(outward, ShortLiftMetres + reach);
+                Try(outward, ShortLiftMetres, false);
                 if (!Found)
                 {
-                    Try(outward, MaximumDepthMetres + reach);
+                    Try(outward, MaximumDepthMetres, false);
                 }
             }
 
-            private void Try(Double3 outward, double lift)
+            /// <summary>Searches the face that holds the tip, and decides whether it still does.</summary>
+            public void TryHeld(Double3 outward, in HeldFace held)
             {
+                if (!held.CameFromOutside)
+                {
+                    Try(outward);
+                }
+                else if (!TryThrough(outward, ShortLiftMetres) && !TryThrough(outward, MaximumDepthMetres))
+                {
+                    TryThrough(outward, HeldFace.MaximumDepthMetres);
+                }
+                if (!Found || Distance >= 0.0)
+                {
+                    return;
+                }
+                if (held.CameFromOutside)
+                {
+                    FindFarSide();
+                }
+                if (Beyond <= 0.0 && -Distance > held.MarginMetres)
+                {
+                    TryBeside(held);
+                }
+            }
+
+            private bool TryThrough(Double3 outward, double lift)
+            {
+                Try(outward, lift, true);
+                return Found;
+            }
+
+            /// <summary>A front face between the held face and the tip is that of the far side: the tip went through.
+            /// A tip deep behind a face without any far side is behind an open mesh.</summary>
+            private void FindFarSide()
+            {
+                double depth = -Distance;
+                if (CastTo(tip, Normal, depth, out RaycastHit hit))
+                {
+                    Beyond = Math.Max(hit.distance, MinimumOffsetMetres);
+                }
+                else if (depth > MaximumDepthMetres && double.IsInfinity(FarSideMetres(Normal, HeldFace.MaximumDepthMetres)))
+                {
+                    Beyond = depth;
+                }
+            }
+
+            /// <summary>Takes a nearer face beside the held one, unless the mesh is thinner below the held
+            /// one.</summary>
+            private void TryBeside(in HeldFace held)
+            {
+                Double3 normal = Normal;
+                double depth = -Distance;
+                Double3 first = Vectors.UnitOr(Double3.Cross(normal, Math.Abs(normal.X) < 0.9 ? Double3.Right : Double3.Up),
+                    Double3.Right);
+                Double3 second = Double3.Cross(normal, first);
+                double thickness = double.NaN;
+                for (int index = 0; index < 4; ++index)
+                {
+                    Double3 side = (index < 2 ? first : second) * (index % 2 == 0 ? 1.0 : -1.0);
+                    if (!CastTo(tip + side * depth, -side, depth, out RaycastHit hit))
+                    {
+                        continue;
+                    }
+                    double metres = depth - hit.distance;
+                    Double3 found = Vectors.UnitOr(hit.normal.ToDouble(), side);
+                    bool isBeside = Double3.Dot(found, side) > HeldFace.SameSideCosine;
+                    if (!isBeside || metres >= -Distance - (Normal.Equals(normal) ? held.MarginMetres : 0.0))
+                    {
+                        continue;
+                    }
+                    if (held.Holds(depth))
+                    {
+                        thickness = double.IsNaN(thickness)
+                            ? depth + FarSideMetres(normal, HeldFace.MaximumDepthMetres)
+                            : thickness;
+                        double rest = Math.Min(thickness, MaximumWidthMetres) - metres;
+                        if (rest > 0.0 && double.IsInfinity(FarSideMetres(side, rest)))
+                        {
+                            continue;
+                        }
+                    }
+                    Distance = -metres;
+                    Point = tip + found * metres;
+                    Normal = found;
+                    Hit = hit;
+                }
+            }
+
+            /// <summary>Distance of the far side opposite a normal; infinite beyond the limit.</summary>
+            private double FarSideMetres(Double3 normal, double limitMetres) =>
+                CastTo(tip - normal * limitMetres, normal, limitMetres, out RaycastHit hit)
+                    ? limitMetres - hit.distance
+                    : double.PositiveInfinity;
+
+            private bool CastTo(Double3 from, Double3 direction, double metres, out RaycastHit hit) =>
+                collider.Raycast(new Ray(from.ToVector(), direction.ToVector()), out hit, (float)metres);
+
+            /// <param name="isHeld">True for a face that the tip may have gone through to the far side and
+            /// beyond.</param>
+            private void Try(Double3 outward, double liftMetres, bool isHeld)
+            {
+                double lift = liftMetres + reach;
+                double maximumDepth = isHeld ? HeldFace.MaximumDepthMetres : MaximumDepthMetres;
                 if (!Cast(outward, lift, out Double3 point, out Double3 normal, out RaycastHit hit))
                 {
                     return;
@@ -150,8 +292,13 @@ namespace HaptoFlow
                 // Beside an edge no face lies below the tip: the normal points from the edge to the tip.
                 bool beside = along >= 0.0 && offset.Length > along + MinimumOffsetMetres;
                 double distance = beside ? offset.Length : along;
-                if (distance < -MaximumDepthMetres || distance > reach || Math.Abs(distance) >= Math.Abs(Distance))
+                if (distance < -maximumDepth || distance > reach || Math.Abs(distance) >= Math.Abs(Distance))
                 {
+                    return;
+                }
+                if (!isHeld && distance < 0.0 && CastTo(tip, normal, -distance, out _))
+                {
+                    // Another front face lies between: the tip is in front of that one, not behind this one.
                     return;
                 }
                 Found = true;

@@ -79,6 +79,7 @@ namespace HaptoFlow
 
         public static SurfacePoint ToHand(in SurfacePoint world, double scale) => scale == 1.0
             ? world
-            : new SurfacePoint(world.PointMetres / scale, world.Normal, world.SignedDistanceMetres / scale);
+            : new SurfacePoint(world.PointMetres / scale, world.Normal, world.SignedDistanceMetres / scale,
+                world.BeyondMetres / scale);
     }
 }

@@ -14,7 +14,7 @@ namespace HaptoFlow
         private const int MaximumNearbyColliders = 32;
 
         // Colliders are tracked before they are touched, so that the tip's path over them is known at touch-down.
-        private const double TrackedWithinMetres = 0.05;
+        private const double TrackedWithinMetres = 0.06;
 
         // The tip's way of a frame counts, too, up to this.
         private const double TrackedAheadMetres = 0.5;
@@ -28,8 +28,6 @@ namespace HaptoFlow
         private readonly Transform stylus;
         private readonly ColliderSearch search = new ColliderSearch();
         private readonly NearbyCollider[] near = new NearbyCollider[MaximumNearbyColliders];
-        private Double3 previousTipMetres;
-        private bool hasPreviousTip;
         private bool hasTooMany;
         private bool hasWarned;
         private long update;
@@ -80,8 +78,6 @@ namespace HaptoFlow
             {
                 search.BeginFrame(TipInWorld, Tracker.NowSeconds);
                 Consider(secondsSinceStep, layers, session, context);
-                previousTipMetres = TipInWorld;
-                hasPreviousTip = true;
             }
             ContactReading reading = Tracker.EndFrame();
             reading.PointMetres = scale * reading.PointMetres;
@@ -94,7 +90,6 @@ namespace HaptoFlow
         {
             Tracker.Forget();
             Touched = null;
-            hasPreviousTip = false;
             search.Forget();
             foreach (NearbyCollider surface in near)
             {
@@ -114,10 +109,10 @@ namespace HaptoFlow
             Double3 tip = scale * tipMetres;
             var question = new ProbeQuestion(
                 tip, scale * (Tracker.TipRadiusMetres + ContactTransitions.SlideOffReachMetres),
-                Tracker.PreviousLocalNormal(surface), tip, scale * Tracker.Settings.SwitchMarginMetres);
+                Tracker.HeldFaceOf(surface).Scaled(scale));
             bool isNear = ColliderProbe.TryClosest(
-                place.Collider, ColliderProbe.PoseOf(place.Collider), question, out found);
-            found = RigScale.ToHand(found, scale);
+                place.Collider, ColliderProbe.PoseOf(place.Collider), question, out ProbeAnswer answer);
+            found = RigScale.ToHand(answer.Point, scale);
             return isNear;
         }
 
@@ -136,6 +131,12 @@ namespace HaptoFlow
             bool hasAll = ConsiderWithin(trackedMetres, secondsSinceStep, layers, session, false);
             ConsiderKept(trackedMetres, secondsSinceStep, layers, session);
             hasTooMany = !hasAll;
+            if (Tracker.PassedWithinMetres > TrackedWithinMetres)
+            {
+                // With slow frames a hand comes from farther away, and passes what is then far behind it.
+                ConsiderWithin(scale * (Tracker.ReachMetres + Tracker.PassedWithinMetres), secondsSinceStep, layers,
+                    session, false);
+            }
             if (hasTooMany)
             {
                 WarnTooManyColliders(context);
@@ -235,14 +236,16 @@ namespace HaptoFlow
             RigidPose pose = ColliderProbe.PoseOf(collider);
             RigidPose inHand = RigScale.ToHand(pose, scale);
             place.Record(Tracker.NowSeconds, secondsSinceStep, inHand);
+            Double3? from = Tracker.AdvancePath(place.Tracked, inHand);
             var question = new ProbeQuestion(
-                TipInWorld, scale * Tracker.ReachMetresOf(place.Tracked), Tracker.PreviousLocalNormal(place.Tracked),
-                hasPreviousTip ? previousTipMetres : TipInWorld, scale * Tracker.Settings.SwitchMarginMetres);
-            if (ColliderProbe.TryClosest(collider, pose, question, out SurfacePoint local, out RaycastHit? hit))
+                TipInWorld, scale * Tracker.ReachMetresOf(place.Tracked), Tracker.HeldFaceOf(place.Tracked).Scaled(scale),
+                from.HasValue ? scale * from.Value : (Double3?)null);
+            if (ColliderProbe.TryClosest(collider, pose, question, out ProbeAnswer answer))
             {
-                place.Place = new TouchedPlace(collider, local.PointMetres, hit);
+                place.Place = new TouchedPlace(collider, answer.Point.PointMetres, answer.Hit);
                 place.Tracked.StiffnessNewtonsPerMetre = place.Feel(session).StiffnessNewtonsPerMetre;
-                Tracker.Consider(new ContactCandidate(place.Tracked, inHand, RigScale.ToHand(local, scale)));
+                Tracker.Consider(new ContactCandidate(
+                    place.Tracked, inHand, RigScale.ToHand(answer.Point, scale), answer.EntryShare));
             }
         }
 

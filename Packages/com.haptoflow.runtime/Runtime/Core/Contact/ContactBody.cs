@@ -25,11 +25,21 @@ namespace HaptoFlow.Contact
 
         internal TangentFrame Frame { get; }
 
+        /// <summary>Where the tip was in the surface's local frame, and in which frame.</summary>
+        internal Double3 TipMetres { get; set; }
+
+        internal ulong TipFrame { get; set; }
+
+        /// <summary>The speed with which the tip came there; infinite where it is not known.</summary>
+        internal double TipSpeedMps { get; set; } = double.PositiveInfinity;
+
         /// <summary>Resets the state for another surface.</summary>
         public void Restart(Double3 grain, double stiffnessNewtonsPerMetre)
         {
             Frame.Restart(grain);
             Track.Clear();
+            TipFrame = 0;
+            TipSpeedMps = double.PositiveInfinity;
             StiffnessNewtonsPerMetre = stiffnessNewtonsPerMetre;
         }
     }
@@ -45,8 +55,12 @@ namespace HaptoFlow.Contact
 
         public readonly SurfacePoint Local;
 
-        public ContactCandidate(ContactBody surface, in RigidPose pose, in SurfacePoint local) =>
-            (Surface, Pose, Local) = (surface, pose, local);
+        /// <summary>The part of the tip's last way before it entered the surface; more than 1 if it did not.</summary>
+        public readonly double EntryShare;
+
+        public ContactCandidate(
+            ContactBody surface, in RigidPose pose, in SurfacePoint local, double entryShare = 2.0) =>
+            (Surface, Pose, Local, EntryShare) = (surface, pose, local, entryShare);
     }
 
     /// <summary>Computes closest points for a tracker. Main thread, no garbage.</summary>

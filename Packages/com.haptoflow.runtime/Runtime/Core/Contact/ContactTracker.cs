@@ -9,9 +9,12 @@ namespace HaptoFlow.Contact
     /// <remarks>
     /// <para>A frame consists of <see cref="BeginFrame"/>, one <see cref="Consider"/> for every surface near the tip,
     /// and <see cref="EndFrame"/>. The caller computes the geometry; the tracker decides.</para>
-    /// <para>A touch begins when the tip sphere cuts into a surface and ends when the gap exceeds the release distance.
-    /// Among several surfaces the deepest contact is chosen, but the surface already touched is kept until another is
-    /// deeper by the switch margin.</para>
+    /// <para>A touch begins when the tip sphere cuts into a surface, or passes through one between two frames, and ends
+    /// when the gap exceeds the release distance. Among several surfaces the one that the tip's path entered first is
+    /// chosen, else the deepest. The surface already touched is kept until another is deeper by the switch margin, and
+    /// still would be for a tip that rests on the touched one: what lies below a thin mat does not replace it, a wall
+    /// beside it does. Inside a surface the face that was entered is held (<see cref="HeldFace"/>), and beyond the far
+    /// side of a thin one, too, while the tip is in another surface there.</para>
     /// <para>With <see cref="Force"/>, a measured tip force decides instead while one is measured: pressed, the nearest
     /// surface within reach is touched; lifted, none is.</para>
     /// </remarks>
@@ -19,6 +22,9 @@ namespace HaptoFlow.Contact
     {
         // Limits the time step after a pause, so that transported tangent axes turn no further than in a slow frame.
         private const double MaximumFrameSeconds = 0.05;
+
+        private const double HandSpeedMps = 4.0;
+        private const double MaximumPathSeconds = 0.1;
 
         private readonly TipHistory history;
         private readonly TouchedPath path;
@@ -34,6 +40,12 @@ namespace HaptoFlow.Contact
 
         private ContactBody? touched;
         private Double3? localNormal;
+
+        // The touch began on the touched surface.
+        private bool beganHere;
+
+        // Time of the previous frame, from which the tip's path leads to this one; not a number after a jump.
+        private double pathSeconds = double.NaN;
         private uint touchCounter;
         private double approachSpeedMps;
         private uint landingCounter;
@@ -45,9 +57,11 @@ namespace HaptoFlow.Contact
         private int consideredCount;
         private ContactCandidate current;
         private ContactCandidate deepest;
+        private ContactCandidate first;
         private ContactCandidate nearest;
         private bool hasCurrent;
         private bool hasDeepest;
+        private bool hasFirst;
         private bool hasNearest;
         private bool hasContinued;
         private ForceVerdict verdict;
@@ -97,6 +111,12 @@ namespace HaptoFlow.Contact
             ? Math.Max(ReachMetres, TipRadiusMetres + ContactTransitions.SlideOffReachMetres)
             : ReachMetres;
 
+        /// <summary>How far a hand may have moved since the last frame: surfaces within this distance may have been
+        /// passed, or may be before the next one.</summary>
+        public double PassedWithinMetres => double.IsNaN(pathSeconds)
+            ? 0.0
+            : HandSpeedMps * Vectors.Clamp(nowSeconds - pathSeconds, 0.0, MaximumPathSeconds);
+
         /// <summary>Time of this frame on the samples' clock.</summary>
         public double NowSeconds => nowSeconds;
 
@@ -113,6 +133,7 @@ namespace HaptoFlow.Contact
             sample = tipSample;
             hasCurrent = false;
             hasDeepest = false;
+            hasFirst = false;
             hasNearest = false;
             hasContinued = false;
             consideredCount = 0;
@@ -126,6 +147,7 @@ namespace HaptoFlow.Contact
                 ++statistics.SanitisedSamples;
             }
             double before = nowSeconds;
+            pathSeconds = before;
             if (timeUsable)
             {
                 nowSeconds = sample.TimeSeconds;
@@ -159,42 +181,80 @@ namespace HaptoFlow.Contact
             path.Pass(timeSeconds);
         }
 
-        /// <summary>Local normal of the previous frame's contact with a surface, null without one. It keeps a face
-        /// until another is nearer by a margin.</summary>
+        /// <summary>The face of a surface that holds the tip.</summary>
         /// <remarks>Ask after recording the surface's pose, which tells whether the tip has jumped.</remarks>
-        public Double3? PreviousLocalNormal(ContactBody surface)
+        public HeldFace HeldFaceOf(ContactBody surface)
         {
-            if (!ReferenceEquals(touched, surface))
+            bool isTouched = ReferenceEquals(touched, surface);
+            if (isTouched)
             {
-                return null;
+                ContinuePath();
             }
-            ContinuePath();
-            return localNormal;
+            return new HeldFace(isTouched ? localNormal : null, touched == null || (isTouched && beganHere),
+                Settings.SwitchMarginMetres, isTouched);
+        }
+
+        /// <summary>Where the tip was in the last frame, in the surface's own frame: the motion of the world that both
+        /// share is no path. Null for a surface that was not near then, and after a jump of the tip or of the surface.
+        /// To be called once a frame for every surface near the tip.</summary>
+        /// <param name="pose">The surface's pose in this frame.</param>
+        public Double3? AdvancePath(ContactBody surface, in RigidPose pose)
+        {
+            VelocitySettings velocity = Settings.Velocity;
+            Double3 from = surface.TipMetres;
+            Double3 tip = pose.PointToLocal(TipMetres);
+            bool isKnown = surface.TipFrame != 0 && surface.TipFrame + 1 == statistics.Samples &&
+                !double.IsNaN(pathSeconds);
+            double seconds = Math.Max(nowSeconds - pathSeconds, velocity.MinimumJumpSeconds);
+            double speed = isKnown ? Double3.Distance(from, tip) / seconds : double.PositiveInfinity;
+            bool isJump = speed > Math.Min(velocity.MaximumMoveMetres(seconds) / seconds,
+                surface.TipSpeedMps + velocity.MaximumGainMps(seconds));
+            surface.TipMetres = tip;
+            surface.TipSpeedMps = speed;
+            surface.TipFrame = statistics.Samples;
+            return isKnown && !isJump ? from : (Double3?)null;
         }
 
         /// <summary>Adds a surface near the tip. Between equal depths the first is chosen.</summary>
         public void Consider(in ContactCandidate candidate)
         {
-            if (consideredCount < considered.Length &&
+            bool isCurrent = ReferenceEquals(candidate.Surface, touched);
+            bool isIn = isCurrent || candidate.Local.BeyondMetres <= 0.0;
+            if (isIn && consideredCount < considered.Length &&
                 candidate.Local.SignedDistanceMetres <= TipRadiusMetres + Settings.ReleaseDistanceMetres)
             {
                 considered[consideredCount++] = candidate;
             }
-            if (ReferenceEquals(candidate.Surface, touched))
+            if (isCurrent)
             {
                 current = candidate;
                 hasCurrent = true;
             }
-            if (!hasDeepest || PenetrationOf(candidate) > PenetrationOf(deepest))
+            else
             {
-                deepest = candidate;
-                hasDeepest = true;
+                ConsiderOther(candidate, isIn);
             }
-            bool isNear = verdict == ForceVerdict.Pressed && Force!.IsNear(-PenetrationOf(candidate), false);
+            bool isNear = isIn && verdict == ForceVerdict.Pressed && Force!.IsNear(-PenetrationOf(candidate), false);
             if (isNear && (!hasNearest || GapOf(candidate) < GapOf(nearest)))
             {
                 nearest = candidate;
                 hasNearest = true;
+            }
+        }
+
+        private void ConsiderOther(in ContactCandidate candidate, bool isIn)
+        {
+            if (isIn && (!hasDeepest || PenetrationOf(candidate) > PenetrationOf(deepest)))
+            {
+                deepest = candidate;
+                hasDeepest = true;
+            }
+            bool isBefore = !hasFirst || candidate.EntryShare < first.EntryShare ||
+                (candidate.EntryShare == first.EntryShare && PenetrationOf(candidate) > PenetrationOf(first));
+            if (isBefore && PenetrationOf(candidate) > 0.0)
+            {
+                first = candidate;
+                hasFirst = true;
             }
         }
 
@@ -215,6 +275,7 @@ namespace HaptoFlow.Contact
                 ForgetContinuity();
                 contact.Surface.Frame.Reset();
                 touched = contact.Surface;
+                beganHere = !wasTouching;
             }
             return Describe(contact, !wasTouching);
         }
@@ -238,6 +299,7 @@ namespace HaptoFlow.Contact
             path.Drop();
             ForgetContinuity();
             transitions.Forget();
+            pathSeconds = double.NaN;
         }
 
         /// <summary>Removes a surface that was destroyed, disabled, or whose entry is reused.</summary>
@@ -259,6 +321,7 @@ namespace HaptoFlow.Contact
             {
                 ForgetContinuity();
                 transitions.Forget();
+                pathSeconds = double.NaN;
             }
         }
 
@@ -310,25 +373,75 @@ namespace HaptoFlow.Contact
         private bool ChooseNearest(out ContactCandidate contact)
         {
             bool kept = hasCurrent && Force!.IsNear(-PenetrationOf(current), true);
-            bool ahead = hasNearest && (!kept || GapOf(current) - GapOf(nearest) > Settings.SwitchMarginMetres);
+            bool ahead = hasNearest && (!kept || (GapOf(current) - GapOf(nearest) > Settings.SwitchMarginMetres &&
+                IsAheadAtRest(nearest)));
             contact = ahead ? nearest : current;
             return kept || ahead;
         }
 
         private bool ChooseDeepest(out ContactCandidate contact)
         {
-            bool kept = hasCurrent && PenetrationOf(current) >= -Settings.ReleaseDistanceMetres;
-            contact = current;
-            if (!hasDeepest || PenetrationOf(deepest) <= 0.0)
+            if (!hasCurrent || PenetrationOf(current) < -Settings.ReleaseDistanceMetres || HasLeft())
             {
-                return kept;
+                // A tip that slides from one surface to another touches where it is, not what it passed on the way.
+                bool isIn = touched != null && hasDeepest && PenetrationOf(deepest) > 0.0;
+                contact = isIn ? deepest : first;
+                return isIn || hasFirst;
             }
-            bool ahead = !kept || PenetrationOf(deepest) - PenetrationOf(current) > Settings.SwitchMarginMetres;
-            if (ahead)
+            contact = current;
+            if (!hasDeepest || !IsAhead(deepest))
             {
-                contact = deepest;
+                return true;
+            }
+            bool hasNext = false;
+            for (int index = 0; index < consideredCount; ++index)
+            {
+                ContactCandidate other = considered[index];
+                bool isDeeper = !hasNext || PenetrationOf(other) > PenetrationOf(contact);
+                if (!ReferenceEquals(other.Surface, touched) && IsAhead(other) && isDeeper && IsAheadAtRest(other))
+                {
+                    contact = other;
+                    hasNext = true;
+                }
             }
             return true;
+        }
+
+        /// <summary>True where the tip came out of the touched surface's far side. It did not if it is in another
+        /// surface that is so near to that side that the tip was never free between the two.</summary>
+        private bool HasLeft()
+        {
+            double free = TipRadiusMetres + Settings.ReleaseDistanceMetres;
+            double beyond = current.Local.BeyondMetres;
+            if (beyond <= free)
+            {
+                return false;
+            }
+            Double3 farSide = TipMetres + current.Pose.DirectionToWorld(current.Local.Normal) * beyond;
+            for (int index = 0; index < consideredCount; ++index)
+            {
+                ContactCandidate other = considered[index];
+                if (!ReferenceEquals(other.Surface, touched) && PenetrationOf(other) > 0.0 &&
+                    (Geometry == null || (Geometry.TryClosest(other.Surface, farSide, out SurfacePoint next) &&
+                        next.SignedDistanceMetres <= TipRadiusMetres + free)))
+                {
+                    return false;
+                }
+            }
+            return true;
+        }
+
+        private bool IsAhead(in ContactCandidate other) => PenetrationOf(other) > 0.0 &&
+            PenetrationOf(other) - PenetrationOf(current) > Settings.SwitchMarginMetres;
+
+        /// <summary>True where a tip that rests on the touched surface meets the other one.</summary>
+        private bool IsAheadAtRest(in ContactCandidate other)
+        {
+            double depth = PenetrationOf(current);
+            Double3 tip = TipMetres +
+                current.Pose.DirectionToWorld(current.Local.Normal) * Math.Max(0.0, depth);
+            return Geometry == null || (Geometry.TryClosest(other.Surface, tip, out SurfacePoint atRest) &&
+                TipRadiusMetres - atRest.SignedDistanceMetres - Math.Min(0.0, depth) > Settings.SwitchMarginMetres);
         }
 
         /// <summary>The candidate that a resting tip would touch deepest.</summary>
