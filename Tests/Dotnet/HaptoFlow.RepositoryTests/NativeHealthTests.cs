@@ -17,7 +17,7 @@ namespace HaptoFlow.RepositoryTests
             {
                 string name = Marshal.PtrToStringUTF8(NativeMethods.SilenceName((int)silence))!;
                 Assert.That(name.Replace("HAPTOFLOW_SILENCE_", "").Replace("_", ""),
-                    Is.EqualTo(silence.ToString()).IgnoreCase);
+                    Is.EqualTo(silence.ToString()).Using((System.Collections.IComparer)StringComparer.OrdinalIgnoreCase));
             }
             Assert.That(Marshal.PtrToStringUTF8(NativeMethods.SilenceName(10)), Is.EqualTo("HAPTOFLOW_UNKNOWN_SILENCE"));
         }

@@ -26,13 +26,28 @@ namespace UnityEngine
     public sealed partial class Camera
     {
         /// <summary>The first enabled camera of an active object with the tag MainCamera.</summary>
-        public static Camera? main => World.Find<Camera>(false).FirstOrDefault(
-            camera => camera.enabled && camera.gameObject.tag == "MainCamera");
+        public static Camera? main
+        {
+            get
+            {
+                for (int index = 0; index < World.AllObjects.Count; ++index)
+                {
+                    GameObject each = World.AllObjects[index];
+                    if (each.IsMainCamera && each.activeInHierarchy && each.TryGetComponent(out Camera found) && found.enabled)
+                    {
+                        return found;
+                    }
+                }
+                return null;
+            }
+        }
     }
 
     public sealed partial class GameObject
     {
         private string tagText = "Untagged";
+
+        internal bool IsMainCamera => tagText == "MainCamera";
 
         /// <summary>Reading it allocates, as in Unity.</summary>
         public string tag

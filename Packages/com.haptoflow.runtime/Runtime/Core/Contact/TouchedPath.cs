@@ -14,8 +14,9 @@ namespace HaptoFlow.Contact
         // The path is judged over this time.
         private const double WindowSeconds = 0.3;
 
-        // Steps must halve the changes of velocity.
+        // The other path must halve the changes of velocity, as far as rounding and noise do not make them.
         private const double Better = 0.25;
+        private const double LeastMps = 0.001;
 
         // Fewer frames tell nothing: after a hitch what was found before it stands.
         private const int LeastFrames = 4;
@@ -210,9 +211,15 @@ namespace HaptoFlow.Contact
                     steppedMotion.Add(seconds, steps.PoseAt(seconds).PointToLocal(tip));
                 }
             }
-            return drawnMotion.Count < LeastFrames && isStepped
-                ? true
-                : steppedMotion.Squares < Better * drawnMotion.Squares;
+            if (drawnMotion.Count < LeastFrames)
+            {
+                return isStepped;
+            }
+            double least = LeastMps * LeastMps * drawnMotion.Count;
+            double asDrawn = drawnMotion.Squares + least;
+            double bySteps = steppedMotion.Squares + least;
+            // Between two that are as smooth nothing changes.
+            return isStepped ? asDrawn >= Better * bySteps : bySteps < Better * asDrawn;
         }
 
         /// <summary>The sum of the squares of the changes of velocity.</summary>
