@@ -216,46 +216,46 @@ namespace HaptoFlow
                 }
             }
 
-            /// <summary>Takes a nearer face beside the held one, unless the mesh is thinner below the held
-            /// one.</summary>
+            /// <summary>Takes the nearest face beside the held one if it is nearer than that, unless the mesh is thinner
+            /// below the held one.</summary>
             private void TryBeside(in HeldFace held)
             {
-                Double3 normal = Normal;
                 double depth = -Distance;
-                Double3 first = Vectors.UnitOr(Double3.Cross(normal, Math.Abs(normal.X) < 0.9 ? Double3.Right : Double3.Up),
-                    Double3.Right);
-                Double3 second = Double3.Cross(normal, first);
-                double thickness = double.NaN;
+                Double3 first = Vectors.UnitOr(
+                    Double3.Cross(Normal, Math.Abs(Normal.X) < 0.9 ? Double3.Right : Double3.Up), Double3.Right);
+                Double3 second = Double3.Cross(Normal, first);
+                double nearest = depth - held.MarginMetres;
+                Double3 outward = Double3.Zero;
+                RaycastHit found = default;
                 for (int index = 0; index < 4; ++index)
                 {
                     Double3 side = (index < 2 ? first : second) * (index % 2 == 0 ? 1.0 : -1.0);
-                    if (!CastTo(tip + side * depth, -side, depth, out RaycastHit hit))
+                    bool isHit = CastTo(tip + side * depth, -side, depth, out RaycastHit hit) &&
+                        Double3.Dot(hit.normal.ToDouble(), side) > HeldFace.SameSideCosine;
+                    if (isHit && depth - hit.distance < nearest)
                     {
-                        continue;
+                        nearest = depth - hit.distance;
+                        outward = side;
+                        found = hit;
                     }
-                    double metres = depth - hit.distance;
-                    Double3 found = Vectors.UnitOr(hit.normal.ToDouble(), side);
-                    bool isBeside = Double3.Dot(found, side) > HeldFace.SameSideCosine;
-                    if (!isBeside || metres >= -Distance - (Normal.Equals(normal) ? held.MarginMetres : 0.0))
-                    {
-                        continue;
-                    }
-                    if (held.Holds(depth))
-                    {
-                        thickness = double.IsNaN(thickness)
-                            ? depth + FarSideMetres(normal, HeldFace.MaximumDepthMetres)
-                            : thickness;
-                        double rest = Math.Min(thickness, MaximumWidthMetres) - metres;
-                        if (rest > 0.0 && double.IsInfinity(FarSideMetres(side, rest)))
-                        {
-                            continue;
-                        }
-                    }
-                    Distance = -metres;
-                    Point = tip + found * metres;
-                    Normal = found;
-                    Hit = hit;
                 }
+                if (outward.Equals(Double3.Zero) || (held.Holds(depth) && IsThinner(depth, outward, nearest)))
+                {
+                    return;
+                }
+                Normal = Vectors.UnitOr(found.normal.ToDouble(), outward);
+                Distance = -nearest;
+                Point = tip + Normal * nearest;
+                Hit = found;
+            }
+
+            /// <summary>True where the mesh is thinner below the held face than it is wide below the one
+            /// beside.</summary>
+            private bool IsThinner(double depth, Double3 outward, double besideMetres)
+            {
+                double thickness = depth + FarSideMetres(Normal, HeldFace.MaximumDepthMetres);
+                double rest = Math.Min(thickness, MaximumWidthMetres) - besideMetres;
+                return !double.IsInfinity(thickness) && double.IsInfinity(FarSideMetres(outward, rest));
             }
 
             /// <summary>Distance of the far side opposite a normal; infinite beyond the limit.</summary>
