@@ -210,14 +210,15 @@ namespace HaptoFlow
                 {
                     Beyond = Math.Max(hit.distance, MinimumOffsetMetres);
                 }
-                else if (depth > MaximumDepthMetres && double.IsInfinity(FarSideMetres(Normal, HeldFace.MaximumDepthMetres)))
+                else if (depth > MaximumDepthMetres &&
+                    double.IsInfinity(FarSideMetres(Normal, HeldFace.MaximumDepthMetres)))
                 {
                     Beyond = depth;
                 }
             }
 
-            /// <summary>Takes the nearest face beside the held one if it is nearer than that, unless the mesh is thinner
-            /// below the held one.</summary>
+            /// <summary>Takes the nearest face beside the held one if it is nearer than that, unless the mesh is
+            /// thinner below the held one.</summary>
             private void TryBeside(in HeldFace held)
             {
                 double depth = -Distance;
