@@ -80,6 +80,24 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
+        public void ARigWithAScaleIsAFindingThatSaysWhatIsTheHandsAndWhatTheWorlds()
+        {
+            var rig = new GameObject("Giant");
+            try
+            {
+                rig.transform.localScale = new Vector3(10f, 10f, 10f);
+                ScenesStylus.Rig = rig.transform;
+                Assert.That(Only("Giant, the rig of").Text, Does.Contain("a centimetre of the hand is 10 cm of the world"));
+                rig.transform.localScale = Vector3.one;
+                Assert.That(Texts(), Is.Empty);
+            }
+            finally
+            {
+                Object.DestroyImmediate(rig);
+            }
+        }
+
+        [Test]
         public void AMissingOutputIsAdded()
         {
             Object.DestroyImmediate(ScenesOutput.gameObject);

@@ -32,6 +32,20 @@ namespace HaptoFlow.SampleTests
             Assert.That(Vector3.Distance(camera.transform.position, CameraPosition), Is.LessThan(1e-4f));
         }
 
+        [TestCase(0.1f)]
+        [TestCase(4f)]
+        public void TheHeadStartsAtTheMainCameraUnderAScaledRig(float scale)
+        {
+            GameObject rig = Make("Rig");
+            rig.transform.localScale = new Vector3(scale, scale, scale);
+            rig.AddComponent<XrRig>();
+            SimulatedInput.SetControl("<XRHMD>/isTracked", 1f);
+            SimulatedInput.SetControl("<XRHMD>/centerEyePosition", new Vector3(0.2f, 1.1f, 0.3f));
+            SimulatedInput.SetControl("<XRHMD>/centerEyeRotation", Quaternion.identity);
+            World.Frames(3);
+            Assert.That(Vector3.Distance(camera.transform.position, CameraPosition), Is.LessThan(1e-4f));
+        }
+
         [Test]
         public void APenBelowTheRigReplacesTheMousePenWhenItIsTrackedFirst()
         {

@@ -157,7 +157,8 @@ namespace HaptoFlow.ShimTests
             output.GetComponent<AudioTap>().enabled = false;
             HapticStylus stylus = Circling();
             World.Frames(5);
-            output.GetComponent<AudioSource>().Stop();
+            // The source is on a child of the output's object.
+            output.GetComponentInChildren<AudioSource>(true).Stop();
             using var device = new FreeRunningDevice(output);
             var stalls = new List<double>();
             for (int round = 0; round < rounds; ++round)

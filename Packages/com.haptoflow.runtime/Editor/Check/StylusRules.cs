@@ -1,4 +1,5 @@
 #nullable enable
+using System;
 using System.Collections.Generic;
 using UnityEditor;
 using UnityEngine;
@@ -30,10 +31,11 @@ namespace HaptoFlow.Editor
                 {
                     Transform rig = RigScale.RigOf(stylus)!;
                     yield return new Finding(MessageType.Info,
-                        $"{rig.name}, the rig of {stylus.name}, has the scale {scale:0.###}: a centimetre of the hand is " +
-                        $"{scale:0.###} cm of the world. Speed, depth, force and the tip's radius are the hand's; surfaces " +
+                        FormattableString.Invariant($"{rig.name}, the rig of {stylus.name}, has the scale {scale:0.###}: ") +
+                        FormattableString.Invariant($"a centimetre of the hand is {scale:0.###} cm of the world. ") +
+                        "Speed, depth, force and the tip's radius are the hand's; surfaces " +
                         "and their features keep their size in the world. If the pen is drawn at another scale, but its " +
-                        "hand is not, choose its tracking space in the field Rig.", new Object[] { stylus, rig });
+                        "hand is not, choose its tracking space in the field Rig.", new UnityEngine.Object[] { stylus, rig });
                 }
                 if (stylus.TipRadiusMetres > MaximumTipMetres)
                 {

@@ -20,7 +20,7 @@ namespace HaptoFlow.Editor
             ("forceDecision.pressNewtons", new GUIContent("Press Force (N)")),
             ("forceDecision.releaseNewtons", new GUIContent("Release Force (N)")),
             ("forceDecision.nearMetres", new GUIContent("Near (m)")), ("output", null), ("hand", null),
-            ("strength", null), ("events.touchBegan", null), ("events.touchMoved", null),
+            ("strength", null), ("rig", null), ("events.touchBegan", null), ("events.touchMoved", null),
             ("events.surfaceChanged", null), ("events.touchEnded", null),
         };
 
