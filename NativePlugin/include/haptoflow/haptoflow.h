@@ -820,8 +820,8 @@ HAPTOFLOW_API haptoflow_status haptoflow_voice_publish(haptoflow_voice voice, co
  * If sample_rate_hz differs from the last block's, the voice fades within 5 ms and is silent until the worker has
  * prepared for the new rate; a touch that still continues then sounds again, according to its newest state. At a rate
  * outside 8 to 192 kHz the voice stays silent and its statistics report the rate. For a voice that is not open and has
- * faded, or that another thread is rendering, zeros are written. Errors: INVALID_ARGUMENT, BUSY; this function sets no message.
- * [audio-callback] */
+ * faded, or that another thread is rendering, zeros are written. Errors: INVALID_ARGUMENT, BUSY; this function sets no
+ * message. [audio-callback] */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_render(haptoflow_voice voice, float* interleaved, uint32_t frame_count,
                                                       uint32_t channel_count, int32_t channel, double sample_rate_hz);
 
