@@ -130,13 +130,29 @@ namespace HaptoFlow.ShimTests
             }
         }
 
+        private static readonly double[] FrameRatesHz = { 72.0, 90.0, 120.0 };
+        private static readonly double[] StepRatesHz = { 50.0, 72.0, 90.0, 100.0, 120.0 };
+
+        /// <summary>Pairs in which physics is slower than the frames, as fast, and faster.</summary>
         public static IEnumerable<TestCaseData> Rates()
         {
-            foreach (double framesPerSecond in new[] { 72.0, 90.0, 120.0 })
+            yield return new TestCaseData(72.0, 50.0);
+            yield return new TestCaseData(72.0, 90.0);
+            yield return new TestCaseData(90.0, 90.0);
+            yield return new TestCaseData(120.0, 100.0);
+        }
+
+        /// <summary>Every pair of a headset's frame rate and a rate of physics; long.</summary>
+        [Test]
+        public void EveryPairOfRatesOfFramesAndPhysics()
+        {
+            foreach (double framesPerSecond in FrameRatesHz)
             {
-                foreach (double stepsPerSecond in new[] { 50.0, 72.0, 90.0, 100.0, 120.0 })
+                foreach (double stepsPerSecond in StepRatesHz)
                 {
-                    yield return new TestCaseData(framesPerSecond, stepsPerSecond);
+                    ATipThatRidesAlongIsAtRestAtEverySpeed(framesPerSecond, stepsPerSecond);
+                    ATipThatFollowsWithoutAParentIsAtRestAtEverySpeed(framesPerSecond, stepsPerSecond);
+                    ASteadySurfaceHasItsSpeedUnderATipAtRest(framesPerSecond, stepsPerSecond);
                 }
             }
         }
@@ -524,6 +540,72 @@ namespace HaptoFlow.ShimTests
                 peak = Math.Max(peak, sample);
             }
             return new[] { Math.Sqrt(squares), peak };
+        }
+
+        private sealed class Follower : MonoBehaviour
+        {
+            public Rigidbody Body = null!;
+            public Transform Hand = null!;
+
+            private void FixedUpdate() => Body.MovePosition(Hand.position);
+        }
+
+        /// <summary>A tip that physics moves after a tracked hand: the steps of a hitch wait for the next frame.</summary>
+        [Test]
+        public void AHitchIsNoStrokeInFixedUpdates(
+            [Values(0.05, 0.12, 0.2, 0.3, 0.6)] double hitch, [Values(0.01, 0.02, 0.025)] double step)
+        {
+            Clock.FixedStepSeconds = step;
+            Ground(4f);
+            GameObject hand = Make("Hand");
+            hand.AddComponent<Mover>().Path = Circle;
+            GameObject made = Make("Tip");
+            Follower follower = made.AddComponent<Follower>();
+            follower.Body = made.AddComponent<Rigidbody>();
+            follower.Body.isKinematic = true;
+            follower.Hand = hand.transform;
+            HapticStylus pen = made.AddComponent<HapticStylus>();
+            pen.UpdateMode = StylusUpdate.FixedUpdates;
+            World.Frames(180);
+            float most = 0f;
+            for (int frame = 0; frame < 135; ++frame)
+            {
+                World.Frame(frame % 45 == 0 ? hitch : 1.0 / 90.0);
+                most = Math.Max(most, pen.Contact.TangentialVelocity.magnitude);
+            }
+            Assert.That(most, Is.LessThan(0.45f), "the hand moves at 0.2 m/s");
+            Assert.That(pen.Contact.TangentialVelocity.magnitude, Is.EqualTo(0.2f).Within(0.1f));
+        }
+
+        /// <summary>States that come every 100 ms, or every 200, are not stale.</summary>
+        [TestCase(10.0, 0.02, StylusUpdate.RenderedFrames)]
+        [TestCase(7.0, 0.02, StylusUpdate.RenderedFrames)]
+        [TestCase(72.0, 0.1, StylusUpdate.FixedUpdates)]
+        [TestCase(72.0, 0.2, StylusUpdate.FixedUpdates)]
+        public void AStrokeSoundsOnWhereStatesComeSeldom(double framesPerSecond, double step, StylusUpdate update)
+        {
+            FinishLoading();
+            SetFrameRate(framesPerSecond);
+            Clock.FixedStepSeconds = step;
+            Board();
+            Output(out _);
+            HapticStylus pen = Pen(Circle);
+            pen.UpdateMode = update;
+            World.Frames((int)(2.0 * framesPerSecond));
+            AudioDevice.Forget();
+            World.Frames((int)(3.0 * framesPerSecond));
+            int silent = 0;
+            int blocks = AudioDevice.RecordedFrames / 480;
+            for (int block = 0; block < blocks; ++block)
+            {
+                float peak = 0f;
+                for (int frame = 480 * block; frame < 480 * (block + 1); ++frame)
+                {
+                    peak = Math.Max(peak, Math.Abs(AudioDevice.Sample(frame, 0)));
+                }
+                silent += peak < 1e-4f ? 1 : 0;
+            }
+            Assert.That(silent, Is.LessThan(0.03 * blocks), $"of {blocks} blocks of 10 ms");
         }
 
         private static void AssertSpeed(HapticStylus pen, float speed, double fromSeconds, string what)
