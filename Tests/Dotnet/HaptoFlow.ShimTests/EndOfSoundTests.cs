@@ -68,6 +68,33 @@ namespace HaptoFlow.ShimTests
             Assert.That(Said(LogType.Log, "lost Output during a touch"), Is.EqualTo(1));
         }
 
+        [TestCase(OutputRoute.AudioSource)]
+        [TestCase(OutputRoute.ListenerChannel)]
+        public void AnOutputSwitchedOffUnderATouchFadesAndSoundsAgainWhenItIsOn(OutputRoute route)
+        {
+            HapticStylus stylus = Sounding(out HapticOutput output, out float usual);
+            if (route == OutputRoute.ListenerChannel)
+            {
+                Object.DestroyImmediate(output.gameObject);
+                output = Object.FindObjectsByType<AudioListener>(FindObjectsInactive.Exclude, FindObjectsSortMode.None)[0].gameObject
+                    .AddComponent<HapticOutput>();
+                output.Route = route;
+                output.Channel = 0;
+                stylus.Output = output;
+                World.Frames(30);
+            }
+            ExpectAFade(() => output.enabled = false, usual);
+            output.enabled = true;
+            World.Frames(30);
+            Assert.That(Peak(AudioDevice.RecordedFrames - 4096, AudioDevice.RecordedFrames, 0), Is.GreaterThan(0.001f));
+            // Off and on again within the fade.
+            output.enabled = false;
+            World.Frame();
+            output.enabled = true;
+            World.Frames(60);
+            Assert.That(Peak(AudioDevice.RecordedFrames - 4096, AudioDevice.RecordedFrames, 0), Is.InRange(0.001f, 0.9f));
+        }
+
         [Test]
         public void AnOutputChangedUnderATouchFadesWhileTheNewOneGoesOn()
         {

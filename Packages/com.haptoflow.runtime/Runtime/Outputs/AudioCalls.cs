@@ -10,7 +10,11 @@ namespace HaptoFlow
     internal sealed class AudioCalls
     {
         private readonly Action<float[], int> render;
+        // Two blocks of the longest device, the first of which may have begun, and the fade.
+        private const double FadeSeconds = 0.4;
+
         private AudioFilter? filter;
+        private AudioFilter? fading;
         private AudioSource? source;
 
         /// <param name="render">Called on the audio thread with interleaved samples and the number of channels.</param>
@@ -34,8 +38,25 @@ namespace HaptoFlow
             }
         }
 
+        /// <summary>Lets what sounds fade, and then closes.</summary>
+        public void CloseAfterTheFade()
+        {
+            fading = filter;
+            if (fading != null)
+            {
+                fading.RetireAfter(FadeSeconds, source);
+            }
+            filter = null;
+            source = null;
+        }
+
         public void Close()
         {
+            if (fading != null)
+            {
+                fading.Retire();
+            }
+            fading = null;
             if (filter != null)
             {
                 filter.Retire();

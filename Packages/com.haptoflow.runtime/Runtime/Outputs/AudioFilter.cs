@@ -11,6 +11,8 @@ namespace HaptoFlow
     internal sealed class AudioFilter : MonoBehaviour
     {
         private volatile Action<float[], int>? render;
+        private AudioSource? source;
+        private double endSeconds = double.PositiveInfinity;
 
         /// <summary>Adds a filter below the others of an object. Main thread.</summary>
         /// <param name="render">Called on the audio thread with interleaved samples and the number of channels.</param>
@@ -21,12 +23,33 @@ namespace HaptoFlow
             return filter;
         }
 
+        /// <summary>Ends the calls when what still sounds has faded, and destroys the source's object. Main
+        /// thread.</summary>
+        public void RetireAfter(double seconds, AudioSource? last)
+        {
+            source = last;
+            endSeconds = Time.unscaledTimeAsDouble + seconds;
+        }
+
         /// <summary>Ends the calls at once: until the end of the frame a filter and its successor exist together. Main
         /// thread.</summary>
         public void Retire()
         {
             render = null;
             Destroy(this);
+            if (source != null)
+            {
+                source.Stop();
+                Destroy(source.gameObject);
+            }
+        }
+
+        private void Update()
+        {
+            if (Time.unscaledTimeAsDouble >= endSeconds)
+            {
+                Retire();
+            }
         }
 
         // Audio thread: no garbage, no locks.

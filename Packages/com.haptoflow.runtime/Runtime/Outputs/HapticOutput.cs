@@ -297,7 +297,15 @@ namespace HaptoFlow
         {
             AudioSettings.OnAudioConfigurationChanged -= OnConfigurationChanged;
             SceneOutputs.Remove(this);
-            calls?.Close();
+            if (gameObject.activeInHierarchy)
+            {
+                calls?.CloseAfterTheFade();
+            }
+            else
+            {
+                // What is on this object, or below it, is switched off with it.
+                calls?.Close();
+            }
             isOpen = false;
         }
 
