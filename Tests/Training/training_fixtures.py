@@ -35,6 +35,7 @@ class FakeStore:
     labels: list[str]
     recordings: list[FakeRecording]
     skipped: tuple[object, ...] = ()
+    notes: tuple[str, ...] = ()
     wander_turns: NDArray[np.float32] = field(default_factory=lambda: np.zeros((0, 3), np.float32))
     ribs_followed: bool = False
 

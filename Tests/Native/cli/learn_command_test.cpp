@@ -369,7 +369,11 @@ TEST_F(LearnCommandTest, ANameOfTheCommandLineBecomesAFileNameInThisFolder) {
 
 TEST_F(LearnCommandTest, AMotionFileDoesNotLeaveTheFolderOfItsSidecar) {
     std::filesystem::create_directories(at("in"));
-    write("secret.csv", "time_s,speed_mps,force_newtons\n0,0.1,1\n4,0.1,1\n8,0.1,1\n12,0.1,1\n");
+    std::string motion = "time_s,speed_mps,force_newtons\n";
+    for (int reading = 0; reading <= 60; ++reading) {
+        motion += std::to_string(0.2 * reading) + ",0.1,1\n";
+    }
+    write("secret.csv", motion);
     write("in/near.csv", read("secret.csv"));
     std::filesystem::create_symlink(at("secret.csv"), at("in/link.csv"));
     write("in/felt.csv", csvOf(made_, "time_s,acceleration_mps2,a,b,c"));
