@@ -199,8 +199,8 @@ namespace HaptoFlow.Tests
             Assert.That(output.Level, Is.GreaterThan(Audible));
             Transform owner = output.transform;
             UnityEngine.Object.DestroyImmediate(output);
-            yield return Frames(3);
-            Assert.That(owner.childCount, Is.Zero, "it takes its source along");
+            yield return Frames(50);
+            Assert.That(owner.childCount, Is.Zero, "it takes its source along after the fade");
         }
 
         [UnityTest]

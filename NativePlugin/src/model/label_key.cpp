@@ -64,7 +64,9 @@ void decompose(char32_t letter, std::u32string& letters) {
         }
         return;
     }
-    const auto* const found = std::ranges::lower_bound(decompositions, letter, {}, &Decomposition::letter);
+    const auto* const found =
+        std::lower_bound(decompositions.begin(), decompositions.end(), letter,
+                         [](const Decomposition& each, char32_t wanted) { return each.letter < wanted; });
     if (found == decompositions.end() || found->letter != letter) {
         letters += letter;
         return;

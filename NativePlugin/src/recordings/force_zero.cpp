@@ -166,8 +166,8 @@ void noteDrift(const std::string& place, const std::vector<MovingFrame>& frames,
 /// Pressing makes every known surface stronger, or hardly matters.
 void noteFall(const std::string& place, const std::vector<MovingFrame>& frames, std::vector<std::string>& notes) {
     std::vector<MovingFrame> pressed;
-    std::ranges::copy_if(frames, std::back_inserter(pressed),
-                         [](const MovingFrame& frame) { return frame.newtons > noiseNewtons; });
+    std::copy_if(frames.begin(), frames.end(), std::back_inserter(pressed),
+                 [](const MovingFrame& frame) { return frame.newtons > noiseNewtons; });
     if (pressed.size() < minimumFrames) {
         return;
     }

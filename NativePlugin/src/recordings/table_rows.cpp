@@ -55,8 +55,9 @@ TableRows::TableRows(std::string_view text, std::span<const std::string_view> kn
     at_ += text_[at_] == '#' ? 1U : 0U;
     Extent extent = read(at_, separator_, names_);
     const auto known = [&](const std::vector<std::string_view>& names) {
-        return std::ranges::count_if(
-            names, [&](std::string_view name) { return std::ranges::find(knownNames, name) != knownNames.end(); });
+        return std::count_if(names.begin(), names.end(), [&](std::string_view name) {
+            return std::ranges::find(knownNames, name) != knownNames.end();
+        });
     };
     for (const char separator : separators) {
         std::vector<std::string_view> names;
@@ -184,8 +185,8 @@ bool TableRows::isBlank() const {
 
 bool TableRows::isComplete() const {
     return cells_.size() >= names_.size() &&
-           std::ranges::all_of(cells_.begin() + static_cast<std::ptrdiff_t>(names_.size()), cells_.end(),
-                               [](std::string_view cell) { return cell.empty(); });
+           std::all_of(cells_.begin() + static_cast<std::ptrdiff_t>(names_.size()), cells_.end(),
+                       [](std::string_view cell) { return cell.empty(); });
 }
 
 std::optional<double> TableRows::decimal(std::size_t column) {
@@ -206,7 +207,7 @@ std::optional<double> TableRows::decimal(std::size_t column) {
 
 std::string TableRows::withPoint(std::size_t column) const {
     std::string text(cells_[column]);
-    std::ranges::replace(text, ',', '.');
+    std::replace(text.begin(), text.end(), ',', '.');
     return text;
 }
 

@@ -247,7 +247,7 @@ namespace HaptoFlow.EditorTests
             Drawn[] fields = Draw(Stylus()).Where(item => item.Kind == DrawnKind.Field).ToArray();
             Assert.That(fields.Select(item => item.Label), Is.EqualTo(new[]
             {
-                "Tip", "Tip Radius (m)", "Layers", "Update", "Tip Force", "Touch By", "Output", "Hand", "Strength",
+                "Tip", "Tip Radius (m)", "Layers", "Update", "Tip Force", "Touch By", "Output", "Hand", "Strength", "Rig",
                 "Touch Began", "Touch Moved", "Surface Changed", "Touch Ended",
             }));
             Assert.That(fields.Select(item => item.Tooltip), Has.None.Empty);

@@ -217,7 +217,9 @@ namespace HaptoFlow.ShimTests
                         most = frame < 40 ? 0f : Math.Max(most, pen.Contact.TangentialVelocity.magnitude);
                     }
                     Assert.That(pen.IsTouching, Is.True);
-                    Assert.That(most, Is.LessThan(StillMps), $"{carrier}, {speed} m/s");
+                    // Unity's positions are single: 400 m from the origin a frame is 30 um out.
+                    double rounding = 3.0 * Math.Pow(2.0, -24.0) * Math.Abs(ground.transform.position.x) * framesPerSecond;
+                    Assert.That(most, Is.LessThan(Math.Max(StillMps, rounding)), $"{carrier}, {speed} m/s");
                     Clear(pen.gameObject, ground.gameObject);
                 }
             }

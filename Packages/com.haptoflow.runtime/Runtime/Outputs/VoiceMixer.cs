@@ -68,8 +68,20 @@ namespace HaptoFlow
         }
 
         /// <summary>Overwrites the channel with the sum of the voices, limited to +-1. Audio thread.</summary>
-        public void Render(Span<float> interleaved, int channels, int channel, int sampleRateHz) =>
-            HapticVoice.RenderSum(Volatile.Read(ref sounding), interleaved, channels, channel, sampleRateHz);
+        public void Render(Span<float> interleaved, int channels, int channel, int sampleRateHz)
+        {
+            ulong[] present = Volatile.Read(ref sounding);
+            if (present.Length > 0)
+            {
+                HapticVoice.RenderSum(present, interleaved, channels, channel, sampleRateHz);
+                return;
+            }
+            // Where there is no library, there are no voices either.
+            for (int index = Math.Max(channel, 0); index < interleaved.Length; index += channel < 0 ? 1 : channels)
+            {
+                interleaved[index] = 0f;
+            }
+        }
 
         private static bool IsOpen(HapticVoice voice) => voice.Id != 0;
 
