@@ -387,7 +387,7 @@ describe('the live page elsewhere', { skip: !hasBrowser }, () => {
   ])) {
     test(`${what} is told in words, with a way to try again`, async () => {
       opened = await openLivePage({ changes, waits: false });
-      await opened.page.waitForFunction(() => document.querySelector('#message').dataset.kind === 'error', null, { timeout: 20000 });
+      await opened.page.waitForFunction(() => document.querySelector('#message')?.dataset.kind === 'error', null, { timeout: 20000 });
       assert.match(await text('#message-text'), expected);
       assert.ok(await opened.page.getByRole('button', { name: 'Try again' }).isVisible());
     });
