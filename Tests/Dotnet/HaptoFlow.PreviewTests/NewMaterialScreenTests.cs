@@ -234,6 +234,7 @@ namespace HaptoFlow.PreviewTests
                     "--quiet",
                 },
                 RedirectStandardOutput = true,
+                UseShellExecute = false,
             };
             using Process learn = Process.Start(command)!;
             learn.StandardOutput.ReadToEnd();

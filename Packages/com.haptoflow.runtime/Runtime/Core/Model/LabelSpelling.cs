@@ -28,8 +28,9 @@ namespace HaptoFlow.Model
         /// </summary>
         internal static string Composed(string text) => Normalized(text, NormalizationForm.FormC);
 
+        // Mono, unlike .NET, has no capital for the sigma that ends a word.
         private static string? Key(string? label) =>
-            label == null ? null : Normalized(label, NormalizationForm.FormD);
+            label == null ? null : Normalized(label, NormalizationForm.FormD).Replace('\u03C2', '\u03C3');
 
         private static string Normalized(string text, NormalizationForm form)
         {
