@@ -2,6 +2,7 @@
 #include "commands.hpp"
 #include "exit_codes.hpp"
 #include "headless/contact_tracker.hpp"
+#include "messages.hpp"
 #include "model_location.hpp"
 #include "option_values.hpp"
 #include "output_file.hpp"

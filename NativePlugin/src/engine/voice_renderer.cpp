@@ -91,7 +91,8 @@ void VoiceRenderer::readContact() noexcept {
     if (channels_.toAudio.fetch()) {
         hasContact_ = true;
         const std::uint64_t states = std::max<std::uint64_t>(1, contact().updates - updates_);
-        staleness_.noteState(static_cast<double>(contactAgeFrames_ / states) / voice_.outputRateHz());
+        staleness_.noteState(static_cast<double>(contactAgeFrames_) /
+                             (static_cast<double>(states) * voice_.outputRateHz()));
         contactAgeFrames_ = 0;
         updates_ = contact().updates;
         isUnsketched_ = true;
