@@ -1,13 +1,12 @@
 #include "time_unit.hpp"
 
 #include "recordings/recording.hpp"
+#include "recordings/track.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <numeric>
 #include <utility>
-#include <vector>
 
 namespace haptoflow::cli {
 namespace {
@@ -23,13 +22,6 @@ constexpr double slowestMps = 0.002;
 constexpr double fastestMps = 10.0;
 constexpr double longestReadableSeconds = 0.5;
 
-double medianOf(std::span<const double> steps) {
-    std::vector<double> sorted(steps.begin(), steps.end());
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::ranges::nth_element(sorted, middle);
-    return *middle;
-}
-
 }  // namespace
 
 std::string unitOfTimes(std::span<const double> steps, double metres) {
@@ -38,7 +30,7 @@ std::string unitOfTimes(std::span<const double> steps, double metres) {
     }
     constexpr std::array<std::pair<const char*, double>, 3> units{
         {{"milliseconds", 1e3}, {"microseconds", 1e6}, {"nanoseconds", 1e9}}};
-    const double step = medianOf(steps);
+    const double step = recordings::medianOfSteps({steps.begin(), steps.end()});
     const double seconds = std::accumulate(steps.begin(), steps.end(), 0.0);
     const double speedMps = seconds > 0.0 ? metres / seconds : 0.0;
     for (const auto& [name, perSecond] : units) {

@@ -243,7 +243,6 @@ std::optional<glm::dvec3> ContactTracker::pathInto(std::size_t surface, const Po
     const glm::dvec3 from = before.pointToLocal(pathStart_->tipMetres);
     const double metres = glm::distance(from, pose.pointToLocal(*tipMetres_));
     const VelocitySettings& velocity = settings_.velocity;
-    const double seconds = std::max(nowSeconds_ - pathStart_->timeSeconds, velocity.minimumJumpSeconds);
     double speedBefore = std::numeric_limits<double>::infinity();
     if (pathBefore_) {
         const glm::dvec3 earlier =
@@ -251,8 +250,7 @@ std::optional<glm::dvec3> ContactTracker::pathInto(std::size_t surface, const Po
         speedBefore = glm::distance(earlier, from) /
                       std::max(pathStart_->timeSeconds - pathBefore_->timeSeconds, velocity.minimumJumpSeconds);
     }
-    const bool isJump = metres > velocity.maximumMoveMetres(seconds) ||
-                        metres > (speedBefore + velocity.maximumGainMps(seconds)) * seconds;
+    const bool isJump = velocity.isJump(metres, nowSeconds_ - pathStart_->timeSeconds, speedBefore);
     return !isJump && broadPhase_.passes(surface, pathStart_->tipMetres, before, *tipMetres_, pose)
                ? std::optional(from)
                : std::nullopt;
@@ -322,7 +320,7 @@ bool ContactTracker::hasLeft(const Candidate& current) {
     return !isInNext;
 }
 
-/// Whether a tip that rests on the touched surface meets the other one.
+/// Whether the tip, moved out of the touched surface until it just rests on it, would touch the other one.
 bool ContactTracker::isAheadAtRest(const Candidate& current, const Candidate& other) const {
     const glm::dvec3 normal = current.pose.directionToWorld(current.local.normal);
     const glm::dvec3 tip = *tipMetres_ + std::max(0.0, current.penetrationMetres) * normal;

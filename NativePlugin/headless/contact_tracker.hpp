@@ -31,9 +31,9 @@ public:
     /// Copies the scene. Throws std::invalid_argument if a setting, the tip radius or a shape is out of range.
     explicit ContactTracker(Scene scene, ContactSettings settings = {});
 
-    /// Processes the next frame. A sample with an unusable position keeps the last one for `lostSeconds`. If the time
-    /// stands still, only the geometry is updated. If it goes backwards, or after a pause or a jump, the history is
-    /// dropped, so that the velocity is zero until the next frame.
+    /// Processes the next frame. A sample with an unusable position keeps the last one for `lostSeconds`. A
+    /// time that stands still updates the geometry only. A time that goes backwards, a pause and a jump discard the
+    /// tip's earlier positions: the velocity is then zero until the next frame.
     ContactReading update(const TipSample& sample);
 
     [[nodiscard]] const ContactStatistics& statistics() const noexcept { return statistics_; }

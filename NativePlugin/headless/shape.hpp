@@ -60,8 +60,9 @@ struct QueryOptions {
     /// Local normal of the face that was entered, or of the previous frame's contact with the same surface. A face that
     /// is nearer by the margin replaces it.
     std::optional<glm::dvec3> previousNormal;
-    /// The touch began on this surface: then the face that was entered is held. The opposite face does not replace it,
-    /// and one beside it only where the shape is not thinner below the held face than below that one.
+    /// The touch began on this surface: then the face that was entered is held. The opposite face never replaces it.
+    /// A face beside it does, except on a plate that was entered from its broad side: there the shape is thinner below
+    /// the held face than below the one beside it.
     bool cameFromOutside = false;
     /// Inside a shape, another face is used only if it is nearer by this much.
     double faceMarginMetres = 0.0005;

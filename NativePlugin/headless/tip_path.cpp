@@ -92,9 +92,6 @@ TipStep TipPath::add(double timeSeconds, const glm::dvec3& surfaceMetres, const 
 }
 
 bool TipPath::isJump(double moved, double seconds, bool isHeld) const noexcept {
-    if (moved > settings_.maximumMoveMetres(seconds)) {
-        return true;
-    }
     double fastestBefore = 0.0;
     std::size_t measurements = 0;
     for (auto frame = frames_.rbegin(); frame != frames_.rend() && measurements < measurementsBefore; ++frame) {
@@ -107,8 +104,7 @@ bool TipPath::isJump(double moved, double seconds, bool isHeld) const noexcept {
         // A tip whose speed is not known yet may be fast, but not one that rests in the world.
         fastestBefore = 0.0;
     }
-    const double stepSeconds = std::max(seconds, settings_.minimumJumpSeconds);
-    return moved > (fastestBefore + settings_.maximumGainMps(stepSeconds)) * stepSeconds;
+    return settings_.isJump(moved, seconds, fastestBefore);
 }
 
 /// Learns about the tracker from a position that differs from the last.

@@ -33,9 +33,8 @@ enum class TipStep {
     resumed,
 };
 
-/// The way of the tip over one surface in the last tenth of a second, in that surface's coordinates, so that the motion
-/// of the world which both share costs nothing. Distinguishes positions that the tracker holds from stops, and jumps
-/// from strokes.
+/// The tip's recent positions in the coordinates of one surface, where motion that both share, as in a lift, does not
+/// show. Distinguishes positions that the tracker holds from stops, and jumps from strokes.
 ///
 /// A tracker slower than the frame rate repeats positions, in the world or, if the tip is carried, on the surface.
 /// Repeated positions are not measurements and are excluded from the velocity until `stopSeconds`; after that, and not

@@ -28,7 +28,7 @@ const headsetName = 'Headset';
 const epochMs = performance.now();
 
 const messages = new Messages();
-// Whatever fails from here on is said by the page itself.
+// From here on the page itself reports what fails, so the text for a page that does not start goes.
 find('#not-started').remove();
 const readJson = async (/** @type {string} */ name) => {
   const address = new URL(name, import.meta.url);

@@ -12,9 +12,9 @@
  *   to the smaller of the two sizes, and struct_size then holds the number of bytes that were filled. Set struct_size
  *   before each call.
  * - That is all that two versions promise each other before 1.0: structs may grow at their end, but functions, values
- * of enums and meanings may still change or go. Where the library could be of another version than this header, compare
- *   haptoflow_version() with HAPTOFLOW_VERSION_TEXT. The Unity package's C# does, and refuses a library of any other
- *   version, or with a struct of another size.
+ *   of enums and meanings may still change or go. Where the library could be of another version than this header,
+ *   compare haptoflow_version() with HAPTOFLOW_VERSION_TEXT. The Unity package's C# does, and refuses a library of any
+ *   other version, or with a struct of another size.
  * - Handles are opaque and never reused. A call with a closed handle, or with anything else that is not an open handle
  *   of that kind, returns HAPTOFLOW_INVALID_ARGUMENT. An open handle keeps alive the objects that it was created from.
  * - Text is UTF-8 and ends with a zero byte. Text that the library returns belongs to the library.

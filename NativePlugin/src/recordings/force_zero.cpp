@@ -1,5 +1,7 @@
 #include "recordings/force_zero.hpp"
 
+#include "recordings/frame_statistics.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -66,34 +68,15 @@ Line lineOf(const std::vector<MovingFrame>& frames, const X& x, const Y& y) {
             .explained = variance > 0.0 ? slope * product / variance : 0.0};
 }
 
-double speedAt(const Recording& recording, std::size_t i) {
-    return recording.velocityMps.empty()
-               ? std::hypot(recording.constantVelocityMps[0], recording.constantVelocityMps[1])
-               : std::hypot(static_cast<double>(recording.velocityMps[2 * i]),
-                            static_cast<double>(recording.velocityMps[2 * i + 1]));
-}
-
-double quantileOf(std::vector<double>& values, double part) {
-    const auto place = values.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), place, values.end());
-    return *place;
-}
-
 /// Frames whose samples are all known.
 std::vector<MovingFrame> movingFrames(const Recording& recording, double slowest) {
     const auto perFrame = static_cast<std::size_t>(frameSeconds * recording.rateHz);
     std::vector<MovingFrame> frames;
     for (std::size_t start = 1; start + perFrame <= recording.sampleCount(); start += perFrame) {
-        double squares = 0.0;
+        const double squares = squaredSteps(recording, start, perFrame);
         double speed = 0.0;
         double newtons = 0.0;
         for (std::size_t i = start; i < start + perFrame; ++i) {
-            for (std::size_t axis = 0; axis < recording.axisCount; ++axis) {
-                // The difference of neighbours has neither gravity nor the hand's own motion.
-                const double step = static_cast<double>(recording.accelerationMps2[i * recording.axisCount + axis]) -
-                                    recording.accelerationMps2[(i - 1) * recording.axisCount + axis];
-                squares += step * step;
-            }
             speed += speedAt(recording, i) / static_cast<double>(perFrame);
             newtons += recording.forceNewtons[i] / static_cast<double>(perFrame);
         }
@@ -124,7 +107,7 @@ void noteRest(const std::string& place, const std::vector<MovingFrame>& frames, 
               std::vector<std::string>& notes) {
     std::vector<double> levels;
     std::ranges::transform(frames, std::back_inserter(levels), &MovingFrame::levelDb);
-    const double usualDb = quantileOf(levels, 0.75);
+    const double usualDb = quantile(levels, 0.75);
     std::vector<double> inAir;
     for (const MovingFrame& frame : frames) {
         if (frame.levelDb < usualDb + silentDb) {
@@ -134,7 +117,7 @@ void noteRest(const std::string& place, const std::vector<MovingFrame>& frames, 
     if (inAir.size() < minimumFrames) {
         return;
     }
-    const double rest = quantileOf(inAir, 0.5);
+    const double rest = quantile(inAir, 0.5);
     if (std::abs(rest) > noiseNewtons + notedRestShare * usual) {
         notes.push_back(
             place + " is " + newtons(rest) +
@@ -207,8 +190,8 @@ void checkForceZero(const std::string& path, const std::string& column, const st
     if (sizes.empty()) {
         return;
     }
-    const double slowest = slidingShare * quantileOf(speeds, 0.95);
-    const double usual = quantileOf(sizes, 0.95);
+    const double slowest = slidingShare * quantile(speeds, 0.95);
+    const double usual = quantile(sizes, 0.95);
     const double noise = std::max(noiseNewtons, noiseShare * usual);
     std::size_t sliding = 0;
     std::size_t negative = 0;

@@ -238,17 +238,10 @@ Frames framesOf(const Recording& recording) {
     const auto perFrame = static_cast<std::size_t>(std::max(4.0, frameSeconds * recording.rateHz));
     Frames frames;
     for (std::size_t start = 1; start + perFrame <= recording.sampleCount(); start += perFrame) {
-        double squares = 0.0;
+        const double squares = squaredSteps(recording, start, perFrame);
         double speed = 0.0;
         for (std::size_t i = start; i < start + perFrame; ++i) {
-            for (std::size_t axis = 0; axis < recording.axisCount; ++axis) {
-                // The difference of neighbours has neither gravity nor the hand's own motion.
-                const double step = static_cast<double>(recording.accelerationMps2[i * recording.axisCount + axis]) -
-                                    recording.accelerationMps2[(i - 1) * recording.axisCount + axis];
-                squares += step * step;
-            }
-            speed += std::hypot(static_cast<double>(recording.velocityMps[2 * i]),
-                                static_cast<double>(recording.velocityMps[2 * i + 1]));
+            speed += speedAt(recording, i);
         }
         frames.level.push_back(0.5 * std::log(squares / static_cast<double>(perFrame) + 1e-12));
         frames.speed.push_back(std::log(std::max(speed / static_cast<double>(perFrame), 0.002)));

@@ -68,6 +68,25 @@ AxisFigures figuresOf(const Recording& recording, std::size_t axis) {
 
 }  // namespace
 
+double speedAt(const Recording& recording, std::size_t sample) {
+    return recording.velocityMps.empty()
+               ? std::hypot(recording.constantVelocityMps[0], recording.constantVelocityMps[1])
+               : std::hypot(static_cast<double>(recording.velocityMps[2 * sample]),
+                            static_cast<double>(recording.velocityMps[2 * sample + 1]));
+}
+
+double squaredSteps(const Recording& recording, std::size_t first, std::size_t count) {
+    double squares = 0.0;
+    for (std::size_t i = first; i < first + count; ++i) {
+        for (std::size_t axis = 0; axis < recording.axisCount; ++axis) {
+            const double step = static_cast<double>(recording.accelerationMps2[i * recording.axisCount + axis]) -
+                                recording.accelerationMps2[(i - 1) * recording.axisCount + axis];
+            squares += step * step;
+        }
+    }
+    return squares;
+}
+
 double clippedShare(std::span<const float> values, std::size_t stride) {
     float lowest = std::numeric_limits<float>::infinity();
     float highest = -lowest;

@@ -49,6 +49,13 @@ inline constexpr double maximumClippedShare = 0.02;
 /// begins with the axis; every `stride`th is its.
 [[nodiscard]] double clippedShare(std::span<const float> values, std::size_t stride);
 
+/// Speed at a sample in m/s.
+[[nodiscard]] double speedAt(const Recording& recording, std::size_t sample);
+
+/// The sum, over `count` samples from `first` on, of the squares of their difference from the sample before, on all
+/// axes together: the difference of neighbours has neither gravity nor the hand's own motion. `first` is 1 or more.
+[[nodiscard]] double squaredSteps(const Recording& recording, std::size_t first, std::size_t count);
+
 /// Throws std::invalid_argument if the sizes of the spans do not match or a number is out of range.
 void checkSizes(const Recording& recording);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace haptoflow::recordings {
 namespace {
@@ -53,14 +54,18 @@ Track trackOf(const RecordingTable& table, const TableSeries& series) {
     return track;
 }
 
+double medianOfSteps(std::vector<double> steps) {
+    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+    std::nth_element(steps.begin(), middle, steps.end());
+    return *middle;
+}
+
 double medianStepSeconds(const Track& track) {
     std::vector<double> steps(track.count() - 1);
     for (std::size_t i = 0; i < steps.size(); ++i) {
         steps[i] = track.timeSeconds[i + 1] - track.timeSeconds[i];
     }
-    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-    std::nth_element(steps.begin(), middle, steps.end());
-    return *middle;
+    return medianOfSteps(std::move(steps));
 }
 
 double rateOf(const Track& track, double roundingSeconds) {

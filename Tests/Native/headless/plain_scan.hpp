@@ -75,15 +75,14 @@ private:
         if (before_) {
             const glm::dvec3 from = surface.poseAt(before_->first).pointToLocal(before_->second);
             const VelocitySettings& velocity = settings_.velocity;
-            const double seconds = std::max(sample.timeSeconds - before_->first, velocity.minimumJumpSeconds);
-            double most = velocity.maximumMoveMetres(seconds);
+            double speed = std::numeric_limits<double>::infinity();
             if (earlier_) {
                 const glm::dvec3 earlier = surface.poseAt(earlier_->first).pointToLocal(earlier_->second);
-                const double speed = glm::distance(earlier, from) /
-                                     std::max(before_->first - earlier_->first, velocity.minimumJumpSeconds);
-                most = std::min(most, (speed + velocity.maximumGainMps(seconds)) * seconds);
+                speed = glm::distance(earlier, from) /
+                        std::max(before_->first - earlier_->first, velocity.minimumJumpSeconds);
             }
-            entry = glm::distance(from, tip) <= most ? entryInto(surface.shape, from, tip) : std::nullopt;
+            const bool isJump = velocity.isJump(glm::distance(from, tip), sample.timeSeconds - before_->first, speed);
+            entry = isJump ? std::nullopt : entryInto(surface.shape, from, tip);
         }
         QueryOptions options{std::nullopt, !touched_ || (touched_ == index && beganHere_), settings_.switchMarginMetres,
                              settings_.openMeshDepthMetres};

@@ -14,7 +14,7 @@ let isStaged = false;
  * @param {() => void} [options.before] runs in the page before its first script
  * @param {string} [options.frame] attributes of a frame in a page of another origin, in which the live page then stands
  * @param {Record<string, (route: import('playwright-core').Route) => any>} [options.routes] what becomes of files, by their names
- * @param {import('playwright-core').BrowserContextOptions} [options.context] more of Playwright's own
+ * @param {import('playwright-core').BrowserContextOptions} [options.context] further options of Playwright's browser context
  * @param {import('playwright-core').Browser} [options.browser] one that stays open; else one is started
  */
 export async function openLivePage({

@@ -40,7 +40,7 @@ export class Outputs {
   #gamepad() {
     if (this.#rumble.disabled) return null;
     try {
-      // A policy that forbids gamepads lets this throw.
+      // getGamepads throws where a policy forbids gamepads.
       return Array.from(navigator.getGamepads() ?? []).find((gamepad) => gamepad?.vibrationActuator) ?? null;
     } catch (error) {
       this.#giveUp(this.#rumble, rumbleName, error);

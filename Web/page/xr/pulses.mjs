@@ -13,7 +13,7 @@ export class Pulses {
     try {
       this.#actuator = gamepad?.hapticActuators?.[0] ?? gamepad?.vibrationActuator ?? null;
     } catch {
-      // A policy that forbids gamepads may forbid this, too.
+      // Where a policy forbids gamepads, this may throw, too.
       this.#actuator = null;
     }
   }

@@ -26,10 +26,10 @@ namespace HaptoFlow.Editor
                         $"{stylus.name} has no layer in its field Layers: it feels nothing.", new[] { stylus },
                         new Repair("Feel All Layers", () => FeelAllLayers(stylus)));
                 }
-                double scale = RigScale.Of(RigScale.RigOf(stylus));
-                if (scale != 1.0)
+                Transform? rig = RigScale.RigOf(stylus);
+                double scale = RigScale.Of(rig);
+                if (rig != null && scale != 1.0)
                 {
-                    Transform rig = RigScale.RigOf(stylus)!;
                     yield return new Finding(MessageType.Info,
                         FormattableString.Invariant($"{rig.name}, the rig of {stylus.name}, has the scale {scale:0.###}: ") +
                         FormattableString.Invariant($"a centimetre of the hand is {scale:0.###} cm of the world. ") +

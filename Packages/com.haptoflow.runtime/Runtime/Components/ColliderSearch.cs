@@ -75,7 +75,8 @@ namespace HaptoFlow
             way = Double3.Zero;
         }
 
-        /// <summary>Searches within a distance of the tip and of its way.</summary>
+        /// <summary>Finds the colliders within a distance of the line along which the tip came and, at its speed, goes
+        /// on.</summary>
         /// <param name="search">Number of the search in this frame, below <see cref="Searches"/>.</param>
         public void Find(in PhysicsScene world, Double3 tipMetres, double metres, int layers, int search)
         {

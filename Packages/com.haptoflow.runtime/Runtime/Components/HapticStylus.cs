@@ -198,6 +198,7 @@ namespace HaptoFlow
 
         private void OnEnable()
         {
+            rigScale ??= new RigScale(this);
             contacts ??= new TipContacts(new ContactSettings(), tipRadiusMetres, transform);
             contacts.Tracker.TipRadiusMetres = tipRadiusMetres;
             isActive = true;
@@ -261,8 +262,7 @@ namespace HaptoFlow
             HapticSession session = HapticSession.Current;
             session.Poll();
             MaterialMaps.Poll();
-            rigScale ??= new RigScale(this);
-            contacts!.Scale = rigScale.Update(!touching);
+            contacts!.Scale = rigScale!.Update(!touching);
             contacts.Tracker.Force = touchBy == TouchDecision.MeasuredForce ? forceDecision.Detector() : null;
             ContactReading reading;
             using (Markers.Contact.Auto())

@@ -3,8 +3,8 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>Whether an output is paused: with the application, and with AudioListener.pause unless it plays while
-    /// paused. Main thread.</summary>
+    /// <summary>Whether an output is paused: while the application is, and while AudioListener.pause is set, unless the
+    /// output plays while paused. Main thread.</summary>
     internal struct OutputPause
     {
         private bool application;

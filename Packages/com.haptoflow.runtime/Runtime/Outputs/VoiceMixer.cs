@@ -15,11 +15,11 @@ namespace HaptoFlow
         private ulong[] sounding = Array.Empty<ulong>();
 
         /// <summary>True where there is a voice that is not closed.</summary>
-        public bool HasVoices => Array.Exists(voices, IsOpen);
+        public bool HasVoices => Array.Exists(voices, voice => IsOpen(voice));
 
         public void Add(HapticVoice voice)
         {
-            voices = With(Array.FindAll(voices, IsOpen), voice);
+            voices = With(Array.FindAll(voices, each => IsOpen(each)), voice);
             Volatile.Write(ref sounding, With(Array.FindAll(sounding, each => each != 0), voice.Id));
         }
 

@@ -6,10 +6,6 @@ namespace HaptoFlow
     /// <summary>The material at one place: the part of a contact state that describes it.</summary>
     internal struct ResolvedMaterial
     {
-        // The engine's own limits: contact_state.hpp.
-        private const double SmallestFeatureScale = 0.25;
-        private const double LargestFeatureScale = 4.0;
-
         /// <summary>None where the place has no material.</summary>
         public LabelBlend Labels;
 
@@ -42,7 +38,8 @@ namespace HaptoFlow
             ResolvedMaterial material = this;
             material.FeatureScale = scale == 1.0
                 ? FeatureScale
-                : (float)Vectors.Clamp(FeatureScale / scale, SmallestFeatureScale, LargestFeatureScale);
+                : (float)Vectors.Clamp(FeatureScale / scale, MaterialDescription.MinimumFeatureScale,
+                    MaterialDescription.MaximumFeatureScale);
             return material;
         }
 

@@ -53,6 +53,15 @@ namespace HaptoFlow.Contact
 
         /// <summary>The most speed that a hand gains in a time.</summary>
         public double MaximumGainMps(double seconds) => Math.Max(JumpGainMps, JumpAccelerationMps2 * seconds);
+
+        /// <summary>True for a step that no hand makes.</summary>
+        /// <param name="speedBeforeMps">The speed before the step; infinite where it is not known.</param>
+        public bool IsJump(double movedMetres, double seconds, double speedBeforeMps)
+        {
+            double step = Math.Max(seconds, MinimumJumpSeconds);
+            return movedMetres > MaximumMoveMetres(step) ||
+                movedMetres > (speedBeforeMps + MaximumGainMps(step)) * step;
+        }
     }
 
     /// <summary>Settings of the contact model: lengths in metres, times in seconds, forces in newtons.</summary>

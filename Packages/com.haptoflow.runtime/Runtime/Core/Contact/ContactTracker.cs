@@ -174,7 +174,8 @@ namespace HaptoFlow.Contact
             return true;
         }
 
-        /// <summary>Lets time pass without a frame: physics catches up, and the tip has not been read again.</summary>
+        /// <summary>Advances the clock by a catch-up step of physics in which the tip was not read again, so that the time
+        /// until the next frame does not count as a pause.</summary>
         public void Pass(double timeSeconds)
         {
             history.Pass(timeSeconds);
@@ -200,19 +201,19 @@ namespace HaptoFlow.Contact
         /// <param name="pose">The surface's pose in this frame.</param>
         public Double3? AdvancePath(ContactBody surface, in RigidPose pose)
         {
-            VelocitySettings velocity = Settings.Velocity;
             Double3 from = surface.TipMetres;
             Double3 tip = pose.PointToLocal(TipMetres);
             bool isKnown = surface.TipFrame != 0 && surface.TipFrame + 1 == statistics.Samples &&
                 !double.IsNaN(pathSeconds);
-            double seconds = Math.Max(nowSeconds - pathSeconds, velocity.MinimumJumpSeconds);
-            double speed = isKnown ? Double3.Distance(from, tip) / seconds : double.PositiveInfinity;
-            bool isJump = speed > Math.Min(velocity.MaximumMoveMetres(seconds) / seconds,
-                surface.TipSpeedMps + velocity.MaximumGainMps(seconds));
+            double seconds = nowSeconds - pathSeconds;
+            double moved = Double3.Distance(from, tip);
+            bool isPath = isKnown && !Settings.Velocity.IsJump(moved, seconds, surface.TipSpeedMps);
             surface.TipMetres = tip;
-            surface.TipSpeedMps = speed;
+            surface.TipSpeedMps = isKnown
+                ? moved / Math.Max(seconds, Settings.Velocity.MinimumJumpSeconds)
+                : double.PositiveInfinity;
             surface.TipFrame = statistics.Samples;
-            return isKnown && !isJump ? from : (Double3?)null;
+            return isPath ? from : (Double3?)null;
         }
 
         /// <summary>Adds a surface near the tip. Between equal depths the first is chosen.</summary>
@@ -434,7 +435,8 @@ namespace HaptoFlow.Contact
         private bool IsAhead(in ContactCandidate other) => PenetrationOf(other) > 0.0 &&
             PenetrationOf(other) - PenetrationOf(current) > Settings.SwitchMarginMetres;
 
-        /// <summary>True where a tip that rests on the touched surface meets the other one.</summary>
+        /// <summary>True where the tip, moved out of the touched surface until it just rests on it, would touch the other
+        /// one.</summary>
         private bool IsAheadAtRest(in ContactCandidate other)
         {
             double depth = PenetrationOf(current);

@@ -62,8 +62,8 @@ namespace HaptoFlow.Contact
         public readonly Double3? Normal;
 
         /// <summary>True where the touch began on this surface, or begins: then the face that was entered is held. The
-        /// opposite face does not replace it, and one beside it only where the shape is not thinner below the held face
-        /// than below that one.</summary>
+        /// opposite face never replaces it. A face beside it does, except on a plate that was entered from its broad side:
+        /// there the shape is thinner below the held face than below the one beside it.</summary>
         public readonly bool CameFromOutside;
 
         public readonly double MarginMetres;

@@ -71,19 +71,20 @@ namespace HaptoFlow.Contact
                     frames.Add(track.SecondsAt(index), index);
                 }
             }
-            double drawn = Roughness(frames);
+            double drawn = MeanRoughness(frames);
             if (drawn < LeastMps * LeastMps)
             {
                 return false;
             }
             double least = Better * drawn;
-            if (FindRegularSteps() && Roughness(regular) < least)
+            double bySteps = FindRegularSteps() ? MeanRoughness(regular) : double.PositiveInfinity;
+            if (bySteps < least)
             {
-                least = Roughness(regular);
+                least = bySteps;
                 chosen = regular;
             }
             // The clock of physics is exact where it applies: among two good explanations it is the better one.
-            if (FindPhysicsSteps(since) && Roughness(physics) < Math.Max(least, LeastMps * LeastMps))
+            if (FindPhysicsSteps(since) && MeanRoughness(physics) < Math.Max(least, LeastMps * LeastMps))
             {
                 chosen = physics;
             }
@@ -251,19 +252,14 @@ namespace HaptoFlow.Contact
         private bool HasChanged(int index) => !track.PoseAt(index).Equals(track.PoseAt(index - 1));
 
         /// <summary>The mean square of the changes of velocity from step to step.</summary>
-        private double Roughness(Timeline timeline)
+        private double MeanRoughness(Timeline timeline)
         {
-            double squares = 0.0;
-            Double3 before = Double3.Zero;
-            for (int step = 1; step < timeline.Count; ++step)
+            var motion = new Roughness();
+            for (int step = 0; step < timeline.Count; ++step)
             {
-                Double3 moved = points[timeline.Frame(step)] - points[timeline.Frame(step - 1)];
-                Double3 velocity = moved / (timeline.Seconds(step) - timeline.Seconds(step - 1));
-                Double3 change = velocity - before;
-                squares += step > 1 ? Double3.Dot(change, change) : 0.0;
-                before = velocity;
+                motion.Add(timeline.Seconds(step), points[timeline.Frame(step)]);
             }
-            return squares / Math.Max(1, timeline.Count - 2);
+            return motion.Squares / Math.Max(1, timeline.Count - 2);
         }
 
         /// <summary>Frames, and the times at which their poses were taken.</summary>

@@ -32,7 +32,8 @@ namespace HaptoFlow.Contact
             oldest = 0;
         }
 
-        /// <summary>Lets time pass in which nothing was measured, so that it counts as no pause.</summary>
+        /// <summary>Advances the clock without a measurement, so that the time until the next one is no
+        /// pause.</summary>
         public void Pass(double nowSeconds) => latestSeconds = Math.Max(latestSeconds, nowSeconds);
 
         /// <summary>Adds a frame; time and position must be usable. Every result except Continued means that the history

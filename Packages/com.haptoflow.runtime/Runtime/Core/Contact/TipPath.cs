@@ -35,9 +35,8 @@ namespace HaptoFlow.Contact
         Resumed,
     }
 
-    /// <summary>The way of the tip over one surface in the last tenth of a second, in that surface's coordinates, so that
-    /// the motion of the world which both share costs nothing. Distinguishes positions that the tracker holds from
-    /// stops, and jumps from strokes.</summary>
+    /// <summary>The tip's recent positions in the coordinates of one surface, where motion that both share, as in a lift,
+    /// does not show. Distinguishes positions that the tracker holds from stops, and jumps from strokes.</summary>
     /// <remarks>
     /// <para>A tracker slower than the frame rate repeats positions, in the world or, if the tip is carried, on the
     /// surface. Repetitions are not measurements and are left out of the velocity until <see
@@ -132,7 +131,8 @@ namespace HaptoFlow.Contact
             repeatsInRow = 0;
         }
 
-        /// <summary>Lets time pass in which nothing was measured, so that it counts as no pause.</summary>
+        /// <summary>Advances the clock without a measurement, so that the time until the next one is no
+        /// pause.</summary>
         public void Pass(double nowSeconds) => latestSeconds = Math.Max(latestSeconds, nowSeconds);
 
         /// <summary>Adds a frame; time and positions must be usable. Every result except Continued means that the path
@@ -214,10 +214,6 @@ namespace HaptoFlow.Contact
 
         private bool IsJump(double moved, double seconds, bool isHeld)
         {
-            if (moved > Settings.MaximumMoveMetres(seconds))
-            {
-                return true;
-            }
             double fastestBefore = 0.0;
             int measurements = 0;
             for (int age = 0; age < Count && measurements < MeasurementsBefore; ++age)
@@ -234,8 +230,7 @@ namespace HaptoFlow.Contact
                 // A tip whose speed is not known yet may be fast, but not one that rests in the world.
                 fastestBefore = 0.0;
             }
-            double stepSeconds = Math.Max(seconds, Settings.MinimumJumpSeconds);
-            return moved > (fastestBefore + Settings.MaximumGainMps(stepSeconds)) * stepSeconds;
+            return Settings.IsJump(moved, seconds, fastestBefore);
         }
 
         /// <summary>Learns about the tracker from a position that differs from the last.</summary>

@@ -1,5 +1,4 @@
 #nullable enable
-using System;
 using HaptoFlow.Numerics;
 
 namespace HaptoFlow.Contact
@@ -29,6 +28,10 @@ namespace HaptoFlow.Contact
         private readonly SteppedPoses steps;
         private readonly TipPath drawn;
         private readonly TipPath stepped;
+
+        // Of the frames of the history: their frame of the surface, below 0 where it is not known, and the tip there.
+        private readonly int[] frameOf = new int[TipHistory.Capacity];
+        private readonly Double3[] steppedMetres = new Double3[TipHistory.Capacity];
         private bool isInWorld;
         private bool isStepped;
 
@@ -62,7 +65,8 @@ namespace HaptoFlow.Contact
 
         public void Drop() => Surface = null;
 
-        /// <summary>Lets time pass in which nothing was measured, so that it counts as no pause.</summary>
+        /// <summary>Advances the clock without a measurement, so that the time until the next one is no
+        /// pause.</summary>
         public void Pass(double nowSeconds) => drawn.Pass(nowSeconds);
 
         /// <summary>Adds a frame of a surface whose path goes on. Jumped where no hand makes the way.</summary>
@@ -179,11 +183,9 @@ namespace HaptoFlow.Contact
             TipStep step = TipStep.Started;
             for (int index = 0; index < history.Count; ++index)
             {
-                double seconds = history.SecondsAt(index);
-                Double3 tip = history.WorldMetresAt(index);
-                if (seconds >= steps.FirstSeconds && track.IndexOf(seconds) >= 0)
+                if (frameOf[index] >= 0)
                 {
-                    step = stepped.Add(seconds, steps.PoseAt(seconds).PointToLocal(tip), tip);
+                    step = stepped.Add(history.SecondsAt(index), steppedMetres[index], history.WorldMetresAt(index));
                 }
             }
             return step;
@@ -196,19 +198,24 @@ namespace HaptoFlow.Contact
             {
                 return false;
             }
-            double sinceSeconds = Math.Max(
-                history.SecondsAt(history.Count - 1) - WindowSeconds, steps.FirstSeconds);
+            double sinceSeconds = history.SecondsAt(history.Count - 1) - WindowSeconds;
             var drawnMotion = new Roughness();
             var steppedMotion = new Roughness();
             for (int index = 0; index < history.Count; ++index)
             {
                 double seconds = history.SecondsAt(index);
-                int frame = seconds < sinceSeconds ? -1 : track.IndexOf(seconds);
-                if (frame >= 0)
+                int frame = seconds < steps.FirstSeconds ? -1 : track.IndexOf(seconds);
+                frameOf[index] = frame;
+                if (frame < 0)
                 {
-                    Double3 tip = history.WorldMetresAt(index);
+                    continue;
+                }
+                Double3 tip = history.WorldMetresAt(index);
+                steppedMetres[index] = steps.PoseAt(seconds).PointToLocal(tip);
+                if (seconds >= sinceSeconds)
+                {
                     drawnMotion.Add(seconds, track.PoseAt(frame).PointToLocal(tip));
-                    steppedMotion.Add(seconds, steps.PoseAt(seconds).PointToLocal(tip));
+                    steppedMotion.Add(seconds, steppedMetres[index]);
                 }
             }
             if (drawnMotion.Count < LeastFrames)
@@ -220,31 +227,6 @@ namespace HaptoFlow.Contact
             double bySteps = steppedMotion.Squares + least;
             // Between two that are as smooth nothing changes.
             return isStepped ? asDrawn >= Better * bySteps : bySteps < Better * asDrawn;
-        }
-
-        /// <summary>The sum of the squares of the changes of velocity.</summary>
-        private struct Roughness
-        {
-            private double seconds;
-            private Double3 place;
-            private Double3 velocity;
-
-            public int Count { get; private set; }
-
-            public double Squares { get; private set; }
-
-            public void Add(double timeSeconds, Double3 placeMetres)
-            {
-                if (Count > 0)
-                {
-                    Double3 now = (placeMetres - place) / (timeSeconds - seconds);
-                    Squares += Count > 1 ? Double3.Dot(now - velocity, now - velocity) : 0.0;
-                    velocity = now;
-                }
-                seconds = timeSeconds;
-                place = placeMetres;
-                ++Count;
-            }
         }
     }
 }
