@@ -31,6 +31,9 @@ namespace HaptoFlow
         /// <summary>The text that the board shows.</summary>
         public string Text => Mesh.text;
 
+        /// <summary>The rig whose pen in use the board shows; null for one stylus.</summary>
+        public XrRig? Rig { get => rig; set => rig = value; }
+
         private TextMesh Mesh => mesh != null ? mesh : mesh = GetComponent<TextMesh>();
 
         /// <summary>Creates a board. Main thread, in play mode.</summary>
