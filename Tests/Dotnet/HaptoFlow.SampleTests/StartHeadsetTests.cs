@@ -12,12 +12,16 @@ namespace HaptoFlow.SampleTests
     {
         private XRManagerSettings manager = null!;
 
+        private sealed class Loader : XRLoader
+        {
+        }
+
         [SetUp]
         public void ConnectAHeadset()
         {
             World.Platform = RuntimePlatform.WindowsEditor;
             manager = ScriptableObject.CreateInstance<XRManagerSettings>();
-            manager.Working = ScriptableObject.CreateInstance<XRLoader>();
+            manager.Working = ScriptableObject.CreateInstance<Loader>();
             XRGeneralSettings.Instance = ScriptableObject.CreateInstance<XRGeneralSettings>();
             XRGeneralSettings.Instance.Manager = manager;
         }

@@ -38,7 +38,7 @@ namespace UnityEngine.XR.Management
         }
     }
 
-    public class XRLoader : ScriptableObject
+    public abstract class XRLoader : ScriptableObject
     {
     }
 }

@@ -8,8 +8,8 @@ using Object = UnityEngine.Object;
 
 namespace HaptoFlow.EditorTests
 {
-    /// <summary>The scene Desk of the repository's Unity project is what the menu makes of a new scene.</summary>
-    public sealed class DeskSceneTests : EditorTest
+    /// <summary>The scenes of the repository's Unity project in the editor.</summary>
+    public sealed class ProjectScenesTests : EditorTest
     {
         [Test]
         public void TheDeskIsTheFirstSceneOfTheMenu()
@@ -24,15 +24,31 @@ namespace HaptoFlow.EditorTests
             Undo.PerformUndo();
         }
 
+        [TestCase("Desk.unity")]
+        [TestCase("Headset.unity")]
+        public void CheckSceneFindsNothingToRepair(string name)
+        {
+            ProjectScene scene = ProjectScene.Open(name);
+            ProjectSettingsAsset.FindOrCreate();
+            string[] findings = SceneCheck.Run().Select(finding => finding.Text).ToArray();
+            Destroy(scene);
+            Assert.That(findings, Is.Empty);
+        }
+
         private static string[] DescribeTheDesk()
         {
             ProjectScene scene = ProjectScene.Open("Desk.unity");
             string[] lines = Describe();
+            Destroy(scene);
+            return lines;
+        }
+
+        private static void Destroy(ProjectScene scene)
+        {
             foreach (GameObject each in scene.Owners.Where(each => each != null))
             {
                 Object.DestroyImmediate(each);
             }
-            return lines;
         }
 
         private static string[] Describe() => new[]
