@@ -2,6 +2,7 @@
 // nothing to write, as far as files can say.
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
+import path from 'node:path';
 import test from 'node:test';
 import { inRepository } from '../../scripts/lib/repository.mjs';
 import { PackageFiles } from '../../scripts/pack/package_files.mjs';
@@ -160,10 +161,10 @@ test('the OpenXR settings list every feature under the name and in the order of 
 
 test('the settings of MX Ink are those that its attribute declares', { skip: !files.has(feature) }, () => {
   const [, attribute] = files.text(feature).match(/OpenXRFeature\(([\s\S]*?)\)\]/);
-  const constant = (word) => files.text(feature).match(new RegExp(`const string ${word} = "([^"]*)"`))[1];
+  const sources = files.endingIn('.cs').filter((name) => path.dirname(name) === path.dirname(feature)).map((name) => files.text(name)).join('\n');
   const declared = (key) => {
-    const [, text, word] = attribute.match(new RegExp(`\\b${key} = (?:"([^"]*)"|(\\w+))`));
-    return text ?? constant(word);
+    const [, text, word] = attribute.match(new RegExp(`\\b${key} = (?:"([^"]*)"|([\\w.]+))`));
+    return text ?? sources.match(new RegExp(`const string ${word.split('.').at(-1)} = "([^"]*)"`))[1];
   };
   for (const text of objectsOf('Assets/XR/Settings/OpenXR Package Settings.asset').values()) {
     if (fieldOf(text, 'featureIdInternal') !== 'com.haptoflow.input.mxink') continue;
