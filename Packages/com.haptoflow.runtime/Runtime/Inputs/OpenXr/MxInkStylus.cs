@@ -14,9 +14,9 @@ namespace HaptoFlow
 {
     /// <summary>An MX Ink in the Input System, by the profile <see cref="MxInkInteraction"/>. Controls are named as in
     /// the profiles of other packages, so that bindings fit all of them.</summary>
-    /// <remarks>Unity's plug-in reports poses but not the controls with an offset below. They read the same bytes, which
-    /// lie where the order of actions puts them: <see cref="MxInkInteraction"/> lists the two poses first, and each takes
-    /// 60 bytes.</remarks>
+    /// <remarks>Unity's plug-in reports an action as the control of its name. From <see cref="isTracked"/> on, controls
+    /// repeat parts of the first two poses, as every controller has them: they read the same bytes, whose offsets follow
+    /// from the order of actions in <see cref="MxInkInteraction"/> and from the 60 bytes of a pose.</remarks>
     [Preserve]
     [InputControlLayout(displayName = MxInkInteraction.DisplayName, commonUsages = new[] { "LeftHand", "RightHand" })]
     public sealed class MxInkStylus : XRControllerWithRumble
