@@ -154,6 +154,7 @@ namespace HaptoFlow.EditorTests
         public void CheckSceneSaysWhatPlaysEachStylusBeforePlaying()
         {
             Settings();
+            MxInkSwitch.SwitchOn();
             Perform(Rows(Desktop)[0].What);
             AddRig();
             Perform(Rows(Later)[0].What);

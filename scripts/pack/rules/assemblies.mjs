@@ -9,6 +9,7 @@ const testAssemblies = ['UnityEngine.TestRunner', 'UnityEditor.TestRunner'];
 const optionalAssemblies = {
   'Unity.InputSystem': 'com.unity.inputsystem',
   'Unity.XR.OpenXR': 'com.unity.xr.openxr',
+  'Unity.XR.OpenXR.Editor': 'com.unity.xr.openxr',
   'Oculus.VR': 'com.meta.xr.sdk.core',
 };
 
