@@ -74,6 +74,9 @@ namespace HaptoFlow.EditorTests
             Assert.That(OwnFeature(BuildTargetGroup.Android).enabled, Is.True);
             Assert.That(OpenXRSettings.GetSettingsForBuildTargetGroup(BuildTargetGroup.Android)!
                 .GetFeature<ForeignProfile>()!.enabled, Is.False, "features of other packages stay as they are");
+            Undo.PerformUndo();
+            Assert.That(OwnFeature(BuildTargetGroup.Standalone).enabled, Is.False, "after undo");
+            Assert.That(OwnFeature(BuildTargetGroup.Android).enabled, Is.False, "after undo");
         }
 
         [TestCase(BuildTargetGroup.Standalone)]

@@ -19,14 +19,15 @@ namespace UnityEngine.XR.OpenXR.Features
         [SerializeField]
         internal string openxrExtensionStrings = "";
 
-        private bool isOn;
+        [SerializeField]
+        private bool m_enabled;
 
         public bool enabled
         {
-            get => isOn && !(OpenXrRuntime.IsRunning && HasFailed);
+            get => m_enabled && !(OpenXrRuntime.IsRunning && HasFailed);
             set
             {
-                isOn = value;
+                m_enabled = value;
                 OnEnabledChange();
             }
         }

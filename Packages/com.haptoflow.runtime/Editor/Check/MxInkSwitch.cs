@@ -31,7 +31,10 @@ namespace HaptoFlow.Editor
                 OpenXRSettings.GetSettingsForBuildTargetGroup(group)?.GetFeature<MxInkInteraction>();
             if (feature != null)
             {
+                Undo.RecordObject(feature, "Switch On Profile of MX Ink");
                 feature.enabled = true;
+                // Unity's setter leaves the settings unsaved.
+                EditorUtility.SetDirty(feature);
             }
         });
 #else
