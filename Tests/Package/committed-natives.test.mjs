@@ -7,6 +7,7 @@ import path from 'node:path';
 import test from 'node:test';
 import { inRepository } from '../../scripts/lib/repository.mjs';
 import { testsOfCommitted } from '../../scripts/lib/runtime_tests.mjs';
+import { checkNatives } from '../../scripts/lint/native_checks.mjs';
 import { committedNatives, committedPlatforms, complaintsOf, complaintsOfRecord, fileInPackage, largestBytes, readRecord } from '../../scripts/natives/committed.mjs';
 import { hashOfInterface, hashOfSources, sourceFiles } from '../../scripts/natives/fingerprints.mjs';
 import { importFolder, putIntoPackage } from '../../scripts/natives/into_package.mjs';
@@ -90,10 +91,20 @@ test('a library that is not the recorded one is named with the command that rene
   assert.deepEqual(complaintsOfRecord(other), ['windows-x64: is not the file that NativePlugin/natives.json records: `npm run natives` builds it anew']);
 });
 
+test('where the sources are newer lint names the command without a complaint, and where they are the same it says nothing', async () => {
+  const record = readRecord();
+  const newer = await checkNatives({ ...record, sources: '0' });
+  assert.deepEqual(newer.complaints, []);
+  assert.match(newer.warnings.join(), /^NativePlugin\/natives\.json: .* older than the sources .*`npm run natives`/);
+  assert.deepEqual((await checkNatives({ ...record, sources: hashOfSources() })).warnings, []);
+  assert.equal((await checkNatives({ ...record, files: {} })).complaints.length, committedPlatforms.length);
+});
+
 test('everything that git has of the plugin\'s sources counts, and nothing of the command line, the benchmarks or the tests', { skip: !hasGit && 'no git' }, () => {
   const tracked = git('ls-files', '-z', 'CMakeLists.txt', 'CMakePresets.json', 'NativePlugin').stdout.split('\0').filter((name) => name !== '');
+  // Settings of tools in the folders of sources begin with a dot.
   const others = ['NativePlugin/bench/', 'NativePlugin/cli/', 'NativePlugin/headless/', 'NativePlugin/import/', 'NativePlugin/natives.json'];
-  assert.deepEqual(sourceFiles(), tracked.filter((name) => !others.some((other) => name.startsWith(other))).sort());
+  assert.deepEqual(sourceFiles(), tracked.filter((name) => !others.some((other) => name.startsWith(other)) && !path.posix.basename(name).startsWith('.')).sort());
 });
 
 test('the hash of the sources is that of any checkout, with the line ends of Windows and an editor\'s backups too', () => {

@@ -19,8 +19,8 @@ test('a DLL\'s exported names are read from its bytes, and a DLL that breaks off
   for (const length of [2, 64, 200, 400]) assert.deepEqual(exportedNames(whole.subarray(0, length)), [], `${length} bytes`);
 });
 
-test('an ELF exports the dynamic symbols that have a place in it, and not those that it takes from other libraries', () => {
-  const whole = elfWithSymbols([{ name: 'memcpy', section: 0 }, { name: 'haptoflow_version', section: 12 }, { name: 'a_stray_one', section: 9 }]);
+test('an ELF exports the dynamic symbols that have a place in it, and neither its own local ones nor those of other libraries', () => {
+  const whole = elfWithSymbols([{ name: 'memcpy', section: 0 }, { name: '.init', section: 9, isLocal: true }, { name: 'haptoflow_version', section: 12 }, { name: 'a_stray_one', section: 9 }]);
   assert.deepEqual(exportedNames(whole), ['a_stray_one', 'haptoflow_version']);
   for (const length of [2, 63, 70, whole.length - 10]) assert.deepEqual(exportedNames(whole.subarray(0, length)), [], `${length} bytes`);
 });

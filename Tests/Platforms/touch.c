@@ -13,8 +13,8 @@ enum { sampleRateHz = 48000, blockFrames = 256, blocks = 94 };
 #ifdef _WIN32
 #include <windows.h>
 
-static const char* systemName(void) {
-    return "Windows";
+static void printSystem(void) {
+    printf("Windows");
 }
 
 static void* openLibrary(const char* file) {
@@ -37,8 +37,8 @@ static void waitForBlock(void) {
 #include <gnu/libc-version.h>
 #include <time.h>
 
-static const char* systemName(void) {
-    return gnu_get_libc_version();
+static void printSystem(void) {
+    printf("glibc %s", gnu_get_libc_version());
 }
 
 static void* openLibrary(const char* file) {
@@ -137,6 +137,7 @@ int main(int argc, char** argv) {
     EXPECT_OK(call_haptoflow_runtime_close(&runtime))
 
     const double level = sqrt(sum / (blocks * blockFrames));
-    printf("%s, HaptoFlow %s: %.4f of full scale\n", systemName(), call_haptoflow_version(), level);
+    printSystem();
+    printf(", HaptoFlow %s: %.4f of full scale\n", call_haptoflow_version(), level);
     return isfinite(level) && level > 1e-4 ? 0 : 1;
 }

@@ -53,7 +53,7 @@ export async function runsOnOldGlibc(folder = inRepository('build', 'debian-11')
 async function judgeTouch(folder) {
   const commands = 'cd /haptoflow && gcc -std=c11 -Wall -Wextra -Werror -Iinclude touch.c -lm -ldl -o touch && ./touch ./plugin.so ./onnxruntime.so default.haptoflow';
   try {
-    console.log(`test: glibc ${(await runOrFail('chroot', [folder, '/bin/sh', '-c', commands], { quiet: true })).trim().split('\n').at(-1)}`);
+    console.log(`test: ${(await runOrFail('chroot', [folder, '/bin/sh', '-c', commands], { quiet: true })).trim().split('\n').at(-1)}`);
     return { ...noCounts, passed: 1 };
   } catch (error) {
     if (!(error instanceof CommandError)) throw error;

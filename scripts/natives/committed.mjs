@@ -2,9 +2,8 @@ import { createHash } from 'node:crypto';
 import { existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { differencesOfExports } from '../lib/exported_names.mjs';
 import { inRepository } from '../lib/repository.mjs';
-import { isNewerThan, neededGlibc } from '../pack/elf.mjs';
 import { packageName } from '../pack/layout.mjs';
-import { kindOfLibrary, oldestGlibc, platforms, pluginsFolder } from '../pack/natives.mjs';
+import { complaintOfGlibc, kindOfLibrary, platforms, pluginsFolder } from '../pack/natives.mjs';
 import { hashOfInterface, hashOfSources } from './fingerprints.mjs';
 
 /** The command that builds the libraries in git anew. */
@@ -45,11 +44,11 @@ export const areOfTheseSources = (record = readRecord()) => record.sources === h
 export function complaintsOf(platform, bytes) {
   const kind = kindOfLibrary(bytes);
   if (kind !== platform.kind) return [`${platform.id}: is ${kind ?? 'no library'}; expected ${platform.kind}`];
-  const glibc = kind.startsWith('elf-') ? neededGlibc(bytes) : null;
+  const glibc = complaintOfGlibc(platform, bytes);
   const { missing, unwanted } = differencesOfExports(bytes);
   return [
     ...(bytes.length > largestBytes ? [`has ${bytes.length} bytes; expected ${largestBytes} at most`] : []),
-    ...(glibc !== null && isNewerThan(glibc, oldestGlibc) ? [`needs glibc ${glibc.join('.')}; expected ${oldestGlibc.join('.')} or older: build it on Debian 12`] : []),
+    ...(glibc === null ? [] : [glibc]),
     ...(missing.length > 0 ? [`does not export ${missing.join(', ')} of haptoflow.h`] : []),
     ...(unwanted.length > 0 ? [`exports ${unwanted.join(', ')}, which haptoflow.h does not declare`] : []),
   ].map((complaint) => `${platform.id}: ${complaint}`);

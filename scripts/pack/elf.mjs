@@ -67,7 +67,7 @@ export const isNewerThan = ([major, minor], [otherMajor, otherMinor]) => major >
 
 const sectionTypes = { symbols: 11 };
 
-/** The names that an ELF exports: its dynamic symbols that have a place; none for a file without section headers. */
+/** The names that an ELF exports: its dynamic symbols that have a place and are not local; none for a file without section headers. */
 export function namesExportedByElf(elf) {
   if (elf.length < 64) return [];
   const [table, size, count] = [Number(elf.readBigUInt64LE(40)), elf.readUInt16LE(58), elf.readUInt16LE(60)];
@@ -80,7 +80,8 @@ export function namesExportedByElf(elf) {
   const names = [];
   for (let place = symbols.offset; place + 24 <= Math.min(symbols.offset + symbols.bytes, elf.length); place += 24) {
     const name = strings.offset + elf.readUInt32LE(place);
-    if (elf.readUInt16LE(place + 6) !== 0) names.push(elf.toString('latin1', name, elf.indexOf(0, name)));
+    const [isLocal, isElsewhere] = [elf[place + 4] >> 4 === 0, elf.readUInt16LE(place + 6) === 0];
+    if (!isLocal && !isElsewhere) names.push(elf.toString('latin1', name, elf.indexOf(0, name)));
   }
   return names;
 }

@@ -6,7 +6,7 @@ import { buildNative, presetFolder } from '../lib/native_build.mjs';
 import { CommandError } from '../lib/process.mjs';
 import { inRepository } from '../lib/repository.mjs';
 import { onDebian, setUp } from '../lib/setup.mjs';
-import { needsOf } from './elf.mjs';
+import { isNewerThan, neededGlibc, needsOf } from './elf.mjs';
 
 /** Where the package keeps its native libraries. */
 export const pluginsFolder = 'Runtime/Plugins';
@@ -25,6 +25,13 @@ export const platforms = [
 
 /** The oldest glibc of the systems that Unity 2022.3 supports (Ubuntu 20.04): a library of a release needs no newer one. */
 export const oldestGlibc = [2, 31];
+
+/** What is wrong with the C library that a Linux library needs; null where nothing is, and for other platforms. */
+export function complaintOfGlibc({ kind }, bytes) {
+  const glibc = kind.startsWith('elf-') ? neededGlibc(bytes) : null;
+  if (glibc === null || !isNewerThan(glibc, oldestGlibc)) return null;
+  return `needs glibc ${glibc.join('.')}; expected ${oldestGlibc.join('.')} or older: build it on Debian 12`;
+}
 
 const elfMachines = { 62: 'x86-64', 183: 'arm64' };
 const peMachines = { 0x8664: 'pe-x86-64', 0xaa64: 'pe-arm64' };

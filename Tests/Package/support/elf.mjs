@@ -43,7 +43,7 @@ export function elfOf({ machine, libraries = ['libc.so.6'], versions = [], align
   return bytes;
 }
 
-/** A 64-bit ELF with a table of dynamic symbols. @param {{name: string, section: number}[]} symbols section: 0 for one of another library */
+/** A 64-bit ELF with a table of dynamic symbols. @param {{name: string, section: number, isLocal?: boolean}[]} symbols section: 0 for one of another library */
 export function elfWithSymbols(symbols) {
   const strings = Buffer.from(`\0${symbols.map(({ name }) => `${name}\0`).join('')}`, 'latin1');
   const [symbolsPlace, symbolsBytes, headersBytes] = [64, 24 * symbols.length, 3 * 64];
@@ -55,8 +55,9 @@ export function elfWithSymbols(symbols) {
   bytes.writeBigUInt64LE(BigInt(headers), 40);
   bytes.writeUInt16LE(64, 58);
   bytes.writeUInt16LE(3, 60);
-  symbols.forEach(({ name, section }, index) => {
+  symbols.forEach(({ name, section, isLocal = false }, index) => {
     bytes.writeUInt32LE(strings.indexOf(`\0${name}\0`) + 1, symbolsPlace + 24 * index);
+    bytes.writeUInt8(isLocal ? 0x03 : 0x12, symbolsPlace + 24 * index + 4);
     bytes.writeUInt16LE(section, symbolsPlace + 24 * index + 6);
   });
   strings.copy(bytes, stringsPlace);
