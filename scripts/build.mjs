@@ -24,15 +24,15 @@ const placeOf = (platform) => packaged.find(({ id }) => id === platform).place;
 const help = `usage: npm run build -- [--platform NAME] [--help]
 
 Without --platform: the plugin and the command line for this machine, in build/native. With it: the plugin alone, in the
-folder below build/ from which \`npm run pack\` takes it. Those of ${notInGit.join(' and ')}
-also go into the package, with their .meta, so that Unity finds them when it opens this folder; git ignores them there. The
-package has the others from git, which \`npm run natives\` renews.
+folder below build/ from which \`npm run pack\` takes it. The libraries of ${notInGit.join(' and ')} also go into the
+package, with their .meta, so that Unity finds them when it opens this folder; git ignores them there. The package has the
+others from git, which \`npm run natives\` renews.
 
 ${Object.entries(platforms).map(([name, { needs }]) => `  ${name.padEnd(14)} needs ${needs}`).join('\n')}`;
 
 function optionsOf(words) {
   try {
-    return parseArgs({ args: words, options: { platform: { type: 'string' }, help: { type: 'boolean', default: false } } }).values;
+    return parseArgs({ args: words, options: { platform: { type: 'string' } } }).values;
   } catch (error) {
     throw new CommandError(`${error.message}\n\n${help}`, 2);
   }
@@ -51,11 +51,7 @@ function showBuilt(id, library) {
 }
 
 await runMain('build', async (words) => {
-  const { platform, help: wantsHelp } = optionsOf(words);
-  if (wantsHelp) {
-    console.log(help);
-    return 0;
-  }
+  const { platform } = optionsOf(words);
   if (platform === undefined) {
     await setUp(['build']);
     await buildNative();
@@ -73,4 +69,4 @@ await runMain('build', async (words) => {
   await buildNative({ preset, targets: ['audioplugin_haptoflow'] });
   if (notInGit.includes(platform)) showBuilt(platform, inRepository(presetFolder(preset), path.basename(placeOf(platform))));
   return 0;
-});
+}, { help });
