@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdio>
 #include <fstream>
 #include <iterator>
@@ -23,9 +24,9 @@ std::set<std::string> definedSymbols(const std::string& options) {
     const std::string command = "nm " + options + " --defined-only --format=posix '" HAPTOFLOW_TEST_PLUGIN "'";
     const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
     std::set<std::string> symbols;
-    char line[4096];
-    while (pipe && std::fgets(line, sizeof(line), pipe.get()) != nullptr) {
-        std::istringstream words(line);
+    std::array<char, 4096> line{};
+    while (pipe && std::fgets(line.data(), static_cast<int>(line.size()), pipe.get()) != nullptr) {
+        std::istringstream words(line.data());
         std::string symbol;
         words >> symbol;
         symbols.insert(symbol);
