@@ -16,7 +16,7 @@ ${largestBytes / 1e6} MB at most. Then they go into the package, and NativePlugi
 sources and of the C interface. The same sources make the same bytes.
 
 When: before a commit that changes haptoflow.h, which the package's tests require, and before a release. Lint says when the
-sources are newer. Every version stays in git's history (about 8 MB), so not at every change.`;
+sources are newer. Every version stays in git's history (about 4 MB), so not at every change.`;
 
 const megabytes = (bytes) => `${(bytes / 1e6).toFixed(2)} MB`;
 
