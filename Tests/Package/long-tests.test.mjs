@@ -19,7 +19,7 @@ const textBelow = (ending, ...folders) =>
 const isThere = {
   native: (pattern) => nativeTests().some((name) => patternOf(pattern).test(name)),
   training: (name) => textBelow('.py', 'Training').includes(`def ${name}(`),
-  dotnet: (name) => new RegExp(`void ${name}\\(`).test(textBelow('.cs', 'Dotnet', 'Runtime', 'Editor')),
+  dotnet: (name) => new RegExp(`void ${name}\\(`).test(textBelow('.cs', 'Dotnet', 'Unity')),
 };
 
 for (const [runner, groups] of Object.entries(longTests)) {

@@ -184,8 +184,9 @@ test('ONNX Runtime takes on each device what its package holds for it: uncompres
 test('files of the package go to their places, and other files of the repository are not packed', () => {
   assert.equal(placeInPackage('Packages/com.haptoflow.runtime/Runtime/HaptoFlow.asmdef'), 'Runtime/HaptoFlow.asmdef');
   assert.equal(placeInPackage('Samples~/StylusTracing/README.md'), 'Samples~/StylusTracing/README.md');
-  assert.equal(placeInPackage('Tests/Runtime/Support/SceneTest.cs'), 'Tests/Runtime/Support/SceneTest.cs');
-  for (const name of ['README.md', 'Tests/Native/CMakeLists.txt', 'Tests/Runtime.meta', 'NativePlugin/include/haptoflow/haptoflow.h', 'Samples~/.editorconfig']) {
+  assert.equal(placeInPackage('Tests/Unity/Runtime/Support/SceneTest.cs'), 'Tests/Runtime/Support/SceneTest.cs');
+  assert.equal(placeInPackage('Tests/Unity/Runtime.meta'), 'Tests/Runtime.meta');
+  for (const name of ['README.md', 'Tests/Native/CMakeLists.txt', 'Tests/Unity/package.json', 'Tests/Unity/package.json.meta', 'NativePlugin/include/haptoflow/haptoflow.h', 'Samples~/.editorconfig']) {
     assert.equal(placeInPackage(name), null, name);
   }
 });

@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
 import { createHash } from 'node:crypto';
-import { existsSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+import { mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
 import test from 'node:test';
@@ -36,7 +36,7 @@ const elf = (machine, alignment) => elfOf({ machine, alignment });
 const android = (alignment) => elfOf({ machine: 183, libraries: ['libc.so'], alignment });
 
 test('every script of a release shows its help', () => {
-  for (const name of ['check_tag', 'check_tarball', 'collect_natives', 'draft', 'unity_project', 'upm_branch']) {
+  for (const name of ['check_tag', 'check_tarball', 'collect_natives', 'draft', 'upm_branch']) {
     const { status, stdout } = script(name, '--help');
     assert.equal(status, 0, name);
     assert.match(stdout, new RegExp(`^usage: node scripts/release/${name}\\.mjs`), name);
@@ -163,21 +163,5 @@ test('a remote that cannot be read is an error that names it', () => {
     const { status, stderr } = script('upm_branch', path.join(folder, 'package.tgz'), '--remote', path.join(folder, 'nowhere'));
     assert.equal(status, 1);
     assert.match(stderr, /nowhere: cannot be read/);
-  });
-});
-
-test('a Unity project installs both tarballs and lists the package as testable', () => {
-  inFolder((folder) => {
-    const names = [`com.haptoflow.runtime-${version}.tgz`, 'com.github.asus4.onnxruntime-0.4.9.tgz'];
-    for (const name of names) writeFileSync(path.join(folder, name), name);
-    const project = path.join(folder, 'project');
-    const { status, stderr } = script('unity_project', project, '--unity', '2022.3.62f1', '--tarballs', folder);
-    assert.equal(status, 0, stderr);
-    const manifest = JSON.parse(readFileSync(path.join(project, 'Packages', 'manifest.json'), 'utf8'));
-    assert.deepEqual(manifest.testables, ['com.haptoflow.runtime']);
-    for (const name of names) assert.ok(existsSync(path.join(project, 'Packages', name)));
-    assert.equal(manifest.dependencies['com.haptoflow.runtime'], `file:${names[0]}`);
-    assert.match(readFileSync(path.join(project, 'ProjectSettings', 'ProjectVersion.txt'), 'utf8'), /^m_EditorVersion: 2022\.3\.62f1$/m);
-    assert.equal(script('unity_project', project, '--unity', '2022.3.62f1', '--tarballs', project).status, 1);
   });
 });

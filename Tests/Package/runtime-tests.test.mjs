@@ -17,7 +17,7 @@ test('every test project runs under Mono, or the page says why it does not', () 
 });
 
 test('every test that Mono or the program compiled ahead of time leaves out exists, and the page names it', () => {
-  const sources = ['Dotnet', 'Runtime', 'Editor']
+  const sources = ['Dotnet', 'Unity']
     .flatMap((folder) => readdirSync(inRepository('Tests', folder), { recursive: true }).map((name) => inRepository('Tests', folder, name)))
     .filter((name) => name.endsWith('.cs') && !name.includes(`${path.sep}obj${path.sep}`)).map((name) => readFileSync(name, 'utf8')).join('\n');
   for (const { because, tests } of Object.values(leftOut).flat()) {

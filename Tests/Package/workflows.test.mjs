@@ -48,3 +48,12 @@ test('every script and npm script that a workflow runs is there', () => {
     for (const [, script] of text.matchAll(/(?:npm run|\.\/run) ([\w:]+)/g)) assert.ok(script in scripts, `${name}: ${script}`);
   }
 });
+
+test('the Unity workflow runs the project of the repository, in the version that it was saved with', () => {
+  const workflow = textOf('.github/workflows/unity.yml');
+  const [, version] = textOf('ProjectSettings/ProjectVersion.txt').match(/^m_EditorVersion: (.*)$/m);
+  const [, versions] = workflow.match(/unity: \[(.*)\]/);
+  assert.deepEqual(versions.split(', ').map((each) => each.split('.')[0]), ['2022', '6000']);
+  assert.equal(versions.split(', ')[0], version);
+  assert.match(workflow, /run: npm ci\n[\s\S]*projectPath: \.\n/);
+});

@@ -13,16 +13,14 @@ export const parts = [
   { from: 'NativePlugin/import', to: 'Runtime/Plugins' },
   { from: 'Samples~', to: 'Samples~' },
   { from: 'Documentation~', to: 'Documentation~' },
-  { from: 'Tests/Runtime', to: 'Tests/Runtime' },
-  { from: 'Tests/Editor', to: 'Tests/Editor' },
+  { from: 'Tests/Unity', to: 'Tests' },
 ];
 
+/** Files below `parts` that are not packed: in the repository the tests are a package of their own. */
+const unpacked = ['Tests/Unity/package.json', 'Tests/Unity/package.json.meta'];
+
 /** GUIDs of folders that exist only in the package; git has no .meta for them. */
-export const folderGuids = {
-  Tests: 'b5f0a2d1c6e84f6f9a3d0c7e51482b96',
-  'Tests/Runtime': '3c9d71e85ab24f0ebd6a8f274c10e5d3',
-  'Tests/Editor': '91e64b07d2fa4c58a0b3f7c9268d154e',
-};
+export const folderGuids = { Tests: 'b5f0a2d1c6e84f6f9a3d0c7e51482b96' };
 
 /** The .meta of a folder. */
 export const folderMeta = (guid) => `fileFormatVersion: 2
@@ -41,7 +39,7 @@ DefaultImporter:
  */
 export function placeInPackage(name) {
   const part = parts.find(({ from }) => name.startsWith(`${from}/`));
-  if (!part) return null;
+  if (!part || unpacked.includes(name)) return null;
   const place = [part.to, name.slice(part.from.length + 1)].filter((piece) => piece !== '').join('/');
   const isHidden = place.split('/').some((piece) => piece.startsWith('.'));
   return isHidden ? null : place;

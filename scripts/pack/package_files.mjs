@@ -13,14 +13,14 @@ export class PackageFiles {
     this.folders = [...new Set(this.names.flatMap(parentsOf))].sort();
   }
 
-  /** The files below a folder on disk. */
-  static inFolder(folder) {
+  /** The files below a folder on disk whose names are wanted. */
+  static inFolder(folder, isWanted = () => true) {
     const contents = new Map();
     const add = (place) => {
       for (const entry of readdirSync(path.join(folder, place), { withFileTypes: true })) {
         const name = place === '' ? entry.name : `${place}/${entry.name}`;
         if (entry.isDirectory()) add(name);
-        else contents.set(name, readFileSync(path.join(folder, name)));
+        else if (isWanted(name)) contents.set(name, readFileSync(path.join(folder, name)));
       }
     };
     add('');

@@ -15,7 +15,7 @@ namespace UnityEngine
 
         public static string unityVersion => "2022.3.76f1";
 
-        public static RuntimePlatform platform => RuntimePlatform.LinuxEditor;
+        public static RuntimePlatform platform => World.Platform;
 
         public static void OpenURL(string url) => World.OpenedUrl = url;
 

@@ -19,6 +19,9 @@ namespace UnityShim
         private static int instances;
         private static Thread? mainThread;
 
+        /// <summary>The platform that Unity reports.</summary>
+        internal static RuntimePlatform Platform { get; set; } = RuntimePlatform.LinuxEditor;
+
         public static bool IsPlaying { get; private set; }
 
         /// <summary>The address that was opened last in the system's browser.</summary>

@@ -8,6 +8,7 @@ const testAssemblies = ['UnityEngine.TestRunner', 'UnityEditor.TestRunner'];
 /** Assemblies of optional packages, and the package whose version define must guard a reference to them. */
 const optionalAssemblies = {
   'Unity.InputSystem': 'com.unity.inputsystem',
+  'Unity.XR.Management': 'com.unity.xr.management',
   'Unity.XR.OpenXR': 'com.unity.xr.openxr',
   'Unity.XR.OpenXR.Editor': 'com.unity.xr.openxr',
   'Oculus.VR': 'com.meta.xr.sdk.core',

@@ -4,10 +4,10 @@ using System.IO;
 using System.Linq;
 using System.Text.RegularExpressions;
 
-namespace HaptoFlow.EditorTests
+namespace HaptoFlow.Tests.Support
 {
-    /// <summary>A prefab in YAML, read as a list of objects with their fields. Lists and nested values are fields of
-    /// the object that contains them.</summary>
+    /// <summary>A prefab or a scene in YAML, read as a list of objects with their fields. Lists and nested values are
+    /// fields of the object that contains them.</summary>
     internal sealed class PrefabFile
     {
         private readonly Dictionary<string, PrefabObject> objects;
@@ -17,6 +17,8 @@ namespace HaptoFlow.EditorTests
                 .Select(text => new PrefabObject(text)).ToDictionary(each => each.Anchor);
 
         public PrefabObject this[string anchor] => objects[anchor];
+
+        public IEnumerable<PrefabObject> Objects => objects.Values;
 
         public PrefabObject Root => objects.Values.Single(each => each.Type == "Transform" &&
             PrefabObject.Reference(each["m_Father"]) == "0");
@@ -45,13 +47,14 @@ namespace HaptoFlow.EditorTests
         {
             string[] lines = text.Split('\n');
             Anchor = Regex.Match(lines[0], @"&(\d+)").Groups[1].Value;
+            IsStripped = lines[0].EndsWith(" stripped");
             Type = lines[1].TrimEnd(':');
             string last = "";
             foreach (string line in lines.Skip(2))
             {
-                Match field = Regex.Match(line, @"^  (\w+): ?(.*)$");
+                Match field = Regex.Match(line, @"^  (\w[\w ]*): ?(.*)$");
                 Match item = Regex.Match(line, @"^  - .*fileID: (\d+)");
-                Match nested = Regex.Match(line, @"^    (\w+): (.*)$");
+                Match nested = Regex.Match(line, @"^    (\w+): ?(.*)$");
                 if (field.Success)
                 {
                     last = field.Groups[1].Value;
@@ -74,11 +77,18 @@ namespace HaptoFlow.EditorTests
         /// <summary>The type of the object, for example "Transform" or "MonoBehaviour".</summary>
         public string Type { get; }
 
+        /// <summary>Whether the object stands for one of a prefab's instance, and has no values of its own.</summary>
+        public bool IsStripped { get; }
+
         public string this[string name] => fields[name];
 
         /// <summary>The fields that the script declares, which follow Unity's own ones.</summary>
         public IEnumerable<string> ScriptFields => fields.Keys.SkipWhile(name => name != "m_EditorClassIdentifier")
             .Skip(1).Where(name => !name.Contains('.'));
+
+        /// <summary>The fields inside a field.</summary>
+        public IEnumerable<string> NestedFields(string name) => fields.Keys
+            .Where(key => key.StartsWith(name + ".")).Select(key => key.Substring(name.Length + 1));
 
         public IReadOnlyList<string> List(string name) => lists[name];
 

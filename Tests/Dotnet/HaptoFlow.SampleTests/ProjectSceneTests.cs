@@ -1,0 +1,145 @@
+using System.IO;
+using System.Linq;
+using HaptoFlow.Tests.Support;
+using NUnit.Framework;
+using UnityEngine;
+using UnityShim;
+using Object = UnityEngine.Object;
+
+namespace HaptoFlow.SampleTests
+{
+    /// <summary>The scenes of the repository's Unity project, made from their files and played.</summary>
+    public sealed class ProjectSceneTests : SampleTest
+    {
+        private const string Right = "<XRController>{RightHand}/";
+        private ProjectScene scene = null!;
+        private Camera camera = null!;
+
+        [SetUp]
+        public void LoadTheModel() => FinishLoading();
+
+        [TearDown]
+        public void CloseTheScene()
+        {
+            foreach (GameObject owner in scene.Owners.Where(each => each != null))
+            {
+                Object.DestroyImmediate(owner);
+            }
+        }
+
+        [Test]
+        public void AStrokeOverTheDeskIsWoodAndIsHeard()
+        {
+            Open("Desk.unity");
+            HapticStylus stylus = All<MousePen>().Single().Stylus;
+            Draw(stylus, new Vector3(-0.1f, 0f, 0f), new Vector3(0.1f, 0f, 0f));
+            Assert.That(stylus.Contact.Material!.Label, Is.EqualTo("wood"));
+            Assert.That(Loudest(), Is.GreaterThan(Audible));
+            Assert.That(Board(), Does.StartWith("wood: "));
+        }
+
+        [TestCase("Desk.unity")]
+        [TestCase("Headset.unity")]
+        public void TheBoardSaysWhatToDoWhereHaptoFlowDidNotLoadUntilItPlays(string name)
+        {
+            Open(name);
+            Assert.That(Board(), Does.Contain("npm ci"));
+            PlayFor(0.5);
+            Assert.That(Board(), Does.Contain("draw over the plate"));
+        }
+
+        [Test]
+        public void TheBoardSaysWhyThereAreNoHaptics()
+        {
+            HapticSession.ShutDown();
+            HaptoFlowSettings.Active.Model = null;
+            Open("Desk.unity");
+            PlayFor(0.5);
+            Assert.That(Board(), Does.Contain("no model is chosen"));
+        }
+
+        [TestCase("Wood", "wood")]
+        [TestCase("Jute", "jute")]
+        [TestCase("Metal Mesh", "metal mesh")]
+        [TestCase("Rubber", "rubber")]
+        public void WithoutAHeadsetTheMouseFeelsEveryPlate(string name, string label)
+        {
+            Open("Headset.unity");
+            HapticStylus stylus = All<MousePen>().Single().Stylus;
+            Vector3 top = TopOf(name);
+            Draw(stylus, top - 0.08f * Vector3.right, top + 0.08f * Vector3.right);
+            Assert.That(stylus.Contact.Material!.Label, Is.EqualTo(label));
+            Assert.That(Loudest(), Is.GreaterThan(Audible));
+            Assert.That(Board(), Does.StartWith(label + ": "));
+        }
+
+        [Test]
+        public void MxInkFeelsThePlateTheMousePenGoesAndTheBoardFollowsThePenInTheHand()
+        {
+            Open("Headset.unity");
+            MousePen mouse = All<MousePen>().Single();
+            PlayFor(0.2);
+            Assert.That(All<XrPen>().Select(pen => pen.Hand), Is.EquivalentTo(new[] { PenHand.Right, PenHand.Left }));
+            Assert.That(mouse.isActiveAndEnabled, Is.True, "nothing is tracked");
+            SimulatedInput.SetControl(Right + "isTracked", 1f);
+            SimulatedInput.SetControl(Right + "tipPose/position", TopOf("Jute") + 0.001f * Vector3.up);
+            SimulatedInput.SetControl(Right + "tipPose/rotation", Quaternion.identity);
+            SimulatedInput.SetControl(Right + "tip", 0.4f);
+            PlayFor(0.5);
+            HapticStylus stylus = All<XrPen>().Single(pen => pen.Hand == PenHand.Right).Stylus!;
+            Assert.That(mouse.gameObject.activeSelf, Is.False);
+            Assert.That(stylus.IsTouching, Is.True);
+            Assert.That(Board(), Does.StartWith("jute: ").And.EndWith("0.4 N"));
+        }
+
+        [Test]
+        public void TheHeadStartsWhereTheSceneHasItsCameraAndThePlatesAreWithinReach()
+        {
+            Open("Headset.unity");
+            SimulatedInput.SetControl("<XRHMD>/isTracked", 1f);
+            SimulatedInput.SetControl("<XRHMD>/centerEyePosition", new Vector3(0.4f, 1.6f, 0.2f));
+            SimulatedInput.SetControl("<XRHMD>/centerEyeRotation", Quaternion.AngleAxis(70f, Vector3.up));
+            Vector3 eyes = camera.transform.position;
+            World.Frames(3);
+            Assert.That(Vector3.Distance(camera.transform.position, eyes), Is.LessThan(1e-4f));
+            foreach (HapticSurface plate in All<HapticSurface>())
+            {
+                Vector3 away = plate.transform.position - eyes;
+                Assert.That(new Vector3(away.x, 0f, away.z).magnitude, Is.InRange(0.25f, 0.75f), plate.name);
+                Assert.That(-away.y, Is.InRange(0.3f, 0.6f), plate.name);
+            }
+        }
+
+        private void Open(string name)
+        {
+            scene = ProjectScene.Open(name);
+            camera = All<Camera>().Single(each => each.gameObject.tag == "MainCamera");
+        }
+
+        private void Draw(HapticStylus stylus, Vector3 from, Vector3 to)
+        {
+            PointAt(camera, from);
+            PlayFor(0.3);
+            SimulatedInput.MouseButton = true;
+            PlayFor(0.2);
+            AudioDevice.Forget();
+            for (int frame = 0; frame < World.FrameRateHz; ++frame)
+            {
+                PointAt(camera, Vector3.Lerp(from, to, frame / (float)World.FrameRateHz));
+                World.Frame();
+                Assert.That(stylus.IsTouching, Is.True, $"frame {frame}");
+            }
+        }
+
+        private static Vector3 TopOf(string name)
+        {
+            Transform plate = All<HapticSurface>().Single(each => each.name == name).transform;
+            return plate.position + 0.5f * plate.localScale.y * Vector3.up;
+        }
+
+        private static string Board() => All<StatusBoard>().Single().Text;
+
+        private static T[] All<T>()
+            where T : Object => Object.FindObjectsByType<T>(FindObjectsInactive.Include, FindObjectsSortMode.None);
+    }
+}

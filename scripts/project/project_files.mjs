@@ -1,0 +1,32 @@
+import { existsSync, readFileSync } from 'node:fs';
+import path from 'node:path';
+import { inRepository } from '../lib/repository.mjs';
+import { repositoryFiles } from '../lint/files.mjs';
+import { dependencyName } from '../pack/dependency.mjs';
+import { packageName } from '../pack/layout.mjs';
+import { PackageFiles } from '../pack/package_files.mjs';
+
+/** Folders of the repository into which Unity writes a .meta for every asset, and deletes every .meta without one. */
+export const writableFolders = ['Assets', `Packages/${packageName}`, 'Tests/Unity'];
+
+const isOfProject = (name) => name.startsWith('ProjectSettings/') || name === 'Packages/manifest.json' || writableFolders.some((folder) => name.startsWith(`${folder}/`));
+
+/** The Unity project in the repository's root as git has it, every file by its name in the repository. */
+export async function projectFiles() {
+  const names = (await repositoryFiles()).filter(isOfProject);
+  return new PackageFiles(new Map(names.map((name) => [name, readFileSync(inRepository(name))])));
+}
+
+/**
+ * The project with what `npm ci` brings: of ONNX Runtime for Unity only the manifest, the .meta files and the assembly
+ * definitions, since its libraries are large. Without `npm ci` the same as `files`.
+ * @param {PackageFiles} files
+ */
+export function withDependency(files) {
+  const folder = inRepository('node_modules', dependencyName);
+  if (!existsSync(folder)) return files;
+  const brought = PackageFiles.inFolder(folder, (name) => /\.(meta|asmdef)$|^package\.json$/.test(name));
+  const contents = new Map(files.contents);
+  for (const name of brought.names) contents.set(path.posix.join('node_modules', dependencyName, name), brought.bytes(name));
+  return new PackageFiles(contents);
+}
