@@ -140,6 +140,12 @@ test('MX Ink and the Touch controllers are on for both platforms, Quest for Andr
   assert.deepEqual(enabled('Android').sort(), [...pens, 'com.unity.openxr.feature.metaquest'].sort());
 });
 
+// OpenXR opens its page Project Validation, also for what it calls optional, where these are missing.
+test('the controls of OpenXR are those that its validation asks for', () => {
+  const defines = 'USE_INPUT_SYSTEM_POSE_CONTROL;USE_STICK_CONTROL_THUMBSTICKS';
+  assert.ok(files.text('ProjectSettings/ProjectSettings.asset').includes(`  scriptingDefineSymbols:\n    Android: ${defines}\n    Standalone: ${defines}\n`));
+});
+
 // OpenXR names features by class and platform, and writes the file anew where a name, a version or the order differs.
 test('the OpenXR settings list every feature under the name and in the order of the editor', () => {
   const objects = objectsOf('Assets/XR/Settings/OpenXR Package Settings.asset');
