@@ -1,52 +1,18 @@
-// What `npm run project` says of a folder that Unity is to open.
+// The library in git by the C interface, as `npm run project` plays it.
 import assert from 'node:assert/strict';
-import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs';
-import os from 'node:os';
-import path from 'node:path';
-import test, { after } from 'node:test';
-import { readHeader } from '../../scripts/lib/c_interface.mjs';
-import { resolvePackages } from '../../scripts/project/packages.mjs';
+import { readFileSync } from 'node:fs';
+import test from 'node:test';
+import { headerFile, loadLibrary, readHeader } from '../../scripts/lib/c_interface.mjs';
+import { inRepository } from '../../scripts/lib/repository.mjs';
+import { playStroke } from '../../scripts/project/play_stroke.mjs';
 
-const folders = [];
-after(() => folders.forEach((folder) => rmSync(folder, { recursive: true, force: true })));
-
-const good = {
-  'Packages/manifest.json': { dependencies: { 'org.runtime': 'file:../node_modules/org.runtime', 'com.unity.inputsystem': '1.7.0' } },
-  'Packages/com.felt/package.json': { name: 'com.felt', version: '1.0.0', dependencies: { 'org.runtime': '0.4.9', 'com.unity.nuget.newtonsoft-json': '3.2.1' } },
-  'node_modules/org.runtime/package.json': { name: 'org.runtime', version: '0.4.9' },
+const plugins = (...parts) => inRepository('Packages', 'com.haptoflow.runtime', 'Runtime', ...parts);
+const files = {
+  library: plugins('Plugins', 'Linux', 'x64', 'libaudioplugin_haptoflow.so'),
+  runtime: inRepository('node_modules', 'com.github.asus4.onnxruntime', 'Plugins', 'Linux', 'x64', 'libonnxruntime.so'),
+  model: plugins('Models', 'default.haptoflow'),
 };
-
-function project(changes = {}) {
-  const folder = mkdtempSync(path.join(os.tmpdir(), 'haptoflow-project-'));
-  folders.push(folder);
-  for (const [name, content] of Object.entries({ ...good, ...changes }).filter(([, each]) => each !== null)) {
-    mkdirSync(path.dirname(path.join(folder, name)), { recursive: true });
-    writeFileSync(path.join(folder, name), typeof content === 'string' ? content : JSON.stringify(content));
-  }
-  return folder;
-}
-
-const complains = (changes, pattern) => assert.throws(() => resolvePackages(project(changes)), pattern);
-
-test('packages are found in the project, by file: and at Unity', () => {
-  const found = resolvePackages(project());
-  assert.deepEqual(found.map(({ name, version, place }) => [name, version, place]), [
-    ['com.felt', '1.0.0', 'project'], ['org.runtime', '0.4.9', 'node_modules'], ['com.unity.inputsystem', '1.7.0', 'Unity'],
-  ]);
-});
-
-test('without npm ci the message names it', () => complains({ 'node_modules/org.runtime/package.json': null }, /org\.runtime.*is missing: run `npm ci`/));
-
-test('a version of before the last npm ci is named', () => {
-  complains({ 'node_modules/org.runtime/package.json': { name: 'org.runtime', version: '0.4.8' } }, /needs org\.runtime 0\.4\.9; .* holds 0\.4\.8: run `npm ci`/);
-});
-
-test('a dependency that nothing provides, and a folder that holds another package, are named', () => {
-  complains({ 'Packages/manifest.json': { dependencies: {} } }, /manifest\.json: lacks "org\.runtime", which com\.felt needs/);
-  complains({ 'node_modules/org.runtime/package.json': { name: 'org.other', version: '0.4.9' } }, /"org\.runtime": .* holds org\.other/);
-});
-
-test('a manifest that is no JSON is named', () => complains({ 'Packages/manifest.json': '{ "dependencies": ' }, /manifest\.json: /));
+const elsewhere = { skip: process.platform === 'linux' && process.arch === 'x64' ? false : 'its library is that of Linux x64' };
 
 test('the header\'s structs and functions are read with arrays, nested structs and handles', () => {
   const { structs, functions } = readHeader(`
@@ -70,4 +36,23 @@ HAPTOFLOW_API const char* haptoflow_version(void);
     { name: 'haptoflow_voice_create', returned: 'haptoflow_status', parameters: ['const haptoflow_outer*', 'haptoflow_voice*'] },
     { name: 'haptoflow_version', returned: 'const char*', parameters: [] },
   ]);
+});
+
+test('the library in git has the layouts of the header', elsewhere, () => assert.deepEqual(loadLibrary(files.library).disagreeing, []));
+
+test('a struct with one field more than the library knows is named', elsewhere, () => {
+  const text = readFileSync(headerFile, 'utf8').replace('typedef struct haptoflow_tier_times {', 'typedef struct haptoflow_tier_times {\n    double added;');
+  assert.deepEqual(loadLibrary(files.library, readHeader(text)).disagreeing, ['haptoflow_tier_times']);
+});
+
+test('the library in git plays a stroke, by its network, and is silent after it', elsewhere, async () => {
+  const played = await playStroke(files);
+  assert.equal(played.version, JSON.parse(readFileSync(inRepository('package.json'), 'utf8')).version);
+  assert.ok(played.inferences > 0, 'segments');
+  assert.ok(played.levelMps2 > 0.05 && played.levelMps2 < 5, `${played.levelMps2} m/s²`);
+  assert.equal(played.restPeak, 0);
+});
+
+test('a model that is no model is named with its status', elsewhere, async () => {
+  await assert.rejects(playStroke({ ...files, model: headerFile }), /NOT_A_MODEL/);
 });

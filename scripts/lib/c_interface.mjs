@@ -32,13 +32,13 @@ const parametersOf = (/** @type {string} */ list) => list.split(',').map((each) 
 
 /**
  * Loads a native library of HaptoFlow by its C interface.
- * @param {string} file the library
- * @returns {{functions: Record<string, Function>, sizeOf: (struct: string) => number, structNames: string[]}}
- *   functions by the names of the header, each without "haptoflow_"; a pointer to a struct takes an object, a pointer to a handle an array
- *   of one
+ * @param {string} file the library @param {ReturnType<typeof readHeader>} header
+ * @returns {{functions: Record<string, Function>, sizeOf: (struct: string) => number, disagreeing: string[]}} functions by the names of
+ *   the header, each without "haptoflow_": a pointer to a struct takes an object, a pointer to a handle an array of one; disagreeing:
+ *   structs whose size in the library is not that of the header, so that no function may be called
  */
-export function loadLibrary(file) {
-  const { aliases, structs, functions } = readHeader();
+export function loadLibrary(file, header = readHeader()) {
+  const { aliases, structs, functions } = header;
   const scalar = (/** @type {string} */ type) => numbers[aliases[type] ?? type];
   const layouts = /** @type {Record<string, import('koffi').TypeObject>} */ ({});
   for (const { name, fields } of structs) {
@@ -59,5 +59,11 @@ export function loadLibrary(file) {
   };
   const library = koffi.load(file);
   const bound = functions.map(({ name, returned, parameters }) => [name.replace('haptoflow_', ''), library.func(name, typeOf(returned), parameters.map(typeOf))]);
-  return { functions: Object.fromEntries(bound), sizeOf: (struct) => koffi.sizeof(layouts[struct]), structNames: structs.map(({ name }) => name) };
+  const callable = Object.fromEntries(bound);
+  const sizeOf = (/** @type {string} */ struct) => koffi.sizeof(layouts[struct]);
+  const disagreeing = structs.map(({ name }) => name).filter((name) => {
+    const bytes = [0];
+    return callable.struct_size(name, bytes) !== 0 || bytes[0] !== sizeOf(name);
+  });
+  return { functions: callable, sizeOf, disagreeing };
 }

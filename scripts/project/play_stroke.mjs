@@ -15,23 +15,18 @@ const restSeconds = 0.3;
  * Plays one stroke by the C interface, as a scene does: contact states at the rate of a headset, blocks of 256 frames at 48 kHz when they
  * are due, the network on the library's own worker.
  * @param {{library: string, runtime: string, model: string}} files
- * @returns {Promise<{version: string, label: string, levelMps2: number, peak: number, restPeak: number, inferences: number, disagreeing: string[]}>}
- *   level while the tip slides, RMS; peaks as shares of full scale, restPeak after the tip was lifted; structs whose size in the library
- *   is not that of the header
+ * @returns {Promise<{version: string, label: string, levelMps2: number, peak: number, restPeak: number, inferences: number}>}
+ *   level while the tip slides, RMS; peaks as shares of full scale, restPeak after the tip was lifted
+ * @throws {CommandError} where the library is of another interface, or a call fails
  */
 export async function playStroke({ library, runtime, model }) {
-  const { functions: call, sizeOf, structNames } = loadLibrary(library);
+  const { functions: call, sizeOf, disagreeing } = loadLibrary(library);
+  // With other layouts the calls below would read other fields than were written.
+  if (disagreeing.length > 0) throw new CommandError(`${library}: is of another interface than haptoflow.h (${disagreeing.join(', ')}): \`npm run natives\` builds it anew`);
   const succeed = (/** @type {number} */ status) => {
     if (status !== 0) throw new CommandError(`${library}: ${call.status_name(status)}: ${call.last_message()}`);
   };
-  const disagreeing = structNames.filter((name) => {
-    const bytes = [0];
-    succeed(call.struct_size(name, bytes));
-    return bytes[0] !== sizeOf(name);
-  });
-  const result = { version: String(call.version()), label: '', levelMps2: 0, peak: 0, restPeak: 0, inferences: 0, disagreeing };
-  // With other layouts the calls below would read other fields than were written.
-  if (disagreeing.length > 0) return result;
+  const result = { version: String(call.version()), label: '', levelMps2: 0, peak: 0, restPeak: 0, inferences: 0 };
   const sized = (/** @type {string} */ name, fields = {}) => ({ struct_size: sizeOf(name), ...fields });
   // ONNX Runtime is loaded as Unity loads it: by its file, and its entry point is handed over.
   const ortApiBase = koffi.load(runtime).func('void* OrtGetApiBase()')();
