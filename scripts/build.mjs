@@ -2,10 +2,12 @@
 import path from 'node:path';
 import { parseArgs } from 'node:util';
 import { buildAndroid, androidTools } from './build/android_build.mjs';
-import { buildNative } from './lib/native_build.mjs';
+import { buildNative, presetFolder } from './lib/native_build.mjs';
 import { CommandError, runMain } from './lib/process.mjs';
 import { inRepository } from './lib/repository.mjs';
 import { onDebian, setUp } from './lib/setup.mjs';
+import { putIntoPackage } from './natives/into_package.mjs';
+import { platforms as packaged } from './pack/natives.mjs';
 
 /** The values of --platform: what each needs, and how it is built (a preset, or the Android tools found on the machine). */
 const platforms = {
@@ -16,16 +18,21 @@ const platforms = {
   'android-arm64': { needs: 'the Android NDK and CMake: those that Unity\'s Hub installs, ANDROID_NDK_ROOT, or Android Studio\'s' },
 };
 
+const notInGit = packaged.filter(({ isInGit }) => !isInGit).map(({ id }) => id);
+const placeOf = (platform) => packaged.find(({ id }) => id === platform).place;
+
 const help = `usage: npm run build -- [--platform NAME] [--help]
 
 Without --platform: the plugin and the command line for this machine, in build/native. With it: the plugin alone, in the
-folder below build/ from which \`npm run pack\` takes it.
+folder below build/ from which \`npm run pack\` takes it. The libraries of ${notInGit.join(' and ')} also go into the
+package, with their .meta, so that Unity finds them when it opens this folder; git ignores them there. The package has the
+others from git, which \`npm run natives\` renews.
 
 ${Object.entries(platforms).map(([name, { needs }]) => `  ${name.padEnd(14)} needs ${needs}`).join('\n')}`;
 
 function optionsOf(words) {
   try {
-    return parseArgs({ args: words, options: { platform: { type: 'string' }, help: { type: 'boolean', default: false } } }).values;
+    return parseArgs({ args: words, options: { platform: { type: 'string' } } }).values;
   } catch (error) {
     throw new CommandError(`${error.message}\n\n${help}`, 2);
   }
@@ -34,16 +41,17 @@ function optionsOf(words) {
 /** On Debian set-up installs the build tools; on other systems those of the Android SDK are enough. */
 async function buildForAndroid() {
   await setUp(onDebian() ? ['build'] : []);
-  const library = await buildAndroid(androidTools());
+  showBuilt('android-arm64', await buildAndroid(androidTools()));
+}
+
+/** A library that is not in git goes into the package of this project. */
+function showBuilt(id, library) {
   console.log(`build: ${path.relative(inRepository(), library)}; \`npm run pack\` takes it in`);
+  console.log(`build: ${putIntoPackage(placeOf(id), library)}, with its .meta: Unity finds it there when it opens this folder`);
 }
 
 await runMain('build', async (words) => {
-  const { platform, help: wantsHelp } = optionsOf(words);
-  if (wantsHelp) {
-    console.log(help);
-    return 0;
-  }
+  const { platform } = optionsOf(words);
   if (platform === undefined) {
     await setUp(['build']);
     await buildNative();
@@ -57,6 +65,8 @@ await runMain('build', async (words) => {
     return 0;
   }
   await setUp(platforms[platform].purposes);
-  await buildNative({ preset: platforms[platform].preset(), targets: ['audioplugin_haptoflow'] });
+  const preset = platforms[platform].preset();
+  await buildNative({ preset, targets: ['audioplugin_haptoflow'] });
+  if (notInGit.includes(platform)) showBuilt(platform, inRepository(presetFolder(preset), path.basename(placeOf(platform))));
   return 0;
-});
+}, { help });

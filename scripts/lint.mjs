@@ -5,6 +5,7 @@ import { CommandError, runMain } from './lib/process.mjs';
 import { setUp } from './lib/setup.mjs';
 import { checkFormat, checkTidy } from './lint/cpp_checks.mjs';
 import { checkContent, checkJson, checkThreadTags } from './lint/house_checks.mjs';
+import { checkNatives } from './lint/native_checks.mjs';
 import { checkPythonSyntax, checkScriptSyntax } from './lint/syntax_checks.mjs';
 import { checkWorkflows } from './lint/workflow_checks.mjs';
 import { checkWarnings } from './lint/warning_checks.mjs';
@@ -39,10 +40,12 @@ await runMain('lint', async (words) => {
     ['JSON', () => checkJson(files)],
     ['thread tags of the C ABI', () => checkThreadTags(files)],
     ['content', () => checkContent(files)],
+    ['native libraries in git', checkNatives],
   ];
   let found = 0;
   for (const [name, check] of checks) {
-    const { checked, complaints } = await check();
+    const { checked, complaints, warnings = [] } = await check();
+    warnings.forEach((warning) => console.log(`lint: warning: ${warning}`));
     complaints.forEach((complaint) => console.log(complaint));
     console.log(`lint: ${name}: ${checked} files, ${complaints.length === 0 ? 'good' : `${complaints.length} complaints`}`);
     found += complaints.length;

@@ -5,6 +5,7 @@ import { parseArgs } from 'node:util';
 import { repositoryFiles } from './lint/files.mjs';
 import { CommandError, runMain } from './lib/process.mjs';
 import { inRepository } from './lib/repository.mjs';
+import { committedNatives } from './natives/committed.mjs';
 import { checkPackage } from './pack/check_package.mjs';
 import { packDependency } from './pack/dependency.mjs';
 import { buildNatives, findNatives, foldersFor, platforms } from './pack/natives.mjs';
@@ -18,7 +19,7 @@ Builds the native libraries that this machine can build, puts the package togeth
 read it, and makes out/com.haptoflow.runtime-VERSION.tgz. Beside it goes the tarball of com.github.asus4.onnxruntime (ONNX
 Runtime for Unity), which the package needs. Two lines at the end say where to click in Unity.
 
-  --no-build   pack the libraries that are in build/ (HAPTOFLOW_NATIVE_DIR replaces build/native)
+  --no-build   pack the libraries that are in build/ (HAPTOFLOW_NATIVE_DIR replaces build/native), or in git
   --require    names of platforms whose library must go in, for example linux-x64,windows-x64,android-arm64: without one of
                them no tarball is made and the exit code is 1
   --help       this text
@@ -32,9 +33,10 @@ native library for each platform that has one. One command adds one library, the
 
 ${platforms.map(({ name, id, where }) => `  ${name.padEnd(15)} npm run build -- --platform ${id.padEnd(14)} ${where}`).join('\n')}
 
-A library that was built on another machine goes to the same place below build/. The table at the end lists platforms with
-their size on a device, and platforms without a library; there, scenes go on without haptics. Without any library no tarball
-is made and the exit code is 1.`;
+A library that was built on another machine goes to the same place below build/. Where none was built, that of git goes in
+(${platforms.filter(({ isInGit }) => isInGit).map(({ name }) => name).join(', ')}), unless the sources are newer. The table at the end lists platforms
+with their size on a device, and platforms without a library; there, scenes go on without haptics. Without any library no
+tarball is made and the exit code is 1.`;
 
 function optionsOf(words) {
   try {
@@ -68,7 +70,7 @@ const mebibytes = (bytes) => `${(bytes / 2 ** 20).toFixed(1)} MiB`;
 await runMain('pack', async (words) => {
   const options = optionsOf(words);
   const failed = options['no-build'] ? new Set() : await buildNatives();
-  const { found, absent } = findNatives(foldersFor, failed);
+  const { found, absent } = findNatives(foldersFor, failed, committedNatives());
   requireNatives({ found, absent }, options.required);
   const folder = inRepository('out', 'package');
   // Imported here, since set-up may just have installed the package that it needs.

@@ -3,15 +3,18 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import test from 'node:test';
 import { onDebian } from '../../scripts/lib/setup.mjs';
+import { committedPlatforms, fileInPackage } from '../../scripts/natives/committed.mjs';
 import { isNewerThan, needsOf, neededGlibc } from '../../scripts/pack/elf.mjs';
 import { findNatives, oldestGlibc } from '../../scripts/pack/natives.mjs';
 import { elfOf } from './support/elf.mjs';
 
-const linux = findNatives().found.filter(({ platform }) => platform.kind.startsWith('elf-'));
+const isOfGlibc = ({ platform }) => platform.kind.startsWith('elf-');
+const inGit = committedPlatforms.map((platform) => ({ platform, file: fileInPackage(platform), where: 'in git' })).filter(isOfGlibc);
+const built = findNatives().found.map((each) => ({ ...each, where: 'built here' })).filter(isOfGlibc);
 const onDebian12 = onDebian() && readFileSync('/etc/debian_version', 'utf8').startsWith('12.');
 
-for (const { platform, file } of linux) {
-  test(`the library of ${platform.name} that is built here needs no newer glibc than ${oldestGlibc.join('.')}, and no C++ library`, { skip: !onDebian12 && 'only Debian 12 builds libraries of a release' }, () => {
+for (const { platform, file, where } of [...inGit, ...built]) {
+  test(`the library of ${platform.name} that is ${where} needs no newer glibc than ${oldestGlibc.join('.')}, and no C++ library`, { skip: where === 'built here' && !onDebian12 && 'only Debian 12 builds libraries of a release' }, () => {
     const bytes = readFileSync(file);
     const glibc = neededGlibc(bytes);
     assert.ok(!isNewerThan(glibc, oldestGlibc), `needs ${glibc.join('.')}`);

@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
-import { cpSync, existsSync, mkdirSync, mkdtempSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
+import { cpSync, existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
 import test from 'node:test';
@@ -196,13 +196,19 @@ test('a staged package has the .meta of a library exactly where it has the libra
     const library = path.join(folder, 'libaudioplugin_haptoflow.so');
     writeFileSync(library, elf(62));
     const root = 'Packages/com.haptoflow.runtime';
-    const plugins = platforms.flatMap(({ place }) => [`${place}.meta`, `${path.posix.dirname(place)}.meta`, `${place.split('/')[0]}.meta`]);
-    const files = [`${root}/package.json`, `${root}/Runtime/Plugins.meta`, ...plugins.map((name) => `${root}/Runtime/Plugins/${name}`)];
-    const linux = platforms.find(({ name }) => name === 'Linux x86-64');
+    const plugins = platforms.flatMap(({ place, isInGit }) =>
+      [place, path.posix.dirname(place), place.split('/')[0]].map((name) => `${isInGit ? `${root}/Runtime/Plugins` : 'NativePlugin/import'}/${name}.meta`));
+    const inGit = platforms.filter(({ isInGit }) => isInGit).map(({ place }) => `${root}/Runtime/Plugins/${place}`);
+    const files = [`${root}/package.json`, `${root}/Runtime/Plugins.meta`, ...plugins, ...inGit];
+    const [linux, android] = ['linux-x64', 'android-arm64'].map((id) => platforms.find((platform) => platform.id === id));
     const staged = path.join(folder, 'package');
     const has = (name) => existsSync(path.join(staged, 'Runtime', name));
 
+    stagePackage(staged, files, [linux, android].map((platform) => ({ platform, file: library })));
+    for (const name of ['Plugins/Android.meta', 'Plugins/Android/arm64-v8a.meta', `Plugins/${android.place}.meta`]) assert.ok(has(name), name);
+
     stagePackage(staged, files, [{ platform: linux, file: library }]);
+    assert.deepEqual(readFileSync(path.join(staged, 'Runtime', 'Plugins', linux.place)), elf(62), 'the library that was chosen, not that of git');
     for (const name of ['Plugins.meta', 'Plugins/Linux.meta', 'Plugins/Linux/x64.meta', `Plugins/${linux.place}`, `Plugins/${linux.place}.meta`]) assert.ok(has(name), name);
     for (const name of ['Plugins/Windows', 'Plugins/Windows.meta', 'Plugins/Android', 'Plugins/macOS.meta']) assert.ok(!has(name), name);
 

@@ -109,7 +109,7 @@ test('a draft has both tarballs, the demo\'s page, checksums that agree, and not
     for (const [sum, name] of lines) assert.equal(sum, createHash('sha256').update(readFileSync(path.join(draft, name))).digest('hex'), name);
     assert.match(spawnSync('tar', ['-tzf', path.join(draft, 'haptoflow-demo.tgz')], { encoding: 'utf8' }).stdout, /^haptoflow-demo\/index\.html$/m);
     const notes = readFileSync(path.join(draft, 'notes.md'), 'utf8');
-    for (const text of [...names, 'Package Manager > + > Install package from tarball', '| Windows x86-64 | yes |', '| Linux arm64 | no |', 'Offline engine']) assert.ok(notes.includes(text), text);
+    for (const text of [...names, 'Package Manager > + > Install package from tarball', '| Windows x86-64 | yes |', '| Linux arm64 | no |', 'The repository is a Unity project']) assert.ok(notes.includes(text), text);
     assert.equal(script('draft', draft, '--tarballs', path.join(folder, 'demo')).status, 1, 'without tarballs');
   });
 });

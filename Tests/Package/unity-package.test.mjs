@@ -6,14 +6,15 @@ import path from 'node:path';
 import test, { after, before } from 'node:test';
 import { inRepository } from '../../scripts/lib/repository.mjs';
 import { repositoryFiles } from '../../scripts/lint/files.mjs';
+import { committedNatives } from '../../scripts/natives/committed.mjs';
 import { checkPackage } from '../../scripts/pack/check_package.mjs';
-import { findNatives, pluginsFolder } from '../../scripts/pack/natives.mjs';
+import { findNatives, foldersFor, pluginsFolder } from '../../scripts/pack/natives.mjs';
 import { PackageFiles } from '../../scripts/pack/package_files.mjs';
 import { stagePackage } from '../../scripts/pack/stage.mjs';
 import { makeTarball, readTarball } from '../../scripts/pack/tarball.mjs';
 
 const read = (...parts) => readFileSync(inRepository(...parts), 'utf8');
-const { found, absent } = findNatives();
+const { found, absent } = findNatives(foldersFor, new Set(), committedNatives());
 let folder;
 let tarball;
 let files;
@@ -43,7 +44,7 @@ test('the tarball is named by the manifest\'s name and version, which are the re
   assert.equal(dependencies['com.github.asus4.onnxruntime'], locked);
 });
 
-test('the tarball has every built library with its import settings, and no settings of other platforms', () => {
+test('the tarball has every library that was built or is in git with its import settings, and no settings of other platforms', () => {
   for (const { platform, file } of found) {
     const name = `${pluginsFolder}/${platform.place}`;
     assert.deepEqual(files.bytes(name), readFileSync(file), name);

@@ -1,28 +1,30 @@
 import { readFileSync } from 'node:fs';
-import { run } from './process.mjs';
+import { namesExportedByElf } from '../pack/elf.mjs';
+import { namesExportedByPe } from '../pack/pe.mjs';
 import { inRepository } from './repository.mjs';
 
 /** The entry point that Unity looks up by name; Unity's plugin SDK declares it, not haptoflow.h. */
 const unitysEntry = 'UnityGetAudioEffectDefinitions';
 
+const header = () => readFileSync(inRepository('NativePlugin', 'include', 'haptoflow', 'haptoflow.h'), 'utf8');
+
 /** The names that the library must export, from the text of haptoflow.h. Tests/Native/capi/exports_test.cpp checks the same of an ELF. */
-export function declaredNames(headerText) {
+export function declaredNames(headerText = header()) {
   return [...headerText.matchAll(/^HAPTOFLOW_API [^(;]*?(haptoflow_\w+)\(/gm)].map(([, name]) => name).concat(unitysEntry).sort();
 }
 
-/** The exported names in the output of `objdump -p` for a DLL. */
-export function exportedNames(objdumpText) {
-  const table = objdumpText.split('[Ordinal/Name Pointer] Table')[1]?.split(/\n\s*\n/)[0] ?? '';
-  return [...table.matchAll(/^\s*\[\s*\d+\]\s+(?:\+base\[\s*\d+\]\s+(?:[0-9a-f]+\s+)?)?(\S+)$/gm)].map(([, name]) => name).sort();
+/** The names that a library exports, by its bytes: an ELF's or a DLL's. */
+export const exportedNames = (bytes) => (bytes.toString('latin1', 0, 2) === 'MZ' ? namesExportedByPe(bytes) : namesExportedByElf(bytes)).sort();
+
+/** How the exported names of a library differ from those of the header. @returns {{missing: string[], unwanted: string[]}} */
+export function differencesOfExports(bytes) {
+  const [declared, exported] = [declaredNames(), exportedNames(bytes)];
+  return { missing: declared.filter((name) => !exported.includes(name)), unwanted: exported.filter((name) => !declared.includes(name)) };
 }
 
 /** One test: a DLL exports exactly the functions of the header and Unity's entry. Missing and additional names are printed. */
-export async function judgeExportsOfDll(dll) {
-  const { exitCode, output } = await run('x86_64-w64-mingw32-objdump', ['-p', dll], { quiet: true });
-  const declared = declaredNames(readFileSync(inRepository('NativePlugin', 'include', 'haptoflow', 'haptoflow.h'), 'utf8'));
-  const exported = exitCode === 0 ? exportedNames(output) : [];
-  const missing = declared.filter((name) => !exported.includes(name));
-  const unwanted = exported.filter((name) => !declared.includes(name));
+export function judgeExportsOfDll(dll) {
+  const { missing, unwanted } = differencesOfExports(readFileSync(dll));
   const isRight = missing.length + unwanted.length === 0;
   if (!isRight) console.error(`test: ${dll}: missing exports: ${missing.join(', ') || 'none'}; unwanted: ${unwanted.join(', ') || 'none'}`);
   return { passed: isRight ? 1 : 0, failed: isRight ? 0 : 1, skipped: 0 };

@@ -1,6 +1,7 @@
 import { existsSync } from 'node:fs';
 import path from 'node:path';
 import { judgeAndroidPages } from './android_pages.mjs';
+import { judgeCommittedTouch } from './committed_touch.mjs';
 import { judgeExportsOfDll } from './exported_names.mjs';
 import { judgeJunit, results } from './judge_junit.mjs';
 import { buildNative, presetFolder } from './native_build.mjs';
@@ -78,10 +79,12 @@ export async function platformTests() {
       console.log(`test: ${name} on ${preset}`);
       counts = addCounts(counts, await judgeJunit(file, command, [...args, program, ...gtest], { env, limitSeconds }));
     }
+    console.log(`test: the library in git on ${preset}`);
+    counts = addCounts(counts, await judgeCommittedTouch(preset, emulators[preset]));
     // The capi tests check the exports of an ELF themselves.
     if (preset === 'windows-x64') {
       console.log(`test: exports on ${preset}`);
-      counts = addCounts(counts, await judgeExportsOfDll(inRepository(presetFolder(preset), 'audioplugin_haptoflow.dll')));
+      counts = addCounts(counts, judgeExportsOfDll(inRepository(presetFolder(preset), 'audioplugin_haptoflow.dll')));
     }
   }
   console.log('test: pages of the library for Android');

@@ -66,7 +66,8 @@ export async function runOrFail(command, args, options = {}) {
 export async function runNpmOrFail(words) {
   const underNpm = process.env.npm_execpath;
   const [command, args] = underNpm ? [process.execPath, [underNpm, ...words]] : ['npm', words];
-  const env = { npm_config_loglevel: 'error', npm_config_fetch_retries: '1' };
+  // A newcomer's npm would add a notice of newer versions to what a caller parses.
+  const env = { npm_config_loglevel: 'error', npm_config_fetch_retries: '1', npm_config_update_notifier: 'false' };
   const { exitCode, output } = await run(command, args, { quiet: true, env, shell: !underNpm && process.platform === 'win32' });
   if (exitCode !== 0) throw new CommandError(npmComplaint(words, exitCode, output));
   return output;

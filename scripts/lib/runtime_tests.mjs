@@ -4,6 +4,7 @@ import path from 'node:path';
 import { dotnetEnvironment, dotnetOrFail } from './dotnet.mjs';
 import { judgeJunit, results } from './judge_junit.mjs';
 import { withoutReadOnlyMarks } from './mono_signatures.mjs';
+import { committedPlatforms, fileInPackage } from '../natives/committed.mjs';
 import { buildNative, presetFolder } from './native_build.mjs';
 import { CommandError, run, runOrFail, succeeds } from './process.mjs';
 import { inRepository } from './repository.mjs';
@@ -34,7 +35,22 @@ export const leftOut = {
   ],
 };
 
-const exceptions = (runner) => leftOut[runner].flatMap(({ tests }) => tests);
+const exceptions = (runner) => leftOut[runner].flatMap(({ tests }) => tests).map((name) => `-${name}`);
+
+/** Tests that load the library in git, compare its structs with C#'s, and play; of HaptoFlow.RepositoryTests. */
+export const testsOfCommitted = ['EveryStructOfTheHeaderIsComparedWithTheLibrary', 'ASlidingTipIsAudibleAndALiftedOneFallsSilent'];
+
+/** The folder of the library in git for this machine. */
+const committedFolder = () => path.dirname(fileInPackage(committedPlatforms.find(({ id }) => id === 'linux-x64')));
+
+/** Runs `testsOfCommitted` by a test program; where not each of them passed, one counts as failed. */
+async function judgeCommitted(file, command, args, env) {
+  console.log('test: the Linux library in git');
+  const counts = await judgeJunit(file, command, [...args, results(file), ...testsOfCommitted.map((name) => `+${name}`)], { env, limitSeconds: 300 });
+  if (counts.passed + counts.failed >= testsOfCommitted.length) return counts;
+  console.error(`test: ${file}: expected the tests ${testsOfCommitted.join(', ')}`);
+  return addCounts(counts, { ...noCounts, failed: 1 });
+}
 
 const onnxRuntime = () => inRepository('node_modules', 'com.github.asus4.onnxruntime', 'Plugins', 'Linux', 'x64');
 
@@ -52,10 +68,13 @@ async function judgeUnderMono(command, project) {
     const bytes = readFileSync(path.join(folder, name));
     if (withoutReadOnlyMarks(bytes) > 0) writeFileSync(path.join(folder, name), bytes);
   }
-  const env = project === 'MissingLibraryTests' ? {} : { LD_LIBRARY_PATH: [inRepository(presetFolder('release')), onnxRuntime()].join(':') };
+  const librariesIn = (place) => ({ LD_LIBRARY_PATH: [place, onnxRuntime()].join(':') });
+  const env = project === 'MissingLibraryTests' ? {} : librariesIn(inRepository(presetFolder('release')));
   const file = `mono-${project.toLowerCase()}.xml`;
-  const args = ['--debug', path.join(folder, `HaptoFlow.${project}.dll`), results(file), ...exceptions('mono')];
-  return judgeJunit(file, 'mono', args, { env, limitSeconds: 1800 });
+  const program = ['--debug', path.join(folder, `HaptoFlow.${project}.dll`)];
+  const counts = await judgeJunit(file, 'mono', [...program, results(file), ...exceptions('mono')], { env, limitSeconds: 1800 });
+  if (project !== 'RepositoryTests') return counts;
+  return addCounts(counts, await judgeCommitted('mono-committed.xml', 'mono', program, librariesIn(committedFolder())));
 }
 
 /** The tests of the package's C# under Debian's Mono, each project as a program of its own. */
@@ -88,6 +107,7 @@ export async function aot() {
   complaints.forEach((line) => console.error(`test: ${line}`));
   const program = path.join(build, 'publish', 'HaptoFlow.AotTests', 'release_linux-x64', 'HaptoFlow.AotTests');
   if (!existsSync(program)) throw new CommandError(`${program} was not built`);
-  const counts = await judgeJunit('aot.xml', program, [results('aot.xml'), ...exceptions('aot')], { limitSeconds: 1800 });
+  const built = await judgeJunit('aot.xml', program, [results('aot.xml'), ...exceptions('aot')], { limitSeconds: 1800 });
+  const counts = addCounts(built, await judgeCommitted('aot-committed.xml', program, [], { HAPTOFLOW_NATIVE_DIR: committedFolder() }));
   return addCounts(counts, { ...noCounts, passed: complaints.length === 0 ? 1 : 0, failed: complaints.length === 0 ? 0 : 1 });
 }

@@ -64,3 +64,24 @@ export function neededGlibc(elf) {
 
 /** Whether a version such as [2, 34] is newer than another. */
 export const isNewerThan = ([major, minor], [otherMajor, otherMinor]) => major > otherMajor || (major === otherMajor && minor > otherMinor);
+
+const sectionTypes = { symbols: 11 };
+
+/** The names that an ELF exports: its dynamic symbols that have a place and are not local; none for a file without section headers. */
+export function namesExportedByElf(elf) {
+  if (elf.length < 64) return [];
+  const [table, size, count] = [Number(elf.readBigUInt64LE(40)), elf.readUInt16LE(58), elf.readUInt16LE(60)];
+  const sections = Array.from({ length: table === 0 ? 0 : count }, (_, index) => table + index * size)
+    .filter((place) => place + 64 <= elf.length)
+    .map((place) => ({ type: elf.readUInt32LE(place + 4), offset: Number(elf.readBigUInt64LE(place + 24)), bytes: Number(elf.readBigUInt64LE(place + 32)), link: elf.readUInt32LE(place + 40) }));
+  const symbols = sections.find(({ type }) => type === sectionTypes.symbols);
+  const strings = symbols && sections[symbols.link];
+  if (!strings) return [];
+  const names = [];
+  for (let place = symbols.offset; place + 24 <= Math.min(symbols.offset + symbols.bytes, elf.length); place += 24) {
+    const name = strings.offset + elf.readUInt32LE(place);
+    const [isLocal, isElsewhere] = [elf[place + 4] >> 4 === 0, elf.readUInt16LE(place + 6) === 0];
+    if (!isLocal && !isElsewhere) names.push(elf.toString('latin1', name, elf.indexOf(0, name)));
+  }
+  return names;
+}

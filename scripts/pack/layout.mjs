@@ -9,6 +9,8 @@ export const manifestPath = inRepository('Packages', packageName, 'package.json'
 /** Folders of the repository and their places in the package. */
 export const parts = [
   { from: `Packages/${packageName}`, to: '' },
+  // The .meta files of the libraries that are not in git.
+  { from: 'NativePlugin/import', to: 'Runtime/Plugins' },
   { from: 'Samples~', to: 'Samples~' },
   { from: 'Documentation~', to: 'Documentation~' },
   { from: 'Tests/Unity', to: 'Tests' },

@@ -6,25 +6,32 @@ import { buildNative, presetFolder } from '../lib/native_build.mjs';
 import { CommandError } from '../lib/process.mjs';
 import { inRepository } from '../lib/repository.mjs';
 import { onDebian, setUp } from '../lib/setup.mjs';
-import { needsOf } from './elf.mjs';
+import { isNewerThan, neededGlibc, needsOf } from './elf.mjs';
 
 /** Where the package keeps its native libraries. */
 export const pluginsFolder = 'Runtime/Plugins';
 
 /**
- * The platforms of the package: the library's place below Runtime/Plugins, its binary format, the presets that build it, and
- * where `npm run build -- --platform ID`, the command that adds it, runs.
+ * The platforms of the package: the library's place below Runtime/Plugins, its binary format, the presets that build it,
+ * where `npm run build -- --platform ID`, the command that adds it, runs, and whether git has it (`npm run natives`).
  */
 export const platforms = [
-  { name: 'Linux x86-64', id: 'linux-x64', place: 'Linux/x64/libaudioplugin_haptoflow.so', kind: 'elf-x86-64', presets: ['release'], where: 'on Linux x64' },
-  { name: 'Linux arm64', id: 'linux-arm64', place: 'Linux/arm64/libaudioplugin_haptoflow.so', kind: 'elf-arm64', presets: ['linux-arm64', 'release'], where: 'on Linux' },
-  { name: 'Windows x86-64', id: 'windows-x64', place: 'Windows/x64/audioplugin_haptoflow.dll', kind: 'pe-x86-64', presets: ['windows-x64', 'windows-msvc', 'release'], where: 'on Linux or Windows' },
+  { name: 'Linux x86-64', id: 'linux-x64', place: 'Linux/x64/libaudioplugin_haptoflow.so', kind: 'elf-x86-64', presets: ['release'], where: 'on Linux x64', isInGit: true },
+  { name: 'Linux arm64', id: 'linux-arm64', place: 'Linux/arm64/libaudioplugin_haptoflow.so', kind: 'elf-arm64', presets: ['linux-arm64', 'release'], where: 'on Linux', isInGit: true },
+  { name: 'Windows x86-64', id: 'windows-x64', place: 'Windows/x64/audioplugin_haptoflow.dll', kind: 'pe-x86-64', presets: ['windows-x64', 'windows-msvc', 'release'], where: 'on Linux or Windows', isInGit: true },
   { name: 'macOS arm64', id: 'macos', place: 'macOS/libaudioplugin_haptoflow.dylib', kind: 'macho-arm64', presets: ['macos'], where: 'on a Mac' },
   { name: 'Android arm64', id: 'android-arm64', place: 'Android/arm64-v8a/libaudioplugin_haptoflow.so', kind: 'android-arm64', presets: ['android-arm64'], where: 'with Unity\'s Android Build Support, or ANDROID_NDK_ROOT set' },
 ];
 
 /** The oldest glibc of the systems that Unity 2022.3 supports (Ubuntu 20.04): a library of a release needs no newer one. */
 export const oldestGlibc = [2, 31];
+
+/** What is wrong with the C library that a Linux library needs; null where nothing is, and for other platforms. */
+export function complaintOfGlibc({ kind }, bytes) {
+  const glibc = kind.startsWith('elf-') ? neededGlibc(bytes) : null;
+  if (glibc === null || !isNewerThan(glibc, oldestGlibc)) return null;
+  return `needs glibc ${glibc.join('.')}; expected ${oldestGlibc.join('.')} or older: build it on Debian 12`;
+}
 
 const elfMachines = { 62: 'x86-64', 183: 'arm64' };
 const peMachines = { 0x8664: 'pe-x86-64', 0xaa64: 'pe-arm64' };
@@ -102,20 +109,27 @@ export function foldersFor(platform) {
 export const commandFor = ({ id, where }) => `\`npm run build -- --platform ${id}\` ${where}`;
 
 /**
- * Finds the built libraries, and the platforms without one.
+ * Finds the built libraries, where there is none that of git, and the platforms without either.
  * @param {(platform: object) => string[]} folders where to look, in this order
  * @param {Set<string>} failed presets whose last build failed: an older library of theirs is left out
- * @returns {{found: {platform: object, file: string}[], absent: {platform: object, why: string}[]}}
+ * @param {(platform: object) => string | null} [fromGit] a platform's library in git, null where the sources are newer
+ * @returns {{found: {platform: object, file: string, isFromGit: boolean}[], absent: {platform: object, why: string}[]}}
  */
-export function findNatives(folders = foldersFor, failed = new Set()) {
+export function findNatives(folders = foldersFor, failed = new Set(), fromGit = undefined) {
   const found = [];
   const absent = [];
+  const hasFailed = ({ presets }) => presets.some((preset) => failed.has(preset));
+  const whyNotBuilt = (platform) => {
+    if (hasFailed(platform)) return 'its build failed (the reason is above)';
+    return fromGit && platform.isInGit ? 'not built, and that of git is older than the sources' : 'not built';
+  };
   for (const platform of platforms) {
     const files = folders(platform).map((folder) => path.join(folder, path.basename(platform.place)));
     const file = files.find((candidate) => existsSync(candidate) && kindOfLibrary(readFileSync(candidate)) === platform.kind);
-    const hasFailed = platform.presets.some((preset) => failed.has(preset));
-    if (file && !hasFailed) found.push({ platform, file });
-    else absent.push({ platform, why: `${hasFailed ? 'its build failed (the reason is above)' : 'not built'}; ${commandFor(platform)} adds it` });
+    const built = hasFailed(platform) ? undefined : file;
+    const taken = built ?? fromGit?.(platform);
+    if (taken) found.push({ platform, file: taken, isFromGit: built === undefined });
+    else absent.push({ platform, why: `${whyNotBuilt(platform)}; ${commandFor(platform)} adds it` });
   }
   return { found, absent };
 }

@@ -41,8 +41,8 @@ export function runtimeBytes(id, root = inRepository('node_modules', dependencyN
 const mebibytes = (bytes) => (bytes / 2 ** 20).toFixed(1);
 
 /** What a person has to know of a platform's library beyond its size. */
-function noteOf(platform, glibc) {
-  const notes = [];
+function noteOf(platform, glibc, isFromGit) {
+  const notes = isFromGit ? ['as in git'] : [];
   if (glibc !== null) {
     const remedy = isNewerThan(glibc, oldestGlibc) ? `: built on Debian 12 it would need ${oldestGlibc.join('.')} at most` : '';
     notes.push(`needs glibc ${glibc.join('.')}${remedy}`);
@@ -54,7 +54,7 @@ function noteOf(platform, glibc) {
 /**
  * The table of what a tarball holds: a line for each platform with the sizes in MiB that it takes on a device, then the
  * missing platforms with the command that adds each.
- * @param {{found: {platform: object, file: string}[], absent: {platform: object, why: string}[]}} natives
+ * @param {{found: {platform: object, file: string, isFromGit?: boolean}[], absent: {platform: object, why: string}[]}} natives
  */
 export function tableOfContents({ found, absent }) {
   const model = statSync(inRepository('Packages', packageName, 'Runtime', 'Models', 'default.haptoflow')).size;
@@ -62,7 +62,7 @@ export function tableOfContents({ found, absent }) {
     const [own, runtime] = [statSync(entry.file).size, runtimeBytes(entry.platform.id)];
     const cells = [own, model, runtime, own + model + runtime].map(mebibytes);
     if (runtime === 0) cells[2] = '-';
-    return [entry.platform.name, ...cells, noteOf(entry.platform, neededGlibc(readFileSync(entry.file)))];
+    return [entry.platform.name, ...cells, noteOf(entry.platform, neededGlibc(readFileSync(entry.file)), entry.isFromGit)];
   });
   const head = ['on the device, MiB', 'library', 'model', 'ONNX Runtime', 'together', ''];
   const lines = [head, ...rows].map(([name, own, of, runtime, sum, note]) =>

@@ -3,19 +3,20 @@ import path from 'node:path';
 import { inRepository } from '../lib/repository.mjs';
 import { writeHtmlPages } from './html_pages.mjs';
 import { folderGuids, folderMeta, placeInPackage } from './layout.mjs';
-import { pluginsFolder } from './natives.mjs';
+import { platforms, pluginsFolder } from './natives.mjs';
 
 /**
  * Assembles the package in a folder. The folder is emptied first.
  * @param {string} folder of the package's root @param {string[]} files of the repository, relative to its root
- * @param {{platform: object, file: string}[]} natives built libraries
+ * @param {{platform: object, file: string}[]} natives the libraries
  */
 export function stagePackage(folder, files, natives) {
   rmSync(folder, { recursive: true, force: true });
   mkdirSync(folder, { recursive: true });
   for (const name of files) {
     const place = placeInPackage(name);
-    if (place !== null) copyTo(inRepository(name), path.join(folder, place));
+    // The libraries are those that were chosen; git may have older ones.
+    if (place !== null && !isLibrary(place)) copyTo(inRepository(name), path.join(folder, place));
   }
   for (const { platform, file } of natives) copyTo(file, path.join(folder, pluginsFolder, platform.place));
   dropMetasOfAbsent(path.join(folder, pluginsFolder));
@@ -25,12 +26,14 @@ export function stagePackage(folder, files, natives) {
   }
 }
 
+const isLibrary = (place) => platforms.some((platform) => place === `${pluginsFolder}/${platform.place}`);
+
 function copyTo(from, to) {
   mkdirSync(path.dirname(to), { recursive: true });
   copyFileSync(from, to);
 }
 
-/** Deletes the .meta files of libraries that were not built, and folders left empty: git has the .meta of every platform. */
+/** Deletes the .meta files of libraries that are not there, and folders left empty: git has the .meta of every platform. */
 function dropMetasOfAbsent(folder) {
   if (!existsSync(folder)) return;
   for (const entry of readdirSync(folder, { withFileTypes: true })) {

@@ -1,5 +1,6 @@
 import { existsSync, readFileSync } from 'node:fs';
 import path from 'node:path';
+import { CommandError } from '../lib/process.mjs';
 import { inRepository } from '../lib/repository.mjs';
 import { repositoryFiles } from '../lint/files.mjs';
 import { dependencyName } from '../pack/dependency.mjs';
@@ -15,6 +16,19 @@ const isOfProject = (name) => name.startsWith('ProjectSettings/') || name === 'P
 export async function projectFiles() {
   const names = (await repositoryFiles()).filter(isOfProject);
   return new PackageFiles(new Map(names.map((name) => [name, readFileSync(inRepository(name))])));
+}
+
+/** The project as it lies on disk, also where there is no git: with what Unity, a build or a ZIP without .gitignore added. */
+export function projectFilesOnDisk() {
+  const contents = new Map();
+  for (const folder of ['ProjectSettings', ...writableFolders].filter((name) => existsSync(inRepository(name)))) {
+    const files = PackageFiles.inFolder(inRepository(folder));
+    for (const name of files.names) contents.set(`${folder}/${name}`, files.bytes(name));
+  }
+  const manifest = 'Packages/manifest.json';
+  if (!existsSync(inRepository(manifest))) throw new CommandError(`${inRepository(manifest)}: is missing`);
+  contents.set(manifest, readFileSync(inRepository(manifest)));
+  return new PackageFiles(contents);
 }
 
 /**

@@ -5,8 +5,7 @@ import { parseArgs } from 'node:util';
 import { CommandError, runMain } from '../lib/process.mjs';
 import { callerFolder } from '../lib/repository.mjs';
 import { checkPackage } from '../pack/check_package.mjs';
-import { isNewerThan, neededGlibc } from '../pack/elf.mjs';
-import { oldestGlibc, platforms, pluginsFolder } from '../pack/natives.mjs';
+import { complaintOfGlibc, oldestGlibc, platforms, pluginsFolder } from '../pack/natives.mjs';
 import { readTarball } from '../pack/tarball.mjs';
 
 const help = `usage: node scripts/release/check_tarball.mjs FILE [--require NAMES]
@@ -18,12 +17,12 @@ needs no newer glibc than ${oldestGlibc.join('.')}. Ends with 1 and one line for
 
 /** What is wrong with a package's files: the checker's complaints, libraries that are missing, and those for newer systems. */
 function complaintsOf(files, required) {
-  const natives = platforms.flatMap(({ id, place, kind }) => {
+  const natives = platforms.flatMap((platform) => {
+    const { id, place } = platform;
     const name = `${pluginsFolder}/${place}`;
     if (!files.has(name)) return required.includes(id) ? [`${name}: is missing; it is the library of ${id}`] : [];
-    const glibc = kind.startsWith('elf-') ? neededGlibc(files.bytes(name)) : null;
-    const isTooNew = glibc !== null && isNewerThan(glibc, oldestGlibc);
-    return isTooNew ? [`${name}: needs glibc ${glibc.join('.')}; expected ${oldestGlibc.join('.')} or older: build it on Debian 12`] : [];
+    const complaint = complaintOfGlibc(platform, files.bytes(name));
+    return complaint === null ? [] : [`${name}: ${complaint}`];
   });
   return [...checkPackage(files), ...natives];
 }

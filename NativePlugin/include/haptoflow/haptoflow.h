@@ -60,9 +60,9 @@ extern "C" {
 
 /* The version of this header, which is that of package.json. haptoflow_version() returns that of the loaded library. */
 #define HAPTOFLOW_VERSION_MAJOR 0
-#define HAPTOFLOW_VERSION_MINOR 1
+#define HAPTOFLOW_VERSION_MINOR 2
 #define HAPTOFLOW_VERSION_PATCH 0
-#define HAPTOFLOW_VERSION_TEXT "0.1.0"
+#define HAPTOFLOW_VERSION_TEXT "0.2.0"
 
 /* Samples of a segment and of the previous waveform; lengths of a material embedding, a motion and the
  * phases of the surface's waves. */
@@ -125,7 +125,7 @@ enum {
 
 /* ------------------------------------------------------------------------------------------------------ library */
 
-/* Returns the library's version, for example "0.1.0". The text is valid as long as the process runs. Never fails.
+/* Returns the library's version, for example "0.2.0". The text is valid as long as the process runs. Never fails.
  * [any-thread] Never blocks. */
 HAPTOFLOW_API const char* haptoflow_version(void);
 

@@ -55,6 +55,16 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
+        public void TheCommandForALibraryThatIsNotInGitIsSaidToGiveItToTheRepositorysProject()
+        {
+            Settings();
+            BuildHost.Preprocess(BuildTarget.StandaloneOSX);
+            Assert.That(LoggedMessages().Single().Text, Does.EndWith("In HaptoFlow's repository, `npm run build -- " +
+                "--platform macos` on a Mac gives it to the project there. For another project this, then `npm run " +
+                "pack`, builds a package that includes it; install that package."));
+        }
+
+        [Test]
         public void AnotherPluginForThePlatformIsIgnored()
         {
             Settings();

@@ -110,8 +110,7 @@ namespace HaptoFlow.EditorTests
 
         private UnityEngine.Object New(Type type) => typeof(Component).IsAssignableFrom(type)
             ? World.AddComponent(Make("Owner"), type)
-            : (UnityEngine.Object)typeof(ScriptableObject).GetMethod(nameof(ScriptableObject.CreateInstance))!
-                .MakeGenericMethod(type).Invoke(null, null)!;
+            : ScriptableObject.CreateInstance(type);
 
         private static IEnumerable<string> TooltipsOf(Type? type) => type == null
             ? Array.Empty<string>()

@@ -19,6 +19,7 @@ namespace HaptoFlow.EditorTests
     /// plays then.</summary>
     public sealed class FirstVibrationTests : EditorTest
     {
+        private const string Clone = "From a clone, with mouse and loudspeakers";
         private const string Desktop = "A desktop, with mouse and loudspeakers";
         private const string Headset = "A Quest 3, with controllers or MX Ink";
         private const string Coil = "A voice coil behind an amplifier, on the right audio channel";
@@ -30,6 +31,7 @@ namespace HaptoFlow.EditorTests
 
         private readonly HashSet<string> drawnIn = new HashSet<string>();
         private Camera camera = null!;
+        private ProjectScene? opened;
         private Object? inspected;
 
         /// <summary>Loads the optional assemblies, which .NET loads on first use only, unlike Unity.</summary>
@@ -59,9 +61,22 @@ namespace HaptoFlow.EditorTests
             {
                 EditorSession.Stop();
             }
+            foreach (GameObject each in opened?.Owners.Where(each => each != null) ?? Enumerable.Empty<GameObject>())
+            {
+                Object.DestroyImmediate(each);
+            }
+            opened = null;
             HapticSession.OptionsOverride = null;
             HeldDevices.Reset();
             SimulatedInput.Reset();
+        }
+
+        [Test]
+        public void TheClonesClicksMakeTheLoudspeakersSound()
+        {
+            Walk(Clone);
+            Assert.That(Peak(0), Is.GreaterThan(Audible));
+            Assert.That(Peak(1), Is.GreaterThan(Audible));
         }
 
         [Test]
@@ -154,6 +169,7 @@ namespace HaptoFlow.EditorTests
         public void CheckSceneSaysWhatPlaysEachStylusBeforePlaying()
         {
             Settings();
+            MxInkSwitch.SwitchOn();
             Perform(Rows(Desktop)[0].What);
             AddRig();
             Perform(Rows(Later)[0].What);
@@ -167,6 +183,7 @@ namespace HaptoFlow.EditorTests
                 Is.Empty);
         }
 
+        [TestCase(Clone)]
         [TestCase(Desktop)]
         [TestCase(Headset)]
         [TestCase(Coil)]
@@ -238,6 +255,9 @@ namespace HaptoFlow.EditorTests
                     EditorScreen.Press(bold[0]);
                     EditorScreen.Draw(EditorWindow.GetWindow<CheckSceneWindow>().OnGUI);
                     return 1;
+                case string scene when scene.StartsWith("in the Project window: double-click "):
+                    OpenScene(bold[0]);
+                    return 2;
                 case string place when place.StartsWith("in the Hierarchy: "):
                     return Select(bold);
                 case string field when field.StartsWith("in the Inspector: "):
@@ -257,6 +277,14 @@ namespace HaptoFlow.EditorTests
                     .Any(item => !item.validate && item.menuItem == path.Replace(" > ", "/")));
             entry.Invoke(null, entry.GetParameters().Length == 0 ? null : new object[] { new MenuCommand(null) });
             return path.Split(" > ").Length;
+        }
+
+        /// <summary>Opens a scene of this repository's project; the objects of the scene before it go.</summary>
+        private void OpenScene(string name)
+        {
+            Object.DestroyImmediate(camera.gameObject);
+            opened = ProjectScene.Open(name + ".unity");
+            camera = Camera.main!;
         }
 
         /// <summary>Selects an object, below objects that have to be unfolded with a click each.</summary>

@@ -81,6 +81,15 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
+        public void InTheRepositorysProjectHelpOpensThePagesBesideTheFolderOfPackages()
+        {
+            EditorSession.PackageFolder = RepositoryFiles.In("Packages", "com.haptoflow.runtime");
+            EditorLifecycle.Begin();
+            Assert.That(typeof(HapticSurface).GetCustomAttribute<HelpURLAttribute>(false)?.URL,
+                Is.EqualTo(new Uri(RepositoryFiles.In("Documentation~", "components.md")).AbsoluteUri));
+        }
+
+        [Test]
         public void WithoutPagesOrEditorThereIsNoHelpAndNoError()
         {
             InstalledPages("empty");

@@ -3,7 +3,11 @@ using System.Linq;
 using HaptoFlow.Editor;
 using NUnit.Framework;
 using UnityEditor;
+using UnityEditor.XR.OpenXR.Features;
 using UnityEngine;
+using UnityEngine.XR.OpenXR;
+using UnityEngine.XR.OpenXR.Features;
+using UnityShim;
 
 namespace HaptoFlow.EditorTests
 {
@@ -20,7 +24,11 @@ namespace HaptoFlow.EditorTests
         }
 
         [TearDown]
-        public void DeleteTheProject() => Directory.Delete(project, true);
+        public void DeleteTheProject()
+        {
+            HeldDevices.Reset();
+            Directory.Delete(project, true);
+        }
 
         [TestCase(true, false)]
         [TestCase(false, true)]
@@ -31,7 +39,9 @@ namespace HaptoFlow.EditorTests
             Finding finding = PenRules.Check(new SceneContents(), MxInkSupport.Of(meta, openXr, project)).Single();
             Assert.That(finding.Severity, Is.EqualTo(MessageType.Info));
             Assert.That(finding.Text, Does.StartWith("XR Pen Right: "));
-            Assert.That(finding.Text, Does.Contain("logitech.github.io/mxink").And.Contain("Input Actions"));
+            Assert.That(finding.Text, Does.Contain("logitech.github.io/mxink").And.Contain("Input Actions")
+                .And.Contain("switch on " + MxInkInteraction.DisplayName));
+            Assert.That(finding.Repairs.Count, Is.EqualTo(openXr ? 1 : 0), "Meta's SDK has no switch for it");
             Assert.That(finding.Objects, Is.EqualTo(new Object[] { pen }));
         }
 
@@ -54,13 +64,31 @@ namespace HaptoFlow.EditorTests
             Assert.That(MxInkSupport.Of(true, false, project).IsLacking, Is.True);
         }
 
-        [TestCase("MXInkProfile.cs")]
-        [TestCase("Logitech MX_Ink Interaction.cs")]
-        public void AFeatureForOpenXrIsFound(string name)
+        [Test]
+        public void TheRepairSwitchesTheProfileOnForDesktopsAndAndroid()
         {
-            Directory.CreateDirectory(Path.Combine(project, "Assets", "Logitech", "Scripts"));
-            File.WriteAllText(Path.Combine(project, "Assets", "Logitech", "Scripts", name), "");
+            XrPen pen = XrPen.Create(null, PenHand.Right);
+            pen.Stylus!.Tip = pen.Stylus.transform;
+            Repair(Only("no interaction profile of MX Ink"), "Switch On Profile of MX Ink");
+            Assert.That(OwnFeature(BuildTargetGroup.Standalone).enabled, Is.True);
+            Assert.That(OwnFeature(BuildTargetGroup.Android).enabled, Is.True);
+            Assert.That(OpenXRSettings.GetSettingsForBuildTargetGroup(BuildTargetGroup.Android)!
+                .GetFeature<ForeignProfile>()!.enabled, Is.False, "features of other packages stay as they are");
+            Undo.PerformUndo();
+            Assert.That(OwnFeature(BuildTargetGroup.Standalone).enabled, Is.False, "after undo");
+            Assert.That(OwnFeature(BuildTargetGroup.Android).enabled, Is.False, "after undo");
+        }
+
+        [TestCase(BuildTargetGroup.Standalone)]
+        [TestCase(BuildTargetGroup.Android)]
+        public void AFeatureForOpenXrIsFoundWhileItIsOn(BuildTargetGroup group)
+        {
+            FeatureHelpers.RefreshFeatures(group);
+            Assert.That(MxInkSupport.Of(false, true, project).IsLacking, Is.True, "all features are off");
+            OpenXRFeature feature = OpenXRSettings.GetSettingsForBuildTargetGroup(group)!.GetFeature<ForeignProfile>()!;
+            feature.enabled = true;
             Assert.That(MxInkSupport.Of(false, true, project).IsLacking, Is.False);
+            Assert.That(MxInkSupport.Of(false, true, project).CanSwitchOn, Is.False, "one profile is enough");
             Assert.That(MxInkSupport.Of(true, false, project).IsLacking, Is.True, "Meta's SDK needs an action set");
         }
 
@@ -83,10 +111,19 @@ namespace HaptoFlow.EditorTests
         [Test]
         public void APenThatKnowsItsHandHasNoFinding()
         {
+            MxInkSwitch.SwitchOn();
             XrPen pen = XrPen.Create(null, PenHand.Left);
             pen.Stylus!.Tip = pen.Stylus.transform;
             Assert.That(pen.Stylus.Hand, Is.EqualTo(HapticHand.Left), "also in edit mode");
             Assert.That(Texts(), Is.Empty);
+        }
+
+        private static MxInkInteraction OwnFeature(BuildTargetGroup group) =>
+            OpenXRSettings.GetSettingsForBuildTargetGroup(group)!.GetFeature<MxInkInteraction>()!;
+
+        [OpenXRFeature(OpenxrExtensionStrings = MxInkFeatures.Extension)]
+        private sealed class ForeignProfile : OpenXRInteractionFeature
+        {
         }
 
         private sealed class Scale : TipForceSource

@@ -28,6 +28,8 @@ namespace HaptoFlow.EditorTests
         [TestCase("Headset.unity")]
         public void CheckSceneFindsNothingToRepair(string name)
         {
+            // As in the project's OpenXR settings, which the tests of the package read.
+            MxInkSwitch.SwitchOn();
             ProjectScene scene = ProjectScene.Open(name);
             ProjectSettingsAsset.FindOrCreate();
             string[] findings = SceneCheck.Run().Select(finding => finding.Text).ToArray();

@@ -21,14 +21,14 @@ namespace HaptoFlow.SampleTests
         {
             List<CheckLine> lines = Lines(Facts("").AddTo);
             Assert.That(lines.Select(line => line.State), Is.All.EqualTo(CheckState.Passed));
-            Assert.That(Measured(lines, "native library"), Is.EqualTo("version 0.1.0"));
+            Assert.That(Measured(lines, "native library"), Is.EqualTo("version 0.2.0"));
             lines = Lines(Facts(broken).AddTo);
             Assert.That(Failed(lines), Is.EqualTo(new[] { broken }));
             Assert.That(Measured(lines, broken), Is.EqualTo("it is broken"));
 
             static LibraryFacts Facts(string broken) => new LibraryFacts
             {
-                Version = () => broken == "native library" ? throw new DllNotFoundException("it is broken") : "0.1.0",
+                Version = () => broken == "native library" ? throw new DllNotFoundException("it is broken") : "0.2.0",
                 RequireAgreement = () => Throw(broken == "struct sizes"),
                 OpenOnnxRuntime = () => Throw(broken == "ONNX Runtime"),
                 Structs = 17,

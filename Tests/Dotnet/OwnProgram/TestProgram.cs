@@ -13,8 +13,8 @@ using NUnit.Framework.Internal.Builders;
 namespace HaptoFlow.Tests.OwnProgram
 {
     /// <summary>Runs the tests of its own assembly, for runtimes on which `dotnet test` cannot: Mono, and programs
-    /// compiled ahead of time. Arguments: the JUnit file to write, then parts of the full names of tests to leave
-    /// out.</summary>
+    /// compiled ahead of time. Arguments: the JUnit file to write, then parts of the full names of tests, "-" before those
+    /// to leave out and "+" before those to run alone.</summary>
     internal static class TestProgram
     {
         private static int Main(string[] words)
@@ -133,11 +133,22 @@ namespace HaptoFlow.Tests.OwnProgram
         private sealed class NameFilter : TestFilter
         {
             private readonly string[] except;
+            private readonly string[] only;
 
-            public NameFilter(string[] except) => this.except = except;
+            public NameFilter(string[] words)
+            {
+                except = Marked(words, '-');
+                only = Marked(words, '+');
+            }
 
             public override bool Match(ITest test) =>
-                test.IsSuite || !except.Any(name => test.FullName.Contains(name, StringComparison.Ordinal));
+                test.IsSuite || (!Names(except, test) && (only.Length == 0 || Names(only, test)));
+
+            private static string[] Marked(string[] words, char mark) =>
+                words.Where(word => word[0] == mark).Select(word => word.Substring(1)).ToArray();
+
+            private static bool Names(string[] parts, ITest test) =>
+                parts.Any(part => test.FullName.Contains(part, StringComparison.Ordinal));
 
             public override bool Pass(ITest test, bool negated) =>
                 test.IsSuite ? test.Tests.Any(child => Pass(child, negated)) : Match(test);

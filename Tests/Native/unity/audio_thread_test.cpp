@@ -5,6 +5,7 @@
 #include <array>
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <thread>
 
 namespace haptoflow::unity::testing {
@@ -113,13 +114,18 @@ TEST_F(AudioThreadTest, VoicesCanOpenAndCloseWhileAnEffectPlays) {
     });
     std::uint64_t rendered = 0;
     for (int i = 0; i < 4; ++i) {
-        SteppedVoice passing(runtime_, model_);
-        EXPECT_EQ(passing.place(), voice_.place() + 1.0F);
+        std::optional<SteppedVoice> passing(std::in_place, runtime_, model_);
+        // The voice before it keeps its place until the audio thread has faded it.
+        while (passing->place() != voice_.place() + 1.0F) {
+            passing.reset();
+            std::this_thread::yield();
+            passing.emplace(runtime_, model_);
+        }
         const std::uint64_t begun = rendered;
         while (rendered == begun) {
-            passing.slide();
-            passing.generate();
-            rendered = begun + passing.statistics().rendered_frames;
+            passing->slide();
+            passing->generate();
+            rendered = begun + passing->statistics().rendered_frames;
         }
     }
     isDone = true;

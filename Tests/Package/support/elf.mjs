@@ -42,3 +42,32 @@ export function elfOf({ machine, libraries = ['libc.so.6'], versions = [], align
   strings.copy(bytes, stringsPlace);
   return bytes;
 }
+
+/** A 64-bit ELF with a table of dynamic symbols. @param {{name: string, section: number, isLocal?: boolean}[]} symbols section: 0 for one of another library */
+export function elfWithSymbols(symbols) {
+  const strings = Buffer.from(`\0${symbols.map(({ name }) => `${name}\0`).join('')}`, 'latin1');
+  const [symbolsPlace, symbolsBytes, headersBytes] = [64, 24 * symbols.length, 3 * 64];
+  const stringsPlace = symbolsPlace + symbolsBytes;
+  const headers = stringsPlace + strings.length;
+  const bytes = Buffer.alloc(headers + headersBytes);
+  bytes.writeUInt32BE(0x7f454c46, 0);
+  bytes.writeUInt16LE(62, 18);
+  bytes.writeBigUInt64LE(BigInt(headers), 40);
+  bytes.writeUInt16LE(64, 58);
+  bytes.writeUInt16LE(3, 60);
+  symbols.forEach(({ name, section, isLocal = false }, index) => {
+    bytes.writeUInt32LE(strings.indexOf(`\0${name}\0`) + 1, symbolsPlace + 24 * index);
+    bytes.writeUInt8(isLocal ? 0x03 : 0x12, symbolsPlace + 24 * index + 4);
+    bytes.writeUInt16LE(section, symbolsPlace + 24 * index + 6);
+  });
+  strings.copy(bytes, stringsPlace);
+  const sections = [[11, symbolsPlace, symbolsBytes, 2], [3, stringsPlace, strings.length, 0]];
+  sections.forEach(([type, offset, size, link], index) => {
+    const header = headers + 64 * (index + 1);
+    bytes.writeUInt32LE(type, header + 4);
+    bytes.writeBigUInt64LE(BigInt(offset), header + 24);
+    bytes.writeBigUInt64LE(BigInt(size), header + 32);
+    bytes.writeUInt32LE(link, header + 40);
+  });
+  return bytes;
+}

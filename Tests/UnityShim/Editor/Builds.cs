@@ -22,6 +22,14 @@ namespace UnityEditor
         StandaloneLinux64 = 24,
     }
 
+    public enum BuildTargetGroup
+    {
+        Unknown = 0,
+        Standalone = 1,
+        iOS = 4,
+        Android = 7,
+    }
+
     public enum AndroidArchitecture : uint
     {
         None = 0,

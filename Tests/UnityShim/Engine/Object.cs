@@ -52,9 +52,11 @@ namespace UnityEngine
     public class ScriptableObject : Object
     {
         public static T CreateInstance<T>()
-            where T : ScriptableObject
+            where T : ScriptableObject => (T)CreateInstance(typeof(T));
+
+        public static ScriptableObject CreateInstance(Type type)
         {
-            var instance = (T)Activator.CreateInstance(typeof(T))!;
+            var instance = (ScriptableObject)Activator.CreateInstance(type)!;
             Messages.Of(instance).Send(Message.OnEnable);
             return instance;
         }

@@ -16,6 +16,27 @@ namespace UnityEngine.XR
         HardwareTracker = 8,
     }
 
+    [Flags]
+    public enum InputDeviceCharacteristics : uint
+    {
+        None = 0,
+        HeldInHand = 1 << 2,
+        TrackedDevice = 1 << 5,
+        Controller = 1 << 6,
+        Left = 1 << 8,
+        Right = 1 << 9,
+    }
+
+    [Flags]
+    public enum InputTrackingState : uint
+    {
+        None = 0,
+        Position = 1 << 0,
+        Rotation = 1 << 1,
+        Velocity = 1 << 2,
+        AngularVelocity = 1 << 3,
+    }
+
     public struct HapticCapabilities : IEquatable<HapticCapabilities>
     {
         public uint numChannels { get; internal set; }

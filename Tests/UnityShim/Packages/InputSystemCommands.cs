@@ -5,7 +5,7 @@ using UnityEngine.InputSystem.Utilities;
 
 namespace UnityEngine.InputSystem
 {
-    public static class InputSystem
+    public static partial class InputSystem
     {
         internal static InputDeviceCommandDelegate? Watchers;
 

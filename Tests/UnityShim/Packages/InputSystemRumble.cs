@@ -1,4 +1,6 @@
 using System.Collections.Generic;
+using UnityEngine.InputSystem.Controls;
+using UnityEngine.InputSystem.Layouts;
 using UnityEngine.InputSystem.LowLevel;
 using UnityEngine.InputSystem.XR.Haptics;
 using UnityShim;
@@ -7,6 +9,17 @@ namespace UnityEngine.InputSystem
 {
     public class TrackedDevice : InputDevice
     {
+        [InputControl]
+        public IntegerControl trackingState { get; private set; } = null!;
+
+        [InputControl]
+        public ButtonControl isTracked { get; private set; } = null!;
+
+        [InputControl]
+        public Vector3Control devicePosition { get; private set; } = null!;
+
+        [InputControl]
+        public QuaternionControl deviceRotation { get; private set; } = null!;
     }
 }
 

@@ -49,6 +49,32 @@ namespace UnityEngine.InputSystem
     public abstract class InputControl
     {
         public string displayName { get; protected set; } = "";
+
+        public string name { get; internal set; } = "";
+
+        internal Dictionary<string, InputControl> Children { get; } = new Dictionary<string, InputControl>();
+
+        public TControl GetChildControl<TControl>(string path)
+            where TControl : InputControl => Children.TryGetValue(path, out InputControl? child)
+            ? child as TControl ?? throw new ArgumentException(
+                $"Expected control '{path}' to be of type '{typeof(TControl)}' but is of type '{child.GetType()}'")
+            : throw new KeyNotFoundException($"no control '{path}' in '{name}'");
+
+        internal void Finish() => FinishSetup();
+
+        protected virtual void FinishSetup()
+        {
+        }
+    }
+
+    public abstract class InputControl<TValue> : InputControl
+        where TValue : struct
+    {
+        private readonly Func<TValue>? read;
+
+        private protected InputControl(Func<TValue>? read) => this.read = read;
+
+        public TValue ReadValue() => read?.Invoke() ?? default;
     }
 
     internal sealed class BoundControl : InputControl
@@ -86,31 +112,68 @@ namespace UnityEngine.InputSystem
 
 namespace UnityEngine.InputSystem.Controls
 {
-    public class Vector2Control
+    public class AxisControl : InputControl<float>
     {
-        private readonly Func<Vector2> read;
+        public AxisControl()
+            : base(null)
+        {
+        }
 
-        internal Vector2Control(Func<Vector2> read) => this.read = read;
-
-        public Vector2 ReadValue() => read();
+        internal AxisControl(Func<float> read)
+            : base(read)
+        {
+        }
     }
 
-    public class AxisControl
+    public class ButtonControl : AxisControl
     {
-        private readonly Func<float> read;
+        public ButtonControl()
+        {
+        }
 
-        internal AxisControl(Func<float> read) => this.read = read;
+        internal ButtonControl(Func<bool> read)
+            : base(() => read() ? 1f : 0f)
+        {
+        }
 
-        public float ReadValue() => read();
+        public bool isPressed => ReadValue() >= 0.5f;
     }
 
-    public class ButtonControl
+    public class IntegerControl : InputControl<int>
     {
-        private readonly Func<bool> read;
+        public IntegerControl()
+            : base(null)
+        {
+        }
+    }
 
-        internal ButtonControl(Func<bool> read) => this.read = read;
+    public class Vector2Control : InputControl<Vector2>
+    {
+        public Vector2Control()
+            : base(null)
+        {
+        }
 
-        public bool isPressed => read();
+        internal Vector2Control(Func<Vector2> read)
+            : base(read)
+        {
+        }
+    }
+
+    public class Vector3Control : InputControl<Vector3>
+    {
+        public Vector3Control()
+            : base(null)
+        {
+        }
+    }
+
+    public class QuaternionControl : InputControl<Quaternion>
+    {
+        public QuaternionControl()
+            : base(null)
+        {
+        }
     }
 }
 

@@ -22,6 +22,8 @@ namespace UnityShim
         public static void SetControl<TValue>(string path, TValue value)
             where TValue : struct => Values[path] = value;
 
+        internal static void SetBoxed(string path, object value) => Values[path] = value;
+
         public static void Reset()
         {
             Values.Clear();

@@ -13,6 +13,7 @@ namespace UnityShim
             OVRPlugin.Reset();
             OVRInput.Reset();
             OpenXRInput.Reset();
+            OpenXrRuntime.Reset();
             XrHand.Reset();
             XRControllerWithRumble.Drop();
             Gamepad.current = null;

@@ -10,6 +10,7 @@ const optionalAssemblies = {
   'Unity.InputSystem': 'com.unity.inputsystem',
   'Unity.XR.Management': 'com.unity.xr.management',
   'Unity.XR.OpenXR': 'com.unity.xr.openxr',
+  'Unity.XR.OpenXR.Editor': 'com.unity.xr.openxr',
   'Oculus.VR': 'com.meta.xr.sdk.core',
 };
 

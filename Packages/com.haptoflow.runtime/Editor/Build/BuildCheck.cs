@@ -16,12 +16,13 @@ namespace HaptoFlow.Editor
         // Not the name that the imports use, which is __Internal while the build target is iOS.
         private const string LibraryName = "audioplugin_haptoflow";
 
-        private static readonly (BuildTarget Platform, string Command)[] BuildCommands =
+        // Git has the libraries of Linux and Windows; the command for the others puts theirs into the package beside them.
+        private static readonly (BuildTarget Platform, string Command, bool IsInGit)[] BuildCommands =
         {
-            (BuildTarget.StandaloneLinux64, "`npm run build` on Linux"),
-            (BuildTarget.StandaloneWindows64, "`npm run build -- --platform windows-x64`"),
-            (BuildTarget.StandaloneOSX, "`npm run build -- --platform macos` on a Mac"),
-            (BuildTarget.Android, "`npm run build -- --platform android-arm64`"),
+            (BuildTarget.StandaloneLinux64, "`npm run build` on Linux", true),
+            (BuildTarget.StandaloneWindows64, "`npm run build -- --platform windows-x64`", true),
+            (BuildTarget.StandaloneOSX, "`npm run build -- --platform macos` on a Mac", false),
+            (BuildTarget.Android, "`npm run build -- --platform android-arm64`", false),
         };
 
         public int callbackOrder => 0;
@@ -77,11 +78,16 @@ namespace HaptoFlow.Editor
 
         private static string Remedy(BuildTarget platform)
         {
-            string? command = BuildCommands.FirstOrDefault(each => each.Platform == platform).Command;
-            return command == null
-                ? "HaptoFlow cannot build one for this platform."
-                : $"In HaptoFlow's repository, {command}, then `npm run pack`, builds a package that includes it; " +
-                    "install that package.";
+            (_, string? command, bool isInGit) = BuildCommands.FirstOrDefault(each => each.Platform == platform);
+            if (command == null)
+            {
+                return "HaptoFlow cannot build one for this platform.";
+            }
+            string pack = "`npm run pack`, builds a package that includes it; install that package.";
+            return isInGit
+                ? $"In HaptoFlow's repository, {command}, then {pack}"
+                : $"In HaptoFlow's repository, {command} gives it to the project there. For another project this, then " +
+                    pack;
         }
 
         // By name, because GetImporters also lists libraries that the project keeps outside the package.

@@ -1,5 +1,4 @@
 #nullable enable
-using System;
 using System.IO;
 using System.Linq;
 
@@ -13,22 +12,25 @@ namespace HaptoFlow.Editor
         private const string BindingsFile = "RuntimeActionBindings.json";
         private const string Profile = "mx_ink_stylus_logitech";
 
-        public MxInkSupport(bool isLacking) => IsLacking = isLacking;
+        private MxInkSupport(bool isLacking, bool canSwitchOn)
+        {
+            IsLacking = isLacking;
+            CanSwitchOn = canSwitchOn;
+        }
 
         /// <summary>True where the project uses Meta's SDK or OpenXR and has no interaction profile of the pen.</summary>
         public bool IsLacking { get; }
 
+        /// <summary>True where <see cref="MxInkSwitch"/> gives the project a profile.</summary>
+        public bool CanSwitchOn { get; }
+
         public static MxInkSupport OfProject()
         {
             bool meta = false;
-            bool openXr = false;
 #if HAPTOFLOW_META
             meta = true;
 #endif
-#if HAPTOFLOW_OPENXR
-            openXr = true;
-#endif
-            return Of(meta, openXr, Directory.GetCurrentDirectory());
+            return Of(meta, MxInkSwitch.IsThere, Directory.GetCurrentDirectory());
         }
 
         /// <param name="meta">True where Meta's SDK is installed.</param>
@@ -36,22 +38,12 @@ namespace HaptoFlow.Editor
         /// <param name="project">The folder of the project.</param>
         internal static MxInkSupport Of(bool meta, bool openXr, string project)
         {
-            bool has = (meta && HasActionSet(project)) || (openXr && HasFeature(project));
-            return new MxInkSupport((meta || openXr) && !has);
+            bool has = (meta && HasActionSet(project)) || (openXr && MxInkSwitch.IsOn);
+            return new MxInkSupport((meta || openXr) && !has, openXr && !has);
         }
 
         private static bool HasActionSet(string project) =>
             new[] { Path.Combine(project, "Assets", "StreamingAssets", BindingsFile), Path.Combine(project, BindingsFile) }
                 .Any(path => File.Exists(path) && File.ReadAllText(path).Contains(Profile));
-
-        // Logitech's package brings the feature as a script of the project.
-        private static bool HasFeature(string project)
-        {
-            string assets = Path.Combine(project, "Assets");
-            return Directory.Exists(assets) && Directory
-                .EnumerateFiles(assets, "*.cs", SearchOption.AllDirectories)
-                .Select(path => Path.GetFileName(path).Replace("_", "").Replace(" ", ""))
-                .Any(name => name.IndexOf("MxInk", StringComparison.OrdinalIgnoreCase) >= 0);
-        }
     }
 }

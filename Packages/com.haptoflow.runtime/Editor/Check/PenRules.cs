@@ -1,8 +1,10 @@
 #nullable enable
+using System;
 using System.Collections.Generic;
 using System.Linq;
 using UnityEditor;
 using UnityEngine;
+using Object = UnityEngine.Object;
 
 namespace HaptoFlow.Editor
 {
@@ -16,14 +18,17 @@ namespace HaptoFlow.Editor
             XrPen[] pens = Object
                 .FindObjectsByType<XrPen>(FindObjectsInactive.Exclude, FindObjectsSortMode.None)
                 .Where(pen => pen.enabled)
-                .OrderBy(pen => pen.name, System.StringComparer.Ordinal)
+                .OrderBy(pen => pen.name, StringComparer.Ordinal)
                 .ToArray();
             if (mxInk.IsLacking && pens.Length > 0)
             {
                 yield return new Finding(MessageType.Info,
                     $"{string.Join(", ", pens.Select(pen => pen.name))}: the project has no interaction profile of MX " +
                     "Ink, so a headset presents that pen as a Touch controller, without the force of its tip. " +
-                    $"{DisguisedMxInk.MissingProfile} For controllers nothing is missing.", pens);
+                    $"{DisguisedMxInk.MissingProfile} For controllers nothing is missing.", pens,
+                    mxInk.CanSwitchOn
+                        ? new[] { new Repair("Switch On Profile of MX Ink", MxInkSwitch.SwitchOn) }
+                        : Array.Empty<Repair>());
             }
             foreach (HapticStylus stylus in scene.Styluses)
             {

@@ -11,6 +11,7 @@ namespace HaptoFlow.Editor
     /// the project's settings. Works with domain reload on and off.</summary>
     internal static class EditorLifecycle
     {
+        private const string PagesName = "Documentation~";
         private static HaptoFlowSettings? builtIn;
 
         [InitializeOnLoadMethod]
@@ -34,7 +35,14 @@ namespace HaptoFlow.Editor
         private static string? FolderOfPages()
         {
             PackageInfo? package = PackageInfo.FindForAssembly(typeof(HapticSurface).Assembly);
-            return package == null ? null : Path.Combine(package.resolvedPath, "Documentation~");
+            if (package == null)
+            {
+                return null;
+            }
+            string inside = Path.Combine(package.resolvedPath, PagesName);
+            // In the repository's own project the pages lie beside the folder Packages, and packing copies them in.
+            string beside = Path.GetFullPath(Path.Combine(package.resolvedPath, "..", "..", PagesName));
+            return !Directory.Exists(inside) && Directory.Exists(beside) ? beside : inside;
         }
 
         private static void OnPlayModeChanged(PlayModeStateChange change)

@@ -60,10 +60,10 @@ namespace HaptoFlow
         }
 
         /// <summary>What such a project lacks, and where to get it.</summary>
-        public const string MissingProfile = "Import Logitech's integration package for Unity " +
-            "(logitech.github.io/mxink). With Meta's SDK, add its action set under Project Settings > Meta XR > Input " +
-            "Actions; with Unity's OpenXR plug-in, switch on its interaction profile under Project Settings > XR " +
-            "Plug-in Management > OpenXR.";
+        public const string MissingProfile = "With Unity's OpenXR plug-in, switch on MX Ink Stylus (HaptoFlow) under " +
+            "Project Settings > XR Plug-in Management > OpenXR, Enabled Interaction Profiles. With Meta's SDK, import " +
+            "Logitech's integration package for Unity (logitech.github.io/mxink) and add its action set under Project " +
+            "Settings > Meta XR > Input Actions.";
 
         [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.SubsystemRegistration)]
         private static void Reset() => hasSaid = false;

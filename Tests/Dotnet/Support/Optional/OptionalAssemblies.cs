@@ -9,7 +9,8 @@ namespace HaptoFlow.Tests.Support
         /// </summary>
         public static void Load()
         {
-            foreach (string name in new[] { "Meta", "InputSystem", "Outputs.InputSystem", "Outputs.Meta", "Outputs.OpenXr" })
+            foreach (string name in new[]
+                { "Meta", "InputSystem", "Inputs.OpenXr", "Outputs.InputSystem", "Outputs.Meta", "Outputs.OpenXr" })
             {
                 Assembly.Load("HaptoFlow." + name);
             }

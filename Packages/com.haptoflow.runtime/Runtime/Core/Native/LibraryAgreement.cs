@@ -10,7 +10,7 @@ namespace HaptoFlow.Native
     internal static unsafe class LibraryAgreement
     {
         /// <summary>The package's version, which the library has, too.</summary>
-        public const string Version = "0.1.0";
+        public const string Version = "0.2.0";
 
         private static volatile bool isProven;
 

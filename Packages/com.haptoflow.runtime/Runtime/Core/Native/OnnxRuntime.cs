@@ -28,7 +28,7 @@ namespace HaptoFlow
             return new OnnxRuntime(opened);
         });
 
-        /// <summary>Version of the native library, for example "0.1.0". Any thread.</summary>
+        /// <summary>Version of the native library, for example "0.2.0". Any thread.</summary>
         /// <exception cref="HaptoFlowException">The library is missing.</exception>
         public static string LibraryVersion() => NativeCall.OrMissing(() => NativeCall.Text(NativeMethods.Version()));
 

@@ -1,0 +1,222 @@
+// The native libraries in git, with which Unity plays a clone, and the record of what they were built from.
+import assert from 'node:assert/strict';
+import { spawnSync } from 'node:child_process';
+import { appendFileSync, cpSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import os from 'node:os';
+import path from 'node:path';
+import test from 'node:test';
+import { inRepository } from '../../scripts/lib/repository.mjs';
+import { testsOfCommitted } from '../../scripts/lib/runtime_tests.mjs';
+import { checkNatives } from '../../scripts/lint/native_checks.mjs';
+import { committedNatives, committedPlatforms, complaintsOf, complaintsOfRecord, fileInPackage, largestBytes, readRecord } from '../../scripts/natives/committed.mjs';
+import { hashOfInterface, hashOfSources, sourceFiles } from '../../scripts/natives/fingerprints.mjs';
+import { importFolder, putIntoPackage } from '../../scripts/natives/into_package.mjs';
+import { findNatives, platforms, pluginsFolder } from '../../scripts/pack/natives.mjs';
+import { PackageFiles } from '../../scripts/pack/package_files.mjs';
+import { checkMetasAreThere, checkMetasAreWanted } from '../../scripts/pack/rules/metas.mjs';
+import { checkPlugins } from '../../scripts/pack/rules/plugins.mjs';
+import { elfOf } from './support/elf.mjs';
+
+const git = (...words) => spawnSync('git', ['-C', inRepository(), ...words], { encoding: 'utf8' });
+const hasGit = git('rev-parse', '--is-inside-work-tree').status === 0;
+const notInGit = platforms.filter(({ isInGit }) => !isInGit);
+const package_ = 'Packages/com.haptoflow.runtime';
+
+function inFolder(act) {
+  const folder = mkdtempSync(path.join(os.tmpdir(), 'haptoflow-natives-'));
+  try {
+    return act(folder);
+  } finally {
+    rmSync(folder, { recursive: true, force: true });
+  }
+}
+
+/** A copy of what the build of the plugin reads. */
+const inCopy = (act) => inFolder((folder) => {
+  for (const name of ['package.json', ...sourceFiles()]) cpSync(inRepository(name), path.join(folder, name), { recursive: true });
+  return act(folder);
+});
+
+const changed = (folder, name, change) => {
+  const file = path.join(folder, ...name.split('/'));
+  const before = readFileSync(file, 'utf8');
+  assert.notEqual(change(before), before, name);
+  writeFileSync(file, change(before));
+};
+
+const header = 'NativePlugin/include/haptoflow/haptoflow.h';
+
+test('the libraries in git have the C interface and the struct layouts of the sources', () => {
+  assert.equal(readRecord().interface, hashOfInterface(), 'haptoflow.h changed, and the libraries in git did not: `npm run natives`, then commit what it changed');
+});
+
+test('git has the libraries of the editors, each of its platform, small, with the exports of the header, and as recorded', () => {
+  assert.deepEqual(committedPlatforms.map(({ id }) => id), ['linux-x64', 'linux-arm64', 'windows-x64']);
+  assert.deepEqual(complaintsOfRecord(), []);
+  assert.ok(largestBytes <= 3.5e6);
+});
+
+test('git tracks these libraries with their .meta as binary files, and ignores those of other platforms', { skip: !hasGit && 'no git' }, () => {
+  const isTracked = (name) => git('ls-files', '--error-unmatch', name).status === 0;
+  const isIgnored = (name) => git('check-ignore', '--quiet', '--no-index', name).status === 0;
+  for (const { place } of committedPlatforms) {
+    const name = `${package_}/${pluginsFolder}/${place}`;
+    for (const each of [name, `${name}.meta`]) assert.ok(isTracked(each) && !isIgnored(each), each);
+    assert.match(git('check-attr', 'text', '--', name).stdout, /text: unset/, name);
+  }
+  for (const { place } of notInGit) {
+    const pieces = place.split('/').map((_, index, all) => `${package_}/${pluginsFolder}/${all.slice(0, index + 1).join('/')}`);
+    for (const name of [pieces.at(-1), ...pieces.map((piece) => `${piece}.meta`)]) assert.ok(isIgnored(name) && !isTracked(name), name);
+  }
+});
+
+test('a library of another platform, without an export, for a newer system, or too large is refused', () => {
+  const [linux, , windows] = committedPlatforms;
+  const good = readFileSync(fileInPackage(linux));
+  assert.deepEqual(complaintsOf(linux, good), []);
+  assert.deepEqual(complaintsOf(windows, good), ['windows-x64: is elf-x86-64; expected pe-x86-64']);
+  assert.deepEqual(complaintsOf(linux, Buffer.alloc(0)), ['linux-x64: is no library; expected elf-x86-64']);
+  assert.deepEqual(complaintsOf(linux, Buffer.concat([good, Buffer.alloc(largestBytes)])), [`linux-x64: has ${good.length + largestBytes} bytes; expected 3500000 at most`]);
+  const renamed = Buffer.from(good);
+  renamed.write('haptoflow_versiox\0', renamed.indexOf('haptoflow_version\0'), 'latin1');
+  assert.deepEqual(complaintsOf(linux, renamed), [
+    'linux-x64: does not export haptoflow_version of haptoflow.h', 'linux-x64: exports haptoflow_versiox, which haptoflow.h does not declare',
+  ]);
+  assert.match(complaintsOf(linux, elfOf({ machine: 62, versions: ['GLIBC_2.34'] }))[0], /needs glibc 2\.34; expected 2\.31 or older/);
+});
+
+test('a library that is not the recorded one is named with the command that renews it', () => {
+  const record = readRecord();
+  const other = { ...record, files: { ...record.files, 'windows-x64': { ...record.files['windows-x64'], sha256: '0' } } };
+  assert.deepEqual(complaintsOfRecord(other), ['windows-x64: is not the file that NativePlugin/natives.json records: `npm run natives` builds it anew']);
+});
+
+test('where the sources are newer lint names the command without a complaint, and where they are the same it says nothing', async () => {
+  const record = readRecord();
+  const newer = await checkNatives({ ...record, sources: '0' });
+  assert.deepEqual(newer.complaints, []);
+  assert.match(newer.warnings.join(), /^NativePlugin\/natives\.json: .* older than the sources .*`npm run natives`/);
+  assert.deepEqual((await checkNatives({ ...record, sources: hashOfSources() })).warnings, []);
+  assert.equal((await checkNatives({ ...record, files: {} })).complaints.length, committedPlatforms.length);
+});
+
+test('everything that git has of the plugin\'s sources counts, and nothing of the command line, the benchmarks or the tests', { skip: !hasGit && 'no git' }, () => {
+  const tracked = git('ls-files', '-z', 'CMakeLists.txt', 'CMakePresets.json', 'NativePlugin').stdout.split('\0').filter((name) => name !== '');
+  // Settings of tools in the folders of sources begin with a dot.
+  const others = ['NativePlugin/bench/', 'NativePlugin/cli/', 'NativePlugin/headless/', 'NativePlugin/import/', 'NativePlugin/natives.json'];
+  assert.deepEqual(sourceFiles(), tracked.filter((name) => !others.some((other) => name.startsWith(other)) && !path.posix.basename(name).startsWith('.')).sort());
+});
+
+test('the hash of the sources is that of any checkout, with the line ends of Windows and an editor\'s backups too', () => {
+  inCopy((folder) => {
+    assert.equal(hashOfSources(folder), hashOfSources());
+    changed(folder, header, (text) => text.replaceAll('\n', '\r\n'));
+    changed(folder, 'CMakePresets.json', (text) => text.replaceAll('\n', '\r\n'));
+    writeFileSync(path.join(folder, 'NativePlugin', 'src', 'capi', 'handles.cpp~'), 'old');
+    assert.equal(hashOfSources(folder), hashOfSources());
+    assert.equal(hashOfInterface(folder), hashOfInterface());
+  });
+});
+
+for (const [what, name, change] of [
+  ['a source', 'NativePlugin/src/dsp/gate.cpp', (text) => `${text}// More.\n`],
+  ['a profile', 'NativePlugin/profiles/flat.json', (text) => `${text}\n`],
+  ['a compiler option', 'NativePlugin/cmake/HaptoFlowTargets.cmake', (text) => text.replace('-ffp-contract=off', '-ffp-contract=on')],
+  ['the version of ONNX Runtime\'s headers', 'package.json', (text) => text.replace(/(com\.github\.asus4\.onnxruntime": ")[^"]*/, '$10.5.0')],
+]) {
+  test(`${what} changes the hash of the sources and not that of the interface`, () => {
+    inCopy((folder) => {
+      changed(folder, name, change);
+      assert.notEqual(hashOfSources(folder), hashOfSources());
+      assert.equal(hashOfInterface(folder), hashOfInterface());
+    });
+  });
+}
+
+test('a source that is added or renamed changes the hash of the sources', () => {
+  inCopy((folder) => {
+    const added = path.join(folder, 'NativePlugin', 'src', 'dsp', 'added.cpp');
+    writeFileSync(added, '');
+    const withOne = hashOfSources(folder);
+    assert.notEqual(withOne, hashOfSources());
+    rmSync(added);
+    writeFileSync(added.replace('added', 'renamed'), '');
+    assert.notEqual(hashOfSources(folder), withOne);
+  });
+});
+
+for (const [what, name, change] of [
+  ['a field of a struct', header, (text) => text.replace('float force_newtons;', 'double force_newtons;')],
+  ['a function\'s parameter', header, (text) => text.replace('haptoflow_version(void)', 'haptoflow_version(int32_t form)')],
+  ['the value of a constant', header, (text) => text.replace('#define HAPTOFLOW_PHASES 6', '#define HAPTOFLOW_PHASES 7')],
+  ['the version', header, (text) => text.replace(/(HAPTOFLOW_VERSION_TEXT ")[^"]*/, '$199.0.0')],
+  ['a struct shared with Unity', 'NativePlugin/src/unity/audio_effect_sdk.hpp', (text) => text.replace(/\n( +)(std::)?uint32_t /, '\n$1$2uint64_t ')],
+]) {
+  test(`${what} changes the hash of the interface`, () => {
+    inCopy((folder) => {
+      changed(folder, name, change);
+      assert.notEqual(hashOfInterface(folder), hashOfInterface());
+    });
+  });
+}
+
+test('a comment in the header does not change the hash of the interface', () => {
+  inCopy((folder) => {
+    appendFileSync(path.join(folder, ...header.split('/')), '/* haptoflow_other(void) says more. */\n\n');
+    changed(folder, 'NativePlugin/src/unity/audio_effect_sdk.hpp', (text) => text.replace('\n\n', '\n\n// More.\n\n'));
+    assert.equal(hashOfInterface(folder), hashOfInterface());
+  });
+});
+
+test('pack takes a library of git where none was built and the sources are the same, and says why where they are newer', () => {
+  const none = () => [];
+  const all = findNatives(none, new Set(), (platform) => (platform.isInGit ? `git/${platform.id}` : null));
+  assert.deepEqual(all.found.map(({ file, isFromGit }) => [file, isFromGit]), [['git/linux-x64', true], ['git/linux-arm64', true], ['git/windows-x64', true]]);
+  const { found, absent } = findNatives(none, new Set(), () => null);
+  assert.deepEqual(found, []);
+  assert.equal(absent[0].why, 'not built, and that of git is older than the sources; `npm run build -- --platform linux-x64` on Linux x64 adds it');
+  assert.match(absent.at(-1).why, /^not built; /);
+  inFolder((folder) => {
+    writeFileSync(path.join(folder, 'libaudioplugin_haptoflow.so'), elfOf({ machine: 62 }));
+    const [first] = findNatives(() => [folder], new Set(), () => 'git').found;
+    assert.deepEqual([first.file, first.isFromGit], [path.join(folder, 'libaudioplugin_haptoflow.so'), false]);
+  });
+});
+
+test('the libraries in git are offered exactly while the sources are theirs', () => {
+  const offered = committedPlatforms.map(committedNatives());
+  const isCurrent = readRecord().sources === hashOfSources();
+  assert.deepEqual(offered, committedPlatforms.map((platform) => (isCurrent ? fileInPackage(platform) : null)));
+  assert.deepEqual(notInGit.map(committedNatives()), notInGit.map(() => null));
+});
+
+test('a built library of macOS or Android goes into the package with the .meta of itself and its folders, as Unity wants them', () => {
+  const stand = { macos: Buffer.from('cffaedfe0c000001', 'hex'), 'android-arm64': elfOf({ machine: 183, libraries: ['libc.so'], alignment: 16384 }) };
+  inFolder((folder) => {
+    cpSync(inRepository(importFolder), path.join(folder, importFolder), { recursive: true });
+    for (const { id, place } of notInGit) {
+      const built = path.join(folder, id);
+      writeFileSync(built, stand[id]);
+      assert.equal(putIntoPackage(place, built, folder), `${package_}/${pluginsFolder}/${place}`);
+      putIntoPackage(place, built, folder);
+    }
+    const plugins = PackageFiles.inFolder(path.join(folder, package_, pluginsFolder));
+    const names = notInGit.flatMap(({ place }) => [place, ...place.split('/').map((_, index, all) => `${all.slice(0, index + 1).join('/')}.meta`)]);
+    assert.deepEqual(plugins.names, names.sort());
+    const files = new PackageFiles(new Map(plugins.names.map((name) => [`${pluginsFolder}/${name}`, plugins.bytes(name)])));
+    assert.deepEqual(checkPlugins(files), []);
+    assert.deepEqual([checkMetasAreThere, checkMetasAreWanted].flatMap((rule) => rule(plugins)), []);
+  });
+});
+
+test('in git every .meta of the plugins\' folder has its file or folder, and every file and folder its .meta', { skip: !hasGit && 'no git' }, () => {
+  const root = `${package_}/${pluginsFolder}`;
+  const names = git('ls-files', '-z', root).stdout.split('\0').filter((name) => name !== '').map((name) => name.slice(root.length + 1));
+  const files = new PackageFiles(new Map(names.map((name) => [name, ''])));
+  assert.deepEqual([checkMetasAreThere, checkMetasAreWanted].flatMap((rule) => rule(files)), []);
+});
+
+test('the tests that Mono and the program compiled ahead of time run with the library in git exist', () => {
+  const source = readFileSync(inRepository('Tests', 'Dotnet', 'HaptoFlow.RepositoryTests', 'NativeBindingTests.cs'), 'utf8');
+  for (const name of testsOfCommitted) assert.match(source, new RegExp(`\\[Test\\]\\s+public void ${name}\\(\\)`), name);
+});
