@@ -185,7 +185,8 @@ test('files of the package go to their places, and other files of the repository
   assert.equal(placeInPackage('Packages/com.haptoflow.runtime/Runtime/HaptoFlow.asmdef'), 'Runtime/HaptoFlow.asmdef');
   assert.equal(placeInPackage('Samples~/StylusTracing/README.md'), 'Samples~/StylusTracing/README.md');
   assert.equal(placeInPackage('Tests/Runtime/Support/SceneTest.cs'), 'Tests/Runtime/Support/SceneTest.cs');
-  for (const name of ['README.md', 'Tests/Native/CMakeLists.txt', 'Tests/Runtime.meta', 'NativePlugin/include/haptoflow/haptoflow.h', 'Samples~/.editorconfig']) {
+  for (const ending of ['', '.meta']) assert.equal(placeInPackage(`Assets/Workshop.unity${ending}`), `Samples~/Workshop/Workshop.unity${ending}`);
+  for (const name of ['README.md', 'Assets/Desk.unity', 'Samples~/samples.json', 'Tests/Native/CMakeLists.txt', 'Tests/Runtime.meta', 'NativePlugin/include/haptoflow/haptoflow.h', 'Samples~/.editorconfig']) {
     assert.equal(placeInPackage(name), null, name);
   }
 });

@@ -33,11 +33,23 @@ DefaultImporter:
   assetBundleVariant: 
 `;
 
+/** The list of samples. They lie outside the package's folder, so the repository's manifest does not name them. */
+export const samplesList = 'Samples~/samples.json';
+
+/** Single files whose place does not follow from `parts`. */
+const places = {
+  // One scene of the repository's own project is also that of a sample. No project has both, so they may share the GUID.
+  'Assets/Workshop.unity': 'Samples~/Workshop/Workshop.unity',
+  'Assets/Workshop.unity.meta': 'Samples~/Workshop/Workshop.unity.meta',
+  [samplesList]: null,
+};
+
 /**
  * The place of a repository file in the package; null for a file that is not packed.
  * @param {string} name relative to the repository, with slashes
  */
 export function placeInPackage(name) {
+  if (name in places) return places[name];
   const part = parts.find(({ from }) => name.startsWith(`${from}/`));
   if (!part) return null;
   const place = [part.to, name.slice(part.from.length + 1)].filter((piece) => piece !== '').join('/');
