@@ -6,8 +6,8 @@ using System.Text.RegularExpressions;
 
 namespace HaptoFlow.EditorTests
 {
-    /// <summary>A prefab in YAML, read as a list of objects with their fields. Lists and nested values are fields of
-    /// the object that contains them.</summary>
+    /// <summary>A prefab or a scene in YAML, read as a list of objects with their fields. Lists and nested values are
+    /// fields of the object that contains them.</summary>
     internal sealed class PrefabFile
     {
         private readonly Dictionary<string, PrefabObject> objects;
@@ -17,6 +17,8 @@ namespace HaptoFlow.EditorTests
                 .Select(text => new PrefabObject(text)).ToDictionary(each => each.Anchor);
 
         public PrefabObject this[string anchor] => objects[anchor];
+
+        public IEnumerable<PrefabObject> Objects => objects.Values;
 
         public PrefabObject Root => objects.Values.Single(each => each.Type == "Transform" &&
             PrefabObject.Reference(each["m_Father"]) == "0");
@@ -49,7 +51,7 @@ namespace HaptoFlow.EditorTests
             string last = "";
             foreach (string line in lines.Skip(2))
             {
-                Match field = Regex.Match(line, @"^  (\w+): ?(.*)$");
+                Match field = Regex.Match(line, @"^  (\w[\w ]*): ?(.*)$");
                 Match item = Regex.Match(line, @"^  - .*fileID: (\d+)");
                 Match nested = Regex.Match(line, @"^    (\w+): (.*)$");
                 if (field.Success)
