@@ -1,5 +1,4 @@
 #nullable enable
-using System.IO;
 using UnityEditor;
 using UnityEngine;
 using Object = UnityEngine.Object;
@@ -17,7 +16,7 @@ namespace HaptoFlow.Editor
         internal static void Begin()
         {
             HaptoFlowSettings.FindProjectSettings = SettingsOfProject;
-            HelpPages.FindFolder = FolderOfPages;
+            HelpPages.FindPackage = FolderOfPackage;
             UnityAudio.IsDisabledByProject = ProjectAudio.IsDisabled;
             AssemblyReloadEvents.beforeAssemblyReload += HapticSession.ShutDown;
             AssemblyReloadEvents.beforeAssemblyReload += HapticLearning.EndAll;
@@ -31,11 +30,8 @@ namespace HaptoFlow.Editor
             EditorApplication.hierarchyChanged += SurfaceSeedKeeper.Renew;
         }
 
-        private static string? FolderOfPages()
-        {
-            PackageInfo? package = PackageInfo.FindForAssembly(typeof(HapticSurface).Assembly);
-            return package == null ? null : Path.Combine(package.resolvedPath, "Documentation~");
-        }
+        private static string? FolderOfPackage() =>
+            PackageInfo.FindForAssembly(typeof(HapticSurface).Assembly)?.resolvedPath;
 
         private static void OnPlayModeChanged(PlayModeStateChange change)
         {
