@@ -28,8 +28,8 @@ On Debian for x64 the libraries of Linux x64, Linux arm64 and Windows x64 are bu
 (125 MB to download). Android's is built where an NDK is found: Unity's own, or that of ANDROID_NDK_ROOT. The first run
 compiles each library for up to five minutes of one core; later runs compile what changed.
 
-What goes in: Packages/com.haptoflow.runtime with the model, Samples~, Documentation~, the tests in Tests/Unity, and a
-native library for each platform that has one. One command adds one library, then pack again:
+What goes in: Packages/com.haptoflow.runtime with the model, Samples~ (with the scene Workshop of Assets), Documentation~, the
+tests in Tests/Unity, and a native library for each platform that has one. One command adds one library, then pack again:
 
 ${platforms.map(({ name, id, where }) => `  ${name.padEnd(15)} npm run build -- --platform ${id.padEnd(14)} ${where}`).join('\n')}
 

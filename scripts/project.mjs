@@ -29,7 +29,7 @@ const says = (/** @type {string} */ line) => console.log(`project: ${line}`);
 await runMain('project', async () => {
   const files = projectFilesOnDisk();
   // The first rule that complains is enough: without a package, every reference into it is lost too.
-  const complaints = Object.values(rules).map((rule) => rule(files, new Set())).find((found) => found.length > 0);
+  const complaints = Object.values(rules).map((rule) => rule(files)).find((found) => found.length > 0);
   if (complaints) throw new CommandError(complaints.join('\n'));
   const packages = Object.entries(JSON.parse(files.text('Packages/manifest.json')).dependencies);
   const fromUnity = packages.filter(([, version]) => !version.startsWith('file:'));

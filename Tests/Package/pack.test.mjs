@@ -186,7 +186,8 @@ test('files of the package go to their places, and other files of the repository
   assert.equal(placeInPackage('Samples~/StylusTracing/README.md'), 'Samples~/StylusTracing/README.md');
   assert.equal(placeInPackage('Tests/Unity/Runtime/Support/SceneTest.cs'), 'Tests/Runtime/Support/SceneTest.cs');
   assert.equal(placeInPackage('Tests/Unity/Runtime.meta'), 'Tests/Runtime.meta');
-  for (const name of ['README.md', 'Tests/Native/CMakeLists.txt', 'Tests/Unity/package.json', 'Tests/Unity/package.json.meta', 'NativePlugin/include/haptoflow/haptoflow.h', 'Samples~/.editorconfig']) {
+  for (const ending of ['', '.meta']) assert.equal(placeInPackage(`Assets/Workshop.unity${ending}`), `Samples~/Workshop/Workshop.unity${ending}`);
+  for (const name of ['README.md', 'Assets/Desk.unity', 'Samples~/samples.json', 'Tests/Native/CMakeLists.txt', 'Tests/Unity/package.json', 'Tests/Unity/package.json.meta', 'NativePlugin/include/haptoflow/haptoflow.h', 'Samples~/.editorconfig']) {
     assert.equal(placeInPackage(name), null, name);
   }
 });

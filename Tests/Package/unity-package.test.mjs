@@ -66,6 +66,29 @@ test('the tarball has model, samples, documentation, tests, licence and notices'
   assert.equal(files.text('LICENSE.md'), read('LICENSE'));
 });
 
+test('only the packed manifest lists the samples, since only a packed package has their folders', () => {
+  const manifest = JSON.parse(read('Packages/com.haptoflow.runtime/package.json'));
+  assert.ok(!('samples' in manifest));
+  const { samples, ...packed } = JSON.parse(files.text('package.json'));
+  assert.deepEqual(samples, JSON.parse(read('Samples~/samples.json')));
+  assert.deepEqual(packed, manifest);
+  assert.deepEqual(Object.keys(JSON.parse(files.text('package.json'))).slice(-3), ['dependencies', 'samples', 'author']);
+});
+
+test('the scene of Workshop is that of the repository\'s project, and its scripts are those of the package', () => {
+  assert.equal(files.text('Samples~/Workshop/Workshop.unity'), read('Assets/Workshop.unity'));
+  const stray = files.names.filter((name) => /^Samples~\/(?!.*Study\/).*\.(cs|asmdef)$/.test(name));
+  assert.deepEqual(stray, []);
+});
+
+test('a player leaves the sample scenes out: nothing but a scene calls into their assembly', () => {
+  const scripts = files.names.filter((name) => name.startsWith('Runtime/SampleScenes/') && name.endsWith('.cs'));
+  assert.ok(scripts.length > 10);
+  for (const name of scripts) assert.doesNotMatch(files.text(name), /AlwaysLinkAssembly|RuntimeInitializeOnLoad|\bPreserve\b/, name);
+  const users = files.names.filter((name) => name.startsWith('Runtime/') && name.endsWith('.asmdef') && JSON.parse(files.text(name)).references.includes('HaptoFlow.SampleScenes'));
+  assert.deepEqual(users, []);
+});
+
 test('the tarball has no tools, build outputs or other tests of the repository', () => {
   const strangers = files.names.filter((name) => /(^|\/)(bin|obj|node_modules)\/|^Tests\/(?!Runtime|Editor)|\.(cpp|hpp|py|mjs|csproj)$/.test(name));
   assert.deepEqual(strangers, []);

@@ -22,7 +22,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import PolyCollection
 from matplotlib.patheffects import withStroke
-from renders import MODEL, SAMPLES, Render, colour_of, draw_spectrogram, render, run, save
+from renders import MODEL, ROOT, SAMPLES, Render, colour_of, draw_spectrogram, render, run, save
 from scene_view import Camera, draw_solids, facets
 from scipy.signal import spectrogram
 
@@ -175,7 +175,7 @@ def garden_weights(along: np.ndarray) -> np.ndarray:
 
 def draw_workshop(axes: plt.Axes) -> None:
     """The bench of the sample Workshop from its camera: each object with its label."""
-    camera = camera_of(SAMPLES / "Workshop/Workshop.unity")
+    camera = camera_of(ROOT / "Assets/Workshop.unity")
     solids = [(box_facets([0, -0.01, 0], [1, 0.02, 0.6]), "#ba7840")]
     edges = np.linspace(0.0, 1.0, GARDEN_STRIPS + 1)
     for low, high in zip(edges[:-1], edges[1:], strict=True):

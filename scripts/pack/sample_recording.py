@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the recording from which the sample Workshop learns a material: Samples~/Workshop/Recordings/doormat.*.
+"""Writes the recording from which the sample Workshop learns a material: its files Recordings/doormat.*.
 
 Ten and a half seconds of a stylus on a material unknown to every model, by the synthetic recorder: strokes back and
 forth with varying speed and force. A WAV file of three axes (its name ends in .bytes, so that Unity does not import it
@@ -26,7 +26,7 @@ from haptoflow_training.recordings.recording import STANDARD_GRAVITY_MPS2, Recor
 from haptoflow_training.recordings.synthetic.materials import load_materials  # noqa: E402
 from haptoflow_training.recordings.synthetic.recorder import record_condition  # noqa: E402
 
-FOLDER = ROOT / "Samples~" / "Workshop" / "Recordings"
+FOLDER = ROOT / "Packages/com.haptoflow.runtime/Runtime/SampleScenes/Workshop/Recordings"
 NAME = "doormat"
 SECONDS, RATE_HZ, MOTION_HZ = 10.5, 2000, 100
 SEED = 17

@@ -1,8 +1,8 @@
-import { copyFileSync, existsSync, mkdirSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+import { copyFileSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { inRepository } from '../lib/repository.mjs';
 import { writeHtmlPages } from './html_pages.mjs';
-import { folderGuids, folderMeta, placeInPackage } from './layout.mjs';
+import { folderGuids, folderMeta, placeInPackage, samplesList } from './layout.mjs';
 import { platforms, pluginsFolder } from './natives.mjs';
 
 /**
@@ -18,6 +18,7 @@ export function stagePackage(folder, files, natives) {
     // The libraries are those that were chosen; git may have older ones.
     if (place !== null && !isLibrary(place)) copyTo(inRepository(name), path.join(folder, place));
   }
+  if (files.includes(samplesList)) listSamples(path.join(folder, 'package.json'), inRepository(samplesList));
   for (const { platform, file } of natives) copyTo(file, path.join(folder, pluginsFolder, platform.place));
   dropMetasOfAbsent(path.join(folder, pluginsFolder));
   if (existsSync(path.join(folder, 'Documentation~'))) writeHtmlPages(path.join(folder, 'Documentation~'));
@@ -27,6 +28,18 @@ export function stagePackage(folder, files, natives) {
 }
 
 const isLibrary = (place) => platforms.some((platform) => place === `${pluginsFolder}/${platform.place}`);
+
+/**
+ * Puts the list of samples into a manifest, behind the dependencies. The repository's manifest is without it: where the
+ * package is used from a clone or a git URL, its folder has no samples, and every Import button would fail.
+ */
+function listSamples(manifest, list) {
+  const samples = readJson(list);
+  const entries = Object.entries(readJson(manifest)).flatMap((entry) => (entry[0] === 'dependencies' ? [entry, ['samples', samples]] : [entry]));
+  writeFileSync(manifest, `${JSON.stringify(Object.fromEntries(entries), null, 2)}\n`);
+}
+
+const readJson = (file) => JSON.parse(readFileSync(file, 'utf8'));
 
 function copyTo(from, to) {
   mkdirSync(path.dirname(to), { recursive: true });

@@ -64,9 +64,9 @@ function checkModules(files) {
 }
 
 /** Every GUID belongs to a file of the project, of the dependency or of Unity, and every fileID to an object of that file. */
-function checkTargets(files, awaited) {
+function checkTargets(files) {
   const all = withDependency(files);
-  const complaints = checkAssetGuids(all, new Set([...Object.keys(packageScripts), ...awaited]));
+  const complaints = checkAssetGuids(all, new Set(Object.keys(packageScripts)));
   const owners = new Map([...guidsByName(all)].map(([name, guid]) => [guid, name]));
   for (const name of files.endingIn(...yamlEndings)) {
     for (const [, id, guid] of files.text(name).matchAll(/\{fileID: (-?\d+), guid: ([0-9a-f]{32}), type: \d\}/g)) {
@@ -116,16 +116,16 @@ function checkRoots(files) {
 }
 
 /** The scenes of the build are scenes of the project. */
-function checkBuildScenes(files, awaited) {
+function checkBuildScenes(files) {
   const guids = guidsByName(files);
   return [...files.text(buildSettingsName).matchAll(/^ {4}path: (.*)\n {4}guid: (\w+)$/gm)]
-    .filter(([, scene, guid]) => !(files.has(scene) && guids.get(scene) === guid) && !awaited.has(guid))
+    .filter(([, scene, guid]) => !(files.has(scene) && guids.get(scene) === guid))
     .map(([, scene, guid]) => `${buildSettingsName}: there is no ${scene} with the GUID ${guid}`);
 }
 
 /**
  * The rules of the Unity project by name; each gives one line for each complaint.
- * @type {Record<string, (files: PackageFiles, awaited: Set<string>) => string[]>} awaited: GUIDs of files that are not there yet
+ * @type {Record<string, (files: PackageFiles) => string[]>}
  */
 export const rules = {
   packages: checkPackages,

@@ -15,7 +15,8 @@ using UnityShim;
 
 namespace HaptoFlow.EditorTests
 {
-    /// <summary>Help buttons, menu and Package Manager lead to pages that exist inside the package.</summary>
+    /// <summary>Help buttons, menu and Package Manager lead to pages that exist: inside the package, or in a clone.
+    /// </summary>
     public sealed class HelpTests
     {
         internal static readonly Assembly[] Assemblies =
@@ -33,7 +34,7 @@ namespace HaptoFlow.EditorTests
         [TearDown]
         public void RemoveFolder()
         {
-            HelpPages.FindFolder = null;
+            HelpPages.FindPackage = null;
             EditorSession.PackageFolder = null;
             Directory.Delete(folder, true);
         }
@@ -72,21 +73,32 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void HelpOfAPackageUsedFromItsSourcesOpensTheMarkdown()
+        public void InACloneHelpAndMenuOpenTheMarkdownOfTheRepository()
         {
-            string pages = InstalledPages("sources");
+            Install("clone", "Packages", "com.haptoflow.runtime");
+            string pages = Directory.CreateDirectory(Path.Combine(folder, "clone", "Documentation~")).FullName;
             File.WriteAllText(Path.Combine(pages, "components.md"), "## Haptic Surface");
+            File.WriteAllText(Path.Combine(pages, "index.md"), "# HaptoFlow");
             Assert.That(typeof(HapticSurface).GetCustomAttribute<HelpURLAttribute>(false)?.URL,
                 Is.EqualTo(new Uri(Path.Combine(pages, "components.md")).AbsoluteUri));
+            DocumentationMenu.Open();
+            Assert.That(World.OpenedUrl, Is.EqualTo(new Uri(Path.Combine(pages, "index.md")).AbsoluteUri));
         }
 
         [Test]
-        public void InTheRepositorysProjectHelpOpensThePagesBesideTheFolderOfPackages()
+        public void FromAGitUrlHelpOpensTheReadmeAndTheMenuSaysWhereThePagesAre()
         {
-            EditorSession.PackageFolder = RepositoryFiles.In("Packages", "com.haptoflow.runtime");
-            EditorLifecycle.Begin();
+            string package = Install("project", "Library", "PackageCache", "com.haptoflow.runtime@0123456789");
+            string readme = Path.Combine(package, "README.md");
+            File.Copy(RepositoryFiles.In("Packages", "com.haptoflow.runtime", "README.md"), readme);
+            Assert.That(File.ReadAllText(readme), Does.Contain("git URL"));
             Assert.That(typeof(HapticSurface).GetCustomAttribute<HelpURLAttribute>(false)?.URL,
-                Is.EqualTo(new Uri(RepositoryFiles.In("Documentation~", "components.md")).AbsoluteUri));
+                Is.EqualTo(new Uri(readme).AbsoluteUri));
+            string? before = World.OpenedUrl;
+            Log.Clear();
+            DocumentationMenu.Open();
+            Assert.That(World.OpenedUrl, Is.EqualTo(before));
+            Assert.That(Log.Lines.Single().Text, Does.Match("git URL.*tarball.*clone"));
         }
 
         [Test]
@@ -94,13 +106,13 @@ namespace HaptoFlow.EditorTests
         {
             InstalledPages("empty");
             Assert.That(typeof(HapticSurface).GetCustomAttribute<HelpURLAttribute>(false)?.URL, Is.Empty);
-            HelpPages.FindFolder = null;
+            HelpPages.FindPackage = null;
             Assert.That(typeof(HapticSurface).GetCustomAttribute<HelpURLAttribute>(false)?.URL, Is.Empty);
         }
 
         [Test]
         public void PublishedPagesTakeThePlaceOfThoseInThePackage() => Assert.That(
-            HelpPages.AddressOf("components.html#haptic-surface", "https://pages.example/"),
+            HelpPages.AddressOfPage("components.html#haptic-surface", "https://pages.example/"),
             Is.EqualTo("https://pages.example/components.html#haptic-surface"));
 
         [Test]
@@ -125,10 +137,15 @@ namespace HaptoFlow.EditorTests
 
         private static string InstalledPages(string name)
         {
-            string package = Path.Combine(folder, name);
+            return Directory.CreateDirectory(Path.Combine(Install(name), "Documentation~")).FullName;
+        }
+
+        private static string Install(params string[] place)
+        {
+            string package = Directory.CreateDirectory(Path.Combine(folder, Path.Combine(place))).FullName;
             EditorSession.PackageFolder = package;
             EditorLifecycle.Begin();
-            return Directory.CreateDirectory(Path.Combine(package, "Documentation~")).FullName;
+            return package;
         }
 
         [Test]

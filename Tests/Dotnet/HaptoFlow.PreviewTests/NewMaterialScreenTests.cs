@@ -61,7 +61,7 @@ namespace HaptoFlow.PreviewTests
             Screen();
         }
 
-        private static string Doormat() => RepositoryFiles.In("Samples~", "Workshop", "Recordings", "doormat.wav.bytes");
+        private static string Doormat() => Path.Combine(MadeRecordings.DoormatFolder, "doormat.wav.bytes");
 
         /// <summary>The recording of the Workshop sample as a .wav file with its sidecar files.</summary>
         private static string Wave(bool withSidecar = true)

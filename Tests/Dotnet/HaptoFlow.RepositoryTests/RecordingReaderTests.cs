@@ -53,8 +53,7 @@ namespace HaptoFlow.RepositoryTests
         [Test]
         public void FilesOfAnApplicationAreReadByTheirNames()
         {
-            string folder = RepositoryFiles.In("Samples~", "Workshop", "Recordings");
-            Dictionary<string, byte[]> files = Directory.GetFiles(folder).ToDictionary(
+            Dictionary<string, byte[]> files = Directory.GetFiles(MadeRecordings.DoormatFolder).ToDictionary(
                 path => Path.GetFileName(path).Replace(".bytes", ""), File.ReadAllBytes);
             Recording recording = RecordingReader.Read("doormat.wav", files);
             Assert.That(recording.Name, Is.EqualTo("doormat"));

@@ -2,7 +2,8 @@ using System;
 using System.IO;
 using System.Text;
 using System.Threading;
-using HaptoFlow.Samples.Workshop;
+using HaptoFlow.SampleScenes;
+using HaptoFlow.Tests.Support;
 using NUnit.Framework;
 using UnityEngine;
 using UnityShim;
@@ -17,9 +18,10 @@ namespace HaptoFlow.SampleTests
         private Camera camera = null!;
 
         [SetUp]
-        public void MakeCamera() => camera = CameraOf(new SceneFile(SampleFile("Workshop", "Workshop.unity")));
+        public void MakeCamera() => camera = CameraOf(new SceneFile("Workshop"));
 
-        private static TextAsset Asset(string name) => new TextAsset(File.ReadAllBytes(SampleFile("Workshop", Path.Combine("Recordings", name))))
+        private static TextAsset Asset(string name) => new TextAsset(
+            File.ReadAllBytes(Path.Combine(MadeRecordings.DoormatFolder, name)))
         {
             name = Path.GetFileNameWithoutExtension(name),
         };

@@ -1,6 +1,6 @@
 using System;
 using System.Linq;
-using HaptoFlow.Samples.StylusTracing;
+using HaptoFlow.SampleScenes;
 using NUnit.Framework;
 using UnityEngine;
 using UnityShim;
@@ -23,7 +23,7 @@ namespace HaptoFlow.SampleTests
         public void BuildScene()
         {
             FinishLoading();
-            Camera camera = CameraOf(new SceneFile(SampleFile("StylusTracing", "StylusTracing.unity")));
+            Camera camera = CameraOf(new SceneFile("StylusTracing"));
             Wake<TracingScene>(bootstrap =>
                 (bootstrap.View, bootstrap.SaveName) = (camera, "sample test " + Guid.NewGuid()));
         }

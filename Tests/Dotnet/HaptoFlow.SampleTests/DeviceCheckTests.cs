@@ -2,7 +2,7 @@ using System;
 using System.IO;
 using System.Linq;
 using HaptoFlow.DeviceCheck;
-using HaptoFlow.Samples.DeviceCheck;
+using HaptoFlow.SampleScenes;
 using HaptoFlow.Tests.Support;
 using NUnit.Framework;
 using UnityEngine;
@@ -33,7 +33,7 @@ namespace HaptoFlow.SampleTests
             HeldDevices.Reset();
             folder = Directory.CreateDirectory(
                 Path.Combine(Path.GetTempPath(), $"haptoflow-check-{Guid.NewGuid():N}")).FullName;
-            Camera camera = CameraOf(new SceneFile(SampleFile("DeviceCheck", "DeviceCheck.unity")));
+            Camera camera = CameraOf(new SceneFile("DeviceCheck"));
             scene = Wake<DeviceCheckScene>(each => each.View = camera);
             scene.Run.Folder = folder;
         }

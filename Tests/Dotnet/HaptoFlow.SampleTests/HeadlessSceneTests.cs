@@ -1,6 +1,7 @@
 using System.IO;
 using System.Linq;
-using HaptoFlow.Samples.StylusTracing;
+using HaptoFlow.SampleScenes;
+using HaptoFlow.Tests.Support;
 using Newtonsoft.Json.Linq;
 using NUnit.Framework;
 using UnityEngine;
@@ -17,9 +18,9 @@ namespace HaptoFlow.SampleTests
         [SetUp]
         public void BuildBoth()
         {
-            string file = SampleFile("StylusTracing", "StylusTracing.scene.json");
+            string file = SampleFiles.In("StylusTracing", "StylusTracing.scene.json");
             described = JObject.Parse(File.ReadAllText(file))["surfaces"]!.ToArray();
-            Camera camera = CameraOf(new SceneFile(SampleFile("StylusTracing", "StylusTracing.unity")));
+            Camera camera = CameraOf(new SceneFile("StylusTracing"));
             Wake<TracingScene>(bootstrap => bootstrap.View = camera);
         }
 

@@ -7,6 +7,7 @@ using System.Reflection;
 using HaptoFlow.Model;
 using HaptoFlow.Samples.LatencyStudy;
 using HaptoFlow.Studies;
+using HaptoFlow.Tests.Support;
 using NUnit.Framework;
 using UnityEngine;
 using UnityShim;
@@ -298,7 +299,7 @@ namespace HaptoFlow.SampleTests
         [Test]
         public void TheSettingsAssetContainsEveryFieldWithItsDefault()
         {
-            string[] lines = File.ReadAllLines(SampleFile("LatencyStudy", "LatencyStudySettings.asset"));
+            string[] lines = File.ReadAllLines(SampleFiles.In("LatencyStudy", "LatencyStudySettings.asset"));
             object fresh = ScriptableObject.CreateInstance<LatencyStudySettings>();
             FieldInfo[] fields = new[] { typeof(LatencyStudySettings), typeof(StudySettings) }
                 .SelectMany(type => type.GetFields(BindingFlags.Instance | BindingFlags.NonPublic))
@@ -396,7 +397,7 @@ namespace HaptoFlow.SampleTests
             {
                 UnityEngine.Object.DestroyImmediate(ears);
             }
-            camera = CameraOf(new SceneFile(SampleFile("LatencyStudy", "LatencyStudy.unity")));
+            camera = CameraOf(new SceneFile("LatencyStudy"));
             camera.gameObject.AddComponent<AudioListener>();
             LatencyStudyScene scene = Wake<LatencyStudyScene>(
                 bootstrap => (bootstrap.View, bootstrap.Settings) = (camera, settings));

@@ -6,7 +6,7 @@ using UnityEngine;
 using UnityEngine.TestTools;
 using UnityShim;
 using LegacyButton = Legacy::HaptoFlow.ButtonPress;
-using LegacyScene = Legacy::HaptoFlow.Samples.StylusTracing.TracingScene;
+using LegacyScene = Legacy::HaptoFlow.SampleScenes.TracingScene;
 using LegacyXrPen = Legacy::HaptoFlow.XrPen;
 
 namespace HaptoFlow.SampleTests
@@ -18,7 +18,7 @@ namespace HaptoFlow.SampleTests
         public void TheOldInputManagersMouseMovesThePen()
         {
             FinishLoading();
-            Camera camera = CameraOf(new SceneFile(SampleFile("StylusTracing", "StylusTracing.unity")));
+            Camera camera = CameraOf(new SceneFile("StylusTracing"));
             var scene = Wake<LegacyScene>(bootstrap => bootstrap.View = camera);
             PointAt(camera, new Vector3(0.34f, 0.012f, -0.12f));
             SimulatedInput.MouseButton = true;

@@ -1,6 +1,6 @@
 using System;
 using System.Linq;
-using HaptoFlow.Samples.StylusTracing;
+using HaptoFlow.SampleScenes;
 using HaptoFlow.Tests.Support;
 using NUnit.Framework;
 using UnityEngine;
@@ -21,7 +21,7 @@ namespace HaptoFlow.SampleTests
         {
             ForgetDevices();
             FinishLoading();
-            Camera camera = CameraOf(new SceneFile(SampleFile("StylusTracing", "StylusTracing.unity")));
+            Camera camera = CameraOf(new SceneFile("StylusTracing"));
             Wake<TracingScene>(bootstrap =>
                 (bootstrap.View, bootstrap.SaveName) = (camera, ""));
         }

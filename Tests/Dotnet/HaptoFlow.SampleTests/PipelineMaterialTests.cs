@@ -1,5 +1,5 @@
 using System.Linq;
-using HaptoFlow.Samples.StylusTracing;
+using HaptoFlow.SampleScenes;
 using NUnit.Framework;
 using UnityEngine;
 using UnityEngine.Rendering;
@@ -66,7 +66,7 @@ namespace HaptoFlow.SampleTests
 
         private void OpenTracing(Material? written)
         {
-            Camera camera = CameraOf(new SceneFile(SampleFile("StylusTracing", "StylusTracing.unity")));
+            Camera camera = CameraOf(new SceneFile("StylusTracing"));
             Wake<TracingScene>(bootstrap =>
             {
                 bootstrap.View = camera;

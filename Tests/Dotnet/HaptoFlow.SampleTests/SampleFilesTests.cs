@@ -6,14 +6,19 @@ using NUnit.Framework;
 
 namespace HaptoFlow.SampleTests
 {
-    /// <summary>Samples are imported one by one, so the code that several of them need is part of the package.
-    /// </summary>
+    /// <summary>The code that several samples need is part of the package, outside of any of them.</summary>
     public sealed class SampleFilesTests
     {
         [Test]
         public void NoScriptHasTheSameNameInTwoSamples()
         {
-            string[] scripts = Directory.GetFiles(RepositoryFiles.In("Samples~"), "*.cs", SearchOption.AllDirectories);
+            string[] folders =
+            {
+                RepositoryFiles.In("Samples~"),
+                RepositoryFiles.In("Packages", "com.haptoflow.runtime", "Runtime", "SampleScenes"),
+            };
+            string[] scripts = folders.SelectMany(
+                folder => Directory.GetFiles(folder, "*.cs", SearchOption.AllDirectories)).ToArray();
             IEnumerable<string> shared = scripts.GroupBy(Path.GetFileName).Where(each => each.Count() > 1)
                 .Select(each => each.Key!);
             Assert.That(scripts, Has.Length.GreaterThan(20));

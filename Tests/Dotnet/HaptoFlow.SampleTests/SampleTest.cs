@@ -15,8 +15,6 @@ namespace HaptoFlow.SampleTests
         [SetUp]
         public void ResetTheInput() => SimulatedInput.Reset();
 
-        internal static string SampleFile(string sample, string name) => RepositoryFiles.In("Samples~", sample, name);
-
         /// <summary>Creates the camera of a scene file.</summary>
         internal Camera CameraOf(SceneFile scene)
         {

@@ -2,16 +2,17 @@ using System.Globalization;
 using System.IO;
 using System.Linq;
 using System.Text.RegularExpressions;
+using HaptoFlow.Tests.Support;
 using UnityEngine;
 
 namespace HaptoFlow.SampleTests
 {
-    /// <summary>Reads the camera of a Unity scene in YAML.</summary>
+    /// <summary>Reads the camera of a sample's scene, which is YAML.</summary>
     internal sealed class SceneFile
     {
-        public SceneFile(string path)
+        public SceneFile(string sample)
         {
-            string[] objects = Regex.Split(File.ReadAllText(path), "^--- ", RegexOptions.Multiline);
+            string[] objects = Regex.Split(File.ReadAllText(SampleFiles.Scene(sample)), "^--- ", RegexOptions.Multiline);
             string camera = objects.Single(text => text.Contains("\nCamera:"));
             string owner = Regex.Match(camera, @"m_GameObject: (\{fileID: \d+\})").Groups[1].Value;
             string place = objects.Single(

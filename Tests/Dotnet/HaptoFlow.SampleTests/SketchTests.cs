@@ -1,12 +1,9 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
-using HaptoFlow.Samples.DeviceCheck;
+using HaptoFlow.SampleScenes;
 using HaptoFlow.Samples.LatencyStudy;
 using HaptoFlow.Samples.SimilarityStudy;
-using HaptoFlow.Samples.StylusTracing;
-using HaptoFlow.Samples.TextureGallery;
-using HaptoFlow.Samples.Workshop;
 using NUnit.Framework;
 using UnityEngine;
 using UnityShim;
@@ -53,7 +50,7 @@ namespace HaptoFlow.SampleTests
         private void Check<TScene>(string sample, int solids)
             where TScene : BuiltScene
         {
-            Camera camera = CameraOf(new SceneFile(SampleFile(sample, sample + ".unity")));
+            Camera camera = CameraOf(new SceneFile(sample));
             camera.gameObject.AddComponent<AudioListener>();
             TScene scene = Wake<TScene>(each =>
             {

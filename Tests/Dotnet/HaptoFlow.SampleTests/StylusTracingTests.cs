@@ -2,7 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.Linq;
 using HaptoFlow.Model;
-using HaptoFlow.Samples.StylusTracing;
+using HaptoFlow.SampleScenes;
 using HaptoFlow.Tests;
 using NUnit.Framework;
 using UnityEngine;
@@ -19,7 +19,7 @@ namespace HaptoFlow.SampleTests
         public void BuildScene()
         {
             FinishLoading();
-            camera = CameraOf(new SceneFile(SampleFile("StylusTracing", "StylusTracing.unity")));
+            camera = CameraOf(new SceneFile("StylusTracing"));
             scene = Wake<TracingScene>(bootstrap => bootstrap.View = camera);
         }
 

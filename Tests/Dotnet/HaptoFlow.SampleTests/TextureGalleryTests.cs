@@ -1,7 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
-using HaptoFlow.Samples.TextureGallery;
+using HaptoFlow.SampleScenes;
 using NUnit.Framework;
 using UnityEngine;
 using UnityShim;
@@ -14,7 +14,7 @@ namespace HaptoFlow.SampleTests
 
         [SetUp]
         public void MakeCamera() =>
-            camera = CameraOf(new SceneFile(SampleFile("TextureGallery", "TextureGallery.unity")));
+            camera = CameraOf(new SceneFile("TextureGallery"));
 
         [Test]
         public void EveryLabelOfTheModelHasATileInTheModelsOrder()

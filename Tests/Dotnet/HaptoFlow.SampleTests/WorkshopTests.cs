@@ -2,7 +2,8 @@ using System;
 using System.IO;
 using System.Linq;
 using System.Text.RegularExpressions;
-using HaptoFlow.Samples.Workshop;
+using HaptoFlow.SampleScenes;
+using HaptoFlow.Tests.Support;
 using NUnit.Framework;
 using UnityEngine;
 using UnityShim;
@@ -14,7 +15,7 @@ namespace HaptoFlow.SampleTests
         private Camera camera = null!;
 
         [SetUp]
-        public void MakeCamera() => camera = CameraOf(new SceneFile(SampleFile("Workshop", "Workshop.unity")));
+        public void MakeCamera() => camera = CameraOf(new SceneFile("Workshop"));
 
         [TestCase("Bench", 0.46f, 0f, "wood", "name \"Bench\"")]
         [TestCase("Puddle", 0.02f, -0.16f, "glass", "layer \"Water\"")]
@@ -89,9 +90,10 @@ namespace HaptoFlow.SampleTests
         [TestCase("Recordings/doormat.motion.csv")]
         public void TheSceneFileRefersToThePanelAndItsRecording(string name)
         {
-            string meta = File.ReadAllText(SampleFile("Workshop", name + ".meta"));
+            string meta = File.ReadAllText(RepositoryFiles.In(
+                "Packages", "com.haptoflow.runtime", "Runtime", "SampleScenes", "Workshop", name + ".meta"));
             string guid = Regex.Match(meta, "guid: (\\w{32})").Groups[1].Value;
-            Assert.That(File.ReadAllText(SampleFile("Workshop", "Workshop.unity")), Does.Contain(guid));
+            Assert.That(File.ReadAllText(SampleFiles.Scene("Workshop")), Does.Contain(guid));
         }
 
         [Test]

@@ -8,9 +8,13 @@ namespace HaptoFlow.Tests.Support
     /// <summary>Recordings for tests.</summary>
     internal static class MadeRecordings
     {
-        /// <summary>The recording of the Workshop sample.</summary>
+        /// <summary>The recording from which the sample Workshop learns, and the files beside it.</summary>
+        public static string DoormatFolder => RepositoryFiles.In(
+            "Packages", "com.haptoflow.runtime", "Runtime", "SampleScenes", "Workshop", "Recordings");
+
+        /// <summary>The recording of the sample Workshop.</summary>
         public static Recording Doormat() => RecordingReader.Read("doormat.wav", Directory
-            .GetFiles(RepositoryFiles.In("Samples~", "Workshop", "Recordings"))
+            .GetFiles(DoormatFolder)
             .ToDictionary(path => Path.GetFileName(path).Replace(".bytes", ""), File.ReadAllBytes));
 
         /// <summary>A table without files beside it.</summary>

@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.IO;
 using System.Linq;
 using UnityEditor.AssetImporters;
+using UnityEngine;
 using UnityShim;
 using Object = UnityEngine.Object;
 
@@ -49,6 +50,15 @@ namespace UnityEditor
         public static void ImportAsset(string path)
         {
             ScriptedImporter? importer = ScriptedImporters.For(path);
+            if (importer == null && IsText(path))
+            {
+                // Unity leaves out the last ending of a file in the asset's name.
+                Assets[path] = new TextAsset(File.ReadAllBytes(ProjectFiles.Physical(path)))
+                {
+                    name = Path.GetFileNameWithoutExtension(path),
+                };
+                return;
+            }
             if (importer == null || !File.Exists(ProjectFiles.Physical(path)))
             {
                 return;
@@ -65,6 +75,9 @@ namespace UnityEditor
             }
             EditorApplication.AnnounceProjectChange();
         }
+
+        private static bool IsText(string path) =>
+            Array.IndexOf(new[] { ".bytes", ".csv", ".json", ".txt" }, Path.GetExtension(path)) >= 0;
 
         /// <summary>Finds assets by the filter t:TypeName only.</summary>
         public static string[] FindAssets(string filter) => filter.StartsWith("t:", StringComparison.Ordinal)

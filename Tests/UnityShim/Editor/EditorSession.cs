@@ -26,6 +26,12 @@ namespace UnityShim
         /// <summary>Whether Disable Unity Audio is on in the project's settings.</summary>
         public static bool DisablesUnityAudio { set => AudioManager.DisablesAudio = value; }
 
+        /// <summary>Whether the user presses Cancel when asked whether modified scenes are to be saved.</summary>
+        public static bool CancelsSaving { get; set; }
+
+        /// <summary>Whether the open scene was marked as modified.</summary>
+        public static bool SceneIsDirty { get; internal set; }
+
         internal static bool StartsPlaying { get; private set; }
 
         /// <summary>Starts an editor with an empty scene and a project with an Assets folder and this package.
@@ -43,6 +49,8 @@ namespace UnityShim
             Selection.objects = Array.Empty<Object>();
             Pinged = null;
             OpenedSettings = null;
+            CancelsSaving = false;
+            SceneIsDirty = false;
             Load();
         }
 

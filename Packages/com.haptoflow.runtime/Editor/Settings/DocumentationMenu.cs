@@ -10,11 +10,11 @@ namespace HaptoFlow.Editor
         [MenuItem("Window/HaptoFlow/Documentation", false, 2110)]
         internal static void Open()
         {
-            string address = HelpPages.AddressOf(HelpPages.Index);
+            string address = HelpPages.AddressOfPage(HelpPages.Index);
             if (address.Length == 0)
             {
-                Debug.LogWarning("HaptoFlow: the package's folder Documentation~ is missing. Install the package again " +
-                    "from its tarball.");
+                Debug.LogWarning("HaptoFlow: this package came without its pages, as it does from a git URL. They are in " +
+                    "the tarball of a release, and in the folder Documentation~ of a clone.");
                 return;
             }
             Application.OpenURL(address);

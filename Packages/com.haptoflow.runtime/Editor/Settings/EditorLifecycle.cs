@@ -1,5 +1,4 @@
 #nullable enable
-using System.IO;
 using UnityEditor;
 using UnityEngine;
 using Object = UnityEngine.Object;
@@ -11,14 +10,13 @@ namespace HaptoFlow.Editor
     /// the project's settings. Works with domain reload on and off.</summary>
     internal static class EditorLifecycle
     {
-        private const string PagesName = "Documentation~";
         private static HaptoFlowSettings? builtIn;
 
         [InitializeOnLoadMethod]
         internal static void Begin()
         {
             HaptoFlowSettings.FindProjectSettings = SettingsOfProject;
-            HelpPages.FindFolder = FolderOfPages;
+            HelpPages.FindPackage = FolderOfPackage;
             UnityAudio.IsDisabledByProject = ProjectAudio.IsDisabled;
             AssemblyReloadEvents.beforeAssemblyReload += HapticSession.ShutDown;
             AssemblyReloadEvents.beforeAssemblyReload += HapticLearning.EndAll;
@@ -32,18 +30,8 @@ namespace HaptoFlow.Editor
             EditorApplication.hierarchyChanged += SurfaceSeedKeeper.Renew;
         }
 
-        private static string? FolderOfPages()
-        {
-            PackageInfo? package = PackageInfo.FindForAssembly(typeof(HapticSurface).Assembly);
-            if (package == null)
-            {
-                return null;
-            }
-            string inside = Path.Combine(package.resolvedPath, PagesName);
-            // In the repository's own project the pages lie beside the folder Packages, and packing copies them in.
-            string beside = Path.GetFullPath(Path.Combine(package.resolvedPath, "..", "..", PagesName));
-            return !Directory.Exists(inside) && Directory.Exists(beside) ? beside : inside;
-        }
+        private static string? FolderOfPackage() =>
+            PackageInfo.FindForAssembly(typeof(HapticSurface).Assembly)?.resolvedPath;
 
         private static void OnPlayModeChanged(PlayModeStateChange change)
         {

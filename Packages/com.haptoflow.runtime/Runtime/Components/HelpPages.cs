@@ -4,11 +4,11 @@ using System.IO;
 
 namespace HaptoFlow
 {
-    /// <summary>Where the help buttons lead: to the pages inside the package, until they are published.</summary>
+    /// <summary>Where the help buttons lead: to the pages on disk, until they are published.</summary>
     internal static class HelpPages
     {
         /// <summary>Address of the published pages, with a slash at its end. While it is empty, help opens the pages
-        /// inside the package. A release that publishes them changes this constant only.</summary>
+        /// on disk. A release that publishes them changes this constant only.</summary>
         public const string Published = "";
 
         /// <summary>The page with a section for each component; append the section's anchor.</summary>
@@ -24,29 +24,53 @@ namespace HaptoFlow
         /// A release that publishes it changes this constant only.</summary>
         public const string Issues = "";
 
-        /// <summary>Finds the folder that holds the package's pages; set by the editor. A player has no pages.</summary>
-        internal static Func<string?>? FindFolder { get; set; }
+        // In a clone the pages lie beside Packages. A git URL brings none.
+        private static readonly string[] Folders = { "Documentation~", Path.Combine("..", "..", "Documentation~") };
 
-        /// <summary>The address of a page: on the web once pages are published, else of a file in the package. Empty where
-        /// there are none, as in a player.</summary>
+        /// <summary>Finds the package's folder; set by the editor. A player has no pages.</summary>
+        internal static Func<string?>? FindPackage { get; set; }
+
+        /// <summary>The address of a page, or of the package's README where there are no pages: Unity would open its own
+        /// manual for an empty address. Empty in a player.</summary>
         /// <param name="page">Its name, with an anchor or without: "components.html#haptic-surface".</param>
-        public static string AddressOf(string page) => AddressOf(page, Published);
+        public static string AddressOf(string page)
+        {
+            string address = AddressOfPage(page, Published);
+            return address.Length == 0 && FindPackage?.Invoke() is { } package
+                ? AddressOfFile(Path.Combine(package, "README.md"))
+                : address;
+        }
 
-        internal static string AddressOf(string page, string published)
+        /// <summary>The address of a page: on the web once pages are published, else of a file. Empty where there is none.
+        /// </summary>
+        internal static string AddressOfPage(string page, string published = Published)
         {
             if (published.Length > 0)
             {
                 return published + page;
             }
-            string[] parts = page.Split('#');
-            string file = Path.Combine(FindFolder?.Invoke() ?? "", parts[0]);
-            if (File.Exists(file))
+            if (FindPackage?.Invoke() is { } package)
             {
-                return new Uri(file).AbsoluteUri + (parts.Length > 1 ? "#" + parts[1] : "");
+                string[] parts = page.Split('#');
+                foreach (string folder in Folders)
+                {
+                    string file = Path.Combine(package, folder, parts[0]);
+                    string address = AddressOfFile(file);
+                    if (address.Length > 0)
+                    {
+                        return address + (parts.Length > 1 ? "#" + parts[1] : "");
+                    }
+                    // Packing makes the HTML; a clone has Markdown, in which no anchor opens.
+                    address = AddressOfFile(Path.ChangeExtension(file, ".md"));
+                    if (address.Length > 0)
+                    {
+                        return address;
+                    }
+                }
             }
-            // Packing makes the HTML; a package that is used from its sources has Markdown, in which no anchor opens.
-            string source = Path.ChangeExtension(file, ".md");
-            return File.Exists(source) ? new Uri(source).AbsoluteUri : "";
+            return "";
         }
+
+        private static string AddressOfFile(string file) => File.Exists(file) ? new Uri(file).AbsoluteUri : "";
     }
 }

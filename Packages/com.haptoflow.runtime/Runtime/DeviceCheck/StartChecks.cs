@@ -22,8 +22,8 @@ namespace HaptoFlow.DeviceCheck
         public void AddTo(List<CheckLine> lines)
         {
             const string Group = "Library";
-            const string Install = "Install the package's tarball again and restart; for a player, check that the " +
-                "tarball has a library for its platform (installation.md).";
+            const string Install = "Install the package again and restart; for a player, check that it has a library " +
+                "for its platform (installation.md).";
             lines.Add(Tried(Group, "native library", () => "version " + Version(), Install));
             lines.Add(Tried(Group, "struct sizes", () =>
             {

@@ -16,7 +16,7 @@ namespace HaptoFlow.SampleTests.Similarity
     /// <summary>The scene file and the settings asset of the sample.</summary>
     public sealed class SimilarityAssetTests : SimilarityTest
     {
-        private static string Asset => File.ReadAllText(SampleFile("SimilarityStudy", "SimilarityStudySettings.asset"));
+        private static string Asset => File.ReadAllText(SampleFiles.In("SimilarityStudy", "SimilarityStudySettings.asset"));
 
         [Test]
         public void TheSettingsAssetContainsEveryFieldExactlyOnce()
@@ -51,9 +51,9 @@ namespace HaptoFlow.SampleTests.Similarity
         [TestCase("SimilarityStudySettings.asset")]
         public void TheSceneFileRefersToItsScriptAndItsSettings(string name)
         {
-            string meta = File.ReadAllText(SampleFile("SimilarityStudy", name + ".meta"));
+            string meta = File.ReadAllText(SampleFiles.In("SimilarityStudy", name + ".meta"));
             string guid = Regex.Match(meta, "guid: (\\w{32})").Groups[1].Value;
-            Assert.That(File.ReadAllText(SampleFile("SimilarityStudy", "SimilarityStudy.unity")), Does.Contain(guid));
+            Assert.That(File.ReadAllText(SampleFiles.In("SimilarityStudy", "SimilarityStudy.unity")), Does.Contain(guid));
         }
 
         [Test]

@@ -86,7 +86,7 @@ namespace HaptoFlow.SampleTests.Similarity
         /// <summary>Builds the scene with the camera of the scene file.</summary>
         private protected void Open(SimilarityStudySettings? settings, string saveName = "", bool hasPen = true)
         {
-            Camera camera = CameraOf(new SceneFile(SampleFile("SimilarityStudy", "SimilarityStudy.unity")));
+            Camera camera = CameraOf(new SceneFile("SimilarityStudy"));
             // The camera carries the Audio Listener, as in the scene file.
             foreach (AudioListener each in FindAll<AudioListener>())
             {

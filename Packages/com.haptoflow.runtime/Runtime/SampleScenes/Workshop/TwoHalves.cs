@@ -3,7 +3,7 @@ using System;
 using UnityEngine;
 using Object = UnityEngine.Object;
 
-namespace HaptoFlow.Samples.Workshop
+namespace HaptoFlow.SampleScenes
 {
     /// <summary>A mesh of two submeshes, each drawn with its own material. The rules match these materials.</summary>
     internal sealed class TwoHalves

@@ -3,7 +3,7 @@ using System;
 using System.Collections.Generic;
 using UnityEngine;
 
-namespace HaptoFlow.Samples.TextureGallery
+namespace HaptoFlow.SampleScenes
 {
     /// <summary>Builds the sample when it wakes: a tile for each label of the model, and a wide board that takes the
     /// label of the tile that was pressed last.</summary>

@@ -1,7 +1,7 @@
 #nullable enable
 using UnityEngine;
 
-namespace HaptoFlow.Samples.Workshop
+namespace HaptoFlow.SampleScenes
 {
     /// <summary>A line of text that says which rule assigns the material that the pen touches.</summary>
     public sealed class RuleBoard : MonoBehaviour

@@ -4,7 +4,7 @@ using System;
 using System.Collections.Generic;
 using UnityEngine;
 
-namespace HaptoFlow.Samples.StylusTracing
+namespace HaptoFlow.SampleScenes
 {
     /// <summary>Compares outputs while the scene runs: one button switches every pen to the next output, another one
     /// switches the processing of an audio output.</summary>

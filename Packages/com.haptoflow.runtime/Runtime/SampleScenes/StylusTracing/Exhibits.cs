@@ -1,7 +1,7 @@
 #nullable enable
 using UnityEngine;
 
-namespace HaptoFlow.Samples.StylusTracing
+namespace HaptoFlow.SampleScenes
 {
     /// <summary>One object of the sample.</summary>
     public readonly struct Exhibit

@@ -3,7 +3,7 @@ using System;
 using UnityEngine;
 using Object = UnityEngine.Object;
 
-namespace HaptoFlow.Samples.Workshop
+namespace HaptoFlow.SampleScenes
 {
     /// <summary>A terrain of three layers that blend into each other. A separate mesh draws it, because the look of a
     /// terrain created by a script depends on the render pipeline.</summary>

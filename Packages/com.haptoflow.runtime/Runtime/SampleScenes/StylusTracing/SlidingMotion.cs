@@ -2,7 +2,7 @@
 using System;
 using UnityEngine;
 
-namespace HaptoFlow.Samples.StylusTracing
+namespace HaptoFlow.SampleScenes
 {
     /// <summary>Slides a kinematic body to and fro in physics steps, as games move their platforms. A stylus that is
     /// held still on it feels its texture pass.</summary>

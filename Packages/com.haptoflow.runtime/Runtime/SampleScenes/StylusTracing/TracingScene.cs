@@ -1,7 +1,7 @@
 #nullable enable
 using UnityEngine;
 
-namespace HaptoFlow.Samples.StylusTracing
+namespace HaptoFlow.SampleScenes
 {
     /// <summary>Builds the sample when it wakes: a table with objects of eight labels, a pen under the mouse, and a pen
     /// for each hand that holds a tracked stylus or controller.</summary>

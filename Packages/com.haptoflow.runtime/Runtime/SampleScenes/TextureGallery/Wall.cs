@@ -2,7 +2,7 @@
 using System;
 using UnityEngine;
 
-namespace HaptoFlow.Samples.TextureGallery
+namespace HaptoFlow.SampleScenes
 {
     /// <summary>Arranges tiles on a wall that faces -z, row by row from the upper left.</summary>
     public readonly struct Wall

@@ -2,7 +2,7 @@
 using System;
 using UnityEngine;
 
-namespace HaptoFlow.Samples.Workshop
+namespace HaptoFlow.SampleScenes
 {
     /// <summary>Creates meshes and textures at run time.</summary>
     internal static class Shapes

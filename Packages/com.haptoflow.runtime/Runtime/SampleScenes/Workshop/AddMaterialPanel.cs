@@ -7,7 +7,7 @@ using HaptoFlow.Model;
 using HaptoFlow.Recordings;
 using UnityEngine;
 
-namespace HaptoFlow.Samples.Workshop
+namespace HaptoFlow.SampleScenes
 {
     /// <summary>Learns a material from a recording of ten seconds while the scene runs, which takes a few seconds of
     /// one core in the background. A stylus that touches the button starts the learning, or cancels it. The specimen

@@ -2,7 +2,7 @@
 #if HAPTOFLOW_INPUT_SYSTEM && ENABLE_INPUT_SYSTEM
 using UnityEngine;
 
-namespace HaptoFlow.Samples.StylusTracing
+namespace HaptoFlow.SampleScenes
 {
     /// <summary>Aligns the sample's table with a real one: the pen touches three corners of a sheet of A4 paper on the
     /// real table. After that, for pens that measure their tip force, the force decides when they touch.</summary>

@@ -2,7 +2,7 @@
 using System.Collections.Generic;
 using UnityEngine;
 
-namespace HaptoFlow.Samples.Workshop
+namespace HaptoFlow.SampleScenes
 {
     /// <summary>Builds the sample when it wakes: a bench of objects without Haptic Surface components. The rules of a
     /// Haptic Material Map assign their materials: to a terrain by its layers, to a board by its renderer's materials,

@@ -2,7 +2,7 @@
 using System;
 using UnityEngine;
 
-namespace HaptoFlow.Samples.DeviceCheck
+namespace HaptoFlow.SampleScenes
 {
     /// <summary>Builds the sample when it wakes: three plates, a pen under the mouse, a pen for each hand in a headset,
     /// the check itself, and a board with its instructions.</summary>

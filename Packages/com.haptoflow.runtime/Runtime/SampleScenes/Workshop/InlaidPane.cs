@@ -3,7 +3,7 @@ using System;
 using UnityEngine;
 using Object = UnityEngine.Object;
 
-namespace HaptoFlow.Samples.Workshop
+namespace HaptoFlow.SampleScenes
 {
     /// <summary>A pane of ceramic with a mask. The red channel selects jute in a ring, the green channel scales the
     /// strength.</summary>
