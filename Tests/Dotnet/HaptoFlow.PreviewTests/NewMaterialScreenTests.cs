@@ -228,11 +228,9 @@ namespace HaptoFlow.PreviewTests
             string line = Path.ChangeExtension(table, ".haptomaterial");
             var command = new ProcessStartInfo(program)
             {
-                ArgumentList =
-                {
-                    "learn", table, "-o", line, "--model", RepositoryFiles.DefaultModel, "--seconds-limit", "3600",
-                    "--quiet",
-                },
+                // Mono ignores ArgumentList.
+                Arguments = $"learn \"{table}\" -o \"{line}\" --model \"{RepositoryFiles.DefaultModel}\" " +
+                    "--seconds-limit 3600 --quiet",
                 RedirectStandardOutput = true,
                 UseShellExecute = false,
             };
