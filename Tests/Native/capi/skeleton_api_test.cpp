@@ -166,7 +166,7 @@ TEST_F(SkeletonApiTest, AGeneratorOfTheSketchReadsThePhasesOfABatch) {
     const std::array<float, 2 * HAPTOFLOW_PHASES> phases{0.0F, 0.0F, 0.0F, 80.0F, 0.0F, 0.0F,
                                                          0.5F, 0.0F, 0.0F, 80.0F, 0.0F, 0.0F};
     haptoflow_batch batch{sizeof(batch), 2,      embeddings.data(), motions.data(), previous.data(), noise.data(),
-                          phases.data(), nullptr};
+                          phases.data(), nullptr, nullptr};
     std::vector<float> segments(noise.size());
     ASSERT_EQ(haptoflow_generator_generate(generator_, &batch, segments.data()), HAPTOFLOW_OK) << message();
     EXPECT_FALSE(std::equal(segments.begin(), segments.begin() + HAPTOFLOW_SEGMENT_SAMPLES,

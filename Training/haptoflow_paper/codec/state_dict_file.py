@@ -133,12 +133,12 @@ def read_state(content: bytes) -> Any:
 
 def _from_archive(content: bytes, storages: dict[str, _Storage]) -> Any:
     with zipfile.ZipFile(io.BytesIO(content)) as archive:
-        # Stored without compression, so that no part is larger than the file.
-        if any(entry.compress_type != zipfile.ZIP_STORED for entry in archive.infolist()):
-            raise StateDictError("its archive is compressed, which torch.save's is not")
         names = [name for name in archive.namelist() if name.endswith("data.pkl")]
         if len(names) != 1 or any("/code/" in name for name in archive.namelist()):
             raise StateDictError("its archive holds a program (TorchScript) or no data.pkl")
+        # Stored without compression, so that no part is larger than the file.
+        if any(entry.compress_type != zipfile.ZIP_STORED for entry in archive.infolist()):
+            raise StateDictError("its archive is compressed, which torch.save's is not")
         folder = names[0][: -len("data.pkl")]
         found = _Names(io.BytesIO(archive.read(names[0])), storages).load()
         for key, storage in storages.items():
