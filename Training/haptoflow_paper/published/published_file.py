@@ -121,11 +121,15 @@ class PublishedFile:
         """Renders every class with the best tier."""
         with tempfile.TemporaryDirectory() as folder:
             draft = Path(folder) / "draft.haptoflow"
-            self._write(draft, Level(1.0, "a draft", True), None)
+            self.write_draft(draft)
             with EngineGenerator(engine, draft, BEST_TIER, maximum_batch=_MEASURING_BATCH) as generator:
                 return render_levels(
                     generator, self.embeddings, self.range.speed_mps, self.range.force_newtons, 1.0, advance
                 )
+
+    def write_draft(self, out: Path) -> None:
+        """The file in the network's own unit, without seeds and exponents, as the engine measures it."""
+        self._write(out, Level(1.0, "a draft", True), None)
 
     def level(self, measured: RenderedLevels, peak_g: float | None) -> Level:
         """Of a stated peak in g; without one of the data set's measured level. InputError if the model is silent."""
