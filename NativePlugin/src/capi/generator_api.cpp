@@ -74,8 +74,9 @@ std::vector<inference::SegmentRequest> requestsOf(const haptoflow_batch* batch, 
         (void)require(given.noise, "batch: noise");
     }
     if (withWaveforms && given.latent_noise != nullptr && latentSize == 0) {
-        throw std::invalid_argument("batch: latent_noise is given, but the tier's representation is not latent; expected "
-                                    "null");
+        throw std::invalid_argument(
+            "batch: latent_noise is given, but the tier's representation is not latent; expected "
+            "null");
     }
     std::vector<inference::SegmentRequest> requests;
     requests.reserve(given.count);

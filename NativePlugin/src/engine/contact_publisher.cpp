@@ -23,8 +23,8 @@ ObjectIdentity objectOf(const ContactState& state) noexcept {
     return {.surfaceSeed = state.surfaceSeed, .variation = state.variation};
 }
 
-/// The heaviest material's seed that is nearest to a motion, scaled by its gain to the level of that motion; silence if the
-/// material has no seed.
+/// The heaviest material's seed that is nearest to a motion, scaled by its gain to the level of that motion; silence if
+/// the material has no seed.
 OnsetSeed seedFor(const Ingredients& ingredients, const Material& material, const RangedMotion& ranged,
                   float levelMps2) noexcept {
     OnsetSeed onset;

@@ -91,8 +91,8 @@ struct Category {
 
 /// Categories of the Cluster Haptic Texture Dataset that have other names here.
 constexpr std::array categories{
-    Category{"polymer", "plastic"},       Category{"cloth", "fabric"},       Category{"biodegradable", "leather"},
-    Category{"biodegradable", "fabric"},  Category{"biodegradable", "fur"},  Category{"composite", "plastic"},
+    Category{"polymer", "plastic"},      Category{"cloth", "fabric"},      Category{"biodegradable", "leather"},
+    Category{"biodegradable", "fabric"}, Category{"biodegradable", "fur"}, Category{"composite", "plastic"},
     Category{"composite", "sandpaper"},
 };
 

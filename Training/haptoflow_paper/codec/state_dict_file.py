@@ -58,7 +58,8 @@ class _Storage:
         size = torch.empty(0, dtype=self.dtype).element_size()
         if len(content) != self.count * size:
             raise StateDictError(f"a storage has {len(content)} bytes, expected {self.count * size}")
-        self.data = torch.frombuffer(bytearray(content), dtype=self.dtype) if content else torch.empty(0, dtype=self.dtype)
+        empty = torch.empty(0, dtype=self.dtype)
+        self.data = torch.frombuffer(bytearray(content), dtype=self.dtype) if content else empty
 
 
 @dataclass(frozen=True)
@@ -78,8 +79,14 @@ class _View:
         last = self.offset + sum((size - 1) * stride for size, stride in zip(self.shape, self.strides, strict=True))
         # Strides of 0 could make a tensor of any size from one number.
         if 0 not in self.shape and (last >= len(data) or math.prod(self.shape) > len(data)):
-            raise StateDictError(f"a tensor of shape {list(self.shape)} ends outside its storage of {len(data)} numbers")
+            raise StateDictError(
+                f"a tensor of shape {list(self.shape)} ends outside its storage of {len(data)} numbers"
+            )
         return data.as_strided(self.shape, self.strides, self.offset).clone()
+
+
+def _viewed(storage: _Storage, offset: int, shape: Any, strides: Any) -> _View:
+    return _View(storage, offset, tuple(shape), tuple(strides))
 
 
 class _Names(pickle.Unpickler):
@@ -94,10 +101,8 @@ class _Names(pickle.Unpickler):
         known: dict[tuple[str, str], Callable[..., Any]] = {
             ("collections", "OrderedDict"): OrderedDict,
             ("torch", "Size"): lambda sizes: tuple(sizes),
-            ("torch._utils", "_rebuild_tensor"): lambda *given: _View(given[0], given[1], tuple(given[2]), tuple(given[3])),
-            ("torch._utils", "_rebuild_tensor_v2"): lambda *given: _View(
-                given[0], given[1], tuple(given[2]), tuple(given[3])
-            ),
+            ("torch._utils", "_rebuild_tensor"): lambda *given: _viewed(*given[:4]),
+            ("torch._utils", "_rebuild_tensor_v2"): lambda *given: _viewed(*given[:4]),
             ("torch._utils", "_rebuild_parameter"): lambda *given: given[0],
         }
         if module == "torch" and name in _DTYPES:

@@ -17,15 +17,15 @@ from haptoflow_training.errors import InputError
 from haptoflow_training.whole_file import check_writable
 
 _DESCRIPTION = """\
-Turn the weights that the authors of the paper publish into a .haptoflow file that the engine plays: their network, their
-solver, their guidance, with the codec that it works in. The first tier is the fastest and the last one, `published`,
+Turn the weights that the authors of the paper publish into a .haptoflow file that the engine plays: their network,
+their solver, their guidance, with the codec that it works in. The first tier is the fastest; the last one, `published`,
 computes what theirs does, within 1e-4 of the RMS.
 
-FOLDER holds meta.json and one .safetensors, as the model repository tamago117/HaptoFlow has them in haptoflow_accel, and
-EnCodec's 24 kHz weights (encodec_24khz-d7cc33bc.th) beside them or where --encodec says. Nothing of a file is run.
+FOLDER holds meta.json and one .safetensors, as the model repository tamago117/HaptoFlow has them in haptoflow_accel,
+and EnCodec's 24 kHz weights (encodec_24khz-d7cc33bc.th) beside them or where --encodec says. Nothing of a file is run.
 
-A checkpoint does not state how strong its vibrations are. That stands in the dataset_info.json of the recordings that it
-was trained on (--dataset-info), or state it in g (--peak-g). Without either, the level is assumed: the median of the
+A checkpoint does not state how strong its vibrations are. That stands in the dataset_info.json of the recordings that
+it was trained on (--dataset-info), or state it in g (--peak-g). Without either, the level is assumed: the median of the
 materials at 40 mm/s and .75 N becomes .57 m/s^2, as measured on the data set, and the file says so where `haptoflow
 inspect` shows it. Levels, exponents beyond the range and the seeds of touches are measured on the model itself, by the
 engine: some minutes for the published one.
@@ -98,7 +98,7 @@ def _peak_of_info(path: Path) -> float:
     peak = preprocessing.get("global_peak_value") if isinstance(preprocessing, dict) else None
     if not isinstance(peak, (int, float)) or isinstance(peak, bool):
         raise InputError(
-            f"{path}: key 'preprocessing.global_peak_value' is {peak!r}; expected the peak in g by which the recordings "
-            "were divided (or state it with --peak-g)"
+            f"{path}: key 'preprocessing.global_peak_value' is {peak!r}; expected the peak in g by which the "
+            "recordings were divided (or state it with --peak-g)"
         )
     return float(peak)

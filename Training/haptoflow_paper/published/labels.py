@@ -10,7 +10,7 @@ from pathlib import Path
 from haptoflow_training.errors import InputError
 from haptoflow_training.recordings.labels import load_labels, plain_name
 
-SURFACES_PATH = Path(__file__).resolve().parents[2] / "configs" / "labels-published.toml"
+SURFACES_PATH = Path(__file__).with_name("surfaces.toml")
 
 
 @dataclass(frozen=True)
@@ -117,4 +117,5 @@ _NAMES = {
 
 
 def _names_of(textures: tuple[int | str, ...]) -> list[str]:
-    return [name for texture in textures for name in ([texture] if isinstance(texture, str) else _NAMES.get(texture, ()))]
+    names = [[texture] if isinstance(texture, str) else _NAMES.get(texture, ()) for texture in textures]
+    return [name for several in names for name in several]

@@ -1,4 +1,4 @@
-"""How loud an imported model is: its labels rendered by the engine's own generator, each segment the next one's past."""
+"""How loud an imported model is: its labels rendered by the engine's generator, each segment the next one's past."""
 
 from __future__ import annotations
 

@@ -85,7 +85,8 @@ def read_meta(path: Path) -> PublishedMeta:
     try:
         document = json.loads(path.read_text(encoding="utf-8"))
     except OSError as error:
-        raise InputError(f"{path}: cannot be read ({error.strerror}); expected a published checkpoint's folder") from error
+        remedy = "expected the folder of a published checkpoint"
+        raise InputError(f"{path}: cannot be read ({error.strerror}); {remedy}") from error
     except (ValueError, RecursionError) as error:
         raise InputError(f"{path}: not valid JSON ({error})") from error
     root = _Node(path, "", document)

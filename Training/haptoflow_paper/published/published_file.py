@@ -134,7 +134,7 @@ class PublishedFile:
     def level(self, measured: RenderedLevels, peak_g: float | None) -> Level:
         """Of a stated peak in g; without one of the data set's measured level. InputError if the model is silent."""
         if not measured.reference > 0.0:
-            raise InputError(f"{self.checkpoint.weights}: the model renders silence at 40 mm/s and .75 N; it is damaged")
+            raise InputError(f"{self.checkpoint.weights}: renders silence at 40 mm/s and .75 N; expected a trained model")
         if peak_g is not None:
             return Level(peak_g * STANDARD_GRAVITY_MPS2, f"level stated: a peak of {peak_g:g} g", False)
         origin = (
@@ -235,8 +235,8 @@ def _label_entry(label: PublishedLabel, measured: RenderedLevels | None) -> dict
 def _seeds(
     labels: list[PublishedLabel], measured: RenderedLevels | None
 ) -> tuple[NDArray[np.float32], list[dict[str, Any]]]:
-    """The ends of the model's own renders, of RMS 1, with their gains in the model's unit. A silent render is no seed; a
-    draft has one seed that nobody plays."""
+    """The ends of the model's own renders, of RMS 1, with their gains in the model's unit. A silent render is no seed;
+    a draft has one seed that nobody plays."""
     waves: list[NDArray[np.float32]] = []
     entries: list[dict[str, Any]] = []
     for label in labels if measured is not None else []:

@@ -1,8 +1,8 @@
 """Reads a .safetensors file, written from the description of the format.
 
 Source: github.com/huggingface/safetensors, README, section "Format": 8 bytes of unsigned little-endian length, as many
-bytes of JSON {name: {"dtype", "shape", "data_offsets": [begin, end]}} with an optional "__metadata__", then the bytes of
-all tensors without holes, row-major and little-endian.
+bytes of JSON {name: {"dtype", "shape", "data_offsets": [begin, end]}} with an optional "__metadata__", then the bytes
+of all tensors without holes, row-major and little-endian.
 """
 
 from __future__ import annotations
@@ -24,6 +24,7 @@ _LENGTH = struct.Struct("<Q")
 # The description's own limit.
 _MAXIMUM_HEADER_BYTES = 100_000_000
 _FLOAT_BYTES = 4
+_AGAIN = "fetch the file again"
 
 
 def read_safetensors(path: Path) -> dict[str, Tensor]:
@@ -46,17 +47,17 @@ def read_safetensors(path: Path) -> dict[str, Tensor]:
 
 def _split(path: Path, content: bytes) -> tuple[dict[str, Any], memoryview]:
     if len(content) < _LENGTH.size:
-        raise InputError(f"{path}: {len(content)} bytes, cut off before the header; fetch the file again")
+        raise InputError(f"{path}: {len(content)} bytes, cut off before the header; {_AGAIN}")
     (length,) = _LENGTH.unpack_from(content)
     end = _LENGTH.size + length
     if length > _MAXIMUM_HEADER_BYTES or not content[_LENGTH.size : _LENGTH.size + 1] == b"{":
         raise InputError(f"{path}: not a .safetensors file, which begins with the length of a JSON header")
     if end > len(content):
-        raise InputError(f"{path}: cut off in its header of {length} bytes; fetch the file again")
+        raise InputError(f"{path}: cut off in its header of {length} bytes; {_AGAIN}")
     try:
         header = json.loads(content[_LENGTH.size : end].decode("utf-8"), object_pairs_hook=_without_repeats)
     except (ValueError, RecursionError) as error:
-        raise InputError(f"{path}: its header is not valid JSON ({error}); fetch the file again") from error
+        raise InputError(f"{path}: its header is not valid JSON ({error}); {_AGAIN}") from error
     return header, memoryview(content)[end:]
 
 
@@ -95,9 +96,9 @@ def _require_without_holes(path: Path, entries: Mapping[str, tuple[tuple[int, ..
     for name, (_, begin, end) in sorted(entries.items(), key=lambda item: item[1][1:]):
         if begin != reached:
             relation = "overlaps" if begin < reached else "leaves a hole after"
-            raise InputError(f"{path}: tensor '{name}' begins at byte {begin} and {relation} {before}; fetch the file again")
+            raise InputError(f"{path}: tensor '{name}' begins at byte {begin} and {relation} {before}; {_AGAIN}")
         if end > size:
-            raise InputError(f"{path}: cut off in tensor '{name}', which ends at byte {end} of {size}; fetch the file again")
+            raise InputError(f"{path}: cut off in tensor '{name}', which ends at byte {end} of {size}; {_AGAIN}")
         reached, before = end, f"tensor '{name}'"
     if reached != size:
         raise InputError(f"{path}: {size - reached} bytes after the last tensor; expected none")
@@ -107,5 +108,5 @@ def _tensor(path: Path, name: str, entry: tuple[tuple[int, ...], int, int], data
     shape, begin, end = entry
     values = np.frombuffer(data[begin:end], dtype="<f4").astype(np.float32).reshape(shape)
     if not np.isfinite(values).all():
-        raise InputError(f"{path}: tensor '{name}' holds a number that is not finite; fetch the file again")
+        raise InputError(f"{path}: tensor '{name}' holds a number that is not finite; {_AGAIN}")
     return torch.from_numpy(values)

@@ -109,8 +109,8 @@ class EngineGenerator:
         """Segments [n, 200] in m/s^2 from embeddings [n, 64], motions [n, 3], previous and noise [n, 200].
 
         phases: [n, 6] (models/surface_waves.py) at each segment's first sample; None for phases of zero, at the rates
-        at which the motions cross the embeddings' wave vectors. latent_noise: for a latent tier [n, size of the latent];
-        None to derive it from `noise`.
+        at which the motions cross the embeddings' wave vectors. latent_noise: for a latent tier [n, size of the
+        latent]; None to derive it from `noise`.
         """
         given = [embeddings, motions, previous_mps2, noise, phases, None, latent_noise]
         arrays = [None if array is None else np.ascontiguousarray(array, dtype=np.float32) for array in given]
