@@ -171,6 +171,13 @@ def test_every_class_has_a_category_of_the_data_set_and_scenes_find_it_by_its_sh
     }
     assert labels["wood"].row == 8 and labels["metal"].row == 10 and labels["leather"].row == 7
     assert labels["cotton"].row == 0, "a class keeps its own name"
+    assert "rubber" not in labels and "stone" not in labels
+
+
+def test_a_short_name_that_is_a_category_finds_its_first_class_where_its_own_texture_is_missing() -> None:
+    labels = {label.name: label for label in published_labels(("Brass", "Japanese cedar (Sugi)", "Keyaki"))}
+    assert labels["wood"].row == 1 and labels["metal"].row == 0
+    assert "leather" not in labels, "no category is called so"
 
 
 def test_two_classes_of_one_name_are_refused() -> None:

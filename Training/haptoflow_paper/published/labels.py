@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import tomllib
 import unicodedata
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from haptoflow_training.errors import InputError
 from haptoflow_training.recordings.labels import load_labels, plain_name
@@ -33,14 +35,16 @@ class _Surface:
 
 
 def published_labels(classes: tuple[str, ...]) -> list[PublishedLabel]:
-    """One label for each class in the order of its row, then the labels of labels-cluster.toml that name one of the
-    classes, as second names of its row: `wood`, `metal`, `cotton`.
+    """One label for each class in the order of its row, then the labels of labels-cluster.toml as second names of the
+    class that each of them names: `wood`, `metal`, `rubber`. One that is called as a category and whose texture is not
+    among the classes is the first class of that category.
 
     InputError if two classes have the same name in lower case.
     """
-    surfaces, default = _surfaces()
+    table = tomllib.loads(SURFACES_PATH.read_text(encoding="utf-8"))
+    surfaces = _surfaces(table)
     labels = [
-        PublishedLabel(_lowered(name), row, *_traits(_surface_of(name, surfaces, default)))
+        PublishedLabel(_lowered(name), row, *_traits(_surface_of(name, surfaces, table["default"])))
         for row, name in enumerate(classes)
     ]
     names = [label.name for label in labels]
@@ -48,20 +52,21 @@ def published_labels(classes: tuple[str, ...]) -> list[PublishedLabel]:
         if names.count(name) > 1:
             raise InputError(f"the class '{name}' occurs twice, if capitals do not count; expected names of their own")
     rows = {plain_name(name): row for row, name in enumerate(classes)}
+    first_of = {label.category: label.row for label in reversed(labels)}
+    second_names = []
     for definition in load_labels().definitions:
-        # Ids of the data set are not rows of a checkpoint, which are in the order of the names.
-        known = [rows[plain_name(texture)] for texture in _names_of(definition.textures) if plain_name(texture) in rows]
-        if known and definition.name not in names:
-            labels.append(
-                PublishedLabel(
-                    definition.name,
-                    known[0],
-                    definition.category,
-                    definition.stiffness_newtons_per_metre,
-                    definition.friction_coefficient,
-                )
-            )
-    return labels
+        # Ids of the data set are not rows of a checkpoint, whose classes are in the order of their names.
+        textures = [plain_name(name) for name in _names_of(definition.textures, table["texture_names"])]
+        row = next((rows[name] for name in textures if name in rows), first_of.get(definition.name))
+        if row is not None and definition.name not in names:
+            traits = (definition.stiffness_newtons_per_metre, definition.friction_coefficient)
+            second_names.append(PublishedLabel(definition.name, row, definition.category, *traits))
+    return labels + second_names
+
+
+def _names_of(textures: tuple[int | str, ...], names: Mapping[str, list[str]]) -> list[str]:
+    several = [[texture] if isinstance(texture, str) else names.get(str(texture), []) for texture in textures]
+    return [name for each in several for name in each]
 
 
 def _lowered(name: str) -> str:
@@ -94,28 +99,13 @@ def _traits(surface: _Surface) -> tuple[str, float, float]:
     return surface.category, surface.stiffness_newtons_per_metre, surface.friction_coefficient
 
 
-def _surfaces() -> tuple[list[_Surface], str]:
-    document = tomllib.loads(SURFACES_PATH.read_text(encoding="utf-8"))
-    surfaces = [
+def _surfaces(table: Mapping[str, Any]) -> list[_Surface]:
+    return [
         _Surface(
             entry["category"],
             tuple(_words(phrase) for phrase in entry["words"]),
             entry["stiffness_newtons_per_metre"],
             entry["friction_coefficient"],
         )
-        for entry in document["surface"]
+        for entry in table["surface"]
     ]
-    return surfaces, document["default"]
-
-
-# Names of the data set's list for the ids in labels-cluster.toml, as far as the list is known.
-_NAMES = {
-    0: ("Nyatoh",), 38: ("Granite",), 48: ("Concrete",), 53: ("ABS",), 63: ("Silicon", "Silicone"), 66: ("Steel",),
-    74: ("Float", "Float glass"), 79: ("Linoleum",), 81: ("Sandpaper",), 83: ("Porcelain",), 85: ("Brick",),
-    87: ("Jute",), 90: ("Sheep fur",), 97: ("Cow leather",),
-}
-
-
-def _names_of(textures: tuple[int | str, ...]) -> list[str]:
-    names = [[texture] if isinstance(texture, str) else _NAMES.get(texture, ()) for texture in textures]
-    return [name for several in names for name in several]
