@@ -20,6 +20,8 @@ _UNHEARD_SEGMENTS = 2
 _HEARD_SEGMENTS = 4
 _CHAINS_AT_A_TIME = 16
 _LEAST_LEVEL = 1e-6
+# Below this the reference level was not measured, and the engine sends nothing to an actuator.
+_LOWEST_HZ = 24.0
 _LEVEL_LIMITS = {"speed": (0.0, 2.0), "force": (-0.5, 1.5)}
 # At which the measured level of the data set is known (facts of other people's measurements of it).
 REFERENCE_SPEED_MPS = 0.04
@@ -31,7 +33,7 @@ _Floats = NDArray[np.float32]
 @dataclass(frozen=True)
 class RenderedLevels:
     """Of every label [L] at every motion [M, 3], the first of which is the reference's, the others the corners of the
-    range. rms [L, M]: in the unit of the model's level. centroids [L, M] in Hz. ends [L, M, 400]: the last samples."""
+    range. rms [L, M]: above 24 Hz, in the unit of the model's level. centroids [L, M] in Hz. ends [L, M, 400]: the last samples."""
 
     motions: _Floats
     rms: NDArray[np.float64]
@@ -91,10 +93,18 @@ def render_levels(
     flat = waves.reshape(-1, samples)
     return RenderedLevels(
         motions,
-        np.sqrt(np.square(waves, dtype=np.float64).mean(axis=2)),
+        band_rms(flat).reshape(waves.shape[:2]),
         centroid_hz(flat, SAMPLE_RATE_HZ).reshape(waves.shape[:2]),
         waves[:, :, -SEED_SAMPLES:],
     )
+
+
+def band_rms(waves: _Floats) -> NDArray[np.float64]:
+    """RMS above 24 Hz of waves [n, samples] at 2 kHz, [n]."""
+    samples = waves.shape[1]
+    spectrum = np.fft.rfft(waves.astype(np.float64), axis=1)
+    spectrum[:, np.fft.rfftfreq(samples, 1.0 / SAMPLE_RATE_HZ) < _LOWEST_HZ] = 0.0
+    return np.sqrt(np.square(np.fft.irfft(spectrum, samples, axis=1)).mean(axis=1))
 
 
 def _motions(speed_mps: tuple[float, float], force_newtons: tuple[float, float]) -> _Floats:
