@@ -2,7 +2,6 @@ import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
 import { createHash } from 'node:crypto';
 import { mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
-import { createServer } from 'node:net';
 import os from 'node:os';
 import path from 'node:path';
 import { after, beforeEach, test } from 'node:test';
@@ -11,7 +10,7 @@ import { cacheRoot, repositoryFolder } from '../../scripts/published/cache.mjs';
 import { bringEncodec } from '../../scripts/published/encodec.mjs';
 import { download, endpointOf, listFiles, resolveRevision } from '../../scripts/published/hub.mjs';
 import { askedWaitSeconds, networkError } from '../../scripts/published/requests.mjs';
-import { commit, startHub } from './support/hub_server.mjs';
+import { commit, deafAddress, startHub } from './support/hub_server.mjs';
 
 /** Bytes that look random and are the same every time. */
 function noise(length, seed) {
@@ -35,13 +34,7 @@ const hub = await startHub({
 });
 const model = { type: 'model', name: 'lab/touch' };
 const dataset = { type: 'dataset', name: 'lab/textures' };
-// An address of this machine at which nobody listens any more.
-const deaf = await new Promise((resolve) => {
-  const server = createServer().listen(0, '127.0.0.1', () => {
-    const address = `http://127.0.0.1:${server.address().port}`;
-    server.close(() => resolve(address));
-  });
-});
+const deaf = await deafAddress();
 const folder = mkdtempSync(path.join(os.tmpdir(), 'haptoflow-hub-'));
 after(async () => {
   await hub.close();

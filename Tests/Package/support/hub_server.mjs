@@ -128,6 +128,14 @@ export async function startHub({ repositories, elsewhere = {}, pageSize = 1000 }
   };
 }
 
+/** An address of this machine at which nobody listens any more. */
+export async function deafAddress() {
+  const server = await listen(() => {});
+  const address = `http://127.0.0.1:${server.address().port}`;
+  await new Promise((done) => { server.close(done); });
+  return address;
+}
+
 const isLarge = (content) => content.length > 10_000;
 
 function entryOf(path, files) {
