@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
 import { createHash } from 'node:crypto';
-import { copyFileSync, existsSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+import { copyFileSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
 import { after, beforeEach, test } from 'node:test';
@@ -113,11 +113,21 @@ test('the folder that was downloaded before does without a network, its origin k
   assert.deepEqual(readFileSync(path.join(folder, 'again.haptoflow')), readFileSync(path.join(folder, 'real.haptoflow')));
 });
 
-test('a second run requests no bytes', { skip: linuxOnly }, async () => {
-  const { status, stderr } = await published(['--peak-g', '1.5']);
+/** An interpreter that prints what it was asked to run. */
+function printingPython() {
+  const file = path.join(folder, 'python');
+  writeFileSync(file, '#!/bin/sh\ntest "$1" = -c || printf "asked: %s\\n" "$*"\n', { mode: 0o755 });
+  return file;
+}
+
+test('a second run requests no bytes and hands the importer the files, the level and the place', { skip: linuxOnly }, async () => {
+  const info = inRepository('package.json');
+  const { status, stdout, stderr } = await published(['--dataset-info', info], { HAPTOFLOW_PYTHON: printingPython() });
   assert.equal(status, 0, stderr);
-  assert.ok(existsSync(path.join(folder, 'published.haptoflow')));
-  assert.deepEqual(hub.requests.filter(({ place, url }) => place === 'content' || url.includes('/resolve')), []);
+  const place = path.join(cache, 'haptoflow');
+  const asked = ['-m haptoflow_paper import-published', path.join(place, 'models', 'tamago117', 'HaptoFlow', 'main', 'haptoflow_accel'), '--encodec', path.join(place, 'encodec', codecName), '-o', path.join(folder, 'published.haptoflow'), '--dataset-info', info];
+  assert.ok(stdout.includes(`asked: ${asked.join(' ')}\n`), stdout);
+  assert.deepEqual(hub.requests.filter(({ place: where, url }) => where === 'content' || url.includes('/resolve')), []);
   assert.doesNotMatch(stderr, /MB\/s/);
 });
 
