@@ -37,6 +37,8 @@ struct OpenGenerator {
     std::mutex mutex;
     inference::SolverSettings tierSolver;
     std::unique_ptr<inference::TierGenerator> generator;
+    /// Numbers of a latent; 0 unless the tier's representation is latent.
+    std::size_t latentSize = 0;
 };
 
 /// Loads the tiers of one engine, when it is created or when a later quality uses them.

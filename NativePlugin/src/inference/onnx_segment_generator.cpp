@@ -131,7 +131,10 @@ void OnnxSegmentGenerator::prepare(std::span<const SegmentRequest> requests) {
     for (std::size_t index = 0; index < requests.size(); ++index) {
         field_.setPhases(index, requests[index].phases);
         const auto point = std::span(points_).subspan(index * pointSize_, pointSize_);
-        if (point.size() == segmentSamples) {
+        if (const std::span<const float> given = requests[index].latentNoise; !given.empty()) {
+            requireSize(given.size(), point.size(), "a latent needs noise");
+            std::ranges::copy(given, point.begin());
+        } else if (point.size() == segmentSamples) {
             std::ranges::copy(requests[index].noise, point.begin());
         } else {
             fillStandardNormal(keyOfNoise(requests[index].noise), point);
