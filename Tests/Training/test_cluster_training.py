@@ -1,0 +1,94 @@
+"""`./run train --cluster`, from a hub on the loopback address to a model file."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+from loopback_hub import loopback_hub
+from parquet_samples import HUB
+from test_skeleton_training import SMALL_BASE, SMALL_STANDARD
+
+from haptoflow_training.export.model_file import read_model_file
+
+NAME = "tamago117/cluster-haptic-texture-dataset"
+SCRIPT = Path(__file__).resolve().parents[2] / "scripts" / "train.mjs"
+# Each recording of these textures, with three files.
+CHOSEN = ("0_0_40_500_0", "0_90_40_500_1", "38_0_40_500_0", "38_90_40_500_1")
+
+
+def _train(hub: str, folder: Path, *words: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        ["node", str(SCRIPT), "--cluster", *words],
+        env={**os.environ, "HF_ENDPOINT": hub, "HF_TOKEN": "", "INIT_CWD": str(folder), "PYTHONWARNINGS": "ignore"},
+        capture_output=True, text=True, timeout=600,
+    )  # fmt: skip
+
+
+@pytest.fixture
+def small(tmp_path: Path) -> list[str]:
+    """Words that train a small model, two steps long."""
+    configs = tmp_path / "configs"
+    configs.mkdir()
+    (configs / "base.toml").write_text(SMALL_BASE)
+    (configs / "standard.toml").write_text(SMALL_STANDARD)
+    return ["--configs", "configs", "--out", "runs", "--lanes", "1", "--export", "cluster.haptoflow"]
+
+
+def test_chosen_textures_are_downloaded_once_and_become_a_model_with_their_licence(tmp_path: Path, small: list[str]) -> None:
+    words = ["--textures", "0,38", "--into", "data", *small]
+    with loopback_hub(NAME, HUB) as (hub, asked):
+        ended = _train(hub, tmp_path, *words)
+        assert ended.returncode == 0, ended.stderr + ended.stdout
+        files = sorted(path.name for path in (tmp_path / "data" / "sensor_data").rglob("*") if path.is_file())
+        assert files == sorted(f"{name}.parquet" for name in CHOSEN for _ in range(3))
+        assert not any("/49" in path or "audio" in path for path in asked)
+        brought = [path for path in asked if "/resolve/" in path]
+        assert len(brought) == 13 and len(set(brought)) == 13
+        assert "wood (0), stone (38)" in ended.stdout and "licence cc-by-4.0" in ended.stdout
+        # Again: a file that is missing and a damaged one are brought, the others are only read.
+        lost, damaged = sorted((tmp_path / "data" / "sensor_data" / "force").rglob("*.parquet"))[:2]
+        lost.unlink()
+        damaged.write_bytes(b"PAR1" + damaged.read_bytes()[4:-1] + b"2")
+        asked.clear()
+        again = _train(hub, tmp_path, *words)
+        assert again.returncode == 0, again.stderr
+        assert sorted(Path(path).name for path in asked if "/resolve/" in path) == sorted([lost.name, damaged.name])
+    header = read_model_file(tmp_path / "cluster.haptoflow").header
+    assert [label["name"] for label in header["labels"]] == ["wood", "stone"]
+    assert "Cluster Haptic Texture Dataset" in header["provenance"]["statement"]
+    assert header["provenance"]["licence"] == "CC BY 4.0"
+
+
+def test_a_texture_without_recordings_on_the_hub_is_named(tmp_path: Path) -> None:
+    with loopback_hub(NAME, HUB) as (hub, _):
+        ended = _train(hub, tmp_path, "--textures", "0,7", "--into", "data")
+    assert ended.returncode != 0
+    assert 'no "sensor_data/accel/7"' in ended.stderr
+
+
+def test_wrong_words_are_refused_before_anything_is_asked_for(tmp_path: Path) -> None:
+    with loopback_hub(NAME, HUB) as (hub, asked):
+        for words, sentence in (
+            (["--textures", "oak"], "--textures oak: expected ids"),
+            (["--textures"], "--textures needs ids"),
+            (["--into"], "--into needs a folder"),
+            (["--recordings", "x"], "leave --recordings out"),
+        ):
+            ended = _train(hub, tmp_path, *words)
+            assert ended.returncode == 2 and sentence in ended.stderr, ended.stderr
+        assert not asked
+        ended = _train(hub, tmp_path, "--textures", "0,118", "--into", "data")
+        assert "--textures 118: the data set has no such texture" in ended.stderr
+        assert not [path for path in asked if path.endswith(".parquet")]
+
+
+def test_a_hub_that_is_not_reached_is_named(tmp_path: Path) -> None:
+    with loopback_hub(NAME, HUB) as (hub, _):
+        pass
+    ended = _train(hub, tmp_path, "--textures", "0", "--into", "data")
+    assert ended.returncode != 0 and hub in ended.stderr
+    shutil.rmtree(tmp_path / "data")
