@@ -64,15 +64,19 @@ async function fetchOrFail(address, options) {
 /** Whether an error is that of a connection which ended while its answer was read. */
 export const isCut = (error) => error instanceof NetworkError || (error instanceof TypeError && error.message === 'terminated');
 
+/** What a connection's error says below the words "fetch failed". */
+export function reasonOf(error) {
+  const cause = error.cause?.errors?.[0] ?? error.cause ?? error;
+  return cause.code ?? cause.message;
+}
+
 /** The error of a connection, with a remedy. */
 export function networkError(address, error, env = process.env, node = process.versions.node) {
-  const cause = error.cause?.errors?.[0] ?? error.cause ?? error;
-  const reason = cause.code ?? cause.message;
   const { origin } = new URL(address);
   const proxies = ['HTTPS_PROXY', 'https_proxy', 'HTTP_PROXY', 'http_proxy'].filter((name) => env[name]);
   const state = proxies.length > 0 ? `${proxies.join(', ')} ${proxies.length > 1 ? 'are' : 'is'} set` : 'HTTPS_PROXY is not set';
   return new NetworkError(
-    `${origin} cannot be reached (${reason}): check the network. Behind a proxy (${state}), Node 22.21 or newer uses it with ` +
+    `${origin} cannot be reached (${reasonOf(error)}): check the network. Behind a proxy (${state}), Node 22.21 or newer uses it with ` +
       `NODE_USE_ENV_PROXY=1 (this is ${node}), and NODE_EXTRA_CA_CERTS names a certificate of its own; HF_ENDPOINT names a mirror of the hub. ` +
       'Files that a browser downloaded do as well: ./run published FOLDER',
   );

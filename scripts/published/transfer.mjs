@@ -4,7 +4,7 @@ import { createReadStream } from 'node:fs';
 import { mkdir, open, readdir, rename, rm, stat } from 'node:fs/promises';
 import path from 'node:path';
 import { CommandError } from '../lib/process.mjs';
-import { backOffSeconds, isCut, tries, waitSeconds } from './requests.mjs';
+import { NetworkError, backOffSeconds, isCut, reasonOf, tries, waitSeconds } from './requests.mjs';
 
 // A try that brings this much counts as none, so that a large file may be cut often.
 const progressBytes = 1 << 20;
@@ -24,14 +24,15 @@ const progressBytes = 1 << 20;
  * @param {string} job.place
  * @param {number | null} job.size bytes, null where nobody says
  * @param {Digest} job.digest
- * @param {(line: string) => void} job.say @param {(bytes: number, size: number | null) => void} [job.advance] bytes that are new here
+ * @param {(line: string) => void} job.say @param {(bytes: number, size: number | null, isHere?: boolean) => void} [job.advance] hears of the file's
+ *   bytes; isHere: of an earlier run; less than 0 where a server begins anew
  * @returns {Promise<{sha256: string, size: number, isNew: boolean}>}
  * @throws CommandError with what to do; what is there of the file stays, unless its content is wrong
  */
 export async function bringFile({ ask, place, size, digest, say, advance = () => {}, wait = waitSeconds }) {
   const whole = await checkedFile(place, size, digest);
   if (whole?.isRight) {
-    advance(whole.size, size);
+    advance(whole.size, whole.size, true);
     return { sha256: whole.sha256, size: whole.size, isNew: false };
   }
   if (whole) {
@@ -87,35 +88,35 @@ function isRunning(pid) {
 
 /** Appends to the part until it is whole. */
 async function fill({ ask, place, part, size, say, advance, wait }) {
+  const name = path.basename(place);
   const had = await sizeOf(part);
-  if (had > 0) advance(had, size);
-  let unanswered = 0;
-  for (;;) {
+  if (had > 0) advance(had, size, true);
+  let whole = size;
+  for (let attempt = 0; ; ) {
     const from = await sizeOf(part);
     if (size !== null && from >= size) return;
     try {
       const response = await ask(from);
-      const total = totalOf(response, from);
+      whole = size ?? totalOf(response, from);
       if (response.status === 416) {
-        if (total === from) return;
+        await response.body?.cancel();
+        if (whole === from) return;
         await rm(part, { force: true });
-        throw new CommandError(`${path.basename(place)}: ${from} bytes were here, and there are ${total ?? 'fewer'}: the part is deleted; run again`);
+        throw new CommandError(`${name}: ${from} bytes were here, and it has ${whole ?? 'fewer'}: the part is deleted; run again`);
       }
-      if (response.status === 200 && from > 0) advance(-from, size);
-      await append({ response, part, place, size: size ?? total, advance });
-      const now = await sizeOf(part);
-      if (now === (size ?? total) || (size ?? total) === null) return;
-      if (now > (size ?? total)) return;
-      throw new TypeError('terminated');
+      // All of it, though a part was asked for.
+      if (response.status === 200 && from > 0) advance(-from, whole);
+      await append({ response, part, place, whole, advance });
+      if (whole === null || (await sizeOf(part)) >= whole) return;
+      throw new NetworkError('the connection ended early');
     } catch (error) {
       if (!isCut(error)) throw error;
-      const now = await sizeOf(part);
-      unanswered = now - from >= progressBytes ? 1 : unanswered + 1;
-      if (unanswered === tries) {
-        throw new CommandError(`${path.basename(place)}: the connection was cut ${tries} times in a row, ${megabytes(now)}${size === null ? '' : ` of ${megabytes(size)}`} MB are here and stay: run again when the network is better`);
-      }
-      const seconds = backOffSeconds(unanswered);
-      say(`${path.basename(place)}: the connection was cut at ${megabytes(now)} MB; going on in ${seconds} s`);
+      const here = await sizeOf(part);
+      attempt = here - from >= progressBytes ? 1 : attempt + 1;
+      const state = `${megabytes(here)}${whole === null ? '' : ` of ${megabytes(whole)}`} MB are here`;
+      if (attempt === tries) throw new CommandError(`${name}: the connection was cut ${tries} times in a row (${reasonOf(error)}); ${state} and stay: run again when the network is better`);
+      const seconds = backOffSeconds(attempt);
+      say(`${name}: the connection was cut; ${state}, going on in ${seconds} s`);
       await wait(seconds);
     }
   }
@@ -131,12 +132,12 @@ function totalOf(response, from) {
   return Number(length) + (response.status === 206 ? from : 0);
 }
 
-async function append({ response, part, place, size, advance }) {
-  const file = await onDisk(place, size, () => open(part, response.status === 206 ? 'a' : 'w'));
+async function append({ response, part, place, whole, advance }) {
+  const file = await onDisk(place, whole, () => open(part, response.status === 206 ? 'a' : 'w'));
   try {
     for await (const chunk of response.body) {
-      await onDisk(place, size, () => file.appendFile(chunk), part);
-      advance(chunk.length, size);
+      await onDisk(place, whole, () => file.appendFile(chunk), part);
+      advance(chunk.length, whole);
     }
   } finally {
     await file.close();
