@@ -59,4 +59,5 @@ def hub_tables(recording: Recording) -> dict[str, pandas.DataFrame]:
 
 def _hub_table(seconds: np.ndarray, values: dict[str, np.ndarray]) -> pandas.DataFrame:
     nanoseconds = np.round(1e9 * seconds).astype(np.int64)
-    return pandas.DataFrame({"time_ns": nanoseconds, **{key: value.astype(np.float32) for key, value in values.items()}})
+    stored = {key: value.astype(np.float32) for key, value in values.items()}
+    return pandas.DataFrame({"time_ns": nanoseconds, **stored})

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import os
-import shutil
 import subprocess
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
-from loopback_hub import loopback_hub
 from parquet_samples import HUB
 from test_skeleton_training import SMALL_BASE, SMALL_STANDARD
 
@@ -20,12 +21,38 @@ SCRIPT = Path(__file__).resolve().parents[2] / "scripts" / "train.mjs"
 CHOSEN = ("0_0_40_500_0", "0_90_40_500_1", "38_0_40_500_0", "38_90_40_500_1")
 
 
+@contextmanager
+def loopback_hub() -> Iterator[tuple[str, list[str]]]:
+    """The address of a hub that serves Golden/parquet/hub, and the requests that it gets, a list that grows."""
+    asked: list[str] = []
+    words = ["node", str(Path(__file__).with_name("serve_hub.mjs")), NAME, str(HUB)]
+    with subprocess.Popen(words, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as server:
+        assert server.stdin is not None and server.stdout is not None
+        address = server.stdout.readline().strip()
+        listening = threading.Thread(target=lambda: asked.extend(line.strip() for line in server.stdout or ()))
+        listening.start()
+        try:
+            yield address, asked
+        finally:
+            server.stdin.close()
+            listening.join()
+
+
 def _train(hub: str, folder: Path, *words: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run(
         ["node", str(SCRIPT), "--cluster", *words],
         env={**os.environ, "HF_ENDPOINT": hub, "HF_TOKEN": "", "INIT_CWD": str(folder), "PYTHONWARNINGS": "ignore"},
         capture_output=True, text=True, timeout=600,
     )  # fmt: skip
+
+
+def _brought(asked: list[str]) -> list[str]:
+    """The files whose bytes were asked for, by the hub's address of them."""
+    return [line.split("/resolve/")[1].split("/", 1)[1] for line in asked if "/resolve/" in line]
+
+
+def _of_data_set(path: Path) -> str:
+    return "/".join(path.parts[-4:])
 
 
 @pytest.fixture
@@ -38,25 +65,26 @@ def small(tmp_path: Path) -> list[str]:
     return ["--configs", "configs", "--out", "runs", "--lanes", "1", "--export", "cluster.haptoflow"]
 
 
-def test_chosen_textures_are_downloaded_once_and_become_a_model_with_their_licence(tmp_path: Path, small: list[str]) -> None:
+def test_chosen_textures_are_downloaded_once_and_become_a_model_with_their_licence(
+    tmp_path: Path, small: list[str]
+) -> None:
     words = ["--textures", "0,38", "--into", "data", *small]
-    with loopback_hub(NAME, HUB) as (hub, asked):
+    with loopback_hub() as (hub, asked):
         ended = _train(hub, tmp_path, *words)
         assert ended.returncode == 0, ended.stderr + ended.stdout
         files = sorted(path.name for path in (tmp_path / "data" / "sensor_data").rglob("*") if path.is_file())
         assert files == sorted(f"{name}.parquet" for name in CHOSEN for _ in range(3))
-        assert not any("/49" in path or "audio" in path for path in asked)
-        brought = [path for path in asked if "/resolve/" in path]
-        assert len(brought) == 13 and len(set(brought)) == 13
+        first = len(asked)
         assert "wood (0), stone (38)" in ended.stdout and "licence cc-by-4.0" in ended.stdout
         # Again: a file that is missing and a damaged one are brought, the others are only read.
         lost, damaged = sorted((tmp_path / "data" / "sensor_data" / "force").rglob("*.parquet"))[:2]
         lost.unlink()
         damaged.write_bytes(b"PAR1" + damaged.read_bytes()[4:-1] + b"2")
-        asked.clear()
-        again = _train(hub, tmp_path, *words)
-        assert again.returncode == 0, again.stderr
-        assert sorted(Path(path).name for path in asked if "/resolve/" in path) == sorted([lost.name, damaged.name])
+        again = _train(hub, tmp_path, *words, "--configs", "gone")
+        assert again.returncode == 3 and "gone" in again.stderr, again.stderr
+    assert not [path for path in asked if "/49" in path or "audio" in path]
+    assert len(_brought(asked[:first])) == 13 == len(set(_brought(asked[:first])))
+    assert sorted(_brought(asked[first:])) == sorted([_of_data_set(lost), _of_data_set(damaged)])
     header = read_model_file(tmp_path / "cluster.haptoflow").header
     assert [label["name"] for label in header["labels"]] == ["wood", "stone"]
     assert "Cluster Haptic Texture Dataset" in header["provenance"]["statement"]
@@ -64,14 +92,14 @@ def test_chosen_textures_are_downloaded_once_and_become_a_model_with_their_licen
 
 
 def test_a_texture_without_recordings_on_the_hub_is_named(tmp_path: Path) -> None:
-    with loopback_hub(NAME, HUB) as (hub, _):
+    with loopback_hub() as (hub, _):
         ended = _train(hub, tmp_path, "--textures", "0,7", "--into", "data")
     assert ended.returncode != 0
     assert 'no "sensor_data/accel/7"' in ended.stderr
 
 
 def test_wrong_words_are_refused_before_anything_is_asked_for(tmp_path: Path) -> None:
-    with loopback_hub(NAME, HUB) as (hub, asked):
+    with loopback_hub() as (hub, asked):
         for words, sentence in (
             (["--textures", "oak"], "--textures oak: expected ids"),
             (["--textures"], "--textures needs ids"),
@@ -80,15 +108,13 @@ def test_wrong_words_are_refused_before_anything_is_asked_for(tmp_path: Path) ->
         ):
             ended = _train(hub, tmp_path, *words)
             assert ended.returncode == 2 and sentence in ended.stderr, ended.stderr
-        assert not asked
         ended = _train(hub, tmp_path, "--textures", "0,118", "--into", "data")
         assert "--textures 118: the data set has no such texture" in ended.stderr
-        assert not [path for path in asked if path.endswith(".parquet")]
+    assert _brought(asked) == ["texture_list.xlsx"], "nothing is asked for by words that are refused"
 
 
 def test_a_hub_that_is_not_reached_is_named(tmp_path: Path) -> None:
-    with loopback_hub(NAME, HUB) as (hub, _):
+    with loopback_hub() as (hub, _):
         pass
     ended = _train(hub, tmp_path, "--textures", "0", "--into", "data")
     assert ended.returncode != 0 and hub in ended.stderr
-    shutil.rmtree(tmp_path / "data")

@@ -177,7 +177,7 @@ def test_the_remedy_is_named_where_node_or_its_packages_are_missing(
     monkeypatch.setattr(parquet_files._NodeReader, "_running", None)
     with monkeypatch.context() as without:
         without.setattr(shutil, "which", lambda _: None)
-        with pytest.raises(InputError, match=r"codec-snappy\.parquet: .*neither pyarrow nor Node .*npm ci.*pip install"):
+        with pytest.raises(InputError, match=r"codec-snappy\.parquet: .*nor Node is installed.*npm ci.*pip install"):
             read_parquet(path)
     # A checkout in which nobody ran `npm ci`.
     for name in ("serve.mjs", "columns.mjs"):

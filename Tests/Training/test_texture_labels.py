@@ -13,7 +13,9 @@ from haptoflow_training.recordings.texture_labels import as_toml, labels_of_text
 LISTED = {0: "Nyatoh", 1: "Steel", 38: "Granite", 49: "HDPE", 103: "Corduroy", 104: "Cotton broadcloth"}
 
 
-def test_chosen_textures_become_labels_known_or_of_their_own_name(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_chosen_textures_become_labels_known_or_of_their_own_name(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     out = tmp_path / "labels.toml"
     assert main(["labels", str(HUB), "--textures", "49,0,38", "--out", str(out)]) == 0
     assert capsys.readouterr().out == "49\thdpe\n0\twood\n38\tstone\n"
@@ -35,7 +37,7 @@ def test_a_label_whose_texture_is_not_listed_is_named() -> None:
 
 
 def test_an_id_outside_the_data_set_is_refused(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
-    with pytest.raises(InputError, match="--textures 118: the data set has no such texture; expected ids from 0 to 117"):
+    with pytest.raises(InputError, match="--textures 118: .*no such texture; expected ids from 0 to 117"):
         labels_of_textures(load_labels(), LISTED, (0, 118))
     with pytest.raises(SystemExit):
         main(["labels", str(HUB), "--textures", "oak", "--out", str(tmp_path / "l.toml")])

@@ -54,7 +54,8 @@ def write_with_apache(work: Path) -> None:
         for kind, table in hub_tables(hub_recording(name)).items():
             target = HUB / "sensor_data" / kind / name.split("_")[0] / f"{name}.parquet"
             add(table, target, "Snappy" if number == 0 else "Zstd", 1000 if number == 1 else 1 << 20)
-    write_texture_list(HUB, [TextureEntry(0, "Nyatoh", {}), TextureEntry(38, "Granite", {}), TextureEntry(49, "HDPE", {})])
+    names = {0: "Nyatoh", 38: "Granite", 49: "HDPE"}
+    write_texture_list(HUB, [TextureEntry(texture, name, {}) for texture, name in names.items()])
     (work / "jobs.txt").write_text("".join(jobs), encoding="utf-8")
     project = work / "writer"
     shutil.rmtree(project, ignore_errors=True)

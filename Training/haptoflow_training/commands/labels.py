@@ -12,8 +12,8 @@ from haptoflow_training.whole_file import write_whole
 
 _DESCRIPTION = """\
 Write a labels file for textures of the Cluster Haptic Texture Dataset, by their ids (0 to 117). A texture that
-Training/configs/labels-cluster.toml names keeps that label; any other is called as the data set calls it, with stiffness
-and friction of the first label of its category: look at them before you train. Prints each texture's id and label.
+Training/configs/labels-cluster.toml names keeps that label; any other is called as the data set calls it, with
+stiffness and friction of the first label of its category: look at them before you train. Prints each texture's id and label.
 
 DIR is the folder of the data set; only its texture_list.xlsx is read."""
 

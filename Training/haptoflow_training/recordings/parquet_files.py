@@ -28,7 +28,7 @@ _LENGTH_BYTES = 8
 def read_parquet(path: Path) -> pandas.DataFrame:
     """The top-level columns in the file's order and precision (int64 stays int64 unless values are missing).
 
-    Without pyarrow, a column that is no number (text, a group, a list, a date) holds a word for what it is in every row.
+    Without pyarrow, a column that is no number (text, a group, a list, a date) says in every row what it is.
     InputError if neither reader is installed; ValueError if the file is damaged; OSError if it cannot be read.
     """
     import pandas

@@ -27,7 +27,8 @@ def labels_of_textures(known: LabelMap, listed: Mapping[int, str], textures: Seq
         textures = [texture for texture, label in label_of.items() if label is not None]
         unlisted = [name for name in known.names if name not in label_of.values()]
         if unlisted:
-            raise InputError(f"{TEXTURE_LIST_FILE} lists no texture of the labels {', '.join(unlisted)}; name ids in --textures")
+            words = ", ".join(unlisted)
+            raise InputError(f"{TEXTURE_LIST_FILE} lists no texture of the labels {words}; name ids in --textures")
     return LabelMap(tuple(_label(known, texture, names[texture]) for texture in dict.fromkeys(textures)))
 
 
