@@ -89,7 +89,7 @@ async function bytesFrom(client, query, from) {
   };
   try {
     const info = await client.fileDownloadInfo({ ...query, fetch: own });
-    if (info === null) throw Object.assign(new client.HubApiError(answer.url, 404), { answer });
+    if (info === null) throw new client.HubApiError(answer.url, 404);
   } catch (error) {
     // The client wants a range and an ETag; the bytes are good without.
     const isGood = error instanceof CompleteAnswer || (error instanceof client.InvalidApiResponseFormatError && answer?.ok);
@@ -116,8 +116,7 @@ async function ask({ repo, folder, revision, hubUrl = endpointOf(), say = consol
       if (error instanceof SyntaxError || error instanceof client.InvalidApiResponseFormatError) {
         throw new CommandError(`${hubUrl}: not the hub's answer (${error.message}): check HF_ENDPOINT, and whether a proxy answers in its place`);
       }
-      const isCutAfterAnswer = isCut(error) && error.constructor === TypeError;
-      if (once || !isCutAfterAnswer) throw error;
+      if (once || !isCut(error)) throw error;
       if (attempt === tries) throw new CommandError(`${hubUrl}: the connection was cut ${tries} times in a row: run again when the network is better`);
       await wait(backOffSeconds(attempt));
     }

@@ -8,7 +8,13 @@ export const tries = 5;
 const longestWaitSeconds = 300;
 
 /** A server that cannot be reached, or that left in the middle. */
-export class NetworkError extends CommandError {}
+export class NetworkError extends CommandError {
+  /** @param {string} message @param {string} [reason] the system's word for it */
+  constructor(message, reason) {
+    super(message);
+    this.reason = reason;
+  }
+}
 
 /** Waits some seconds. Tests hand in one that only notes them. */
 export const waitSeconds = (seconds) => pause(1000 * seconds);
@@ -61,13 +67,13 @@ async function fetchOrFail(address, options) {
   }
 }
 
-/** Whether an error is that of a connection which ended while its answer was read. */
-export const isCut = (error) => error instanceof NetworkError || (error instanceof TypeError && error.message === 'terminated');
+/** Whether an error is that of a connection which ended while its answer was read (Node calls it "terminated"), or before. */
+export const isCut = (error) => (error instanceof TypeError && error.message === 'terminated') || ['ECONNRESET', 'EPIPE', 'UND_ERR_SOCKET'].includes(error.reason);
 
 /** What a connection's error says below the words "fetch failed". */
 export function reasonOf(error) {
   const cause = error.cause?.errors?.[0] ?? error.cause ?? error;
-  return cause.code ?? cause.message;
+  return error.reason ?? cause.code ?? cause.message;
 }
 
 /** The error of a connection, with a remedy. */
@@ -79,5 +85,6 @@ export function networkError(address, error, env = process.env, node = process.v
     `${origin} cannot be reached (${reasonOf(error)}): check the network. Behind a proxy (${state}), Node 22.21 or newer uses it with ` +
       `NODE_USE_ENV_PROXY=1 (this is ${node}), and NODE_EXTRA_CA_CERTS names a certificate of its own; HF_ENDPOINT names a mirror of the hub. ` +
       'Files that a browser downloaded do as well: ./run published FOLDER',
+    reasonOf(error),
   );
 }

@@ -36,7 +36,7 @@ export async function bringFile({ ask, place, size, digest, say, advance = () =>
     return { sha256: whole.sha256, size: whole.size, isNew: false };
   }
   if (whole) {
-    say(`${place} is not what it was: ${whole.complaint}; it is downloaded again`);
+    say(`${place} is out of date or damaged: ${whole.complaint}; it is downloaded again`);
     await rm(place, { force: true });
   }
   await onDisk(place, size, () => mkdir(path.dirname(place), { recursive: true }));
@@ -108,10 +108,11 @@ async function fill({ ask, place, part, size, say, advance, wait }) {
       if (response.status === 200 && from > 0) advance(-from, whole);
       await append({ response, part, place, whole, advance });
       if (whole === null || (await sizeOf(part)) >= whole) return;
-      throw new NetworkError('the connection ended early');
+      throw new TypeError('terminated');
     } catch (error) {
-      if (!isCut(error)) throw error;
       const here = await sizeOf(part);
+      // While a download is on its way, a network that is away may come back.
+      if (!isCut(error) && !(error instanceof NetworkError && here > had)) throw error;
       attempt = here - from >= progressBytes ? 1 : attempt + 1;
       const state = `${megabytes(here)}${whole === null ? '' : ` of ${megabytes(whole)}`} MB are here`;
       if (attempt === tries) throw new CommandError(`${name}: the connection was cut ${tries} times in a row (${reasonOf(error)}); ${state} and stay: run again when the network is better`);
@@ -155,7 +156,7 @@ async function onDisk(place, size, work, part = null) {
       const need = size === null ? '' : ` ${megabytes(size - here)} MB more are needed:`;
       throw new CommandError(`${folder}: the disk is full (${error.code}). ${megabytes(here)} MB of ${path.basename(place)} are here and stay;${need} make room, or set XDG_CACHE_HOME to a folder on another disk, then run again`);
     }
-    if (['EACCES', 'EROFS', 'EPERM', 'ENOTDIR'].includes(error.code)) {
+    if (['EACCES', 'EEXIST', 'ENOTDIR', 'EPERM', 'EROFS'].includes(error.code)) {
       throw new CommandError(`${folder} cannot be written (${error.code}): set XDG_CACHE_HOME to a folder that can`);
     }
     throw error;
@@ -179,7 +180,8 @@ async function checkedFile(file, size, digest) {
   try {
     bytes = (await stat(file)).size;
   } catch (error) {
-    if (error.code === 'ENOENT') return null;
+    // ENOTDIR: a file has the name of a folder above; making the folder says so.
+    if (error.code === 'ENOENT' || error.code === 'ENOTDIR') return null;
     throw error;
   }
   if (size !== null && bytes !== size) return { isRight: false, complaint: `it has ${bytes} bytes, and ${digest.source} says ${size}` };
