@@ -14,6 +14,8 @@ from parquet_samples import HUB
 from test_skeleton_training import SMALL_BASE, SMALL_STANDARD
 
 from haptoflow_training.export.model_file import read_model_file
+from haptoflow_training.recordings.cluster_dataset import open_dataset
+from haptoflow_training.recordings.labels import load_labels
 
 NAME = "tamago117/cluster-haptic-texture-dataset"
 SCRIPT = Path(__file__).resolve().parents[2] / "scripts" / "train.mjs"
@@ -65,13 +67,22 @@ def small(tmp_path: Path) -> list[str]:
     return ["--configs", "configs", "--out", "runs", "--lanes", "1", "--export", "cluster.haptoflow"]
 
 
-def test_chosen_textures_are_downloaded_once_and_become_a_model_with_their_licence(
-    tmp_path: Path, small: list[str]
-) -> None:
-    words = ["--textures", "0,38", "--into", "data", *small]
+def test_a_model_of_chosen_textures_has_their_labels_and_licence(tmp_path: Path, small: list[str]) -> None:
+    with loopback_hub() as (hub, _):
+        ended = _train(hub, tmp_path, "--textures", "0,38", "--into", "data", *small)
+    assert ended.returncode == 0, ended.stderr + ended.stdout
+    header = read_model_file(tmp_path / "cluster.haptoflow").header
+    assert [label["name"] for label in header["labels"]] == ["wood", "stone"]
+    assert "Cluster Haptic Texture Dataset" in header["provenance"]["statement"]
+    assert header["provenance"]["licence"] == "CC BY 4.0"
+
+
+def test_chosen_textures_are_downloaded_once_and_handed_to_the_training(tmp_path: Path) -> None:
+    words = ["--textures", "0,38", "--into", "data", "--configs", "gone"]
     with loopback_hub() as (hub, asked):
         ended = _train(hub, tmp_path, *words)
-        assert ended.returncode == 0, ended.stderr + ended.stdout
+        # The training has begun, and refuses the configuration.
+        assert ended.returncode == 3 and f"{Path('gone') / 'base.toml'}" in ended.stderr, ended.stderr
         files = sorted(path.name for path in (tmp_path / "data" / "sensor_data").rglob("*") if path.is_file())
         assert files == sorted(f"{name}.parquet" for name in CHOSEN for _ in range(3))
         first = len(asked)
@@ -80,15 +91,13 @@ def test_chosen_textures_are_downloaded_once_and_become_a_model_with_their_licen
         lost, damaged = sorted((tmp_path / "data" / "sensor_data" / "force").rglob("*.parquet"))[:2]
         lost.unlink()
         damaged.write_bytes(b"PAR1" + damaged.read_bytes()[4:-1] + b"2")
-        again = _train(hub, tmp_path, *words, "--configs", "gone")
-        assert again.returncode == 3 and "gone" in again.stderr, again.stderr
+        assert _train(hub, tmp_path, *words).returncode == 3
     assert not [path for path in asked if "/49" in path or "audio" in path]
     assert len(_brought(asked[:first])) == 13 == len(set(_brought(asked[:first])))
     assert sorted(_brought(asked[first:])) == sorted([_of_data_set(lost), _of_data_set(damaged)])
-    header = read_model_file(tmp_path / "cluster.haptoflow").header
-    assert [label["name"] for label in header["labels"]] == ["wood", "stone"]
-    assert "Cluster Haptic Texture Dataset" in header["provenance"]["statement"]
-    assert header["provenance"]["licence"] == "CC BY 4.0"
+    labels = load_labels(tmp_path / "data" / "labels.toml")
+    assert [(label.name, label.textures) for label in labels.definitions] == [("wood", (0,)), ("stone", (38,))]
+    assert [entry.label for entry in open_dataset(tmp_path / "data", labels)] == ["wood", "wood", "stone", "stone"]
 
 
 def test_a_texture_without_recordings_on_the_hub_is_named(tmp_path: Path) -> None:
