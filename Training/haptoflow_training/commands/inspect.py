@@ -22,7 +22,7 @@ the grid; and every missing or broken file with what was expected of it.
 
 DIR is a folder of recordings of your own, CSV, Parquet or WAV with their sidecars (or one such file), or the
 folder that holds sensor_data/, in the file release's layout (sensor_data/accel/0_135_40_500_0.csv), the hub
-release's (sensor_data/accel/0/0_135_40_500_0.parquet; needs `pip install pyarrow`), or written by `record`."""
+release's (sensor_data/accel/0/0_135_40_500_0.parquet), or written by `record`."""
 
 _EXAMPLES = """\
 examples:

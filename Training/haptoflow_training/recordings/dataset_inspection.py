@@ -28,8 +28,8 @@ _REPORT_VERSION = 1
 def inspect_dataset(dataset: Dataset, recordings: Iterable[RecordingFile] | None = None) -> dict[str, Any]:
     """The report, as JSON. Reads every recording once, one at a time; `recordings` may wrap `dataset` to show progress.
 
-    A broken file is reported as a problem, and so is an apparent wrong unit or glitch; InputError is raised only if no
-    Parquet engine is installed. Counts cover readable recordings; problems are in the order of the files.
+    A broken file is reported as a problem, and so is an apparent wrong unit or glitch; InputError is raised only if nothing
+    that reads Parquet is installed. Counts cover readable recordings; problems are in the order of the files.
     """
     readable: list[RecordingFile] = []
     durations: list[float] = []
