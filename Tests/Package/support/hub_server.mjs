@@ -175,6 +175,7 @@ function send(response, status, headers, body) {
 const json = (response, status, value, headers = {}) => send(response, status, { 'Content-Type': 'application/json; charset=utf-8', ...headers }, JSON.stringify(value));
 
 function listen(handle) {
-  const server = http.createServer(handle);
+  // Node 18.15 runs no `after` outside of tests: what is not closed must not keep the process.
+  const server = http.createServer(handle).unref();
   return new Promise((resolve) => server.listen(0, '127.0.0.1', () => resolve(server)));
 }
