@@ -24,7 +24,7 @@ from published_samples import PUBLISHED, SOLVERS, GoldenChain, assert_within_1e_
 
 ROOT = Path(__file__).parents[2]
 ENGINE = ROOT / "build" / "native" / "haptoflow"
-RUN_GRAPHS = Path(__file__).parent / "run_graphs.mjs"
+RUN_GRAPHS = ROOT / "Training" / "haptoflow_paper" / "published" / "run_graphs.mjs"
 Results = dict[str, NDArray[np.float64]]
 PEAK_G = 1.5
 UNIT_MPS2 = PEAK_G * STANDARD_GRAVITY_MPS2
