@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 import torch
 from numpy.typing import NDArray
+from scipy.io import wavfile
 
 from haptoflow_benchmark.engine.engine_library import EngineLibrary, default_engine
 from haptoflow_benchmark.engine.engine_render import render_motion
@@ -24,7 +25,7 @@ from published_samples import PUBLISHED, SOLVERS, GoldenChain, assert_within_1e_
 
 ROOT = Path(__file__).parents[2]
 ENGINE = ROOT / "build" / "native" / "haptoflow"
-RUN_GRAPHS = Path(__file__).parent / "run_graphs.mjs"
+RUN_GRAPHS = ROOT / "Training" / "haptoflow_paper" / "published" / "run_graphs.mjs"
 Results = dict[str, NDArray[np.float64]]
 PEAK_G = 1.5
 UNIT_MPS2 = PEAK_G * STANDARD_GRAVITY_MPS2
@@ -214,3 +215,15 @@ def test_the_offline_engine_plays_a_stroke_from_touch_down_at_the_measured_level
     assert abs(20 * np.log10(band_rms(wave[None, 400:])[0] / expected)) < 3.0
     # The seed sounds before the first segment is there.
     assert abs(20 * np.log10(band_rms(wave[None, 20:120])[0] / expected)) < 9.0
+
+
+def test_learning_a_material_on_an_import_is_refused_because_its_network_has_its_own_unit(path: Path, tmp_path: Path) -> None:
+    numbers = np.random.default_rng(1)
+    recording = tmp_path / "board.wav"
+    wavfile.write(recording, 8000, (0.1 * numbers.standard_normal(80000)).astype(np.float32))
+    recording.with_suffix(".json").write_text('{"full_scale_mps2": 20}', encoding="utf-8")
+    command = [str(ENGINE), "learn", str(recording), "--model", str(path), "-o", str(tmp_path / "board.haptomaterial")]
+    done = subprocess.run([*command, "--speed-mps", "0.04", "--force-newtons", "0.75"], capture_output=True, text=True, check=False)
+    assert done.returncode == 3, done.stderr
+    assert f"{path}: the model gives all its labels one level, {UNIT_MPS2:.3g}" in done.stderr
+    assert not (tmp_path / "board.haptomaterial").exists()

@@ -62,7 +62,7 @@ class RenderedLevels:
 
 def segments_to_render(labels: int) -> int:
     """How many segments `render_levels` generates for so many labels."""
-    return labels * 5 * len(_DIRECTIONS) * (_UNHEARD_SEGMENTS + _HEARD_SEGMENTS)
+    return labels * 5 * len(_DIRECTIONS) * segments_a_wave()
 
 
 def render_levels(
@@ -76,8 +76,25 @@ def render_levels(
     """Render embeddings [L, 64] at the reference and at the corners of the range; level_mps2: the model's constant one,
     in which everything is returned. advance: told of every few finished segments."""
     motions = _motions(speed_mps, force_newtons)
-    samples = SEGMENT_SAMPLES * _HEARD_SEGMENTS
-    waves = np.zeros((len(embeddings), len(motions), samples), dtype=np.float32)
+    waves = render_waves(generator, embeddings, motions, advance) / np.float32(level_mps2)
+    flat = waves.reshape(-1, waves.shape[2])
+    return RenderedLevels(
+        motions,
+        band_rms(flat).reshape(waves.shape[:2]),
+        centroid_hz(flat, SAMPLE_RATE_HZ).reshape(waves.shape[:2]),
+        waves[:, :, -SEED_SAMPLES:],
+    )
+
+
+def render_waves(
+    generator: EngineGenerator,
+    embeddings: _Floats,
+    motions: _Floats,
+    advance: Callable[[int], None] = lambda count: None,
+) -> _Floats:
+    """What embeddings [L, 64] at motions [M, 3] sound like once their first silence is forgotten, [L, M, 800] in
+    m/s^2."""
+    waves = np.zeros((len(embeddings), len(motions), SEGMENT_SAMPLES * _HEARD_SEGMENTS), dtype=np.float32)
     chains = [(label, motion) for label in range(len(embeddings)) for motion in range(len(motions))]
     for first in range(0, len(chains), _CHAINS_AT_A_TIME):
         labels, places = np.array(chains[first : first + _CHAINS_AT_A_TIME]).T
@@ -88,15 +105,19 @@ def render_levels(
             previous = generator.generate(embeddings[labels], motions[places], previous, given)
             if segment >= 0:
                 place = slice(segment * SEGMENT_SAMPLES, (segment + 1) * SEGMENT_SAMPLES)
-                waves[labels, places, place] = previous / level_mps2
+                waves[labels, places, place] = previous
             advance(len(labels))
-    flat = waves.reshape(-1, samples)
-    return RenderedLevels(
-        motions,
-        band_rms(flat).reshape(waves.shape[:2]),
-        centroid_hz(flat, SAMPLE_RATE_HZ).reshape(waves.shape[:2]),
-        waves[:, :, -SEED_SAMPLES:],
-    )
+    return waves
+
+
+def segments_a_wave() -> int:
+    """How many segments `render_waves` generates for one wave."""
+    return _UNHEARD_SEGMENTS + _HEARD_SEGMENTS
+
+
+def reference_motions() -> _Floats:
+    """The motions [2, 3] at which the data set's level is known: both ways along one diagonal."""
+    return _motions_of([(REFERENCE_SPEED_MPS, REFERENCE_FORCE_NEWTONS)])
 
 
 def band_rms(waves: _Floats) -> NDArray[np.float64]:
@@ -109,7 +130,10 @@ def band_rms(waves: _Floats) -> NDArray[np.float64]:
 
 def _motions(speed_mps: tuple[float, float], force_newtons: tuple[float, float]) -> _Floats:
     conditions = [(REFERENCE_SPEED_MPS, REFERENCE_FORCE_NEWTONS)]
-    conditions += [(speed, force) for speed in speed_mps for force in force_newtons]
+    return _motions_of(conditions + [(speed, force) for speed in speed_mps for force in force_newtons])
+
+
+def _motions_of(conditions: list[tuple[float, float]]) -> _Floats:
     return np.array(
         [[*(speed * direction), force] for speed, force in conditions for direction in _DIRECTIONS], dtype=np.float32
     )

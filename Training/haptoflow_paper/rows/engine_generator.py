@@ -89,6 +89,12 @@ class EngineGenerator:
         self._engine.call("haptoflow_generator_close", ctypes.byref(self._handle))
         self._model.close()
 
+    def set_solver(self, solver: str, steps: int) -> None:
+        """From the next batch on; solver: of SOLVERS, 1 to 16 steps."""
+        self._engine.call(
+            "haptoflow_generator_set_solver", self._handle, ctypes.c_int32(SOLVERS[solver]), ctypes.c_int32(steps)
+        )
+
     def _read_embeddings(self) -> _Floats:
         count = len(self.header["labels"])
         rows = np.empty((count, 64), dtype=np.float32)
