@@ -20,7 +20,7 @@ from haptoflow_training.preprocessing.store import SegmentStore
 from haptoflow_training.preprocessing.store_lock import store_lock
 from haptoflow_training.recordings.dataset import UNKNOWN, Dataset
 from haptoflow_training.recordings.labels import LabelDefinition, LabelMap, load_labels
-from haptoflow_training.recordings.landing import landing_of
+from haptoflow_training.recordings.landing import landing_of, landing_of_spring
 from haptoflow_training.recordings.open_recordings import RecordingFile, open_recordings
 from haptoflow_training.recordings.recording import Recording, RecordingIdentity
 from haptoflow_training.recordings.synthetic import (
@@ -330,4 +330,5 @@ def _label_info(definition: LabelDefinition) -> LabelInfo:
         definition.friction_coefficient,
         definition.wavelength_metres,
         definition.wave_vectors_per_mm or (),
+        landing_of_spring(definition.stiffness_newtons_per_metre),
     )
