@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from pathlib import Path
 from typing import Any
@@ -16,7 +15,6 @@ from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.recordings.dataset_writer import TextureEntry, write_recording, write_texture_list
 from haptoflow_training.recordings.recording import Recording, RecordingIdentity
 from haptoflow_training.recordings.synthetic import load_materials, record_machine_condition
-from haptoflow_training.recordings.synthetic.materials import Ruling
 
 ROOT = Path(__file__).parents[2]
 CONFIGURATIONS = ROOT / "Training" / "configs" / "cluster"
@@ -28,16 +26,15 @@ SMALLER = {
     "[recipe]\nenergy_steps = 1\nenergy_batch_size = 2\nself_forcing_steps = 1\n",
 }
 SMALLER["standard"] = SMALLER["draft"]
-WOOD, CORDUROY, RIB_MM = 0, 103, 1.0
+TEXTURES = {0: "wood", 103: "corduroy"}
+RIB_MM = 2.5
 MOTION = np.tile(np.array([0.05, 0.0, 0.8]), (1600, 1))
 
 
 def _pass_over(texture: int, direction_degrees: int, speed_mmps: int) -> Recording:
-    """Wood, or a cloth with ribs along the data set's first axis."""
-    materials = {each.label: each for each in load_materials()}
-    ribbed = dataclasses.replace(materials["corduroy"], rulings=(Ruling(90.0, RIB_MM, 12.0),))
+    material = {each.label: each for each in load_materials()}[TEXTURES[texture]]
     identity = RecordingIdentity(texture, direction_degrees, speed_mmps, 500, 0)
-    return record_machine_condition({WOOD: materials["wood"], CORDUROY: ribbed}[texture], identity, seed=1)
+    return record_machine_condition(material, identity, seed=1)
 
 
 @pytest.fixture(scope="module")
@@ -46,9 +43,9 @@ def data_set(tmp_path_factory: pytest.TempPathFactory) -> Path:
     root = tmp_path_factory.mktemp("cluster")
     for direction in range(0, 360, 45):
         for speed in (40, 60):
-            for texture in (WOOD, CORDUROY):
+            for texture in TEXTURES:
                 write_recording(root, _pass_over(texture, direction, speed))
-    names = {WOOD: "Nyatoh", 38: "Granite", CORDUROY: "Corduroy"}
+    names = {0: "Nyatoh", 38: "Granite", 103: "Corduroy"}
     write_texture_list(root, [TextureEntry(number, name, {}) for number, name in names.items()])
     return root
 
@@ -102,4 +99,4 @@ def test_the_engine_renders_every_tier_of_a_cluster_training(model: Path, tier: 
     engine = ROOT / "build" / "native" / "haptoflow"
     made = render_motion(engine, "corduroy", MOTION, tmp_path, model=model, options=("--quality", tier))
     assert np.isfinite(made.waveform_mps2).all() and np.std(made.waveform_mps2) > 1e-3
-    assert made.report == tier
+    assert made.report["tier"] == tier and made.report["failures"] == 0
