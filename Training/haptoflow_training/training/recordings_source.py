@@ -225,7 +225,7 @@ def _open_folders(data: DataConfig, store_folder: Path, workers: int) -> Source:
         )
     found = {entry.label for entry in entries}
     infos = [info for name, info in known.items() if name in found]
-    further = {"files": _files_of(entries), "labels": labels_made_from, "split_by_time": True, "without_noise": True}
+    further = {"files": _files_of(entries), "labels": labels_made_from, "split_by_time": True, "without_noise": "of all files"}
     store = _open_or_prepare(data, store_folder, entries, [info.name for info in infos], workers, further)
     _require_splits(store, [f"skipped: {problem}" for root in roots for problem in root.problems])
     counted = f"{len(store.recordings)} recordings of {len(infos)} labels"
