@@ -12,8 +12,10 @@ import pytest
 from haptoflow_benchmark.cli import main
 from haptoflow_benchmark.mirror.comparison import Loss, losses_of, mirror_rows
 from haptoflow_benchmark.mirror.faults import ALL_FAULTS, Fault, MachinePass, simulated_pass
+from haptoflow_training.cli import main as inspect_main
 from haptoflow_training.preprocessing.pipeline import PreparedRecording, preprocess_recording
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
+from haptoflow_training.recordings.apparatus import plane_powers, x_over_y_db
 from haptoflow_training.recordings.cluster_dataset import open_dataset
 from haptoflow_training.recordings.dataset_writer import write_recording
 from haptoflow_training.recordings.recording import Recording, RecordingIdentity
@@ -134,3 +136,25 @@ def test_the_command_writes_a_row_for_each_fault_and_a_data_set_to_train_on(tmp_
     table = json.loads(out.read_text(encoding="utf-8"))
     assert list(table["median"]) == list(mirror_rows()) and list(table["labels"]) == ["wood"]
     assert len(list(open_dataset(folder))) == 16 and open_dataset(folder).synthetic
+
+
+@pytest.mark.parametrize(("faults", "least", "most"), [(CLEAN, -1.5, 1.5), (frozenset([Fault.APPARATUS]), 5.0, 9.0)])
+def test_what_the_apparatus_adds_to_one_axis_shows_in_the_sum_of_all_directions(
+    faults: frozenset[Fault], least: float, most: float
+) -> None:
+    passes = [_pass(direction=direction, repeat=repeat) for direction in range(0, 360, 45) for repeat in range(2)]
+    powers = [plane_powers(each.recorded(faults)) for each in passes]
+    found = x_over_y_db(each for each in powers if each is not None)
+    assert found is not None and least < found < most
+
+
+def test_the_apparatus_is_not_judged_by_passes_in_one_direction(one: MachinePass) -> None:
+    found = plane_powers(one.recorded(ALL_FAULTS))
+    assert found is not None and x_over_y_db([found]) is None
+
+
+def test_inspect_says_what_the_apparatus_adds_to_the_files(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for direction in range(0, 360, 90):
+        write_recording(tmp_path, _pass(direction=direction).recorded(ALL_FAULTS))
+    assert inspect_main(["inspect", str(tmp_path)]) == 0
+    assert "apparatus     X over Y by" in capsys.readouterr().out
