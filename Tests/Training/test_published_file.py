@@ -71,6 +71,23 @@ def test_every_part_s_licence_and_origin_stand_in_the_file(assumed: Path) -> Non
         assert words in text
 
 
+def test_the_commit_of_a_download_stands_in_the_file(tmp_path: Path) -> None:
+    folder = copied("heun", tmp_path)
+    origin = "hf://tamago117/HaptoFlow/haptoflow_accel@0123456789abcdef0123456789abcdef01234567"
+    (folder / "origin.json").write_text(json.dumps({"origin": origin}), encoding="utf-8")
+    file = PublishedFile(read_checkpoint(folder))
+    file.write_draft(tmp_path / "draft.haptoflow")
+    assert f"imported from the published weights {origin};" in _inspected(tmp_path / "draft.haptoflow")
+
+
+@pytest.mark.parametrize("text", ["{", "[]", "{}"])
+def test_a_damaged_note_of_a_download_is_named(tmp_path: Path, text: str) -> None:
+    folder = copied("heun", tmp_path)
+    (folder / "origin.json").write_text(text, encoding="utf-8")
+    with pytest.raises(InputError, match=r"origin\.json: expected the note of a download"):
+        read_checkpoint(folder)
+
+
 def test_a_stated_peak_is_the_level(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     info = tmp_path / "dataset_info.json"
     info.write_text(json.dumps({"preprocessing": {"global_peak_value": 1.25}}), encoding="utf-8")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -25,15 +26,19 @@ _CODEBOOK_PARTS = {"embed", "embed_avg", "cluster_size", "inited"}
 _BACKBONE = "model.backbone."
 # Saved by some versions: the U-Net once more.
 _ALIAS = "unet."
+# Written beside the files by `./run published`.
+_ORIGIN_FILE = "origin.json"
 
 
 @dataclass(frozen=True)
 class Checkpoint:
-    """model: ready to run. weights, codec: the files that were read."""
+    """model: ready to run. weights, codec: the files that were read. origin: of a download, as
+    hf://OWNER/REPO/FOLDER@COMMIT."""
 
     model: PublishedModel
     weights: Path
     codec: Path
+    origin: str | None = None
 
 
 def read_checkpoint(folder: Path, codec: Path | None = None) -> Checkpoint:
@@ -52,7 +57,20 @@ def read_checkpoint(folder: Path, codec: Path | None = None) -> Checkpoint:
     network = PublishedNetwork(sizes)
     load_state(network, tensors, weights)
     encodec, quantiser = _read_codec(codec, sizes, meta)
-    return Checkpoint(PublishedModel(meta, sizes, network, encodec, quantiser), weights, codec)
+    model = PublishedModel(meta, sizes, network, encodec, quantiser)
+    return Checkpoint(model, weights, codec, _origin(folder / _ORIGIN_FILE))
+
+
+def _origin(path: Path) -> str | None:
+    if not path.exists():
+        return None
+    try:
+        origin = json.loads(path.read_text(encoding="utf-8"))["origin"]
+    except (OSError, ValueError, KeyError, TypeError, RecursionError) as error:
+        raise InputError(
+            f"{path}: expected the note of a download, with the key 'origin'; delete it to do without"
+        ) from error
+    return str(origin)
 
 
 def _only_file(folder: Path, pattern: str, what: str) -> Path:

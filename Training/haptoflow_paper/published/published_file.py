@@ -156,12 +156,13 @@ class PublishedFile:
     def _header(self, level: Level, measured: RenderedLevels | None, seeds: list[dict[str, Any]]) -> dict[str, Any]:
         meta = self.meta
         weights, recordings, codec = (text for _, text in LICENCES)
+        source = self.checkpoint.origin or self.checkpoint.weights.name
         return {
             "format": "haptoflow",
             "name": "Published HaptoFlow",
             "description": f"The authors' published weights, {len(meta.classes)} materials. {level.origin}.",
             "provenance": {
-                "statement": f"imported from the published weights {self.checkpoint.weights.name}; {level.origin}",
+                "statement": f"imported from the published weights {source}; {level.origin}",
                 "recordings": recordings,
                 "licence": f"weights: {weights}; recordings: {recordings}; codec: {codec}",
                 "seed": 0,
