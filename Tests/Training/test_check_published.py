@@ -23,6 +23,7 @@ from haptoflow_paper.published.check.points import (
     Measured,
     Point,
     automatic_choice,
+    idle_line,
     points_of,
     time_lines,
 )
@@ -396,6 +397,9 @@ class TestTimes:
         assert automatic_choice({"tiers": tiers}, times, times) == ("first", True)
         unstated = [{"name": name, "accuracy": {}} for name in times]
         assert automatic_choice({"tiers": unstated}, times, times) == ("second", True)
+
+    def test_a_machine_that_is_busy_makes_no_times(self) -> None:
+        assert (idle_line(0.3, 2).verdict, idle_line(1.5, 2).verdict) == (PASS, FAIL)
 
     def test_the_budget_is_the_engine_s(self) -> None:
         source = (ROOT / "NativePlugin" / "src" / "engine" / "quality_control.hpp").read_text(encoding="utf-8")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import time
 from pathlib import Path
 
@@ -12,7 +13,7 @@ from haptoflow_benchmark.engine.engine_library import default_engine
 from haptoflow_paper.published.check.lines import FAIL
 from haptoflow_paper.published.check.parity import parity_lines
 from haptoflow_paper.published.check.pictures import draw_chart, draw_spectra
-from haptoflow_paper.published.check.points import blocks_to_measure, measure_points, time_lines
+from haptoflow_paper.published.check.points import blocks_to_measure, idle_line, measure_points, time_lines
 from haptoflow_paper.published.check.report import (
     CHART,
     FIGURES,
@@ -72,6 +73,7 @@ def run(options: argparse.Namespace) -> int:
     if not options.seconds_limit > 0.0:
         raise InputError(f"--seconds-limit is {options.seconds_limit:g}; expected seconds, above 0")
     check_writable(options.out / FIGURES)
+    idle = idle_line(os.getloadavg()[0], os.cpu_count() or 1)
     engine = default_engine(_ROOT)
     file = read_model_file(options.model)
     header = file.header
@@ -93,7 +95,7 @@ def run(options: argparse.Namespace) -> int:
         shipped = _ROOT / SHIPPED_MODEL
         found, other = measure_points(engine, options.model, shipped, header, runs, progress.update)
         name = f"the shipped model's {other.point.tier}"
-        lines += time_lines(header, found, other, name)
+        lines += [idle, *time_lines(header, found, other, name)]
         progress.set_description("pictures")
         options.out.mkdir(parents=True, exist_ok=True)
         draw_chart(found, options.out / CHART, sha256)

@@ -32,11 +32,15 @@ LIMIT = 1e-4
 _TIMES = (1.0, 0.5, 0.125)
 _SEGMENTS = 3
 _PART = "parity"
+_WHOLE, _AUTHORS = "the file against the checkpoint", "the authors' code is the reference"
+_CODES = "codes of the quantiser"
 _RUN_GRAPHS = Path(__file__).parents[1] / "run_graphs.mjs"
-_REMEDY = "import the folder again with this version (haptoflow-paper import-published); if it still fails, send this report"
+_REMEDY = (
+    "import the folder again with this version (haptoflow-paper import-published); if it still fails, send this report"
+)
 _AUTHORS_REMEDY = (
-    "to compare with the authors' code: clone github.com/tamago117/HaptoFlow, install its dependencies and put its folder "
-    "on PYTHONPATH"
+    "to compare with the authors' code: clone github.com/tamago117/HaptoFlow, install its dependencies and put its "
+    "folder on PYTHONPATH"
 )
 
 
@@ -57,9 +61,9 @@ def parity_lines(
     """The lines, and the reference's name ("" if there is none)."""
     if not is_published(file):
         why = "the file is not an import of the published weights"
-        return [inapplicable(_PART, "the file against the checkpoint", why, "nothing to do: its training has its own parity test")], ""
+        return [inapplicable(_PART, _WHOLE, why, "nothing to do: its training has its own parity test")], ""
     if folder is None:
-        return [inapplicable(_PART, "the file against the checkpoint", "no checkpoint named", "name the download with --folder")], ""
+        return [inapplicable(_PART, _WHOLE, "no checkpoint named", "name the download with --folder")], ""
     advance("reading the checkpoint")
     checkpoint = read_checkpoint(folder, encodec)
     model = checkpoint.model
@@ -71,7 +75,8 @@ def parity_lines(
     if not why_not:
         lines += stages.importer_lines(own)
     else:
-        lines.append(inapplicable(_PART, "codes of the quantiser", "there are only our own; the line `graph: waveform of a latent` covers them", _AUTHORS_REMEDY))
+        why = "there are only our own; the line `graph: waveform of a latent` covers them"
+        lines.append(inapplicable(_PART, _CODES, why, _AUTHORS_REMEDY))
     advance("graphs")
     lines += stages.graph_lines(file, root)
     advance("the engine")
@@ -96,8 +101,8 @@ def _same_weights(file: ModelFile, files: tuple[Path, ...]) -> Line:
 
 def _reference_line(reference: Reference, why_not: str) -> Line:
     if why_not:
-        return inapplicable(_PART, "the authors' code is the reference", f"{why_not}; compared with {reference.name}", _AUTHORS_REMEDY)
-    return judged(_PART, "the authors' code is the reference", True, reference.name, "imported", _AUTHORS_REMEDY)
+        return inapplicable(_PART, _AUTHORS, f"{why_not}; compared with {reference.name}", _AUTHORS_REMEDY)
+    return judged(_PART, _AUTHORS, True, reference.name, "imported", _AUTHORS_REMEDY)
 
 
 class _Stages:
@@ -140,16 +145,22 @@ class _Stages:
             "latent of the past": (own.encode(torch.cat(self.previous)), latents),
             **{
                 f"features of the past, level {level}": pair
-                for level, pair in enumerate(zip(own.past_features(latents), theirs.past_features(latents), strict=True))
+                for level, pair in enumerate(
+                    zip(own.past_features(latents), theirs.past_features(latents), strict=True)
+                )
             },
             "condition": (own.condition(self.labels, self.motion), self.conditions),
-            **{f"velocity at t = {time:g}": (self._velocity(own, time), self._velocity(theirs, time)) for time in _TIMES},
+            **{
+                f"velocity at t = {time:g}": (self._velocity(own, time), self._velocity(theirs, time))
+                for time in _TIMES
+            },
             "waveform of a latent": (own.decode(generated), torch.cat(self.waves)),
         }
         lines = [_close(f"importer: {name}", found, expected, _REMEDY) for name, (found, expected) in pairs.items()]
         found, expected = own.codes(generated), theirs.codes(generated)
         different = int((found != expected).sum()) if found.shape == expected.shape else expected.numel()
-        return [*lines, judged(_PART, "importer: codes of the quantiser", different == 0, f"{different} of {expected.numel()} differ", "equal", _REMEDY)]
+        words = f"{different} of {expected.numel()} differ"
+        return [*lines, judged(_PART, f"importer: {_CODES}", different == 0, words, "equal", _REMEDY)]
 
     def graph_lines(self, file: ModelFile, root: Path) -> list[Line]:
         """The graphs of the file, in ONNX Runtime for the web, against the reference."""
@@ -161,16 +172,19 @@ class _Stages:
             "motion": self.motion,
         }
         best = next(tier for tier in file.header["tiers"] if tier["name"] == BEST_TIER)
+        previous, generated = {"waveform": torch.cat(self.previous)}, {"latent": torch.cat(self.generated)}
         jobs: list[tuple[str, str, dict[str, Tensor], float, Tensor]] = [
-            ("latent of the past", best["encoder"], {"waveform": torch.cat(self.previous)}, 1.0, torch.cat(self.latents))
+            ("latent of the past", best["encoder"], previous, 1.0, torch.cat(self.latents))
         ]
         for time in _TIMES:
             turned = torch.full((_SEGMENTS, 1), 1.0 - time)
             # The tier of "euler" looks half an interval ahead.
-            moments = {"time": turned} if is_heun else {"time": turned - 0.0625, "interval": torch.full_like(turned, 0.125)}
+            ahead = {"time": turned - 0.0625, "interval": torch.full_like(turned, 0.125)}
+            moments = {"time": turned} if is_heun else ahead
             # The file's time and velocity run the other way.
-            jobs.append((f"velocity at t = {time:g}", best["field"], field | moments, -1.0, self._velocity(self.reference, time)))
-        jobs.append(("waveform of a latent", best["decoder"], {"latent": torch.cat(self.generated)}, 1.0, torch.cat(self.waves)))
+            velocity = self._velocity(self.reference, time)
+            jobs.append((f"velocity at t = {time:g}", best["field"], field | moments, -1.0, velocity))
+        jobs.append(("waveform of a latent", best["decoder"], generated, 1.0, torch.cat(self.waves)))
         found = _run_graphs([(file.graphs[graph], inputs) for _, graph, inputs, _, _ in jobs], root)
         return [
             _close(f"graph: {name}", torch.from_numpy(sign * result), expected, _REMEDY)
@@ -204,7 +218,8 @@ def _close(name: str, found: Tensor, expected: Tensor, remedy: str) -> Line:
         return judged(_PART, name, False, f"the shape {shapes}", "the same shape", remedy)
     rms = float(expected.double().square().mean().sqrt())
     error = float((found.double() - expected.double()).abs().max()) / max(rms, 1e-30)
-    return judged(_PART, name, error <= LIMIT, f"largest error {error:.2g} of the RMS", f"at most {LIMIT:g}", remedy, error=error)
+    words = f"largest error {error:.2g} of the RMS"
+    return judged(_PART, name, error <= LIMIT, words, f"at most {LIMIT:g}", remedy, error=error)
 
 
 def _run_graphs(jobs: list[tuple[bytes, dict[str, Tensor]]], root: Path) -> list[NDArray[np.float64]]:
@@ -213,14 +228,17 @@ def _run_graphs(jobs: list[tuple[bytes, dict[str, Tensor]]], root: Path) -> list
         for number, (graph, inputs) in enumerate(jobs):
             name = Path(place) / f"{number}.onnx"
             name.write_bytes(graph)
-            feeds = {key: {"dims": list(value.shape), "data": value.flatten().tolist()} for key, value in inputs.items()}
+            feeds = {
+                key: {"dims": list(value.shape), "data": value.flatten().tolist()} for key, value in inputs.items()
+            }
             written.append({"graph": str(name), "inputs": feeds})
         description = Path(place) / "jobs.json"
         description.write_text(json.dumps(written), encoding="utf-8")
         try:
-            done = subprocess.run(["node", str(_RUN_GRAPHS), str(description)], capture_output=True, text=True, check=False, cwd=root)
+            command = ["node", str(_RUN_GRAPHS), str(description)]
+            done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=root)
         except OSError as error:
-            raise InputError(f"node cannot be started ({error.strerror}); run ./run build once, which needs it too") from error
+            raise InputError(f"node cannot be started ({error.strerror}); run ./run build, which needs it too") from error
     if done.returncode != 0:
         raise InputError(f"{_RUN_GRAPHS.name}: {done.stderr.strip()[-400:]}; run `npm ci` in {root.name}")
     return [np.array(result["data"]).reshape(result["dims"]) for result in json.loads(done.stdout)]

@@ -28,7 +28,8 @@ def draw_chart(found: list[Measured], path: Path, model_sha256: str) -> None:
             axis.plot(times, [getattr(each, key) for each in rows], marker="o", label=family)
             for each in rows:
                 words = str(each.point.steps) if each.point.steps else each.point.name
-                axis.annotate(words, (each.paced.p50, getattr(each, key)), xytext=(4, 4), textcoords="offset points", fontsize=8)
+                place = (each.paced.p50, getattr(each, key))
+                axis.annotate(words, place, xytext=(4, 4), textcoords="offset points", fontsize=8)
         axis.axvline(BUDGET_MS, color="0.6", linestyle=":", label=f"budget of auto, {BUDGET_MS:.2g} ms")
         axis.set_xlim(left=0.0)
         axis.set_xlabel("ms a segment, one core, paced at 72 Hz, median")

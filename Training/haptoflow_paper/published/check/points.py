@@ -28,6 +28,7 @@ _SOLVED = ("flow", "average-velocity")
 # A segment plays so long, and is asked for at an update: a slower tier leaves gaps.
 _KEEPS_UP_MS = 100.0 - 1000.0 / UPDATE_RATE_HZ
 _SEGMENTS = 4
+_IDLE_SHARE = 0.5
 _COMPARED_LABELS = 6
 _BLOCKS = 4
 _PART = "time"
@@ -38,7 +39,8 @@ _Floats = NDArray[np.float32]
 
 @dataclass(frozen=True)
 class Point:
-    """A tier of the file (`is_tier`), or its graph with another number of steps. family: what the chart joins by a line."""
+    """A tier of the file (`is_tier`), or its graph with another number of steps. family: what a line of the chart
+    joins."""
 
     name: str
     tier: str
@@ -50,8 +52,8 @@ class Point:
 
 @dataclass(frozen=True)
 class Measured:
-    """Milliseconds of one segment. difference: RMS of the difference from the best point by the level, for the same noise
-    and past. lsd_db: of the same waves."""
+    """Milliseconds of one segment. difference: RMS of the difference from the best point by the level, for the same
+    noise and past. lsd_db: of the same waves."""
 
     point: Point
     hot: Milliseconds
@@ -75,7 +77,7 @@ def points_of(header: dict[str, Any]) -> list[Point]:
         halves = {max(1, most >> power) for power in range(most.bit_length())}
         for count in sorted(halves | set(steps)):
             tier = steps.get(count)
-            name = tier["name"] if tier else f"{family}, {count} steps"
+            name = tier["name"] if tier else f"{family}, {count} step{'' if count == 1 else 's'}"
             points.append(Point(name, best["name"], best["solver"], count, family, tier is not None))
     last = next(point for point in points if point.name == header["default_tier"])
     return [point for point in points if point is not last] + [last]
@@ -121,7 +123,12 @@ def _sources(engine: EngineLibrary, path: Path, points: list[Point], batch: int)
 
 
 def measure_points(
-    engine: EngineLibrary, path: Path, reference: Path, header: dict[str, Any], runs: int, advance: Callable[[int], None]
+    engine: EngineLibrary,
+    path: Path,
+    reference: Path,
+    header: dict[str, Any],
+    runs: int,
+    advance: Callable[[int], None],
 ) -> tuple[list[Measured], Measured]:
     """The points of a file, and the default tier of the named reference, timed in the same run. runs: of each pace in
     each of four blocks. advance: told of each block and comparison."""
@@ -163,13 +170,11 @@ def _distances(
         best = np.concatenate(past[1:], axis=1)
         found = {}
         for point, source in sources.items():
-            waves = np.concatenate(
-                [source.generate(embeddings, motions, before, given) for before, given in zip(past, noise, strict=False)],
-                axis=1,
-            )
+            segments = [source.generate(embeddings, motions, *given) for given in zip(past[:-1], noise, strict=True)]
+            pairs = list(zip(np.concatenate(segments, axis=1), best, strict=True))
             found[point] = (
-                float(np.median([rms(wave - truth) / max(rms(truth), 1e-9) for wave, truth in zip(waves, best, strict=True)])),
-                float(np.median([log_spectral_distance_db(wave, truth) for wave, truth in zip(waves, best, strict=True)])),
+                float(np.median([rms(wave - truth) / max(rms(truth), 1e-9) for wave, truth in pairs])),
+                float(np.median([log_spectral_distance_db(wave, truth) for wave, truth in pairs])),
             )
             advance(1)
     return found
@@ -185,7 +190,8 @@ def automatic_choice(
     accuracies = [tier.get("accuracy") or {} for tier in tiers]
     keys = ("lsd_db", "level_error_p90_db")
     if all(accuracy.get(key) is not None for accuracy in accuracies for key in keys):
-        errors = {name: sum(float(accuracy[key]) for key in keys) for name, accuracy in zip(order, accuracies, strict=True)}
+        sums = [sum(float(accuracy[key]) for key in keys) for accuracy in accuracies]
+        errors = dict(zip(order, sums, strict=True))
         order.sort(key=lambda name: -errors[name])
     fitting = [name for name in order if p99[name] <= budget_ms]
     return (fitting[-1], True) if fitting else (min(order, key=lambda name: median[name]), False)
@@ -210,6 +216,15 @@ def time_lines(header: dict[str, Any], found: list[Measured], reference: Measure
     return [*lines, _automatic(header, found), _steps_help(found)]
 
 
+def idle_line(load: float, cores: int) -> Line:
+    """load: processes that wanted to run in the last minute, before anything was measured."""
+    return judged(
+        _PART, "the machine was idle", load <= _IDLE_SHARE * cores, f"load {load:.1f} of {cores} cores when it began",
+        f"at most {_IDLE_SHARE * cores:g}", "close other programs and run it again: every time below is too long",
+        load=load, cores=cores,
+    )  # fmt: skip
+
+
 def _automatic(header: dict[str, Any], found: list[Measured]) -> Line:
     tiers = [each for each in found if each.point.is_tier]
     times = {each.point.name: each.paced.p99 for each in tiers}
@@ -224,7 +239,8 @@ def _automatic(header: dict[str, Any], found: list[Measured]) -> Line:
             else f"segments still join, and a change is felt {times[name]:.0f} ms later"
         )
         words = f"no tier is in real time: auto takes the fastest, {name}, {times[name]:.3g} ms; {consequence}"
-    return judged(_PART, "quality auto", fits, words, f"a tier whose p99 is within {BUDGET_MS:.3g} ms, a quarter of an update at 72 Hz", _REMEDY, tier=name)
+    expected = f"a tier whose p99 is within {BUDGET_MS:.3g} ms, a quarter of an update at 72 Hz"
+    return judged(_PART, "quality auto", fits, words, expected, _REMEDY, tier=name)
 
 
 def _steps_help(found: list[Measured]) -> Line:

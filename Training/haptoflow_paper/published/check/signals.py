@@ -48,7 +48,8 @@ class LabelWaves:
     @property
     def rms(self) -> NDArray[np.float64]:
         """Above 24 Hz, [L]."""
-        return np.asarray(np.sqrt(np.square(band_rms(self.waves.reshape(-1, self.waves.shape[2])).reshape(self.waves.shape[:2])).mean(axis=1)))
+        each = band_rms(self.waves.reshape(-1, self.waves.shape[2])).reshape(self.waves.shape[:2])
+        return np.asarray(np.sqrt(np.square(each).mean(axis=1)))
 
     def spectrum(self, label: int) -> NDArray[np.float64]:
         """Mean power, [129]."""
@@ -121,10 +122,11 @@ def _finite(found: LabelWaves) -> Line:
 def _silence(found: LabelWaves) -> Line:
     rms = found.rms
     silent = [name for name, level in zip(found.names, rms, strict=True) if level < _LEAST_FELT_MPS2]
+    named = f"; silent: {', '.join(silent[:5])}" if silent else ""
     return judged(
         _PART, "no label is silent", not silent,
-        f"weakest {rms.min():.3g}, strongest {rms.max():.3g} m/s²" + (f"; silent: {', '.join(silent[:5])}" if silent else ""),
-        f"{_LEAST_FELT_MPS2:g} m/s² and more", "state the level with --peak-g or --dataset-info on import, or send this report",
+        f"weakest {rms.min():.3g}, strongest {rms.max():.3g} m/s²{named}", f"{_LEAST_FELT_MPS2:g} m/s² and more",
+        "state the level with --peak-g or --dataset-info on import, or send this report",
         rms_mps2={name: round(float(level), 4) for name, level in zip(found.names, rms, strict=True)},
     )  # fmt: skip
 
@@ -154,7 +156,7 @@ def _low_frequencies(found: LabelWaves) -> Line:
     return judged(
         _PART, "power below 500 Hz", low <= share <= high, f"{100 * share:.1f} % of 24-1000 Hz",
         f"{100 * REFERENCE_SHARE_BELOW_500_HZ:.1f} % within {100 * _SHARE_TOLERANCE:g}",
-        "see the parity lines first: if they pass, the model itself is duller or brighter than the data set; send this report",
+        "see the parity lines first: if they pass, the model itself is duller or brighter; send this report",
         share=share,
     )  # fmt: skip
 
