@@ -24,7 +24,7 @@ from haptoflow_training.recordings.synthetic.materials import select_materials
 from haptoflow_training.training.run_log import source_commit, write_json
 from haptoflow_training.whole_file import check_writable
 
-_LABELS = "wood,stone,glass,metal,corduroy,fur"
+_LABELS = "wood,glass,metal,corduroy"
 _SPEEDS = "20,30,40,50,60"
 _SOURCE = "HaptoFlow's synthetic recorder with the faults of the Cluster Haptic Texture Dataset; nothing is measured"
 
@@ -37,7 +37,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "resonance nothing can tell from a material's."
     )
     parser.epilog = (
-        "example (an hour of one core; one label at one speed takes seconds):\n"
+        "example (some minutes of one core; one label at one speed takes seconds):\n"
         "  haptoflow-benchmark measure-mirror --out Training/results/default/mirror.json\n"
         "--write keeps all faults as a data set, on which `haptoflow-training train-tiers --configs "
         "Training/configs/cluster` trains."

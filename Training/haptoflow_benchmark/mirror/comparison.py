@@ -12,7 +12,6 @@ from haptoflow_benchmark.metrics.waveform_metrics import (
     gfc_recording,
     level_error_db,
     log_spectral_distance_db,
-    rms,
 )
 from haptoflow_benchmark.mirror.faults import ALL_FAULTS, Fault, MachinePass
 from haptoflow_training.preprocessing.pipeline import PreparedRecording
@@ -43,20 +42,17 @@ def mirror_rows() -> dict[str, frozenset[Fault]]:
 def losses_of(
     passes: Sequence[MachinePass], rows: dict[str, frozenset[Fault]], prepare: Preparation
 ) -> dict[str, Loss]:
-    """The losses of one label, for each row of faults. Every pass counts alike: its waveforms are scaled to the mean
-    level of the clean ones."""
+    """The losses of one label, for each row of faults."""
     clean = [prepare(each.recorded(_CLEAN)) for each in passes]
-    levels = [rms(each.waveform_mps2) for each in clean]
-    return {name: _loss(clean, [prepare(each.recorded(faults)) for each in passes], levels) for name, faults in rows.items()}
+    return {name: _loss(clean, [prepare(each.recorded(faults)) for each in passes]) for name, faults in rows.items()}
 
 
-def _loss(clean: Sequence[PreparedRecording], faulty: Sequence[PreparedRecording], levels: Sequence[float]) -> Loss:
+def _loss(clean: Sequence[PreparedRecording], faulty: Sequence[PreparedRecording]) -> Loss:
     common = [min(len(one.waveform_mps2), len(other.waveform_mps2)) for one, other in zip(clean, faulty, strict=True)]
-    scales = np.mean(levels) / np.array(levels)
 
     def together(prepared: Sequence[PreparedRecording]) -> NDArray[np.float64]:
         return np.concatenate(
-            [scale * each.waveform_mps2[:count] for each, scale, count in zip(prepared, scales, common, strict=True)]
+            [each.waveform_mps2[:count].astype(np.float64) for each, count in zip(prepared, common, strict=True)]
         )
 
     def ratio(of: Callable[[PreparedRecording], NDArray[np.floating]]) -> float:
