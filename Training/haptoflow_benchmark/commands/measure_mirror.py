@@ -38,7 +38,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )
     parser.epilog = (
         "example (some minutes of one core; one label at one speed takes seconds):\n"
-        "  haptoflow-benchmark measure-mirror --out Training/results/default/mirror.json\n"
+        "  haptoflow-benchmark measure-mirror --out Training/results/mirror.json\n"
         "--write keeps all faults as a data set, on which `haptoflow-training train-tiers --configs "
         "Training/configs/cluster` trains."
     )

@@ -17,8 +17,7 @@ from scipy.interpolate import CubicSpline
 from scipy.signal import sosfilt
 
 from haptoflow_training.recordings.recording import STANDARD_GRAVITY_MPS2, Recording, RecordingIdentity
-from haptoflow_training.recordings.synthetic import Material, training_specimen
-from haptoflow_training.recordings.synthetic import filters
+from haptoflow_training.recordings.synthetic import Material, filters, training_specimen
 from haptoflow_training.recordings.synthetic.carriers import Ride, machine_pass
 from haptoflow_training.recordings.synthetic.contact import SIMULATION_RATE_HZ, tool_vibration
 

@@ -60,9 +60,7 @@ class RecordingFiles:
         force = read_sensor(self.force_path, FORCE)
         position = read_sensor(self.position_path, POSITION)
         # The sensor rests before and after each pass, so that its noise shows.
-        return Recording(
-            self.identity, self.label, *acceleration, *force, *position, has_sensor_noise=True
-        )
+        return Recording(self.identity, self.label, *acceleration, *force, *position, has_sensor_noise=True)
 
 
 def open_dataset(root: Path | str, labels: LabelMap | None = None) -> Dataset:
