@@ -39,7 +39,7 @@ def column_table(rows: int, *, missing: bool = True) -> pandas.DataFrame:
 
 def hub_recording(name: str) -> Recording:
     """As `small_recording`, with every second row of the acceleration, so that the files are small."""
-    recording = small_recording(name, seconds=2.8)
+    recording = small_recording(name, seconds=2.8, quiet_rests=False)
     return dataclasses.replace(
         recording,
         acceleration_time_seconds=recording.acceleration_time_seconds[::2],
