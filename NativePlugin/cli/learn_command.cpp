@@ -207,6 +207,9 @@ void runLearn(const LearnOptions& options) {
         tell(learnt.report, settings.name, outputPath);
     } catch (const recordings::RecordingUnusable& error) {
         throw InputError(options.recordingPath + ": " + error.what());
+    } catch (const std::invalid_argument& error) {
+        // The settings were checked: it is the model that cannot learn.
+        throw InputError(modelPath.string() + ": " + error.what());
     }
 }
 

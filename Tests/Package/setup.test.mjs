@@ -145,7 +145,7 @@ function programsIn(text) {
 }
 
 // Programs of every Debian, programs that `run` installs, and programs that are only started where they exist.
-const always = new Set(['sh', '/bin/sh', 'bash', 'tar', 'apt-get', 'apt-cache', 'dpkg-query', 'sudo', 'npm', 'node', 'dotnet', 'ccache']);
+const always = new Set(['sh', '/bin/sh', 'bash', 'tar', 'mount', 'umount', 'apt-get', 'apt-cache', 'dpkg-query', 'sudo', 'npm', 'node', 'dotnet', 'ccache']);
 
 /** The purposes that a script passes to set-up. */
 const purposesOf = (script) => [...readFileSync(inRepository('scripts', script), 'utf8').matchAll(/setUp\(\[([^\]]*)\]\)/g)].flatMap(([, list]) => [...list.matchAll(/'(\w+)'/g)].map(([, name]) => name));

@@ -8,9 +8,10 @@ from haptoflow_training.recordings.recording import Recording, RecordingIdentity
 
 
 def small_recording(
-    name: str = "0_90_40_500_0", label: str = "wood", seconds: float = 1.6, seed: int = 0
+    name: str = "0_90_40_500_0", label: str = "wood", seconds: float = 1.6, seed: int = 0, *, quiet_rests: bool = True
 ) -> Recording:
-    """Band noise on three axes, gravity on Z, 1 mg steps, an irregular clock; rest, a straight pass, rest."""
+    """Tones on three axes while it moves, gravity on Z, 1 mg steps, an irregular clock; rest, a straight pass, rest.
+    Without quiet_rests the tones go on at rest, as in the files of Golden/parquet."""
     identity = RecordingIdentity.parse(name)
     generator = np.random.default_rng([seed, *name.encode()])
     count = int(seconds * 6000)
@@ -20,6 +21,9 @@ def small_recording(
     hertz = generator.uniform(30, 400, size=(12, 3))
     phase = generator.uniform(0, 2 * np.pi, size=(12, 3))
     acceleration = 0.02 * np.sin(2 * np.pi * hertz[None] * time[:, None, None] + phase[None]).sum(axis=1)
+    if quiet_rests:
+        rests = (time < 0.2) | (time > seconds - 0.2)
+        acceleration[rests] = 0.001 * generator.standard_normal((int(rests.sum()), 3))
     acceleration[:, 2] -= 1.0
     force_time = np.arange(int(seconds * 1000)) / 1000.0
     force = identity.force_millinewtons / 1000.0 + 0.01 * generator.integers(-1, 2, size=len(force_time))

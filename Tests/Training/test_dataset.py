@@ -47,19 +47,6 @@ def file_release(tmp_path: Path) -> Path:
     return root
 
 
-def csv_in_place_of_parquet(path: Path) -> pandas.DataFrame:
-    return pandas.read_csv(path)
-
-
-def to_hub_release(root: Path) -> Path:
-    """The same columns, one folder for each texture; the tests' table reader reads CSV under that name."""
-    for path in sorted((root / "sensor_data").glob("*/*.csv")):
-        folder = path.parent / path.stem.split("_")[0]
-        folder.mkdir(exist_ok=True)
-        path.rename(folder / f"{path.stem}.parquet")
-    return root
-
-
 def sensor_file(root: Path, kind: str, name: str = NAMES[1]) -> Path:
     return root / "sensor_data" / kind / f"{name}.csv"
 
@@ -90,29 +77,6 @@ def test_what_is_written_comes_back_without_loss_from_the_file_release(file_rele
     assert sorted(entry.identity.name for entry in dataset) == sorted(NAMES)
     for entry in dataset:
         assert_same(entry.load(), small_recording(entry.identity.name, seconds=0.8))
-
-
-def test_what_is_written_comes_back_without_loss_from_the_hub_release(
-    file_release: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(cluster_dataset_files, "read_table", csv_in_place_of_parquet)
-    dataset = open_dataset(to_hub_release(file_release))
-    assert not dataset.problems and len(dataset) == len(NAMES)
-    assert dataset.recordings[0].acceleration_path.parent.name == "0"
-    for entry in dataset:
-        assert_same(entry.load(), small_recording(entry.identity.name, seconds=0.8))
-
-
-def test_parquet_without_an_engine_names_the_remedy(
-    file_release: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def no_engine(path: Path) -> None:
-        raise ImportError("Unable to find a usable engine")
-
-    monkeypatch.setattr(pandas, "read_parquet", no_engine)
-    entry = open_dataset(to_hub_release(file_release)).recordings[0]
-    with pytest.raises(InputError, match=r"parquet.*pip install pyarrow"):
-        entry.load()
 
 
 def test_unquantised_values_lose_less_than_a_sensor_resolves(tmp_path: Path) -> None:

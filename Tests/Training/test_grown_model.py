@@ -105,7 +105,8 @@ def test_ribs_are_turned_as_learning_turns_them(grown: Path) -> None:
 
 def test_a_run_goes_on_from_a_file_only_with_a_skeleton(grown: Path, tmp_path: Path) -> None:
     field = tmp_path / "field.toml"
-    field.write_text('name = "f"\n[data]\nsource = "folders"\n[optimiser]\nsteps = 2\n', encoding="utf-8")
+    text = 'name = "f"\n[data]\nsource = "folders"\n[model]\nnetwork = "field"\n[optimiser]\nsteps = 2\n'
+    field.write_text(text, encoding="utf-8")
     words = ["--recordings", str(grown / "recordings"), "--labels", str(grown / "labels.toml"), "--config", str(field)]
     assert cli.main(["train", *words, "--out", str(tmp_path / "run"), "--from", str(SHIPPED)]) == 3
 

@@ -7,7 +7,7 @@ import math
 
 import pytest
 
-from haptoflow_training.recordings.landing import landing_of
+from haptoflow_training.recordings.landing import landing_of, landing_of_spring
 from haptoflow_training.recordings.synthetic import Material, load_materials
 
 MATERIALS = {material.label: material for material in load_materials()}
@@ -44,3 +44,8 @@ def test_a_damped_contact_decays_sooner_and_a_specimen_without_resonance_has_one
     damped = landing_of(dataclasses.replace(wood, contact_damping=2.0 * wood.contact_damping))
     assert damped.modes[0].decay_per_second == pytest.approx(2.0 * landing_of(wood).modes[0].decay_per_second)
     assert len(landing_of(dataclasses.replace(wood, tool_modes=((300.0, -6.0, 2.0),))).modes) == 1
+
+
+def test_a_label_of_which_only_the_stiffness_is_known_lands_as_the_recorder_s_materials_of_that_stiffness() -> None:
+    plain = dataclasses.replace(MATERIALS["wood"], stiffness_newtons_per_metre=900.0, contact_damping=0.4, tool_modes=())
+    assert landing_of_spring(900.0) == landing_of(plain)

@@ -260,22 +260,6 @@ def test_a_file_of_another_kind_and_an_empty_folder_are_named(tmp_path: Path) ->
         material_files([tmp_path / "gone"], print)
 
 
-def test_parquet_is_read_where_pandas_has_an_engine_and_refused_with_the_remedy_elsewhere(tmp_path: Path) -> None:
-    import pandas
-
-    path = tmp_path / "a.parquet"
-    frame = pandas.DataFrame(without(""))
-    with_sidecar(path, {"label": "denim"})
-    try:
-        frame.to_parquet(path)
-    except ImportError:
-        path.write_bytes(b"PAR1")
-        with pytest.raises(InputError, match=r"a\.parquet: Parquet needs pyarrow.*pip install pyarrow"):
-            read(path)
-    else:
-        assert_is_the_stroke(read(path), MADE, moving=False)
-
-
 def test_motion_files_in_a_folder_are_not_recordings(tmp_path: Path) -> None:
     wav_with_motion(tmp_path / "felt", "slow", "felt", MADE, licence="CC0 1.0", source="a hat")
     csv_one_axis(tmp_path / "denim", "slow", "denim", MADE)

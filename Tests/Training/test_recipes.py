@@ -245,7 +245,7 @@ def test_a_base_and_shares_base_must_be_given_together(shares_base: bool, tmp_pa
 
 def test_a_further_tier_s_base_may_have_a_network_of_another_shape(tmp_path: Path) -> None:
     store = make_store()
-    wide = dataclasses.replace(_config(steps=5), model=ModelConfig(width=24, previous_width=8))
+    wide = dataclasses.replace(_config(steps=5), model=ModelConfig(network="field", width=24, previous_width=8))
     Trainer(wide, store, tmp_path / "base", ALONE).run()
     config = dataclasses.replace(_config(), tier="draft", recipe=RecipeConfig(shares_base=True))
     trainer = Trainer(config, store, tmp_path / "draft", ALONE, tmp_path / "base")
@@ -281,7 +281,7 @@ def test_a_further_round_refuses_runs_with_other_shapes_or_labels(
 ) -> None:
     store = make_store()
     Trainer(_config(steps=5), store, tmp_path / "first", ALONE).run()
-    wide = dataclasses.replace(_config(), model=ModelConfig(width=24, previous_width=8))
+    wide = dataclasses.replace(_config(), model=ModelConfig(network="field", width=24, previous_width=8))
     with pytest.raises(InputError, match=r"--from .*'field\..*does not fit"):
         Trainer(wide, store, tmp_path / "second", ALONE, start=tmp_path / "first")
     content = torch.load(tmp_path / "first" / "checkpoint.pt")

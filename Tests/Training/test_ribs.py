@@ -264,7 +264,7 @@ def test_the_energy_distance_prefers_draws_with_the_recording_s_rib_phase() -> N
 
 def test_training_does_not_change_wave_vectors_and_a_saved_run_has_them(tmp_path: Path) -> None:
     config = dataclasses.replace(
-        _config(steps=6), model=ModelConfig(width=16, previous_width=8, ribs=True), recipe=RecipeConfig(energy_steps=3)
+        _config(steps=6), model=ModelConfig(network="field", width=16, previous_width=8, ribs=True), recipe=RecipeConfig(energy_steps=3)
     )
     Trainer(config, make_store(), tmp_path, ALONE, wave_vectors=[((0.5, 0.0),), ()]).run()
     model = load_trained(tmp_path)[2]

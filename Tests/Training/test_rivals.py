@@ -99,7 +99,7 @@ def test_a_rival_given_the_same_trains_through_its_phases_and_becomes_a_model_fi
 
 @pytest.mark.parametrize("name", ["transformer", "dstn", "spsi"])
 def test_a_regressing_rival_cannot_be_trained_by_the_energy_distance(name: str, tmp_path: Path) -> None:
-    text = f'[model]\narchitecture = "{name}"\n[recipe]\nenergy_steps = 5\n'
+    text = f'[model]\nnetwork = "field"\narchitecture = "{name}"\n[recipe]\nenergy_steps = 5\n'
     (tmp_path / "run.toml").write_text(text, encoding="utf-8")
     with pytest.raises(InputError, match="energy_steps.*model.sampled"):
         load_config(tmp_path / "run.toml")
@@ -109,11 +109,11 @@ def test_a_regressing_rival_cannot_be_trained_by_the_energy_distance(name: str, 
     ("text", "key"),
     [
         ('[model]\nsampled = true\n', "model.sampled"),
-        ('[model]\narchitecture = "autoregressive"\nsampled = true\n', "model.sampled"),
-        ('[model]\narchitecture = "autoregressive"\n[recipe]\nreflow_steps = 3\n', "recipe"),
-        ('[model]\narchitecture = "autoregressive"\n[recipe]\nself_forcing_steps = 3\n', "recipe.self_forcing_steps"),
-        ('[model]\narchitecture = "autoregressive"\n[recipe]\nenergy_steps = 3\n', "recipe.energy_steps"),
-        ('[model]\narchitecture = "dstn"\n[recipe]\nfilter_steps = 3\n', "recipe.filter_steps"),
+        ('[model]\nnetwork = "field"\narchitecture = "autoregressive"\nsampled = true\n', "model.sampled"),
+        ('[model]\nnetwork = "field"\narchitecture = "autoregressive"\n[recipe]\nreflow_steps = 3\n', "recipe"),
+        ('[model]\nnetwork = "field"\narchitecture = "autoregressive"\n[recipe]\nself_forcing_steps = 3\n', "recipe.self_forcing_steps"),
+        ('[model]\nnetwork = "field"\narchitecture = "autoregressive"\n[recipe]\nenergy_steps = 3\n', "recipe.energy_steps"),
+        ('[model]\nnetwork = "field"\narchitecture = "dstn"\n[recipe]\nfilter_steps = 3\n', "recipe.filter_steps"),
         ("[optimiser]\nbudget_seconds = -1\n", "optimiser.budget_seconds"),
     ],
 )
@@ -288,7 +288,7 @@ def _train(words: list[str]) -> int:
 def test_a_likelihood_counts_a_burst_like_any_other_segment_and_a_squared_error_does_not(
     architecture: str, alike: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    config = evaluated(TrainingConfig(), model={"architecture": architecture})
+    config = evaluated(TrainingConfig(), model={"network": "field", "architecture": architecture})
     model = build_model(config, WAVE_VECTORS)
     batch = SegmentBatches(make_store(), "train", BatchConfig(), 3).draw(6)
     batch.segment[0] *= 1e5
@@ -326,7 +326,7 @@ def test_an_autoregressive_likelihood_begins_within_the_segment(ribs: bool) -> N
 def _autoregressive_losses(ribs: bool) -> tuple[EvaluatedModel, EvaluatedLosses]:
     """Over a level that falls to nothing at rest."""
     torch.manual_seed(8)
-    config = evaluated(TrainingConfig(), model={"architecture": "autoregressive", "ribs": ribs})
+    config = evaluated(TrainingConfig(), model={"network": "field", "architecture": "autoregressive", "ribs": ribs})
     model = build_model(config, WAVE_VECTORS)
     assert isinstance(model, EvaluatedModel)
     with torch.no_grad():

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import argparse
+import dataclasses
+import tomllib
 from pathlib import Path
 
 import pytest
 
 from haptoflow_paper.rows.row_plan import load_plan
+from haptoflow_training.commands import train
 from haptoflow_training.errors import InputError
 from haptoflow_training.models.haptoflow_model import FieldModel
-from haptoflow_training.recordings.labels import load_labels
+from haptoflow_training.models.skeleton_model import SkeletonModel
 from haptoflow_training.training.config import TrainingConfig, config_from_dict, load_config
 from haptoflow_training.training.trainer import Trainer, build_model, planned_steps
 
@@ -41,11 +45,57 @@ def test_the_shipped_configurations_load_and_plan_steps(name: str) -> None:
 def test_what_is_trained_on_the_cluster_data_set_is_what_ships(name: str) -> None:
     shipped, cluster = (load_config(CONFIGURATIONS / folder / f"{name}.toml") for folder in ("default", "cluster"))
     assert cluster.data.source == "folders" and cluster.name == "cluster" and cluster.licence == "CC BY 4.0"
-    for part in ("tier", "seed", "model", "optimiser", "recipe", "solver"):
+    for part in ("tier", "seed", "threads", "model", "optimiser", "recipe", "solver"):
         assert getattr(cluster, part) == getattr(shipped, part), part
-    known = {definition.name for definition in load_labels(CONFIGURATIONS / "labels-cluster.toml").definitions}
-    assert set(cluster.batch.emphasised_labels) == set(shipped.batch.emphasised_labels) & known
-    assert not cluster.batch.held_out_speed_mps and not cluster.batch.held_out_force_newtons
+    _requires_all_but_the_ranges(cluster, shipped)
+    assert Trainer.phases(cluster) == Trainer.phases(shipped)
+    assert Trainer.losses_of(cluster) is Trainer.losses_of(shipped)
+
+
+def _requires_all_but_the_ranges(config: TrainingConfig, shipped: TrainingConfig) -> None:
+    """The batches are those of the shipped model, with nothing held out but recordings."""
+    nothing = {f"held_out_{name}": () for name in ("speed_mps", "force_newtons", "direction_degrees")}
+    share = config.batch.machine_share
+    assert config.batch == dataclasses.replace(shipped.batch, **nothing, machine_share=share)
+
+
+def test_own_recordings_without_a_configuration_are_fitted_to_the_network_and_by_the_loss_that_ship() -> None:
+    parser = argparse.ArgumentParser()
+    train.add_options(parser)
+    options = parser.parse_args(["--out", "out", "--recordings", "recordings"])
+    assert options.config == CONFIGURATIONS / "own.toml"
+    own, base = train.configuration(options), load_config(CONFIGURATIONS / "default" / "base.toml")
+    assert own.model == base.model and own.tier == base.tier and own.solver == base.solver
+    assert Trainer.losses_of(own) is Trainer.losses_of(base)
+    (embedding,) = Trainer.phases(own)
+    filtered = next(phase for phase in Trainer.phases(base) if phase.name == "field")
+    assert (embedding.objective, embedding.batch_size) == (filtered.objective, filtered.batch_size)
+    _requires_all_but_the_ranges(own, base)
+
+
+def test_a_configuration_that_names_no_network_trains_the_tier_that_ships_without_one(tmp_path: Path) -> None:
+    config = _load(tmp_path, 'name = "mine"\n')
+    shipped = load_config(CONFIGURATIONS / "default" / "base.toml")
+    assert config.model == shipped.model and config.tier == shipped.tier == "sketch"
+    assert isinstance(build_model(config, [(), ()]), SkeletonModel)
+
+
+@pytest.mark.parametrize("path", sorted(PAPER.rglob("*.toml")), ids=lambda path: str(path.name))
+def test_what_only_rivals_need_is_stated_in_their_own_configurations(path: Path) -> None:
+    if path.name in ("rows.toml", "codec-small.toml"):
+        return
+    config, stated = load_config(path), _stated_network(path)
+    assert config.model.network == stated
+
+
+def _stated_network(path: Path) -> str | None:
+    """What the file or one that it extends says of `network`."""
+    table = tomllib.loads(path.read_text(encoding="utf-8"))
+    if "network" in table.get("model", {}):
+        return str(table["model"]["network"])
+    named = table.get("extends", [])
+    parents = [named] if isinstance(named, str) else named
+    return next(filter(None, (_stated_network(path.parent / parent) for parent in reversed(parents))), None)
 
 
 def test_the_paper_s_own_settings_train_a_field_without_a_filter() -> None:

@@ -12,6 +12,8 @@ _COMMANDS = {
     "few-shot": "measure materials fitted to ten seconds of recording, beside rivals",
     "place": "measure whether a place of a surface feels the same twice",
     "velocity": "measure estimates of the velocity of the tip on strokes of known velocity",
+    "import-published": "turn the authors' published weights into a model file of the engine",
+    "check-published": "check a model file on this machine: parity, levels, times, one report to send",
     "train": "`haptoflow-training train` for rivals, codecs, their objectives and ablations too",
     "train-codec": "train the small codec whose latents some rows work on",
     "export": "`haptoflow-training export` for rivals, codecs, their objectives and ablations too",

@@ -20,6 +20,7 @@ _COMMANDS = {
     "record": "record synthetic recordings in the published data set's layout",
     "report-recorder": "compare the synthetic recorder with its published targets, material by material",
     "inspect": "count and validate the recordings of a data set folder",
+    "labels": "write a labels file for textures of the published data set",
     "prepare": "turn recordings into memory-mapped 2 kHz training arrays",
     "train": "train one run from a TOML file: labels of your own, a skeleton, or a network; resumable",
     "train-tiers": "train a whole model file as the shipped one: several tiers over one embedding, level and skeleton",

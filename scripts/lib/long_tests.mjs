@@ -64,6 +64,14 @@ export const longTests = {
       because: 'a network is trained to be compared with fast recordings; the arithmetic of the law is tested without a network',
       tests: ['test_extrapolating_the_level_law_is_closer_to_fast_recordings_than_clamping', 'test_faster_playback_beyond_the_range_gives_the_recorded_fundamental'],
     },
+    {
+      because: 'a network of the published sizes is exported and run; test_published_engine.py holds the engine to the authors\' own arrays at small sizes',
+      tests: ['test_a_model_of_the_published_sizes_computes_the_same_in_the_engine_as_in_pytorch'],
+    },
+    {
+      because: 'a model is trained, two steps long, on files from a hub on the loopback address; test_chosen_textures_are_downloaded_once_and_handed_to_the_training stops where the training begins',
+      tests: ['test_a_model_of_chosen_textures_has_their_labels_and_licence'],
+    },
   ],
   dotnet: [
     {

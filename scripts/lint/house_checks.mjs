@@ -43,7 +43,7 @@ export async function checkThreadTags(files) {
   return { checked: headers.length, complaints };
 }
 
-const binary = /\.(haptoflow|png|wav|npz|bin|onnx|pt|so|dll)$/;
+const binary = /\.(haptoflow|png|wav|npz|bin|onnx|parquet|pt|so|dll)$/;
 
 // Each is spelt in two parts, so that this file does not complain about itself.
 const forbidden = [

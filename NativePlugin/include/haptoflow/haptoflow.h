@@ -441,6 +441,9 @@ typedef struct haptoflow_batch {
     const float* phases;
     /* count levels above 0, RMS in m/s^2, that replace those of the level graph; null to use the level graph. */
     const float* own_levels_mps2;
+    /* The solver's starting points of a tier whose representation is latent: for each request as many standard normal
+     * numbers as the tier's latent_shape has; null to derive them from `noise`. INVALID_ARGUMENT for any other tier. */
+    const float* latent_noise;
 } haptoflow_batch;
 
 /* Loads the tier's graphs into ONNX Runtime, checks them and runs them once. Close it with haptoflow_generator_close.

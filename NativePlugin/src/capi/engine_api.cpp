@@ -111,7 +111,7 @@ haptoflow_status haptoflow_engine_create(const haptoflow_engine_options* options
         auto settings = engineSettings(given, header);
         settings.native = open->native;
         const inference::LoadLimits limits = loadLimits(given.cancellation, given.probe_limit_ms);
-        TierLoader loader{runtime, open, batch};
+        TierLoader loader{.runtime = runtime, .model = open, .batch = batch};
         engine::EngineTiers tiers(header.tiers.size());
         for (std::size_t tier = 0; tier < tiers.size(); ++tier) {
             if (isWanted(settings.quality, tier)) {

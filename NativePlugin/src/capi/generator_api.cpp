@@ -64,13 +64,19 @@ std::span<const float, inference::segmentSamples> waveformAt(const float* wavefo
                                                              inference::segmentSamples);
 }
 
-std::vector<inference::SegmentRequest> requestsOf(const haptoflow_batch* batch, bool withWaveforms) {
+std::vector<inference::SegmentRequest> requestsOf(const haptoflow_batch* batch, bool withWaveforms,
+                                                  std::size_t latentSize) {
     const auto given = readDescriptor(batch, withWaveforms ? mandatoryForSegments : mandatoryForLevels, "batch");
     (void)require(given.embeddings, "batch: embeddings");
     (void)require(given.motions, "batch: motions");
     if (withWaveforms) {
         (void)require(given.previous_mps2, "batch: previous_mps2");
         (void)require(given.noise, "batch: noise");
+    }
+    if (withWaveforms && given.latent_noise != nullptr && latentSize == 0) {
+        throw std::invalid_argument(
+            "batch: latent_noise is given, but the tier's representation is not latent; expected "
+            "null");
     }
     std::vector<inference::SegmentRequest> requests;
     requests.reserve(given.count);
@@ -87,6 +93,9 @@ std::vector<inference::SegmentRequest> requestsOf(const haptoflow_batch* batch, 
             if (given.phases != nullptr) {
                 std::copy_n(given.phases + index * request.phases.size(), request.phases.size(),
                             request.phases.begin());
+            }
+            if (given.latent_noise != nullptr) {
+                request.latentNoise = {given.latent_noise + index * latentSize, latentSize};
             }
         }
         if (given.own_levels_mps2 != nullptr) {
@@ -112,8 +121,9 @@ haptoflow_status haptoflow_generator_create(const haptoflow_generator_options* o
         auto loaded =
             inference::makeGenerator(runtime, open->model, tier, solverSettings(given.solver, given.steps, tierSolver),
                                      batch, loadLimits(given.cancellation, given.probe_limit_ms), open->native);
-        *generator =
-            generators().open(std::shared_ptr<OpenGenerator>(new OpenGenerator{{}, tierSolver, std::move(loaded)}));
+        const bool isLatent = tier.representation == model::TierRepresentation::latent;
+        *generator = generators().open(std::shared_ptr<OpenGenerator>(
+            new OpenGenerator{{}, tierSolver, std::move(loaded), isLatent ? inference::pointSize(tier) : 0}));
     });
 }
 
@@ -134,7 +144,7 @@ haptoflow_status haptoflow_generator_generate(haptoflow_generator* generator, co
                                               float* segments_mps2) {
     return guarded([&] {
         const auto open = generators().get(generator);
-        const auto requests = requestsOf(batch, true);
+        const auto requests = requestsOf(batch, true, open->latentSize);
         const std::span<float> segments(require(segments_mps2, "segments_mps2"),
                                         requests.size() * inference::segmentSamples);
         const std::lock_guard lock(open->mutex);
@@ -146,7 +156,7 @@ haptoflow_status haptoflow_generator_levels(haptoflow_generator* generator, cons
                                             float* levels_mps2) {
     return guarded([&] {
         const auto open = generators().get(generator);
-        const auto requests = requestsOf(batch, false);
+        const auto requests = requestsOf(batch, false, 0);
         const std::span<float> levels(require(levels_mps2, "levels_mps2"), requests.size());
         const std::lock_guard lock(open->mutex);
         open->generator->levels(requests, levels);

@@ -40,7 +40,7 @@ std::unique_ptr<inference::SegmentGenerator> TierLoader::load(std::size_t tier,
                                                               const inference::LoadLimits& limits) const {
     const model::Tier& wanted = model->model.header().tiers.at(tier);
     return inference::makeGenerator(runtime, model->model, wanted, inference::defaultSolver(wanted), batch, limits,
-                                    model->native);
+                                    model->native, sessions.get());
 }
 
 std::unique_ptr<inference::LevelEstimator> TierLoader::loadLevels(std::size_t tier,

@@ -5,6 +5,7 @@
 #include "engine/live_engine.hpp"
 #include "haptoflow/haptoflow.h"
 #include "inference/load_limits.hpp"
+#include "inference/shared_sessions.hpp"
 #include "inference/tier_generator.hpp"
 #include "model/material_file.hpp"
 #include "model/model_file.hpp"
@@ -37,6 +38,8 @@ struct OpenGenerator {
     std::mutex mutex;
     inference::SolverSettings tierSolver;
     std::unique_ptr<inference::TierGenerator> generator;
+    /// Numbers of a latent; 0 unless the tier's representation is latent.
+    std::size_t latentSize = 0;
 };
 
 /// Loads the tiers of one engine, when it is created or when a later quality uses them.
@@ -45,6 +48,9 @@ struct TierLoader {
     std::shared_ptr<const inference::Runtime> runtime;
     std::shared_ptr<const OpenModel> model;
     std::size_t batch;
+    /// Of all tiers, because one thread at a time runs them. Whoever calls `load` holds `loading`, or creates the
+    /// engine.
+    std::shared_ptr<inference::SharedSessions> sessions = std::make_shared<inference::SharedSessions>();
 
     /// Throws what inference::makeGenerator throws.
     [[nodiscard]] std::unique_ptr<inference::SegmentGenerator> load(std::size_t tier,

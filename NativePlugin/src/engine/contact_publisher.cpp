@@ -23,8 +23,8 @@ ObjectIdentity objectOf(const ContactState& state) noexcept {
     return {.surfaceSeed = state.surfaceSeed, .variation = state.variation};
 }
 
-/// The heaviest material's seed that is nearest to a motion, scaled to the level of that motion; silence if the
-/// material has no seed.
+/// The heaviest material's seed that is nearest to a motion, scaled by its gain to the level of that motion; silence if
+/// the material has no seed.
 OnsetSeed seedFor(const Ingredients& ingredients, const Material& material, const RangedMotion& ranged,
                   float levelMps2) noexcept {
     OnsetSeed onset;
@@ -33,7 +33,7 @@ OnsetSeed seedFor(const Ingredients& ingredients, const Material& material, cons
         return onset;
     }
     std::ranges::transform(seed->samples, onset.samplesMps2.begin(),
-                           [levelMps2](float sample) { return sample * levelMps2; });
+                           [scale = seed->gain * levelMps2](float sample) { return sample * scale; });
     // The seed plays as recorded, so its rib phase advances with its own velocity and not with the tip's.
     onset.ribs.vectors = waveVectorsOf(material.embedding);
     onset.ribs.phase = phasesFor(onset.ribs.vectors, waveVectorsOf(seed->embedding), seed->ribPhase);

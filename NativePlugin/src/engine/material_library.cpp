@@ -45,6 +45,7 @@ MaterialLibrary::MaterialLibrary(const model::ModelFile& model, inference::Level
         labels_[entry.label].seeds.push_back({.velocityMps = entry.velocityMps,
                                               .forceNewtons = entry.forceNewtons,
                                               .ribPhase = entry.ribPhase,
+                                              .gain = entry.gain,
                                               .samples = model.seed(seed),
                                               .embedding = model.embedding(entry.label)});
     }

@@ -12,6 +12,8 @@ struct Seed {
     std::array<double, 2> velocityMps{};
     double forceNewtons = 0.0;
     std::array<double, 2> ribPhase{};
+    /// RMS of the played seed relative to the level.
+    float gain = 1.0F;
     std::span<const float, model::seedSamples> samples;
     /// Embedding of the recorded material; the rib phase refers to its wave vectors.
     std::span<const float, model::embeddingSize> embedding;

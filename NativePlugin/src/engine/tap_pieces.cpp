@@ -84,6 +84,24 @@ ImpactResponse::Mode feltMode(double frequencyHz, double lossFactor, double shar
             .gainPerSecond = static_cast<float>(shareLeftByTheHand * share * 2.0 * std::numbers::pi * felt)};
 }
 
+struct Category {
+    std::string_view name;
+    std::string_view ofPieces;
+};
+
+/// Categories of the Cluster Haptic Texture Dataset that have other names here.
+constexpr std::array categories{
+    Category{"polymer", "plastic"},      Category{"cloth", "fabric"},      Category{"biodegradable", "leather"},
+    Category{"biodegradable", "fabric"}, Category{"biodegradable", "fur"}, Category{"composite", "plastic"},
+    Category{"composite", "sandpaper"},
+};
+
+bool isOfCategory(const TapPiece& piece, std::string_view category) noexcept {
+    return piece.category == category || std::ranges::any_of(categories, [&](const Category& each) {
+               return each.name == category && each.ofPieces == piece.category;
+           });
+}
+
 double distance(double stiffness, double other) noexcept {
     return std::abs(std::log(stiffness / other));
 }
@@ -101,7 +119,7 @@ const TapPiece* tapPieceOf(const model::Label& label) noexcept {
             return &piece;
         }
         const double own = label.stiffnessNewtonsPerMetre;
-        if (piece.category == label.category &&
+        if (isOfCategory(piece, label.category) &&
             (nearest == nullptr ||
              distance(piece.stiffnessNewtonsPerMetre, own) < distance(nearest->stiffnessNewtonsPerMetre, own))) {
             nearest = &piece;

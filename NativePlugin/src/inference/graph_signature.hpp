@@ -12,6 +12,8 @@ struct TensorSignature {
     std::string name;
     std::vector<std::int64_t> shape;
 
+    friend bool operator==(const TensorSignature&, const TensorSignature&) = default;
+
     /// Numbers in one element of the batch.
     [[nodiscard]] std::size_t size() const noexcept {
         std::size_t product = 1;
@@ -26,6 +28,8 @@ struct TensorSignature {
 struct GraphSignature {
     std::vector<TensorSignature> inputs;
     TensorSignature output;
+
+    friend bool operator==(const GraphSignature&, const GraphSignature&) = default;
 };
 
 }  // namespace haptoflow::inference

@@ -7,10 +7,16 @@
 namespace haptoflow::inference {
 
 OnnxGraph::OnnxGraph(std::shared_ptr<const Runtime> runtime, std::span<const std::byte> graph, std::string name,
-                     GraphSignature signature, std::size_t maximumBatch, const LoadLimits& limits) {
+                     GraphSignature signature, std::size_t maximumBatch, const LoadLimits& limits)
+    : session_(loadChecked(std::move(runtime), graph, std::move(name), std::move(signature), maximumBatch, limits)) {}
+
+std::shared_ptr<GraphSession> OnnxGraph::loadChecked(std::shared_ptr<const Runtime> runtime,
+                                                     std::span<const std::byte> graph, std::string name,
+                                                     GraphSignature signature, std::size_t maximumBatch,
+                                                     const LoadLimits& limits) {
     limits.check();
     model::checkOnnxModel(graph, name);
-    session_ = loadGraphSession(std::move(runtime), graph, std::move(name), std::move(signature), maximumBatch, limits);
+    return loadGraphSession(std::move(runtime), graph, std::move(name), std::move(signature), maximumBatch, limits);
 }
 
 }  // namespace haptoflow::inference

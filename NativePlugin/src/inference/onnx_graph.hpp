@@ -9,6 +9,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 
 namespace haptoflow::inference {
 
@@ -21,6 +22,14 @@ public:
     /// the format; TierTooSlow; LoadCancelled.
     OnnxGraph(std::shared_ptr<const Runtime> runtime, std::span<const std::byte> graph, std::string name,
               GraphSignature signature, std::size_t maximumBatch, const LoadLimits& limits);
+    /// Runs a session that others use too, on the same thread.
+    explicit OnnxGraph(std::shared_ptr<GraphSession> session) : session_(std::move(session)) {}
+
+    /// What the first constructor loads. Throws the same.
+    [[nodiscard]] static std::shared_ptr<GraphSession> loadChecked(std::shared_ptr<const Runtime> runtime,
+                                                                   std::span<const std::byte> graph, std::string name,
+                                                                   GraphSignature signature, std::size_t maximumBatch,
+                                                                   const LoadLimits& limits);
 
     /// Sets the batch size, 1 to maximumBatch. Throws std::invalid_argument.
     void setBatch(std::size_t batch) { session_->setBatch(batch); }
@@ -43,7 +52,7 @@ public:
     [[nodiscard]] std::uint64_t runs() const noexcept { return runs_; }
 
 private:
-    std::unique_ptr<GraphSession> session_;
+    std::shared_ptr<GraphSession> session_;
     std::uint64_t runs_ = 0;
 };
 

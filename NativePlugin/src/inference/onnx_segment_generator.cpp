@@ -40,19 +40,19 @@ NoiseKey keyOfNoise(std::span<const float> noise) {
 
 OnnxSegmentGenerator::OnnxSegmentGenerator(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model,
                                            std::string_view tier, SolverSettings solver, std::size_t maximumBatch,
-                                           const LoadLimits& limits)
+                                           const LoadLimits& limits, SharedSessions* sessions)
     : kind_(requireTier(model, tier).kind),
       maximumBatch_(requireBatch(maximumBatch)),
       pointSize_(pointSize(requireTier(model, tier))),
       level_(runtime, model, requireTier(model, tier), limits),
-      field_(runtime, model, requireTier(model, tier), maximumBatch, limits),
+      field_(runtime, model, requireTier(model, tier), maximumBatch, limits, sessions),
       levelsMps2_(maximumBatch),
       previous_(maximumBatch * segmentSamples),
       points_(maximumBatch * pointSize_),
       result_(maximumBatch * pointSize_) {
     const model::Tier& found = requireTier(model, tier);
     if (found.representation == model::TierRepresentation::latent) {
-        decoder_.emplace(loadDecoder(std::move(runtime), model, found, maximumBatch, limits));
+        decoder_.emplace(loadDecoder(std::move(runtime), model, found, maximumBatch, limits, sessions));
     }
     setSolver(solver);
 }
@@ -131,7 +131,10 @@ void OnnxSegmentGenerator::prepare(std::span<const SegmentRequest> requests) {
     for (std::size_t index = 0; index < requests.size(); ++index) {
         field_.setPhases(index, requests[index].phases);
         const auto point = std::span(points_).subspan(index * pointSize_, pointSize_);
-        if (point.size() == segmentSamples) {
+        if (const std::span<const float> given = requests[index].latentNoise; !given.empty()) {
+            requireSize(given.size(), point.size(), "a latent needs noise");
+            std::ranges::copy(given, point.begin());
+        } else if (point.size() == segmentSamples) {
             std::ranges::copy(requests[index].noise, point.begin());
         } else {
             fillStandardNormal(keyOfNoise(requests[index].noise), point);

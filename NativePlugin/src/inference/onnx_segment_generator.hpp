@@ -6,6 +6,7 @@
 #include "inference/onnx_runtime.hpp"
 #include "inference/onnx_velocity_field.hpp"
 #include "inference/segment_generator.hpp"
+#include "inference/shared_sessions.hpp"
 #include "inference/solver.hpp"
 #include "inference/tier_generator.hpp"
 #include "model/model_file.hpp"
@@ -33,11 +34,13 @@ struct RunCounts {
 /// a time; allocates.
 class OnnxSegmentGenerator final : public TierGenerator {
 public:
-    /// Loads, checks and runs the tier's graphs. The model need not outlive the generator. Throws std::invalid_argument
+    /// Loads, checks and runs the tier's graphs, or takes them from `sessions`, which may be null. The model need not
+    /// outlive the generator. Throws std::invalid_argument
     /// for a tier that the model does not have, solver settings out of range or a batch outside 1 to maximumBatchSize;
     /// model::ModelError (inconsistent) if a graph does not match the format; TierTooSlow; LoadCancelled.
     OnnxSegmentGenerator(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model, std::string_view tier,
-                         SolverSettings solver, std::size_t maximumBatch, const LoadLimits& limits = {});
+                         SolverSettings solver, std::size_t maximumBatch, const LoadLimits& limits = {},
+                         SharedSessions* sessions = nullptr);
 
     /// Takes effect with the next batch. Tiers of kind `average-velocity` always use Euler steps; tiers of kind
     /// `direct` are evaluated once and ignore the settings. Throws std::invalid_argument for settings out of range.

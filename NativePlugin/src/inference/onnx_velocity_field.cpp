@@ -7,11 +7,12 @@
 namespace haptoflow::inference {
 
 OnnxVelocityField::OnnxVelocityField(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model,
-                                     const model::Tier& tier, std::size_t maximumBatch, const LoadLimits& limits)
-    : field_(loadField(runtime, model, tier, maximumBatch, limits)),
+                                     const model::Tier& tier, std::size_t maximumBatch, const LoadLimits& limits,
+                                     SharedSessions* sessions)
+    : field_(loadField(runtime, model, tier, maximumBatch, limits, sessions)),
       takesInterval_(tier.kind == model::TierKind::averageVelocity) {
     if (tier.representation == model::TierRepresentation::latent && field_.hasInput(field_input::previous)) {
-        encoder_.emplace(loadEncoder(runtime, model, tier, maximumBatch, limits));
+        encoder_.emplace(loadEncoder(runtime, model, tier, maximumBatch, limits, sessions));
     }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "inference/onnx_graph.hpp"
+#include "inference/shared_sessions.hpp"
 #include "inference/solver.hpp"
 #include "model/model_file.hpp"
 
@@ -17,7 +18,7 @@ class OnnxVelocityField final : public VelocityField {
 public:
     /// Throws what OnnxGraph's constructor throws.
     OnnxVelocityField(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model, const model::Tier& tier,
-                      std::size_t maximumBatch, const LoadLimits& limits);
+                      std::size_t maximumBatch, const LoadLimits& limits, SharedSessions* sessions = nullptr);
 
     void setBatch(std::size_t batch);
     /// Inputs of the batch, to be filled before `evaluate`: batch * 64 and batch * 3 numbers.

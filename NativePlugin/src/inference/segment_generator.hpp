@@ -47,6 +47,8 @@ struct SegmentRequest {
     /// The motion for the model's level where it differs from `motion`, and a gain on the model's level.
     std::optional<std::array<float, 3>> levelMotion{};
     float levelGain = 1.0F;
+    /// The starting point of a latent tier's solver, of the latent's size; if empty, it is derived from `noise`.
+    std::span<const float> latentNoise{};
 };
 
 /// Estimates a material's level. Used by one thread at a time; may allocate.

@@ -24,7 +24,8 @@ std::shared_ptr<const Runtime> requireRuntime(std::shared_ptr<const Runtime> run
 
 std::unique_ptr<TierGenerator> makeGenerator(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model,
                                              const model::Tier& tier, SolverSettings solver, std::size_t maximumBatch,
-                                             const LoadLimits& limits, const skeleton::NativeParts& native) {
+                                             const LoadLimits& limits, const skeleton::NativeParts& native,
+                                             SharedSessions* sessions) {
     switch (tier.kind) {
         case model::TierKind::skeleton:
             return std::make_unique<SkeletonGenerator>(skeleton::sharedOrRead(native, model), solver, maximumBatch,
@@ -35,7 +36,7 @@ std::unique_ptr<TierGenerator> makeGenerator(std::shared_ptr<const Runtime> runt
                                                       limits);
         default:
             return std::make_unique<OnnxSegmentGenerator>(requireRuntime(std::move(runtime), tier), model, tier.name,
-                                                          solver, maximumBatch, limits);
+                                                          solver, maximumBatch, limits, sessions);
     }
 }
 

@@ -19,9 +19,14 @@ const std::vector<std::int64_t>& pointShape(const model::Tier& tier) {
 }
 
 OnnxGraph load(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model, const model::Tier& tier,
-               const std::string& blob, GraphSignature signature, std::size_t maximumBatch, const LoadLimits& limits) {
-    return {std::move(runtime),   model.blob(blob), "tier \"" + tier.name + "\", graph \"" + blob + '"',
-            std::move(signature), maximumBatch,     limits};
+               const std::string& blob, const GraphSignature& signature, std::size_t maximumBatch,
+               const LoadLimits& limits, SharedSessions* sessions = nullptr) {
+    const auto loadOwn = [&] {
+        return OnnxGraph::loadChecked(std::move(runtime), model.blob(blob),
+                                      "tier \"" + tier.name + "\", graph \"" + blob + '"', signature, maximumBatch,
+                                      limits);
+    };
+    return OnnxGraph(sessions != nullptr ? sessions->getOrLoad(blob, signature, maximumBatch, loadOwn) : loadOwn());
 }
 
 }  // namespace
@@ -31,7 +36,7 @@ std::size_t pointSize(const model::Tier& tier) {
 }
 
 OnnxGraph loadField(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model, const model::Tier& tier,
-                    std::size_t maximumBatch, const LoadLimits& limits) {
+                    std::size_t maximumBatch, const LoadLimits& limits, SharedSessions* sessions) {
     const bool direct = tier.kind == model::TierKind::direct;
     GraphSignature signature{
         {{"noisy", pointShape(tier)}, {"time", {1}}, {"previous", pointShape(tier)}, embedding, motion, phases},
@@ -39,7 +44,7 @@ OnnxGraph loadField(std::shared_ptr<const Runtime> runtime, const model::ModelFi
     if (tier.kind == model::TierKind::averageVelocity) {
         signature.inputs.push_back({"interval", {1}});
     }
-    return load(std::move(runtime), model, tier, tier.field, std::move(signature), maximumBatch, limits);
+    return load(std::move(runtime), model, tier, tier.field, signature, maximumBatch, limits, sessions);
 }
 
 OnnxGraph loadRefinement(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model, const model::Tier& tier,
@@ -61,15 +66,15 @@ OnnxGraph loadLevel(std::shared_ptr<const Runtime> runtime, const model::ModelFi
 }
 
 OnnxGraph loadEncoder(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model, const model::Tier& tier,
-                      std::size_t maximumBatch, const LoadLimits& limits) {
+                      std::size_t maximumBatch, const LoadLimits& limits, SharedSessions* sessions) {
     return load(std::move(runtime), model, tier, tier.encoder,
-                {{{"waveform", waveformShape}}, {"latent", pointShape(tier)}}, maximumBatch, limits);
+                {{{"waveform", waveformShape}}, {"latent", pointShape(tier)}}, maximumBatch, limits, sessions);
 }
 
 OnnxGraph loadDecoder(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model, const model::Tier& tier,
-                      std::size_t maximumBatch, const LoadLimits& limits) {
+                      std::size_t maximumBatch, const LoadLimits& limits, SharedSessions* sessions) {
     return load(std::move(runtime), model, tier, tier.decoder,
-                {{{"latent", pointShape(tier)}}, {"waveform", waveformShape}}, maximumBatch, limits);
+                {{{"latent", pointShape(tier)}}, {"waveform", waveformShape}}, maximumBatch, limits, sessions);
 }
 
 SolverSettings defaultSolver(const model::Tier& tier) noexcept {

@@ -2,6 +2,7 @@
 
 #include "inference/onnx_graph.hpp"
 #include "inference/segment_generator.hpp"
+#include "inference/shared_sessions.hpp"
 #include "model/model_file.hpp"
 
 #include <cstddef>
@@ -33,9 +34,11 @@ inline constexpr std::size_t motion = 1;
 /// Size of a point of the tier's field: 200, or the size of a latent.
 [[nodiscard]] std::size_t pointSize(const model::Tier& tier);
 
-/// Load a graph of a tier and check it against the format. Each throws what OnnxGraph's constructor throws.
+/// Load a graph of a tier and check it against the format. Each throws what OnnxGraph's constructor throws. `sessions`
+/// may be null.
 [[nodiscard]] OnnxGraph loadField(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model,
-                                  const model::Tier& tier, std::size_t maximumBatch, const LoadLimits& limits);
+                                  const model::Tier& tier, std::size_t maximumBatch, const LoadLimits& limits,
+                                  SharedSessions* sessions = nullptr);
 [[nodiscard]] OnnxGraph loadLevel(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model,
                                   const model::Tier& tier, std::size_t maximumBatch, const LoadLimits& limits);
 /// Tiers of kind `refine` only; `filmSize` numbers condition the graph.
@@ -44,9 +47,11 @@ inline constexpr std::size_t motion = 1;
                                        const LoadLimits& limits);
 /// Latent tiers only.
 [[nodiscard]] OnnxGraph loadEncoder(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model,
-                                    const model::Tier& tier, std::size_t maximumBatch, const LoadLimits& limits);
+                                    const model::Tier& tier, std::size_t maximumBatch, const LoadLimits& limits,
+                                    SharedSessions* sessions = nullptr);
 [[nodiscard]] OnnxGraph loadDecoder(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model,
-                                    const model::Tier& tier, std::size_t maximumBatch, const LoadLimits& limits);
+                                    const model::Tier& tier, std::size_t maximumBatch, const LoadLimits& limits,
+                                    SharedSessions* sessions = nullptr);
 
 /// Solver and number of steps that the model states for the tier.
 [[nodiscard]] SolverSettings defaultSolver(const model::Tier& tier) noexcept;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <stdexcept>
 #include <vector>
 
 namespace haptoflow::learning {
@@ -58,6 +59,24 @@ std::vector<float> levelsOf(inference::SegmentGenerator& generator, std::span<co
     std::vector<float> levels(requests.size());
     generator.levels(requests, levels);
     return levels;
+}
+
+void requireOwnLevels(const model::ModelFile& model, inference::SegmentGenerator& generator) {
+    const model::ModelHeader& header = model.header();
+    std::vector<LevelCondition> conditions;
+    for (std::size_t label = 0; label < header.labels.size(); ++label) {
+        for (const double share : {0.25, 0.75}) {
+            conditions.push_back({{}, header.speedMps.at(share), header.forceNewtons.at(share)});
+            std::ranges::copy(model.embedding(label), conditions.back().embedding.begin());
+        }
+    }
+    const std::vector<float> levels = levelsOf(generator, conditions);
+    const auto [least, greatest] = std::ranges::minmax(levels);
+    if (greatest - least <= 1e-4F * greatest) {
+        throw std::invalid_argument("the model gives all its labels one level, " + recordings::plainNumber(greatest) +
+                                    " m/s^2: its networks have a unit of their own, in which no recording's level can "
+                                    "be stated; learn with another model, or one distilled from this");
+    }
 }
 
 std::optional<std::string> levelWarning(const LevelLaw& level, const Sliding& sliding, const model::ModelFile& model,

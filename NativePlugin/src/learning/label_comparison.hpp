@@ -24,6 +24,11 @@ struct LevelCondition {
 [[nodiscard]] std::vector<float> levelsOf(inference::SegmentGenerator& generator,
                                           std::span<const LevelCondition> conditions);
 
+/// Throws std::invalid_argument if the model gives all its labels one level at every motion: that is the unit of its
+/// networks, which carry the labels' levels themselves, and a material's own level in its place would be taken for the
+/// unit.
+void requireOwnLevels(const model::ModelFile& model, inference::SegmentGenerator& generator);
+
 /// Mean and standard deviation of the labels' exponents; the defaults if the model has fewer than three labels.
 [[nodiscard]] ExponentPrior exponentPrior(const model::ModelHeader& model);
 

@@ -45,6 +45,7 @@ public:
         : model_(model), generator_(generator), settings_(settings), otherTiers_(otherTiers), began_(threadSeconds()) {
         say(0.0, "reading");
         checkSettings(settings);
+        requireOwnLevels(model, generator);
         keptLabel_ = keptLabelOf(settings, model.header());
         recordings::checkRecording(recording);
         recording_ = recordings::prepareRecording(recording);

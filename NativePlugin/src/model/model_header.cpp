@@ -60,6 +60,9 @@ SeedEntry readSeed(const HeaderNode& node, const NameIndex& labelNames) {
         const auto turns = phase->numbers(seed.ribPhase.size(), 0.0, 1.0);
         std::ranges::copy(turns, seed.ribPhase.begin());
     }
+    if (const auto gain = node.find("gain")) {
+        seed.gain = static_cast<float>(gain->number(0.0, maximumSeedGain));
+    }
     return seed;
 }
 

@@ -31,6 +31,8 @@ inline constexpr double maximumSpeedMps = 100.0;
 inline constexpr double maximumForceNewtons = 1000.0;
 /// Exponents of the level laws are within +- this.
 inline constexpr double maximumLevelExponent = 4.0;
+/// Largest gain of a seed.
+inline constexpr double maximumSeedGain = 16.0;
 /// Largest magnitude of a number in an embedding or a seed.
 inline constexpr double maximumMagnitude = 1e6;
 /// Dimensions of a tensor, of a blob and of an ONNX graph.
@@ -181,6 +183,8 @@ struct SeedEntry {
     /// Phase along each wave vector of the label, in cycles, at the seed's sample 200, the first one that is played; 0
     /// if not given.
     std::array<double, 2> ribPhase{};
+    /// RMS of the played seed relative to the level at its motion.
+    float gain = 1.0F;
 };
 
 enum class BlobType { float32, onnx };

@@ -323,7 +323,8 @@ private:
                               waveforms.data(),
                               waveforms.data(),
                               oneIn(2) ? phases.data() : nullptr,
-                              oneIn(4) ? ownLevels.data() : nullptr};
+                              oneIn(4) ? ownLevels.data() : nullptr,
+                              nullptr};
         if (oneIn(8)) {
             batch.count = next();
             batch.motions = nullptr;

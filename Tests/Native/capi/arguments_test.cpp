@@ -123,7 +123,7 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
     const std::vector<float> motion(HAPTOFLOW_MOTION_SIZE);
     const std::vector<float> waveform(HAPTOFLOW_SEGMENT_SAMPLES);
     const haptoflow_batch batch{sizeof(batch),   1,       embedding.data(), motion.data(), waveform.data(),
-                                waveform.data(), nullptr, nullptr};
+                                waveform.data(), nullptr, nullptr,          nullptr};
     std::vector<float> numbers(HAPTOFLOW_SEGMENT_SAMPLES);
 
     haptoflow_runtime* noRuntime = nullptr;

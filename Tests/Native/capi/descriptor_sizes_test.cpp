@@ -223,7 +223,8 @@ protected:
     std::array<float, HAPTOFLOW_MOTION_SIZE> motion_{0.1F, 0.0F, 1.0F};
     std::array<float, HAPTOFLOW_SEGMENT_SAMPLES> silence_{};
     std::array<float, HAPTOFLOW_SEGMENT_SAMPLES> segment_{};
-    haptoflow_batch batch_{0, 1, embedding_.data(), motion_.data(), silence_.data(), silence_.data(), nullptr, nullptr};
+    haptoflow_batch batch_{
+        0, 1, embedding_.data(), motion_.data(), silence_.data(), silence_.data(), nullptr, nullptr, nullptr};
 };
 
 TEST_F(DescriptorSizesTest, EveryDescriptorOfTheHeaderIsInATable) {

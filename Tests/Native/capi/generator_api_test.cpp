@@ -57,6 +57,7 @@ struct Golden {
                 previous.data(),
                 noise.data(),
                 nullptr,
+                nullptr,
                 nullptr};
     }
 
@@ -116,6 +117,33 @@ TEST_F(GeneratorApiTest, TheSolverCanBeChangedAndResetToTheTiersOwn) {
     EXPECT_EQ(haptoflow_generator_set_solver(generator_, HAPTOFLOW_SOLVER_OF_TIER, 2), HAPTOFLOW_INVALID_ARGUMENT);
     EXPECT_EQ(haptoflow_generator_set_solver(generator_, HAPTOFLOW_SOLVER_EULER, 17), HAPTOFLOW_INVALID_ARGUMENT);
     EXPECT_EQ(haptoflow_generator_set_solver(generator_, 9, 1), HAPTOFLOW_INVALID_ARGUMENT);
+}
+
+TEST_F(GeneratorApiTest, TheNoiseOfALatentIsTheCallersWhereItIsGiven) {
+    create(generatorOptions("latent"));
+    constexpr std::size_t latent = 100;
+    const std::vector<float> zeros(3 * samples);
+    const std::vector<float> latentZeros(3 * latent);
+    std::vector<float> derived(3 * samples);
+    std::vector<float> given(3 * samples);
+    std::vector<float> again(3 * samples);
+    haptoflow_batch batch = golden_.batch();
+    ASSERT_EQ(haptoflow_generator_generate(generator_, &batch, derived.data()), HAPTOFLOW_OK) << message();
+    batch.latent_noise = latentZeros.data();
+    ASSERT_EQ(haptoflow_generator_generate(generator_, &batch, given.data()), HAPTOFLOW_OK) << message();
+    batch.noise = zeros.data();
+    ASSERT_EQ(haptoflow_generator_generate(generator_, &batch, again.data()), HAPTOFLOW_OK) << message();
+    EXPECT_NE(given, derived);
+    EXPECT_EQ(given, again) << "the segment's noise must not matter";
+}
+
+TEST_F(GeneratorApiTest, TheNoiseOfALatentIsRefusedByATierThatHasNone) {
+    createMidpointOfThreeSteps();
+    std::vector<float> segments(3 * samples);
+    haptoflow_batch batch = golden_.batch();
+    batch.latent_noise = segments.data();
+    EXPECT_EQ(haptoflow_generator_generate(generator_, &batch, segments.data()), HAPTOFLOW_INVALID_ARGUMENT);
+    EXPECT_THAT(message(), HasSubstr("latent_noise"));
 }
 
 /// A copy of the tiny model whose direct tier returns its rib phase.

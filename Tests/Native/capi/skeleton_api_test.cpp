@@ -165,8 +165,9 @@ TEST_F(SkeletonApiTest, AGeneratorOfTheSketchReadsThePhasesOfABatch) {
     const std::vector<float> previous(noise.size());
     const std::array<float, 2 * HAPTOFLOW_PHASES> phases{0.0F, 0.0F, 0.0F, 80.0F, 0.0F, 0.0F,
                                                          0.5F, 0.0F, 0.0F, 80.0F, 0.0F, 0.0F};
-    haptoflow_batch batch{sizeof(batch), 2,      embeddings.data(), motions.data(), previous.data(), noise.data(),
-                          phases.data(), nullptr};
+    haptoflow_batch batch{
+        sizeof(batch), 2,      embeddings.data(), motions.data(), previous.data(), noise.data(), phases.data(),
+        nullptr,       nullptr};
     std::vector<float> segments(noise.size());
     ASSERT_EQ(haptoflow_generator_generate(generator_, &batch, segments.data()), HAPTOFLOW_OK) << message();
     EXPECT_FALSE(std::equal(segments.begin(), segments.begin() + HAPTOFLOW_SEGMENT_SAMPLES,

@@ -63,6 +63,21 @@ TEST_F(LiveVoiceTest, TheSeedSoundsInTheFirstBlockAfterTouchDown) {
     EXPECT_EQ(device.counters().onsets, 1U);
 }
 
+TEST_F(LiveVoiceTest, ASeedWithAGainSoundsThatMuchMoreQuietly) {
+    const auto onsetPeak = [this](double gain) {
+        model::testing::ModelBuilder builder;
+        for (auto& entry : builder.header["seed_bank"]["entries"]) {
+            entry["gain"] = gain;
+        }
+        const model::ModelFile model = model::ModelFile::parse(builder.build());
+        SimulatedDevice device(model, tone_);
+        device.publish(testing::sliding());
+        device.renderBlock();
+        return testing::peak(device.output);
+    };
+    EXPECT_NEAR(onsetPeak(0.25), 0.25F * onsetPeak(1.0), 1e-3F * onsetPeak(1.0));
+}
+
 TEST_F(LiveVoiceTest, TheSeedSoundsUntilTheFirstSegmentArrives) {
     testing::DeviceSettings settings;
     settings.latencySeconds = [](double) { return 0.05; };

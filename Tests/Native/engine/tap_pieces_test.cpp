@@ -120,4 +120,21 @@ TEST(TapPiecesTest, ALabelHasThePieceOfItsNameElseOfItsCategoryAndStiffness) {
 }
 
 }  // namespace
+TEST(TapPiecesTest, ACategoryOfThePublishedDataSetHasThePiecesOfItsMaterials) {
+    const auto pieceOf = [](const char* category, double stiffness) {
+        model::Label label;
+        label.name = "unheard of";
+        label.category = category;
+        label.stiffnessNewtonsPerMetre = stiffness;
+        return std::string(tapPieceOf(label)->label);
+    };
+    EXPECT_EQ(pieceOf("polymer", 900.0), "plastic");
+    EXPECT_EQ(pieceOf("polymer", 300.0), "rubber");
+    EXPECT_EQ(pieceOf("cloth", 250.0), "cotton");
+    EXPECT_EQ(pieceOf("biodegradable", 100.0), "fur");
+    EXPECT_EQ(pieceOf("biodegradable", 400.0), "leather");
+    EXPECT_EQ(pieceOf("composite", 3000.0), "sandpaper");
+    EXPECT_EQ(pieceOf("composite", 800.0), "plastic");
+}
+
 }  // namespace haptoflow::engine

@@ -1,5 +1,6 @@
 #include "inference/onnx_segment_generator.hpp"
 
+#include "inference/shared_sessions.hpp"
 #include "inference/tier_graphs.hpp"
 #include "tiny_model.hpp"
 
@@ -235,6 +236,35 @@ TEST(OnnxSegmentGeneratorTest, TheGeneratorOutlivesItsModel) {
     const auto requests = goldenBatch().requests();
     OnnxSegmentGenerator other = makeGenerator("standard", {});
     EXPECT_EQ(generate(generator, requests), generate(other, requests));
+}
+
+TEST(SharedSessionsTest, TiersOfOneGraphLoadItOnceAndDoNotDisturbEachOther) {
+    const auto requests = goldenBatch().requests();
+    const std::span<const SegmentRequest> one = std::span(requests).first(1);
+    OnnxSegmentGenerator alone = makeGenerator("fine", {SolverKind::heun, 5});
+    const std::vector<float> expected = generate(alone, requests);
+
+    SharedSessions sessions;
+    OnnxSegmentGenerator fine(testRuntime(), tinyModel(), "fine", {SolverKind::heun, 5}, 4, {}, &sessions);
+    OnnxSegmentGenerator standard(testRuntime(), tinyModel(), "standard", {SolverKind::euler, 1}, 4, {}, &sessions);
+    EXPECT_EQ(sessions.loaded(), 1U) << "both have flow_field";
+    (void)generate(standard, one);
+    EXPECT_EQ(generate(fine, requests), expected);
+    EXPECT_EQ(standard.runCounts().field, 1U) << "a generator counts its own runs";
+
+    const OnnxSegmentGenerator latent(testRuntime(), tinyModel(), "latent", {}, 4, {}, &sessions);
+    EXPECT_EQ(sessions.loaded(), 4U) << "field, encoder and decoder";
+    const OnnxSegmentGenerator same(testRuntime(), tinyModel(), "latent", {SolverKind::heun, 2}, 4, {}, &sessions);
+    EXPECT_EQ(sessions.loaded(), 4U);
+    const OnnxSegmentGenerator larger(testRuntime(), tinyModel(), "latent", {}, 5, {}, &sessions);
+    EXPECT_EQ(sessions.loaded(), 7U) << "another batch has other buffers";
+}
+
+TEST(SharedSessionsTest, AGraphIsFreedWithItsLastTier) {
+    SharedSessions sessions;
+    { const OnnxSegmentGenerator first(testRuntime(), tinyModel(), "standard", {}, 4, {}, &sessions); }
+    const OnnxSegmentGenerator second(testRuntime(), tinyModel(), "standard", {}, 4, {}, &sessions);
+    EXPECT_EQ(sessions.loaded(), 2U);
 }
 
 }  // namespace

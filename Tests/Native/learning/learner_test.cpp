@@ -79,6 +79,22 @@ TEST_F(LearnerTest, AKeptLabelThatTheModelDoesNotHaveIsRefused) {
                 ThrowsMessage<std::invalid_argument>(HasSubstr("no label 'moon dust'")));
 }
 
+/// As a model whose networks carry the levels themselves: its level graph states their unit.
+class OneLevel final : public inference::SegmentGenerator {
+public:
+    void generate(std::span<const inference::SegmentRequest>, std::span<float>) override { FAIL() << "refused before"; }
+    void levels(std::span<const inference::SegmentRequest>, std::span<float> levelsMps2) override {
+        std::ranges::fill(levelsMps2, 7.25F);
+    }
+};
+
+TEST_F(LearnerTest, AModelWithOneLevelForAllLabelsIsRefusedBeforeAnythingIsGenerated) {
+    const MadeRecording made({}, {});
+    OneLevel generator;
+    EXPECT_THAT([&] { (void)learnMaterial(made.view(), model_, generator, brief()); },
+                ThrowsMessage<std::invalid_argument>(HasSubstr("gives all its labels one level, 7.25 m/s^2")));
+}
+
 TEST_F(LearnerTest, EqualSeedsGiveEqualBytesAndAnotherSeedAnotherMaterial) {
     const MadeRecording made({}, {});
     LearningSettings settings = brief();

@@ -158,6 +158,16 @@ TEST(HeaderTest, TheRibPhaseOfASeedIsReadAndAMissingOneIsZero) {
     EXPECT_EQ(model.header().seeds[1].ribPhase, (std::array<double, 2>{0.25, 0.875}));
 }
 
+TEST(HeaderTest, TheGainOfASeedIsReadAndAMissingOneIsOne) {
+    ModelBuilder builder;
+    builder.header["seed_bank"]["entries"][1]["gain"] = 0.25;
+    const ModelFile model = ModelFile::parse(builder.build());
+    EXPECT_EQ(model.header().seeds[0].gain, 1.0F);
+    EXPECT_EQ(model.header().seeds[1].gain, 0.25F);
+    expectHeaderRefusal([](Json& header) { header["seed_bank"]["entries"][0]["gain"] = -1.0; },
+                        "seed_bank.entries[0].gain\": expected a number from 0 to 16");
+}
+
 TEST(HeaderTest, ARibPhaseThatIsNotTwoNumbersFromZeroToOneIsRefused) {
     expectHeaderRefusal([](Json& header) { header["seed_bank"]["entries"][0]["rib_phase"] = {0.5}; },
                         "\"seed_bank.entries[0].rib_phase\": expected an array of 2 numbers");

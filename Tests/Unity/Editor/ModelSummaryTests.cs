@@ -1,5 +1,6 @@
 #nullable enable
 using System.Linq;
+using System.Text.RegularExpressions;
 using HaptoFlow.Editor;
 using NUnit.Framework;
 
@@ -16,6 +17,18 @@ namespace HaptoFlow.EditorTests
             Assert.That(Value(summary, "Licence"), Is.EqualTo("MIT"));
             Assert.That(Value(summary, "Trained speeds"), Does.Match("^[0-9.]+ to [0-9.]+ m/s$"));
             Assert.That(Value(summary, "Trained forces"), Does.Match("^[0-9.]+ to [0-9.]+ N$"));
+        }
+
+        [Test]
+        public void AnAssumedLevelIsShownAndAMeasuredOneIsNotMentioned()
+        {
+            byte[] file = ModelBytes.WithHeader(Model().File, header => Regex.Replace(
+                Regex.Replace(header, "\"statement\":\\s*\"[^\"]*\"", "\"statement\":\"imported; level assumed: a median\""),
+                "\"unit\":\\s*\"m/s\\^2\"", "\"unit\":\"m/s^2\",\"assumed\":true"));
+            ModelSummary assumed = ModelSummary.Of(HapticModelAsset.Create(file));
+            Assert.That(Value(assumed, "Level"), Is.EqualTo("level assumed"));
+            Assert.That(Value(assumed, "Provenance"), Is.EqualTo("imported; level assumed: a median"));
+            Assert.That(ModelSummary.Of(Model()).Origin.Select(row => row.Name), Has.No.Member("Level"));
         }
 
         [Test]

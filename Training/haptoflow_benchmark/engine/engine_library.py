@@ -32,6 +32,12 @@ class EngineLibrary(NativeLibrary):
         except NativeError as error:
             raise InputError(f"{name}: {error}") from error
 
+    def version(self) -> str:
+        """The library's own."""
+        function = self._library.haptoflow_version
+        function.restype = ctypes.c_char_p
+        return str(function().decode())
+
     def header(self, model: ctypes.c_void_p) -> dict[str, Any]:
         text = ctypes.c_char_p()
         self.call("haptoflow_model_header", model, ctypes.byref(text))

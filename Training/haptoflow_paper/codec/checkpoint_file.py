@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import pickle
 import re
 from collections.abc import Mapping
 from pathlib import Path
@@ -12,6 +11,7 @@ from typing import Any
 import torch
 from torch import Tensor, nn
 
+from haptoflow_paper.codec.state_dict_file import StateDictError, read_state
 from haptoflow_training.errors import InputError
 
 _NAMES_SHOWN = 5
@@ -45,10 +45,10 @@ def read_tensors(path: Path, sha256: str | None = None) -> dict[str, Any]:
     if sha256 is not None:
         verify_sha256(path, sha256)
     try:
-        content = torch.load(path, map_location="cpu", weights_only=True)
-    except (pickle.UnpicklingError, RuntimeError, EOFError, ValueError, KeyError, OSError) as error:
+        content = read_state(path.read_bytes())
+    except (StateDictError, OSError) as error:
         raise InputError(
-            f"{path}: not a PyTorch checkpoint of tensors, whole numbers and text alone, or damaged; "
+            f"{path}: not a PyTorch checkpoint of tensors, whole numbers and text alone, or damaged ({error}); "
             "expected a state dict that torch.save wrote"
         ) from error
     if not isinstance(content, Mapping):

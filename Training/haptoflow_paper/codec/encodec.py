@@ -7,6 +7,7 @@ come with HaptoFlow.
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 from torch import Tensor, nn
 
@@ -22,20 +23,31 @@ from haptoflow_training.errors import InputError
 ENCODEC_RATE_HZ = 24_000
 FRAME_SAMPLES = 320
 LATENT_CHANNELS = 128
+FIRST_CHANNELS = 32
 
-_FIRST_CHANNELS = 32
 _STRIDES = (2, 4, 5, 8)
 _END_KERNEL = 7
 _WRAPPERS = ("best_state", "model")
 _QUANTIZER = "quantizer."
 
 
-class EnCodecEncoder(nn.Module):
-    """[B, 1, N] at 24 kHz to [B, 128, ceil(N / 320)]; N above 1,920."""
+def read_published_state(path: Path, sha256: str | None = None) -> dict[str, Any]:
+    """EnCodec's state dict from a .th or .pt file that holds it itself or under `best_state` or `model`; InputError if
+    the file is absent, damaged, has another digest or holds no dict."""
+    content = read_tensors(path, sha256)
+    for wrapper in _WRAPPERS:
+        inner = content.get(wrapper)
+        if isinstance(inner, dict):
+            content = inner
+    return content
 
-    def __init__(self) -> None:
+
+class EnCodecEncoder(nn.Module):
+    """[B, 1, N] at 24 kHz to [B, L, ceil(N / 320)]; N above 1,920."""
+
+    def __init__(self, first_channels: int = FIRST_CHANNELS, latent_channels: int = LATENT_CHANNELS) -> None:
         super().__init__()
-        channels = _FIRST_CHANNELS
+        channels = first_channels
         layers: list[nn.Module] = [CausalConvolution(1, channels, _END_KERNEL)]
         for stride in _STRIDES:
             layers += [
@@ -44,7 +56,7 @@ class EnCodecEncoder(nn.Module):
                 CausalConvolution(channels, 2 * channels, 2 * stride, stride),
             ]
             channels *= 2
-        last = CausalConvolution(channels, LATENT_CHANNELS, _END_KERNEL)
+        last = CausalConvolution(channels, latent_channels, _END_KERNEL)
         layers += [ResidualLstm(channels), nn.ELU(), last]
         self.model = nn.Sequential(*layers)
 
@@ -53,13 +65,13 @@ class EnCodecEncoder(nn.Module):
 
 
 class EnCodecDecoder(nn.Module):
-    """[B, 128, P] to [B, 1, 320 P] at 24 kHz; P above 6."""
+    """[B, L, P] to [B, 1, 320 P] at 24 kHz; P above 6."""
 
-    def __init__(self) -> None:
+    def __init__(self, first_channels: int = FIRST_CHANNELS, latent_channels: int = LATENT_CHANNELS) -> None:
         super().__init__()
-        channels = _FIRST_CHANNELS * 2 ** len(_STRIDES)
+        channels = first_channels * 2 ** len(_STRIDES)
         layers: list[nn.Module] = [
-            CausalConvolution(LATENT_CHANNELS, channels, _END_KERNEL),
+            CausalConvolution(latent_channels, channels, _END_KERNEL),
             ResidualLstm(channels),
         ]
         for stride in reversed(_STRIDES):
@@ -77,12 +89,13 @@ class EnCodecDecoder(nn.Module):
 
 
 class EnCodec(nn.Module):
-    """Encoder and decoder; waveforms in +-1 at 24 kHz, one channel, 75 latent frames a second."""
+    """Encoder and decoder; waveforms in +-1 at 24 kHz, one channel, 75 latent frames a second. The defaults are the
+    published sizes; first_channels: those after the first layer, which every stride doubles."""
 
-    def __init__(self) -> None:
+    def __init__(self, first_channels: int = FIRST_CHANNELS, latent_channels: int = LATENT_CHANNELS) -> None:
         super().__init__()
-        self.encoder = EnCodecEncoder()
-        self.decoder = EnCodecDecoder()
+        self.encoder = EnCodecEncoder(first_channels, latent_channels)
+        self.decoder = EnCodecDecoder(first_channels, latent_channels)
 
     def encode(self, waveform: Tensor) -> Tensor:
         """[B, 1, N] to the continuous latent [B, 128, ceil(N / 320)]."""
@@ -100,11 +113,7 @@ class EnCodec(nn.Module):
         the file and what does not fit; the weights are then unchanged.
         """
         path = Path(path)
-        content = read_tensors(path, sha256)
-        for wrapper in _WRAPPERS:
-            inner = content.get(wrapper)
-            if isinstance(inner, dict):
-                content = inner
+        content = read_published_state(path, sha256)
         state = {name: value for name, value in content.items() if not name.startswith(_QUANTIZER)}
         if not state:
             raise InputError(f"{path}: holds no encoder or decoder, expected EnCodec's 24 kHz state dict")

@@ -42,6 +42,8 @@ class _Batch(ctypes.Structure):
         ("previous_mps2", _pointer),
         ("noise", _pointer),
         ("phases", _pointer),
+        ("own_levels_mps2", _pointer),
+        ("latent_noise", _pointer),
     ]
 
 
@@ -49,7 +51,13 @@ class EngineGenerator:
     """Generates batches of segments with one tier of a model file, through the C interface; close it after use."""
 
     def __init__(
-        self, engine: EngineLibrary, model: Path, tier: str | None = None, solver: str = "tier", steps: int = 0
+        self,
+        engine: EngineLibrary,
+        model: Path,
+        tier: str | None = None,
+        solver: str = "tier",
+        steps: int = 0,
+        maximum_batch: int = MAXIMUM_BATCH,
     ) -> None:
         self._engine = engine
         self._handle = ctypes.c_void_p()
@@ -64,7 +72,7 @@ class EngineGenerator:
             model=self._model.handle,
             tier=None if tier is None else tier.encode(),
             steps=steps,
-            maximum_batch=MAXIMUM_BATCH,
+            maximum_batch=maximum_batch,
         )
         engine.call("haptoflow_generator_create", ctypes.byref(options), ctypes.byref(self._handle))
 
@@ -81,6 +89,12 @@ class EngineGenerator:
         self._engine.call("haptoflow_generator_close", ctypes.byref(self._handle))
         self._model.close()
 
+    def set_solver(self, solver: str, steps: int) -> None:
+        """From the next batch on; solver: of SOLVERS, 1 to 16 steps."""
+        self._engine.call(
+            "haptoflow_generator_set_solver", self._handle, ctypes.c_int32(SOLVERS[solver]), ctypes.c_int32(steps)
+        )
+
     def _read_embeddings(self) -> _Floats:
         count = len(self.header["labels"])
         rows = np.empty((count, 64), dtype=np.float32)
@@ -96,16 +110,18 @@ class EngineGenerator:
         previous_mps2: _Floats,
         noise: _Floats,
         phases: _Floats | None = None,
+        latent_noise: _Floats | None = None,
     ) -> _Floats:
         """Segments [n, 200] in m/s^2 from embeddings [n, 64], motions [n, 3], previous and noise [n, 200].
 
         phases: [n, 6] (models/surface_waves.py) at each segment's first sample; None for phases of zero, at the rates
-        at which the motions cross the embeddings' wave vectors.
+        at which the motions cross the embeddings' wave vectors. latent_noise: for a latent tier [n, size of the
+        latent]; None to derive it from `noise`.
         """
-        given = [embeddings, motions, previous_mps2, noise, *([] if phases is None else [phases])]
-        arrays = [np.ascontiguousarray(array, dtype=np.float32) for array in given]
-        count = len(arrays[0])
-        pointers = [array.ctypes.data_as(_pointer) for array in arrays]
+        given = [embeddings, motions, previous_mps2, noise, phases, None, latent_noise]
+        arrays = [None if array is None else np.ascontiguousarray(array, dtype=np.float32) for array in given]
+        count = len(embeddings)
+        pointers = [None if array is None else array.ctypes.data_as(_pointer) for array in arrays]
         batch = _Batch(ctypes.sizeof(_Batch), count, *pointers)
         segments = np.empty((count, SEGMENT_SAMPLES), dtype=np.float32)
         self._engine.call(

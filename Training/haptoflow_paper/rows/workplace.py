@@ -77,7 +77,10 @@ class Workplace:
 
 def stated(configuration: dict[str, Any]) -> dict[str, Any]:
     """What a configuration, as JSON, states beyond the defaults: a new key with a default leaves models and rows valid."""
-    return _beyond(configuration, json.loads(json.dumps(configuration_class()().to_dict())))
+    defaults = json.loads(json.dumps(configuration_class()().to_dict()))
+    # As of the first rows: other values would make all of them invalid.
+    defaults["tier"], defaults["model"]["network"] = "standard", "field"
+    return _beyond(configuration, defaults)
 
 
 def _beyond(values: dict[str, Any], defaults: dict[str, Any]) -> dict[str, Any]:

@@ -107,6 +107,7 @@ class EvaluatedConfig(TrainingConfig):
             ),
             (not model.ribs or model.is_raw, "model.ribs", "false with a latent representation"),
             (not model.impulses or model.is_raw, "model.impulses", "false with a latent representation"),
+            (model.architecture == "unet" or model.network == "field", "model.network", "'field' for a rival"),
             (recipe.objective in ("flow", "average-velocity"), "recipe.objective", "'flow' or 'average-velocity'"),
             (
                 recipe.objective == "flow" or recipe.reflow_steps == recipe.energy_steps == 0,

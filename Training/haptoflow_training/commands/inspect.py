@@ -22,7 +22,7 @@ the grid; and every missing or broken file with what was expected of it.
 
 DIR is a folder of recordings of your own, CSV, Parquet or WAV with their sidecars (or one such file), or the
 folder that holds sensor_data/, in the file release's layout (sensor_data/accel/0_135_40_500_0.csv), the hub
-release's (sensor_data/accel/0/0_135_40_500_0.parquet; needs `pip install pyarrow`), or written by `record`."""
+release's (sensor_data/accel/0/0_135_40_500_0.parquet), or written by `record`."""
 
 _EXAMPLES = """\
 examples:
@@ -31,6 +31,10 @@ examples:
   haptoflow-training inspect recordings --json > report.json
 
 exit codes: 0 read (problems, if any, are listed), 2 wrong usage, 3 nothing could be read"""
+
+
+# Chance differences between the axes of a few dozen passes are smaller.
+_LEAST_APPARATUS_DB = 2.0
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -78,6 +82,7 @@ def _lines(report: dict[str, Any], problems: list[str]) -> Iterator[str]:
             f"median {found['middle']:.3g} {found['unit']}"
         )
     yield from _noise_lines(report["sensor_noise"])
+    yield from _apparatus_lines(report["apparatus"])
     yield f"  audio         {report['audio_files']} files (not used)"
     if report["unlabelled"]:
         yield f"  unlabelled    {report['unlabelled']} recordings that no label names"
@@ -101,6 +106,18 @@ def _noise_lines(noise: dict[str, Any]) -> Iterator[str]:
         yield f"  sensor noise  {low:.2g} to {high:.2g} m/s^2 RMS, median {middle:.2g}; removed ({where})"
     if nowhere:
         yield f"  sensor noise  none found in {nowhere} recordings"
+
+
+def _apparatus_lines(apparatus: dict[str, Any]) -> Iterator[str]:
+    decibels = apparatus["x_over_y_db"]
+    if decibels is None or abs(decibels) < _LEAST_APPARATUS_DB:
+        return
+    low, high = apparatus["band_hz"]
+    axes = "X over Y" if decibels > 0.0 else "Y over X"
+    yield (
+        f"  apparatus     {axes} by {abs(decibels):.1f} dB at {low:.0f}-{high:.0f} Hz, over passes in all directions alike: "
+        "this is no material's, and stays in the recordings"
+    )
 
 
 def _coverage_table(rows: list[dict[str, object]]) -> Iterator[str]:

@@ -113,6 +113,15 @@ def configuration(options: argparse.Namespace) -> TrainingConfig:
     return config
 
 
+def _emphasising_what_is_there(config: TrainingConfig, source: Source) -> TrainingConfig:
+    """Of recordings from folders, the labels are whatever the user has; the recipe emphasises those that it knows."""
+    if config.data.source == "synthetic":
+        return config
+    there = {info.name for info in source.labels}
+    known = tuple(name for name in config.batch.emphasised_labels if name in there)
+    return dataclasses.replace(config, batch=dataclasses.replace(config.batch, emphasised_labels=known))
+
+
 def report_left_out(source: Source) -> None:
     """Print which recordings are not used for training, and why."""
     for skipped in source.store.skipped:
@@ -155,6 +164,7 @@ def _run(options: argparse.Namespace) -> int:
             report_left_out(open_source(config.data, store_folder, options.workers))
         processes.wait()
         source = open_source(config.data, store_folder, options.workers)
+        config = _emphasising_what_is_there(config, source)
         trainer = trainer_class(
             config, source.store, options.out, processes, options.base, source.wave_vectors, start
         )

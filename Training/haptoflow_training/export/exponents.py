@@ -24,7 +24,7 @@ class LabelExponents:
     frequency: float
 
 
-def _centroid_hz(waves: np.ndarray, rate_hz: float) -> np.ndarray:
+def centroid_hz(waves: np.ndarray, rate_hz: float) -> np.ndarray:
     """Power-weighted mean frequency between 20 Hz and 900 Hz, per window."""
     spectrum = np.abs(np.fft.rfft(waves * np.hanning(waves.shape[1]), axis=1)) ** 2
     frequencies = np.fft.rfftfreq(waves.shape[1], 1.0 / rate_hz)
@@ -56,7 +56,7 @@ def fit_exponents(
     if periodic:
         frequency = 1.0
     else:
-        centroid, *_ = np.linalg.lstsq(design, np.log(_centroid_hz(windows.waves[sliding], SAMPLE_RATE_HZ)), rcond=None)
+        centroid, *_ = np.linalg.lstsq(design, np.log(centroid_hz(windows.waves[sliding], SAMPLE_RATE_HZ)), rcond=None)
         frequency = float(np.clip(centroid[1], 0.0, 1.0))
     return LabelExponents(
         level_speed=float(np.clip(level[1], 0.0, 2.0)),

@@ -59,7 +59,8 @@ class RecordingFiles:
         acceleration = read_sensor(self.acceleration_path, ACCELERATION)
         force = read_sensor(self.force_path, FORCE)
         position = read_sensor(self.position_path, POSITION)
-        return Recording(self.identity, self.label, *acceleration, *force, *position)
+        # The sensor rests before and after each pass, so that its noise shows.
+        return Recording(self.identity, self.label, *acceleration, *force, *position, has_sensor_noise=True)
 
 
 def open_dataset(root: Path | str, labels: LabelMap | None = None) -> Dataset:

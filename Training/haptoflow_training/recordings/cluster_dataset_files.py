@@ -11,11 +11,13 @@ from numpy.typing import NDArray
 from haptoflow_training.errors import InputError
 from haptoflow_training.recordings.dataset_layout import SensorKind
 from haptoflow_training.recordings.file_names import ending_of
+from haptoflow_training.recordings.parquet_files import read_parquet
 
 if TYPE_CHECKING:
     import pandas
 
 TOLERATED_SHARE = 0.01
+NANOSECONDS = "time_ns"
 
 
 class DatasetFileError(InputError):
@@ -32,17 +34,11 @@ class DatasetFileError(InputError):
 
 
 def read_table(path: Path) -> pandas.DataFrame:
-    """CSV or Parquet by the file's ending; Parquet needs pyarrow or fastparquet."""
+    """CSV or Parquet by the file's ending."""
     import pandas
 
     if ending_of(path) == ".parquet":
-        try:
-            return pandas.read_parquet(path)
-        except ImportError as error:
-            raise InputError(
-                f"{path}: Parquet needs pyarrow or fastparquet, neither is installed; "
-                "run `pip install pyarrow`"
-            ) from error
+        return read_parquet(path)
     return pandas.read_csv(path, encoding="utf-8-sig", skipinitialspace=True)
 
 
@@ -61,14 +57,15 @@ def open_table(path: Path, expected: str) -> pandas.DataFrame:
 
 
 def read_sensor(path: Path, kind: SensorKind) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """(time [n] in seconds, strictly increasing; values [n] or [n, columns - 1]), all finite.
+    """(time [n] in seconds, strictly increasing; values [n] or [n, columns - 1]), all finite. A clock in whole
+    nanoseconds, as the hub's release has it, is turned into seconds.
 
     DatasetFileError if the file is empty, has other columns, contains text, or its clock runs backwards. Up to 1 % of
     rows without a number are dropped, and so are repeated time stamps.
     """
     header = f"columns {','.join(kind.columns)}"
     table = open_table(path, header)
-    found = [str(column).strip() for column in table.columns]
+    table, found = _in_seconds(path, table, [str(column).strip() for column in table.columns])
     if not set(kind.columns) <= set(found):
         raise DatasetFileError(path, f"columns {','.join(found)}", header)
     table = table.set_axis(found, axis=1)[list(kind.columns)]
@@ -86,6 +83,21 @@ def read_sensor(path: Path, kind: SensorKind) -> tuple[NDArray[np.float64], NDAr
     numbers = rising_rows(path, numbers[~broken] if broken.any() else numbers)
     values = numbers[:, 1:]
     return numbers[:, 0].copy(), (values[:, 0] if values.shape[1] == 1 else values).copy()
+
+
+def _in_seconds(path: Path, table: pandas.DataFrame, found: list[str]) -> tuple[pandas.DataFrame, list[str]]:
+    """The table and its columns' names, with the column time in seconds in place of time_ns."""
+    if NANOSECONDS not in found or "time" in found:
+        return table, found
+    at = found.index(NANOSECONDS)
+    try:
+        seconds = table.iloc[:, at].to_numpy() / 1e9
+    except TypeError as error:
+        raise DatasetFileError(path, f"{NANOSECONDS} is no number ({error})", "whole nanoseconds") from error
+    names = [*found[:at], "time", *found[at + 1 :]]
+    others = table.set_axis(names, axis=1).drop(columns="time")
+    others.insert(at, "time", seconds)
+    return others, names
 
 
 def rising_rows(path: Path, numbers: NDArray[np.float64]) -> NDArray[np.float64]:

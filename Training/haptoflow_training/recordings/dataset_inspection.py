@@ -14,6 +14,7 @@ from haptoflow_training.preprocessing.pipeline import preprocess_parts
 from haptoflow_training.preprocessing.plausibility import implausible
 from haptoflow_training.preprocessing.sensor_noise import SensorNoise
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
+from haptoflow_training.recordings.apparatus import BAND_HZ, plane_powers, x_over_y_db
 from haptoflow_training.recordings.cluster_dataset_files import DatasetFileError
 from haptoflow_training.recordings.dataset import Dataset
 from haptoflow_training.recordings.open_recordings import RecordingFile
@@ -28,14 +29,15 @@ _REPORT_VERSION = 1
 def inspect_dataset(dataset: Dataset, recordings: Iterable[RecordingFile] | None = None) -> dict[str, Any]:
     """The report, as JSON. Reads every recording once, one at a time; `recordings` may wrap `dataset` to show progress.
 
-    A broken file is reported as a problem, and so is an apparent wrong unit or glitch; InputError is raised only if no
-    Parquet engine is installed. Counts cover readable recordings; problems are in the order of the files.
+    A broken file is reported as a problem, and so is an apparent wrong unit or glitch; InputError is raised only if nothing
+    that reads Parquet is installed. Counts cover readable recordings; problems are in the order of the files.
     """
     readable: list[RecordingFile] = []
     durations: list[float] = []
     clocks: dict[str, list[tuple[float, float]]] = defaultdict(list)
     quantiles: dict[str, list[NDArray[np.float64]]] = defaultdict(list)
     noises: list[SensorNoise] = []
+    powers = []
     notes = list(dataset.notes)
     problems = list(dataset.problems)
     for entry in dataset if recordings is None else recordings:
@@ -49,6 +51,8 @@ def inspect_dataset(dataset: Dataset, recordings: Iterable[RecordingFile] | None
             problems.append(DatasetFileError(entry.path_of(one.sensor), f"{one.sensor} {one.found}", one.expected))
         if recording.has_sensor_noise:
             noises += _noise_of(recording)
+        if (in_plane := plane_powers(recording)) is not None:
+            powers.append(in_plane)
         readable.append(entry)
         durations.append(recording.duration_seconds)
         clocks["acceleration"].append(_clock(recording.acceleration_time_seconds))
@@ -72,6 +76,7 @@ def inspect_dataset(dataset: Dataset, recordings: Iterable[RecordingFile] | None
         },
         "ranges": {quantity: _range(_UNITS[quantity], np.array(found)) for quantity, found in quantiles.items()},
         "sensor_noise": _noise_report(noises),
+        "apparatus": {"band_hz": list(BAND_HZ), "x_over_y_db": x_over_y_db(powers)},
         "duration_seconds": {
             "total": float(np.sum(durations)),
             **{

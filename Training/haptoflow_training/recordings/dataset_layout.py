@@ -1,7 +1,7 @@
 """The layout of the Cluster Haptic Texture Dataset, in both published releases.
 
 File release: `sensor_data/<kind>/<name>.csv`; hub release: `sensor_data/<kind>/<texture_id>/<name>.parquet`. The
-columns are the same.
+columns are the same but for the clock: `time` in seconds, `time_ns` in int64 nanoseconds.
 """
 
 from __future__ import annotations

@@ -11,6 +11,7 @@ of which it knows a usual piece, the engine keeps the restitution only, and taps
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from haptoflow_training.recordings.synthetic.materials import Material
@@ -46,14 +47,21 @@ class Landing:
 
 
 def landing_of(material: Material) -> Landing:
-    """The touch-down vibration of one material."""
-    stiffness = material.stiffness_newtons_per_metre
+    """The touch-down vibration of one material of the recorder."""
+    damping = material.contact_damping / _USUAL_DAMPING
+    return landing_of_spring(material.stiffness_newtons_per_metre, damping, material.tool_modes)
+
+
+def landing_of_spring(
+    stiffness: float, damping: float = 1.0, tool_modes: Sequence[tuple[float, float, float]] = ()
+) -> Landing:
+    """The touch-down vibration on a spring in N/m; of a recorded label nothing else is known. damping: 1 is usual.
+    tool_modes: as of Material."""
     frequency = math.sqrt(stiffness / _TIP_KILOGRAMS) / (2.0 * math.pi)
     frequency = min(max(frequency, _MINIMUM_HZ), _MAXIMUM_HZ)
-    damping = material.contact_damping / _USUAL_DAMPING
     gain = _SHARE_LEFT_BY_THE_HAND * 2.0 * math.pi * frequency
     modes = [LandingMode(frequency, damping * (_MINIMUM_DECAY_PER_SECOND + _DECAY_PER_HERTZ * frequency), gain)]
-    ringing = [mode for mode in material.tool_modes if mode[1] > 0.0 and mode[0] < 950.0]
+    ringing = [mode for mode in tool_modes if mode[1] > 0.0 and mode[0] < 950.0]
     if ringing:
         ring_hz, gain_db, quality = max(ringing, key=lambda mode: mode[1])
         share = _SHARE_OF_A_RESONANCE * min(1.0, 10.0 ** ((gain_db - 6.0) / 20.0))

@@ -77,7 +77,7 @@ def is_motion_file(path: Path) -> bool:
 def _read(path: Path, *, samples: bool) -> NativeRecording:
     if ending_of(path) != ".parquet":
         return read_native(path, samples=samples, complete=samples)
-    # The library reads text; pandas makes it of a Parquet table, and the files beside it go along.
+    # The library reads text: a Parquet table becomes CSV here, and the files beside it go along.
     table = path.with_suffix(".csv").name
     files = {table: _as_csv(path)}
     for other in (sidecar_of(path), beside(path, DEFAULTS_FILE)):

@@ -59,14 +59,14 @@ class DataConfig:
 
 @dataclass(frozen=True)
 class ModelConfig:
-    """network: `field` (a velocity field from noise), `skeleton` (no network: a filter, rib lines and impulses), or
-    `refinement` (of the skeleton of another run, `--base`).
+    """network: what ships, `skeleton` (no network: a filter, rib lines and impulses) or `refinement` (of the skeleton of
+    another run, `--base`); or `field` (a velocity field from noise).
 
     hidden: width of the skeleton's perceptron. width, previous_width, levels: of a field or a refinement. ribs: a field
     has a rib comb. impulses: a field's rare events come from the tails of the noise.
     """
 
-    network: str = "field"
+    network: str = "skeleton"
     hidden: int = 160
     ribs: bool = False
     impulses: bool = False
@@ -172,7 +172,7 @@ class TrainingConfig:
     exported_as: ClassVar[str] = "haptoflow_training.export.trained_tier:TrainedTier"
 
     name: str = "default"
-    tier: str = "standard"
+    tier: str = "sketch"
     description: str = ""
     licence: str = "MIT"
     seed: int = 1

@@ -20,7 +20,7 @@ from haptoflow_training.preprocessing.store import SegmentStore
 from haptoflow_training.preprocessing.store_lock import store_lock
 from haptoflow_training.recordings.dataset import UNKNOWN, Dataset
 from haptoflow_training.recordings.labels import LabelDefinition, LabelMap, load_labels
-from haptoflow_training.recordings.landing import landing_of
+from haptoflow_training.recordings.landing import landing_of, landing_of_spring
 from haptoflow_training.recordings.open_recordings import RecordingFile, open_recordings
 from haptoflow_training.recordings.recording import Recording, RecordingIdentity
 from haptoflow_training.recordings.synthetic import (
@@ -225,7 +225,7 @@ def _open_folders(data: DataConfig, store_folder: Path, workers: int) -> Source:
         )
     found = {entry.label for entry in entries}
     infos = [info for name, info in known.items() if name in found]
-    further = {"files": _files_of(entries), "labels": labels_made_from, "split_by_time": True, "without_noise": True}
+    further = {"files": _files_of(entries), "labels": labels_made_from, "split_by_time": True, "without_noise": "of all files"}
     store = _open_or_prepare(data, store_folder, entries, [info.name for info in infos], workers, further)
     _require_splits(store, [f"skipped: {problem}" for root in roots for problem in root.problems])
     counted = f"{len(store.recordings)} recordings of {len(infos)} labels"
@@ -330,4 +330,5 @@ def _label_info(definition: LabelDefinition) -> LabelInfo:
         definition.friction_coefficient,
         definition.wavelength_metres,
         definition.wave_vectors_per_mm or (),
+        landing_of_spring(definition.stiffness_newtons_per_metre),
     )

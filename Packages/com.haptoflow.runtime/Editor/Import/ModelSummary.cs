@@ -17,7 +17,7 @@ namespace HaptoFlow.Editor
             ModelHeader header = asset.Header;
             Title = header.Name;
             Description = header.Description;
-            Origin = OriginOf(header, asset.File.Length).Where(row => row.Value.Length > 0).ToArray();
+            Origin = OriginOf(header, asset.File).Where(row => row.Value.Length > 0).ToArray();
             Tiers = header.Tiers.Select(tier => new TierSummary(tier)).ToArray();
             Labels = header.Labels.Select(LabelRow).ToArray();
         }
@@ -53,7 +53,7 @@ namespace HaptoFlow.Editor
             }
         }
 
-        private static IEnumerable<SummaryRow> OriginOf(ModelHeader header, int bytes)
+        private static IEnumerable<SummaryRow> OriginOf(ModelHeader header, byte[] file)
         {
             yield return new SummaryRow("Provenance", header.Provenance.Statement);
             yield return new SummaryRow("Recordings", header.Provenance.Recordings);
@@ -62,7 +62,16 @@ namespace HaptoFlow.Editor
             yield return new SummaryRow("Training code", header.Provenance.Commit);
             yield return new SummaryRow("Trained speeds", Interval(header.SpeedMps, "m/s"));
             yield return new SummaryRow("Trained forces", Interval(header.ForceNewtons, "N"));
-            yield return new SummaryRow("Size", SummaryRow.Format("{0:0.0} MB", bytes / 1e6));
+            yield return new SummaryRow("Level", IsLevelAssumed(file) ? "level assumed" : "");
+            yield return new SummaryRow("Size", SummaryRow.Format("{0:0.0} MB", file.Length / 1e6));
+        }
+
+        /// <summary>Whether nobody stated the acceleration that the model's unit stands for.</summary>
+        private static bool IsLevelAssumed(byte[] file)
+        {
+            using HapticModel model = HapticModel.Open(file);
+            JsonValue header = JsonValue.Parse(model.HeaderJson());
+            return header.Find("normalisation")?.Find("assumed")?.Truth ?? false;
         }
 
         private static SummaryRow LabelRow(HapticLabel label)

@@ -117,6 +117,7 @@ namespace HaptoFlow.Native
         public float* Noise;
         public float* RibPhases;
         public float* OwnLevelsMps2;
+        public float* LatentNoise;
     }
 
     [Preserve, StructLayout(LayoutKind.Sequential)]

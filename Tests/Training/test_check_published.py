@@ -1,0 +1,416 @@
+"""check-published: every line of its report passes, fails and does not apply where it should."""
+
+from __future__ import annotations
+
+import json
+import sys
+from dataclasses import replace
+from pathlib import Path
+from types import ModuleType, SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+import torch
+
+from haptoflow_benchmark.engine.engine_library import EngineLibrary, default_engine
+from haptoflow_paper.cli import main
+from haptoflow_paper.published.check import reference as reference_module
+from haptoflow_paper.published.check.lines import FAIL, NOT_APPLICABLE, PASS, Line
+from haptoflow_paper.published.check.parity import parity_lines
+from haptoflow_paper.published.check.points import (
+    BUDGET_MS,
+    Measured,
+    Point,
+    automatic_choice,
+    idle_line,
+    points_of,
+    time_lines,
+)
+from haptoflow_paper.published.check.signals import LabelWaves, render_labels, signal_lines
+from haptoflow_paper.published.checkpoint import read_checkpoint
+from haptoflow_paper.published.published_model import PublishedModel
+from haptoflow_paper.rows.engine_generator import EngineGenerator
+from haptoflow_paper.rows.timing import Milliseconds
+from haptoflow_training.errors import InputError
+from haptoflow_training.export.model_file import ModelFile, read_model_file, write_model_file
+from haptoflow_training.model_stamp import SHIPPED_MODEL
+from published_samples import PUBLISHED, SOLVERS, change_safetensors, copied
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture(scope="module")
+def engine() -> EngineLibrary:
+    return default_engine(ROOT)
+
+
+@pytest.fixture(scope="module")
+def imported(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
+    folder = tmp_path_factory.mktemp("imported")
+    for solver in SOLVERS:
+        arguments = ["import-published", str(PUBLISHED / solver), "--peak-g", "1.5", "-o", str(folder / f"{solver}.haptoflow")]
+        assert main(arguments) == 0
+    return {solver: folder / f"{solver}.haptoflow" for solver in SOLVERS}
+
+
+def _verdicts(lines: list[Line]) -> dict[str, str]:
+    assert all(line.remedy and line.measured and line.expected for line in lines), "each says what to do"
+    return {line.name: line.verdict for line in lines}
+
+
+def _parity(engine: EngineLibrary, path: Path, folder: Path | None) -> tuple[list[Line], str]:
+    return parity_lines(read_model_file(path), path, folder, None, engine, ROOT)
+
+
+class TestReport:
+    """The whole command on a small import."""
+
+    @pytest.fixture(scope="class")
+    def out(self, imported: dict[str, Path], tmp_path_factory: pytest.TempPathFactory) -> Path:
+        out = tmp_path_factory.mktemp("check")
+        arguments = ["check-published", str(imported["heun"]), "--folder", str(PUBLISHED / "heun")]
+        # Random weights have not the data set's level and spectrum.
+        assert main([*arguments, "--seconds-limit", "3", "-o", str(out)]) == 3
+        return out
+
+    def test_the_page_has_every_line_of_the_json_and_both_pictures(self, out: Path) -> None:
+        report = json.loads((out / "check.json").read_text(encoding="utf-8"))
+        page = (out / "check.md").read_text(encoding="utf-8")
+        assert len(report["lines"]) > 15
+        for line in report["lines"]:
+            assert f"| {line['part']} | {line['name']} | {line['verdict']} |" in page
+        for picture in ("chart.png", "spectra.png"):
+            assert f"]({picture})" in page
+            assert (out / picture).read_bytes()[:4] == b"\x89PNG"
+
+    def test_the_json_carries_versions_machine_and_provenance_and_nothing_of_the_user(self, out: Path) -> None:
+        text = (out / "check.json").read_text(encoding="utf-8")
+        report = json.loads(text)
+        assert report["versions"]["haptoflow"] and report["versions"]["torch"] and report["machine"]
+        assert "Apache-2.0" in report["provenance"]["licence"]
+        assert report["parity_reference"] == "this project's own PyTorch modules"
+        for private in (str(Path.home()), str(out), str(ROOT)):
+            assert private not in text.replace("\\\\", "\\") or private == "/"
+
+    def test_points_of_all_steps_with_and_without_guidance_have_times_and_distances(self, out: Path) -> None:
+        points = json.loads((out / "check.json").read_text(encoding="utf-8"))["points"]
+        assert {(each["family"], each["steps"]) for each in points} == {
+            ("with guidance", 1), ("with guidance", 2), ("without guidance", 1), ("without guidance", 2),
+        }  # fmt: skip
+        best = points[-1]
+        assert best["name"] == "published" and best["difference"] == 0.0 and best["lsd_db"] == 0.0
+        assert all(each["difference"] > 0.0 and each["paced_ms"]["p50"] > 0.0 for each in points[:-1])
+
+
+def test_a_file_that_is_no_import_is_measured_and_its_parity_does_not_apply(tmp_path: Path) -> None:
+    code = main(["check-published", str(ROOT / SHIPPED_MODEL), "--seconds-limit", "2", "-o", str(tmp_path)])
+    report = json.loads((tmp_path / "check.json").read_text(encoding="utf-8"))
+    lines = {line["name"]: line for line in report["lines"]}
+    assert lines["the file against the checkpoint"]["verdict"] == NOT_APPLICABLE
+    assert lines["level"]["verdict"] == lines["power below 500 Hz"]["verdict"] == NOT_APPLICABLE
+    assert lines["more steps are nearer the best tier"]["verdict"] == NOT_APPLICABLE
+    assert lines["labels differ"]["verdict"] == lines["finite numbers"]["verdict"] == PASS
+    assert {point["name"] for point in report["points"]} == {"sketch", "draft", "standard"}
+    assert code == (3 if any(line["verdict"] == FAIL for line in lines.values()) else 0)
+
+
+def test_a_limit_of_no_seconds_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["check-published", str(ROOT / SHIPPED_MODEL), "--seconds-limit", "0", "-o", str(tmp_path)]) == 3
+    assert "--seconds-limit is 0; expected seconds, above 0" in capsys.readouterr().err
+
+
+class TestParity:
+    @pytest.mark.parametrize("solver", SOLVERS)
+    def test_an_import_passes_against_its_own_folder(
+        self, engine: EngineLibrary, imported: dict[str, Path], solver: str
+    ) -> None:
+        lines, reference = _parity(engine, imported[solver], PUBLISHED / solver)
+        verdicts = _verdicts(lines)
+        missing = {"the authors' code is the reference", "codes of the quantiser"}
+        assert {name for name, verdict in verdicts.items() if verdict == NOT_APPLICABLE} == missing
+        assert {verdict for name, verdict in verdicts.items() if name not in missing} == {PASS}
+        assert "own" in reference
+
+    def test_changed_weights_fail_where_they_are_used(
+        self, engine: EngineLibrary, imported: dict[str, Path], tmp_path: Path
+    ) -> None:
+        folder = copied("heun", tmp_path)
+
+        def change(header: dict[str, Any], data: bytearray) -> None:
+            begin, end = header["model.backbone.out_conv.weight"]["data_offsets"]
+            data[begin:end] = (1.01 * np.frombuffer(data[begin:end], dtype="<f4")).astype("<f4").tobytes()
+
+        change_safetensors(folder, change)
+        verdicts = _verdicts(_parity(engine, imported["heun"], folder)[0])
+        assert verdicts["the file was imported from this folder"] == FAIL
+        assert verdicts["graph: velocity at t = 0.5"] == verdicts["engine: a chain of three segments"] == FAIL
+        assert verdicts["graph: latent of the past"] == verdicts["graph: waveform of a latent"] == PASS
+
+    def test_a_file_with_another_codec_fails_in_both_codec_graphs(
+        self, engine: EngineLibrary, imported: dict[str, Path], tmp_path: Path
+    ) -> None:
+        file, other = read_model_file(imported["heun"]), read_model_file(imported["euler"])
+        graphs = {**file.graphs, "encoder": other.graphs["encoder"], "decoder": other.graphs["decoder"]}
+        path = tmp_path / "mixed.haptoflow"
+        write_model_file(path, ModelFile(file.header, file.tensors, graphs))
+        verdicts = _verdicts(_parity(engine, path, PUBLISHED / "heun")[0])
+        assert verdicts["graph: latent of the past"] == verdicts["graph: waveform of a latent"] == FAIL
+        assert verdicts["engine: a chain of three segments"] == FAIL
+        assert verdicts["graph: velocity at t = 1"] == PASS
+
+    def test_without_a_folder_it_asks_for_one(self, engine: EngineLibrary, imported: dict[str, Path]) -> None:
+        ((line,), reference) = _parity(engine, imported["heun"], None)
+        assert (line.verdict, reference) == (NOT_APPLICABLE, "")
+        assert "--folder" in line.remedy
+
+
+class _AuthorsEngine:
+    """What this command uses of the authors' inference engine, by their names and shapes, around our own modules."""
+
+    device = torch.device("cpu")
+    velocity_gain = 1.0
+    code_shift = 0
+    status = "ok"
+
+    def init_from_model_dir(self, folder: str) -> tuple[str, str]:
+        self._own: PublishedModel = read_checkpoint(Path(folder)).model
+        self.label_embed = self._own.network.label_embed
+        self.control_embedding = self._own.network.control_embedding
+        self.prev_segment_encoder = self._own.network.prev_segment_encoder
+        self.encodec_wrapper = SimpleNamespace(
+            encode_waveform=self._encode, quantize_latent=self._quantize, decode_from_codes=self._decode
+        )
+        self.model = SimpleNamespace(_velocity=self._velocity, generate=self._generate)
+        return "message of theirs", self.status
+
+    def _normalize_control_values(self, force: float, vx: float, vy: float) -> tuple[float, ...]:
+        statistics = self._own.meta.controls
+        values = {"force": force, "velocity_x": vx, "velocity_y": vy}
+        return tuple((value - statistics[name].mean) / statistics[name].deviation for name, value in values.items())
+
+    def _encode(self, x: torch.Tensor, **options: Any) -> dict[str, torch.Tensor]:
+        assert options == {"return_latent": True, "return_codes": False, "input_sample_rate": 2000.0}
+        return {"latent": self._own.encode(x)}
+
+    def _quantize(self, latent: torch.Tensor) -> tuple[torch.Tensor, torch.Tensor]:
+        codes = (self._own.quantiser.codes(latent) + self.code_shift) % self._own.quantiser.codebooks.shape[1]
+        assert len(codes) == 1
+        return codes[0], latent[0]
+
+    def _decode(self, codes: torch.Tensor, target_sample_rate: float) -> torch.Tensor:
+        assert target_sample_rate == 2000.0
+        books = self._own.quantiser.codebooks
+        latent = sum(books[level][codes[:, level]] for level in range(len(books)))
+        assert isinstance(latent, torch.Tensor)
+        wave = self._own.downwards(self._own.codec.decoder(latent.transpose(1, 2)))
+        return wave[0] if len(codes) == 1 else wave
+
+    def _velocity(self, x: torch.Tensor, time: float, cond: torch.Tensor, feats: list[torch.Tensor]) -> torch.Tensor:
+        moment = torch.full((len(x), 1), time)
+        return self.velocity_gain * self._own.velocity(x, moment, cond, feats, self._own.meta.guidance)
+
+    def _generate(self, *, steps: int, cond: torch.Tensor, shape: torch.Size, encoder_feats: list[torch.Tensor], noise: torch.Tensor) -> torch.Tensor:  # fmt: skip
+        assert steps == self._own.meta.steps and noise.shape == shape
+        return self._own.generate(noise, cond, encoder_feats)
+
+
+class TestAuthorsModules:
+    """With a stand-in for the authors' package, which cannot be installed where the tests run."""
+
+    def _install(self, monkeypatch: pytest.MonkeyPatch, **changes: Any) -> None:
+        module = ModuleType(reference_module.AUTHORS_MODULE)
+        module.FlowMatchingInference = type("FlowMatchingInference", (_AuthorsEngine,), changes)  # type: ignore[attr-defined]
+        names = reference_module.AUTHORS_MODULE.split(".")
+        for depth in range(1, len(names)):
+            monkeypatch.setitem(sys.modules, ".".join(names[:depth]), ModuleType(names[depth - 1]))
+        monkeypatch.setitem(sys.modules, reference_module.AUTHORS_MODULE, module)
+
+    @pytest.mark.parametrize("solver", SOLVERS)
+    def test_they_are_the_reference_and_every_stage_is_compared(
+        self, engine: EngineLibrary, imported: dict[str, Path], monkeypatch: pytest.MonkeyPatch, solver: str
+    ) -> None:
+        self._install(monkeypatch)
+        lines, reference = _parity(engine, imported[solver], PUBLISHED / solver)
+        verdicts = _verdicts(lines)
+        assert set(verdicts.values()) == {PASS}
+        assert reference == "the authors' own modules"
+        for stage in ("latent of the past", "features of the past, level 1", "condition", "velocity at t = 0.125", "codes of the quantiser", "waveform of a latent"):  # fmt: skip
+            assert f"importer: {stage}" in verdicts
+
+    def test_a_velocity_of_theirs_that_differs_fails(
+        self, engine: EngineLibrary, imported: dict[str, Path], monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        self._install(monkeypatch, velocity_gain=1.001)
+        verdicts = _verdicts(_parity(engine, imported["heun"], PUBLISHED / "heun")[0])
+        assert verdicts["importer: velocity at t = 1"] == verdicts["graph: velocity at t = 1"] == FAIL
+        assert verdicts["importer: condition"] == verdicts["importer: codes of the quantiser"] == PASS
+
+    def test_other_codes_fail(
+        self, engine: EngineLibrary, imported: dict[str, Path], monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        self._install(monkeypatch, code_shift=1)
+        verdicts = _verdicts(_parity(engine, imported["heun"], PUBLISHED / "heun")[0])
+        assert verdicts["importer: codes of the quantiser"] == verdicts["importer: waveform of a latent"] == FAIL
+
+    def test_a_folder_that_they_refuse_is_an_error_with_their_words(
+        self, engine: EngineLibrary, imported: dict[str, Path], monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        self._install(monkeypatch, status="error")
+        with pytest.raises(InputError, match="refuse it .message of theirs"):
+            _parity(engine, imported["heun"], PUBLISHED / "heun")
+
+    def test_another_package_of_the_name_src_is_not_theirs(
+        self, engine: EngineLibrary, imported: dict[str, Path], monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        self._install(monkeypatch)
+        monkeypatch.delattr(sys.modules[reference_module.AUTHORS_MODULE], "FlowMatchingInference")
+        lines, _ = _parity(engine, imported["heun"], PUBLISHED / "heun")
+        line = next(line for line in lines if line.name == "the authors' code is the reference")
+        assert line.verdict == NOT_APPLICABLE and "it is not the authors'" in line.measured
+
+
+DATA_SET = {"provenance": {"recordings": "Cluster Haptic Texture Dataset, CC BY 4.0"}, "normalisation": {}}
+
+
+def _waves(levels: list[float], centres_hz: list[float], floor: float = 0.15) -> LabelWaves:
+    """Noise an octave wide about each label's centre above a white floor, of the stated RMS."""
+    frequency = np.fft.rfftfreq(800, 1.0 / 2000.0)[1:]
+    shapes = np.exp(-np.square(np.log2(frequency / np.array(centres_hz)[:, None]))) + floor
+    shapes = np.concatenate([np.zeros((len(levels), 1)), shapes], axis=1)[:, None]
+    white = np.fft.rfft(np.random.default_rng(1).standard_normal((len(levels), 2, 800)), axis=2)
+    waves = np.fft.irfft(shapes * white, 800, axis=2)
+    waves *= np.array(levels)[:, None, None] / np.sqrt(np.square(waves).mean(axis=2, keepdims=True))
+    names = tuple(f"label {place}" for place in range(len(levels)))
+    return LabelWaves(names, ("wood",) * len(levels), waves.astype(np.float32), len(levels))
+
+
+class TestSignals:
+    good = _waves([0.4, 0.57, 0.8], [60.0, 120.0, 200.0], floor=0.1)
+
+    def test_a_signal_like_the_data_set_s_passes_every_line(self) -> None:
+        assert set(_verdicts(signal_lines(self.good, DATA_SET)).values()) == {PASS}
+
+    def test_a_wrong_level_fails(self) -> None:
+        strong = replace(self.good, waves=self.good.waves * np.float32(9.81))
+        verdicts = _verdicts(signal_lines(strong, DATA_SET))
+        assert {name for name, verdict in verdicts.items() if verdict == FAIL} == {"level"}
+
+    def test_an_assumed_level_says_nothing(self) -> None:
+        verdicts = _verdicts(signal_lines(self.good, {**DATA_SET, "normalisation": {"assumed": True}}))
+        assert verdicts["level"] == NOT_APPLICABLE
+
+    @pytest.mark.parametrize("tone_hz", [700.0, 900.0])
+    def test_power_above_500_hz_fails(self, tone_hz: float) -> None:
+        assert _verdicts(signal_lines(_waves([0.57, 0.57], [100.0, tone_hz]), DATA_SET))["power below 500 Hz"] == FAIL
+
+    def test_no_power_above_500_hz_fails_too(self) -> None:
+        dull = _waves([0.57, 0.57], [60.0, 80.0], floor=0.0)
+        assert _verdicts(signal_lines(dull, DATA_SET))["power below 500 Hz"] == FAIL
+
+    def test_a_silent_label_fails_and_is_named(self) -> None:
+        line = next(line for line in signal_lines(_waves([0.5, 0.001], [60.0, 200.0]), DATA_SET) if line.verdict == FAIL)
+        assert line.name == "no label is silent" and "label 1" in line.measured
+
+    def test_numbers_that_are_not_finite_fail_and_nothing_else_is_judged(self) -> None:
+        waves = self.good.waves.copy()
+        waves[1, 0, 3] = np.nan
+        assert _verdicts(signal_lines(replace(self.good, waves=waves), DATA_SET)) == {"finite numbers": FAIL}
+
+    def test_labels_that_sound_alike_fail(self) -> None:
+        assert _verdicts(signal_lines(_waves([0.57] * 4, [100.0] * 4), DATA_SET))["labels differ"] == FAIL
+
+    def test_a_single_label_has_none_to_differ_from(self) -> None:
+        assert _verdicts(signal_lines(_waves([0.57], [100.0]), DATA_SET))["labels differ"] == NOT_APPLICABLE
+
+    def test_where_time_is_up_fewer_labels_are_rendered_and_counted(
+        self, engine: EngineLibrary, imported: dict[str, Path]
+    ) -> None:
+        with EngineGenerator(engine, imported["heun"], maximum_batch=2) as generator:
+            few, all_of_them = render_labels(generator, 0.0), render_labels(generator, 60.0)
+            assert len(generator.header["labels"]) > 5, "second names of classes"
+        assert len(few.names) == 1 and len(all_of_them.names) == all_of_them.total == 5
+        np.testing.assert_array_equal(few.waves[0], all_of_them.waves[all_of_them.names.index(few.names[0])])
+        assert "1 of 5 labels" in signal_lines(few, DATA_SET)[0].measured
+
+
+def _tier(name: str, steps: int, **more: Any) -> dict[str, Any]:
+    field = "unguided" if "unguided" in name else "field"
+    return {"name": name, "kind": "flow", "field": field, "solver": "heun", "steps": steps, **more}
+
+
+HEADER: dict[str, Any] = {
+    "tiers": [_tier("published-2-unguided", 2), _tier("published-2", 2), _tier("published-4", 4), _tier("published", 8)],
+    "default_tier": "published",
+}
+
+
+def _measured(milliseconds: dict[str, float], header: dict[str, Any] = HEADER) -> list[Measured]:
+    return [
+        Measured(point, *(2 * [Milliseconds(time, time)]), 0.0 if point.name == "published" else 1.0 / point.steps, 1.0)
+        for point in points_of(header)
+        for time in [milliseconds.get(point.name, 1.0)]
+    ]
+
+
+REFERENCE = Measured(Point("reference", "standard", "tier", 0, "reference", False), Milliseconds(0.5, 0.5), Milliseconds(0.5, 0.5), 0.0, 0.0)
+
+
+class TestTimes:
+    def test_the_chart_s_points_are_8_4_2_and_1_steps_with_and_without_guidance_and_the_best_is_last(self) -> None:
+        points = points_of(HEADER)
+        assert sorted((point.family, point.steps) for point in points) == [
+            (family, steps) for family in ("with guidance", "without guidance") for steps in (1, 2, 4, 8)
+        ]
+        assert points[-1].name == "published"
+        assert [point.name for point in points if point.is_tier] == [tier["name"] for tier in HEADER["tiers"]]
+
+    def test_a_tier_that_is_not_solved_is_one_point(self) -> None:
+        tiers = [{"name": "sketch", "kind": "skeleton"}, {"name": "standard", "kind": "refine", "field": "standard.field"}]
+        points = points_of({"tiers": tiers, "default_tier": "standard"})
+        assert [(point.name, point.steps) for point in points] == [("sketch", 0), ("standard", 0)]
+
+    def test_auto_takes_the_best_tier_that_fits(self) -> None:
+        lines = time_lines(HEADER, _measured({"published-4": 3.0, "published": 6.0}), REFERENCE, "the reference")
+        auto = next(line for line in lines if line.name == "quality auto")
+        assert (auto.verdict, auto.measured) == (PASS, "auto takes published-4")
+        assert "hot 6 times the reference" in next(line.measured for line in lines if line.name == "tier published-4 keeps up")
+
+    def test_where_none_is_in_real_time_auto_takes_the_fastest_and_says_so(self) -> None:
+        slow = {"published-2-unguided": 22.0, "published-2": 30.0, "published-4": 40.0, "published": 60.0}
+        verdicts = _verdicts(lines := time_lines(HEADER, _measured(slow), REFERENCE, "the reference"))
+        auto = next(line for line in lines if line.name == "quality auto")
+        assert auto.verdict == FAIL and "no tier is in real time: auto takes the fastest, published-2-unguided" in auto.measured
+        assert "22 ms later" in auto.measured
+        assert verdicts["tier published keeps up"] == PASS, "within a segment"
+
+    def test_a_tier_slower_than_its_segment_fails(self) -> None:
+        slow = {tier["name"]: 90.0 for tier in HEADER["tiers"]}
+        verdicts = _verdicts(lines := time_lines(HEADER, _measured(slow), REFERENCE, "the reference"))
+        assert verdicts["tier published keeps up"] == verdicts["tier published-2 keeps up"] == FAIL
+        assert "breaks off" in next(line.measured for line in lines if line.name == "quality auto")
+
+    def test_measured_accuracy_orders_the_tiers_where_the_file_states_it(self) -> None:
+        times = {"first": 1.0, "second": 1.0}
+        accuracy = [{"lsd_db": 1.0, "level_error_p90_db": 1.0}, {"lsd_db": 2.0, "level_error_p90_db": 1.0}]
+        tiers = [{"name": name, "accuracy": stated} for name, stated in zip(times, accuracy, strict=True)]
+        assert automatic_choice({"tiers": tiers}, times, times) == ("first", True)
+        unstated = [{"name": name, "accuracy": {}} for name in times]
+        assert automatic_choice({"tiers": unstated}, times, times) == ("second", True)
+
+    def test_a_machine_that_is_busy_makes_no_times(self) -> None:
+        assert (idle_line(0.3, 2).verdict, idle_line(1.5, 2).verdict) == (PASS, FAIL)
+
+    def test_the_budget_is_the_engine_s(self) -> None:
+        source = (ROOT / "NativePlugin" / "src" / "engine" / "quality_control.hpp").read_text(encoding="utf-8")
+        assert "defaultUpdateRateHz = 72.0;" in source and "defaultBudgetShare = 0.25;" in source
+        assert BUDGET_MS == pytest.approx(1000.0 * 0.25 / 72.0)
+
+    def test_steps_that_come_no_nearer_fail(self) -> None:
+        found = _measured({})
+        name = "more steps are nearer the best tier"
+        assert _verdicts(time_lines(HEADER, found, REFERENCE, "the reference"))[name] == PASS
+        worse = [
+            replace(each, difference=1.0 - 1.0 / each.point.steps) if each.point.name != "published" else each for each in found
+        ]
+        assert _verdicts(time_lines(HEADER, worse, REFERENCE, "the reference"))[name] == FAIL

@@ -1,0 +1,1 @@
+"""The authors' published checkpoint: read, computed as they compute it, and written as a model file of the engine."""

@@ -1,0 +1,106 @@
+"""The report as one page in Markdown beside its pictures, and as one JSON file to send."""
+
+from __future__ import annotations
+
+import platform
+from collections.abc import Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import torch
+
+from haptoflow_benchmark.engine.engine_library import EngineLibrary
+from haptoflow_paper.published.check.lines import FAIL, NOT_APPLICABLE, PASS, Line
+from haptoflow_paper.published.check.points import Measured
+from haptoflow_paper.report.accuracy_time import machine_words
+from haptoflow_training.markdown import table
+from haptoflow_training.model_stamp import model_line
+from haptoflow_training.training.run_log import source_commit, write_json, write_text
+
+PAGE, FIGURES, CHART, SPECTRA = "check.md", "check.json", "chart.png", "spectra.png"
+
+
+def environment(engine: EngineLibrary, root: Path) -> dict[str, Any]:
+    """Versions and machine; nothing of the user: no name, no path, no host."""
+    return {
+        "machine": machine_words(),
+        "versions": {
+            "haptoflow": engine.version(), "commit": source_commit(root), "python": platform.python_version(),
+            "torch": torch.__version__, "numpy": np.__version__,
+        },
+    }  # fmt: skip
+
+
+def write_report(
+    out: Path,
+    lines: Sequence[Line],
+    found: Sequence[Measured],
+    header: dict[str, Any],
+    model_sha256: str,
+    about: dict[str, Any],
+) -> None:
+    """check.md and check.json in `out`; the pictures lie there already."""
+    points = [
+        {
+            "name": each.point.name, "steps": each.point.steps, "family": each.point.family,
+            "is_tier": each.point.is_tier, "hot_ms": asdict(each.hot), "paced_ms": asdict(each.paced),
+            "difference": each.difference, "lsd_db": each.lsd_db,
+        }
+        for each in found
+    ]  # fmt: skip
+    write_json(
+        out / FIGURES,
+        {
+            "model_sha256": model_sha256, **about, "provenance": header["provenance"],
+            "lines": [line.to_json() for line in lines], "points": points,
+        },
+    )  # fmt: skip
+    write_text(out / PAGE, _page(lines, points, header, model_sha256, about))
+
+
+def summary(lines: Sequence[Line]) -> str:
+    counted = {verdict: sum(line.verdict == verdict for line in lines) for verdict in (PASS, FAIL, NOT_APPLICABLE)}
+    return f"{counted[PASS]} lines pass, {counted[FAIL]} fail, {counted[NOT_APPLICABLE]} do not apply"
+
+
+def _page(
+    lines: Sequence[Line], points: list[dict[str, Any]], header: dict[str, Any], model_sha256: str, about: dict[str, Any]
+) -> str:
+    versions = ", ".join(f"{name} {value}" for name, value in about["versions"].items() if value)
+    parts = [
+        f"# Check of {header['name']}",
+        model_line(model_sha256),
+        f"{summary(lines)}. Reference of the parity: {about['parity_reference'] or 'none'}. "
+        f"Machine: {about['machine']}. "
+        f"Versions: {versions}. {header['provenance']['statement']}.",
+        f"To report something, send `{FIGURES}`: it holds every figure of this page and nothing of you.",
+        "## Lines",
+        table(
+            ("part", "line", "verdict", "measured", "expected", "if it fails or does not apply"),
+            [_cells(line) for line in lines],
+        ),
+        "## Milliseconds against distance from the best tier",
+        f"![Distance from the best tier over milliseconds]({CHART})",
+        table(
+            ("point", "steps", "hot ms", "paced ms", "paced p99", "difference / level", "LSD dB"),
+            [
+                (
+                    each["name"], str(each["steps"] or "-"), f"{each['hot_ms']['p50']:.3g}",
+                    f"{each['paced_ms']['p50']:.3g}", f"{each['paced_ms']['p99']:.3g}", f"{each['difference']:.3g}",
+                    f"{each['lsd_db']:.2f}",
+                )
+                for each in points
+            ],
+        ),
+        "## Spectra by category",
+        f"![Spectra of all labels by category]({SPECTRA})",
+    ]  # fmt: skip
+    return "\n\n".join(parts) + "\n"
+
+
+def _cells(line: Line) -> list[str]:
+    """Without what ends a cell."""
+    words = (line.part, line.name, line.verdict, line.measured, line.expected, line.remedy)
+    return [word.replace("|", "/").replace("\n", " ") for word in words]
