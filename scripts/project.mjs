@@ -1,11 +1,12 @@
 // project: says without Unity whether Unity can open and play this folder: packages, references, library, a stroke
 import { existsSync, statSync } from 'node:fs';
 import path from 'node:path';
+import { shippedModel } from './lib/model_stamp.mjs';
 import { CommandError, runMain } from './lib/process.mjs';
-import { inRepository, repositoryRoot } from './lib/repository.mjs';
-import { dependencyName } from './pack/dependency.mjs';
-import { packageName } from './pack/layout.mjs';
-import { commandFor, platforms, pluginsFolder } from './pack/natives.mjs';
+import { repositoryRoot } from './lib/repository.mjs';
+import { fileInPackage } from './natives/committed.mjs';
+import { runtimeLibrary } from './pack/dependency.mjs';
+import { commandFor, platforms } from './pack/natives.mjs';
 import { projectFilesOnDisk } from './project/project_files.mjs';
 import { rules } from './project/rules.mjs';
 
@@ -16,12 +17,8 @@ Packages/manifest.json, looks for the .meta of every file and the target of ever
 library and the model, and plays a stroke over the model's first label, two seconds long. It needs Node and \`npm ci\`, no
 compiler and nothing else.`;
 
-/** ONNX Runtime for the editors' machines, by process.platform and process.arch; "id" is that of the native library. */
-const editors = /** @type {Record<string, {id: string, runtime: string}>} */ ({
-  'linux-x64': { id: 'linux-x64', runtime: 'Linux/x64/libonnxruntime.so' },
-  'win32-x64': { id: 'windows-x64', runtime: 'Windows/x64/onnxruntime.dll' },
-  'darwin-arm64': { id: 'macos', runtime: 'macOS/arm64/libonnxruntime.dylib' },
-});
+/** The package's platform for each machine with a Unity editor, by process.platform and process.arch. */
+const editors = /** @type {Record<string, string>} */ ({ 'linux-x64': 'linux-x64', 'win32-x64': 'windows-x64', 'darwin-arm64': 'macos' });
 
 const megabytes = (/** @type {string} */ file) => `${(statSync(file).size / 1e6).toFixed(1)} MB`;
 const says = (/** @type {string} */ line) => console.log(`project: ${line}`);
@@ -36,19 +33,15 @@ await runMain('project', async () => {
   says(`${files.names.length} files: packages, .meta files and references are in place; Unity downloads or has ${fromUnity.length} packages`);
 
   const machine = `${process.platform}-${process.arch}`;
-  const editor = editors[machine];
-  if (!editor) throw new CommandError(`${machine}: Unity has no editor with ONNX Runtime for it; expected one of ${Object.keys(editors).join(', ')}`);
-  const platform = platforms.find(({ id }) => id === editor.id);
-  const inPackage = (/** @type {string[]} */ ...parts) => inRepository('Packages', packageName, ...parts);
-  const library = inPackage(pluginsFolder, platform.place);
+  const platform = platforms.find(({ id }) => id === editors[machine]);
+  if (!platform) throw new CommandError(`${machine}: Unity has no editor with ONNX Runtime for it; expected one of ${Object.keys(editors).join(', ')}`);
+  const library = fileInPackage(platform);
   if (!existsSync(library)) throw new CommandError(`${library}: is not in git; ${commandFor(platform)} adds it`);
-  const runtime = inRepository('node_modules', dependencyName, 'Plugins', editor.runtime);
-  const model = inPackage('Runtime', 'Models', 'default.haptoflow');
-  says(`library: ${path.relative(repositoryRoot, library)}, ${megabytes(library)}; model ${megabytes(model)}`);
+  says(`library: ${path.relative(repositoryRoot, library)}, ${megabytes(library)}; model ${megabytes(shippedModel)}`);
 
   // Imported here: npm ci brings what it needs, and without that the lines above say so.
   const { playStroke } = await import('./project/play_stroke.mjs');
-  const played = await playStroke({ library, runtime, model });
+  const played = await playStroke({ library, runtime: runtimeLibrary(platform.id), model: shippedModel });
   if (played.inferences === 0 || !(played.levelMps2 > 0.01)) {
     throw new CommandError(`a stroke over ${played.label} was silent: ${played.levelMps2} m/s² RMS, ${played.inferences} segments by the network`);
   }

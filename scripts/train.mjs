@@ -3,13 +3,14 @@ import { run, runMain, runOrFail } from './lib/process.mjs';
 import { inRepository, callerFolder } from './lib/repository.mjs';
 import { pythonOrFail, setUp } from './lib/setup.mjs';
 import { judgementOf } from './lib/judgement.mjs';
+import { shippedModel } from './lib/model_stamp.mjs';
 import { bringRecordings, clusterOptions, trainingWords } from './train/cluster.mjs';
 
 // One run writes the default model and the reference values that the tests compare it with, so that they match.
 const defaults = [
   'train-tiers',
   '--out', inRepository('out', 'train', 'default'),
-  '--export', inRepository('Packages', 'com.haptoflow.runtime', 'Runtime', 'Models', 'default.haptoflow'),
+  '--export', shippedModel,
   '--parity', inRepository('Tests', 'Golden', 'model', 'default.parity.json'),
 ];
 

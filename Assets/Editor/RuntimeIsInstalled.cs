@@ -16,7 +16,7 @@ namespace HaptoFlow.ProjectCheck
         [InitializeOnLoadMethod]
         private static void CheckThisProject() => Check(Directory.GetCurrentDirectory());
 
-        /// <summary>Logs an error where ONNX Runtime is missing below a project's folder.</summary>
+        /// <summary>Logs an error if a project's folder has no ONNX Runtime in node_modules.</summary>
         internal static void Check(string project)
         {
             if (!File.Exists(Path.Combine(project, Manifest)))

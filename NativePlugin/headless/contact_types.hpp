@@ -89,7 +89,8 @@ struct VelocitySettings {
     [[nodiscard]] double maximumGainMps(double seconds) const noexcept {
         return std::max(jumpGainMps, jumpAccelerationMps2 * seconds);
     }
-    /// True for a step that no hand makes. The speed before it is infinite if it is not known.
+    /// True if the tip moved further than a hand can in this time: it was put there, as by a teleport. The speed before
+    /// the step is infinite if it is not known.
     [[nodiscard]] bool isJump(double movedMetres, double seconds, double speedBeforeMps) const noexcept {
         const double step = std::max(seconds, minimumJumpSeconds);
         return movedMetres > maximumMoveMetres(step) || movedMetres > (speedBeforeMps + maximumGainMps(step)) * step;

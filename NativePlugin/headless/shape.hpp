@@ -60,9 +60,9 @@ struct QueryOptions {
     /// Local normal of the face that was entered, or of the previous frame's contact with the same surface. A face that
     /// is nearer by the margin replaces it.
     std::optional<glm::dvec3> previousNormal;
-    /// The touch began on this surface: then the face that was entered is held. The opposite face never replaces it.
-    /// A face beside it does, except on a plate that was entered from its broad side: there the shape is thinner below
-    /// the held face than below the one beside it.
+    /// True if the touch began on this surface. The face that was entered is then kept, however deep the point is: the
+    /// opposite face never replaces it. A neighbouring face does, except on a plate entered through its broad side,
+    /// where the shape is thinner below the kept face than below the neighbour.
     bool cameFromOutside = false;
     /// Inside a shape, another face is used only if it is nearer by this much.
     double faceMarginMetres = 0.0005;

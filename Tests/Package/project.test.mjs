@@ -4,12 +4,13 @@ import { readFileSync } from 'node:fs';
 import test from 'node:test';
 import { headerFile, loadLibrary, readHeader } from '../../scripts/lib/c_interface.mjs';
 import { inRepository } from '../../scripts/lib/repository.mjs';
+import { runtimeLibrary } from '../../scripts/pack/dependency.mjs';
 import { playStroke } from '../../scripts/project/play_stroke.mjs';
 
 const plugins = (...parts) => inRepository('Packages', 'com.haptoflow.runtime', 'Runtime', ...parts);
 const files = {
   library: plugins('Plugins', 'Linux', 'x64', 'libaudioplugin_haptoflow.so'),
-  runtime: inRepository('node_modules', 'com.github.asus4.onnxruntime', 'Plugins', 'Linux', 'x64', 'libonnxruntime.so'),
+  runtime: runtimeLibrary('linux-x64'),
   model: plugins('Models', 'default.haptoflow'),
 };
 const elsewhere = { skip: process.platform === 'linux' && process.arch === 'x64' ? false : 'its library is that of Linux x64' };

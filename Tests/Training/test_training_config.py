@@ -89,7 +89,7 @@ def test_what_only_rivals_need_is_stated_in_their_own_configurations(path: Path)
 
 
 def _stated_network(path: Path) -> str | None:
-    """What the file or one that it extends says of `network`."""
+    """The value of `network` in the file, else in a file that it extends."""
     table = tomllib.loads(path.read_text(encoding="utf-8"))
     if "network" in table.get("model", {}):
         return str(table["model"]["network"])

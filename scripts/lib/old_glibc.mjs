@@ -1,9 +1,11 @@
 import { copyFileSync, cpSync, existsSync, mkdirSync, rmSync } from 'node:fs';
 import { committedPlatforms, fileInPackage } from '../natives/committed.mjs';
+import { runtimeLibrary } from '../pack/dependency.mjs';
+import { shippedModel } from './model_stamp.mjs';
 import { presetFolder } from './native_build.mjs';
 import { CommandError, runOrFail } from './process.mjs';
 import { inRepository } from './repository.mjs';
-import { addCounts, noCounts } from './test_counts.mjs';
+import { addCounts, countsOfAttempt, noCounts } from './test_counts.mjs';
 
 /** Debian 11: the newest Debian with glibc 2.31, the C library of Ubuntu 20.04. */
 const suite = 'bullseye';
@@ -39,8 +41,8 @@ export async function runsOnOldGlibc(folder = inRepository('build', 'debian-11')
   rmSync(place, { recursive: true, force: true });
   mkdirSync(place);
   cpSync(inRepository('NativePlugin', 'include'), `${place}/include`, { recursive: true });
-  copyFileSync(inRepository('node_modules', 'com.github.asus4.onnxruntime', 'Plugins', 'Linux', 'x64', 'libonnxruntime.so'), `${place}/onnxruntime.so`);
-  copyFileSync(inRepository('Packages', 'com.haptoflow.runtime', 'Runtime', 'Models', 'default.haptoflow'), `${place}/default.haptoflow`);
+  copyFileSync(runtimeLibrary('linux-x64'), `${place}/onnxruntime.so`);
+  copyFileSync(shippedModel, `${place}/default.haptoflow`);
   copyFileSync(inRepository('Tests', 'Platforms', 'touch.c'), `${place}/touch.c`);
   let counts = noCounts;
   for (const library of libraries()) {
@@ -50,16 +52,11 @@ export async function runsOnOldGlibc(folder = inRepository('build', 'debian-11')
   return counts;
 }
 
-async function judgeTouch(folder) {
+function judgeTouch(folder) {
   const commands = 'cd /haptoflow && gcc -std=c11 -Wall -Wextra -Werror -Iinclude touch.c -lm -ldl -o touch && ./touch ./plugin.so ./onnxruntime.so default.haptoflow';
-  try {
+  return countsOfAttempt(async () => {
     console.log(`test: ${(await runOrFail('chroot', [folder, '/bin/sh', '-c', commands], { quiet: true })).trim().split('\n').at(-1)}`);
-    return { ...noCounts, passed: 1 };
-  } catch (error) {
-    if (!(error instanceof CommandError)) throw error;
-    console.error(`test: ${error.message}`);
-    return { ...noCounts, failed: 1 };
-  }
+  });
 }
 
 function skipped(why) {

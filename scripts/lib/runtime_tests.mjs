@@ -5,6 +5,7 @@ import { dotnetEnvironment, dotnetOrFail } from './dotnet.mjs';
 import { judgeJunit, results } from './judge_junit.mjs';
 import { withoutReadOnlyMarks } from './mono_signatures.mjs';
 import { committedPlatforms, fileInPackage } from '../natives/committed.mjs';
+import { runtimeLibrary } from '../pack/dependency.mjs';
 import { buildNative, presetFolder } from './native_build.mjs';
 import { CommandError, run, runOrFail, succeeds } from './process.mjs';
 import { inRepository } from './repository.mjs';
@@ -52,7 +53,7 @@ async function judgeCommitted(file, command, args, env) {
   return addCounts(counts, { ...noCounts, failed: 1 });
 }
 
-const onnxRuntime = () => inRepository('node_modules', 'com.github.asus4.onnxruntime', 'Plugins', 'Linux', 'x64');
+const onnxRuntime = () => path.dirname(runtimeLibrary('linux-x64'));
 
 /** Builds one project as a program for Mono and runs it. A project that does not build counts as one failure. */
 async function judgeUnderMono(command, project) {

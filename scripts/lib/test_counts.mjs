@@ -1,4 +1,5 @@
 /** Reads the results of several test runners as {passed, failed, skipped}. */
+import { CommandError } from './process.mjs';
 
 const attribute = (tag, name) => Number(tag.match(new RegExp(`\\b${name}="(\\d+)"`))?.[1] ?? 0);
 
@@ -31,6 +32,18 @@ export function countsOfTrx(xml) {
 export const addCounts = (a, b) => ({ passed: a.passed + b.passed, failed: a.failed + b.failed, skipped: a.skipped + b.skipped });
 
 export const noCounts = { passed: 0, failed: 0, skipped: 0 };
+
+/** One test: it passes unless the attempt ends with a CommandError, which is printed. @param {() => Promise<void>} attempt */
+export async function countsOfAttempt(attempt) {
+  try {
+    await attempt();
+    return { ...noCounts, passed: 1 };
+  } catch (error) {
+    if (!(error instanceof CommandError)) throw error;
+    console.error(`test: ${error.message}`);
+    return { ...noCounts, failed: 1 };
+  }
+}
 
 /**
  * The counts of a runner, with one failure added where its exit code reports one that the counts do not have, or where it

@@ -1,6 +1,6 @@
-import { createHash } from 'node:crypto';
 import { existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { differencesOfExports } from '../lib/exported_names.mjs';
+import { sha256OfBytes } from '../lib/model_stamp.mjs';
 import { inRepository } from '../lib/repository.mjs';
 import { packageName } from '../pack/layout.mjs';
 import { complaintOfGlibc, kindOfLibrary, platforms, pluginsFolder } from '../pack/natives.mjs';
@@ -19,7 +19,6 @@ export const largestBytes = 3.5e6;
 export const fileInPackage = ({ place }) => inRepository('Packages', packageName, pluginsFolder, place);
 
 const recordFile = inRepository('NativePlugin', 'natives.json');
-const hashOfBytes = (bytes) => createHash('sha256').update(bytes).digest('hex');
 
 /**
  * What the libraries in git were built from, and what they are.
@@ -32,7 +31,7 @@ export const readRecord = (file = recordFile) => JSON.parse(readFileSync(file, '
 export function writeRecord() {
   const files = Object.fromEntries(committedPlatforms.map((platform) => {
     const bytes = readFileSync(fileInPackage(platform));
-    return [platform.id, { bytes: bytes.length, sha256: hashOfBytes(bytes) }];
+    return [platform.id, { bytes: bytes.length, sha256: sha256OfBytes(bytes) }];
   }));
   writeFileSync(recordFile, `${JSON.stringify({ interface: hashOfInterface(), sources: hashOfSources(), files }, null, 2)}\n`);
 }
@@ -58,7 +57,7 @@ export function complaintsOf(platform, bytes) {
 export function complaintsOfRecord(record = readRecord()) {
   return committedPlatforms.flatMap((platform) => {
     const bytes = existsSync(fileInPackage(platform)) ? readFileSync(fileInPackage(platform)) : Buffer.alloc(0);
-    const isRecorded = record.files[platform.id]?.bytes === bytes.length && record.files[platform.id]?.sha256 === hashOfBytes(bytes);
+    const isRecorded = record.files[platform.id]?.bytes === bytes.length && record.files[platform.id]?.sha256 === sha256OfBytes(bytes);
     return [...complaintsOf(platform, bytes), ...(isRecorded ? [] : [`${platform.id}: is not the file that NativePlugin/natives.json records: ${renewal} builds it anew`])];
   });
 }

@@ -8,6 +8,20 @@ import { makeTarball } from './tarball.mjs';
 /** The package that HaptoFlow depends on: ONNX Runtime for Unity, installed by npm. */
 export const dependencyName = 'com.github.asus4.onnxruntime';
 
+/**
+ * Where that package keeps a platform's libraries: a folder, or an archive with a folder in it; and the name of ONNX Runtime's
+ * own library there.
+ */
+export const runtimePlaces = {
+  'linux-x64': { folder: 'Plugins/Linux/x64', library: 'libonnxruntime.so' },
+  'windows-x64': { folder: 'Plugins/Windows/x64', library: 'onnxruntime.dll' },
+  macos: { folder: 'Plugins/macOS/arm64', library: 'libonnxruntime.dylib' },
+  'android-arm64': { archive: 'Plugins/Android/onnxruntime.aar', folder: 'jni/arm64-v8a' },
+};
+
+/** ONNX Runtime's library for the editor or player of a desktop platform, by the platform's id. */
+export const runtimeLibrary = (id) => inRepository('node_modules', dependencyName, runtimePlaces[id].folder, runtimePlaces[id].library);
+
 const readJson = (file) => JSON.parse(readFileSync(file, 'utf8'));
 
 /**

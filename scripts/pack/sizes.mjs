@@ -1,18 +1,10 @@
 import { existsSync, readFileSync, readdirSync, statSync } from 'node:fs';
 import path from 'node:path';
 import { inRepository } from '../lib/repository.mjs';
-import { dependencyName } from './dependency.mjs';
+import { shippedModel } from '../lib/model_stamp.mjs';
+import { dependencyName, runtimePlaces } from './dependency.mjs';
 import { isNewerThan, neededGlibc } from './elf.mjs';
-import { packageName } from './layout.mjs';
 import { oldestGlibc } from './natives.mjs';
-
-/** Where ONNX Runtime's package keeps a platform's libraries: a folder, or an archive with a folder in it. */
-const runtimePlaces = {
-  'linux-x64': { folder: 'Plugins/Linux/x64' },
-  'windows-x64': { folder: 'Plugins/Windows/x64' },
-  macos: { folder: 'Plugins/macOS/arm64' },
-  'android-arm64': { archive: 'Plugins/Android/onnxruntime.aar', folder: 'jni/arm64-v8a' },
-};
 
 /** The files of a ZIP archive with their sizes when unpacked, from its central directory. */
 export function filesOfZip(bytes) {
@@ -57,7 +49,7 @@ function noteOf(platform, glibc, isFromGit) {
  * @param {{found: {platform: object, file: string, isFromGit?: boolean}[], absent: {platform: object, why: string}[]}} natives
  */
 export function tableOfContents({ found, absent }) {
-  const model = statSync(inRepository('Packages', packageName, 'Runtime', 'Models', 'default.haptoflow')).size;
+  const model = statSync(shippedModel).size;
   const rows = found.map((entry) => {
     const [own, runtime] = [statSync(entry.file).size, runtimeBytes(entry.platform.id)];
     const cells = [own, model, runtime, own + model + runtime].map(mebibytes);

@@ -10,9 +10,12 @@ import { PackageFiles } from '../pack/package_files.mjs';
 /** Folders of the repository into which Unity writes a .meta for every asset, and deletes every .meta without one. */
 export const writableFolders = ['Assets', `Packages/${packageName}`, 'Tests/Unity'];
 
-const isOfProject = (name) => name.startsWith('ProjectSettings/') || name === 'Packages/manifest.json' || writableFolders.some((folder) => name.startsWith(`${folder}/`));
+/** The list of the project's packages. */
+export const manifestName = 'Packages/manifest.json';
 
-/** The Unity project in the repository's root as git has it, every file by its name in the repository. */
+const isOfProject = (name) => name.startsWith('ProjectSettings/') || name === manifestName || writableFolders.some((folder) => name.startsWith(`${folder}/`));
+
+/** The files of the Unity project in the repository's root that git tracks or would track, by their names in the repository. */
 export async function projectFiles() {
   const names = (await repositoryFiles()).filter(isOfProject);
   return new PackageFiles(new Map(names.map((name) => [name, readFileSync(inRepository(name))])));
@@ -25,9 +28,9 @@ export function projectFilesOnDisk() {
     const files = PackageFiles.inFolder(inRepository(folder));
     for (const name of files.names) contents.set(`${folder}/${name}`, files.bytes(name));
   }
-  const manifest = 'Packages/manifest.json';
-  if (!existsSync(inRepository(manifest))) throw new CommandError(`${inRepository(manifest)}: is missing`);
-  contents.set(manifest, readFileSync(inRepository(manifest)));
+  const manifest = inRepository(manifestName);
+  if (!existsSync(manifest)) throw new CommandError(`${manifest}: is missing`);
+  contents.set(manifestName, readFileSync(manifest));
   return new PackageFiles(contents);
 }
 

@@ -7,9 +7,8 @@ import { checkModelReferences } from '../pack/rules/models.mjs';
 import { checkCase, checkPathLengths } from '../pack/rules/names.mjs';
 import { packageScripts } from './known_guids.mjs';
 import { modulesOfClasses, modulesOfWords } from './modules.mjs';
-import { withDependency, writableFolders } from './project_files.mjs';
+import { manifestName, withDependency, writableFolders } from './project_files.mjs';
 
-const manifestName = 'Packages/manifest.json';
 const buildSettingsName = 'ProjectSettings/EditorBuildSettings.asset';
 
 /** The files of the folders that Unity writes to. */

@@ -1,8 +1,8 @@
 // Puts together what a release offers: both tarballs, the demo's page, notes and checksums; --help
 import { copyFileSync, cpSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
-import { createHash } from 'node:crypto';
 import path from 'node:path';
 import { parseArgs } from 'node:util';
+import { sha256Of } from '../lib/model_stamp.mjs';
 import { CommandError, runMain, runOrFail } from '../lib/process.mjs';
 import { callerFolder, inRepository } from '../lib/repository.mjs';
 import { dependencyName } from '../pack/dependency.mjs';
@@ -69,7 +69,7 @@ if (process.argv[1]?.endsWith('draft.mjs')) {
     cpSync(demo, unpacked, { recursive: true });
     await runOrFail('tar', ['-czf', `${unpacked}.tgz`, '-C', folder, 'haptoflow-demo']);
     rmSync(unpacked, { recursive: true });
-    const sums = readdirSync(folder).sort().map((name) => `${createHash('sha256').update(readFileSync(path.join(folder, name))).digest('hex')}  ${name}\n`);
+    const sums = readdirSync(folder).sort().map((name) => `${sha256Of(path.join(folder, name))}  ${name}\n`);
     writeFileSync(path.join(folder, 'SHA256SUMS'), sums.join(''));
     writeFileSync(path.join(folder, 'notes.md'), notes);
     console.log(`draft: ${folder}: ${sums.length} archives, SHA256SUMS, notes.md`);

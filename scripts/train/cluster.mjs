@@ -16,7 +16,7 @@ const atOnce = 8;
 /**
  * The words after `--cluster`, in parts.
  * @param {string[]} words
- * @returns {{textures: string | null, into: string, further: string[]}} further: what `train-tiers` takes besides
+ * @returns {{textures: string | null, into: string, further: string[]}} further: the arguments that are passed on to `train-tiers`
  */
 export function clusterOptions(words) {
   const options = { textures: null, into: inRepository('out', 'cluster-haptic-texture'), further: [] };

@@ -1,6 +1,7 @@
 import { copyFileSync, cpSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync, statSync } from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
+import { shippedModel } from '../lib/model_stamp.mjs';
 import { launchers } from '../lib/native_build.mjs';
 import { CommandError, runOrFail, succeeds } from '../lib/process.mjs';
 import { inRepository } from '../lib/repository.mjs';
@@ -38,7 +39,7 @@ export function stageEngine(folder = engineFolder()) {
   for (const name of readdirSync(scripts)) copyFileSync(path.join(scripts, name), path.join(folder, name));
   copyFileSync(inRepository('build', 'web', 'engine.wasm'), path.join(folder, 'engine.wasm'));
   for (const name of runtimeFiles) copyFileSync(path.join(runtimeFolder(), name), path.join(folder, name));
-  cpSync(inRepository('Packages', 'com.haptoflow.runtime', 'Runtime', 'Models', 'default.haptoflow'), path.join(folder, 'model.haptoflow'));
+  cpSync(shippedModel, path.join(folder, 'model.haptoflow'));
 }
 
 /** The version of ONNX Runtime that the scripts were written for, and the installed one, must be the same. */

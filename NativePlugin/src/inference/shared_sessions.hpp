@@ -9,9 +9,9 @@
 
 namespace haptoflow::inference {
 
-/// Loaded graphs by the name of their blob in one model file, so that tiers which differ in solver, steps or guidance
-/// only hold one codec between them. Generators that share are used by one thread at a time; none of them expects the
-/// buffers as it left them. Loading is serialised by the owner.
+/// The graphs that the tiers of one engine have loaded, so that tiers of the same graph load it once. One thread at a
+/// time runs the generators that share a graph, and each fills its inputs before every run, since another one may have
+/// written to them. The owner lets one thread at a time call this class.
 class SharedSessions {
 public:
     /// The session in use of this blob, signature and batch, or what `load` returns.

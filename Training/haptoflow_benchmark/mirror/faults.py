@@ -18,8 +18,9 @@ from scipy.signal import sosfilt
 
 from haptoflow_training.recordings.recording import STANDARD_GRAVITY_MPS2, Recording, RecordingIdentity
 from haptoflow_training.recordings.synthetic import Material, filters, training_specimen
-from haptoflow_training.recordings.synthetic.carriers import Ride, machine_pass
+from haptoflow_training.recordings.synthetic.carriers import Ride
 from haptoflow_training.recordings.synthetic.contact import SIMULATION_RATE_HZ, tool_vibration
+from haptoflow_training.recordings.synthetic.protocols import machine_ride
 
 _ROWS_HZ, _POSITION_HZ = 8650.0, 100.0
 _SPREAD_OF_INTERVALS = 0.34
@@ -112,14 +113,7 @@ class MachinePass:
 
 def simulated_pass(material: Material, identity: RecordingIdentity, *, seed: int) -> MachinePass:
     """The machine pass that `identity` names, over the piece that the training protocol records under it."""
-    direction = identity.direction_degrees
-    if direction is None:
-        raise ValueError(f"{identity.name} is not a machine recording")
-    rng = np.random.default_rng([seed, zlib.crc32(identity.name.encode())])
-    ride = machine_pass(
-        rng, direction_degrees=float(direction), speed_mmps=float(identity.speed_mmps),
-        force_newtons=1e-3 * identity.force_millinewtons,
-    )  # fmt: skip
+    ride = machine_ride(identity, np.random.default_rng([seed, zlib.crc32(identity.name.encode())]))
     texture = tool_vibration(material, ride.path, ride.force_newtons, specimen=training_specimen(identity))
     return MachinePass(identity, material.label, ride, texture.acceleration_mps2, seed)
 

@@ -62,7 +62,7 @@ class _Field(nn.Module):
 
 
 class _ConstantLevel(nn.Module):
-    """The network works in one unit for all materials, so that the level graph states that unit."""
+    """The same level for every label: the network's output has one unit for all materials, and this is that unit."""
 
     def __init__(self, log_level: float) -> None:
         super().__init__()

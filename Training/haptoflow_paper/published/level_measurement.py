@@ -22,7 +22,6 @@ _CHAINS_AT_A_TIME = 16
 _LEAST_LEVEL = 1e-6
 # Below this the reference level was not measured, and the engine sends nothing to an actuator.
 _LOWEST_HZ = 24.0
-_LEVEL_LIMITS = {"speed": (0.0, 2.0), "force": (-0.5, 1.5)}
 # At which the measured level of the data set is known (facts of other people's measurements of it).
 REFERENCE_SPEED_MPS = 0.04
 REFERENCE_FORCE_NEWTONS = 0.75
@@ -49,15 +48,9 @@ class RenderedLevels:
     def exponents(self, label: int) -> LabelExponents:
         """Least squares of log RMS and log centroid over log speed and log force at the corners of the range."""
         corners = slice(len(_DIRECTIONS), None)
-        speed = np.log(np.hypot(self.motions[corners, 0], self.motions[corners, 1]))
-        design = np.stack([np.ones_like(speed), speed, np.log(self.motions[corners, 2])], axis=1)
-        level, *_ = np.linalg.lstsq(design, np.log(self.rms[label, corners] + _LEAST_LEVEL), rcond=None)
-        centroid, *_ = np.linalg.lstsq(design, np.log(self.centroids[label, corners] + _LEAST_LEVEL), rcond=None)
-        return LabelExponents(
-            level_speed=float(np.clip(level[1], *_LEVEL_LIMITS["speed"])),
-            level_force=float(np.clip(level[2], *_LEVEL_LIMITS["force"])),
-            frequency=float(np.clip(centroid[1], 0.0, 1.0)),
-        )
+        speed = np.hypot(self.motions[corners, 0], self.motions[corners, 1])
+        log_level, log_centroid = (np.log(each[label, corners] + _LEAST_LEVEL) for each in (self.rms, self.centroids))
+        return LabelExponents.fitted(speed, self.motions[corners, 2], log_level, log_centroid)
 
 
 def segments_to_render(labels: int) -> int:

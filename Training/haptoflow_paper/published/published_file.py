@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import math
 import tempfile
 from collections.abc import Callable
@@ -25,6 +24,7 @@ from haptoflow_training.errors import InputError
 from haptoflow_training.export.exponents import LabelExponents
 from haptoflow_training.export.model_file import ModelFile, write_model_file
 from haptoflow_training.export.seed_bank import SEED_SAMPLES
+from haptoflow_training.model_stamp import sha256_of
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE
 from haptoflow_training.models.velocity_field import parameter_count
 from haptoflow_training.waveform import SAMPLE_RATE_HZ, SEGMENT_SAMPLES
@@ -170,7 +170,7 @@ class PublishedFile:
                 "configuration": {
                     "sampling": {"solver": meta.solver, "steps": meta.steps, "guidance_scale": meta.guidance},
                     "bandwidth_kbps": meta.bandwidth_kbps,
-                    "sha256": {path.name: _sha256(path) for path in (self.checkpoint.weights, self.checkpoint.codec)},
+                    "sha256": {path.name: sha256_of(path) for path in (self.checkpoint.weights, self.checkpoint.codec)},
                 },
                 "created": "",
             },
@@ -254,7 +254,3 @@ def _seeds(
         waves = [np.ones(SEED_SAMPLES, dtype=np.float32)]
         entries = [{"label": labels[0].name, "velocity_mps": [0.0, 0.0], "force_newtons": 0.0, "gain": 0.0}]
     return np.stack(waves), entries
-
-
-def _sha256(path: Path) -> str:
-    return hashlib.sha256(path.read_bytes()).hexdigest()

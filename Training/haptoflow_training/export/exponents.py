@@ -23,6 +23,21 @@ class LabelExponents:
     level_force: float
     frequency: float
 
+    @classmethod
+    def fitted(
+        cls, speed_mps: np.ndarray, force_newtons: np.ndarray, log_level: np.ndarray, log_centroid: np.ndarray | None
+    ) -> LabelExponents:
+        """Least squares over log speed and log force, within the limits of the model format. Without a centroid the
+        label is periodic, so that frequency = v / wavelength."""
+        speed = np.log(speed_mps)
+        design = np.stack([np.ones_like(speed), speed, np.log(force_newtons)], axis=1)
+        level, *_ = np.linalg.lstsq(design, log_level, rcond=None)
+        frequency = 1.0
+        if log_centroid is not None:
+            centroid, *_ = np.linalg.lstsq(design, log_centroid, rcond=None)
+            frequency = float(np.clip(centroid[1], 0.0, 1.0))
+        return cls(float(np.clip(level[1], 0.0, 2.0)), float(np.clip(level[2], -0.5, 1.5)), frequency)
+
 
 def centroid_hz(waves: np.ndarray, rate_hz: float) -> np.ndarray:
     """Power-weighted mean frequency between 20 Hz and 900 Hz, per window."""
@@ -49,17 +64,6 @@ def fit_exponents(
         sliding &= fastest if is_enough else windows.speed_mps >= half
     if sliding.sum() < 20:
         return LabelExponents(0.0, 0.0, 1.0 if periodic else 0.0)
-    speed = np.log(windows.speed_mps[sliding])
-    force = np.log(windows.motion[sliding, 2])
-    design = np.stack([np.ones_like(speed), speed, force], axis=1)
-    level, *_ = np.linalg.lstsq(design, np.log(windows.rms_mps2[sliding] + 1e-9), rcond=None)
-    if periodic:
-        frequency = 1.0
-    else:
-        centroid, *_ = np.linalg.lstsq(design, np.log(centroid_hz(windows.waves[sliding], SAMPLE_RATE_HZ)), rcond=None)
-        frequency = float(np.clip(centroid[1], 0.0, 1.0))
-    return LabelExponents(
-        level_speed=float(np.clip(level[1], 0.0, 2.0)),
-        level_force=float(np.clip(level[2], -0.5, 1.5)),
-        frequency=frequency,
-    )
+    log_centroid = None if periodic else np.log(centroid_hz(windows.waves[sliding], SAMPLE_RATE_HZ))
+    log_level = np.log(windows.rms_mps2[sliding] + 1e-9)
+    return LabelExponents.fitted(windows.speed_mps[sliding], windows.motion[sliding, 2], log_level, log_centroid)

@@ -14,10 +14,11 @@ namespace HaptoFlow.Editor
         /// <exception cref="FormatException">A measured figure is not a number.</exception>
         private ModelSummary(HapticModelAsset asset)
         {
-            ModelHeader header = asset.Header;
+            using HapticModel model = HapticModel.Open(asset.File);
+            ModelHeader header = model.Header;
             Title = header.Name;
             Description = header.Description;
-            Origin = OriginOf(header, asset.File).Where(row => row.Value.Length > 0).ToArray();
+            Origin = OriginOf(model, asset.File.Length).Where(row => row.Value.Length > 0).ToArray();
             Tiers = header.Tiers.Select(tier => new TierSummary(tier)).ToArray();
             Labels = header.Labels.Select(LabelRow).ToArray();
         }
@@ -53,8 +54,9 @@ namespace HaptoFlow.Editor
             }
         }
 
-        private static IEnumerable<SummaryRow> OriginOf(ModelHeader header, byte[] file)
+        private static IEnumerable<SummaryRow> OriginOf(HapticModel model, int bytes)
         {
+            ModelHeader header = model.Header;
             yield return new SummaryRow("Provenance", header.Provenance.Statement);
             yield return new SummaryRow("Recordings", header.Provenance.Recordings);
             yield return new SummaryRow("Licence", header.Provenance.Licence);
@@ -62,17 +64,14 @@ namespace HaptoFlow.Editor
             yield return new SummaryRow("Training code", header.Provenance.Commit);
             yield return new SummaryRow("Trained speeds", Interval(header.SpeedMps, "m/s"));
             yield return new SummaryRow("Trained forces", Interval(header.ForceNewtons, "N"));
-            yield return new SummaryRow("Level", IsLevelAssumed(file) ? "level assumed" : "");
-            yield return new SummaryRow("Size", SummaryRow.Format("{0:0.0} MB", file.Length / 1e6));
+            yield return new SummaryRow("Level", IsLevelAssumed(model) ? "level assumed" : "");
+            yield return new SummaryRow("Size", SummaryRow.Format("{0:0.0} MB", bytes / 1e6));
         }
 
-        /// <summary>Whether nobody stated the acceleration that the model's unit stands for.</summary>
-        private static bool IsLevelAssumed(byte[] file)
-        {
-            using HapticModel model = HapticModel.Open(file);
-            JsonValue header = JsonValue.Parse(model.HeaderJson());
-            return header.Find("normalisation")?.Find("assumed")?.Truth ?? false;
-        }
+        /// <summary>True if the model's level is a guess: whoever made the file did not know how strong its vibrations
+        /// are.</summary>
+        private static bool IsLevelAssumed(HapticModel model) =>
+            JsonValue.Parse(model.HeaderJson()).Find("normalisation")?.Find("assumed")?.Truth ?? false;
 
         private static SummaryRow LabelRow(HapticLabel label)
         {

@@ -110,7 +110,7 @@ class AuthorsModules:
         )
 
     def codes(self, latent: Tensor) -> Tensor:
-        # A single one comes without its batch.
+        # The authors' quantiser drops the batch of a single latent, so latents go in one by one and are stacked here.
         return torch.stack([_here(self._engine.encodec_wrapper.quantize_latent(each[None])[0]) for each in latent])
 
     def decode(self, latent: Tensor) -> Tensor:

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from haptoflow_training.recordings.recording import Recording, RecordingIdentity
-from haptoflow_training.recordings.synthetic.carriers import guided_ride, hand_ride, machine_pass
+from haptoflow_training.recordings.synthetic.carriers import Ride, guided_ride, hand_ride, machine_pass
 from haptoflow_training.recordings.synthetic.materials import Material
 from haptoflow_training.recordings.synthetic.recorder import record_ride
 from haptoflow_training.recordings.synthetic.specimens import training_specimen
@@ -70,17 +70,22 @@ def record_machine_condition(
     accelerometer_noise: bool = True,
 ) -> Recording:
     """One machine pass. specimen: None selects the one that the training protocol records under this identity."""
+    rng = _generator(seed, identity)
+    ride = machine_ride(identity, rng)
+    chosen = training_specimen(identity) if specimen is None else specimen
+    return record_ride(material, identity, ride, rng, specimen=chosen, accelerometer_noise=accelerometer_noise)
+
+
+def machine_ride(identity: RecordingIdentity, rng: np.random.Generator) -> Ride:
+    """The machine pass that `identity` names; ValueError if it names none."""
     if identity.direction_degrees is None:
         raise ValueError(f"{identity.name} is not a machine recording")
-    rng = _generator(seed, identity)
-    ride = machine_pass(
+    return machine_pass(
         rng,
         direction_degrees=float(identity.direction_degrees),
         speed_mmps=float(identity.speed_mmps),
         force_newtons=1e-3 * identity.force_millinewtons,
     )
-    chosen = training_specimen(identity) if specimen is None else specimen
-    return record_ride(material, identity, ride, rng, specimen=chosen, accelerometer_noise=accelerometer_noise)
 
 
 def record_hand_condition(

@@ -54,7 +54,8 @@ namespace HaptoFlow.Contact
         /// <summary>The most speed that a hand gains in a time.</summary>
         public double MaximumGainMps(double seconds) => Math.Max(JumpGainMps, JumpAccelerationMps2 * seconds);
 
-        /// <summary>True for a step that no hand makes.</summary>
+        /// <summary>True if the tip moved further than a hand can in this time: it was put there, as by a
+        /// teleport.</summary>
         /// <param name="speedBeforeMps">The speed before the step; infinite where it is not known.</param>
         public bool IsJump(double movedMetres, double seconds, double speedBeforeMps)
         {

@@ -61,9 +61,9 @@ namespace HaptoFlow.Contact
         /// nearer by the margin replaces it.</summary>
         public readonly Double3? Normal;
 
-        /// <summary>True where the touch began on this surface, or begins: then the face that was entered is held. The
-        /// opposite face never replaces it. A face beside it does, except on a plate that was entered from its broad side:
-        /// there the shape is thinner below the held face than below the one beside it.</summary>
+        /// <summary>True if the touch began on this surface, or begins. The face that was entered is then kept, however
+        /// deep the point is: the opposite face never replaces it. A neighbouring face does, except on a plate entered
+        /// through its broad side, where the shape is thinner below the kept face than below the neighbour.</summary>
         public readonly bool CameFromOutside;
 
         public readonly double MarginMetres;
