@@ -14,6 +14,7 @@ _COMMANDS = {
     "velocity": "measure estimates of the velocity of the tip on strokes of known velocity",
     "import-published": "turn the authors' published weights into a model file of the engine",
     "check-published": "check a model file on this machine: parity, levels, times, one report to send",
+    "distil": "train what ships on what a flow model generates, and compare them",
     "train": "`haptoflow-training train` for rivals, codecs, their objectives and ablations too",
     "train-codec": "train the small codec whose latents some rows work on",
     "export": "`haptoflow-training export` for rivals, codecs, their objectives and ablations too",

@@ -54,10 +54,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--store", type=Path, help="folder of the prepared recordings (default: `store` beside the run's folder)"
     )
     add_recordings_options(parser)
-    parser.add_argument(
-        "--minutes", type=_minutes, metavar="N",
-        help="end with a whole, exported model after about N minutes: preparing, training and measuring levels share them",
-    )  # fmt: skip
+    add_minutes_option(parser)
     parser.add_argument("--seed", type=int, help="in place of the configuration's seed")
     parser.add_argument(
         "--base", type=Path, metavar="FOLDER",
@@ -71,6 +68,13 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--export", type=Path, metavar="FILE", help="write the .haptoflow model file here at the end")
     parser.add_argument("--parity", type=Path, metavar="FILE", help="write golden vectors of the exported model here")
     parser.add_argument("--workers", type=int, default=2, help="processes that prepare recordings (default: 2)")
+
+
+def add_minutes_option(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--minutes", type=_minutes, metavar="N",
+        help="end with a whole, exported model after about N minutes: preparing, training and measuring levels share them",
+    )  # fmt: skip
 
 
 def _minutes(text: str) -> float:

@@ -60,6 +60,8 @@ def preprocess_parts(recording: Recording, settings: PreprocessingSettings) -> l
     """As `preprocess_recording`, for each stretch between gaps of the accelerometer, so that a gap costs only the
     samples near it. Stretches that are too short are left out; InputError if none is long enough."""
     _require_usable(recording)
+    if recording.is_generated:
+        return [_generated(recording)]
     _require_plausible(recording)
     prepared: list[_Untrimmed] = []
     problems: list[InputError] = []
@@ -73,6 +75,16 @@ def preprocess_parts(recording: Recording, settings: PreprocessingSettings) -> l
         _require_no_gap(recording, settings)
         raise problems[0]
     return _without_noise(recording, prepared)
+
+
+def _generated(recording: Recording) -> PreparedRecording:
+    assert recording.velocity_mps is not None
+    return PreparedRecording(
+        (recording.acceleration_g[:, 0] * STANDARD_GRAVITY_MPS2).astype(np.float32),
+        np.column_stack([recording.velocity_mps, recording.force_newtons]).astype(np.float32),
+        recording.position_mm.astype(np.float32),
+        motion.wander_turns_on_grid(None, recording.position_time_seconds),
+    )
 
 
 @dataclass(frozen=True)

@@ -11,8 +11,7 @@ from haptoflow_training.recordings.cluster_dataset_files import DatasetFileError
 from haptoflow_training.recordings.dataset_layout import PUBLISHED_SOURCE
 
 if TYPE_CHECKING:
-    from haptoflow_training.recordings.cluster_dataset import RecordingFiles
-    from haptoflow_training.recordings.own_files import OwnRecordingFile
+    from haptoflow_training.recordings.open_recordings import RecordingFile
 
 UNKNOWN = "unknown"
 
@@ -25,8 +24,8 @@ class Dataset:
     in the published layout. is_own: in no published layout."""
 
     root: Path
-    recordings: tuple[RecordingFiles | OwnRecordingFile, ...]
-    unlabelled: tuple[RecordingFiles | OwnRecordingFile, ...]
+    recordings: tuple[RecordingFile, ...]
+    unlabelled: tuple[RecordingFile, ...]
     problems: tuple[DatasetFileError, ...]
     provenance: dict[str, Any]
     left_out: str = ""
@@ -49,7 +48,7 @@ class Dataset:
         """The labels that occur, in the order of the recordings."""
         return list(dict.fromkeys(entry.label for entry in self.recordings))
 
-    def __iter__(self) -> Iterator[RecordingFiles | OwnRecordingFile]:
+    def __iter__(self) -> Iterator[RecordingFile]:
         return iter(self.recordings)
 
     def __len__(self) -> int:

@@ -1,4 +1,4 @@
-"""Opens the recordings of a path: the published data set's layout, or own files."""
+"""Opens the recordings of a path: the published data set's layout, those that a model generated, or own files."""
 
 from __future__ import annotations
 
@@ -7,11 +7,12 @@ from pathlib import Path
 from haptoflow_training.recordings.cluster_dataset import RecordingFiles, open_dataset
 from haptoflow_training.recordings.dataset import Dataset
 from haptoflow_training.recordings.dataset_layout import SENSOR_FOLDER
+from haptoflow_training.recordings.generated_dataset import GENERATED_FILE, GeneratedFile, open_generated
 from haptoflow_training.recordings.labels import LabelMap, load_labels
 from haptoflow_training.recordings.own_dataset import open_own_dataset
 from haptoflow_training.recordings.own_files import OwnRecordingFile
 
-RecordingFile = RecordingFiles | OwnRecordingFile
+RecordingFile = RecordingFiles | OwnRecordingFile | GeneratedFile
 
 
 def open_recordings(path: Path | str, labels: LabelMap | None = None) -> Dataset:
@@ -23,6 +24,8 @@ def open_recordings(path: Path | str, labels: LabelMap | None = None) -> Dataset
     root = Path(path)
     if (root / SENSOR_FOLDER).is_dir():
         return open_dataset(root, labels)
+    if (root / GENERATED_FILE).is_file():
+        return open_generated(root, labels)
     return open_own_dataset(root, labels)
 
 

@@ -80,7 +80,8 @@ class Recording:
     synthetic recording is of; None for files. velocity_mps: [k, 2] at position_time_seconds if velocity was recorded
     and the position is its integral; None if it is to be derived from the position. wander: None for files.
     has_sensor_noise: whether preparation is to find the accelerometer's noise and remove it. notes: what its reader
-    ignored or corrected, one sentence each.
+    ignored or corrected, one sentence each. is_generated: a model's output, one axis in the band; all clocks are then the
+    same 2 kHz, and preparation filters and trims nothing.
     """
 
     identity: RecordingIdentity
@@ -96,6 +97,7 @@ class Recording:
     wander: Wander | None = None
     has_sensor_noise: bool = False
     notes: tuple[str, ...] = ()
+    is_generated: bool = False
 
     @property
     def vibration_g(self) -> NDArray[np.float64]:

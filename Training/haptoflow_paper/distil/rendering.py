@@ -1,0 +1,132 @@
+"""Renders strokes with the teacher in closed loop, several processes at a time, into a folder of generated recordings."""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import time
+from collections.abc import Callable, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from dataclasses import dataclass
+from multiprocessing import get_context
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from haptoflow_benchmark.engine.engine_library import default_engine
+from haptoflow_paper.distil.motions import STROKE_SECONDS, Stroke, strokes_of
+from haptoflow_paper.distil.teacher import Teacher
+from haptoflow_paper.rows.engine_generator import EngineGenerator
+from haptoflow_training.closed_loop.render import hop_positions, run_closed_loop
+from haptoflow_training.recordings.generated_dataset import GeneratedOrigin, generated_path, start_generated, write_generated
+from haptoflow_training.stopping import end_if_stopped
+from haptoflow_training.waveform import SAMPLE_RATE_HZ, SEGMENT_SAMPLES
+
+# The closed loop begins in silence, which is no part of the material.
+SETTLING_SAMPLES = 2 * SEGMENT_SAMPLES
+_BATCH = 24
+_TRIED_SECONDS = 0.5
+
+_Floats = NDArray[np.float32]
+
+
+@dataclass(frozen=True)
+class Rendering:
+    """What is rendered: strokes_per_label of STROKE_SECONDS each, at update_rate_hz segments a second. seed: of strokes
+    and noise; strokes_seed: of the strokes alone, for several draws of the same ones."""
+
+    teacher: Teacher
+    strokes_per_label: int
+    update_rate_hz: float
+    seed: int
+    strokes_seed: int | None = None
+
+    @property
+    def origin(self) -> GeneratedOrigin:
+        labels = tuple(label.name for label in self.teacher.labels)
+        return GeneratedOrigin(self.teacher.origin, self.teacher.licence, labels)
+
+    def strokes(self) -> list[Stroke]:
+        """All of them, label by label."""
+        return [stroke for label in range(len(self.teacher.labels)) for stroke in self.strokes_of_label(label)]
+
+    def strokes_of_label(self, label: int) -> list[Stroke]:
+        seed = self.seed if self.strokes_seed is None else self.strokes_seed
+        return list(strokes_of(label, self.strokes_per_label, self.teacher.within, seed))
+
+
+def rendered(
+    generator: EngineGenerator, teacher: Teacher, strokes: Sequence[Stroke], update_rate_hz: float, seed: int
+) -> list[_Floats]:
+    """The waves of strokes in m/s^2, without the first 0.2 s of each. Each segment knows the motion that it plays, because
+    nobody waits for it: a recording's motion and vibration belong together."""
+    index = np.array([teacher.index[stroke.identity.texture_id] for stroke in strokes])
+    longest = max(len(stroke.motion) for stroke in strokes)
+    ahead = round(SAMPLE_RATE_HZ / update_rate_hz)
+    motions = np.stack(
+        [np.pad(stroke.motion[ahead:], ((0, ahead + longest - len(stroke.motion)), (0, 0)), mode="edge") for stroke in strokes]
+    )
+    run = run_closed_loop(
+        generator, generator.embeddings, motions, index, generator.statistics, update_rate_hz=update_rate_hz, seed=seed
+    )
+    return [wave[SETTLING_SAMPLES : len(stroke.motion)] for wave, stroke in zip(run.waves, strokes, strict=True)]
+
+
+def seconds_of_a_stroke(root: Path, teacher: Teacher, update_rate_hz: float) -> float:
+    """How long one process takes for one stroke, from a short one of each label in a batch."""
+    length = round(_TRIED_SECONDS * SAMPLE_RATE_HZ)
+    strokes = [next(strokes_of(place % len(teacher.labels), 1, teacher.within, place)) for place in range(_BATCH)]
+    few = [dataclasses.replace(stroke, motion=stroke.motion[-length:]) for stroke in strokes]
+    with teacher.open(default_engine(root), _BATCH) as generator:
+        rendered(generator, teacher, few[:1], update_rate_hz, 0)
+        begun = time.monotonic()
+        rendered(generator, teacher, few, update_rate_hz, 0)
+        seconds = time.monotonic() - begun
+    hops = len(hop_positions(length, update_rate_hz))
+    return seconds / hops / len(few) * len(hop_positions(round(STROKE_SECONDS * SAMPLE_RATE_HZ), update_rate_hz))
+
+
+def render_all(
+    root: Path, rendering: Rendering, out: Path, workers: int, advance: Callable[[int], object] = lambda strokes: None
+) -> None:
+    """Write every stroke that `out` does not hold yet. advance: told of finished strokes, those found included."""
+    start_generated(out, rendering.origin)
+    strokes = rendering.strokes()
+    waiting = [stroke for stroke in strokes if not generated_path(out, stroke.identity).exists()]
+    advance(len(strokes) - len(waiting))
+    with ProcessPoolExecutor(workers, get_context("spawn")) as pool:
+        running: set[Future[int]] = set()
+        try:
+            for first in range(0, len(waiting), _BATCH):
+                running.add(pool.submit(_render_some, root, rendering, out, waiting[first : first + _BATCH]))
+                while len(running) > workers:
+                    running = _awaited(running, advance)
+            while running:
+                running = _awaited(running, advance)
+        finally:
+            pool.shutdown(wait=True, cancel_futures=True)
+
+
+def _awaited(running: set[Future[int]], advance: Callable[[int], object]) -> set[Future[int]]:
+    done, left = wait(running, timeout=1.0, return_when=FIRST_COMPLETED)
+    for each in done:
+        advance(each.result())
+    end_if_stopped()
+    return left
+
+
+def _render_some(root: Path, rendering: Rendering, out: Path, strokes: Sequence[Stroke]) -> int:
+    generator = _generator(root, rendering.teacher)
+    first = strokes[0].identity
+    seed = rendering.seed * 1_000_003 + first.texture_id * 1009 + first.repeat
+    waves = rendered(generator, rendering.teacher, strokes, rendering.update_rate_hz, seed)
+    for stroke, wave in zip(strokes, waves, strict=True):
+        write_generated(generated_path(out, stroke.identity), wave, stroke.motion[SETTLING_SAMPLES:])
+    return len(strokes)
+
+
+@functools.cache
+def _generator(root: Path, teacher: Teacher) -> EngineGenerator:
+    """One for each process, which ends with it."""
+    return teacher.open(default_engine(root), _BATCH)
