@@ -58,10 +58,12 @@ class Teacher:
         if steps and kind not in _SOLVED:
             raise InputError(f"{model}: tier '{chosen}' is not solved in steps; leave out --steps")
         known = _labels(header["labels"])
-        missing = [name for name in labels if name not in [label.name for label in known]]
+        names_of = {label.name: {label.name, *(str(other["name"]) for other in label.others)} for label in known}
+        missing = set(labels).difference(*names_of.values())
         if missing:
-            raise InputError(f"{model}: no label {', '.join(missing)}; it has {', '.join(each.name for each in known)}")
-        kept = tuple(label for label in known if not labels or label.name in labels)
+            listed = ", ".join(name for label in known for name in sorted(names_of[label.name]))
+            raise InputError(f"{model}: no label {', '.join(sorted(missing))}; it has {listed}")
+        kept = tuple(label for label in known if not labels or names_of[label.name] & set(labels))
         index = {entry["name"]: number for number, entry in reversed(list(enumerate(header["labels"])))}
         provenance = header["provenance"]
         return cls(
