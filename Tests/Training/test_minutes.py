@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import io
 import re
+import time
 from pathlib import Path
 
 import pytest
 from test_trainer import ALONE, _config
 from training_fixtures import make_store
 
+from haptoflow_training.commands.minutes import TiersMinutes
 from haptoflow_training.training import trainer as trainer_module
 from haptoflow_training.training.budget import Budget
 from haptoflow_training.training.config import config_from_dict
@@ -94,3 +96,15 @@ def test_the_configuration_of_a_limited_run_is_that_of_any_other(tmp_path: Path,
     config, _, _ = load_trained(tmp_path)
     # In a process that has imported haptoflow_paper, with its keys at what every run does.
     assert config == config_from_dict(_config().to_dict(), tmp_path)
+
+
+@pytest.mark.parametrize(("networks", "lanes", "rounds"), [(2, 2, 1), (2, 1, 2), (3, 2, 2), (1, 8, 1)])
+def test_a_whole_models_minutes_are_shared_by_base_networks_and_levels(networks: int, lanes: int, rounds: int) -> None:
+    shares = TiersMinutes.of(10.0, time.monotonic() - 60.0, networks, lanes)
+    assert shares.base + rounds * shares.network + shares.levels == pytest.approx(540.0, abs=1.0)
+    assert shares.network > shares.base > shares.levels > 0.0
+
+
+def test_preparing_that_took_most_of_a_whole_models_minutes_leaves_three_tenths() -> None:
+    shares = TiersMinutes.of(10.0, time.monotonic() - 590.0, 2, 2)
+    assert shares.base + shares.network + shares.levels == pytest.approx(180.0)

@@ -226,3 +226,17 @@ def test_a_blend_of_two_labels_is_the_mean_of_their_rows_where_60_numbers_are_en
 def test_rows_that_vary_in_more_directions_than_an_embedding_has_are_refused() -> None:
     with pytest.raises(InputError, match="vary in 79 directions; expected at most 64"):
         EmbeddingRows(torch.randn(80, 128, generator=torch.Generator().manual_seed(3)))
+
+
+def test_the_golden_model_of_the_other_languages_is_what_the_importer_writes(assumed: Path) -> None:
+    """Unity's stand-in and the page play it, where nothing imports. To renew it: haptoflow-paper import-published
+    Tests/Golden/published/heun -o Tests/Golden/model/published.haptoflow"""
+    golden, made = (read_model_file(path) for path in (ROOT / "Tests/Golden/model/published.haptoflow", assumed))
+    for key in ("name", "description", "range", "tiers", "default_tier", "provenance"):
+        assert golden.header[key] == made.header[key], key
+    assert [label["name"] for label in golden.header["labels"]] == [label["name"] for label in made.header["labels"]]
+    peak = pytest.approx(made.header["normalisation"]["peak_mps2"], rel=1e-3)
+    assert golden.header["normalisation"] == {**made.header["normalisation"], "peak_mps2": peak}
+    assert golden.graphs.keys() == made.graphs.keys()
+    np.testing.assert_array_equal(golden.tensors["embedding"], made.tensors["embedding"])
+    np.testing.assert_allclose(golden.tensors["seeds"], made.tensors["seeds"], atol=1e-3)

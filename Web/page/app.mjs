@@ -3,11 +3,13 @@ import { find, make, shown, slider } from './dom.mjs';
 import { Hand } from './hand/hand.mjs';
 import { presetStrokes } from './hand/preset-strokes.mjs';
 import { Tip } from './hand/tip.mjs';
+import { fittedTo, forgetModel, keptModel } from './model-file.mjs';
 import { deviceSentences, Messages, sentenceOf, silenceSentence } from './messages.mjs';
 import { ComparePanel } from './panels/compare.mjs';
 import { DevicePanel } from './panels/device.mjs';
 import { EffectsPanel } from './panels/effects.mjs';
 import { Outputs } from './panels/outputs.mjs';
+import { ModelPanel } from './panels/model.mjs';
 import { OwnMaterialPanel } from './panels/own-material.mjs';
 import { Palette } from './panels/palette.mjs';
 import { QualityPanel } from './panels/quality.mjs';
@@ -73,8 +75,8 @@ class Page {
   /** Lets a voice follow the page's controls. @type {(voice: import('../engine/js/haptoflow.d.ts').Voice) => void} */
   adopt;
 
-  /** @param {HaptoFlow} haptics @param {any} scene @param {any} looks @param {TableView} view @param {Table} table @param {Fills} fills @param {Tip[]} tips */
-  constructor(haptics, scene, looks, view, table, fills, tips) {
+  /** @param {HaptoFlow} haptics @param {any} scene @param {any} looks @param {TableView} view @param {Table} table @param {Fills} fills @param {Tip[]} tips @param {string} fileName of the model that was given, or '' */
+  constructor(haptics, scene, looks, view, table, fills, tips, fileName) {
     this.haptics = haptics;
     this.scene = scene;
     this.looks = looks;
@@ -114,7 +116,7 @@ class Page {
     this.effects = new EffectsPanel(haptics, messages);
     this.compare = new ComparePanel({
       labels: () => haptics.labels.map(({ name }) => name),
-      qualities: haptics.model.tiers.map(({ name }) => name),
+      qualities: this.quality.tiers,
       object: () => Math.max(0, view.selected),
       title: (index) => this.titleOf(index),
       paint: (index, material) => this.paint(index, material),
@@ -128,7 +130,8 @@ class Page {
       this.palette.chosen = name;
       this.palette.refresh();
       this.compare.refresh();
-    });
+    }, (files) => this.model.take(files));
+    this.model = new ModelPanel(haptics.model, fileName, () => location.reload());
     this.outputs = new Outputs(this.voices, messages);
     this.device = new DevicePanel(haptics, this.hand, this.voices[0]);
     try {
@@ -147,7 +150,7 @@ class Page {
     };
     this.voices.forEach(this.adopt);
     this.hand.onHover = (place) => this.#showHover(place);
-    view.selected = scene.surfaces.findIndex((/** @type {any} */ surface) => surface.material === 'corduroy');
+    view.selected = scene.surfaces.findIndex((/** @type {any} */ surface) => surface.name === 'corduroy swatch');
     this.palette.select(view.selected);
     this.#listenToEngine();
     this.#offerHeadset();
@@ -359,22 +362,32 @@ class Page {
 
 try {
   const [plainScene, looks] = await Promise.all([readJson('scene/workbench.json'), readJson('scene/looks.json')]);
-  const scene = matchMedia('(prefers-reduced-motion: reduce)').matches ? withoutMotion(plainScene) : plainScene;
-  const table = new Table(scene);
+  const movingScene = matchMedia('(prefers-reduced-motion: reduce)').matches ? withoutMotion(plainScene) : plainScene;
+  const table = new Table(movingScene);
   const fills = new Fills(looks.labels);
   const view = new TableView(find('#table'), table, looks, fills);
   // The table is there before the engine is.
   view.draw(0, []);
-  const haptics = await HaptoFlow.create({ updateRateHz, onProgress: (share, doing) => start.progress(share, doing) });
+  const given = await keptModel();
+  const haptics = await HaptoFlow.create({ updateRateHz, model: given?.bytes, onProgress: (share, doing) => start.progress(share, doing) }).catch(async (error) => {
+    // The next start is with the shipped model again.
+    if (!given) throw error;
+    await forgetModel();
+    throw Object.assign(error, { message: `${given.name}: ${error.message}` });
+  });
   table.setLabels(haptics.labels);
+  const { scene, lacking } = fittedTo(movingScene, haptics.labels);
+  table.materials = scene.surfaces.map((/** @type {any} */ surface) => surface.material);
+  view.refresh();
   const tips = [];
   for (let index = 0; index < tipCount; index += 1) {
     const contactScene = haptics.loadScene(scene);
     tips.push(new Tip(table, await haptics.openVoice(), contactScene));
     table.follow(contactScene);
   }
-  const page = new Page(haptics, scene, looks, view, table, fills, tips);
+  const page = new Page(haptics, scene, looks, view, table, fills, tips, given?.name ?? '');
   page.run();
+  if (lacking.length > 0) messages.show(`This model has no ${lacking.join(', ')}: these objects are of other materials.`);
   // For tests and for the curious at the console.
   Object.assign(globalThis, { haptoflowPage: page });
 } catch (error) {

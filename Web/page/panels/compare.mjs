@@ -37,7 +37,9 @@ export class ComparePanel {
     for (const side of /** @type {const} */ (['a', 'b'])) {
       const before = this.#selects[side].value;
       fillSelect(this.#selects[side], options);
-      if (!names.includes(before)) this.#selects[side].value = isLabels ? { a: 'stone', b: 'sandpaper' }[side] : { a: 'sketch', b: 'standard' }[side];
+      if (names.includes(before)) continue;
+      const usual = isLabels ? { a: 'stone', b: 'sandpaper' }[side] : { a: 'sketch', b: 'standard' }[side];
+      this.#selects[side].value = names.includes(usual) ? usual : (names.at({ a: 0, b: -1 }[side]) ?? '');
     }
     this.#tell('');
   }

@@ -30,6 +30,7 @@ export class Palette {
       this.#share = value / 100;
       this.#describe();
     });
+    if (!haptics.labels.some(({ name }) => name === this.chosen)) this.chosen = haptics.labels[0].name;
     this.refresh();
   }
 

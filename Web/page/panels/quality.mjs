@@ -1,4 +1,5 @@
 import { find, make, shown } from '../dom.mjs';
+import { qualitiesOf } from '../model-file.mjs';
 
 const words = /** @type {Record<string, string>} */ ({ sketch: 'plays without a network', auto: 'the most accurate that this device keeps up with' });
 
@@ -8,14 +9,18 @@ export class QualityPanel {
   #messages;
   #body = find('#qualities');
   #note = find('#quality-note');
+  /** By tier. @type {Map<string, 'sketch' | 'draft' | 'standard'>} */
+  #qualities;
 
   /** @param {import('../../engine/js/haptoflow.d.ts').HaptoFlow} haptics @param {import('../messages.mjs').Messages} messages */
   constructor(haptics, messages) {
     this.#haptics = haptics;
     this.#messages = messages;
-    const tiers = haptics.model.tiers.map(({ name, accuracy }) => ({ name, accuracy }));
+    this.#qualities = new Map(qualitiesOf(haptics.model.tiers).map(({ quality, tier }) => [tier, quality]));
+    const tiers = haptics.model.tiers.filter(({ name }) => this.#qualities.has(name)).map(({ name, accuracy }) => ({ name, accuracy }));
     this.#body.replaceChildren(...[...tiers, { name: 'auto', accuracy: /** @type {any} */ ({}) }].map(({ name, accuracy }) => {
-      const input = make('input', { type: 'radio', name: 'quality', value: name, checked: name === haptics.quality, id: `quality-${name}` });
+      const quality = this.#qualityOf(name);
+      const input = make('input', { type: 'radio', name: 'quality', value: name, checked: quality === haptics.quality, id: `quality-${quality}` });
       input.addEventListener('change', () => void this.choose(name));
       const number = (/** @type {string} */ key, /** @type {number} */ digits) => shown(/** @type {any} */ (accuracy)[key], digits);
       return make('tr', {}, [
@@ -27,11 +32,20 @@ export class QualityPanel {
     }));
   }
 
-  /** @param {string} name */
+  /** The names to choose from, as tiers are called. */
+  get tiers() {
+    return [...this.#qualities.keys()];
+  }
+
+  #qualityOf(/** @type {string} */ name) {
+    return this.#qualities.get(name) ?? 'auto';
+  }
+
+  /** @param {string} name of a tier, or auto */
   async choose(name) {
     this.#note.textContent = `Loading ${name} …`;
     try {
-      await this.#haptics.setQuality(/** @type {any} */ (name));
+      await this.#haptics.setQuality(this.#qualityOf(name));
       this.#note.textContent = '';
     } catch (error) {
       this.#note.textContent = '';
@@ -43,7 +57,7 @@ export class QualityPanel {
   /** @param {import('../../engine/js/haptoflow.d.ts').Statistics} statistics */
   show(statistics) {
     for (const { name, runs, medianMs, percentile99Ms } of statistics.tiers ?? []) {
-      const cell = this.#body.querySelector(`[data-tier="${name}"]`);
+      const cell = this.#body.querySelector(`[data-tier="${CSS.escape(name)}"]`);
       if (cell && runs > 0) {
         cell.textContent = `${shown(medianMs, 2)}`;
         cell.title = `median of the newest segments; 99 of 100 take at most ${shown(percentile99Ms, 2)} ms`;
