@@ -15,7 +15,7 @@ namespace HaptoFlow.Preview
         /// <summary>Index of the sound that is played.</summary>
         public int Active { get; set; }
 
-        /// <summary>Name of a tier of the model: "sketch", "draft" or "standard".</summary>
+        /// <summary>Name of a tier of the model, one of <see cref="PreviewQualities.Tiers"/>.</summary>
         public string Tier { get; set; } = "standard";
 
         /// <summary>Effects of the surface.</summary>

@@ -62,7 +62,8 @@ namespace HaptoFlow.Preview
                 return known;
             }
             HapticEngine engine = engines.Engine(
-                request.ModelFile, QualityOf(request.Tier), request.Seed, !request.IsSketch);
+                request.ModelFile, PreviewQualities.Of(engines.Model(request.ModelFile).Header, request.Tier), request.Seed,
+                !request.IsSketch);
             int registered = material.IsRegistered
                 ? engines.MaterialIndex(material.MaterialText(engines.Model(request.ModelFile), request.Sliders))
                 : -1;
@@ -116,16 +117,6 @@ namespace HaptoFlow.Preview
             }
             timedMeasurement = request.Measurement;
         }
-
-        /// <exception cref="HaptoFlowException">No quality has the name of this tier.</exception>
-        private static HapticQuality QualityOf(string tier) => tier switch
-        {
-            "sketch" => HapticQuality.Sketch,
-            "draft" => HapticQuality.Draft,
-            "standard" => HapticQuality.Standard,
-            _ => throw new HaptoFlowException(HaptoFlowStatus.InvalidArgument,
-                $"tier \"{tier}\" cannot be previewed; expected sketch, draft or standard"),
-        };
 
         /// <summary>True if the sounds of a request can be used for another one, as far as they do not depend on the
         /// material. A sketch can only be used for a sketch.</summary>

@@ -3,21 +3,19 @@ using System;
 using System.Collections.Generic;
 using System.Linq;
 using HaptoFlow.Model;
+using HaptoFlow.Preview;
 
 namespace HaptoFlow.Editor
 {
     /// <summary>Labels and tiers of a model. Main thread.</summary>
     internal sealed class PreviewModel
     {
-        private static readonly string[] Playable = { "sketch", "draft", "standard" };
-
         private PreviewModel(byte[] file, ModelHeader? header, string? problem)
         {
             File = file;
             Problem = problem;
             Labels = header?.Labels.Select(label => label.Name).ToArray() ?? Array.Empty<string>();
-            Tiers = header?.Tiers.Select(tier => tier.Name).Where(name => Playable.Contains(name)).ToArray() ??
-                Array.Empty<string>();
+            Tiers = header == null ? Array.Empty<string>() : PreviewQualities.Tiers(header);
             DefaultTier = header?.DefaultTier.Name ?? "standard";
         }
 
@@ -27,7 +25,7 @@ namespace HaptoFlow.Editor
         /// <summary>In the model's order; empty if it cannot be read.</summary>
         public IReadOnlyList<string> Labels { get; }
 
-        /// <summary>Names of the tiers that an engine can play.</summary>
+        /// <summary>Names of the tiers that an engine plays at one of its fixed qualities.</summary>
         public IReadOnlyList<string> Tiers { get; }
 
         public string DefaultTier { get; }

@@ -89,6 +89,16 @@ namespace HaptoFlow.Model
         /// <summary>The tier that is used unless another is selected.</summary>
         public HapticTier DefaultTier => Tiers.Single(tier => tier.IsDefault);
 
+        /// <summary>The tier that an engine of this quality plays, as haptoflow.h says it (haptoflow_quality).</summary>
+        internal HapticTier TierOf(HapticQuality quality) => quality switch
+        {
+            HapticQuality.Sketch => Named("sketch") ?? Tiers[0],
+            HapticQuality.Draft => Named("draft") ?? Tiers[0],
+            _ => Named("standard") ?? DefaultTier,
+        };
+
+        private HapticTier? Named(string name) => Tiers.FirstOrDefault(tier => tier.Name == name);
+
         /// <param name="file">The whole .haptoflow file; the array is not kept.</param>
         /// <exception cref="HaptoFlowException">The library is missing, or the bytes are not a usable model; the
         /// message says why.</exception>
