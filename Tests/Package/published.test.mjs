@@ -81,6 +81,7 @@ test('from the hub to a model file on this disk, over a cut connection and a hub
   ]) {
     assert.ok(lineOf(pattern) >= 0 && lineOf(pattern) < written, `${pattern}\n${stdout}`);
   }
+  assert.equal(lines.filter((line) => /^weights: /.test(line)).length, 1, 'each part is told once');
   assert.match(stderr, /fewer requests \(429\): waiting 0 s/);
   assert.match(stderr, /model\.safetensors: the connection was cut/);
   assert.match(stderr, /^tamago117\/HaptoFlow: \[#{24}\] 100 %, 0\.3 of 0\.3 MB/m);
