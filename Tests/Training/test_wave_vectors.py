@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 from pathlib import Path
 
@@ -12,7 +13,13 @@ from haptoflow_training.preprocessing.pipeline import preprocess_recording
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.preprocessing.wave_vectors import estimate_wave_vectors
 from haptoflow_training.recordings.material_recording import MaterialRecording
-from haptoflow_training.recordings.synthetic import Material, load_materials, record_condition
+from haptoflow_training.recordings.synthetic import (
+    Material,
+    load_materials,
+    machine_conditions,
+    record_condition,
+    record_condition_of,
+)
 
 MATERIALS = load_materials()
 RATE_HZ = 2000
@@ -106,3 +113,39 @@ def test_the_golden_recordings_have_the_wave_vectors_stated_in_their_files(name:
     assert len(found) == len(expected) == count
     for one, other in zip(found, expected, strict=True):
         assert np.hypot(*np.subtract(one, other)) < 0.002 * np.hypot(*other)
+
+
+def _scanned(material: Material) -> list[MaterialRecording]:
+    """Passes of the machine: four axes, forwards and backwards, at three speeds."""
+    prepared = []
+    for identity in machine_conditions(material, speeds_mmps=(20, 40, 60), forces_millinewtons=(500,), repeats=1):
+        made = record_condition_of(material, identity, seed=3, accelerometer_noise=False)
+        pieces = preprocess_recording(made, PreprocessingSettings())
+        prepared.append(
+            MaterialRecording(
+                identity.name, material.label, pieces.waveform_mps2, pieces.motion[:, :2], pieces.motion[:, 2], "", ""
+            )
+        )
+    return prepared
+
+
+@pytest.mark.parametrize(
+    ("label", "wavelength_mm", "expected"),
+    [
+        ("corduroy", 2.5, [(0.4, 0.0)]),
+        ("corduroy", 1.0, [(1.0, 0.0)]),
+        ("wood", None, []),
+    ],
+)
+def test_a_machine_s_few_directions_show_the_ribs_and_no_vector_that_shares_lines_with_them(
+    label: str, wavelength_mm: float | None, expected: list[tuple[float, float]]
+) -> None:
+    material = next(one for one in MATERIALS if one.label == label)
+    if wavelength_mm is not None:
+        ruling = dataclasses.replace(material.rulings[0], wavelength_mm=wavelength_mm)
+        material = dataclasses.replace(material, rulings=(ruling,))
+    found = estimate_wave_vectors(_scanned(material))
+    assert len(found) == len(expected)
+    for vector in expected:
+        distances = [min(np.hypot(x - vector[0], y - vector[1]), np.hypot(x + vector[0], y + vector[1])) for x, y in found]
+        assert min(distances) < 0.035 * np.hypot(*vector) + 0.02

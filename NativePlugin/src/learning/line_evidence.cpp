@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <set>
 
 namespace haptoflow::learning {
 namespace {
@@ -15,6 +16,10 @@ constexpr double minimumAlongPerMm = 0.08;
 constexpr std::size_t coveringShare = 5;
 /// In units of the mean noise power.
 constexpr double maximumPower = 30.0;
+constexpr double minimumPower = 1e-3;
+constexpr std::size_t sectorCount = 12;
+/// A machine that scans along multiples of 45 degrees has 4.
+constexpr std::size_t mostDirectionsOfAMachine = 4;
 constexpr std::size_t neighbours = 41;
 /// Half overlapping windows give 0.6 of the information of separate ones.
 constexpr double independentShare = 0.6;
@@ -135,10 +140,64 @@ std::vector<std::uint8_t> coveredSteps(const PathWindow& window, std::span<const
     return heard;
 }
 
-/// One direction of the map: means over the windows that cover a wave number, and their number.
-struct DirectionRow {
+/// Windows of one of these directions: sums over those that cover a wave number, and their number.
+struct SectorRow {
     std::array<double, stepCount> sums{};
     std::array<double, stepCount> counts{};
+};
+
+/// The sector of a window's direction. Multiples of 45 degrees lie in the middle of a sector: machines scan along them.
+std::size_t sectorOf(const PathWindow& window) {
+    const double turn = std::atan2(window.directionY, window.directionX) / std::numbers::pi + 0.5 / sectorCount + 2.0;
+    return static_cast<std::size_t>(std::fmod(turn, 1.0) * sectorCount) % sectorCount;
+}
+
+/// For each window its sector if strokes have few directions, as a machine's: a wrong vector then has many lines in common
+/// with the ribs, in one or two of them. Else 0 for all: weak lines show best in the mean of all windows.
+std::vector<std::size_t> sectorsOf(std::span<const PathWindow> windows) {
+    std::vector<std::size_t> sectors(windows.size());
+    std::ranges::transform(windows, sectors.begin(), sectorOf);
+    const std::set<std::size_t> distinct(sectors.begin(), sectors.end());
+    if (distinct.size() > mostDirectionsOfAMachine) {
+        std::ranges::fill(sectors, 0);
+    }
+    return sectors;
+}
+
+/// How far the logarithm of a mean of `count` exponentially distributed powers lies below that of their expectation, in
+/// the mean: log(n) - digamma(n).
+double biasOfLog(double count) {
+    return 0.5 / count + 1.0 / (12.0 * count * count);
+}
+
+/// The mean over the windows that cover a wave number: of powers within a sector, of their logarithms among sectors, so
+/// that a line counts little which only some of the directions show.
+struct DirectionRow {
+    std::array<SectorRow, sectorCount> sectors{};
+
+    [[nodiscard]] double count(std::size_t step) const {
+        double total = 0.0;
+        for (const SectorRow& sector : sectors) {
+            total += sector.counts[step];
+        }
+        return total;
+    }
+
+    [[nodiscard]] double mean(std::size_t step) const {
+        const double all = count(step);
+        double logarithm = 0.0;
+        for (const SectorRow& sector : sectors) {
+            const double windows = sector.counts[step];
+            if (windows == all) {
+                return sector.sums[step] / all;
+            }
+            if (windows > 0.0) {
+                const double power = std::max(sector.sums[step] / windows, minimumPower);
+                logarithm += windows * (std::log(power) + biasOfLog(windows));
+            }
+        }
+        return std::exp(logarithm / all);
+    }
 };
 
 /// Background of each value: the median of 41 neighbours, with repeated ends.
@@ -162,6 +221,7 @@ std::vector<double> mediansAround(std::span<const double> values) {
 LineMap mapOf(std::span<const PathWindow> windows, const Spectra& spectra,
               const std::vector<std::vector<std::uint8_t>>& heard) {
     const auto fewest = static_cast<double>(std::max(minimumWindows, windows.size() / coveringShare));
+    const std::vector<std::size_t> sectorOfWindow = sectorsOf(windows);
     LineMap map{DirectionMap(directionCount * stepCount), DirectionMap(directionCount * stepCount)};
     for (std::size_t direction = 0; direction < directionCount; ++direction) {
         const double cosine = std::cos(angleOf(direction));
@@ -173,22 +233,25 @@ LineMap mapOf(std::span<const PathWindow> windows, const Spectra& spectra,
                 const double along = share * static_cast<double>(step);
                 const auto column = static_cast<std::size_t>(std::floor(along + 0.5));
                 if (along * stepPerMm > minimumAlongPerMm && heard[w][column] != 0) {
-                    row.sums[step] += spectra[w][column];
-                    row.counts[step] += 1.0;
+                    SectorRow& sector = row.sectors[sectorOfWindow[w]];
+                    sector.sums[step] += spectra[w][column];
+                    sector.counts[step] += 1.0;
                 }
             }
         }
+        std::array<double, stepCount> counts{};
         std::array<double, stepCount> means{};
         for (std::size_t step = 0; step < stepCount; ++step) {
-            means[step] = row.counts[step] >= fewest ? row.sums[step] / row.counts[step] : 1.0;
+            counts[step] = row.count(step);
+            means[step] = counts[step] >= fewest ? row.mean(step) : 1.0;
         }
         const std::vector<double> around = mediansAround(means);
         for (std::size_t step = 0; step < stepCount; ++step) {
-            const double ratio = row.counts[step] >= fewest ? means[step] / std::max(around[step], 1.0) : 0.0;
+            const double ratio = counts[step] >= fewest ? means[step] / std::max(around[step], 1.0) : 0.0;
             // The likelihood ratio for exponentially distributed powers of mean `ratio` instead of 1, at its most
             // likely value.
             const double gain =
-                ratio > 1.0 ? independentShare * row.counts[step] * (ratio - 1.0 - std::log(ratio)) : 0.0;
+                ratio > 1.0 ? independentShare * counts[step] * (ratio - 1.0 - std::log(ratio)) : 0.0;
             map.ratios[direction * stepCount + step] = ratio;
             map.gains[direction * stepCount + step] = gain;
         }
