@@ -37,7 +37,7 @@ a table then compares each of them with the model on strokes that no training sa
 What is finished is found again: run the same command to go on after an interruption.
 """
 _EXAMPLES = """examples:
-  haptoflow-paper distil published.haptoflow -o materials.haptoflow --minutes 600
+  haptoflow-paper distil published.haptoflow -o materials.haptoflow --update-hz 10 --minutes 600
   haptoflow-paper distil published.haptoflow --labels wood,denim -o two.haptoflow --minutes 60
   haptoflow-paper distil plain.haptoflow --solver midpoint --steps 4 -o distilled.haptoflow
 
