@@ -152,8 +152,8 @@ std::size_t sectorOf(const PathWindow& window) {
     return static_cast<std::size_t>(std::fmod(turn, 1.0) * sectorCount) % sectorCount;
 }
 
-/// For each window its sector if strokes have few directions, as a machine's: a wrong vector then has many lines in common
-/// with the ribs, in one or two of them. Else 0 for all: weak lines show best in the mean of all windows.
+/// For each window its sector if strokes have few directions, as a machine's: a wrong vector then has many lines in
+/// common with the ribs, in one or two of them. Else 0 for all: weak lines show best in the mean of all windows.
 std::vector<std::size_t> sectorsOf(std::span<const PathWindow> windows) {
     std::vector<std::size_t> sectors(windows.size());
     std::ranges::transform(windows, sectors.begin(), sectorOf);
@@ -250,8 +250,7 @@ LineMap mapOf(std::span<const PathWindow> windows, const Spectra& spectra,
             const double ratio = counts[step] >= fewest ? means[step] / std::max(around[step], 1.0) : 0.0;
             // The likelihood ratio for exponentially distributed powers of mean `ratio` instead of 1, at its most
             // likely value.
-            const double gain =
-                ratio > 1.0 ? independentShare * counts[step] * (ratio - 1.0 - std::log(ratio)) : 0.0;
+            const double gain = ratio > 1.0 ? independentShare * counts[step] * (ratio - 1.0 - std::log(ratio)) : 0.0;
             map.ratios[direction * stepCount + step] = ratio;
             map.gains[direction * stepCount + step] = gain;
         }
