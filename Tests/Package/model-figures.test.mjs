@@ -35,9 +35,11 @@ const results = {
 
 /** Pictures that do not depend on a model: those of the recorder. */
 const withoutModel = ['recorder-spectra.png'];
+/** Of models that are not in the repository: a file of the published sizes with random weights, and a distilled one. */
+const ofOtherModels = ['published-costs.png', 'distilled-spectra.png'];
 const pictures = ['Documentation~/images', 'Samples~/StylusTracing', 'Samples~/TextureGallery', 'Samples~/Workshop', 'Training/results/default']
   .flatMap((folder) => readdirSync(inRepository(...folder.split('/'))).map((name) => `${folder}/${name}`))
-  .filter((file) => file.endsWith('.png') && !withoutModel.includes(path.basename(file)));
+  .filter((file) => file.endsWith('.png') && ![...withoutModel, ...ofOtherModels].includes(path.basename(file)));
 
 for (const [page, command] of Object.entries(pages)) {
   test(`the figures of ${page} were measured with the shipped model`, () => {
@@ -56,6 +58,11 @@ for (const file of pictures) {
     assert.equal(modelOfPicture(readFileSync(inRepository(file))), shipped, 'draw it again: Documentation~/benchmarks.md says how');
   });
 }
+
+test('the picture of distilled spectra shows the model of the distilled figures', () => {
+  const { model_sha256: distilled } = JSON.parse(readFileSync(inRepository('Training/haptoflow_paper/results/distilled.json'), 'utf8'));
+  assert.equal(modelOfPicture(readFileSync(inRepository('Documentation~/images/distilled-spectra.png'))), distilled);
+});
 
 test('a page names one model in one line, none without such a line, and two are an error', () => {
   assert.equal(modelOfPage(`# Page\n\n${modelLine(sha('c'))}\n`), sha('c'));

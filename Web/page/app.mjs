@@ -49,12 +49,13 @@ function withoutMotion(/** @type {any} */ scene) {
 }
 
 const start = {
-  layer: find('#start'), text: find('#start-text'), bar: find('#start-bar'), button: find('#start-button'),
+  layer: find('#start'), text: find('#start-text'), bar: find('#start-bar'), button: find('#start-button'), back: find('#start-back'),
   progress(/** @type {number} */ share, /** @type {string} */ doing) {
     this.text.textContent = `${doing.charAt(0).toUpperCase()}${doing.slice(1)} …`;
     this.bar.value = share;
   },
-  fail(/** @type {any} */ error) {
+  /** @param {any} error @param {(() => void) | null} [giveUp] the way back to the shipped model, where another one was given */
+  fail(error, giveUp = null) {
     messages.error(error);
     this.layer.hidden = false;
     this.layer.classList.remove('is-open');
@@ -63,6 +64,8 @@ const start = {
     this.button.textContent = 'Try again';
     this.button.hidden = false;
     this.button.addEventListener('click', () => location.reload(), { once: true });
+    this.back.hidden = giveUp === null;
+    if (giveUp) this.back.addEventListener('click', giveUp, { once: true });
   },
 };
 
@@ -360,6 +363,8 @@ class Page {
   }
 }
 
+/** @type {{name: string, bytes: Uint8Array} | null} */
+let given = null;
 try {
   const [plainScene, looks] = await Promise.all([readJson('scene/workbench.json'), readJson('scene/looks.json')]);
   const movingScene = matchMedia('(prefers-reduced-motion: reduce)').matches ? withoutMotion(plainScene) : plainScene;
@@ -368,13 +373,8 @@ try {
   const view = new TableView(find('#table'), table, looks, fills);
   // The table is there before the engine is.
   view.draw(0, []);
-  const given = await keptModel();
-  const haptics = await HaptoFlow.create({ updateRateHz, model: given?.bytes, onProgress: (share, doing) => start.progress(share, doing) }).catch(async (error) => {
-    // The next start is with the shipped model again.
-    if (!given) throw error;
-    await forgetModel();
-    throw Object.assign(error, { message: `${given.name}: ${error.message}` });
-  });
+  given = await keptModel();
+  const haptics = await HaptoFlow.create({ updateRateHz, model: given?.bytes, onProgress: (share, doing) => start.progress(share, doing) });
   table.setLabels(haptics.labels);
   const { scene, lacking } = fittedTo(movingScene, haptics.labels);
   table.materials = scene.surfaces.map((/** @type {any} */ surface) => surface.material);
@@ -391,6 +391,7 @@ try {
   // For tests and for the curious at the console.
   Object.assign(globalThis, { haptoflowPage: page });
 } catch (error) {
-  start.fail(error);
+  if (given) Object.assign(/** @type {object} */ (error), { message: `${given.name}: ${/** @type {Error} */ (error).message}` });
+  start.fail(error, given && (() => void forgetModel().then(() => location.reload())));
   console.warn(sentenceOf(error));
 }
