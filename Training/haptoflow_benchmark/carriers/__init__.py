@@ -1,1 +1,0 @@
-"""What a device with one carrier plays of a model's labels."""
