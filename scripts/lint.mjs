@@ -4,6 +4,7 @@ import { buildNative } from './lib/native_build.mjs';
 import { CommandError, runMain } from './lib/process.mjs';
 import { setUp } from './lib/setup.mjs';
 import { checkFormat, checkTidy } from './lint/cpp_checks.mjs';
+import { checkCSharpFormat } from './lint/csharp_checks.mjs';
 import { checkContent, checkJson, checkThreadTags } from './lint/house_checks.mjs';
 import { checkNatives } from './lint/native_checks.mjs';
 import { checkPythonSyntax, checkScriptSyntax } from './lint/syntax_checks.mjs';
@@ -34,6 +35,7 @@ await runMain('lint', async (words) => {
     ['format of C++', () => checkFormat(files)],
     ['clang-tidy', () => checkTidy(tidied)],
     ...(all ? [['warnings of Clang', checkWarnings]] : []),
+    ['format of C#', () => checkCSharpFormat(files)],
     ['syntax of Python', () => checkPythonSyntax(files)],
     ['syntax of scripts', () => checkScriptSyntax(files)],
     ['workflows', () => checkWorkflows(files)],

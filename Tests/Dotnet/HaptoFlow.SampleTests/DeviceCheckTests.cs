@@ -59,7 +59,7 @@ namespace HaptoFlow.SampleTests
                 ("ONNX Runtime", CheckState.Passed), ("labels", CheckState.Passed),
                 ("tiers", CheckState.Passed), ("routes to devices", CheckState.Passed),
                 ("settings and model", CheckState.Passed), ("callback from the library", CheckState.Passed),
-                ("callbacks", CheckState.Passed), 
+                ("callbacks", CheckState.Passed),
                 ("allocations", CheckState.Passed), ("worker", CheckState.Passed),
                 ("late segments", CheckState.Passed),
                 ("configuration", CheckState.Passed), ("change of configuration", CheckState.Passed),

@@ -38,7 +38,7 @@ namespace HaptoFlow.SampleTests.Similarity
                 "Packages", "com.haptoflow.runtime", "Runtime", "Models", "default.haptoflow.meta"));
             string guid = Regex.Match(model, "guid: (\\w{32})").Groups[1].Value;
             Assert.That(Regex.Matches(Asset, "model: .*" + guid), Has.Count.EqualTo(2));
-            Assert.That(Values("quality"), 
+            Assert.That(Values("quality"),
                 Is.EqualTo(new[] { $"{(int)HapticQuality.Draft}", $"{(int)HapticQuality.Standard}" }));
             SimilarityStudySettings settings = Settings(
                 Values("label").Select(label => new StudyMaterial(label, label)),

@@ -132,7 +132,7 @@ namespace HaptoFlow.SampleTests.Similarity
             measure = (_, _) => Task.FromException<double>(new InvalidOperationException("no voice is free"));
             Open(Settings(1, 2));
             Prepare();
-            Assert.That(scene.Problem, 
+            Assert.That(scene.Problem,
                 Does.Contain("method \"Ours quick\": its delay could not be measured: no voice"));
         }
 

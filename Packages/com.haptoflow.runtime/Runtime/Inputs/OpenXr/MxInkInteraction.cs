@@ -122,16 +122,16 @@ namespace HaptoFlow
         /// <param name="usages">The usages by which <see cref="InputDevices"/> finds the action.</param>
         private static ActionConfig Action(
             string control, string localizedName, ActionType type, string path, params string[] usages) => new ActionConfig
-        {
-            name = control,
-            localizedName = localizedName,
-            type = type,
-            usages = usages.ToList(),
-            bindings = new List<ActionBinding>
+            {
+                name = control,
+                localizedName = localizedName,
+                type = type,
+                usages = usages.ToList(),
+                bindings = new List<ActionBinding>
             {
                 new ActionBinding { interactionPath = path, interactionProfileName = Profile },
             },
-        };
+            };
 
         private static void Say(OpenXRFeature other)
         {
