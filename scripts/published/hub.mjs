@@ -9,7 +9,7 @@ import { bringFile } from './transfer.mjs';
  * @typedef {object} Repository
  * @property {'model' | 'dataset'} type @property {string} name owner/repo
  *
- * @typedef {object} Connection how to reach the hub; every function here takes these in addition to its own options
+ * @typedef {object} Connection how to reach the hub; each function of this file has these options besides its own
  * @property {string} [hubUrl] by default HF_ENDPOINT, else the hub itself
  * @property {(line: string) => void} [say] hears of waits and repetitions, by default on standard error
  * @property {(seconds: number) => Promise<void>} [wait]

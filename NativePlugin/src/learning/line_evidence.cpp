@@ -18,7 +18,7 @@ constexpr std::size_t coveringShare = 5;
 constexpr double maximumPower = 30.0;
 constexpr double minimumPower = 1e-3;
 constexpr std::size_t sectorCount = 12;
-/// A machine that scans along multiples of 45 degrees has 4.
+/// Strokes in more sectors count as a hand's. A machine that scans along multiples of 45 degrees has 4.
 constexpr std::size_t mostDirectionsOfAMachine = 4;
 constexpr std::size_t neighbours = 41;
 /// Half overlapping windows give 0.6 of the information of separate ones.
@@ -140,7 +140,7 @@ std::vector<std::uint8_t> coveredSteps(const PathWindow& window, std::span<const
     return heard;
 }
 
-/// Windows of one of these directions: sums over those that cover a wave number, and their number.
+/// The windows of one sector: for each wave number, the sum of the powers of those that cover it, and how many do.
 struct SectorRow {
     std::array<double, stepCount> sums{};
     std::array<double, stepCount> counts{};
@@ -152,8 +152,9 @@ std::size_t sectorOf(const PathWindow& window) {
     return static_cast<std::size_t>(std::fmod(turn, 1.0) * sectorCount) % sectorCount;
 }
 
-/// For each window its sector if strokes have few directions, as a machine's: a wrong vector then has many lines in
-/// common with the ribs, in one or two of them. Else 0 for all: weak lines show best in the mean of all windows.
+/// The sector of each window if strokes have few directions, as a machine's, because a wrong vector then shares the
+/// ribs' lines in one or two directions. Else 0 for every window, because the mean of all windows shows weak lines
+/// best.
 std::vector<std::size_t> sectorsOf(std::span<const PathWindow> windows) {
     std::vector<std::size_t> sectors(windows.size());
     std::ranges::transform(windows, sectors.begin(), sectorOf);
@@ -170,8 +171,8 @@ double biasOfLog(double count) {
     return 0.5 / count + 1.0 / (12.0 * count * count);
 }
 
-/// The mean over the windows that cover a wave number: of powers within a sector, of their logarithms among sectors, so
-/// that a line counts little which only some of the directions show.
+/// One direction of the map. The mean power at a wave number is arithmetic within a sector and geometric across
+/// sectors, so that a line that only some directions show counts little.
 struct DirectionRow {
     std::array<SectorRow, sectorCount> sectors{};
 
@@ -183,8 +184,8 @@ struct DirectionRow {
         return total;
     }
 
-    [[nodiscard]] double mean(std::size_t step) const {
-        const double all = count(step);
+    /// all: `count` at this step.
+    [[nodiscard]] double mean(std::size_t step, double all) const {
         double logarithm = 0.0;
         for (const SectorRow& sector : sectors) {
             const double windows = sector.counts[step];
@@ -243,7 +244,7 @@ LineMap mapOf(std::span<const PathWindow> windows, const Spectra& spectra,
         std::array<double, stepCount> means{};
         for (std::size_t step = 0; step < stepCount; ++step) {
             counts[step] = row.count(step);
-            means[step] = counts[step] >= fewest ? row.mean(step) : 1.0;
+            means[step] = counts[step] >= fewest ? row.mean(step, counts[step]) : 1.0;
         }
         const std::vector<double> around = mediansAround(means);
         for (std::size_t step = 0; step < stepCount; ++step) {

@@ -322,7 +322,7 @@ namespace HaptoFlow.EditorTests
             Begin();
             Transform plate = All<HapticSurface>().Single().transform;
             SimulatedInput.MouseButton = true;
-            Frames(90, frame => SimulatedInput.MousePosition = camera.WorldToScreenPoint(Top(plate, frame)));
+            SteppedFrames.Play(90, frame => SimulatedInput.MousePosition = camera.WorldToScreenPoint(Top(plate, frame)));
             SimulatedInput.MouseButton = false;
         }
 
@@ -330,7 +330,7 @@ namespace HaptoFlow.EditorTests
         {
             Begin();
             Transform plate = All<HapticSurface>().Single().transform;
-            Frames(90, frame =>
+            SteppedFrames.Play(90, frame =>
             {
                 foreach (string hand in drawnIn)
                 {
@@ -351,16 +351,6 @@ namespace HaptoFlow.EditorTests
             AudioDevice.Forget();
             OVRInput.Waves.Clear();
             OVRPlugin.Pulses.Clear();
-        }
-
-        private static void Frames(int count, Action<int> move)
-        {
-            for (int frame = 0; frame < count; ++frame)
-            {
-                move(frame);
-                World.Frame();
-                HapticSession.Current.Engine!.Step();
-            }
         }
 
         /// <summary>A point on the plate that moves at up to 0.3 m/s.</summary>

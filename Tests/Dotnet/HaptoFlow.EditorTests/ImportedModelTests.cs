@@ -69,14 +69,14 @@ namespace HaptoFlow.EditorTests
                 FindObjectsInactive.Exclude, FindObjectsSortMode.None).Single().transform;
             AudioDevice.Forget();
             SimulatedInput.MouseButton = true;
-            Frames(StrokeFrames, frame => SimulatedInput.MousePosition = camera.WorldToScreenPoint(
+            SteppedFrames.Play(StrokeFrames, frame => SimulatedInput.MousePosition = camera.WorldToScreenPoint(
                 plate.position + new Vector3(0.01f * (float)Math.Sin(6.0 * frame / World.FrameRateHz),
                     0.5f * plate.lossyScale.y, 0f)));
             int stroked = AudioDevice.RecordedFrames;
             double rms = Math.Sqrt(Enumerable.Range(stroked / 2, stroked / 2)
                 .Average(frame => Math.Pow(AudioDevice.Sample(frame, 0), 2)));
             SimulatedInput.MouseButton = false;
-            Frames(60, _ => { });
+            SteppedFrames.Play(60, _ => { });
             float after = Enumerable.Range(AudioDevice.RecordedFrames - 4800, 4800)
                 .Max(frame => Math.Abs(AudioDevice.Sample(frame, 0)));
             Assert.That(rms, Is.GreaterThan(1e-4), "stroke");
@@ -92,16 +92,6 @@ namespace HaptoFlow.EditorTests
             byte[] file = File.ReadAllBytes(RepositoryFiles.In("Tests", "Golden", "model", "published.haptoflow"));
             path = Import("published.haptoflow", file);
             return AssetDatabase.LoadAssetAtPath<HapticModelAsset>(path);
-        }
-
-        private static void Frames(int count, Action<int> move)
-        {
-            for (int frame = 0; frame < count; ++frame)
-            {
-                move(frame);
-                World.Frame();
-                HapticSession.Current.Engine!.Step();
-            }
         }
     }
 }

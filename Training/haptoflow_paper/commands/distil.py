@@ -26,6 +26,7 @@ from haptoflow_training.errors import InputError
 from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.model_stamp import sha256_of
 from haptoflow_training.training.run_log import source_commit
+from haptoflow_training.waveform import SAMPLE_RATE_HZ
 from haptoflow_training.whole_file import check_writable
 
 _DESCRIPTION = """\
@@ -45,7 +46,7 @@ Then: build/native/haptoflow inspect materials.haptoflow
 """
 _ROOT = Path(__file__).resolve().parents[3]
 _CONFIGURATIONS = Path(__file__).resolve().parents[1] / "configs" / "distilled"
-# Rendering may take so much of the minutes; training and comparison need the rest.
+# The largest share of --minutes that rendering may take; training and the comparison need the rest.
 _RENDERING_SHARE = 0.45
 _FEWEST_STROKES = 10
 _HELD_OUT_STROKES = 10
@@ -115,7 +116,7 @@ def run(options: argparse.Namespace) -> int:
     about = {
         "machine": machine_words(), "commit": source_commit(_ROOT), "engine": default_engine(_ROOT).version(),
         "labels": len(teacher.labels), "strokes": len(held_out.pairs), "seed": options.seed,
-        "seconds": sum(len(pair.recorded) for pair in held_out.pairs) / 2000.0, "strokes_per_label": count,
+        "seconds": sum(len(pair.recorded) for pair in held_out.pairs) / SAMPLE_RATE_HZ, "strokes_per_label": count,
         "update_rate_hz": options.update_hz, "minutes": options.minutes, "command_minutes": (time.monotonic() - begun) / 60.0,
     }  # fmt: skip
     print(write_report(report, teacher, rows, about, sha256))

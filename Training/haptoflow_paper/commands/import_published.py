@@ -61,7 +61,7 @@ def run(options: argparse.Namespace) -> int:
     engine = default_engine(Path(__file__).resolve().parents[3])
     checkpoint = read_checkpoint(options.folder, options.encodec)
     meta = checkpoint.model.meta
-    # Of a download, `./run published` has said it with the addresses.
+    # `./run published` has already printed the licences of what it downloaded, with the addresses.
     for part, text in LICENCES if checkpoint.origin is None else ():
         print(f"{part}: {text}")
     file = PublishedFile(checkpoint)

@@ -22,6 +22,7 @@ from haptoflow_paper.rows.engine_generator import EngineGenerator
 from haptoflow_paper.rows.timing import TimedSource, time_sources
 from haptoflow_training.closed_loop.render import UPDATE_RATE_HZ, run_closed_loop
 from haptoflow_training.recordings.generated_dataset import generated_path, read_generated
+from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 # Of the teacher's two draws; the training's seed is another.
 _SEEDS = (7001, 7002)
@@ -100,7 +101,7 @@ def _condition(teacher: Teacher, stroke: Stroke) -> Condition:
     kind = "constant" if stroke.kind == "pass" else "varying"
     return Condition(
         teacher.labels[label].name, label, kind, 1e-3 * identity.speed_mmps, 1e-3 * identity.force_millinewtons,
-        float(identity.direction_degrees or 0), len(stroke.motion) / 2000.0, identity.repeat,
+        float(identity.direction_degrees or 0), len(stroke.motion) / SAMPLE_RATE_HZ, identity.repeat,
     )  # fmt: skip
 
 
@@ -132,7 +133,7 @@ def compare(
 
 
 def steps_of_comparison(tiers: int) -> int:
-    """How often `compare` calls `advance`."""
+    """How many steps `compare` reports to `advance`, for a progress bar."""
     return tiers + 2 * _BLOCKS * (tiers + 1)
 
 

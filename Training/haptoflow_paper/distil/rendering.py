@@ -61,7 +61,7 @@ def rendered(
 ) -> list[_Floats]:
     """The waves of strokes in m/s^2, without the first 0.2 s of each. Each segment knows the motion that it plays, because
     nobody waits for it: a recording's motion and vibration belong together."""
-    index = np.array([teacher.index[stroke.identity.texture_id] for stroke in strokes])
+    index = np.array([teacher.labels[stroke.identity.texture_id].index for stroke in strokes])
     longest = max(len(stroke.motion) for stroke in strokes)
     ahead = round(SAMPLE_RATE_HZ / update_rate_hz)
     motions = np.stack(
@@ -128,5 +128,5 @@ def _render_some(root: Path, rendering: Rendering, out: Path, strokes: Sequence[
 
 @functools.cache
 def _generator(root: Path, teacher: Teacher) -> EngineGenerator:
-    """One for each process, which ends with it."""
+    """The generator of this worker process, opened once; nobody closes it, because it ends with the process."""
     return teacher.open(default_engine(root), _BATCH)

@@ -20,7 +20,7 @@ from haptoflow_training.waveform import SAMPLE_RATE_HZ
 PAGE, FIGURES, SPECTRA = "distil.md", "distil.json", "spectra.png"
 _COLUMNS = 5
 _WINDOW = 256
-# What the best tier should reach beside its teacher.
+# What a distilled tier should reach: errors against its teacher, and how many times faster it is.
 GOALS = {"level_error_db": 0.5, "lsd_db": 1.2, "gfc": 0.985, "told_apart_percent": 60.0, "times_faster": 20.0}
 
 _Floats = NDArray[np.float32]

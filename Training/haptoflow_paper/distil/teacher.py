@@ -8,20 +8,18 @@ from typing import Any
 
 from haptoflow_benchmark.engine.engine_library import EngineLibrary
 from haptoflow_paper.distil.motions import MotionRange
-from haptoflow_paper.rows.engine_generator import SOLVERS, EngineGenerator
+from haptoflow_paper.rows.engine_generator import SOLVED_KINDS, EngineGenerator
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.model_file import read_model_file
-
-_SOLVED = ("flow", "average-velocity")
 
 
 @dataclass(frozen=True)
 class TaughtLabel:
-    """name, category, spring in N/m and kinetic friction; row: of the embedding. others: further entries of the file with
-    the same embedding, under names and with springs of their own."""
+    """name, category, spring in N/m and kinetic friction; index: among the labels of the file. others: further labels of the
+    file that have the same embedding, under names and with springs of their own."""
 
     name: str
-    row: int
+    index: int
     category: str
     stiffness_newtons_per_metre: float
     friction_coefficient: float
@@ -30,14 +28,13 @@ class TaughtLabel:
 
 @dataclass(frozen=True)
 class Teacher:
-    """solver: of SOLVERS; steps: 0 for the tier's own. index: of each label in the file's header, for its embedding."""
+    """solver: of SOLVERS; steps: 0 for the tier's own."""
 
     model: Path
     tier: str
     solver: str
     steps: int
     labels: tuple[TaughtLabel, ...]
-    index: tuple[int, ...]
     within: MotionRange
     name: str
     licence: str
@@ -55,7 +52,7 @@ class Teacher:
         if chosen not in names:
             raise InputError(f"{model}: no tier '{chosen}'; it has {', '.join(names)}")
         kind = next(entry["kind"] for entry in header["tiers"] if entry["name"] == chosen)
-        if steps and kind not in _SOLVED:
+        if steps and kind not in SOLVED_KINDS:
             raise InputError(f"{model}: tier '{chosen}' is not solved in steps; leave out --steps")
         known = _labels(header["labels"])
         names_of = {label.name: {label.name, *(str(other["name"]) for other in label.others)} for label in known}
@@ -64,10 +61,9 @@ class Teacher:
             listed = ", ".join(name for label in known for name in sorted(names_of[label.name]))
             raise InputError(f"{model}: no label {', '.join(sorted(missing))}; it has {listed}")
         kept = tuple(label for label in known if not labels or names_of[label.name] & set(labels))
-        index = {entry["name"]: number for number, entry in reversed(list(enumerate(header["labels"])))}
         provenance = header["provenance"]
         return cls(
-            model, chosen, solver, steps, kept, tuple(index[label.name] for label in kept),
+            model, chosen, solver, steps, kept,
             MotionRange(tuple(header["range"]["speed_mps"]), tuple(header["range"]["force_newtons"])),
             header["name"], provenance["licence"], provenance["statement"],
             bool(header["normalisation"].get("assumed", False)),
@@ -90,8 +86,6 @@ class Teacher:
 
 def checked_solver(solver: str, steps: int) -> tuple[str, int]:
     """Solver and steps of the command line; InputError if only one of them is stated."""
-    if solver not in SOLVERS:
-        raise InputError(f"--solver is {solver}; expected {', '.join(SOLVERS)}")
     if (solver == "tier") != (steps == 0):
         raise InputError("--solver and --steps go together; leave out both for the tier's own")
     return solver, steps
@@ -99,13 +93,13 @@ def checked_solver(solver: str, steps: int) -> tuple[str, int]:
 
 def _labels(entries: list[dict[str, Any]]) -> list[TaughtLabel]:
     """One label for each embedding, the first that has it."""
-    by_row: dict[int, list[dict[str, Any]]] = {}
-    for entry in entries:
-        by_row.setdefault(entry["embedding_row"], []).append(entry)
+    by_row: dict[int, list[tuple[int, dict[str, Any]]]] = {}
+    for index, entry in enumerate(entries):
+        by_row.setdefault(entry["embedding_row"], []).append((index, entry))
     return [
         TaughtLabel(
-            first["name"], row, first["category"], first["stiffness_newtons_per_metre"], first["friction_coefficient"],
-            tuple(others),
+            first["name"], index, first["category"], first["stiffness_newtons_per_metre"], first["friction_coefficient"],
+            tuple(other for _, other in others),
         )
-        for row, (first, *others) in by_row.items()
+        for (index, first), *others in by_row.values()
     ]  # fmt: skip

@@ -15,6 +15,8 @@ from haptoflow_training.native_library import NativeModel, options_of
 from haptoflow_training.waveform import SEGMENT_SAMPLES
 
 MAXIMUM_BATCH = 256
+# Kinds of tiers that are solved in steps, so that another solver can be chosen.
+SOLVED_KINDS = ("flow", "average-velocity")
 SOLVERS = {"tier": 0, "euler": 1, "midpoint": 2, "heun": 3}
 
 _Floats = NDArray[np.float32]

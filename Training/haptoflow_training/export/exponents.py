@@ -27,8 +27,9 @@ class LabelExponents:
     def fitted(
         cls, speed_mps: np.ndarray, force_newtons: np.ndarray, log_level: np.ndarray, log_centroid: np.ndarray | None
     ) -> LabelExponents:
-        """Least squares over log speed and log force, within the limits of the model format. Without a centroid the
-        label is periodic, so that frequency = v / wavelength."""
+        """Fit the logarithms of level and centroid by least squares over the logarithms of speed and force, and clip the
+        exponents to the limits of the model format. log_centroid: None for a periodic label, whose frequency exponent is
+        1 because its frequency is the speed divided by the wavelength."""
         speed = np.log(speed_mps)
         design = np.stack([np.ones_like(speed), speed, np.log(force_newtons)], axis=1)
         level, *_ = np.linalg.lstsq(design, log_level, rcond=None)

@@ -5,7 +5,11 @@ import { forgetModel, isModel, keepModel } from '../model-file.mjs';
 export class ModelPanel {
   #note = find('#model-note');
 
-  /** @param {{name: string, statement: string, labels: readonly unknown[]}} model @param {string} fileName of a given one, else '' @param {() => void} restart */
+  /**
+   * @param {{name: string, statement: string, labels: readonly unknown[]}} model the one that plays
+   * @param {string} fileName of a model that the user gave; empty for the shipped one
+   * @param {() => void} restart starts the page again, with the model that is then kept
+   */
   constructor(model, fileName, restart) {
     this.restart = restart;
     const of = fileName === '' ? 'The shipped model' : `${fileName}: ${model.name}`;

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from haptoflow_benchmark.engine.engine_library import EngineLibrary
 from haptoflow_benchmark.metrics.waveform_metrics import log_spectral_distance_db, rms
 from haptoflow_paper.published.check.lines import Line, inapplicable, judged
-from haptoflow_paper.rows.engine_generator import EngineGenerator
+from haptoflow_paper.rows.engine_generator import SOLVED_KINDS, EngineGenerator
 from haptoflow_paper.rows.timing import Milliseconds, TimedSource, time_sources
 from haptoflow_training.waveform import SEGMENT_SAMPLES
 
@@ -24,7 +24,6 @@ BUDGET_SHARE = 0.25
 BUDGET_MS = 1000.0 * BUDGET_SHARE / UPDATE_RATE_HZ
 # As import-published names them.
 _UNGUIDED = "unguided"
-_SOLVED = ("flow", "average-velocity")
 # A segment plays so long, and is asked for at an update: a slower tier leaves gaps.
 _KEEPS_UP_MS = 100.0 - 1000.0 / UPDATE_RATE_HZ
 _SEGMENTS = 4
@@ -68,7 +67,7 @@ def points_of(header: dict[str, Any]) -> list[Point]:
     points: list[Point] = []
     for group in _groups(header["tiers"]):
         best = max(group, key=lambda tier: int(tier.get("steps") or 1))
-        if best["kind"] not in _SOLVED:
+        if best["kind"] not in SOLVED_KINDS:
             points += [Point(tier["name"], tier["name"], "tier", 0, tier["name"], True) for tier in group]
             continue
         family = _family(best, header["tiers"])

@@ -77,7 +77,7 @@ def record_machine_condition(
 
 
 def machine_ride(identity: RecordingIdentity, rng: np.random.Generator) -> Ride:
-    """The machine pass that `identity` names; ValueError if it names none."""
+    """The machine pass with the direction, speed and force in `identity`; ValueError if that is a hand recording."""
     if identity.direction_degrees is None:
         raise ValueError(f"{identity.name} is not a machine recording")
     return machine_pass(
