@@ -4,8 +4,7 @@ import { mkdtempSync, realpathSync, rmSync } from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
 import test from 'node:test';
-import { run } from '../../scripts/lib/process.mjs';
-import { inRepository, repositoryRoot, callerFolder } from '../../scripts/lib/repository.mjs';
+import { callerFolder, inRepository, repositoryRoot, run } from '../../scripts/lib/process.mjs';
 
 const posixOnly = process.platform === 'win32' ? 'run is a POSIX script' : false;
 

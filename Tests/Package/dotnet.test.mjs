@@ -4,7 +4,7 @@ import { chmodSync, existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, sy
 import os from 'node:os';
 import path from 'node:path';
 import test from 'node:test';
-import { bringDotnet, dotnetEnvironment, findDotnet } from '../../scripts/lib/dotnet.mjs';
+import { bringDotnet, dotnetEnvironment, findDotnet } from '../../scripts/lib/setup.mjs';
 
 const posixOnly = process.platform === 'win32' ? 'the programs of this test are shell scripts' : false;
 const sdk = (version) => `test "$1" = --list-sdks && echo "${version} [/somewhere]"`;

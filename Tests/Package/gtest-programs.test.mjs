@@ -3,8 +3,7 @@ import { chmodSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
 import test from 'node:test';
-import { filterOf, judgePrograms } from '../../scripts/lib/gtest_programs.mjs';
-import { results } from '../../scripts/lib/judge_junit.mjs';
+import { filterOf, judgePrograms, results } from '../../scripts/lib/test_results.mjs';
 
 const posixOnly = process.platform === 'win32' ? 'the stand-in is a shell script' : false;
 

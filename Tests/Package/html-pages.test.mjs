@@ -4,7 +4,7 @@ import os from 'node:os';
 import path from 'node:path';
 import test from 'node:test';
 import { repositoryFiles } from '../../scripts/lint/files.mjs';
-import { inRepository } from '../../scripts/lib/repository.mjs';
+import { inRepository } from '../../scripts/lib/process.mjs';
 import { htmlPage, writeHtmlPages } from '../../scripts/pack/html_pages.mjs';
 
 const pagesFolder = inRepository('Documentation~');

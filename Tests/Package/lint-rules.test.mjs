@@ -2,7 +2,7 @@ import assert from 'node:assert/strict';
 import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import test from 'node:test';
-import { inRepository, repositoryRoot } from '../../scripts/lib/repository.mjs';
+import { inRepository, repositoryRoot } from '../../scripts/lib/process.mjs';
 import { findingsOfTidy } from '../../scripts/lint/cpp_checks.mjs';
 import { exceptions, installedCompilers, sharedWords, warningsIn, warningsOf } from '../../scripts/lint/warning_checks.mjs';
 import { functionsWithoutThreadTag, machineTraces } from '../../scripts/lint/house_checks.mjs';

@@ -3,7 +3,7 @@ import { readFileSync, readdirSync } from 'node:fs';
 import path from 'node:path';
 import test from 'node:test';
 import { longTests } from '../../scripts/lib/long_tests.mjs';
-import { inRepository } from '../../scripts/lib/repository.mjs';
+import { inRepository } from '../../scripts/lib/process.mjs';
 import { chosenRunners, purposesOf, runners } from '../../scripts/lib/test_runners.mjs';
 import { nativeTests, patternOf } from './support/native_tests.mjs';
 

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { existsSync, readFileSync, readdirSync } from 'node:fs';
 import path from 'node:path';
 import test from 'node:test';
-import { inRepository } from '../../scripts/lib/repository.mjs';
+import { inRepository } from '../../scripts/lib/process.mjs';
 
 const filesBelow = (...folder) =>
   readdirSync(inRepository(...folder), { recursive: true, withFileTypes: true })

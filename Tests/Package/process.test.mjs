@@ -1,11 +1,10 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { npmComplaint, run } from '../../scripts/lib/process.mjs';
+import { inRepository, npmComplaint, run } from '../../scripts/lib/process.mjs';
 import { spawnSync } from 'node:child_process';
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
-import { inRepository } from '../../scripts/lib/repository.mjs';
 
 test('a program that hangs is ended at its limit and counts as failed, and the message states the limit', async () => {
   const hanging = ['-e', 'setInterval(() => {}, 1000)'];

@@ -9,7 +9,7 @@ import { checkpointNames, localCheckpoint, originLines } from '../../scripts/pub
 import { encodecAddress } from '../../scripts/published/encodec.mjs';
 import { barText, progressBar } from '../../scripts/published/progress.mjs';
 import { defaultSpec, parseSpec } from '../../scripts/published/spec.mjs';
-import { inRepository } from '../../scripts/lib/repository.mjs';
+import { inRepository } from '../../scripts/lib/process.mjs';
 import { commit, deafAddress, startHub } from './support/hub_server.mjs';
 
 const golden = (name) => readFileSync(inRepository('Tests', 'Golden', 'published', 'heun', name));

@@ -4,7 +4,7 @@ import { chmodSync, mkdtempSync, readFileSync, readdirSync, rmSync, symlinkSync,
 import os from 'node:os';
 import path from 'node:path';
 import test from 'node:test';
-import { inRepository } from '../../scripts/lib/repository.mjs';
+import { inRepository } from '../../scripts/lib/process.mjs';
 
 const posixOnly = process.platform === 'win32' ? 'run is a POSIX script' : false;
 const { scripts } = JSON.parse(readFileSync(inRepository('package.json'), 'utf8'));

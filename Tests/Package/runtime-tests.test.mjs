@@ -2,9 +2,8 @@ import assert from 'node:assert/strict';
 import { readFileSync, readdirSync } from 'node:fs';
 import path from 'node:path';
 import test from 'node:test';
-import { withoutReadOnlyMarks } from '../../scripts/lib/mono_signatures.mjs';
-import { inRepository } from '../../scripts/lib/repository.mjs';
-import { complaintsAboutCore, leftOut, monoProjects } from '../../scripts/lib/runtime_tests.mjs';
+import { complaintsAboutCore, leftOut, monoProjects, withoutReadOnlyMarks } from '../../scripts/lib/runtime_tests.mjs';
+import { inRepository } from '../../scripts/lib/process.mjs';
 
 const page = readFileSync(inRepository('Documentation~', 'testing.md'), 'utf8');
 

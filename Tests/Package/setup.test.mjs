@@ -2,9 +2,9 @@ import assert from 'node:assert/strict';
 import { readFileSync, readdirSync } from 'node:fs';
 import path from 'node:path';
 import test from 'node:test';
-import { missingFromLock, missingPackages, offeredPackages, optionalPurposes, packagesByPurpose, selectPackages } from '../../scripts/lib/packages.mjs';
+import { missingFromLock, missingPackages, offeredPackages, optionalPurposes, packagesByPurpose, selectPackages } from '../../scripts/lib/setup.mjs';
 import { cachedVariable } from '../../scripts/lib/native_build.mjs';
-import { inRepository } from '../../scripts/lib/repository.mjs';
+import { inRepository } from '../../scripts/lib/process.mjs';
 import { runners } from '../../scripts/lib/test_runners.mjs';
 
 test('the demo installs no PyTorch, no test library and no cross compiler', () => {

@@ -2,10 +2,9 @@ import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import test from 'node:test';
-import { withMeasuredPart } from '../../scripts/lib/measured_part.mjs';
+import { soakTable, withMeasuredPart } from '../../scripts/lib/measured_part.mjs';
 import { modelOfPage } from './support/model_of_page.mjs';
-import { inRepository } from '../../scripts/lib/repository.mjs';
-import { soakTable } from '../../scripts/lib/soak_table.mjs';
+import { inRepository } from '../../scripts/lib/process.mjs';
 
 const modelSha256 = 'e'.repeat(64);
 const run = { date: '2026-11-22', machine: 'a machine', modelSha256 };

@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import { closingLine, countsOfJunit, countsOfTap, countsOfTrx, judged } from '../../scripts/lib/test_counts.mjs';
+import { closingLine, countsOfJunit, countsOfTap, countsOfTrx, judged } from '../../scripts/lib/test_results.mjs';
 
 test('ctest\'s JUnit file is read, disabled tests counted as skipped', () => {
   const xml = '<?xml version="1.0"?>\n<testsuite name="Linux"\n\ttests="9"\n\tfailures="2"\n\tdisabled="1"\n\tskipped="1"\n\thostname="">';

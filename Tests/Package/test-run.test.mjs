@@ -4,10 +4,9 @@ import { chmodSync, existsSync, mkdtempSync, readFileSync, rmSync, symlinkSync, 
 import os from 'node:os';
 import path from 'node:path';
 import test from 'node:test';
-import { findDotnet } from '../../scripts/lib/dotnet.mjs';
-import { CommandError } from '../../scripts/lib/process.mjs';
-import { inRepository } from '../../scripts/lib/repository.mjs';
-import { exitCodeOf, runRunners } from '../../scripts/lib/test_run.mjs';
+import { findDotnet } from '../../scripts/lib/setup.mjs';
+import { CommandError, inRepository } from '../../scripts/lib/process.mjs';
+import { exitCodeOf, runRunners } from '../../scripts/lib/test_results.mjs';
 import { runners } from '../../scripts/lib/test_runners.mjs';
 
 const names = ['native', 'dotnet', 'package', 'mono'];

@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
 import test from 'node:test';
-import { inRepository } from '../../scripts/lib/repository.mjs';
+import { inRepository } from '../../scripts/lib/process.mjs';
 import { PackageFiles } from '../../scripts/pack/package_files.mjs';
 import { guidsByName } from '../../scripts/pack/rules/metas.mjs';
 import { projectFiles } from '../../scripts/project/project_files.mjs';

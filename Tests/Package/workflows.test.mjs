@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import { existsSync, readFileSync, readdirSync } from 'node:fs';
 import test from 'node:test';
-import { inRepository } from '../../scripts/lib/repository.mjs';
+import { inRepository } from '../../scripts/lib/process.mjs';
 import { actionlintFindings, checkWorkflows } from '../../scripts/lint/workflow_checks.mjs';
 
 const folder = inRepository('.github', 'workflows');

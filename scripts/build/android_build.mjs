@@ -2,8 +2,7 @@ import { existsSync, readFileSync, rmSync } from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
 import { cachedVariable, presetFolder } from '../lib/native_build.mjs';
-import { CommandError, runOrFail } from '../lib/process.mjs';
-import { inRepository, repositoryRoot } from '../lib/repository.mjs';
+import { CommandError, inRepository, repositoryRoot, runOrFail } from '../lib/process.mjs';
 import { findCmake, findJsonHeader, findNdk, thisMachine } from './android_tools.mjs';
 
 /** The preset whose cache variables are passed on the command line: the CMake of Android's SDK is too old to read presets. */

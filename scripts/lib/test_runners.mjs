@@ -1,17 +1,13 @@
 import { existsSync, readdirSync, readFileSync, rmSync } from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
-import { dotnetEnvironment, dotnetOrFail } from './dotnet.mjs';
-import { judgePrograms, nativeJob } from './gtest_programs.mjs';
-import { judgeJunit, results } from './judge_junit.mjs';
+import { dotnetEnvironment, dotnetOrFail, pythonOrFail } from './setup.mjs';
+import { addCounts, countsOfTap, countsOfTrx, judgeJunit, judgePrograms, judged, nativeJob, noCounts, results } from './test_results.mjs';
 import { longTestsOf } from './long_tests.mjs';
 import { buildNative, presetFolder } from './native_build.mjs';
 import { bringArmRuntime, platformTests } from './platform_tests.mjs';
-import { CommandError, run, succeeds } from './process.mjs';
-import { inRepository } from './repository.mjs';
+import { CommandError, inRepository, run, succeeds } from './process.mjs';
 import { aot, mono } from './runtime_tests.mjs';
-import { pythonOrFail } from './setup.mjs';
-import { addCounts, countsOfTap, countsOfTrx, judged, noCounts } from './test_counts.mjs';
 
 /** Programs of Tests/Native that every platform builds. */
 const portablePrograms = ['model', 'dsp', 'effects', 'headless', 'inference', 'learning', 'engine', 'capi', 'unity'];

@@ -1,9 +1,8 @@
 import { readFileSync } from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
-import { run } from '../lib/process.mjs';
+import { inRepository, repositoryRoot, run } from '../lib/process.mjs';
 import { presetFolder } from '../lib/native_build.mjs';
-import { inRepository, repositoryRoot } from '../lib/repository.mjs';
 import { endingIn } from './files.mjs';
 
 const lines = (output) => output.split('\n').filter((line) => line.trim() !== '');

@@ -1,6 +1,5 @@
-import { dotnetEnvironment, findDotnet } from '../lib/dotnet.mjs';
-import { run } from '../lib/process.mjs';
-import { inRepository } from '../lib/repository.mjs';
+import { dotnetEnvironment, findDotnet } from '../lib/setup.mjs';
+import { inRepository, run } from '../lib/process.mjs';
 import { endingIn } from './files.mjs';
 
 const folders = ['Assets/', 'Packages/', 'Samples~/', 'Tests/'];

@@ -1,6 +1,5 @@
 import { existsSync } from 'node:fs';
-import { runOrFail } from '../lib/process.mjs';
-import { inRepository } from '../lib/repository.mjs';
+import { inRepository, runOrFail } from '../lib/process.mjs';
 
 const git = async (...args) =>
   (await runOrFail('git', args, { quiet: true })).split('\0').filter((name) => name !== '' && existsSync(inRepository(name)));

@@ -1,5 +1,5 @@
 import { readFileSync } from 'node:fs';
-import { inRepository } from '../lib/repository.mjs';
+import { inRepository } from '../lib/process.mjs';
 import { endingIn } from './files.mjs';
 
 const read = (name) => readFileSync(inRepository(name), 'utf8');

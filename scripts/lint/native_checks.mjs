@@ -1,4 +1,4 @@
-import { areOfTheseSources, committedPlatforms, complaintsOfRecord, readRecord, renewal } from '../natives/committed.mjs';
+import { areOfTheseSources, committedPlatforms, complaintsOfRecord, readRecord, renewal } from '../lib/libraries.mjs';
 
 /** Says where the sources are newer than the libraries in git. No complaint: a comment must not put 4 MB more into git. */
 export async function checkNatives(record = readRecord()) {

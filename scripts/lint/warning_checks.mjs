@@ -2,8 +2,7 @@ import { existsSync, readFileSync } from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
 import { presetFolder } from '../lib/native_build.mjs';
-import { run, succeeds } from '../lib/process.mjs';
-import { inRepository, repositoryRoot } from '../lib/repository.mjs';
+import { inRepository, repositoryRoot, run, succeeds } from '../lib/process.mjs';
 
 /**
  * Warnings of Clang that the shipped sources are not held to, and why. All others are on: among them are the classes that

@@ -1,5 +1,5 @@
 import { readFileSync } from 'node:fs';
-import { inRepository } from '../lib/repository.mjs';
+import { inRepository } from '../lib/process.mjs';
 
 const isWorkflow = (name) => /^\.github\/workflows\/[^/]+\.ya?ml$/.test(name);
 

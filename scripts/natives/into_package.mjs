@@ -1,6 +1,6 @@
 import { copyFileSync, mkdirSync } from 'node:fs';
 import path from 'node:path';
-import { inRepository } from '../lib/repository.mjs';
+import { inRepository } from '../lib/process.mjs';
 import { packageName } from '../pack/layout.mjs';
 import { pluginsFolder } from '../pack/natives.mjs';
 

@@ -1,7 +1,6 @@
 import { existsSync, readFileSync } from 'node:fs';
 import path from 'node:path';
-import { CommandError } from '../lib/process.mjs';
-import { inRepository } from '../lib/repository.mjs';
+import { CommandError, inRepository } from '../lib/process.mjs';
 import { repositoryFiles } from '../lint/files.mjs';
 import { dependencyName } from '../pack/dependency.mjs';
 import { packageName } from '../pack/layout.mjs';

@@ -2,8 +2,7 @@
 // training on them.
 import { mkdirSync } from 'node:fs';
 import path from 'node:path';
-import { CommandError } from '../lib/process.mjs';
-import { callerFolder, inRepository } from '../lib/repository.mjs';
+import { CommandError, callerFolder, inRepository } from '../lib/process.mjs';
 import { download, listFiles, resolveRevision } from '../published/hub.mjs';
 import { progressBar } from '../published/progress.mjs';
 

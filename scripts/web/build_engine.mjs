@@ -1,10 +1,9 @@
 import { copyFileSync, cpSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync, statSync } from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
-import { shippedModel } from '../lib/model_stamp.mjs';
+import { shippedModel } from '../lib/measured_part.mjs';
 import { launchers } from '../lib/native_build.mjs';
-import { CommandError, runOrFail, succeeds } from '../lib/process.mjs';
-import { inRepository } from '../lib/repository.mjs';
+import { CommandError, inRepository, runOrFail, succeeds } from '../lib/process.mjs';
 
 /** Where the built engine goes: all that a page needs of it, in one folder. */
 export const engineFolder = () => inRepository('Web', 'dist', 'engine');

@@ -1,6 +1,6 @@
 import { cpSync, existsSync, mkdirSync, readdirSync, rmSync } from 'node:fs';
 import path from 'node:path';
-import { inRepository } from '../lib/repository.mjs';
+import { inRepository } from '../lib/process.mjs';
 import { engineFolder } from './build_engine.mjs';
 
 /** Where the page goes: static files that work under any path, the engine in `engine` beside index.html. */

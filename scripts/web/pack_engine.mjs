@@ -1,7 +1,6 @@
 import { copyFileSync, readFileSync } from 'node:fs';
 import path from 'node:path';
-import { CommandError } from '../lib/process.mjs';
-import { inRepository } from '../lib/repository.mjs';
+import { CommandError, inRepository } from '../lib/process.mjs';
 import { makeTarball } from '../pack/tarball.mjs';
 import { stageEngine } from './build_engine.mjs';
 

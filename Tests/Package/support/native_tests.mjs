@@ -1,6 +1,6 @@
 import { readdirSync, readFileSync } from 'node:fs';
 import path from 'node:path';
-import { inRepository } from '../../../scripts/lib/repository.mjs';
+import { inRepository } from '../../../scripts/lib/process.mjs';
 
 /** The full names of GoogleTest's tests in a source; of a parametrised one with each prefix and any parameter. */
 export function testsIn(source) {
