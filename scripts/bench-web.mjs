@@ -80,7 +80,7 @@ await runMain('bench:web', async (words) => {
   await buildNative({ targets: ['haptoflow_cli'] });
   // Imported here, since set-up may just have installed the packages that they need.
   const [{ buildEngine }, { pageFolder, stagePage }, { launchChromium }, { serveFolder }] = await Promise.all([
-    import('./web/build_engine.mjs'), import('./web/build_page.mjs'), import('./web/chromium.mjs'), import('./web/static_server.mjs'),
+    import('./web/build.mjs'), import('./web/build.mjs'), import('./web/chromium.mjs'), import('./web/static_server.mjs'),
   ]);
   await buildEngine();
   stagePage();

@@ -1,5 +1,5 @@
 // evaluate: accuracy over time, every row measured through the engine (arguments: those of haptoflow-paper evaluate)
-import { evaluatingPackage } from './lib/evaluating_package.mjs';
+import { evaluatingPackage } from './lib/training_words.mjs';
 import { buildNative } from './lib/native_build.mjs';
 import { callerFolder, inRepository, run, runMain } from './lib/process.mjs';
 import { pythonOrFail, setUp } from './lib/setup.mjs';

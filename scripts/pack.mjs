@@ -2,7 +2,7 @@
 import { mkdirSync } from 'node:fs';
 import path from 'node:path';
 import { parseArgs } from 'node:util';
-import { repositoryFiles } from './lint/files.mjs';
+import { repositoryFiles } from './lint/checks.mjs';
 import { CommandError, inRepository, runMain } from './lib/process.mjs';
 import { committedNatives } from './lib/libraries.mjs';
 import { checkPackage } from './pack/check_package.mjs';

@@ -6,8 +6,7 @@ import { CommandError, repositoryRoot, runMain } from './lib/process.mjs';
 import { fileInPackage } from './lib/libraries.mjs';
 import { runtimeLibrary } from './pack/dependency.mjs';
 import { commandFor, platforms } from './pack/natives.mjs';
-import { projectFilesOnDisk } from './project/project_files.mjs';
-import { rules } from './project/rules.mjs';
+import { projectFilesOnDisk, rules } from './project/rules.mjs';
 
 const help = `usage: npm run project [-- --help]
 

@@ -1,9 +1,7 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 import { inRepository, repositoryRoot } from '../../scripts/lib/process.mjs';
-import { findingsOfTidy } from '../../scripts/lint/cpp_checks.mjs';
-import { warningsIn } from '../../scripts/lint/warning_checks.mjs';
-import { functionsWithoutThreadTag, machineTraces } from '../../scripts/lint/house_checks.mjs';
+import { findingsOfTidy, functionsWithoutThreadTag, machineTraces, warningsIn } from '../../scripts/lint/checks.mjs';
 
 test('a function without a thread tag in its own comment is found', () => {
   const header = [

@@ -4,7 +4,7 @@ import { existsSync, readFileSync } from 'node:fs';
 import path from 'node:path';
 import test from 'node:test';
 import { inRepository } from '../../scripts/lib/process.mjs';
-import { repositoryFiles } from '../../scripts/lint/files.mjs';
+import { repositoryFiles } from '../../scripts/lint/checks.mjs';
 
 const pages = ['README.md', 'CONTRIBUTING.md'];
 const read = (page) => readFileSync(inRepository(page), 'utf8');

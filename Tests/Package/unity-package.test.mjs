@@ -5,7 +5,7 @@ import os from 'node:os';
 import path from 'node:path';
 import test, { after, before } from 'node:test';
 import { inRepository } from '../../scripts/lib/process.mjs';
-import { repositoryFiles } from '../../scripts/lint/files.mjs';
+import { repositoryFiles } from '../../scripts/lint/checks.mjs';
 import { committedNatives } from '../../scripts/lib/libraries.mjs';
 import { checkPackage } from '../../scripts/pack/check_package.mjs';
 import { findNatives, foldersFor, pluginsFolder } from '../../scripts/pack/natives.mjs';

@@ -2,7 +2,7 @@ import assert from 'node:assert/strict';
 import { existsSync, readFileSync, readdirSync } from 'node:fs';
 import test from 'node:test';
 import { inRepository } from '../../scripts/lib/process.mjs';
-import { actionlintFindings, checkWorkflows } from '../../scripts/lint/workflow_checks.mjs';
+import { actionlintFindings, checkWorkflows } from '../../scripts/lint/checks.mjs';
 
 const folder = inRepository('.github', 'workflows');
 const names = readdirSync(folder).map((name) => `.github/workflows/${name}`);

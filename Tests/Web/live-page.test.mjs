@@ -3,7 +3,7 @@ import { readFileSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { after, afterEach, before, describe, test } from 'node:test';
 import { gzipSync } from 'node:zlib';
-import { pageFolder } from '../../scripts/web/build_page.mjs';
+import { pageFolder } from '../../scripts/web/build.mjs';
 import { hasBrowser } from './support/browser.mjs';
 import { hasCommandLine, native, wavSamples } from './support/engine.mjs';
 import { recording } from './support/made-recording.mjs';

@@ -3,7 +3,7 @@ import { readdirSync } from 'node:fs';
 import path from 'node:path';
 import { after, afterEach, before, describe, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
-import { pageFolder } from '../../scripts/web/build_page.mjs';
+import { pageFolder } from '../../scripts/web/build.mjs';
 import { launchChromium } from '../../scripts/web/chromium.mjs';
 import { casesOf, hasBrowser, isLong } from './support/browser.mjs';
 import { openLivePage } from './support/page.mjs';

@@ -2,7 +2,7 @@
 // `npm run build:web`.
 import { inRepository, runOrFail } from '../lib/process.mjs';
 import { drawingModules, pythonOrFail } from '../lib/setup.mjs';
-import { pageFolder, stagePage } from './build_page.mjs';
+import { pageFolder, stagePage } from './build.mjs';
 import { launchChromium } from './chromium.mjs';
 import { serveFolder } from './static_server.mjs';
 
