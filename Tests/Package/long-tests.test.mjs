@@ -7,8 +7,6 @@ import { inRepository } from '../../scripts/lib/repository.mjs';
 import { chosenRunners, purposesOf, runners } from '../../scripts/lib/test_runners.mjs';
 import { nativeTests, patternOf } from './support/native_tests.mjs';
 
-const page = readFileSync(inRepository('Documentation~', 'testing.md'), 'utf8');
-
 /** The text of all files with an ending below folders of Tests. */
 const textBelow = (ending, ...folders) =>
   folders.flatMap((folder) => readdirSync(inRepository('Tests', folder), { recursive: true }).map((name) => inRepository('Tests', folder, name)))
@@ -23,12 +21,11 @@ const isThere = {
 };
 
 for (const [runner, groups] of Object.entries(longTests)) {
-  test(`every long test of ${runner} exists, is on the page with its reason, and says why the default run does without it`, () => {
+  test(`every long test of ${runner} exists, and says why the default run does without it`, () => {
     for (const { because, tests } of groups) {
       assert.ok(because.length > 30, tests.join());
       for (const name of tests) {
         assert.ok(isThere[runner](name), `${name} names no test`);
-        assert.ok(page.includes(`\`${name}\``), `Documentation~/testing.md does not name ${name}`);
       }
     }
   });
@@ -45,8 +42,4 @@ test('only the long form installs Clang 22, and the default form no cross compil
   assert.ok(!purposesOf('sanitizers', false).includes('realtime'));
   assert.ok(purposesOf('sanitizers', true).includes('realtime'));
   for (const name of chosenRunners({ all: false })) assert.ok(!purposesOf(name, false).includes('platforms'), name);
-});
-
-test('the page names every runner', () => {
-  for (const name of Object.keys(runners)) assert.ok(page.includes(`\`${name}\``), name);
 });

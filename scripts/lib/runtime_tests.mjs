@@ -11,7 +11,7 @@ import { CommandError, run, runOrFail, succeeds } from './process.mjs';
 import { inRepository } from './repository.mjs';
 import { addCounts, noCounts } from './test_counts.mjs';
 
-/** The test projects that run under Mono. Documentation~/testing.md says what is not among them, and why. */
+/** The test projects that run under Mono. */
 export const monoProjects = ['RepositoryTests', 'Tests', 'EditorTests', 'ShimTests', 'PreviewTests', 'SampleTests', 'MissingLibraryTests'];
 
 /**
