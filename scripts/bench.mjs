@@ -10,7 +10,7 @@ import { pythonOrFail, setUp } from './lib/setup.mjs';
 
 const report = inRepository('out', 'bench.json');
 const paperModel = inRepository('out', 'bench', 'paper-architecture.haptoflow');
-const documentPath = inRepository('Documentation~', 'benchmarks.md');
+const documentPath = inRepository('Training', 'results', 'benchmarks.md');
 
 const optionTable = {
   quick: { type: 'boolean', default: false },
@@ -71,7 +71,7 @@ Measures callback, latencies, inference, memory and contact into out/bench.json.
   --events     events behind each latency
   --model      another model file than the shipped one
   --no-paper   without the comparison with the paper's architecture
-  --publish    a whole run of the shipped model, written into Documentation~/benchmarks.md too`;
+  --publish    a whole run of the shipped model, written into Training/results/benchmarks.md too`;
 
 await runMain('bench', async (words) => {
   const options = optionsOf(words);

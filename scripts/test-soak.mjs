@@ -14,7 +14,7 @@ const proofs = [
   { program: 'engine', filter: 'LongRunTest*', env: { HAPTOFLOW_TEST_SOUNDING_SECONDS: '21600' }, about: 'a day of waveform' },
 ];
 
-const page = inRepository('Documentation~', 'stability.md');
+const page = inRepository('Documentation~', 'not-proven.md');
 const resultOf = (index) => `soak-${index}.xml`;
 
 /** Writes the figures of this run, and the model that they belong to, into the stability page. */

@@ -31,7 +31,7 @@ Where the .NET SDK can't be reached everything else runs; the exit code is then 
   --all        the long form: every test, all sanitizers, libc++ and the other platforms
   --only NAME  one runner. Of the default form: ${namesOf(false)}; of the long form: ${namesOf(true)}
 
-Documentation~/testing.md says which tests only the long form runs.`;
+scripts/lib/long_tests.mjs lists the tests that only the long form runs.`;
 
 await runMain('test', async (words) => {
   const { only, all } = optionsOf(words);

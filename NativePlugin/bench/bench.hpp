@@ -32,10 +32,10 @@ struct BenchOptions {
 /// Receives the name of the current measurement and the completed share of the whole, 0 to 1.
 using BenchProgress = std::function<void(double share, std::string_view what)>;
 
-/// Runs the measurements and returns the results as one object, bench.json: see Documentation~/benchmarks.md. Takes the
-/// plan's time, because paced measurements run in real time. A measurement that was not possible has no key; "notes"
-/// says why.
-/// Throws MeasurementError, model::ModelError, inference::RuntimeUnavailable, inference::InferenceError.
+/// Runs the measurements and returns the results as one object, bench.json: see Documentation~/live-engine.md. Takes
+/// the plan's time, because paced measurements run in real time. A measurement that was not possible has no key;
+/// "notes" says why. Throws MeasurementError, model::ModelError, inference::RuntimeUnavailable,
+/// inference::InferenceError.
 [[nodiscard]] nlohmann::ordered_json runBench(const BenchOptions& options, const BenchProgress& progress);
 
 /// Prints the report of `runBench` for reading: one table for each measurement in it.

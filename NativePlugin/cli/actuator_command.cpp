@@ -364,7 +364,7 @@ void addIdentify(CLI::App& actuator, CommandOutcome& outcome) {
         "stand out of the noise are left out.\n"
         "Example:\n"
         "  haptoflow actuator identify recording.wav --sweep sweep.wav -o pen.json --plot pen.svg\n"
-        "Format and law are explained in Documentation~/actuator-profile.md.");
+        "Format and law are explained in Documentation~/devices.md.");
     command->callback([options, &outcome] {
         runIdentify(*options);
         outcome.exitCode = exitDone;

@@ -117,7 +117,7 @@ test('a draft has both tarballs, the demo\'s page, checksums that agree, and not
 test('a program of one\'s own asks for this version\'s package, and the installation page names its tarball', () => {
   const text = (...parts) => readFileSync(inRepository(...parts), 'utf8');
   const asked = `find_package(haptoflow ${version.split('.').slice(0, 2).join('.')} REQUIRED)`;
-  for (const parts of [['Documentation~', 'platforms.md'], ['Tests', 'Native', 'consumer', 'outside', 'CMakeLists.txt']]) assert.ok(text(...parts).includes(asked), parts.join('/'));
+  for (const parts of [['Documentation~', 'platforms-and-tests.md'], ['Tests', 'Native', 'consumer', 'outside', 'CMakeLists.txt']]) assert.ok(text(...parts).includes(asked), parts.join('/'));
   assert.deepEqual([...new Set(text('Documentation~', 'installation.md').match(/com\.haptoflow\.runtime-[\d.]+\.tgz/g))], [`com.haptoflow.runtime-${version}.tgz`]);
 });
 

@@ -48,18 +48,9 @@ test('C, C#, JavaScript and its types have the same qualities with the same numb
   assert.deepEqual([...types.matchAll(/'(\w+)'/g)].map(([, name]) => name).sort(), Object.keys(wanted).sort());
 });
 
-test('pages that list the qualities list those that there are', () => {
-  for (const [page, opening] of [['glossary', '| quality |'], ['performance', '| Sketch, Draft, Standard |'], ['live-engine', '`sketch`, `draft` and `standard` are'], ['model-format', 'qualities are named `sketch`, `draft` and `standard`']]) {
-    const line = read('Documentation~', `${page}.md`).split('\n').find((each) => each.includes(opening));
-    assert.ok(line, `${page}.md: ${opening}`);
-    assert.doesNotMatch(line, /\bfine\b/i, page);
-  }
-  assert.match(read('Documentation~', 'glossary.md').split('\n').find((line) => line.startsWith('| quality |')), /sketch, draft, standard or auto/);
-});
-
 /** The first number after the name of each row of a table of plain text under a heading of the benchmarks. */
 function published(heading, column) {
-  const [, block] = read('Documentation~', 'benchmarks.md').split(`\n${heading}`);
+  const [, block] = read('Training', 'results', 'benchmarks.md').split(`\n${heading}`);
   const rows = block.split('\n\n')[0].split('\n').slice(2);
   return Object.fromEntries(rows.map((row) => {
     const [, name, rest] = row.match(/^ {2}(\D+?) {2,}(.*)$/);

@@ -135,7 +135,7 @@ def test_the_page_says_what_the_network_adds_to_the_skeleton_and_how_much_longer
     times = {name: {"ms_paced": {"p50": ms, "p99": ms}} for name, ms in (("standard", 0.6), ("sketch", 0.05))}
     made = table(plan, {**measured, "sketch": measured["rival"]})
     result = {**made, "model_sha256": "a" * 64, "rows": [{**row, "ms_per_segment": None, **times[row["name"]]} for row in made["rows"]]}
-    write_document(result, tmp_path / "page.md", tmp_path, False, False)
+    write_document(result, tmp_path / "page.md", None, None)
     line = next(line for line in (tmp_path / "page.md").read_text().splitlines() if line.startswith("**What the network adds**"))
     assert "ahead in level, GFC (goodness of fit of the spectra), LSD" in line and "behind in nothing" in line
     assert line.endswith("It takes 12 times as long at the pace of use.")
@@ -148,7 +148,7 @@ def test_the_page_says_where_a_recipe_without_one_part_is_better_than_ours(
     # The full recipe is noise here, and the recipe without one part is an independent draw.
     plan = [PlannedRow("standard", "ours", model="m"), PlannedRow("less", "ablation", model="n")]
     made = table(plan, {"standard": measured["rival"], "less": measured["independent-draw"]})
-    write_document({**with_times(made, None), "model_sha256": "a" * 64}, tmp_path / "page.md", tmp_path, False, False)
+    write_document({**with_times(made, None), "model_sha256": "a" * 64}, tmp_path / "page.md", None, None)
     line = next(line for line in (tmp_path / "page.md").read_text().splitlines() if line.startswith("- `less`: "))
     assert line.startswith("- `less`: better in ") and "LSD" in line.split("; worse in ")[0]
     assert line.endswith("; worse in nothing.")
@@ -169,7 +169,7 @@ def test_the_page_covers_the_measured_rows_and_starts_with_who_is_ahead(
     images.mkdir()
     draw_chart(result, images / "accuracy-time.png")
     draw_spectra(pairs, [pair.independent for pair in pairs], images / "label-spectra.png", "0" * 64)
-    write_document(result, tmp_path / "document.md", images, True, True)
+    write_document(result, tmp_path / "document.md", images / "accuracy-time.png", images / "label-spectra.png")
     text = (tmp_path / "document.md").read_text(encoding="utf-8")
     top = "\n".join(text.splitlines()[:10])
     assert "**As published**, 1 rival, 9 comparisons" in top and "ahead in" in top and "behind in 0" in top
@@ -182,9 +182,8 @@ def test_the_page_covers_the_measured_rows_and_starts_with_who_is_ahead(
 
 def test_the_page_can_be_written_before_anything_is_timed_or_measured(tmp_path: Path) -> None:
     result = with_times({"model_sha256": "0" * 64, **table(PLAN, {})}, None)
-    (tmp_path / "images").mkdir()
-    draw_chart(result, tmp_path / "images" / "accuracy-time.png")
-    write_document(result, tmp_path / "document.md", tmp_path / "images", False, False)
+    draw_chart(result, tmp_path / "accuracy-time.png")
+    write_document(result, tmp_path / "document.md", None, None)
     text = (tmp_path / "document.md").read_text(encoding="utf-8")
     assert "Not timed yet." in text and "standard, missing, rival" in text
 

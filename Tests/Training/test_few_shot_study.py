@@ -42,7 +42,7 @@ from haptoflow_training.training.found_wave_vectors import turned_vectors
 ROOT = Path(__file__).parents[2]
 DEFAULT = ROOT / "Packages" / "com.haptoflow.runtime" / "Runtime" / "Models" / "default.haptoflow"
 RESULTS = ROOT / "Training" / "haptoflow_paper" / "results" / "few-shot.json"
-PAGE = ROOT / "Documentation~" / "own-materials.md"
+PAGE = ROOT / "Training" / "haptoflow_paper" / "results" / "few-shot.md"
 ENGINE = Path(os.environ.get("HAPTOFLOW_ENGINE", ROOT / "build" / "native" / "haptoflow"))
 FITTED_SPEEDS_MPS = (0.02, 0.2)
 
@@ -262,4 +262,4 @@ def test_the_published_table_is_that_of_the_published_results() -> None:
     results = json.loads(RESULTS.read_text(encoding="utf-8"))
     page = PAGE.read_text(encoding="utf-8")
     assert len(results["materials"]) >= 10
-    assert with_measured_words(page, page_words(results, "images/few-shot.png")) == page
+    assert with_measured_words(page, page_words(results, "../../../Documentation~/images/few-shot.png")) == page

@@ -12,7 +12,7 @@ from haptoflow_training.errors import InputError
 from haptoflow_training.studies.bench_figures import BenchFigures, Block, Spread, read_bench
 from haptoflow_training.studies.delay_budget import Budget, budgets, page_words, read_lags
 
-PUBLISHED = Path(__file__).parents[2] / "Documentation~" / "benchmarks.md"
+PUBLISHED = Path(__file__).parents[2] / "Training" / "results" / "benchmarks.md"
 ROWS = [
     {"block_frames": 256, "burst_blocks": 1, "p50": 2.0, "p99": 5.0},
     {"block_frames": 256, "burst_blocks": 2, "p50": 4.0, "p99": 10.0},

@@ -1,6 +1,6 @@
 /**
  * Tests that only the long form runs (`./run test --all`, every night), and why the default run loses nothing by it.
- * Documentation~/testing.md lists the same; Tests/Package/long-tests.test.mjs compares both with the sources.
+ * Tests/Package/long-tests.test.mjs compares it with the sources.
  * @type {Record<string, {because: string, tests: string[]}[]>} tests: patterns of GoogleTest for native, parts of names of
  *   the others
  */

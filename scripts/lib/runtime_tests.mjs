@@ -64,7 +64,7 @@ export function withoutReadOnlyMarks(bytes) {
   return changed;
 }
 
-/** The test projects that run under Mono. Documentation~/testing.md says what is not among them, and why. */
+/** The test projects that run under Mono. */
 export const monoProjects = ['RepositoryTests', 'Tests', 'EditorTests', 'ShimTests', 'PreviewTests', 'SampleTests', 'MissingLibraryTests'];
 
 /**

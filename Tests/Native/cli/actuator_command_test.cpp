@@ -229,7 +229,7 @@ TEST(ActuatorProfileDocumentationTest, TheSchemaKnowsTheSameKeysAsTheReader) {
 }
 
 TEST(ActuatorProfileDocumentationTest, EveryProfileOfThePageIsRead) {
-    std::ifstream file(HAPTOFLOW_TEST_DOCUMENTATION_DIR "/actuator-profile.md");
+    std::ifstream file(HAPTOFLOW_TEST_DOCUMENTATION_DIR "/devices.md");
     const std::string page{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
     int profiles = 0;
     for (std::size_t begin = page.find("```json\n"); begin != std::string::npos;

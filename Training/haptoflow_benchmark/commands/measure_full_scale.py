@@ -37,7 +37,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "example:\n  haptoflow-benchmark measure-full-scale --engine build/native/haptoflow \\\n"
         "    --model Packages/com.haptoflow.runtime/Runtime/Models/default.haptoflow \\\n"
         "    --strokes ../shared/strokes/vr-pen-on-surface/strokes.csv \\\n"
-        "    --out Training/results/default/full-scale.json --page Documentation~/actuator-wiring.md"
+        "    --out Training/results/default/full-scale.json --page Documentation~/devices.md"
     )
     parser.add_argument("--engine", type=Path, required=True, help="the built command line, build/native/haptoflow")
     parser.add_argument("--model", type=Path, required=True, help="the .haptoflow file")

@@ -1,4 +1,4 @@
-"""The fixed text of Documentation~/accuracy-and-time.md: what the rows are, and the definition of every figure."""
+"""The fixed text of haptoflow_paper/results/accuracy-and-time.md: what the rows are, and the definition of every figure."""
 
 INTRODUCTION = """\
 | short | what it is |
@@ -35,7 +35,7 @@ DEFINITIONS = """\
 ## What the figures mean
 
 Everything is measured on held-out recordings, through the C++ engine, in closed loop at 72 Hz: the
-network's previous waveform is its own output, from silence on. The recordings are synthetic (`recorder-report.md`).
+network's previous waveform is its own output, from silence on. The recordings are synthetic.
 
 **The grid.** Every label is stroked at 0.01, 0.03, 0.08, 0.15, 0.275, 0.5, 1 and 1.5 m/s with 0.2 to 3 N, 12 to 60
 seconds each, longest where impacts are rare. Ruled labels are also crossed at 15, 30, 45 and 60 degrees from the straight

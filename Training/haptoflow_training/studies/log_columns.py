@@ -1,4 +1,4 @@
-"""The columns of a study's log, version 1 (Documentation~/study-logs.md), and their allowed values."""
+"""The columns of a study's log, version 1 (Documentation~/study-files.md), and their allowed values."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Reads and checks a session's sidecar, version 1 (Documentation~/study-logs.md)."""
+"""Reads and checks a session's sidecar, version 1 (Documentation~/study-files.md)."""
 
 from __future__ import annotations
 
