@@ -16,7 +16,6 @@ const modelOfPicture = (png) => png.toString('latin1').match(/tEXtModel-SHA-256\
 /** Pages with measured figures, and the command that measures them. */
 const pages = {
   'Documentation~/accuracy-and-time.md': 'npm run evaluate',
-  'Documentation~/actuator-wiring.md': 'haptoflow-benchmark measure-full-scale --page',
   'Documentation~/benchmarks.md': 'npm run bench -- --publish',
   'Documentation~/device-loudness.md': '/usr/bin/python3 scripts/pack/device_levels.py',
   'Documentation~/delay-budget.md': 'haptoflow-training study budget --page',
@@ -29,7 +28,6 @@ const pages = {
 const results = {
   'Training/haptoflow_paper/results/accuracy-time.json': 'npm run evaluate',
   'Training/haptoflow_paper/results/few-shot.json': 'haptoflow-paper few-shot',
-  'Training/results/default/full-scale.json': 'haptoflow-benchmark measure-full-scale',
   'Training/results/default/label-discrimination.json': 'haptoflow-benchmark discriminate',
 };
 

@@ -24,7 +24,7 @@ from haptoflow_benchmark.full_scale.measurement import (
     smallest_full_scale,
     summarise,
 )
-from haptoflow_benchmark.full_scale.recorded_strokes import evenly_on_table, onto_table, read_recorded_strokes
+from haptoflow_benchmark.engine.recorded_strokes import evenly_on_table, onto_table, read_recorded_strokes
 from haptoflow_training.errors import InputError
 
 ROOT = Path(__file__).parents[2]

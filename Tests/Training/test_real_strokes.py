@@ -12,7 +12,7 @@ import pytest
 from numpy.typing import NDArray
 
 from haptoflow_benchmark.engine.engine_render import read_wav
-from haptoflow_benchmark.full_scale.recorded_strokes import onto_table, read_recorded_strokes
+from haptoflow_benchmark.engine.recorded_strokes import onto_table, read_recorded_strokes
 
 ROOT = Path(__file__).parents[2]
 STROKES = ROOT.parent / "shared" / "strokes" / "vr-pen-on-surface" / "strokes.csv"

@@ -24,8 +24,8 @@ from scipy.signal import butter, sosfiltfilt
 
 from haptoflow_benchmark.engine.engine_library import EngineLibrary, default_engine
 from haptoflow_benchmark.engine.wave_frames import wave_frames
-from haptoflow_benchmark.full_scale.measurement import model_labels
-from haptoflow_benchmark.full_scale.recorded_strokes import onto_table, read_recorded_strokes
+from haptoflow_benchmark.engine.engine_render import model_labels
+from haptoflow_benchmark.engine.recorded_strokes import onto_table, read_recorded_strokes
 from haptoflow_training.model_stamp import model_line, read_measured_page, sha256_of, with_measured_words
 
 PAGE = ROOT / "Documentation~/device-loudness.md"

@@ -9,7 +9,7 @@ from typing import Any
 
 from tqdm import tqdm
 
-from haptoflow_benchmark.full_scale.recorded_strokes import read_recorded_strokes
+from haptoflow_benchmark.engine.recorded_strokes import read_recorded_strokes
 from haptoflow_benchmark.lag.stylus_lag import LABELS, NOISE_METRES, RATES_HZ, SEEDS, lag_strokes, measure_lags
 from haptoflow_training.errors import InputError
 from haptoflow_training.model_stamp import sha256_of

@@ -85,6 +85,12 @@ def run_engine(command: list[str]) -> str:
     return done.stdout
 
 
+def model_labels(engine: Path, model: Path) -> list[str]:
+    """The labels of a model file, as the engine reads it."""
+    described = json.loads(run_engine([str(engine), "inspect", str(model), "--json"]))
+    return [label["name"] for label in described["header"]["labels"]]
+
+
 def write_rows(path: Path, rows: NDArray[np.floating], digits: int = 9) -> None:
     """Write a stroke's rows [n, 5]: seconds, the tip's position in metres, force in newtons."""
     np.savetxt(path, rows, fmt=f"%.{digits}f", delimiter=",", header="t,x,y,z,force", comments="")

@@ -8,8 +8,8 @@ from pathlib import Path
 
 from tqdm import tqdm
 
-from haptoflow_benchmark.full_scale.measurement import model_labels
-from haptoflow_benchmark.full_scale.recorded_strokes import read_recorded_strokes
+from haptoflow_benchmark.engine.engine_render import model_labels
+from haptoflow_benchmark.engine.recorded_strokes import read_recorded_strokes
 from haptoflow_paper.place.creeping import CREEPING_LABELS, creeping, held_silent, holds, recorder_without_noise
 from haptoflow_paper.place.hand_overs import HOP_SAMPLES, hand_overs
 from haptoflow_paper.place.passes import Renderer

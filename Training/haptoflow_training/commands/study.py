@@ -246,44 +246,6 @@ def _latency_power(options: argparse.Namespace) -> int:
     return 0
 
 
-def _add_validate(parser: argparse.ArgumentParser) -> None:
-    parser.description = (
-        "Simulate studies with a known truth, analyse them, and count how often thresholds, differences and their "
-        "absence are found as they should be."
-    )
-    parser.epilog = """examples:
-  haptoflow-training study validate --out Training/results/study-validation.json --page Documentation~/study-analysis.md
-  haptoflow-training study validate --studies 20 --simulations 100 --out first-look.json
-
-About ten minutes of one core.
-"""
-    parser.add_argument("--out", required=True, type=Path, help="JSON file to write")
-    parser.add_argument("--page", type=Path, help="page whose measured part is written anew")
-    parser.add_argument("--studies", type=int, default=200, help="written as logs and analysed whole (default 200)")
-    parser.add_argument("--simulations", type=int, default=2000, help="of each single question (default 2000)")
-    parser.add_argument("--seed", type=int, default=1, help="0 or more (default 1)")
-    parser.set_defaults(run=_validate)
-
-
-def _validate(options: argparse.Namespace) -> int:
-    from haptoflow_training.studies.validation import steps_of, validated
-    from haptoflow_training.studies.validation_words import page_words
-
-    for name, lowest in (("studies", 2), ("simulations", 2), ("seed", 0)):
-        _require_range(f"--{name}", getattr(options, name), lowest)
-    if options.page is not None:
-        read_measured_page(options.page)
-    with tqdm(total=steps_of(options.studies, options.simulations), unit="study", disable=None) as progress:
-        found = validated(
-            studies=options.studies, simulations=options.simulations, seed=options.seed, advance=progress.update
-        )
-    write_whole(options.out, (json.dumps(found, indent=1) + "\n").encode())
-    words = page_words(found)
-    _write_measured(options.page, words)
-    print(words)
-    return 0
-
-
 def _add_budget(parser: argparse.ArgumentParser) -> None:
     parser.description = "Add up pose interval, inference, audio block and device, beside the thresholds of the paper."
     parser.epilog = """examples:
@@ -360,7 +322,6 @@ _STEPS = {
     "merge": (_add_merge, "write all sessions of a study as one table"),
     "analyse": (_add_analyse, "write the report of a folder of logs"),
     "power": (_add_power, "estimate the power of a planned number of participants"),
-    "validate": (_add_validate, "analyse simulated studies with known results"),
     "budget": (_add_budget, "add up the parts of the delay beside the thresholds of the paper"),
     "golden": (_add_golden, "write the plans that the Unity package must agree with"),
 }
