@@ -22,7 +22,6 @@ from haptoflow_paper.rows.row_plan import PlannedRow
 from haptoflow_paper.rows.row_summary import summary
 from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.model_stamp import SHIPPED_MODEL
-from haptoflow_training.recordings.synthetic import load_materials
 
 ROOT = Path(__file__).parents[2]
 
@@ -93,22 +92,6 @@ def test_the_table_keeps_the_plan_s_order_and_leaves_out_unmeasured_rows(pairs: 
     assert result["not_measured"] == ["missing"] and timed_rows(result) == {"standard", "rival", "size"}
 
 
-def test_a_rival_is_judged_against_its_named_row_and_not_judged_if_that_row_is_unmeasured(
-    pairs: list[ReferencePair],
-) -> None:
-    measured = _measured(pairs)
-    measured["sketch-same-time"] = measured["rival"]
-    plan = [
-        PlannedRow("standard", "ours", model="m"), PlannedRow("sketch-same-time", "ours", model="t"),
-        PlannedRow("rival", "as-published", model="r", against="sketch-same-time"),
-    ]  # fmt: skip
-    rows = {row["name"]: row for row in table(plan, measured)["rows"]}
-    assert rows["rival"]["against"] == "sketch-same-time" and set(rows["rival"]["verdict"].values()) == {"even"}
-    assert rows["sketch-same-time"]["against"] == "standard" and rows["sketch-same-time"]["verdict"]["lsd_db"] == "ahead"
-    del measured["sketch-same-time"]
-    assert "verdict" not in {row["name"]: row for row in table(plan, measured)["rows"]}["rival"]
-
-
 def test_every_row_has_spreads_of_the_temporal_figures_and_a_verdict(
     pairs: list[ReferencePair],
 ) -> None:
@@ -125,33 +108,6 @@ def test_every_row_has_spreads_of_the_temporal_figures_and_a_verdict(
     assert set(rows["independent-draw"]["verdict"].values()) == {"even"} and "verdict" not in rows["standard"]
     assert set(rows["standard"]["by_label"]) == {"a", "b"} and len(rows["rival"]["worst_cells"]) == 3
     json.dumps(rows)
-
-
-def test_the_page_says_what_the_network_adds_to_the_skeleton_and_how_much_longer_it_takes(
-    pairs: list[ReferencePair], tmp_path: Path
-) -> None:
-    measured = _measured(pairs)
-    plan = [PLAN[0], PlannedRow("sketch", "ours", model="m", tier="sketch")]
-    times = {name: {"ms_paced": {"p50": ms, "p99": ms}} for name, ms in (("standard", 0.6), ("sketch", 0.05))}
-    made = table(plan, {**measured, "sketch": measured["rival"]})
-    result = {**made, "model_sha256": "a" * 64, "rows": [{**row, "ms_per_segment": None, **times[row["name"]]} for row in made["rows"]]}
-    write_document(result, tmp_path / "page.md", tmp_path, False, False)
-    line = next(line for line in (tmp_path / "page.md").read_text().splitlines() if line.startswith("**What the network adds**"))
-    assert "ahead in level, GFC (goodness of fit of the spectra), LSD" in line and "behind in nothing" in line
-    assert line.endswith("It takes 12 times as long at the pace of use.")
-
-
-def test_the_page_says_where_a_recipe_without_one_part_is_better_than_ours(
-    pairs: list[ReferencePair], tmp_path: Path
-) -> None:
-    measured = _measured(pairs)
-    # The full recipe is noise here, and the recipe without one part is an independent draw.
-    plan = [PlannedRow("standard", "ours", model="m"), PlannedRow("less", "ablation", model="n")]
-    made = table(plan, {"standard": measured["rival"], "less": measured["independent-draw"]})
-    write_document({**with_times(made, None), "model_sha256": "a" * 64}, tmp_path / "page.md", tmp_path, False, False)
-    line = next(line for line in (tmp_path / "page.md").read_text().splitlines() if line.startswith("- `less`: "))
-    assert line.startswith("- `less`: better in ") and "LSD" in line.split("; worse in ")[0]
-    assert line.endswith("; worse in nothing.")
 
 
 def test_the_page_covers_the_measured_rows_and_starts_with_who_is_ahead(
@@ -178,46 +134,6 @@ def test_the_page_covers_the_measured_rows_and_starts_with_who_is_ahead(
     assert "images/accuracy-time.png" in text and "Not measured yet, so not judged: missing." in text
     assert "load averages before and after 0.10 / 0.20 / 0.30 and 1.00 / 2.00 / 3.00" in text
     assert all((images / name).stat().st_size > 5000 for name in ("accuracy-time.png", "label-spectra.png"))
-
-
-def test_the_page_can_be_written_before_anything_is_timed_or_measured(tmp_path: Path) -> None:
-    result = with_times({"model_sha256": "0" * 64, **table(PLAN, {})}, None)
-    (tmp_path / "images").mkdir()
-    draw_chart(result, tmp_path / "images" / "accuracy-time.png")
-    write_document(result, tmp_path / "document.md", tmp_path / "images", False, False)
-    text = (tmp_path / "document.md").read_text(encoding="utf-8")
-    assert "Not timed yet." in text and "standard, missing, rival" in text
-
-
-def test_seeds_are_compared_on_the_recordings_that_all_of_them_were_measured_on() -> None:
-    # GFC 0.9 everywhere except at the speed at which the second seed was not measured.
-    def cell(label: str, speed: float, gfc: float) -> dict[str, object]:
-        figures = dict.fromkeys(("level_error_db", "gfc_segment", "rmse", "lsd_db", "continuity"), 0.5)
-        motion = {"label": label, "kind": "constant", "speed_mps": speed, "force_newtons": 1.0, "direction_degrees": 0.0}
-        return {**motion, "crossing_degrees": 0.0, "seed": 1, **figures, "gfc_recording": gfc, "crest_error_db": gfc}
-
-    def result(seed: int, cells: list[dict[str, object]]) -> dict[str, object]:
-        common = {"discrimination": None, "parameters": 5, "bytes": 20, "drift_db_per_min": None}
-        return {"seed": seed, "conditions": cells, **common}
-
-    whole = [cell(label, speed, 0.5 if speed == 1.0 else 0.9) for label in "ab" for speed in (0.1, 1.0)]
-    part = [cell(label, 0.1, 0.8) for label in "ab"]
-    plan = [PlannedRow("standard", "ours", model="m", seeds=(1, 4))]
-    row = table(plan, {"standard": [result(1, whole), result(4, part)]})["rows"][0]
-    assert row["recordings"] == 4 and row["gfc_recording"] == pytest.approx(0.7)
-    assert row["by_seed"]["seeds"] == [1, 4] and row["by_seed"]["recordings"] == 2
-    assert row["by_seed"]["gfc_recording"] == pytest.approx([0.9, 0.8])
-    assert row["by_seed"]["medians"]["crest_error_db"] == pytest.approx([0.9, 0.8])
-
-
-def test_every_fourth_recording_is_a_quarter_of_each_label_and_another_quarter_of_the_next() -> None:
-    chosen = conditions(load_materials())
-    nothing = np.zeros(0, dtype=np.float32)
-    picked = accuracy.every_fourth([ReferencePair(entry, nothing, nothing, nothing) for entry in chosen])
-    labels = [pair.condition.label for pair in picked]
-    assert abs(len(picked) - len(chosen) / 4) < 10 and min(labels.count(label) for label in labels) >= 3
-    speeds = {pair.condition.speed_mps for pair in picked}
-    assert speeds >= {entry.speed_mps for entry in chosen if entry.kind == "constant"}
 
 
 @pytest.mark.parametrize("tier", ["draft", "standard"])

@@ -14,11 +14,10 @@ import numpy as np
 import pytest
 from own_samples import Stroke, csv_one_axis, stroke
 
-from haptoflow_benchmark.engine.engine_render import read_wav, render_motion
-from haptoflow_paper import cli as paper
+from haptoflow_benchmark.engine.engine_render import render_motion
 from haptoflow_training.cli import main
 from haptoflow_training.errors import InputError
-from haptoflow_training.export.model_file import ModelFile, model_space, read_model_file, write_model_file
+from haptoflow_training.export.model_file import ModelFile, model_space, read_model_file
 from haptoflow_training.fewshot.add_label import with_label
 
 ROOT = Path(__file__).parents[2]
@@ -43,21 +42,6 @@ def add(*words: str | Path) -> int:
 def read_material(path: Path) -> dict[str, Any]:
     content: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
     return content
-
-
-def test_a_label_in_a_sidecar_never_chooses_the_output(
-    recording: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    own = tmp_path / "own.csv"
-    own.write_bytes(recording.read_bytes())
-    words = json.loads(recording.with_suffix(".json").read_text()) if recording.with_suffix(".json").exists() else {}
-    own.with_suffix(".json").write_text(json.dumps({**words, "label": "../victim/wood"}))
-    inner = tmp_path / "inner"
-    inner.mkdir()
-    monkeypatch.chdir(inner)
-    assert add("--recording", own) == 0
-    assert [path.name for path in inner.iterdir()] == ["own.haptomaterial"]
-    assert read_material(inner / "own.haptomaterial")["name"] == "../victim/wood"
 
 
 @pytest.fixture(scope="module")
@@ -127,26 +111,6 @@ def test_a_further_label_leaves_all_other_labels_unchanged(extended: Path) -> No
     assert model_space(after) == model_space(before)
 
 
-def test_a_further_label_has_its_level_tone_and_licence(extended: Path) -> None:
-    model = read_model_file(extended)
-    label = model.header["labels"][-1]
-    assert len(label["level"]["speeds_mps"]) == len(label["level"]["log_levels"])
-    tone = label["tone"]
-    assert len(tone["gains_db"]) == len(tone["speeds_mps"]) * len(tone["forces_newtons"])
-    assert label["provenance"]["licence"] == "CC BY 4.0"
-    assert label["embedding_row"] == len(model.tensors["embedding"]) - 1
-
-
-def test_a_material_file_and_a_label_hold_the_same_material() -> None:
-    material, model = read_material(RIBBED), with_label(read_model_file(TINY), read_material(RIBBED))
-    label = model.header["labels"][-1]
-    assert {key: label[key] for key in ("level", "tone", "provenance", "friction_coefficient")} == {
-        key: material[key] for key in ("level", "tone", "provenance", "friction_coefficient")
-    }
-    assert "embedding" not in label and "seeds" not in label
-    assert model.tensors["embedding"][-1] == pytest.approx(material["embedding"])
-
-
 def test_a_model_with_a_seed_bank_takes_the_seeds_of_a_further_label() -> None:
     before, material = read_model_file(TINY), read_material(RIBBED)
     after = with_label(before, material)
@@ -154,23 +118,6 @@ def test_a_model_with_a_seed_bank_takes_the_seeds_of_a_further_label() -> None:
     assert after.header["seed_bank"]["entries"] == [*before.header["seed_bank"]["entries"], *stated]
     seeds = [*before.tensors["seeds"], *(seed["samples"] for seed in material["seeds"])]
     np.testing.assert_allclose(after.tensors["seeds"], seeds)
-
-
-def test_a_model_with_a_seed_bank_takes_a_label_without_seeds() -> None:
-    before = read_model_file(TINY)
-    after = with_label(before, read_material(RIBBED.with_name("plain-twin.haptomaterial")))
-    assert after.header["labels"][-1]["name"] == "plain twin"
-    assert after.header["seed_bank"] == before.header["seed_bank"]
-    np.testing.assert_array_equal(after.tensors["seeds"], before.tensors["seeds"])
-
-
-def test_a_material_can_be_added_to_a_model_that_has_one_already(
-    recording: Path, extended: Path, tmp_path: Path
-) -> None:
-    out = tmp_path / "two.haptoflow"
-    words = ["add-material", "--model", str(extended), *QUICK, "--recording", str(recording), "-o", str(out)]
-    assert main([*words, "--name", "rug"]) == 0
-    assert [label["name"] for label in read_model_file(out).header["labels"][-2:]] == ["doormat", "rug"]
 
 
 def test_a_name_that_the_model_has_is_refused_and_nothing_is_written(
@@ -210,18 +157,6 @@ def test_contradictory_options_are_refused(
     assert not list(tmp_path.iterdir())
 
 
-def test_a_recording_that_is_too_short_or_too_slow_is_refused(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    short = csv_one_axis(tmp_path / "short", "a", "a", stroke(1.5))
-    assert add("--recording", short, "-o", tmp_path / "x.haptomaterial") == 3
-    assert "the recording lasts 1.5 s; record 10 s or more" in capsys.readouterr().err
-    slow = csv_one_axis(tmp_path / "slow", "b", "b", stroke(5.0, speeds_mps=(0.0015, 0.003)))
-    assert add("--recording", slow, "-o", tmp_path / "x.haptomaterial") == 3
-    assert "record sliding strokes" in capsys.readouterr().err
-    assert not (tmp_path / "x.haptomaterial").exists()
-
-
 def test_given_wave_vectors_are_used(
     recording: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -247,16 +182,6 @@ def test_a_label_with_path_separators_cannot_write_outside_the_folder(
     assert read_material(inner / "grey-mat-2.haptomaterial")["name"] == "../grey mat/2"
 
 
-def test_a_damaged_model_is_refused_by_name(
-    recording: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    broken = tmp_path / "broken.haptoflow"
-    broken.write_bytes(DEFAULT.read_bytes()[:5000])
-    words = ["--recording", str(recording), "-o", str(tmp_path / "x.haptomaterial")]
-    assert main(["add-material", "--model", str(broken), *words]) == 3
-    assert "truncated or damaged" in capsys.readouterr().err
-
-
 def test_a_material_of_another_space_does_not_become_a_label() -> None:
     material = read_material(RIBBED)
     model: ModelFile = read_model_file(DEFAULT)
@@ -277,27 +202,3 @@ def test_the_engine_renders_the_other_labels_byte_for_byte_as_before(extended: P
     for label in ("wood", "corduroy"):
         before = render_wav(tmp_path / f"{label}-before", label, "--model", DEFAULT)
         assert render_wav(tmp_path / f"{label}-after", label, "--model", extended) == before
-
-
-def test_the_engine_renders_the_further_label_and_the_material_file_alike(tmp_path: Path) -> None:
-    material = ROOT / "Tests" / "Golden" / "material" / "denim.haptomaterial"
-    model = tmp_path / "denim.haptoflow"
-    write_model_file(model, with_label(read_model_file(DEFAULT), read_material(material)))
-    folders = tmp_path / "label", tmp_path / "file"
-    render_wav(folders[0], "denim", "--model", model)
-    render_wav(folders[1], "denim", "--model", DEFAULT, "--material", material)
-    waves = [read_wav(folder / "out.wav") for folder in folders]
-    levels = [20.0 * math.log10(float(np.sqrt(np.square(wave, dtype=np.float64).mean()))) for wave in waves]
-    assert levels[0] == pytest.approx(levels[1], abs=1.5)
-
-
-def test_the_help_has_examples(capsys: pytest.CaptureFixture[str]) -> None:
-    for program, run, command in (
-        ("haptoflow-training", main, "add-material"),
-        ("haptoflow-training", main, "sliders"),
-        ("haptoflow-paper", paper.main, "few-shot"),
-    ):
-        with pytest.raises(SystemExit):
-            run([command, "--help"])
-        said = capsys.readouterr().out
-        assert f"{program} {command} --model" in said

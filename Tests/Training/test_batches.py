@@ -69,13 +69,6 @@ def test_an_emphasised_label_without_recordings_is_named() -> None:
         SegmentBatches(make_store(), "train", BatchConfig(emphasised_labels=("velvet",)), 8)
 
 
-def test_silence_and_label_switches_appear_as_often_as_asked() -> None:
-    store = make_store()
-    silent = SegmentBatches(store, "train", BatchConfig(silence_probability=0.3, switch_probability=0.0), 4).draw(2000)
-    share = (silent.previous.abs().amax(dim=(1, 2)) == 0).float().mean().item()
-    assert share == pytest.approx(0.3, abs=0.05)
-
-
 def test_the_machine_share_holds_where_both_protocols_exist() -> None:
     store = make_store()
     batches = SegmentBatches(store, "train", BatchConfig(machine_share=0.8), 5)
@@ -94,11 +87,6 @@ def test_a_restored_generator_draws_the_same_pairs() -> None:
     second = SegmentBatches(store, "train", BatchConfig(), 99)
     second.restore(state)
     torch.testing.assert_close(second.draw(4).segment, expected.segment)
-
-
-def test_a_split_without_long_recordings_is_named() -> None:
-    with pytest.raises(ValueError, match="'validation'"):
-        SegmentBatches(make_store(seconds=0.15), "validation", PLAIN, 1)
 
 
 def test_a_pair_states_the_specimen_of_its_recording_and_minus_one_where_none_is_known() -> None:

@@ -13,9 +13,7 @@ from training_fixtures import make_store
 
 from haptoflow_paper.runs.configuration import EvaluatedConfig
 from haptoflow_paper.runs.trainer import EvaluatedTrainer
-from haptoflow_training.errors import InputError
 from haptoflow_training.training.budget import Budget
-from haptoflow_training.training.processes import Processes
 from haptoflow_training.training.trainer import Trainer, TrainingStopped, load_trained
 
 SECONDS_PER_STEP = {"level": 1.0, "field": 4.0, "polish": 1.0}
@@ -61,15 +59,6 @@ def test_a_budget_keeps_the_level_phases_and_scales_all_others_by_one_factor() -
     assert alone.allotted_seconds == pytest.approx([40.0, 20.0])
 
 
-def test_the_share_of_steps_done_equals_the_share_of_time_passed(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    budget = Budget([100.0], [25.0])
-    assert budget.steps(0, 50) == 200
-    assert Budget([100.0], [100.0]).steps(0, 77) == 77
-    assert Budget([100.0], [0.0]).steps(0, 0) == 1
-
-
 @pytest.mark.parametrize("seconds", [75.0, 300.0])
 def test_a_run_makes_as_many_steps_as_fit_its_budget(seconds: float, tmp_path: Path, clock: _Clock) -> None:
     EvaluatedTrainer(_budgeted(seconds), make_store(), tmp_path, ALONE).run()
@@ -77,39 +66,6 @@ def test_a_run_makes_as_many_steps_as_fit_its_budget(seconds: float, tmp_path: P
     for name, steps in (("level", 20), ("field", (seconds - 30.0) / 4.0), ("polish", 10)):
         assert phases[name]["steps"] == pytest.approx(steps, abs=1.0), name
     assert sum(phase["core_seconds"] for phase in phases.values()) == pytest.approx(seconds, abs=6.0)
-
-
-def test_steps_that_slow_down_become_fewer_and_the_phase_ends_in_time(
-    tmp_path: Path, clock: _Clock, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    trainer = EvaluatedTrainer(_budgeted(150.0), make_store(), tmp_path, ALONE)
-    enter = trainer.enter
-
-    def slower(phase: object) -> None:
-        monkeypatch.setitem(SECONDS_PER_STEP, "field", 8.0)
-        enter(phase)  # type: ignore[arg-type]
-
-    monkeypatch.setattr(trainer, "enter", slower)
-    trainer.run()
-    phases = _phases(tmp_path)
-    assert phases["field"]["steps"] == 15
-    assert phases["field"]["core_seconds"] == pytest.approx(120.0, abs=8.0)
-
-
-def test_the_learning_rate_has_decayed_when_a_budgeted_phase_ends(tmp_path: Path, clock: _Clock) -> None:
-    trainer = EvaluatedTrainer(_budgeted(300.0), make_store(), tmp_path, ALONE)
-    rates: list[float] = []
-    learning_rate = trainer._learning_rate
-
-    def remember(phase: object) -> float:
-        rates.append(learning_rate(phase))  # type: ignore[arg-type]
-        return rates[-1]
-
-    trainer._learning_rate = remember  # type: ignore[method-assign,assignment]
-    trainer.run()
-    field = rates[20:-10]
-    assert max(field) > 0.9 * 6e-4
-    assert field[-1] < 0.1 * 6e-4
 
 
 def test_a_resumed_run_uses_the_rest_of_its_budget(tmp_path: Path, clock: _Clock) -> None:
@@ -125,8 +81,3 @@ def test_a_resumed_run_uses_the_rest_of_its_budget(tmp_path: Path, clock: _Clock
     finished = EvaluatedTrainer(_budgeted(300.0), make_store(), tmp_path, ALONE)
     finished.run()
     assert load_trained(tmp_path)[0].optimiser.budget_seconds == 300.0
-
-
-def test_several_processes_and_a_budget_are_refused(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match="budget_seconds"):
-        EvaluatedTrainer(_budgeted(10.0), make_store(), tmp_path, Processes(rank=0, count=2))

@@ -2,20 +2,14 @@
 
 from __future__ import annotations
 
-import dataclasses
 from typing import Any
 
 import numpy as np
-import pytest
 from numpy.typing import NDArray
-from training_fixtures import still_surfaces
 
 from haptoflow_paper.metrics.cell_figures import measure_cell
-from haptoflow_paper.metrics.judged_figures import BY_KEY
 from haptoflow_paper.reference.reference_conditions import Condition, is_on_other_label
 from haptoflow_paper.reference.reference_set import ReferencePair
-from haptoflow_paper.rows import accuracy
-from haptoflow_training.closed_loop.render import run_closed_loop
 
 _SAMPLES = 24000
 _NOTHING = np.zeros(0, dtype=np.float32)
@@ -49,11 +43,6 @@ def test_gaussian_noise_in_place_of_impacts_lacks_crest_and_kurtosis_but_has_the
     assert cell["envelope_kurtosis_log_ratio"] < -1.0 and cell["envelope_variation_log_ratio"] < -0.5
 
 
-def test_surfaces_without_ribs_have_no_figures_of_ribs() -> None:
-    cell = measure_cell(_pair(_noise(1)), _noise(2), _NOTHING, _STARTS)
-    assert not {"rib_modulation_error_db", "rib_coherence", "f0_error_percent", "harmonic_share"} & set(cell)
-
-
 def test_faint_and_drifting_ribs_are_detected_as_such() -> None:
     pair = _pair(_ribbed(0.9, 50.0, 3), rib_rates_hz=(50.0,))
     good = measure_cell(pair, _ribbed(0.9, 50.0, 5), _NOTHING, _STARTS)
@@ -62,25 +51,6 @@ def test_faint_and_drifting_ribs_are_detected_as_such() -> None:
     assert abs(good["rib_modulation_error_db"]) < 1.0 and good["rib_coherence"] > 0.95
     assert faint["rib_modulation_error_db"] < -6.0
     assert drifting["rib_coherence"] < 0.5 and good["f0_error_percent"] < 0.2
-
-
-def test_of_two_rib_families_the_worse_one_counts() -> None:
-    both = _ribbed(0.8, 50.0, 3) + _ribbed(0.0, 83.0, 4)
-    one = _ribbed(0.8, 50.0, 5) + _noise(6)
-    cell = measure_cell(_pair(both, rib_rates_hz=(50.0, 83.0)), one, _NOTHING, _STARTS)
-    assert cell["rib_coherence"] < 0.7
-
-
-def test_ribs_too_slow_for_a_line_are_judged_by_the_modulation_of_the_power() -> None:
-    cell = measure_cell(_pair(_ribbed(0.9, 8.3, 3), rib_rates_hz=(8.3,)), _noise(4), _NOTHING, _STARTS)
-    assert cell["rib_modulation_error_db"] < -15.0 and cell["rib_coherence"] < 0.7 and "f0_error_percent" not in cell
-
-
-def test_silence_has_the_worst_figures_and_all_are_finite() -> None:
-    pair = _pair(_ribbed(0.9, 50.0, 3), rib_rates_hz=(50.0,))
-    cell = measure_cell(pair, np.zeros(_SAMPLES, np.float32), _NOTHING, _STARTS)
-    assert cell["level_error_db"] < -100.0 and cell["modulation_error_db"] > 10.0
-    assert all(np.isfinite(cell[key]) for key in BY_KEY if key in cell)
 
 
 def test_a_change_of_label_is_judged_near_the_changes_only_and_in_each_direction() -> None:
@@ -96,35 +66,3 @@ def test_a_change_of_label_is_judged_near_the_changes_only_and_in_each_direction
     away = (np.arange(_SAMPLES) % 1000 > 300) & (np.arange(_SAMPLES) % 1000 < 800)
     loud = _noise(2) * levels * np.where(away, 9.0, 1.0).astype(np.float32)
     assert abs(measure_cell(pair, loud, _NOTHING, _STARTS)["change_level_error_db"]) < 0.7
-
-
-class _Echo:
-    """Segments whose level is the embedding's first number."""
-
-    def generate(self, embeddings: Any, motions: Any, previous_mps2: Any, noise: Any, phases: Any) -> Any:
-        return (noise * embeddings[:, :1]).astype(np.float32)
-
-
-def test_in_a_change_of_label_each_hop_is_conditioned_on_the_label_under_the_tip() -> None:
-    embeddings = np.zeros((2, 64), dtype=np.float32)
-    embeddings[:, 0] = (1.0, 4.0)
-    plain = _pair(_noise(1))
-    change = dataclasses.replace(_pair(_noise(1), "change", other_label="b", other_index=1))
-    made = accuracy.generate_set(
-        _Echo(), embeddings, still_surfaces(2), [plain, change], update_rate_hz=72.0, seed=1
-    )
-    elsewhere = is_on_other_label(_SAMPLES)
-    assert made.closed[0].std() == pytest.approx(1.0, abs=0.05)
-    assert made.closed[1][~elsewhere].std() == pytest.approx(1.0, abs=0.3)
-    assert made.closed[1][elsewhere].std() == pytest.approx(4.0, abs=0.3)
-    assert len(made.opened[0]) and not len(made.opened[1])
-
-
-def test_a_closed_loop_takes_a_label_for_each_hop() -> None:
-    embeddings = np.zeros((2, 64), dtype=np.float32)
-    embeddings[1, 0] = 5.0
-    labels = (np.arange(72) >= 36).astype(np.int64)[None]
-    run = run_closed_loop(
-        _Echo(), embeddings, np.zeros((1, 2000, 3), np.float32), labels, still_surfaces(2), update_rate_hz=72.0, seed=1
-    )
-    assert np.abs(run.waves[0, :990]).max() == 0.0 and run.waves[0, 1010:].std() > 4.0

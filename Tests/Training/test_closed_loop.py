@@ -7,7 +7,7 @@ import pytest
 
 from training_fixtures import still_surfaces
 
-from haptoflow_training.closed_loop.render import hop_positions, run_closed_loop, spliced
+from haptoflow_training.closed_loop.render import run_closed_loop, spliced
 
 
 class Probe:
@@ -32,12 +32,6 @@ class Probe:
         self.pasts.append(previous_mps2.copy())
         self.noises.append(noise.copy())
         return np.tile(1000.0 * len(self.pasts) + np.arange(200), (len(embeddings), 1)).astype(np.float32)
-
-
-def test_seventy_two_updates_a_second_are_27_or_28_samples_apart() -> None:
-    positions = hop_positions(2000, 72.0)
-    assert len(positions) == 72
-    assert set(np.diff(positions)) == {27, 28}
 
 
 @pytest.mark.parametrize("rate_hz", [30.0, 72.0, 120.0])
@@ -74,11 +68,6 @@ def test_the_condition_of_a_segment_is_the_motion_before_it_and_not_the_motion_a
     )  # fmt: skip
     told = np.array([motion[0, 0] for motion in probe.motions])
     np.testing.assert_array_equal(told, (run.hop_starts > 200).astype(np.float32))
-
-
-def test_a_segment_that_continues_the_old_one_passes_the_splice_unchanged() -> None:
-    wave = np.random.default_rng(1).standard_normal((3, 200)).astype(np.float32)
-    np.testing.assert_allclose(spliced(wave, wave), wave, rtol=1e-5)
 
 
 def test_the_level_is_constant_across_a_splice_of_uncorrelated_segments() -> None:

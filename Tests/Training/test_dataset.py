@@ -1,9 +1,6 @@
 from __future__ import annotations
 
-import json
-import os
 import pickle
-import shutil
 from pathlib import Path
 
 import numpy as np
@@ -12,18 +9,12 @@ import pytest
 from dataset_samples import small_recording
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.recordings import cluster_dataset_files
 from haptoflow_training.recordings.cluster_dataset import open_dataset
-from haptoflow_training.recordings.cluster_dataset_files import DatasetFileError, read_table
+from haptoflow_training.recordings.cluster_dataset_files import DatasetFileError
 from haptoflow_training.recordings.cluster_dataset_textures import read_texture_list
 from haptoflow_training.recordings.dataset import Dataset
-from haptoflow_training.recordings.dataset_layout import FORCE, published_name
-from haptoflow_training.recordings.dataset_writer import (
-    TextureEntry,
-    write_provenance,
-    write_recording,
-    write_texture_list,
-)
+from haptoflow_training.recordings.dataset_layout import published_name
+from haptoflow_training.recordings.dataset_writer import TextureEntry, write_recording, write_texture_list
 from haptoflow_training.recordings.labels import load_labels
 from haptoflow_training.recordings.recording import Recording
 
@@ -63,14 +54,6 @@ def only_problem(dataset: Dataset) -> DatasetFileError:
     return found[0]
 
 
-def test_the_writer_uses_the_file_release_s_layout_and_headers(file_release: Path) -> None:
-    headers = {"accel": "time,X,Y,Z", "force": "time,force", "position": "time,X,Y"}
-    for kind, header in headers.items():
-        for name in NAMES:
-            assert sensor_file(file_release, kind, name).read_text().splitlines()[0] == header
-    assert len(list(file_release.rglob("*.*"))) == 3 * len(NAMES)
-
-
 def test_what_is_written_comes_back_without_loss_from_the_file_release(file_release: Path) -> None:
     dataset = open_dataset(file_release)
     assert not dataset.problems
@@ -79,34 +62,12 @@ def test_what_is_written_comes_back_without_loss_from_the_file_release(file_rele
         assert_same(entry.load(), small_recording(entry.identity.name, seconds=0.8))
 
 
-def test_unquantised_values_lose_less_than_a_sensor_resolves(tmp_path: Path) -> None:
-    recording = small_recording(seconds=0.5)
-    exact = recording.acceleration_g * np.pi
-    write_recording(tmp_path, Recording(**{**recording.__dict__, "acceleration_g": exact}))
-    np.testing.assert_allclose(open_dataset(tmp_path).recordings[0].load().acceleration_g, exact, rtol=1e-8)
-
-
 def test_a_recording_that_is_not_finite_is_not_written(tmp_path: Path) -> None:
     recording = small_recording(seconds=0.5)
     recording.position_mm[3, 0] = np.inf
     with pytest.raises(ValueError, match="position holds values that are not finite"):
         write_recording(tmp_path, recording)
     assert not list(tmp_path.rglob("*position*/*"))
-
-
-def test_a_file_is_written_atomically(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    renamed: list[str] = []
-    replace = os.replace
-
-    def noting(source: Path, target: Path) -> None:
-        assert source.name.startswith(".") and not target.exists()
-        assert source.read_text().endswith("\n")
-        renamed.append(target.name)
-        replace(source, target)
-
-    monkeypatch.setattr(os, "replace", noting)
-    write_recording(tmp_path, small_recording(seconds=0.5))
-    assert renamed == ["0_90_40_500_0.csv"] * 3
 
 
 def test_a_file_half_written_is_never_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -169,12 +130,6 @@ def test_a_missing_sibling_is_a_problem_and_the_rest_stays_readable(file_release
     assert len(dataset) == len(NAMES) - 1
 
 
-def test_a_missing_sensor_folder_is_a_problem_for_each_recording(file_release: Path) -> None:
-    shutil.rmtree(file_release / "sensor_data" / "position")
-    dataset = open_dataset(file_release)
-    assert len(dataset) == 0 and len(dataset.problems) == len(NAMES)
-
-
 def test_a_file_of_another_name_is_a_problem_and_hidden_files_are_not(file_release: Path) -> None:
     folder = file_release / "sensor_data" / "accel"
     (folder / "readme.csv").write_text("hello")
@@ -188,35 +143,12 @@ def test_a_folder_without_sensor_data_is_refused(tmp_path: Path) -> None:
         open_dataset(tmp_path)
 
 
-def test_recordings_come_sorted_and_are_read_one_at_a_time(
-    file_release: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    loaded = []
-
-    def noting(path: Path) -> pandas.DataFrame:
-        loaded.append(path.name)
-        return read_table(path)
-
-    monkeypatch.setattr(cluster_dataset_files, "read_table", noting)
-    dataset = open_dataset(file_release)
-    assert not loaded
-    assert [entry.identity.texture_id for entry in dataset] == [0, 0, 0, 66]
-    dataset.recordings[3].load()
-    assert loaded == ["66_90_60_1000_1.csv"] * 3
-
-
 def test_recording_files_and_their_errors_can_be_passed_to_another_process(file_release: Path) -> None:
     entry = open_dataset(file_release).recordings[0]
     assert pickle.loads(pickle.dumps(entry)) == entry
     error = DatasetFileError(Path("a.csv"), "empty file", "columns")
     again = pickle.loads(pickle.dumps(error))
     assert (again.path, again.found, str(again)) == (error.path, error.found, str(error))
-
-
-def test_the_texture_list_is_written_and_read_back(tmp_path: Path) -> None:
-    entries = [TextureEntry(0, "wood", {"Friction coefficient": 0.22}), TextureEntry(7, "metal mesh", {})]
-    write_texture_list(tmp_path, entries)
-    assert read_texture_list(tmp_path) == {0: "wood", 7: "metal mesh"}
 
 
 @pytest.mark.parametrize(
@@ -246,15 +178,6 @@ def test_the_published_names_are_used_if_the_texture_list_is_the_published_one(f
     assert {texture_id: published_name(texture_id) for texture_id in known} == known
 
 
-def test_ids_of_other_recordings_are_not_the_published_ones(file_release: Path) -> None:
-    assert open_dataset(file_release).textures == {0: "texture 0", 66: "texture 66"}
-    write_texture_list(file_release, [TextureEntry(0, "denim", {}), TextureEntry(66, "felt", {})])
-    dataset = open_dataset(file_release)
-    assert dataset.textures == {0: "denim", 66: "felt"}
-    assert not dataset.published
-    assert (dataset.provenance["source"], dataset.provenance["licence"]) == ("unknown", "unknown")
-
-
 def test_a_damaged_texture_list_is_a_problem_but_not_fatal(file_release: Path) -> None:
     (file_release / "texture_list.xlsx").write_bytes(b"not a workbook")
     dataset = open_dataset(file_release)
@@ -277,36 +200,6 @@ def test_labels_are_found_by_id_and_by_the_name_in_the_texture_list(tmp_path: Pa
     dataset = open_dataset(tmp_path, load_labels())
     assert [(entry.identity.texture_id, entry.label) for entry in dataset] == [(0, "wood"), (105, "cotton")]
     assert [entry.identity.texture_id for entry in dataset.unlabelled] == [1]
-
-
-def test_labels_of_a_synthetic_folder_are_found_by_name(tmp_path: Path) -> None:
-    for name in ("0_0_20_500_0", "38_0_20_500_0"):
-        write_recording(tmp_path, small_recording(name, seconds=0.5))
-    write_texture_list(tmp_path, [TextureEntry(0, "stone", {}), TextureEntry(38, "carpet", {})])
-    write_provenance(
-        tmp_path, source="synthetic recorder", licence="MIT", synthetic=True, details={"seed": 3}
-    )
-    dataset = open_dataset(tmp_path, load_labels())
-    assert dataset.labels == ["stone"] and len(dataset.unlabelled) == 1
-    assert open_dataset(tmp_path).labels == ["stone", "carpet"]
-    assert json.loads((tmp_path / "provenance.json").read_text())["seed"] == 3
-
-
-def test_a_folder_with_the_published_texture_list_has_the_published_licence(file_release: Path) -> None:
-    write_texture_list(file_release, [TextureEntry(0, "Nyatoh", {}), TextureEntry(66, "Steel", {})])
-    dataset = open_dataset(file_release)
-    assert dataset.published
-    assert not dataset.synthetic
-    assert dataset.provenance["licence"] == "CC BY 4.0"
-
-
-def test_the_labels_file_of_the_data_set_covers_the_ten_groups() -> None:
-    labels = load_labels()
-    categories = {definition.category for definition in labels.definitions}
-    assert categories == {
-        "wood", "stone", "polymer", "metal", "glass", "composite", "ceramic", "biodegradable", "cloth"
-    }  # fmt: skip
-    assert len(set(labels.names)) == len(labels.names)
 
 
 GOOD_LABEL = (
@@ -337,12 +230,3 @@ def test_a_wrong_labels_file_is_refused_by_entry_and_key(tmp_path: Path, text: s
     path.write_text(text)
     with pytest.raises(InputError, match=words):
         load_labels(path)
-
-
-def test_an_unreadable_file_is_a_named_problem(file_release: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def refuse(path: Path) -> None:
-        raise PermissionError(13, "Permission denied")
-
-    monkeypatch.setattr(cluster_dataset_files, "read_table", refuse)
-    with pytest.raises(DatasetFileError, match="cannot be read \\(Permission denied\\)"):
-        cluster_dataset_files.read_sensor(sensor_file(file_release, "force"), FORCE)

@@ -60,17 +60,6 @@ def test_the_parameters_carry_the_published_names_and_shapes(codec: EnCodec) -> 
     assert {name: state.get(name) for name in PUBLISHED} == PUBLISHED
 
 
-def test_encoder_and_decoder_together_have_the_published_number_of_parameters(codec: EnCodec) -> None:
-    assert sum(parameter.numel() for parameter in codec.parameters()) == pytest.approx(14.9e6, rel=0.005)
-
-
-@torch.no_grad()
-def test_2400_samples_become_eight_frames_of_128_values_and_2400_samples_again(codec: EnCodec) -> None:
-    latent = codec.encode(torch.randn(2, 1, 2400))
-    assert latent.shape == (2, 128, 8)
-    assert codec.decode(latent, 2400).shape == (2, 1, 2400)
-
-
 @torch.no_grad()
 def test_future_samples_do_not_change_earlier_frames_of_the_encoder(codec: EnCodec) -> None:
     waveform = torch.randn(1, 1, 20 * 320)
@@ -82,16 +71,6 @@ def test_future_samples_do_not_change_earlier_frames_of_the_encoder(codec: EnCod
 
 
 @torch.no_grad()
-def test_future_frames_do_not_change_earlier_samples_of_the_decoder(codec: EnCodec) -> None:
-    latent = torch.randn(1, 128, 20)
-    changed = latent.clone()
-    changed[..., 12:] += 1.0
-    before, after = codec.decode(latent, 6400), codec.decode(changed, 6400)
-    torch.testing.assert_close(after[..., : 12 * 320], before[..., : 12 * 320], atol=1e-6, rtol=0.0)
-    assert (after[..., 12 * 320 : 13 * 320] - before[..., 12 * 320 : 13 * 320]).abs().max() > 1e-4
-
-
-@torch.no_grad()
 def test_a_causal_convolution_mirrors_the_past_and_fills_the_last_stride() -> None:
     layer = CausalConvolution(1, 1, 4, stride=2)
     fold_weight_norm(layer)
@@ -99,11 +78,6 @@ def test_a_causal_convolution_mirrors_the_past_and_fills_the_last_stride() -> No
     layer.conv["conv"].bias.zero_()
     # Mirrored on the left to 3 2 | 1 2 3 4 5 and on the right by one sample to 4.
     assert layer(torch.tensor([[[1.0, 2.0, 3.0, 4.0, 5.0]]])).tolist() == [[[3212.0, 1234.0, 3454.0]]]
-
-
-def test_a_convolution_refuses_a_signal_too_short_to_mirror() -> None:
-    with pytest.raises(ValueError, match="3 positions are too few to mirror 6"):
-        CausalConvolution(1, 1, 7)(torch.zeros(1, 1, 3))
 
 
 @torch.no_grad()
@@ -127,28 +101,12 @@ def test_a_published_checkpoint_loads_and_its_quantizer_is_ignored(
     assert torch.equal(loaded.encode(waveform), codec.encode(waveform))
 
 
-def test_a_checkpoint_under_best_state_or_model_loads_too(codec: EnCodec, tmp_path: Path) -> None:
-    torch.save({"best_state": {"model": codec.state_dict()}, "epoch": 3}, tmp_path / "wrapped.th")
-    loaded = _codec(2)
-    loaded.load_checkpoint(tmp_path / "wrapped.th")
-    assert all(torch.equal(value, loaded.state_dict()[name]) for name, value in codec.state_dict().items())
-
-
-def test_the_first_eight_digits_of_the_sha256_suffice(codec: EnCodec, published_file: Path) -> None:
-    codec.load_checkpoint(published_file, hashlib.sha256(published_file.read_bytes()).hexdigest()[:8])
-
-
 @pytest.mark.parametrize("digest", ["0" * 64, "0" * 8])
 def test_a_wrong_sha256_is_refused_and_both_digests_are_named(
     codec: EnCodec, published_file: Path, digest: str
 ) -> None:
     with pytest.raises(InputError, match=rf"encodec\.th: SHA-256 is [0-9a-f]{{64}}, expected {digest};"):
         codec.load_checkpoint(published_file, digest)
-
-
-def test_a_sha256_that_is_none_is_refused(codec: EnCodec, published_file: Path) -> None:
-    with pytest.raises(InputError, match="expected 64 hexadecimal digits"):
-        codec.load_checkpoint(published_file, "abc")
 
 
 def test_missing_unexpected_and_misshapen_entries_are_named_and_nothing_is_loaded(
@@ -184,18 +142,6 @@ def test_a_file_that_is_no_checkpoint_is_refused(codec: EnCodec, tmp_path: Path)
     path.write_bytes(b"not a checkpoint")
     with pytest.raises(InputError, match=r"noise\.th: not a PyTorch checkpoint"):
         codec.load_checkpoint(path)
-
-
-def test_a_truncated_checkpoint_is_refused(codec: EnCodec, published_file: Path, tmp_path: Path) -> None:
-    path = tmp_path / "half.th"
-    path.write_bytes(published_file.read_bytes()[:100_000])
-    with pytest.raises(InputError, match=r"half\.th: not a PyTorch checkpoint"):
-        codec.load_checkpoint(path)
-
-
-def test_an_absent_file_is_named(codec: EnCodec, tmp_path: Path) -> None:
-    with pytest.raises(InputError, match=r"absent\.th: no such file"):
-        codec.load_checkpoint(tmp_path / "absent.th")
 
 
 class _Malicious:

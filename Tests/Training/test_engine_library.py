@@ -10,7 +10,6 @@ import pytest
 
 from haptoflow_benchmark.engine.engine_library import EngineLibrary, default_engine
 from haptoflow_paper.rows.engine_generator import EngineGenerator
-from haptoflow_paper.rows.timing import TimedSource, time_sources
 from haptoflow_training.errors import InputError
 
 ROOT = Path(__file__).parents[2]
@@ -53,20 +52,3 @@ def test_a_refused_model_is_reported_with_the_reason(engine: EngineLibrary, tmp_
 def test_a_library_that_is_not_built_names_the_command_that_builds_it(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="npm run build"):
         default_engine(tmp_path)
-
-
-def test_every_source_is_timed_as_often_as_requested() -> None:
-    class Counting:
-        runs = 0
-
-        def generate(
-            self, embeddings: np.ndarray, motions: np.ndarray, past: np.ndarray, noise: np.ndarray, phase: np.ndarray
-        ) -> np.ndarray:
-            self.runs += 1
-            return past
-
-    counting = [Counting(), Counting()]
-    sources = [TimedSource(str(number), source) for number, source in enumerate(counting)]
-    times = time_sources(sources, blocks=3, runs_per_block=5, period_seconds=0.001, seed=1)
-    assert [source.runs for source in counting] == [3 * (3 + 5)] * 2
-    assert all(0.0 < entry.p50 <= entry.p99 for entry in times.values())

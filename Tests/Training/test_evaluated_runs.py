@@ -11,14 +11,11 @@ from test_trainer import _config
 
 from haptoflow_paper.rows.row_plan import load_plan
 from haptoflow_paper.rows.workplace import Workplace
-from haptoflow_paper.runs.networks import AverageVelocityField
 from haptoflow_paper.runs.trainer import EvaluatedTrainer
-from haptoflow_training.models.velocity_field import VelocityField
-from haptoflow_training.training.config import TrainingConfig, config_from_dict, load_config
+from haptoflow_training.training.config import TrainingConfig, config_from_dict
 from haptoflow_training.training.trainer import Trainer, build_model
 
 PAPER = Path(__file__).parents[2] / "Training" / "haptoflow_paper"
-CONDITION = (torch.full((2, 64), 0.1), torch.full((2, 3), 0.2), torch.full((2, 6), 0.3))
 
 
 def test_every_published_row_was_measured_with_the_present_configuration_of_its_model() -> None:
@@ -36,31 +33,6 @@ def test_every_published_row_was_measured_with_the_present_configuration_of_its_
     assert checked >= 4
 
 
-def _moved(field: torch.nn.Module) -> torch.nn.Module:
-    """A field whose weights are all different from zero."""
-    generator = torch.Generator().manual_seed(4)
-    with torch.no_grad():
-        for parameter in field.parameters():
-            parameter.copy_(0.1 * torch.randn(parameter.shape, generator=generator))
-    return field.eval()
-
-
-def test_an_average_velocity_depends_on_its_interval_and_is_the_velocity_without_one() -> None:
-    field = _moved(AverageVelocityField(width=16, previous_width=8))
-    given = (torch.randn(2, 1, 200), torch.zeros(2, 1), torch.zeros(2, 1, 200), *CONDITION)
-    whole, half = field(*given, torch.ones(2, 1)), field(*given, 0.5 * torch.ones(2, 1))
-    assert not torch.allclose(whole, half)
-    plain = VelocityField(width=16, previous_width=8)
-    plain.load_state_dict({name: value for name, value in field.state_dict().items() if not name.startswith("interval.")})
-    assert torch.equal(plain(*given), field(*given))
-
-
-def test_a_configuration_names_the_classes_that_train_and_export_it() -> None:
-    averaging = evaluated(_config(), recipe={"objective": "average-velocity"})
-    assert isinstance(build_model(averaging, [(), ()]).field, AverageVelocityField)
-    assert type(build_model(_config(), [(), ()])).__name__ == "FieldModel"
-
-
 def test_an_evaluated_run_with_no_key_of_its_own_has_the_weights_and_phases_of_the_product() -> None:
     product = config_from_dict(_config().to_dict(), Path("test"), TrainingConfig)
     models = []
@@ -71,16 +43,3 @@ def test_an_evaluated_run_with_no_key_of_its_own_has_the_weights_and_phases_of_t
     assert all(torch.equal(models[0][name], models[1][name]) for name in models[0])
     phases = [trainer.phases(config) for trainer, config in ((Trainer, product), (EvaluatedTrainer, evaluated(product)))]
     assert phases[0] == phases[1]
-
-
-def test_an_ablation_is_a_patch_of_few_keys_of_the_recipe_that_it_extends() -> None:
-    ours = load_config(PAPER / "configs" / "sketch.toml").to_dict()
-    for file in sorted((PAPER / "configs").glob("sketch-*.toml")):
-        ablation = load_config(file).to_dict()
-        changed = {
-            (section, key)
-            for section in ("data", "model", "optimiser", "batch", "recipe", "solver")
-            for key, value in ablation[section].items()
-            if value != ours[section][key]
-        }
-        assert 1 <= len(changed) <= 2, (file.name, changed)

@@ -15,7 +15,6 @@ from training_fixtures import FakeRecording, FakeStore, make_store, travelled_mm
 from haptoflow_paper.codec.small_codec import SmallCodec, SmallCodecShape
 from haptoflow_paper.report.annotation import annotate_model
 from haptoflow_paper.runs.trainer import EvaluatedTrainer
-from haptoflow_training.errors import InputError
 from haptoflow_training.export.exponents import fit_exponents
 from haptoflow_training.export.exporter import export_run
 from haptoflow_training.export.label_info import LabelInfo
@@ -59,29 +58,6 @@ def test_the_header_says_origin_labels_range_and_tier(exported: tuple[Path, Mode
     assert header["measurements"]["steps"] == 60
 
 
-def test_the_header_holds_a_label_s_touch_down_vibration_if_it_is_known(
-    exported: tuple[Path, ModelFile, FakeStore]
-) -> None:
-    known, unknown = exported[1].header["labels"]
-    assert known["impact"] == {
-        "modes": [
-            {"frequency_hz": 180.0, "decay_per_second": 75.5, "gain_per_second": 170.0},
-            {"frequency_hz": 640.0, "decay_per_second": 700.0, "gain_per_second": 40.0},
-        ],
-        "restitution": 0.25,
-    }
-    assert "impact" not in unknown
-
-
-def test_the_header_says_how_a_label_slips_and_how_its_ribs_wander_if_it_is_known(
-    exported: tuple[Path, ModelFile, FakeStore]
-) -> None:
-    known, unknown = exported[1].header["labels"]
-    assert known["stick_slip"] == {"length_metres": 0.0011, "wander": 0.25, "wander_metres": 0.004}
-    assert known["rib_wander"] == [{"turns": 0.12, "wavelength_metres": 0.0119}]
-    assert "stick_slip" not in unknown and "rib_wander" not in unknown
-
-
 def test_graphs_are_opset_16_with_named_inputs_and_a_dynamic_batch(
     exported: tuple[Path, ModelFile, FakeStore]
 ) -> None:
@@ -108,22 +84,6 @@ def test_seeds_are_recordings_of_unit_level_with_their_conditions(exported: tupl
     tones = [wave for wave, entry in zip(bank.waves, bank.entries, strict=True) if entry["label"] == "tone"]
     spectra = np.abs(np.fft.rfft(tones, axis=1))
     assert (spectra.argmax(axis=1) == 30).all(), "150 Hz is bin 30 of 400 samples at 2 kHz"
-
-
-def test_only_seeds_of_ruled_labels_state_their_rib_phase() -> None:
-    store = make_store()
-    wave_numbers = np.array([[0.0, 0.0, 0.0, 0.0], [0.4, 0.1, 0.0, 0.8]], np.float32)
-    bank = build_seed_bank(store, wave_numbers, seed=1, held_out=HeldOut(), candidates=200)
-    windows = np.lib.stride_tricks.sliding_window_view(store.waveform, 400)
-    normalised = windows / (np.sqrt(np.square(windows).mean(axis=1, keepdims=True)) + 1e-12)
-    for wave, entry in zip(bank.waves, bank.entries, strict=True):
-        if entry["label"] == "tone":
-            assert "rib_phase" not in entry
-            continue
-        start = int(np.square(normalised - wave).sum(axis=1).argmin())
-        turns = wave_numbers[1].reshape(2, 2) @ store.position_mm[start + 200] - entry["rib_phase"]
-        np.testing.assert_allclose(turns, np.round(turns), atol=1e-3)
-        assert all(0.0 <= turn < 1.0 for turn in entry["rib_phase"])
 
 
 def test_exponents_are_those_of_the_recordings() -> None:
@@ -160,11 +120,6 @@ def test_golden_vectors_name_the_file_they_belong_to(exported: tuple[Path, Model
     for case in golden["cases"]:
         assert len(case["segment"]) == len(case["noise"]) == len(case["previous"]) == 200
         assert np.abs(case["segment"]).max() > 0.0
-
-
-def test_labels_that_were_not_trained_are_refused(exported: tuple[Path, ModelFile, FakeStore], tmp_path: Path) -> None:
-    with pytest.raises(InputError, match="trained on labels"):
-        export_run(exported[0] / "run", Source(exported[2], INFOS[::-1], PROVENANCE), tmp_path / "x.haptoflow")
 
 
 def test_measured_figures_go_into_the_header_and_the_golden_vectors_follow(

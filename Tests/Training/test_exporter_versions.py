@@ -48,12 +48,6 @@ def test_an_older_pytorch_is_given_no_argument_that_it_does_not_know(monkeypatch
     assert export_graph(nn.Linear(4, 2), {"given": torch.zeros(2, 4)}, "made")
 
 
-def test_every_export_goes_the_one_way() -> None:
-    sources = [path for folder in ("Training", "Tests/Training") for path in (ROOT / folder).rglob("*.py")]
-    calls = [path.name for path in sources if re.search(r"^\s+torch\.onnx\.export\(", path.read_text(), re.MULTILINE)]
-    assert calls == ["onnx_graphs.py"]
-
-
 def test_every_dependency_has_a_lower_and_an_upper_bound() -> None:
     project = tomllib.loads((ROOT / "Training" / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     wanted = [*project["dependencies"], *(one for extra in project["optional-dependencies"].values() for one in extra)]

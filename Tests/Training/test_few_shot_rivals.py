@@ -13,7 +13,6 @@ from haptoflow_benchmark.metrics.waveform_metrics import power_spectrum
 from haptoflow_paper.few_shot.few_shot_rivals import fit_autoregressive
 from haptoflow_paper.few_shot.level_law import LabelPrior, fit_level
 from haptoflow_paper.few_shot.recording_windows import windows_of
-from haptoflow_training.errors import InputError
 from haptoflow_training.export.level_table import LevelTable
 from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.recordings.material_recording import MaterialRecording
@@ -53,37 +52,6 @@ def test_the_level_follows_a_step_that_breaks_any_power_law(prior: LabelPrior) -
     law = fit_level(windows_of([stroke(wave, motion_of(speed))], 200, 100), prior)
     speeds = [0.035, 0.05, 0.09, 0.11, 0.14]
     assert levels_db(law, speeds) == pytest.approx([float(wanted(v)) for v in speeds], abs=2.0)
-
-
-def test_beyond_the_recorded_speeds_the_level_continues_with_the_recorded_exponent(prior: LabelPrior) -> None:
-    speed = swept(20.0, 0.03, 0.15)
-    wave = np.random.default_rng(2).standard_normal(len(speed)) * (speed / 0.1) ** 0.6
-    law = fit_level(windows_of([stroke(wave, motion_of(speed))], 200, 100), prior)
-    assert law.speed_exponent == pytest.approx(0.6, abs=0.15)
-    assert levels_db(law, [0.6])[0] == pytest.approx(20.0 * 0.6 * math.log10(6.0), abs=2.0)
-
-
-def test_a_recording_at_one_force_takes_the_labels_force_exponent_and_one_at_many_its_own(prior: LabelPrior) -> None:
-    speed, rng = swept(20.0), np.random.default_rng(3)
-    force = np.exp(0.8 * np.sin(np.arange(len(speed)) / 3100.0))
-    noise = rng.standard_normal(len(speed)) * speed / 0.1
-    constant = fit_level(windows_of([stroke(noise, motion_of(speed))], 200, 100), prior)
-    assert constant.force_exponent == pytest.approx(prior.force_exponent[0], abs=0.05)
-    pressed = fit_level(windows_of([stroke(noise * force**0.9, motion_of(speed, force))], 200, 100), prior)
-    assert pressed.force_exponent == pytest.approx(0.9, abs=0.1)
-
-
-def test_impacts_count_by_their_power(prior: LabelPrior) -> None:
-    speed, rng = swept(20.0), np.random.default_rng(4)
-    wave = rng.standard_normal(len(speed)) * np.where(rng.random(len(speed)) < 0.01, 10.0, 0.5)
-    law = fit_level(windows_of([stroke(wave, motion_of(speed))], 200, 100), prior)
-    assert levels_db(law, [0.06])[0] == pytest.approx(20.0 * math.log10(float(np.sqrt(np.mean(wave**2)))), abs=1.5)
-
-
-def test_a_recording_at_rest_has_no_level(prior: LabelPrior) -> None:
-    still = stroke(np.ones(4000), motion_of(np.full(4000, 1e-4)))
-    with pytest.raises(InputError, match="moves faster than"):
-        fit_level(windows_of([still], 200, 100), prior)
 
 
 def test_the_autoregressive_rival_recovers_an_autoregressive_spectrum() -> None:

@@ -68,13 +68,6 @@ def _count_held(places: NDArray[np.floating]) -> int:
     return int(HELD_OUT.holds(STORE.motion[places.reshape(-1).astype(np.int64)]).sum())
 
 
-def test_the_store_of_these_tests_contains_much_held_out_motion() -> None:
-    held = HELD_OUT.holds(STORE.motion)
-    assert 0.1 < held.mean() < 0.5
-    direction = np.degrees(np.arctan2(STORE.motion[:, 1], STORE.motion[:, 0])) % 360.0
-    assert np.mean((direction >= 215.0) & (direction < 235.0)) > 0.03
-
-
 @pytest.mark.parametrize("split", ["train", "validation"])
 def test_no_sample_of_a_training_pair_lies_in_a_held_out_band(split: str) -> None:
     batches = SegmentBatches(STORE, split, BATCH, 1)
@@ -109,14 +102,6 @@ def test_the_codec_holds_out_the_same_bands_as_networks() -> None:
     assert config.held_out_as is not None
     bands = HeldOut.of(load_config(config.held_out_as).batch)
     assert bands == HeldOut.of(network.batch) != HeldOut()
-
-
-def test_without_bands_the_held_out_motion_of_the_same_store_is_drawn() -> None:
-    free = dataclasses.replace(
-        BATCH, held_out_speed_mps=(), held_out_force_newtons=(), held_out_direction_degrees=()
-    )
-    batch = SegmentBatches(STORE, "train", free, 1).draw(96)
-    assert _count_held(batch.segment.numpy()) > 1000
 
 
 def test_seeds_and_exponents_use_only_windows_outside_the_bands(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -166,12 +151,6 @@ def test_clear_spans_are_the_rest_of_each_recording_and_never_span_two() -> None
     spans = clear_spans(motion, np.array([0, 4]), np.array([4, 4]), HeldOut(speed_mps=(0.25, 0.3)))
     assert spans.starts.tolist() == [0, 2, 4, 7] and spans.lengths.tolist() == [1, 2, 1, 1]
     assert spans.owners.tolist() == [0, 0, 1, 1]
-
-
-def test_a_split_entirely_inside_a_band_is_named_and_never_drawn() -> None:
-    everything = dataclasses.replace(BATCH, held_out_force_newtons=(0.0, 9.0))
-    with pytest.raises(ValueError, match="'train'.*held-out"):
-        SegmentBatches(STORE, "train", everything, 1)
 
 
 def _default_passes() -> Sequence[tuple[int, NDArray[np.float32]]]:

@@ -54,18 +54,6 @@ def test_different_spectra_are_distinguished_at_any_speed() -> None:
         assert [classifier.name(part) for part in _features(generator, *kind, 8)] == [name] * 8
 
 
-def test_windows_of_rest_and_air_are_left_out() -> None:
-    wave = np.random.default_rng(2).normal(size=8000)
-    assert len(window_features(wave, np.tile([0.0, 0.0, 1.0], (8000, 1)))) == 0
-    assert len(window_features(wave, np.tile([0.1, 0.0, 0.0], (8000, 1)))) == 0
-    assert len(window_features(wave, np.tile([0.1, 0.0, 1.0], (8000, 1)))) == 7
-
-
-def test_a_label_with_too_few_windows_is_named() -> None:
-    with pytest.raises(ValueError, match="'dull'"):
-        LabelClassifier({"dull": concatenate(_features(np.random.default_rng(3), 90.0, 5.0, 1))})
-
-
 def test_a_stroke_file_moves_with_the_prescribed_velocity(tmp_path: Path) -> None:
     motion = np.tile([0.1, -0.05, 1.5], (2000, 1))
     write_stroke(tmp_path / "stroke.csv", motion)

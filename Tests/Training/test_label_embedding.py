@@ -36,22 +36,6 @@ def test_an_unknown_specimen_gives_the_label_itself_and_a_known_one_keeps_the_wa
     torch.testing.assert_close(embedding(label), embedding.weight[label])
 
 
-def test_specimens_start_as_their_label() -> None:
-    embedding = LabelEmbedding(64, RIBS, specimens=3)
-    made = embedding(torch.tensor([0]), torch.tensor([2]))
-    assert torch.equal(made, embedding(torch.tensor([0])))
-    made.square().sum().backward()
-    assert embedding.pieces is not None and embedding.pieces.grad is not None
-    assert embedding.pieces.grad.abs().max() > 0.0
-
-
-def test_without_specimens_the_embedding_ignores_them_and_has_no_parameter_of_size_zero() -> None:
-    embedding = LabelEmbedding(64, RIBS)
-    assert torch.equal(embedding(torch.tensor([1]), torch.tensor([2])), embedding(torch.tensor([1])))
-    assert all(parameter.numel() for parameter in embedding.parameters())
-    assert embedding.offsets.shape == (2, 0, 60)
-
-
 def _phases(position_mm: tuple[float, float], wander: tuple[float, ...] = (0.0,) * 6) -> list[float]:
     embedding = LabelEmbedding(64, RIBS)(torch.tensor([0]))
     motion = torch.tensor([[0.1, -0.2, 1.0]])
@@ -65,12 +49,6 @@ def _same(one: list[float], other: list[float]) -> None:
 def test_phases_are_the_fraction_of_the_ribs_crossed_and_the_rates_k_times_v_with_their_sign() -> None:
     # 0.8 ribs a millimetre along x at 100 mm/s, 0.5 along y at -200 mm/s; stick-slip has no place.
     _same(_phases((1.5, 0.5)), [0.2, 0.25, 0.0, 80.0, -100.0, 0.0])
-
-
-def test_whole_ribs_do_not_count_even_after_metres_and_phases_lie_below_one() -> None:
-    _same(_phases((5001.5, -3999.5)), _phases((1.5, 0.5)))
-    for place in ((-1e-9, -1e-9), (1.25, 2.0), (-0.3, -0.7)):
-        assert all(0.0 <= turns < 1.0 for turns in _phases(place)[:3])
 
 
 def test_wander_displaces_the_ribs_and_is_all_there_is_of_stick_and_slip() -> None:

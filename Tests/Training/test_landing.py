@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import math
 
 import pytest
 
@@ -29,21 +28,6 @@ def test_every_touch_down_vibration_is_within_the_model_format_s_limits(material
         assert 1.0 <= mode.frequency_hz <= 1000.0
         assert 10.0 <= mode.decay_per_second <= 10000.0
         assert 0.0 < mode.gain_per_second <= 10000.0
-
-
-def test_a_tip_on_an_undamped_spring_would_start_with_its_speed_times_the_angular_frequency() -> None:
-    # The coupling to the hand leaves 15 per cent of v sqrt(k / m).
-    landing = landing_of(dataclasses.replace(MATERIALS["wood"], stiffness_newtons_per_metre=2500.0))
-    mode = landing.modes[0]
-    assert mode.gain_per_second == pytest.approx(0.15 * 2.0 * math.pi * mode.frequency_hz)
-    assert mode.frequency_hz == pytest.approx(250.0)
-
-
-def test_a_damped_contact_decays_sooner_and_a_specimen_without_resonance_has_one_mode() -> None:
-    wood = MATERIALS["wood"]
-    damped = landing_of(dataclasses.replace(wood, contact_damping=2.0 * wood.contact_damping))
-    assert damped.modes[0].decay_per_second == pytest.approx(2.0 * landing_of(wood).modes[0].decay_per_second)
-    assert len(landing_of(dataclasses.replace(wood, tool_modes=((300.0, -6.0, 2.0),))).modes) == 1
 
 
 def test_a_label_of_which_only_the_stiffness_is_known_lands_as_the_recorder_s_materials_of_that_stiffness() -> None:

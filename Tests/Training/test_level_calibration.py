@@ -52,11 +52,6 @@ def test_the_level_error_of_a_label_is_measured_in_closed_loop() -> None:
     assert sum(counted) == hops(store)
 
 
-def test_a_recording_shorter_than_a_window_is_ignored() -> None:
-    store = make_store(seconds=0.09, recordings_per_split=1)
-    assert level_offsets_db(_KnownSource((2.0, -1.0)), np.zeros((2, 64), dtype=np.float32), store, HeldOut()) == [0.0, 0.0]
-
-
 def test_a_level_shift_affects_its_label_only_and_is_the_same_at_every_motion() -> None:
     torch.manual_seed(2)
     level, embedding = LevelModel(), torch.randn(20, 64)

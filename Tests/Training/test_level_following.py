@@ -11,8 +11,6 @@ from training_fixtures import RATE_HZ, FakeRecording, FakeStore, still_surfaces,
 from haptoflow_training.closed_loop.level_calibration import ClosedLoopLevels, TierSource, closed_loop_levels
 from haptoflow_training.closed_loop.level_following import level_tables
 from haptoflow_training.export.exponents import LabelExponents, fit_exponents
-from haptoflow_training.export.exporter import _label_entry
-from haptoflow_training.export.label_info import LabelInfo
 from haptoflow_training.export.level_table import LevelTable, table_through
 from haptoflow_training.export.trained_tier import TrainedTier
 from haptoflow_training.training.config import ModelConfig, TrainingConfig
@@ -106,25 +104,6 @@ def test_a_label_that_follows_the_level_model_gets_no_table(
     followed: tuple[dict[int, LevelTable], FakeStore],
 ) -> None:
     assert set(followed[0]) == {0}
-
-
-def test_a_written_table_keeps_the_limits_of_the_model_format(
-    followed: tuple[dict[int, LevelTable], FakeStore],
-) -> None:
-    written = followed[0][0].to_json()
-    assert 2 <= len(written["speeds_mps"]) == len(written["log_levels"]) <= 16
-    assert np.all(np.diff(written["speeds_mps"]) > 0.0)
-    assert 0.01 <= written["force_newtons"] <= 100.0 and -4.0 <= written["force_exponent"] <= 4.0
-
-
-def test_a_level_table_is_written_to_its_own_label_only(followed: tuple[dict[int, LevelTable], FakeStore]) -> None:
-    tables, store = followed
-    brick, wood = (
-        _label_entry(store, row, LabelInfo(name, "stone", 900.0, 0.5), 1, HeldOut(), tables.get(row))
-        for row, name in enumerate(store.labels)
-    )
-    assert brick["level"] == tables[0].to_json()
-    assert "level" not in wood
 
 
 def test_a_level_table_scales_only_its_own_label_in_the_closed_loop() -> None:

@@ -53,11 +53,6 @@ def test_any_two_materials_differ_by_more_than_the_perception_threshold():
             )
 
 
-def test_only_ruled_and_woven_materials_have_rulings():
-    ruled = {material.label for material in load_materials() if material.rulings}
-    assert ruled == {"metal mesh", "corduroy", "jute"}
-
-
 def test_an_unknown_key_is_named(tmp_path):
     text = DEFAULT_MATERIALS_PATH.read_text().replace("anisotropy = 1.5", "anisotropi = 1.5")
     path = tmp_path / "materials.toml"

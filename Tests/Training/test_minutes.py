@@ -13,8 +13,6 @@ from training_fixtures import make_store
 
 from haptoflow_training.commands.minutes import TiersMinutes
 from haptoflow_training.training import trainer as trainer_module
-from haptoflow_training.training.budget import Budget
-from haptoflow_training.training.config import config_from_dict
 from haptoflow_training.training.trainer import TimeLimit, Trainer, load_trained
 
 SECONDS_PER_STEP = {"level": 1.0, "field": 4.0, "polish": 1.0}
@@ -51,14 +49,6 @@ def test_timed_steps_and_training_together_take_the_given_time_and_finish(
     assert labels == ["tone", "noise"]
 
 
-def test_with_little_time_the_level_phase_comes_first(tmp_path: Path, wall: list[float]) -> None:
-    trainer = limited(tmp_path, TimeLimit(60.0))
-    trainer.run()
-    steps = {phase.name: phase.steps for phase in trainer._phases}
-    assert steps["level"] + steps["polish"] > steps["field"]
-    assert all(count >= 1 for count in steps.values())
-
-
 def test_the_bar_shows_the_time_left_including_what_follows_training(
     tmp_path: Path, wall: list[float], monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -80,22 +70,6 @@ def test_a_resumed_run_uses_the_rest_of_its_time(tmp_path: Path, wall: list[floa
     wall[0] += 5000.0
     limited(tmp_path, TimeLimit(123.0)).run()
     assert wall[0] - 5000.0 == pytest.approx(300.0, abs=10.0) and used < 100.0
-
-
-def test_a_budget_uses_the_given_clock() -> None:
-    now = [10.0]
-    budget = Budget([30.0, 50.0], clock=lambda: now[0])
-    now[0] = 22.0
-    budget.spend(0)
-    assert budget.used_seconds == [12.0, 0.0]
-    assert budget.left_seconds == 68.0
-
-
-def test_the_configuration_of_a_limited_run_is_that_of_any_other(tmp_path: Path, wall: list[float]) -> None:
-    limited(tmp_path, TimeLimit(200.0)).run()
-    config, _, _ = load_trained(tmp_path)
-    # In a process that has imported haptoflow_paper, with its keys at what every run does.
-    assert config == config_from_dict(_config().to_dict(), tmp_path)
 
 
 @pytest.mark.parametrize(("networks", "lanes", "rounds"), [(2, 2, 1), (2, 1, 2), (3, 2, 2), (1, 8, 1)])

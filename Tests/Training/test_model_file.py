@@ -87,14 +87,6 @@ def test_a_tensor_that_is_not_finite_is_refused() -> None:
         encode_model_file(ModelFile({}, {"embedding": np.array([np.nan], np.float32)}, {}))
 
 
-def test_a_folder_that_cannot_be_written_is_named(tmp_path: Path) -> None:
-    blocked = tmp_path / "model.haptoflow"
-    blocked.mkdir()
-    with pytest.raises(InputError, match="model.haptoflow"):
-        write_model_file(blocked, MODEL)
-    assert list(tmp_path.iterdir()) == [blocked]
-
-
 def test_the_space_follows_the_networks_and_neither_labels_nor_embedding() -> None:
     spaces = json.loads((GOLDEN / "material" / "expected.json").read_text(encoding="utf-8"))["spaces"]
     model = read_model_file(GOLDEN / "model" / "tiny.haptoflow")

@@ -23,13 +23,6 @@ def published(root: Path) -> Path:
     return root
 
 
-def own(root: Path) -> Path:
-    for name in ("0_0_20_500_0", "66_0_20_500_0"):
-        write_recording(root, small_recording(name, seconds=1.2))
-    write_texture_list(root, [TextureEntry(0, "denim", {}), TextureEntry(66, "felt", {})])
-    return root
-
-
 def synthetic(root: Path) -> Path:
     for repeat in range(3):
         write_recording(root, small_recording(f"0_hand_400_1500_{repeat}", seconds=1.2))
@@ -55,14 +48,6 @@ def test_prepare_takes_a_published_folder_with_the_default_labels(
     assert "3 recordings" in printed and "1 recordings are left out: no label names their texture" in printed
 
 
-def test_prepare_keeps_the_names_of_other_recordings_and_states_no_licence(tmp_path: Path) -> None:
-    out = tmp_path / "store"
-    assert main(["prepare", "--recordings", str(own(tmp_path / "data")), "--out", str(out)]) == 0
-    store = SegmentStore.open(out)
-    assert store.labels == ["denim", "felt"]
-    assert store.provenance["recordings"] == [{"source": "unknown", "licence": "unknown", "synthetic": False}]
-
-
 def test_prepare_takes_synthetic_recordings_with_their_own_names(tmp_path: Path) -> None:
     out = tmp_path / "store"
     assert main(
@@ -71,13 +56,6 @@ def test_prepare_takes_synthetic_recordings_with_their_own_names(tmp_path: Path)
     store = SegmentStore.open(out)
     assert store.labels == ["carpet"] and len(store.recordings) == 3
     assert store.provenance["recordings"][0]["synthetic"] is True
-
-
-def test_prepare_keeps_held_out_directions_and_speeds_for_testing(tmp_path: Path) -> None:
-    out = tmp_path / "store"
-    words = ["prepare", "--recordings", str(published(tmp_path / "data")), "--out", str(out)]
-    assert main([*words, "--hold-out-direction", "90", "--hold-out-speed", "20"]) == 0
-    assert {one.split for one in SegmentStore.open(out).recordings} == {"test"}
 
 
 def test_prepare_skips_a_broken_file_and_says_so(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -105,10 +83,3 @@ def test_prepare_refuses_two_folders_with_the_same_names(
     assert main(["prepare", "--recordings", str(first), str(second), "--out", str(tmp_path / "store")]) == 3
     assert "came twice" in capsys.readouterr().err
     assert not (tmp_path / "store").exists()
-
-
-def test_prepare_help_has_examples(capsys: pytest.CaptureFixture[str]) -> None:
-    with pytest.raises(SystemExit) as stop:
-        main(["prepare", "--help"])
-    assert stop.value.code == 0
-    assert "examples:" in capsys.readouterr().out

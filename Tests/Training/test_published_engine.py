@@ -140,9 +140,6 @@ class TestOnnxRuntime:
     def test_the_decoder_graph_makes_the_segment(self, results: Results, golden: GoldenChain) -> None:
         assert_within_1e_4_of_its_rms(results["decoder"], _batch(golden, "waveform"))
 
-    def test_the_level_graph_states_the_unit(self, results: Results) -> None:
-        np.testing.assert_allclose(np.exp(results["level"]), np.full((GoldenChain.segments, 1), UNIT_MPS2), rtol=1e-5)
-
 
 def _generated(
     generator: EngineGenerator, golden: GoldenChain, segment: int, previous: NDArray[np.float32]
@@ -161,44 +158,6 @@ def test_three_segments_through_the_c_interface_are_the_golden_ones(
         for segment in range(golden.segments):
             previous = _generated(generator, golden, segment, previous)
             assert_within_1e_4_of_its_rms(previous / UNIT_MPS2, golden.tensor(segment, "waveform")[0])
-
-
-def test_a_batch_through_the_c_interface_is_the_golden_one(engine: EngineLibrary, path: Path, golden: GoldenChain) -> None:
-    def batched(name: str) -> NDArray[np.float32]:
-        return np.concatenate([golden.tensor(segment, name).reshape(1, -1).numpy() for segment in range(golden.segments)])
-
-    with EngineGenerator(engine, path, maximum_batch=2) as generator:
-        rows = generator.embeddings[[golden.label(segment) for segment in range(golden.segments)]]
-        motions = np.concatenate([golden.motion(segment).numpy() for segment in range(golden.segments)])
-        previous = batched("previous") * np.float32(UNIT_MPS2)
-        found = generator.generate(rows, motions, previous, np.zeros_like(previous), latent_noise=batched("noise"))
-    assert_within_1e_4_of_its_rms(found / UNIT_MPS2, batched("waveform"))
-
-
-def test_fewer_steps_through_the_c_interface_are_those_of_pytorch(
-    engine: EngineLibrary, path: Path, golden: GoldenChain, model: PublishedModel, file: ModelFile
-) -> None:
-    noise = golden.tensor(1, "noise")
-    past = model.past_features(model.encode(golden.tensor(1, "previous")))
-    condition = golden.tensor(1, "cond")
-    for tier in file.header["tiers"]:
-        guidance = 1.0 if tier["name"].endswith("unguided") else model.meta.guidance
-        point, steps = noise, tier["steps"]
-        for step in range(steps):
-            begin, length = 1.0 - step / steps, 1.0 / steps
-
-            def field(at: torch.Tensor, time: float, guidance: float = guidance) -> torch.Tensor:
-                return model.velocity(at, torch.tensor([[time]]), condition, past, guidance)
-
-            if model.meta.solver == "heun":
-                first = field(point, begin)
-                point = point - 0.5 * length * (first + field(point - length * first, begin - length))
-            else:
-                point = point - length * field(point, begin - 0.5 * length)
-        with EngineGenerator(engine, path, tier["name"]) as generator:
-            previous = golden.tensor(1, "previous").reshape(1, -1).numpy() * np.float32(UNIT_MPS2)
-            found = _generated(generator, golden, 1, previous)
-        assert_within_1e_4_of_its_rms(found / UNIT_MPS2, model.decode(point)[0])
 
 
 def test_the_offline_engine_plays_a_stroke_from_touch_down_at_the_measured_level(

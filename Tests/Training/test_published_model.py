@@ -89,16 +89,3 @@ def test_three_segments_that_follow_each_other_are_the_golden_ones(model: Publis
         noise, row = golden.tensor(segment, "noise"), _row(model, golden, segment)
         previous = model.segment(noise, row, golden.motion(segment), previous)
         assert_within_1e_4_of_its_rms(previous, golden.tensor(segment, "waveform"))
-
-
-def test_a_batch_is_its_rows_one_by_one(model: PublishedModel, golden: GoldenChain) -> None:
-    def batched(of: str) -> torch.Tensor:
-        return torch.cat([golden.tensor(segment, of) for segment in range(golden.segments)])
-
-    rows = torch.cat([_row(model, golden, segment) for segment in range(golden.segments)])
-    motions = torch.cat([golden.motion(segment) for segment in range(golden.segments)])
-    assert_within_1e_4_of_its_rms(model.segment(batched("noise"), rows, motions, batched("previous")), batched("waveform"))
-
-
-def test_silence_is_encoded_without_a_number_that_is_not_finite(model: PublishedModel) -> None:
-    assert torch.isfinite(model.encode(torch.zeros(1, 1, 200))).all()

@@ -10,7 +10,7 @@ from haptoflow_training.preprocessing.pipeline import preprocess_recording
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.recordings.synthetic import load_materials, record_condition
 from haptoflow_training.recordings.synthetic.features import impact_acceleration
-from haptoflow_training.recordings.synthetic.random_field import RandomField, place_fractions
+from haptoflow_training.recordings.synthetic.random_field import RandomField
 from haptoflow_training.recordings.synthetic.surface import OCTAVE_WAVELENGTHS_MM, TipPath
 
 MATERIALS = {material.label: material for material in load_materials()}
@@ -80,25 +80,6 @@ def test_a_field_is_smooth_across_the_borders_of_its_patches() -> None:
     values = RandomField(1000, 3, 2, 1.0).at(_line(400_000, 0.02, 3.0))
     bend = np.abs(np.diff(values, 2))
     assert bend.max() < 6.5 * np.sqrt(np.mean(bend**2))
-
-
-def test_fields_of_other_octaves_specimens_and_surfaces_are_independent() -> None:
-    line = _line(100_000, 0.2, 21.0)
-    fields = [RandomField(1000, 0, 5, 1.0), RandomField(1000, 1, 5, 1.0), RandomField(1000, 0, 6, 1.0)]
-    fields += [RandomField(1001, 0, 5, 1.0)]
-    correlation = np.corrcoef([field.at(line) for field in fields])
-    assert np.abs(correlation[np.triu_indices(4, 1)]).max() < 0.03
-
-
-def test_places_are_hashed_evenly_on_both_sides_of_zero() -> None:
-    i, j = (axis.ravel() for axis in np.meshgrid(np.arange(-200, 200), np.arange(-200, 200)))
-    fractions = np.array(place_fractions(77, i, j))
-    assert fractions.min() >= 0.0 and fractions.max() < 1.0
-    assert np.abs(fractions.mean(axis=1) - 0.5).max() < 0.005
-    assert np.abs(np.corrcoef(fractions)[np.triu_indices(4, 1)]).max() < 0.015
-    grid = fractions[0].reshape(400, 400)
-    assert abs(np.corrcoef(grid[1:].ravel(), grid[:-1].ravel())[0, 1]) < 0.015
-    assert abs(np.corrcoef(grid[200:].ravel(), grid[:200][::-1].ravel())[0, 1]) < 0.015
 
 
 @pytest.mark.parametrize("label", ["wood", "sandpaper"])

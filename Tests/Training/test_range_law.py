@@ -11,7 +11,6 @@ import torch
 from synthetic_samples import record_machine
 from training_fixtures import FakeRecording, FakeStore, travelled_mm
 
-from haptoflow_benchmark.metrics.waveform_metrics import fundamental_hz
 from haptoflow_training.export.exponents import LabelExponents, fit_exponents
 from haptoflow_training.models.level_model import LevelModel, level_loss
 from haptoflow_training.preprocessing.pipeline import preprocess_recording
@@ -109,19 +108,3 @@ def test_extrapolating_the_level_law_is_closer_to_fast_recordings_than_clamping(
 ) -> None:
     law, clamped = _level_errors_db(taught, speed_mps)
     assert np.median(law) < 0.6 * np.median(clamped), (law.round(1), clamped.round(1))
-
-
-@pytest.mark.parametrize("speed_mps", [0.15, 0.5])
-def test_faster_playback_beyond_the_range_gives_the_recorded_fundamental(
-    taught: Taught, speed_mps: float
-) -> None:
-    for label, wavelength_metres in (("metal mesh", 1.2e-3), ("corduroy", 2.5e-3)):
-        row = LABELS.index(label)
-        at_edge = fundamental_hz(taught.edge_waves[row], EDGE_MPS / wavelength_metres)
-        # design: the rate grows as (v / v_edge)^gamma, no more than fourfold.
-        rate = min(4.0, (speed_mps / EDGE_MPS) ** taught.exponents[row].frequency)
-        truth = fundamental_hz(_recorded(label, speed_mps, 79), speed_mps / wavelength_metres)
-        law_error, clamped_error = abs(rate * at_edge / truth - 1.0), abs(at_edge / truth - 1.0)
-        assert law_error < 0.6 * clamped_error
-        if rate < 4.0:
-            assert law_error < 0.02

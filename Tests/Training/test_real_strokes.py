@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from haptoflow_benchmark.engine.engine_render import read_wav
 from haptoflow_benchmark.engine.recorded_strokes import onto_table, read_recorded_strokes
+from haptoflow_training.errors import InputError
 
 ROOT = Path(__file__).parents[2]
 STROKES = ROOT.parent / "shared" / "strokes" / "vr-pen-on-surface" / "strokes.csv"
@@ -99,3 +100,25 @@ def test_hop_boundaries_do_not_stand_out_from_the_waveform(renders: Renders) -> 
     ratios = np.array([seam["jump_ratio"] for seam in seams])  # type: ignore[index]
     assert (counts * shares).sum() / counts.sum() <= 0.005
     assert np.sqrt((counts * ratios**2).sum() / counts.sum()) <= 1.3
+
+
+def test_a_stroke_on_a_tilted_table_is_mapped_onto_its_plane_and_lifts_stay_above() -> None:
+    generator = np.random.default_rng(4)
+    plane = generator.uniform(-0.3, 0.3, size=(300, 2))
+    height = 0.02 + 0.05 * plane[:, 0] - 0.03 * plane[:, 1]
+    height[280:] += 0.04
+    placed = onto_table(np.c_[5.0 + np.arange(300) / 90.0, plane, height])
+    assert placed[0, 0] == 0.0 and np.abs(placed[:280, 2]).max() < 1e-9
+    assert np.abs(placed[280:, 2] - 0.04).max() < 1e-9
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [("stroke_id,t_s,x_m,y_m,z_m\na,0,0,oops,0\n", ":2: expected"), ("stroke_id,t_s,x_m,y_m\na,0,0,0\n", ":2: expected"),
+     ("stroke_id,t_s,x_m,y_m,z_m\n", "holds no stroke")],
+)  # fmt: skip
+def test_a_damaged_stroke_file_is_refused_with_the_line_named(tmp_path: Path, text: str, message: str) -> None:
+    path = tmp_path / "strokes.csv"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(InputError, match=message):
+        read_recorded_strokes(path)

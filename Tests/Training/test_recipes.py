@@ -13,21 +13,13 @@ from paper_samples import evaluated
 from test_trainer import ALONE, _config
 from training_fixtures import make_store
 
-from haptoflow_paper.objectives.mean_flow import mean_flow_loss
-from haptoflow_paper.objectives.reflow import ReflowPairs, reflow_loss
 from haptoflow_paper.runs.trainer import EvaluatedTrainer
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.trained_tier import load_tiers, tier_of
 from haptoflow_training.models.rib_comb import PARTIALS
 from haptoflow_training.training.batches import SegmentBatch, SegmentBatches
 from haptoflow_training.training.config import BatchConfig, ModelConfig, RecipeConfig, SolverConfig
-from haptoflow_training.training.energy_distance import (
-    WINDOW_SAMPLES,
-    energy_distance_loss,
-    envelopes,
-    powers_by_bin,
-    spectra,
-)
+from haptoflow_training.training.energy_distance import energy_distance_loss, envelopes, spectra
 from haptoflow_training.training.losses import Losses
 from haptoflow_training.training.trainer import Trainer, build_model, load_trained, planned_steps
 
@@ -53,12 +45,6 @@ def _energy(draw: Callable[[int], torch.Tensor]) -> float:
     return _loss(_noise(256, 200, 1), _noise(256, 200, 2), (draw(3), draw(4)), own=False)
 
 
-@pytest.mark.parametrize("window", WINDOW_SAMPLES)
-def test_white_noise_has_mean_power_one_in_every_window(window: int) -> None:
-    power = powers_by_bin(_noise(400, 400, 5), window).mean(dim=(0, 1))
-    assert power[1:-1].mean().item() == pytest.approx(1.0, rel=0.05)
-
-
 def test_the_energy_distance_prefers_the_true_process_to_its_mean_to_a_copy_of_one_draw_and_to_a_wrong_level() -> None:
     true = _energy(lambda seed: _noise(256, 200, seed))
     assert true < _energy(lambda seed: torch.zeros(256, 200)) - 0.1, "the conditional mean"
@@ -80,39 +66,6 @@ def test_the_energy_distance_prefers_a_continued_tone_to_a_restarted_one() -> No
     ]
     assert losses[0] < losses[1] - 0.3
     assert losses[2] < losses[3] - 0.1, "own past: by spectra alone"
-
-
-def test_the_average_velocity_of_a_straight_flow_has_no_mean_flow_loss() -> None:
-    target = torch.full((16, 1, 8), 2.0)
-
-    def straight(rows: slice) -> Callable[[torch.Tensor, torch.Tensor, torch.Tensor], torch.Tensor]:
-        # One target: the velocity at (x, t) is (target - x) / (1 - t), constant along each path.
-        return lambda state, time, interval: (2.0 - state) / (1.0 - time.unsqueeze(-1) + 1e-6)
-
-    generator = torch.Generator().manual_seed(0)
-    assert mean_flow_loss(straight, target, generator, torch.ones(16)).item() < 1e-3
-
-
-def test_a_mean_flow_trained_on_two_points_reaches_them_in_one_step() -> None:
-    torch.manual_seed(0)
-    layers = torch.nn.Sequential(torch.nn.Linear(3, 64), torch.nn.SiLU(), torch.nn.Linear(64, 64), torch.nn.SiLU(),
-                                 torch.nn.Linear(64, 1))  # fmt: skip
-
-    def field(state: torch.Tensor, time: torch.Tensor, interval: torch.Tensor) -> torch.Tensor:
-        return layers(torch.cat([state[:, :, 0], time, interval], dim=1)).unsqueeze(-1)
-
-    optimiser = torch.optim.Adam(layers.parameters(), lr=3e-3)
-    generator = torch.Generator().manual_seed(1)
-    for _ in range(500):
-        target = 3.0 * torch.randint(0, 2, (128, 1, 1), generator=generator).float() - 1.5
-        loss = mean_flow_loss(lambda rows: field, target, generator, torch.ones(128))
-        optimiser.zero_grad()
-        loss.backward()
-        optimiser.step()
-    start = torch.randn(400, 1, 1, generator=generator)
-    made = start + field(start, torch.zeros(400, 1), torch.ones(400, 1))
-    assert (made.abs() - 1.5).abs().median().item() < 0.35
-    assert made.std().item() == pytest.approx(1.5, abs=0.3), "the plain flow's one step would land on the mean, 0"
 
 
 def _blows(seed: int, rate: float) -> torch.Tensor:
@@ -146,34 +99,6 @@ def test_the_energy_distance_detects_a_modulation_that_the_spectrum_does_not_sho
     even = [_noise(256, 200, seed) for seed in (5, 6)]
     swung = _loss(swinging(1), past, (swinging(2), swinging(3)), own=True)
     assert swung < _loss(swinging(1), past, (even[0], even[1]), own=True) - 0.02
-
-
-def test_the_reflow_loss_is_minimal_for_the_straight_path_of_each_pair() -> None:
-    noise, target = _noise(32, 8, 1).unsqueeze(1), _noise(32, 8, 2).unsqueeze(1)
-    where = torch.zeros(32, dtype=torch.long), torch.zeros(32, 3), torch.zeros(32, 2), torch.zeros(32, 6)
-    pairs = ReflowPairs(noise, target, noise, *where)
-    generator = torch.Generator().manual_seed(0)
-    assert reflow_loss(lambda state, time: target - noise, pairs, generator).item() < 1e-10
-    assert reflow_loss(lambda state, time: torch.zeros_like(state), pairs, generator).item() > 1.0
-
-
-def test_a_chain_of_recorded_segments_would_end_in_the_recorded_previous_waveform() -> None:
-    store = make_store()
-    batches = SegmentBatches(store, "train", BatchConfig(chain_silence_probability=0.0, switch_probability=0.0,
-                                                         silence_probability=0.0), 4)  # fmt: skip
-    batch = batches.draw_chains(16)
-    assert batch.chain is not None
-    lead_in = batch.chain.motion.shape[1] * batch.chain.hop_samples
-    for row in range(16):
-        previous = (batch.previous[row, 0].numpy() / 10.0).astype("float32")
-        start = (batch.chain.start[row, 0].numpy() / 10.0).astype("float32")
-        found = [
-            place
-            for place in range(200, len(store.waveform))
-            if abs(store.waveform[place - 1] - previous[-1]) < 1e-7
-            and abs(store.waveform[place - 200] - previous[0]) < 1e-7
-        ]
-        assert any(abs(store.waveform[place - lead_in - 1] - start[-1]) < 1e-7 for place in found)
 
 
 def test_rendering_a_chain_appends_each_generated_hop() -> None:
@@ -234,22 +159,6 @@ def test_tiers_that_share_no_level_are_refused(tmp_path: Path) -> None:
         Trainer(dataclasses.replace(_config(steps=5), tier=tier, seed=seed), store, tmp_path / tier, ALONE).run()
     with pytest.raises(InputError, match="--base"):
         load_tiers([tmp_path / "standard", tmp_path / "draft"])
-
-
-@pytest.mark.parametrize("shares_base", [True, False])
-def test_a_base_and_shares_base_must_be_given_together(shares_base: bool, tmp_path: Path) -> None:
-    config = dataclasses.replace(_config(), recipe=RecipeConfig(shares_base=shares_base))
-    with pytest.raises(InputError, match="go together"):
-        Trainer(config, make_store(), tmp_path, ALONE, None if shares_base else tmp_path / "base")
-
-
-def test_a_further_tier_s_base_may_have_a_network_of_another_shape(tmp_path: Path) -> None:
-    store = make_store()
-    wide = dataclasses.replace(_config(steps=5), model=ModelConfig(network="field", width=24, previous_width=8))
-    Trainer(wide, store, tmp_path / "base", ALONE).run()
-    config = dataclasses.replace(_config(), tier="draft", recipe=RecipeConfig(shares_base=True))
-    trainer = Trainer(config, store, tmp_path / "draft", ALONE, tmp_path / "base")
-    assert torch.equal(trainer.model.embedding.weight, load_trained(tmp_path / "base")[2].embedding.weight)
 
 
 def test_a_further_round_begins_with_the_averaged_weights_of_the_run_it_goes_on_from(tmp_path: Path) -> None:
@@ -315,11 +224,3 @@ def test_pairs_of_held_out_bands_are_not_drawn() -> None:
     speed = batch.motion_path[:, 0, :2].square().sum(dim=1).sqrt()
     share = ((speed >= 0.05) & (speed < 0.1)).float().mean().item()
     assert share < 0.002, "a fifth of all pairs lies there otherwise"
-
-
-def test_a_held_out_force_band_is_left_out_where_a_recording_reaches_beyond_it() -> None:
-    store = make_store(recordings_per_split=6)
-    store.motion[:, 2] = 1.0 + 0.5 * torch.sin(torch.arange(len(store.motion)) / 300.0).numpy()
-    batch = SegmentBatches(store, "train", BatchConfig(held_out_force_newtons=(1.2, 1.4)), 6).draw(2000)
-    force = batch.motion_path[:, 0, 2]
-    assert ((force >= 1.2) & (force < 1.4)).float().mean().item() < 0.002

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 from pathlib import Path
 
 import numpy as np
@@ -48,17 +47,6 @@ def test_two_processes_give_the_same_figures_as_one_and_store_every_row(tmp_path
     for row in _ROWS:
         place = _place(tmp_path / "two")
         assert stored_row(place, row, 1, made_from(place, yardstick, row, 1)) == together[row.name, 1]
-
-
-def test_a_row_on_every_fourth_recording_has_a_quarter_of_the_cells_and_another_origin(
-    tmp_path: Path, yardstick: Yardstick
-) -> None:
-    place = _place(tmp_path)
-    whole = next(row for row in _ROWS if row.name == "white-noise")
-    quarter = dataclasses.replace(whole, every_fourth=True)
-    assert len(measure_rows(place, yardstick, [(whole, 1)], 1)["white-noise", 1]["conditions"]) == 12
-    # The row measured on all recordings is not used for it.
-    assert len(measure_rows(place, yardstick, [(quarter, 1)], 1)["white-noise", 1]["conditions"]) == 3
 
 
 def test_a_row_that_cannot_be_measured_is_reported_and_the_others_are_stored(

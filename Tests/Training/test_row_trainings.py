@@ -8,12 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from haptoflow_paper.codec.small_codec import SmallCodec, SmallCodecShape
-from haptoflow_paper.commands.evaluate import _can_be_measured
 from haptoflow_paper.rows import row_training
-from haptoflow_paper.rows.accuracy import make_yardstick
 from haptoflow_paper.rows.row_plan import PlannedRow
-from haptoflow_paper.rows.row_runner import made_from
 from haptoflow_paper.rows.row_training import train_models
 from haptoflow_paper.rows.workplace import Workplace
 from haptoflow_training.training.config import DataConfig, load_config
@@ -68,24 +64,6 @@ def test_a_model_trained_with_its_present_configuration_is_not_trained_again(
     assert started == []
 
 
-def test_a_model_whose_configuration_has_changed_since_is_trained_again(place: Workplace, started: list[Job]) -> None:
-    summary = _leave_as_trained(place)
-    summary.write_text(summary.read_text(encoding="utf-8").replace('"batch_size": ', '"batch_size": 1'), encoding="utf-8")
-    train_models(place, [(_ROW, 1)], 1)
-    assert [job.name for job in started] == ["small, seed 1"]
-
-
-def test_rows_in_a_codec_s_latents_train_the_codec_once(place: Workplace, started: list[Job]) -> None:
-    latent = '\n[model]\npatch = 5\n[model.representation]\nkind = "small-codec"\ncheckpoint = "codec/small-codec.pt"\n'
-    for name in ("one", "two"):
-        text = f'name = "{name}"\n[data]\nsource = "synthetic"\n{latent}'
-        (place.root / f"{name}.toml").write_text(text, encoding="utf-8")
-    train_models(place, [(PlannedRow(name, "as-published", model=name), 1) for name in ("one", "two")], 1)
-    assert [job.name for job in started] == ["the small codec", "one, seed 1", "two, seed 1"]
-    # The checkpoint's path is relative to the repository, whatever the current folder.
-    assert {job.folder for job in started} == {place.root}
-
-
 def test_the_store_is_prepared_once_before_trainings_and_codecs_start_and_not_where_nothing_is_trained(
     place: Workplace, started: list[Job], monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -102,29 +80,3 @@ def test_the_store_is_prepared_once_before_trainings_and_codecs_start_and_not_wh
     _leave_as_trained(place)
     train_models(place, [(_ROW, 1)], 2)
     assert len(prepared) == 1
-
-
-def test_further_seeds_of_the_shipped_model_are_trainings_of_its_recipe(place: Workplace, started: list[Job]) -> None:
-    shipped = PlannedRow("standard", "ours", model="a/default.haptoflow", seeds=(1, 2), seeds_model="small")
-    assert place.model_file(shipped, 1) == place.root / "a" / "default.haptoflow"
-    assert place.model_file(shipped, 2) == place.model_file(_ROW, 2)
-    train_models(place, [(shipped, 1), (shipped, 2)], 1)
-    assert [job.name for job in started] == ["small, seed 2"]
-
-
-def test_seeds_without_a_training_configuration_are_left_out_but_not_the_shipped_file(place: Workplace) -> None:
-    shipped = PlannedRow("standard", "ours", model="a/default.haptoflow", seeds=(1, 2), seeds_model="nowhere")
-    assert place.seeds_of(shipped) == [1] and place.seeds_of(PlannedRow("r", "as-published", model="nowhere")) == []
-    assert place.seeds_of(_ROW) == [1] and place.seeds_of(PlannedRow("silence", "reference")) == [1]
-
-
-def test_the_codec_reconstruction_row_needs_the_codec_but_no_model(place: Workplace) -> None:
-    text = '[model]\npatch = 5\n[model.representation]\nkind = "small-codec"\ncheckpoint = "codec/small-codec.pt"\n'
-    (place.root / "paper-codec.toml").write_text(text, encoding="utf-8")
-    row = PlannedRow("small-codec-reconstruction", "reference")
-    yardstick = make_yardstick([])
-    assert row.is_reference and place.codec_checkpoint == place.root / "codec" / "small-codec.pt"
-    assert made_from(place, yardstick, row, 1)["graphs_crc32"] is None and not _can_be_measured(place, yardstick, row, 1)
-    place.codec_checkpoint.parent.mkdir()
-    SmallCodec(SmallCodecShape(latent_channels=12, width=8)).save(place.codec_checkpoint)
-    assert made_from(place, yardstick, row, 1)["graphs_crc32"] and _can_be_measured(place, yardstick, row, 1)

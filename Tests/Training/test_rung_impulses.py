@@ -6,7 +6,6 @@ import pytest
 import torch
 
 from haptoflow_training.models.rung_impulses import ATOMS, GAINS, RUNGS, TAIL_RUNGS, TAPS, RungImpulses, TailImpulses
-from haptoflow_training.models.velocity_field import VelocityField
 
 
 def _only(rung: int, atom: int) -> torch.Tensor:
@@ -36,27 +35,6 @@ def test_each_event_rings_with_its_kernel_and_only_after_its_start() -> None:
         expected = torch.zeros(200)
         expected[place : place + TAPS] = ring[: 200 - place]
         torch.testing.assert_close(impulses(noise, gains)[0, 0], expected, rtol=1e-4, atol=1e-4)
-
-
-def test_rows_have_their_own_impulse_gains_and_zero_gains_give_zero() -> None:
-    noise = torch.randn(3, 1, 200, generator=torch.Generator().manual_seed(1))
-    gains = torch.cat([_only(0, 3), torch.zeros(1, GAINS), _only(1, 5)])
-    together = RungImpulses()(noise, gains)
-    assert together[1].abs().max().item() == 0.0
-    alone = RungImpulses()(noise[2:], gains[2:])
-    torch.testing.assert_close(together[2:], alone)
-
-
-def test_a_field_starts_without_impulses_and_learns_those_of_its_condition() -> None:
-    field = VelocityField(width=16, previous_width=8, impulses=True)
-    noise = torch.randn(1, 1, 200, generator=torch.Generator().manual_seed(2))
-    arguments = (noise, torch.zeros(1, 1), torch.zeros(1, 1, 200), torch.zeros(1, 64), torch.zeros(1, 3))
-    assert field(*arguments).abs().max().item() == 0.0
-    assert field.impulse_gains is not None
-    with torch.no_grad():
-        field.impulse_gains.bias[0] = 0.5
-    made = field(*arguments)[0, 0]
-    assert (made != 0.0).sum().item() == (noise.abs() > RUNGS[0]).sum().item()
 
 
 def _tail_gains(seed: int) -> torch.Tensor:

@@ -19,7 +19,6 @@ from haptoflow_training.export.model_file import ModelFile, model_space, read_mo
 from haptoflow_training.export.skeleton_tensors import condition_tensors, skeleton_tensors
 from haptoflow_training.fewshot.add_label import with_label
 from haptoflow_training.models.conditioning import MotionFeatures
-from haptoflow_training.models.rung_impulses import TAIL_RUNGS
 from haptoflow_training.models.surface_waves import rate_features
 
 GOLDEN = Path(__file__).parents[1] / "Golden" / "model"
@@ -66,17 +65,6 @@ def _moving_condition(case: dict[str, Any]) -> _Floats:
 FINE, SMOOTH = (0.5, 1.0, 2.0, 4.0, 8.0), (0.5, 1.0)
 
 
-def test_pytorch_still_makes_the_golden_vectors(cases: list[dict[str, Any]]) -> None:
-    sketch, refined = make_skeleton_model.exact(*make_skeleton_model.build())
-    assert len(cases) == len(make_skeleton_model.CASES)
-    for number, case in enumerate(cases):
-        made = make_skeleton_model.golden_case(sketch, refined, number)
-        assert made.keys() == case.keys()
-        for key, stored in case.items():
-            scale = 1.0 + np.abs(stored).max()
-            np.testing.assert_allclose(made[key], stored, atol=1e-5 * scale, err_msg=f"case {number}, {key}")
-
-
 def test_the_file_is_that_of_the_model_which_made_the_golden_vectors(file: ModelFile) -> None:
     sketch, refined = make_skeleton_model.build()
     assert refined.refiner is not None
@@ -87,37 +75,6 @@ def test_the_file_is_that_of_the_model_which_made_the_golden_vectors(file: Model
     assert written.keys() == file.tensors.keys()
     for name, values in written.items():
         np.testing.assert_allclose(values, file.tensors[name], rtol=1e-6, atol=1e-7, err_msg=name)
-
-
-def test_a_further_label_of_a_model_with_a_skeleton_leaves_the_seeds_of_its_material_out(file: ModelFile) -> None:
-    seed = {"samples": [1.0] * 400, "velocity_mps": [0.1, 0.0], "force_newtons": 1.0}
-    material = {"name": "learnt", "space": model_space(file), "embedding": [0.1] * 64, "seeds": [seed]}
-    larger = with_label(file, material)
-    assert larger.tensors.keys() == file.tensors.keys() and "seed_bank" not in larger.header
-    assert "seeds" not in larger.header["labels"][-1]
-
-
-def test_the_header_states_the_skeleton_and_its_tiers(file: ModelFile) -> None:
-    stated = file.header["skeleton"]
-    weights = [values.size for name, values in file.tensors.items() if name.startswith("skeleton.")]
-    assert stated == {
-        "order": 24, "harmonics": 14, "swing_harmonics": 5, "rungs": list(TAIL_RUNGS),
-        "hidden": len(file.tensors["skeleton.0.bias"]), "parameters": sum(weights),
-    }  # fmt: skip
-    assert [(tier["name"], tier["kind"], tier.get("field")) for tier in file.header["tiers"]] == [
-        ("sketch", "skeleton", None), ("standard", "refine", "standard.field"),
-    ]  # fmt: skip
-
-
-def test_tensors_have_the_shapes_of_the_format(file: ModelFile) -> None:
-    hidden, films = file.header["skeleton"]["hidden"], file.tensors["standard.condition.4.bias"].size
-    shapes = {name: values.shape for name, values in file.tensors.items()}
-    assert shapes["level.law.weight"] == (3, 64) and shapes["level.law.bias"] == (3,)
-    assert shapes["level.correction.0.weight"][1] == 64 + 12 + 2 and shapes["level.correction.4.weight"][0] == 1
-    assert shapes["skeleton.0.weight"] == (hidden, 64 + 18 + 6) and shapes["skeleton.4.weight"] == (269, hidden)
-    assert shapes["standard.condition.0.weight"] == (128, 64 + 18 + 6)
-    assert shapes["standard.condition.4.weight"] == (films, 128)
-    assert shapes["embedding"] == (2, 64) and shapes["pieces"] == (2, make_skeleton_model.SPECIMENS, 60)
 
 
 def test_the_tensors_alone_give_level_filter_and_the_film_with_its_factors(

@@ -91,20 +91,6 @@ def test_no_combination_of_sliders_leaves_the_spread_of_the_labels(file: ModelFi
             assert (along <= sliders.highest + 1e-4).all()
 
 
-def test_a_material_outside_the_spread_is_not_moved_further(sliders: Sliders) -> None:
-    far = sliders.mean + 3.0 * sliders.highest[0] * sliders.axes[0]
-    assert sliders.slid(far, {}) == pytest.approx(far)
-    for name, direction in sliders.directions.items():
-        outwards = float(np.sign(direction @ sliders.axes[0]))
-        led = sliders.axes[0] @ (sliders.slid(far, {name: outwards}) - sliders.mean)
-        assert led == pytest.approx(3.0 * sliders.highest[0])
-
-
-def test_sliders_at_rest_and_the_level_change_no_embedding(file: ModelFile, sliders: Sliders) -> None:
-    base = learnt(file, "wood")[:60]
-    assert sliders.slid(base, {"coarseness": 0.0, "level": 1.0}) == pytest.approx(base, abs=1e-9)
-
-
 def test_the_shipped_file_is_what_the_command_writes(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     out = tmp_path / "default.sliders.json"
     assert main(["sliders", "--model", str(DEFAULT), "-o", str(out)]) == 0

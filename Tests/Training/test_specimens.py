@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-import pytest
 from numpy.typing import NDArray
-from synthetic_samples import record_hand, record_machine
 
 from haptoflow_training.recordings.recording import RecordingIdentity
 from haptoflow_training.recordings.synthetic import (
@@ -18,7 +15,6 @@ from haptoflow_training.recordings.synthetic import (
     hand_conditions,
     load_materials,
     machine_conditions,
-    protocols,
     record_condition,
     record_hand_condition,
     record_machine_condition,
@@ -29,7 +25,6 @@ from haptoflow_training.recordings.synthetic.features import impact_acceleration
 from haptoflow_training.recordings.synthetic.materials import Material, Ruling
 from haptoflow_training.recordings.synthetic.surface import TipPath, random_height
 from haptoflow_training.training.config import load_config
-from haptoflow_training.training.recordings_source import synthetic_recordings
 
 MATERIALS = {material.label: material for material in load_materials()}
 CONFIGURATIONS = Path(__file__).parents[2] / "Training" / "configs"
@@ -86,33 +81,6 @@ def test_the_phase_of_ribs_is_the_wave_vector_times_the_recorded_position_on_eve
         line = np.mean(normal * np.exp(-2j * np.pi * across[settled]))
         turns.append(line / np.abs(line))
     assert np.abs(np.angle(np.array(turns) / np.mean(turns))).max() < 0.3, np.angle(turns)
-
-
-def test_no_recording_of_the_default_training_is_of_the_held_out_specimen(monkeypatch: pytest.MonkeyPatch) -> None:
-    counted: Counter[int] = Counter()
-    for ride in ("machine_pass", "hand_ride", "guided_ride"):
-        monkeypatch.setattr(protocols, ride, lambda rng, **condition: None)
-    monkeypatch.setattr(protocols, "record_ride", lambda *ride, specimen, accelerometer_noise: counted.update([specimen]))
-    recordings = list(synthetic_recordings(load_config(CONFIGURATIONS / "default" / "standard.toml").data))
-    for recording in recordings:
-        recording.load()
-    assert counted.total() == len(recordings) > 1000
-    assert set(counted) == set(TRAINING_SPECIMENS)
-    assert max(counted.values()) < 1.3 * min(counted.values())
-
-
-def test_recordings_state_their_specimen_which_follows_from_their_identity() -> None:
-    materials = list(MATERIALS.values())
-    hand = list(record_hand(materials, seed=1, labels=["glass"], recordings_per_label=8, duration_seconds=2.0))
-    machine = list(record_machine(materials, seed=1, labels=["glass"], speeds_mmps=[60], forces_millinewtons=[500]))
-    for recording in hand + machine:
-        assert recording.specimen == training_specimen(recording.identity)
-    assert {recording.specimen for recording in hand} == {recording.specimen for recording in machine}
-    condition = {"velocity_mps": (0.1, 0.0), "force_newtons": 1.0, "duration_seconds": 0.5, "seed": 1}
-    assert record_condition(MATERIALS["glass"], **condition).specimen == HELD_OUT_SPECIMEN
-    assert record_condition(MATERIALS["glass"], **condition, specimen=2).specimen == 2
-    with pytest.raises(ValueError, match="specimen is -1"):
-        record_condition(MATERIALS["glass"], **condition, specimen=-1)
 
 
 def test_a_stroke_or_pass_on_a_chosen_specimen_follows_the_same_motion_over_another_surface() -> None:

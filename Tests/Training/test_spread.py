@@ -59,11 +59,6 @@ def test_training_specimens_are_on_average_the_label_and_spread_as_its_material_
     assert material.specimen_spread_db == (0.75 if smooth else 1.5)
 
 
-def test_labels_have_their_loud_specimens_at_different_numbers() -> None:
-    loudest = {max(TRAINING_SPECIMENS, key=lambda one: character_of(each, one).level_db) for each in MATERIALS.values()}
-    assert len(loudest) >= 5
-
-
 def test_the_held_out_specimen_is_typical_and_further_ones_stay_within_two_deviations() -> None:
     levels = []
     for material in MATERIALS.values():
@@ -96,20 +91,6 @@ def test_a_recording_has_the_level_and_the_tilt_of_its_specimen() -> None:
 def _places(count: int) -> NDArray[np.float64]:
     x, y = np.meshgrid(np.linspace(-3000.0, 3000.0, count), np.linspace(-3000.0, 3000.0, count))
     return np.stack([x.ravel(), y.ravel()], axis=1)
-
-
-def test_places_of_a_specimen_vary_by_the_stated_deviation_over_centimetres() -> None:
-    for label in ("wood", "glass"):
-        material = MATERIALS[label]
-        for specimen in (0, HELD_OUT_SPECIMEN):
-            level_db = 20.0 * np.log10(surface_gain(material, _places(200), specimen))
-            own = character_of(material, specimen).level_db
-            assert np.mean(level_db) == pytest.approx(own, abs=0.1 * material.place_spread_db)
-            assert np.std(level_db) == pytest.approx(material.place_spread_db, rel=0.1)
-    line = np.stack([np.arange(0.0, 20_000.0), np.zeros(20_000)], axis=1)
-    level_db = 20.0 * np.log10(surface_gain(MATERIALS["wood"], line, HELD_OUT_SPECIMEN))
-    likeness = [np.corrcoef(level_db[:-apart], level_db[apart:])[0, 1] for apart in (5, 20, 60)]
-    assert likeness[0] > 0.9 and likeness[1] < 0.5 and abs(likeness[2]) < 0.6
 
 
 def test_without_spread_every_specimen_and_place_is_typical() -> None:

@@ -12,7 +12,6 @@ from dataset_samples import small_recording
 
 from haptoflow_training.errors import InputError
 from haptoflow_training.preprocessing import preparation
-from haptoflow_training.preprocessing.pipeline import preprocess_recording
 from haptoflow_training.preprocessing.preparation import prepare_store
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.preprocessing.split import SPLITS
@@ -66,38 +65,6 @@ def test_a_store_opened_again_is_the_store_that_was_written(store: SegmentStore)
         again.waveform[0] = 1.0
 
 
-def test_a_stored_recording_is_what_preprocessing_made_of_it_in_units_of_the_peak(
-    store: SegmentStore
-) -> None:
-    for recording, stored in zip(some_recordings(), store.recordings, strict=True):
-        prepared = preprocess_recording(recording, SETTINGS)
-        inside = slice(stored.recorded_samples.start + 20, stored.recorded_samples.stop - 20)
-        np.testing.assert_allclose(
-            store.waveform[inside] * store.peak_mps2, prepared.waveform_mps2[20:-20], rtol=1e-5, atol=1e-6
-        )
-        np.testing.assert_array_equal(store.motion[inside], prepared.motion[20:-20])
-        assert stored.name == recording.identity.name and stored.label == recording.label
-        assert stored.label_index == LABELS.index(stored.label)
-        assert stored.peak_mps2 == pytest.approx(np.abs(prepared.waveform_mps2).max())
-
-
-def test_recordings_lie_one_behind_the_other_and_fill_the_arrays(store: SegmentStore) -> None:
-    expected = 0
-    for stored in store.recordings:
-        assert stored.start == expected
-        expected += stored.length
-    assert store.waveform.shape == (expected,) and store.motion.shape == (expected, 3)
-    assert any(stored.padding_before for stored in store.recordings)
-
-
-def test_the_peak_is_the_80th_percentile_of_the_training_recordings_peaks(store: SegmentStore) -> None:
-    peaks = [stored.peak_mps2 for stored in store.split("train")]
-    assert store.peak_mps2 == pytest.approx(np.percentile(peaks, 80.0))
-    header = json.loads((store.path / "store.json").read_text())
-    assert header["normalisation"] == {"unit": "m/s^2", "peak_mps2": store.peak_mps2}
-    assert header["sample_rate_hz"] == 2000
-
-
 def test_every_recording_is_in_exactly_one_split_and_all_splits_occur(store: SegmentStore) -> None:
     names = [{stored.name for stored in store.split(split)} for split in SPLITS]
     assert all(names)
@@ -142,14 +109,6 @@ def test_held_out_directions_and_speeds_land_in_the_test_split(tmp_path: Path) -
     held_out = [one for one in store.recordings if one.direction_degrees == 90 or one.speed_mmps == 40]
     assert held_out and {one.split for one in held_out} == {"test"}
     assert store.split("train")
-
-
-def test_two_workers_make_the_same_store_as_one(tmp_path: Path) -> None:
-    entries = [OnDemand(f"1_{direction}_40_500_0", "wood") for direction in range(0, 360, 45)]
-    alone = prepare_store(entries, LABELS, tmp_path / "one", SETTINGS, seed=2, progress=False)
-    shared = prepare_store(entries, LABELS, tmp_path / "two", SETTINGS, seed=2, progress=False, workers=2)
-    for name in ("store.json", "waveform.f32", "motion.f32", "position.f32", "wander.f32"):
-        assert (alone.path / name).read_bytes() == (shared.path / name).read_bytes()
 
 
 def test_a_broken_recording_is_skipped_with_its_reason_and_the_rest_is_kept(tmp_path: Path) -> None:

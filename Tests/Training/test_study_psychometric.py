@@ -6,11 +6,8 @@ import numpy as np
 import pytest
 from scipy import optimize, special
 
-from haptoflow_training.studies.intervals import expanded_interval, jackknife_error, participant_weights
-from haptoflow_training.studies.latency_analysis import Point, point_at
-from haptoflow_training.studies.psychometric import (
-    Answers, Curve, degenerate_statement, fit, fit_curve, threshold_difference,
-)  # fmt: skip
+from haptoflow_training.studies.intervals import expanded_interval
+from haptoflow_training.studies.psychometric import Answers, Curve, fit, fit_curve, threshold_difference
 
 LEVELS = np.arange(50.0, 251.0, 20.0)
 
@@ -52,14 +49,6 @@ def test_very_many_answers_recover_the_curve_they_were_drawn_from() -> None:
     assert curve.percent(curve.x0) == pytest.approx(50.0)
 
 
-def test_delays_of_any_values_are_fitted_not_only_the_planned_levels() -> None:
-    random = np.random.default_rng(2)
-    delays = random.uniform(40.0, 260.0, 5000)
-    yes = (random.uniform(size=5000) < special.expit(0.03 * (delays - 110.0))).astype(int)
-    curve = fit_curve(Answers(delays, yes, np.repeat(np.arange(50), 100)))
-    assert curve is not None and curve.x0 == pytest.approx(110.0, abs=3.0)
-
-
 @pytest.mark.parametrize(
     ("yes", "said"),
     [
@@ -75,13 +64,6 @@ def test_degenerate_answers_get_a_reason_and_no_number(yes: np.ndarray, said: st
     result = fit(answers_of(yes))
     assert result.curve is None and result.threshold_interval is None and result.threshold_error is None
     assert said in result.statement
-
-
-def test_no_answers_and_a_single_delay_get_a_reason_too() -> None:
-    nothing = Answers(np.zeros(0), np.zeros(0, dtype=int), np.zeros(0, dtype=int))
-    assert degenerate_statement(nothing) == "there is no answer"
-    one = Answers(np.full(4, 90.0), np.array([0, 1, 0, 1]), np.arange(4))
-    assert "every trial had the same delay, 90 ms" in degenerate_statement(one)
 
 
 def test_a_single_participant_has_a_curve_without_an_interval_and_a_reason() -> None:
@@ -125,12 +107,6 @@ def test_the_same_seed_gives_the_same_interval_and_more_participants_a_narrower_
     assert few.threshold_interval.covers(few.curve.x0)  # type: ignore[union-attr]
 
 
-def test_the_standard_error_is_the_spread_of_thresholds_over_studies() -> None:
-    fits = [fit(drawn(seed), resamples=200) for seed in range(150)]
-    spread = np.std([one.curve.x0 for one in fits if one.curve], ddof=1)
-    assert np.mean([one.threshold_error for one in fits]) == pytest.approx(spread, rel=0.2)
-
-
 def test_participants_are_drawn_whole_so_that_copies_of_each_other_widen_the_interval() -> None:
     answers = drawn(6, participants=12)
     doubled = Answers(np.tile(answers.delay_ms, 2), np.tile(answers.yes, 2), np.tile(answers.participant, 2))
@@ -147,29 +123,8 @@ def test_the_difference_of_two_thresholds_is_resampled_by_the_same_participants(
     assert same is not None and (same.low, same.high) == (0.0, 0.0)
 
 
-def test_points_of_the_plot_have_the_share_of_yes_and_its_standard_error() -> None:
-    yes = np.zeros((4, 11))
-    yes[0, 3] = 1
-    point = point_at(answers_of(yes), 110.0, np.tile(LEVELS, 4) == 110.0)
-    # Wilson's interval of one in four.
-    interval = pytest.approx(4.56, abs=0.01), pytest.approx(69.94, abs=0.01)
-    assert point == Point(110.0, 110.0, 25.0, *interval, 4)
-
-
 def test_the_expanded_interval_is_wider_than_the_percentiles_by_students_t_and_the_count() -> None:
     values = np.random.default_rng(1).standard_normal(200000)
     interval = expanded_interval(np.append(values, np.nan), 24)
     assert interval.high == pytest.approx(np.sqrt(24 / 23) * 2.0687, abs=0.03)
     assert interval.low == pytest.approx(-interval.high, abs=0.05)
-
-
-def test_resamples_draw_as_many_participants_as_there_are() -> None:
-    weights = participant_weights(24, 100, 1)
-    assert weights.shape == (100, 24) and set(weights.sum(axis=1)) == {24.0}
-
-
-def test_the_jackknife_of_a_mean_is_its_standard_error() -> None:
-    values = np.array([1.0, 4.0, 2.0, 8.0, 5.0])
-    without = (values.sum() - values) / 4.0
-    assert jackknife_error(without) == pytest.approx(np.std(values, ddof=1) / np.sqrt(5))
-    assert jackknife_error(np.array([1.0, np.nan])) is None

@@ -9,8 +9,14 @@ import pytest
 from scipy import stats
 
 from haptoflow_training.studies.rating_tests import (
-    EQUIVALENCE_POINTS, analysed, cohen_dz, equivalence, friedman, holm, normality_p, rank_biserial, signed_rank_p,
-)  # fmt: skip
+    analysed,
+    cohen_dz,
+    equivalence,
+    friedman,
+    holm,
+    rank_biserial,
+    signed_rank_p,
+)
 
 
 def ratings_of(seed: int, participants: int, means: list[float], spread: float = 1.2) -> np.ndarray:
@@ -32,22 +38,6 @@ def every_sign_p(differences: np.ndarray, alternative: str) -> float:
 def test_few_differences_are_tested_by_counting_every_pattern_of_signs(alternative: str) -> None:
     differences = np.array([1.0, 2.0, 0.0, -1.0, 1.0, 3.0, 0.0, 2.0, -2.0])
     assert signed_rank_p(differences, alternative) == pytest.approx(every_sign_p(differences, alternative))
-
-
-def test_five_differences_of_one_sign_are_not_significant_as_the_normal_approximation_would_have_it() -> None:
-    assert signed_rank_p(np.array([1.0, 1.0, 2.0, 1.0, 3.0])) == pytest.approx(0.0625)
-
-
-def test_a_single_difference_is_never_significant() -> None:
-    one = np.array([0.0, 0.0, 2.0, 0.0])
-    assert signed_rank_p(one) == 1.0 and signed_rank_p(one, "greater") == 0.5 and signed_rank_p(one, "less") == 1.0
-
-
-def test_many_differences_rank_their_zeros_and_correct_the_variance_for_ties() -> None:
-    differences = np.array([1.0] * 8 + [2.0] * 5 + [-1.0] * 4 + [0.0] * 7)
-    ranks = stats.rankdata(np.abs(differences))[differences != 0.0]
-    z = (ranks[differences[differences != 0.0] > 0.0].sum() - ranks.sum() / 2.0) / np.sqrt(np.sum(ranks**2) / 4.0)
-    assert signed_rank_p(differences) == pytest.approx(2.0 * stats.norm.sf(abs(z)), rel=1e-9)
 
 
 def test_the_approximation_is_near_the_counted_value_where_it_takes_over() -> None:
@@ -104,12 +94,6 @@ def test_pairs_are_followed_up_only_where_the_methods_differ() -> None:
     assert min(pair.p_shaffer for pair in different.pairs) < 0.001  # type: ignore[type-var]
 
 
-def test_two_methods_are_tested_directly() -> None:
-    result = analysed(ratings_of(5, 24, [5.0, 3.5]))
-    (pair,) = result.pairs
-    assert result.friedman is None and pair.p == pair.p_shaffer and pair.p is not None and pair.p < 0.01
-
-
 def test_equal_methods_are_equivalent_with_enough_participants_and_different_ones_never() -> None:
     assert equivalence(*ratings_of(8, 300, [4.0, 4.0]).T, 0.5) < 0.001
     assert equivalence(*ratings_of(8, 300, [5.5, 3.0]).T, 0.5) > 0.99
@@ -124,31 +108,6 @@ def test_the_larger_side_of_equivalence_decides_and_a_wider_bound_is_easier() ->
     assert equivalence(np.full(24, 5.0), np.full(24, 4.0), 1.0) == 1.0
 
 
-def test_scatter_does_not_widen_the_bound() -> None:
-    calm, wild = (ratings_of(3, 24, [4.6, 4.0], spread) for spread in (0.6, 3.0))
-    assert equivalence(*wild.T, 1.0) > equivalence(*calm.T, 1.0)
-    assert {pair.bound for pair in (*analysed(calm).pairs, *analysed(wild).pairs)} == {EQUIVALENCE_POINTS}
-
-
 def test_holm_s_correction_is_that_of_its_definition() -> None:
     assert holm([0.01, 0.04, 0.03, 0.005]) == pytest.approx([0.03, 0.06, 0.06, 0.02])
     assert holm([0.9, 0.6]) == [1.0, 1.0] and holm([0.2]) == [0.2]
-
-
-def test_equivalence_is_corrected_for_the_number_of_pairs() -> None:
-    result = analysed(ratings_of(8, 24, [4.0] * 4), 1.0)
-    assert [pair.p_holm for pair in result.pairs] == holm([pair.p_equivalence for pair in result.pairs])
-    assert max(pair.p_holm for pair in result.pairs) > max(pair.p_equivalence for pair in result.pairs) - 1e-12
-    assert min(pair.p_holm for pair in result.pairs) == pytest.approx(6 * min(p.p_equivalence for p in result.pairs))
-
-
-def test_a_method_that_everyone_rates_alike_can_still_be_compared_with_one_that_varies() -> None:
-    result = analysed(np.column_stack([np.full(24, 7.0), ratings_of(4, 24, [3.0]).ravel()]))
-    assert result.normality_p[0] is None and result.normality_p[1] is not None
-    assert result.pairs[0].p is not None and result.pairs[0].p < 0.001
-
-
-def test_normality_is_rejected_for_clustered_ratings_and_not_tested_for_two() -> None:
-    piled = normality_p(np.array([7.0] * 20 + [1.0, 2.0, 6.0, 6.0]))
-    assert piled is not None and piled < 0.001
-    assert normality_p(np.array([1.0, 2.0])) is None

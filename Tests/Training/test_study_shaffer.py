@@ -34,10 +34,6 @@ def test_the_possible_numbers_of_true_hypotheses_are_those_of_every_way_to_be_eq
     assert possible_true_counts(methods) == counts
 
 
-def test_two_and_three_methods_have_the_factors_of_hand_calculation() -> None:
-    assert factors(2) == [1] and factors(3) == [3, 1, 1]
-
-
 def test_adjusted_values_keep_the_order_and_stay_below_one_whatever_the_values() -> None:
     random = np.random.default_rng(4)
     for methods in range(2, 7):
@@ -47,15 +43,6 @@ def test_adjusted_values_keep_the_order_and_stay_below_one_whatever_the_values()
             assert all(raw <= value <= 1.0 for raw, value in zip(p_values, result, strict=True))
             by_rank = [value for _, value in sorted(zip(p_values, result, strict=True))]
             assert by_rank == sorted(by_rank)
-
-
-def test_four_methods_are_adjusted_as_by_hand() -> None:
-    p_values = [0.02, 0.001, 0.5, 0.018, 0.03, 0.4]
-    assert adjusted(p_values, 4) == pytest.approx([0.06, 0.006, 0.8, 0.054, 0.09, 0.8])
-
-
-def test_a_smaller_product_after_a_larger_one_takes_the_larger() -> None:
-    assert adjusted([0.04, 0.05, 0.9], 3) == pytest.approx([0.12, 0.12, 0.9])
 
 
 def test_a_wrong_number_of_values_is_refused() -> None:

@@ -42,19 +42,6 @@ def test_the_phase_is_counted_in_the_direction_of_motion_so_that_the_way_back_me
     assert there[1][0, 0].abs().max() > 0.9
 
 
-@pytest.mark.parametrize("rate_hz", [0.0, 0.49, -0.49])
-def test_a_family_below_half_a_hertz_is_silent(rate_hz: float) -> None:
-    cosines, sines = SurfaceWaves(5, 700.0)(_phases((0.3, 0.3, 0.3), (rate_hz, 0.6, -0.6)))
-    assert cosines[0, 0].abs().max() == sines[0, 0].abs().max() == 0.0
-    assert (cosines[0, 1:].abs().amax(dim=2) > 0.0).all()
-
-
-def test_harmonics_at_or_above_the_band_are_silent_and_those_below_it_are_not() -> None:
-    cosines, sines = SurfaceWaves(5, 700.0)(_phases((0.0, 0.0, 0.0), (175.0, -349.0, 701.0)))
-    alive = (cosines.abs().amax(dim=3) + sines.abs().amax(dim=3))[0] > 0.0
-    assert alive.sum(dim=1).tolist() == [3, 2, 0]
-
-
 def test_the_place_at_every_sample_replaces_that_at_a_steady_rate() -> None:
     waves, phases = SurfaceWaves(4, 960.0), _phases((0.15, 0.6, 0.9), (35.0, -60.0, 20.0))
     seconds = (torch.arange(200) + 0.5) / 2000.0
@@ -92,12 +79,6 @@ def test_rate_features_are_zero_at_rest_and_tell_how_fast_and_which_way() -> Non
     assert torch.equal(there, rate_features(_phases((0.7, 0.0, 0.0), (5.0, 40.0, -300.0)))), "no place"
 
 
-def test_rate_features_do_not_jump_where_a_motion_turns_back_through_rest() -> None:
-    rates = torch.linspace(-2.0, 2.0, 401)
-    features = rate_features(torch.cat([torch.zeros(401, 3), rates[:, None].expand(-1, 3)], dim=1))
-    assert features.diff(dim=0).abs().max() < 0.004
-
-
 @pytest.mark.parametrize("samples", [1, 27, 150])
 def test_advanced_phases_are_those_of_a_segment_that_begins_later(samples: int) -> None:
     waves, phases = SurfaceWaves(5, 700.0), _phases((0.15, 0.6, 0.9), (35.0, -60.0, 20.0))
@@ -107,8 +88,3 @@ def test_advanced_phases_are_those_of_a_segment_that_begins_later(samples: int) 
     for first, second in zip(waves(phases), waves(later), strict=True):
         torch.testing.assert_close(second[..., : 200 - samples], first[..., samples:], rtol=0.0, atol=1e-3)
         assert (second[..., samples:] - first[..., samples:]).abs().max() > 0.01
-
-
-def test_phases_have_no_gradient_because_the_place_of_ribs_is_not_learnt() -> None:
-    phases = _phases((0.1, 0.2, 0.3), (20.0, 30.0, 40.0)).requires_grad_()
-    assert not any(wave.requires_grad for wave in SurfaceWaves(2, 700.0)(phases))

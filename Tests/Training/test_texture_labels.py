@@ -8,7 +8,7 @@ from parquet_samples import HUB
 from haptoflow_training.cli import main
 from haptoflow_training.errors import InputError
 from haptoflow_training.recordings.labels import LabelDefinition, LabelMap, load_labels
-from haptoflow_training.recordings.texture_labels import as_toml, labels_of_textures
+from haptoflow_training.recordings.texture_labels import labels_of_textures
 
 LISTED = {0: "Nyatoh", 1: "Steel", 38: "Granite", 49: "HDPE", 103: "Corduroy", 104: "Cotton broadcloth"}
 
@@ -47,9 +47,3 @@ def test_an_id_outside_the_data_set_is_refused(capsys: pytest.CaptureFixture[str
 def test_a_texture_that_is_called_like_another_label_is_told_apart_by_its_id() -> None:
     known = LabelMap((LabelDefinition("steel", "wood", (66,), 1.0, 0.5),))
     assert labels_of_textures(known, LISTED, (1, 66)).names == ["steel 1", "steel"]
-
-
-def test_what_is_written_is_read_back(tmp_path: Path) -> None:
-    odd = LabelMap((LabelDefinition('a "fine" \\ cloth ü', "cloth", (7,), 250.0, 0.4, 0.0012, ((0.5, -0.25),)),))
-    (tmp_path / "l.toml").write_text(as_toml(odd), encoding="utf-8")
-    assert load_labels(tmp_path / "l.toml") == odd

@@ -57,10 +57,6 @@ def test_every_split_gets_its_share_and_no_sample_is_near_another_split_s(second
     assert len(parts) == 3 * max(1, round(seconds / 10.0))
 
 
-def test_a_recording_that_is_too_short_is_not_cut() -> None:
-    assert time_parts(2000, SETTINGS) == []
-
-
 def test_one_recording_of_each_label_trains_validates_and_tests(tmp_path: Path) -> None:
     csv_one_axis(tmp_path / "data", "denim", "denim", stroke(10.0, seed=1))
     csv_one_axis(tmp_path / "data", "felt", "felt", stroke(4.0, seed=2))
@@ -95,14 +91,6 @@ def test_labels_with_recordings_enough_for_every_split_are_split_by_their_names(
     assert {one.split for one in store.recordings} == set(SPLITS)
 
 
-def test_trimming_keeps_most_of_a_short_recording(tmp_path: Path) -> None:
-    csv_one_axis(tmp_path / "data", "denim", "denim", stroke(1.0, seed=1))
-    store = prepare_store(list(open_own_dataset(tmp_path / "data")), ["denim"], tmp_path / "store", progress=False)
-    (one,) = store.recordings
-    assert one.recorded_samples.stop - one.recorded_samples.start == pytest.approx(0.6 * 2000, abs=4)
-    assert max(one.padding_before, one.padding_after) <= 0.34 * 0.6 * 2000
-
-
 def test_recordings_of_published_length_give_the_same_store_as_before(tmp_path: Path) -> None:
     materials = load_materials()
     chosen = (materials[0], materials[13])
@@ -124,4 +112,3 @@ def test_recordings_of_published_length_give_the_same_store_as_before(tmp_path: 
     waveform = np.asarray(store.waveform, dtype=np.float64)
     assert np.sqrt(np.mean(waveform**2)) == pytest.approx(WAVEFORM_RMS, rel=1e-4)
     assert np.abs(waveform[::500]).sum() == pytest.approx(WAVEFORM_SUM, rel=1e-4)
-

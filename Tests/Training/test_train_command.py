@@ -14,7 +14,6 @@ import pytest
 import torch
 
 from haptoflow_training.cli import main
-from haptoflow_training.preprocessing.store import SegmentStore
 from haptoflow_training.preprocessing.store_lock import store_lock
 
 TRAINING = Path(__file__).resolve().parents[2] / "Training"
@@ -70,16 +69,6 @@ def is_running(process: int) -> bool:
         return False
 
 
-def test_two_trainings_that_start_together_share_one_store(tmp_path: Path) -> None:
-    both = [started(tmp_path, name) for name in ("one", "two")]
-    said = [process.communicate(timeout=240)[1] for process in both]
-    assert [process.returncode for process in both] == [0, 0], said
-    assert len(SegmentStore.open(tmp_path / "store").recordings) == 10
-    # One of them prepares; the other waits, or comes when all is done.
-    assert sum("prepare:" in one for one in said) == 1
-    assert sorted(path.name for path in tmp_path.glob("store*")) == ["store"]
-
-
 def test_a_training_that_is_killed_while_preparing_leaves_no_worker_and_no_lock(tmp_path: Path) -> None:
     killed = started(tmp_path, "killed", hand_seconds=60.0)
     wait_for(killed, lambda: (tmp_path / "store.unfinished").exists() and len(children_of(killed.pid)) >= 2)
@@ -93,18 +82,6 @@ def test_a_training_that_is_killed_while_preparing_leaves_no_worker_and_no_lock(
     again = started(tmp_path, "again")
     _, said = again.communicate(timeout=240)
     assert again.returncode == 0 and "waiting" not in said, said
-
-
-@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
-def test_a_training_that_is_stopped_while_preparing_says_how_to_go_on(tmp_path: Path, number: int) -> None:
-    process = started(tmp_path, "run", hand_seconds=20.0)
-    wait_for(process, lambda: (tmp_path / "store.unfinished").exists() and len(children_of(process.pid)) >= 2)
-    process.send_signal(number)
-    _, said = process.communicate(timeout=60)
-    assert process.returncode == 128 + number, said
-    name = signal.Signals(number).name
-    assert f"stopped by {name}, no model is written yet; run the same command again to go on" in said
-    assert "Traceback" not in said and not list(tmp_path.glob("store*"))
 
 
 def test_a_training_that_is_stopped_between_steps_exits_with_an_error_and_goes_on_from_there(tmp_path: Path) -> None:

@@ -60,17 +60,6 @@ def test_training_lowers_both_validation_losses(tmp_path: Path) -> None:
     assert field_after < trainer.validate()[1]
 
 
-def test_a_run_leaves_its_configuration_seed_commit_metrics_and_plot(tmp_path: Path) -> None:
-    Trainer(_config(), make_store(), tmp_path, ALONE).run()
-    run = json.loads((tmp_path / "run.json").read_text(encoding="utf-8"))
-    assert run["configuration"]["optimiser"]["batch_size"] == 8
-    assert run["seed"] == 1
-    assert run["commit"]
-    assert run["steps"] == 60
-    assert "validation_field_loss" in (tmp_path / "metrics.csv").read_text(encoding="utf-8").splitlines()[0]
-    assert (tmp_path / "metrics.png").stat().st_size > 1000
-
-
 def test_a_finished_run_that_is_started_again_keeps_its_summary(tmp_path: Path) -> None:
     store = make_store()
     Trainer(_config(), store, tmp_path, ALONE).run()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
 import dataclasses
 import tomllib
 from pathlib import Path
@@ -10,9 +9,7 @@ from pathlib import Path
 import pytest
 
 from haptoflow_paper.rows.row_plan import load_plan
-from haptoflow_training.commands import train
 from haptoflow_training.errors import InputError
-from haptoflow_training.models.haptoflow_model import FieldModel
 from haptoflow_training.models.skeleton_model import SkeletonModel
 from haptoflow_training.training.config import TrainingConfig, config_from_dict, load_config
 from haptoflow_training.training.trainer import Trainer, build_model, planned_steps
@@ -59,33 +56,11 @@ def _requires_all_but_the_ranges(config: TrainingConfig, shipped: TrainingConfig
     assert config.batch == dataclasses.replace(shipped.batch, **nothing, machine_share=share)
 
 
-def test_own_recordings_without_a_configuration_are_fitted_to_the_network_and_by_the_loss_that_ship() -> None:
-    parser = argparse.ArgumentParser()
-    train.add_options(parser)
-    options = parser.parse_args(["--out", "out", "--recordings", "recordings"])
-    assert options.config == CONFIGURATIONS / "own.toml"
-    own, base = train.configuration(options), load_config(CONFIGURATIONS / "default" / "base.toml")
-    assert own.model == base.model and own.tier == base.tier and own.solver == base.solver
-    assert Trainer.losses_of(own) is Trainer.losses_of(base)
-    (embedding,) = Trainer.phases(own)
-    filtered = next(phase for phase in Trainer.phases(base) if phase.name == "field")
-    assert (embedding.objective, embedding.batch_size) == (filtered.objective, filtered.batch_size)
-    _requires_all_but_the_ranges(own, base)
-
-
 def test_a_configuration_that_names_no_network_trains_the_tier_that_ships_without_one(tmp_path: Path) -> None:
     config = _load(tmp_path, 'name = "mine"\n')
     shipped = load_config(CONFIGURATIONS / "default" / "base.toml")
     assert config.model == shipped.model and config.tier == shipped.tier == "sketch"
     assert isinstance(build_model(config, [(), ()]), SkeletonModel)
-
-
-@pytest.mark.parametrize("path", sorted(PAPER.rglob("*.toml")), ids=lambda path: str(path.name))
-def test_what_only_rivals_need_is_stated_in_their_own_configurations(path: Path) -> None:
-    if path.name in ("rows.toml", "codec-small.toml"):
-        return
-    config, stated = load_config(path), _stated_network(path)
-    assert config.model.network == stated
 
 
 def _stated_network(path: Path) -> str | None:
@@ -98,13 +73,6 @@ def _stated_network(path: Path) -> str | None:
     return next(filter(None, (_stated_network(path.parent / parent) for parent in reversed(parents))), None)
 
 
-def test_the_paper_s_own_settings_train_a_field_without_a_filter() -> None:
-    config = load_config(PAPER / "paper.toml")
-    assert config.model.network == "field" and isinstance(build_model(config, [(), ()]), FieldModel)
-    objectives = [phase.objective for phase in Trainer.phases(config)]
-    assert objectives[:2] == ["level", "flow"] and "filter" not in objectives
-
-
 def test_recordings_of_one_s_own_train_labels_alone() -> None:
     phases = Trainer.phases(load_config(CONFIGURATIONS / "own.toml"))
     assert [(phase.name, phase.objective) for phase in phases] == [("embedding", "likelihood")]
@@ -114,13 +82,6 @@ def test_a_skeleton_s_filter_is_fitted_before_its_likelihood_and_a_refinement_ha
     base, standard = (load_config(CONFIGURATIONS / "default" / f"{name}.toml") for name in ("base", "standard"))
     objectives = [[phase.objective for phase in Trainer.phases(config)] for config in (base, standard)]
     assert objectives == [["level", "filter", "likelihood", "energy", "energy"], ["energy", "energy"]]
-
-
-@pytest.mark.parametrize("network", ["field", "refinement"])
-def test_a_network_has_no_filter_to_fit(network: str, tmp_path: Path) -> None:
-    text = f'[model]\nnetwork = "{network}"\n[recipe]\nfilter_steps = 5\nshares_base = true\n'
-    with pytest.raises(InputError, match="recipe.filter_steps.*which has no filter"):
-        _load(tmp_path, text)
 
 
 def test_a_configuration_takes_what_it_does_not_set_from_the_one_it_extends(tmp_path: Path) -> None:

@@ -67,31 +67,6 @@ def test_rubber_s_slips_come_at_the_stated_phase_and_not_at_any_other_rate(speed
     assert length_mm == pytest.approx(MATERIALS["rubber"].stick_slip_length_mm, rel=0.1)
 
 
-def test_slips_are_longer_under_more_force_and_there_are_none_at_rest() -> None:
-    light, firm = (
-        record_condition(
-            MATERIALS["rubber"], velocity_mps=(0.05, 0.0), force_newtons=force, duration_seconds=2.0, seed=1
-        ).wander
-        for force in (0.3, 3.0)
-    )
-    assert light is not None and firm is not None
-    assert light.turns[-1, 2] / firm.turns[-1, 2] == pytest.approx(10.0**0.4, rel=1e-3)
-    still = record_condition(
-        MATERIALS["rubber"], velocity_mps=(0.0, 0.0), force_newtons=1.0, duration_seconds=0.5, seed=1
-    ).wander
-    assert still is not None and np.all(still.turns[:, 2] == 0.0)
-
-
-def test_what_a_material_lacks_is_zero_and_a_file_knows_nothing() -> None:
-    assert not np.any(_prepared(MATERIALS["wood"], (0.1, 0.0), seed=1, seconds=1.0).wander_turns)
-    jute = _prepared(MATERIALS["jute"], (0.1, 0.0), seed=1, seconds=1.0).wander_turns
-    assert np.all(np.any(jute[:, :2], axis=0)) and not np.any(jute[:, 2])
-    file = small_recording()
-    assert file.wander is None
-    prepared = preprocess_recording(file, SETTINGS)
-    assert prepared.wander_turns.shape == (len(prepared.waveform_mps2), 3) and not np.any(prepared.wander_turns)
-
-
 def test_the_parts_between_gaps_keep_the_phases_of_their_times() -> None:
     recording = record_condition(
         MATERIALS["rubber"], velocity_mps=(0.05, 0.0), force_newtons=1.0, duration_seconds=4.0, seed=1

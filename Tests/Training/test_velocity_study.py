@@ -19,7 +19,6 @@ from haptoflow_paper.velocity.velocity_estimators import (
     kalman,
     line,
 )
-from haptoflow_paper.velocity.velocity_figures import VelocityErrors
 from haptoflow_paper.velocity.velocity_report import page_words
 from haptoflow_paper.velocity.velocity_study import PRODUCT, PRODUCT_SETTINGS, product_velocity
 from haptoflow_training.model_stamp import with_measured_words
@@ -57,33 +56,6 @@ def test_every_estimator_is_exact_for_steady_motion_at_uneven_times(estimate: Es
     places = times[:, None] * np.array([0.3, 0.0, -0.1]) + 1000.0
     found = estimate(times, places, np.full(len(times), 1e-5))
     assert np.abs(found[100:] - [0.3, 0.0, -0.1]).max() < 1e-6
-
-
-def test_made_motions_have_the_velocity_that_they_say() -> None:
-    for motion in made_motions():
-        times = np.linspace(0.011, motion.seconds - 0.013, 997)
-        slope = (motion.place(times + 1e-6) - motion.place(times - 1e-6)) / 2e-6
-        wrong = np.linalg.norm(slope - motion.velocity(times), axis=1) > 1e-5
-        assert wrong.mean() < 0.01, motion.kind
-
-
-def test_the_same_case_comes_out_the_same_and_another_seed_another() -> None:
-    motion = next(iter(made_motions()))
-    first, again, other = (sampled(motion, 90.0, 1e-4, seed) for seed in (1, 1, 2))
-    assert np.array_equal(first.measured_m, again.measured_m)
-    assert not np.array_equal(first.measured_m[:50], other.measured_m[:50])
-    assert 0.1 < np.diff(first.times_s).std() * 90.0 < 0.4
-
-
-def test_errors_of_a_speed_half_as_high_are_six_decibels_and_late_steps_are_counted() -> None:
-    motion = next(each for each in made_motions() if each.kind == "steps of 150 mm/s")
-    case = sampled(motion, 100.0, 0.0, 1)
-    errors = VelocityErrors()
-    errors.add(case, case.velocity_mps / 2.001, np.ones(len(case.times_s), dtype=bool))
-    assert errors.figures()["speed_error_db"] == pytest.approx(6.02, abs=0.02)
-    late = VelocityErrors()
-    late.add(case, np.roll(case.velocity_mps, 3, axis=0), np.ones(len(case.times_s), dtype=bool))
-    assert late.figures()["half_intervals"] == pytest.approx(3.5, abs=0.25)
 
 
 def test_the_page_shows_the_committed_results() -> None:

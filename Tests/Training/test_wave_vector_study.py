@@ -39,11 +39,6 @@ def test_found_missed_and_wrong_vectors_are_counted_separately(monkeypatch: pyte
     }  # fmt: skip
 
 
-def test_the_surfaces_are_30_ruled_ones_and_38_without_ribs() -> None:
-    ruled = [len(each.vectors) > 0 for each in study_surfaces()]
-    assert (sum(ruled), len(ruled) - sum(ruled)) == (30, 38)
-
-
 def test_the_command_writes_what_it_counts(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["measure-wave-vectors", "--every", "60", "--results", str(tmp_path / "found.json")]) == 0
     results = json.loads((tmp_path / "found.json").read_text(encoding="utf-8"))

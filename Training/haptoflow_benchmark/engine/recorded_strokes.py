@@ -58,11 +58,3 @@ def on_table_spline(stroke: NDArray[np.float64]) -> tuple[float, CubicSpline]:
     is_fresh = np.r_[True, np.any(np.diff(placed[:, 1:], axis=0) != 0.0, axis=1)]
     ticks = np.linspace(0.0, placed[is_fresh, 0][-1], int(is_fresh.sum()))
     return float(ticks[-1]), CubicSpline(ticks, placed[is_fresh, 1:])
-
-
-def evenly_on_table(stroke: NDArray[np.float64], rate_hz: float = 500.0) -> NDArray[np.float64]:
-    """[n, 4] as `onto_table`, at an even rate along the spline: a line between a position and its repetition has a
-    speed that no pen had."""
-    seconds, spline = on_table_spline(stroke)
-    times = np.arange(0.0, seconds, 1.0 / rate_hz)
-    return np.c_[times, spline(times)]

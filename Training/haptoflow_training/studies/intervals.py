@@ -67,9 +67,6 @@ class Share(Interval):
     def rate(self) -> float:
         return self.count / self.of
 
-    def as_json(self) -> dict[str, float]:
-        return {"rate": round(self.rate, 4), "low": round(self.low, 4), "high": round(self.high, 4), "of": self.of}
-
     def __str__(self) -> str:
         return f"{100 * self.rate:.1f} % ({100 * self.low:.1f}-{100 * self.high:.1f})"
 
