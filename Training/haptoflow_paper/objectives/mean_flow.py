@@ -8,7 +8,7 @@ import torch
 from functorch import jvp
 from torch import Tensor
 
-from haptoflow_training.training.flow_matching import interpolate
+from haptoflow_paper.runs.flow_matching import interpolate
 
 # (noisy, time, interval) -> average velocity.
 AverageField = Callable[[Tensor, Tensor, Tensor], Tensor]

@@ -7,11 +7,11 @@ from dataclasses import dataclass, fields
 import torch
 from torch import Tensor
 
-from haptoflow_training.models.haptoflow_model import FieldModel
+from haptoflow_paper.runs.flow_matching import Field, interpolate, solve
+from haptoflow_paper.runs.velocity_field import FieldModel
 from haptoflow_training.models.label_embedding import surface_phases
 from haptoflow_training.models.level_model import scaled_previous
 from haptoflow_training.training.batches import SegmentBatch
-from haptoflow_training.training.flow_matching import Field, interpolate, solve
 
 
 @dataclass(frozen=True)

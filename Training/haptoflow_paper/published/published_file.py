@@ -23,10 +23,10 @@ from haptoflow_paper.rows.engine_generator import EngineGenerator
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.exponents import LabelExponents
 from haptoflow_training.export.model_file import ModelFile, write_model_file
-from haptoflow_training.export.seed_bank import SEED_SAMPLES
+from haptoflow_paper.runs.seed_bank import SEED_SAMPLES
 from haptoflow_training.model_stamp import sha256_of
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE
-from haptoflow_training.models.velocity_field import parameter_count
+from haptoflow_training.models.haptoflow_model import parameter_count
 from haptoflow_training.waveform import SAMPLE_RATE_HZ, SEGMENT_SAMPLES
 
 STANDARD_GRAVITY_MPS2 = 9.80665

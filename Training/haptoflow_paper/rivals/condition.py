@@ -5,7 +5,8 @@ from __future__ import annotations
 import torch
 from torch import Tensor, nn
 
-from haptoflow_training.models.conditioning import EMBEDDING_SIZE, MotionEncoder
+from haptoflow_paper.runs.velocity_field import MotionEncoder
+from haptoflow_training.models.conditioning import EMBEDDING_SIZE
 
 
 class ConditionEncoder(nn.Module):

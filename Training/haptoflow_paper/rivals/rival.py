@@ -5,9 +5,10 @@ from __future__ import annotations
 import torch
 from torch import Tensor, nn
 
+from haptoflow_paper.runs.continuing_comb import GAINS, ContinuingComb, spread_gains
 from haptoflow_paper.rivals.segment_network import INPUTS, SegmentNetwork
 from haptoflow_training.models.condition_perceptron import ConditionPerceptron
-from haptoflow_training.models.rib_comb import GAINS, PARTIALS, RibComb, spread_gains
+from haptoflow_training.models.rib_comb import PARTIALS, RibComb
 
 RIB_INPUTS = ("previous", "phases")
 _HIDDEN = 96
@@ -24,7 +25,7 @@ class RibLines(nn.Module):
 
     def __init__(self) -> None:
         super().__init__()
-        self.comb = RibComb()
+        self.comb = ContinuingComb()
         self.register_buffer("spread", spread_gains(), persistent=False)
         self.gains = ConditionPerceptron(GAINS, _HIDDEN)
         last = self.gains.layers[-1]

@@ -3,13 +3,17 @@ of the autoregressive rival."""
 
 from __future__ import annotations
 
+from typing import Any
+
 import torch
 from torch import Tensor
 
 from haptoflow_paper.objectives.mean_flow import AverageField, mean_flow_loss
 from haptoflow_paper.objectives.reflow import ReflowPairs
 from haptoflow_paper.rivals.autoregressive import AutoregressiveRival
-from haptoflow_training.models.haptoflow_model import Condition
+from haptoflow_paper.runs.configuration import SolverConfig
+from haptoflow_paper.runs.flow_matching import Field, flow_matching_loss, solve
+from haptoflow_training.models.haptoflow_model import Condition, HaptoFlowModel
 from haptoflow_training.models.label_embedding import WAVE_VECTORS
 from haptoflow_training.models.surface_waves import FAMILIES
 from haptoflow_training.training.batches import SegmentBatch
@@ -22,6 +26,10 @@ class EvaluatedLosses(Losses):
     """pairs: what the reflow objective draws from; set before its phase."""
 
     pairs: ReflowPairs | None = None
+
+    def __init__(self, model: HaptoFlowModel, *, solver: SolverConfig, **named: Any) -> None:
+        super().__init__(model, **named)
+        self._solver = solver
 
     def forward(self, batch: SegmentBatch, objective: str, generator: torch.Generator) -> tuple[Tensor, Tensor]:
         if objective != "reflow":
@@ -53,6 +61,8 @@ class EvaluatedLosses(Losses):
                 return average
 
             return mean_flow_loss(bound, given.segment, generator, 1.0 / given.power)
+        if objective == "flow":
+            return flow_matching_loss(self._field(given.condition), given.segment, generator, 1.0 / given.power)
         return super().field_loss(given, objective, generator)
 
     @staticmethod
@@ -74,4 +84,9 @@ class EvaluatedLosses(Losses):
         if objective == "average-velocity":
             start = torch.zeros(len(noise), 1)
             return noise + self.model.field(noise, start, *condition, torch.ones_like(start))
-        return super().drawn("energy" if objective == "own" else objective, noise, condition)
+        if objective in ("energy", "own"):
+            return super().drawn(objective, noise, condition)
+        return solve(self._field(condition), noise, self._solver.kind, self._solver.steps)
+
+    def _field(self, condition: Condition) -> Field:
+        return lambda noisy, time: self.model.field(noisy, time, *condition)

@@ -9,9 +9,7 @@ from torch import Tensor, nn
 
 from haptoflow_paper.codec.representation_base import Representation
 from haptoflow_paper.rivals.segment_network import SegmentNetwork
-from haptoflow_training.models.conditioning import TimeEncoder
-from haptoflow_training.models.haptoflow_model import FieldModel
-from haptoflow_training.models.velocity_field import VelocityField
+from haptoflow_paper.runs.velocity_field import FieldModel, TimeEncoder, VelocityField
 
 
 class EvaluatedModel(FieldModel):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
 import math
 import time
 from pathlib import Path
@@ -17,10 +18,10 @@ from haptoflow_paper.rivals import build_rival
 from haptoflow_paper.runs.configuration import EvaluatedConfig
 from haptoflow_paper.runs.losses import EvaluatedLosses
 from haptoflow_paper.runs.networks import AverageVelocityField, EvaluatedModel
+from haptoflow_paper.runs.velocity_field import VelocityField
 from haptoflow_training.errors import InputError
 from haptoflow_training.models.haptoflow_model import HaptoFlowModel
 from haptoflow_training.models.level_model import LevelModel
-from haptoflow_training.models.velocity_field import VelocityField
 from haptoflow_training.training.budget import Budget
 from haptoflow_training.training.losses import Losses
 from haptoflow_training.training.processes import Processes
@@ -43,7 +44,9 @@ class EvaluatedTrainer(Trainer):
     @staticmethod
     def losses_of(config: EvaluatedConfig) -> type[Losses]:  # type: ignore[override]
         # A run with a skeleton is as the product's.
-        return EvaluatedLosses if config.model.network == "field" else Trainer.losses_of(config)
+        if config.model.network != "field":
+            return Trainer.losses_of(config)
+        return functools.partial(EvaluatedLosses, solver=config.solver)  # type: ignore[return-value]
 
     @staticmethod
     def build_model(  # type: ignore[override]

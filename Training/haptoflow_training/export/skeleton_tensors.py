@@ -13,7 +13,7 @@ from haptoflow_training.models.level_model import LevelModel
 from haptoflow_training.models.refiner import Refiner
 from haptoflow_training.models.rung_impulses import TAIL_RUNGS
 from haptoflow_training.models.skeleton import LINE_HARMONICS, ORDER, SWING_HARMONICS, Skeleton
-from haptoflow_training.models.velocity_field import parameter_count
+from haptoflow_training.models.haptoflow_model import parameter_count
 
 Tensors = dict[str, NDArray[np.float32]]
 

@@ -4,14 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import torch
 from torch import Tensor, nn
 
-from haptoflow_training.models.band_limit import BandLimit
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE
 from haptoflow_training.models.label_embedding import LabelEmbedding
 from haptoflow_training.models.rib_comb import RibComb
-from haptoflow_training.models.velocity_field import VelocityField
 from haptoflow_training.waveform import SEGMENT_SAMPLES
 
 # What a segment is generated under: previous waveform [B, *shape] in unit scale, embedding [B, 64], motion [B, 3] and
@@ -63,29 +60,6 @@ class HaptoFlowModel(nn.Module):
         raise NotImplementedError
 
 
-class FieldModel(HaptoFlowModel):
-    """A velocity field from noise to the segment."""
-
-    def __init__(
-        self,
-        *,
-        wave_vectors: Sequence[Sequence[tuple[float, float]]],
-        level: nn.Module,
-        field: VelocityField,
-        specimens: int = 0,
-    ) -> None:
-        super().__init__(wave_vectors=wave_vectors, level=level, specimens=specimens)
-        self.field = field
-        self.band_limit = BandLimit()
-
-    @property
-    def comb(self) -> RibComb | None:
-        return self.field.comb
-
-    @property
-    def network(self) -> nn.Module:
-        return self.field
-
-    def one_step(self, noise: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, phases: Tensor) -> Tensor:
-        change = self.field(noise, torch.zeros(1, 1), previous, embedding, motion, phases)
-        return self.band_limit(previous, noise + change)
+def parameter_count(module: nn.Module) -> int:
+    """Weights of a module, buffers not counted."""
+    return sum(parameter.numel() for parameter in module.parameters())

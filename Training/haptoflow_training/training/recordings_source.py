@@ -12,7 +12,6 @@ from typing import Any
 
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.label_info import LabelInfo
-from haptoflow_training.export.seed_bank import SEED_SAMPLES
 from haptoflow_training.preprocessing.preparation import prepare_cut_where_needed, prepare_store
 from haptoflow_training.preprocessing.rib_phases import with_rib_phases
 from haptoflow_training.preprocessing.split import SPLITS
@@ -34,6 +33,7 @@ from haptoflow_training.recordings.synthetic.materials import select_materials
 from haptoflow_training.recordings.wander import rib_wander_of, stick_slip_of
 from haptoflow_training.training.config import DataConfig
 from haptoflow_training.training.found_wave_vectors import with_found_ribs
+from haptoflow_training.waveform import SEGMENT_SAMPLES
 
 _MAXIMUM_SHOWN = 10
 SYNTHETIC_STATEMENT = "trained on synthetic recordings"
@@ -258,8 +258,8 @@ def _require_splits(store: SegmentStore, unusable: Sequence[str]) -> None:
     unusable: lines about files that were excluded before preparation."""
     counts = {label: dict.fromkeys(SPLITS, 0) for label in store.labels}
     for recording in store.recordings:
-        # Shorter recordings contain no window for the seed bank.
-        if recording.split != "train" or recording.length > SEED_SAMPLES:
+        # Shorter recordings contain no window of past and segment.
+        if recording.split != "train" or recording.length > 2 * SEGMENT_SAMPLES:
             counts[store.labels[recording.label_index]][recording.split] += 1
     lacking = [label for label, of_label in counts.items() if of_label["train"] == 0]
     if lacking:

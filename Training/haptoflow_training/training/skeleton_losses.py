@@ -53,9 +53,6 @@ class SkeletonLosses(Losses):
         path = path_of(phases) - turns.unsqueeze(2)
         return with_path(torch.cat([phases[:, :FAMILIES] - turns, rates], dim=1), path)
 
-    def drawn(self, objective: str, noise: Tensor, condition: tuple[Tensor, Tensor, Tensor, Tensor]) -> Tensor:
-        return self.model.one_step(noise, *condition)
-
     def _skeleton_loss(self, given: ScaledBatch, objective: str, generator: torch.Generator) -> Tensor:
         skeleton = self.model.skeleton
         condition = given.embedding, given.batch.motion, given.phases

@@ -1,4 +1,4 @@
-"""The velocity field: a two-level U-Net over patches of the segment, with FiLM at every level.
+"""The velocity field, and the model that plays it: a two-level U-Net over patches of the segment, with FiLM at every level.
 
 HaptoFlow (paper, section 3.1): U-Net of two levels; the previous waveform is encoded and concatenated at each
 down-sampling stage; material, motion and time modulate every level. The details are ours, chosen for ONNX Runtime on
@@ -8,16 +8,59 @@ FiLM parameters of all blocks, and few nodes.
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
+
 import torch
 from torch import Tensor, nn
 
-from haptoflow_training.models.conditioning import EMBEDDING_SIZE, MotionEncoder, TimeEncoder
+from haptoflow_paper.runs.band_limit import BandLimit
+from haptoflow_paper.runs.continuing_comb import COMB_CHANNELS, GAINS, ContinuingComb, spread_gains
+from haptoflow_training.models.conditioning import EMBEDDING_SIZE, MotionFeatures
+from haptoflow_training.models.haptoflow_model import HaptoFlowModel
 from haptoflow_training.models.patch_unet import PatchUnet
-from haptoflow_training.models.rib_comb import COMB_CHANNELS, GAINS, RibComb, spread_gains
+from haptoflow_training.models.rib_comb import RibComb
 from haptoflow_training.models.rung_impulses import GAINS as IMPULSE_GAINS
 from haptoflow_training.models.rung_impulses import RungImpulses
 
 _CONDITION_SIZE = 96
+
+
+class MotionEncoder(nn.Module):
+    """Motion [B, 3] to 64 values by a multi-layer perceptron."""
+
+    def __init__(self, hidden: int = 128) -> None:
+        super().__init__()
+        self.features = MotionFeatures()
+        self.layers = nn.Sequential(
+            nn.Linear(self.features.size, hidden),
+            nn.SiLU(),
+            nn.Linear(hidden, hidden),
+            nn.SiLU(),
+            nn.Linear(hidden, EMBEDDING_SIZE),
+        )
+
+    def forward(self, motion: Tensor) -> Tensor:
+        return self.layers(self.features(motion))
+
+
+class TimeEncoder(nn.Module):
+    """Flow time [B, 1] in [0, 1] to 64 values: sinusoids of geometrically spaced frequency, then two layers."""
+
+    frequencies: Tensor
+
+    def __init__(self) -> None:
+        super().__init__()
+        half = EMBEDDING_SIZE // 2
+        frequencies = torch.exp(torch.linspace(0.0, math.log(100.0), half)).reshape(1, half)
+        self.register_buffer("frequencies", frequencies, persistent=False)
+        self.layers = nn.Sequential(
+            nn.Linear(EMBEDDING_SIZE, EMBEDDING_SIZE), nn.SiLU(), nn.Linear(EMBEDDING_SIZE, EMBEDDING_SIZE)
+        )
+
+    def forward(self, time: Tensor) -> Tensor:
+        angles = time * self.frequencies
+        return self.layers(torch.cat([angles.sin(), angles.cos()], dim=1))
 
 
 def _silent(outputs: int) -> nn.Linear:
@@ -61,7 +104,7 @@ class VelocityField(PatchUnet):
         )  # fmt: skip
         self._encode_time()
         self.motion = MotionEncoder()
-        self.comb = RibComb(positions) if ribs else None
+        self.comb = ContinuingComb(positions) if ribs else None
         self.impulses = RungImpulses(positions) if impulses else None
 
         # The material's and the flow time's contributions are added, so that the flow time's part of a one-step graph
@@ -156,6 +199,29 @@ class VelocityField(PatchUnet):
         return nn.functional.linear(given, self.told.weight, self.told.bias + self.moment(moment).squeeze(0))
 
 
-def parameter_count(module: nn.Module) -> int:
-    """Weights of a module, buffers not counted."""
-    return sum(parameter.numel() for parameter in module.parameters())
+class FieldModel(HaptoFlowModel):
+    """A velocity field from noise to the segment."""
+
+    def __init__(
+        self,
+        *,
+        wave_vectors: Sequence[Sequence[tuple[float, float]]],
+        level: nn.Module,
+        field: VelocityField,
+        specimens: int = 0,
+    ) -> None:
+        super().__init__(wave_vectors=wave_vectors, level=level, specimens=specimens)
+        self.field = field
+        self.band_limit = BandLimit()
+
+    @property
+    def comb(self) -> RibComb | None:
+        return self.field.comb
+
+    @property
+    def network(self) -> nn.Module:
+        return self.field
+
+    def one_step(self, noise: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, phases: Tensor) -> Tensor:
+        change = self.field(noise, torch.zeros(1, 1), previous, embedding, motion, phases)
+        return self.band_limit(previous, noise + change)
