@@ -22,14 +22,8 @@ from haptoflow_training.errors import InputError
 from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.preprocessing.pipeline import preprocess_parts
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
-from haptoflow_training.recordings.generated_dataset import (
-    GENERATED_FILE,
-    GeneratedOrigin,
-    generated_path,
-    open_generated,
-    start_generated,
-    write_generated,
-)
+from haptoflow_paper.distil.generated_files import generated_path, start_generated, write_generated
+from haptoflow_training.recordings.generated_dataset import GENERATED_FILE, GeneratedOrigin, open_generated
 from haptoflow_training.recordings.labels import load_labels
 from haptoflow_training.recordings.open_recordings import open_recordings
 from haptoflow_training.recordings.recording import RecordingIdentity

@@ -10,7 +10,7 @@ import pytest
 from own_samples import csv_one_axis, stroke
 from test_few_shot_study import stored
 
-from haptoflow_benchmark.few_shot.few_shot_cases import SECONDS
+from haptoflow_paper.few_shot.few_shot_cases import SECONDS
 from haptoflow_benchmark import cli as benchmark
 from haptoflow_paper import cli as paper
 from haptoflow_training import cli as training

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from scipy.signal import freqz, welch
 
-from haptoflow_benchmark.few_shot.few_shot_cases import SECONDS, FewShotCase, make_case, study_materials
-from haptoflow_benchmark.few_shot.filtered_surfaces import conditions, filtered_surfaces
+from haptoflow_paper.few_shot.few_shot_cases import SECONDS, FewShotCase, make_case, study_materials
+from haptoflow_paper.few_shot.filtered_surfaces import conditions, filtered_surfaces
 from haptoflow_paper.cli import main
 from haptoflow_paper.few_shot.few_shot_figures import condition_figures
 from haptoflow_paper.few_shot.few_shot_report import (

@@ -7,7 +7,7 @@ import math
 import pytest
 import torch
 
-from haptoflow_training.training.flow_matching import flow_matching_loss, solve
+from haptoflow_paper.runs.flow_matching import flow_matching_loss, solve
 
 
 def test_the_loss_is_zero_for_the_true_velocity() -> None:

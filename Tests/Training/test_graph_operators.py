@@ -15,8 +15,7 @@ from haptoflow_paper.codec.representation import CodecRepresentation
 from haptoflow_paper.codec.representation_base import build_representation
 from haptoflow_paper.codec.small_codec import SmallCodec, SmallCodecShape
 from haptoflow_paper.rivals import ARCHITECTURES
-from haptoflow_paper.runs.tier import network_graph
-from haptoflow_training.export.onnx_graphs import export_level_model
+from haptoflow_paper.runs.tier import export_level_model, network_graph
 from haptoflow_training.export.trained_tier import tier_of
 from haptoflow_training.training.config import TrainingConfig, load_config
 from haptoflow_training.training.trainer import build_model

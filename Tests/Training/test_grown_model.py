@@ -103,14 +103,6 @@ def test_ribs_are_turned_as_learning_turns_them(grown: Path) -> None:
     assert file.tensors["embedding"][row, -4:] == pytest.approx([1.0 / 1.6, 0.0, 0.0, 0.0], abs=0.01)
 
 
-def test_a_run_goes_on_from_a_file_only_with_a_skeleton(grown: Path, tmp_path: Path) -> None:
-    field = tmp_path / "field.toml"
-    text = 'name = "f"\n[data]\nsource = "folders"\n[model]\nnetwork = "field"\n[optimiser]\nsteps = 2\n'
-    field.write_text(text, encoding="utf-8")
-    words = ["--recordings", str(grown / "recordings"), "--labels", str(grown / "labels.toml"), "--config", str(field)]
-    assert cli.main(["train", *words, "--out", str(tmp_path / "run"), "--from", str(SHIPPED)]) == 3
-
-
 def test_a_label_with_too_little_to_fit_level_and_tone_is_named(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

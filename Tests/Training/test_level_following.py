@@ -107,7 +107,7 @@ def test_a_label_that_follows_the_level_model_gets_no_table(
 
 
 def test_a_level_table_scales_only_its_own_label_in_the_closed_loop() -> None:
-    config = TrainingConfig(model=ModelConfig(network="field", width=16, previous_width=8))
+    config = TrainingConfig(model=ModelConfig(hidden=8))
     tier = TrainedTier(config, ["brick", "wood"], build_model(config, [(), ()]).eval().requires_grad_(False))
     table = LevelTable((0.05, 0.5), (1.0, 2.0), 1.0, 0.5, 1.0)
     embeddings = TierSource(tier).embeddings

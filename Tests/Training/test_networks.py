@@ -7,10 +7,10 @@ import math
 import pytest
 import torch
 
-from haptoflow_training.models.band_limit import BandLimit
+from haptoflow_paper.runs.band_limit import BandLimit
+from haptoflow_paper.runs.velocity_field import VelocityField
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE, MotionFeatures
 from haptoflow_training.models.level_model import LevelModel, level_loss
-from haptoflow_training.models.velocity_field import VelocityField
 
 
 def _inputs(batch: int, channels: int = 1, positions: int = 200) -> dict[str, torch.Tensor]:

@@ -58,54 +58,30 @@ def _alone(tmp_path: Path, *words: str) -> subprocess.CompletedProcess[str]:
     )  # fmt: skip
 
 
-@pytest.mark.parametrize(
-    ("configuration", "key"),
-    [
-        ("spsi", "model.architecture"), ("mean-flow", "optimiser.budget_seconds"), ("paper-codec", "model.patch"),
-    ],
-)  # fmt: skip
+@pytest.mark.parametrize("configuration", ["spsi", "mean-flow", "paper-codec"])
 def test_the_training_program_refuses_a_row_of_the_evaluation_and_names_the_other_program(
-    tmp_path: Path, configuration: str, key: str
+    tmp_path: Path, configuration: str
 ) -> None:
     config = TRAINING / "haptoflow_paper" / "configs" / f"{configuration}.toml"
     ended = _alone(tmp_path, "-m", "haptoflow_training", "train", "--config", str(config), "--out", "run")
     assert ended.returncode == 3, ended.stderr
-    assert f"key '{key}'" in ended.stderr and "haptoflow-paper" in ended.stderr
+    assert "unknown key '" in ended.stderr and "haptoflow-paper" in ended.stderr
     assert not any(tmp_path.iterdir())
 
 
 _CHECK = """
 import sys
 from pathlib import Path
-from haptoflow_training.errors import InputError
-from haptoflow_training.training.config import TrainingConfig, config_from_dict, load_config
+from haptoflow_training.training.config import TrainingConfig, config_from_dict, config_of_run, load_config
 
 for path in sys.argv[1:]:
     assert type(load_config(Path(path))) is TrainingConfig
 
 old = {
-    "model": {"architecture": "unet", "sampled": False, "patch": 8,
-              "representation": {"kind": "raw"}, "width": 48},
-    "optimiser": {"budget_seconds": 0.0},
-    "recipe": {"objective": "flow", "reflow_steps": 0, "reflow_pairs": 36000, "reflow_learning_rate": 4e-4},
+    "model": {"architecture": "unet", "patch": 8, "representation": {"kind": "raw"}, "ribs": False, "width": 48},
+    "optimiser": {"budget_seconds": 0.0}, "recipe": {"objective": "flow"}, "solver": {"kind": "midpoint", "steps": 2},
 }
-read = config_from_dict(old, Path("checkpoint.pt"))
-assert read == config_from_dict({"model": {"width": 48}}, Path("checkpoint.pt"))
-own = {name for table in (read.to_dict()[section] for section in old) for name in table}
-changed = {"architecture": "spsi", "sampled": True, "patch": 5,
-           "representation": {"kind": "encodec"}, "budget_seconds": 5.0, "objective": "average-velocity",
-           "reflow_steps": 3, "reflow_pairs": 1, "reflow_learning_rate": 1.0}
-for section, keys in old.items():
-    for key in keys:
-        if key == "width":
-            continue
-        assert key not in own, key
-        try:
-            config_from_dict({section: {key: changed[key]}}, Path("own.toml"))
-        except InputError as error:
-            assert f"key '{section}.{key}'" in str(error) and "haptoflow-paper" in str(error)
-        else:
-            raise AssertionError(key)
+assert config_of_run(old, Path("checkpoint.pt")) == config_from_dict({"model": {"width": 48}}, Path("own.toml"))
 """
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 import torch
-from paper_samples import evaluated
+from paper_samples import field_config
 from test_trainer import ALONE, _config
 from training_fixtures import make_store
 
@@ -18,7 +18,7 @@ from haptoflow_training.errors import InputError
 from haptoflow_training.export.trained_tier import load_tiers, tier_of
 from haptoflow_training.models.rib_comb import PARTIALS
 from haptoflow_training.training.batches import SegmentBatch, SegmentBatches
-from haptoflow_training.training.config import BatchConfig, ModelConfig, RecipeConfig, SolverConfig
+from haptoflow_training.training.config import BatchConfig, ModelConfig, RecipeConfig
 from haptoflow_training.training.energy_distance import energy_distance_loss, envelopes, spectra
 from haptoflow_training.training.losses import Losses
 from haptoflow_training.training.trainer import Trainer, build_model, load_trained, planned_steps
@@ -104,16 +104,16 @@ def test_the_energy_distance_detects_a_modulation_that_the_spectrum_does_not_sho
 def test_rendering_a_chain_appends_each_generated_hop() -> None:
     store = make_store()
     model = build_model(_config(), [(), ()]).eval()
-    losses = Losses(model, SolverConfig("euler", 1))
+    losses = Losses(model)
     chain = SegmentBatches(store, "train", BatchConfig(chain_hops=(2, 2)), 4).draw_chains(3).chain
     assert chain is not None
     embedding = model.embedding(torch.tensor([0, 1, 0])).detach()
-    lived = losses.render_chain(chain, embedding, "flow", torch.Generator().manual_seed(1))
+    lived = losses.render_chain(chain, embedding, "energy", torch.Generator().manual_seed(1))
     generator = torch.Generator().manual_seed(1)
 
     def hop(number: int, previous: torch.Tensor) -> torch.Tensor:
         where = chain.motion[:, number], chain.position_mm[:, number], chain.wander[:, number]
-        return losses.generate(previous, embedding, *where, "flow", generator)[:, :, : chain.hop_samples]
+        return losses.generate(previous, embedding, *where, "energy", generator)[:, :, : chain.hop_samples]
 
     first = hop(0, chain.start)
     kept = torch.cat([chain.start[:, :, chain.hop_samples :], first], dim=2)
@@ -132,7 +132,7 @@ RECIPES = {
 @pytest.mark.parametrize("name", RECIPES)
 def test_a_recipe_runs_through_its_phases_and_states_its_tier_kind(name: str, tmp_path: Path) -> None:
     recipe, kind = RECIPES[name]
-    config = evaluated(_config(steps=10), recipe=recipe)
+    config = field_config(steps=10, recipe=recipe)
     EvaluatedTrainer(config, make_store(), tmp_path, ALONE).run()
     rows = (tmp_path / "metrics.csv").read_text(encoding="utf-8").splitlines()
     assert len({row.split(",")[1] for row in rows[1:]}) == len(planned_steps(config))
@@ -146,7 +146,9 @@ def test_a_recipe_runs_through_its_phases_and_states_its_tier_kind(name: str, tm
 def test_a_further_tier_keeps_the_level_and_embedding_of_its_base(tmp_path: Path) -> None:
     store = make_store()
     Trainer(_config(steps=5), store, tmp_path / "base", ALONE).run()
-    config = dataclasses.replace(_config(steps=5), tier="draft", recipe=RecipeConfig(shares_base=True))
+    refinement = ModelConfig(network="refinement", hidden=8, width=8, previous_width=4, levels=1)
+    recipe = RecipeConfig(shares_base=True)
+    config = dataclasses.replace(_config(steps=5), tier="draft", model=refinement, recipe=recipe)
     Trainer(config, store, tmp_path / "draft", ALONE, tmp_path / "base").run()
     tiers = load_tiers([tmp_path / "base", tmp_path / "draft"])
     assert [tier.name for tier in tiers] == ["draft", "standard"]
@@ -175,14 +177,14 @@ def test_a_layer_with_more_outputs_keeps_the_old_ones_and_initialises_the_new_on
     Trainer(_config(steps=5), store, tmp_path / "first", ALONE).run()
     content = torch.load(tmp_path / "first" / "checkpoint.pt")
     weights = content["average"]["module"]
-    kept = weights["field.film.bias"][:10].clone()
-    weights["field.film.bias"], weights["field.film.weight"] = kept, weights["field.film.weight"][:10]
+    kept = weights["skeleton.perceptron.layers.4.bias"][:260].clone()
+    weights["skeleton.perceptron.layers.4.bias"], weights["skeleton.perceptron.layers.4.weight"] = kept, weights["skeleton.perceptron.layers.4.weight"][:260]
     torch.save(content, tmp_path / "first" / "checkpoint.pt")
     torch.manual_seed(1)
-    built = build_model(_config(), [()] * 2).state_dict()["field.film.bias"]
+    built = build_model(_config(), [()] * 2).state_dict()["skeleton.perceptron.layers.4.bias"]
     begun = Trainer(_config(), store, tmp_path / "second", ALONE, start=tmp_path / "first").model.state_dict()
-    assert torch.equal(begun["field.film.bias"][:10], kept)
-    assert torch.equal(begun["field.film.bias"][10:], built[10:])
+    assert torch.equal(begun["skeleton.perceptron.layers.4.bias"][:260], kept)
+    assert torch.equal(begun["skeleton.perceptron.layers.4.bias"][260:], built[260:])
 
 
 def test_a_further_round_refuses_runs_with_other_shapes_or_labels(
@@ -190,8 +192,8 @@ def test_a_further_round_refuses_runs_with_other_shapes_or_labels(
 ) -> None:
     store = make_store()
     Trainer(_config(steps=5), store, tmp_path / "first", ALONE).run()
-    wide = dataclasses.replace(_config(), model=ModelConfig(network="field", width=24, previous_width=8))
-    with pytest.raises(InputError, match=r"--from .*'field\..*does not fit"):
+    wide = dataclasses.replace(_config(), model=ModelConfig(hidden=16))
+    with pytest.raises(InputError, match=r"--from .*'skeleton\..*does not fit"):
         Trainer(wide, store, tmp_path / "second", ALONE, start=tmp_path / "first")
     content = torch.load(tmp_path / "first" / "checkpoint.pt")
     torch.save({**content, "labels": ["tone", "hiss"]}, tmp_path / "first" / "checkpoint.pt")
@@ -202,7 +204,7 @@ def test_a_further_round_refuses_runs_with_other_shapes_or_labels(
 
 
 @pytest.mark.parametrize(("energy_steps", "chains"), [(4, 3), (0, 6)])
-def test_self_forcing_uses_every_second_batch_for_one_step_networks_and_every_batch_for_flows(
+def test_self_forcing_uses_every_second_batch_after_the_energy_distance_and_every_batch_without(
     energy_steps: int, chains: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     drawn: list[int] = []

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from haptoflow_benchmark.metrics.temporal_metrics import rib_rates_hz
+from haptoflow_paper.metrics.temporal_metrics import rib_rates_hz
 from haptoflow_paper.reference import reference_set as subject
 from haptoflow_paper.reference.reference_conditions import CONSTANT_SPEEDS_MPS, Condition, conditions
 from haptoflow_paper.reference.reference_set import known_phases, record_pair

@@ -15,7 +15,6 @@ from haptoflow_training.models.skeleton import Skeleton
 from haptoflow_training.models.skeleton_model import SkeletonModel
 from haptoflow_training.models.surface_waves import FAMILIES, path_of, with_path
 from haptoflow_training.preprocessing.rib_phases import rib_phase_turns
-from haptoflow_training.training.config import SolverConfig
 from haptoflow_training.training.skeleton_losses import SkeletonLosses
 
 RATE_HZ = 2000
@@ -49,7 +48,7 @@ def test_a_followed_phase_becomes_the_one_at_which_the_skeleton_s_fundamental_is
     with torch.no_grad():
         skeleton.perceptron.layers[-1].bias.normal_(0.0, 0.3)
     model = SkeletonModel(wave_vectors=[[VECTOR]], level=LevelModel(16), skeleton=skeleton)
-    losses = SkeletonLosses(model, SolverConfig(), ribs_followed=True)
+    losses = SkeletonLosses(model, ribs_followed=True)
     # The first family alone, with the phase 0.2 turns at the first sample.
     plain = torch.zeros(1, 2 * FAMILIES)
     plain[0, 0], plain[0, FAMILIES] = 0.2, rate_hz
@@ -80,4 +79,4 @@ def test_a_followed_phase_becomes_the_one_at_which_the_skeleton_s_fundamental_is
 
 def test_what_the_recorder_states_is_left_as_it_is() -> None:
     model = SkeletonModel(wave_vectors=[[VECTOR]], level=LevelModel(16), skeleton=Skeleton(16))
-    assert not SkeletonLosses(model, SolverConfig()).ribs_followed
+    assert not SkeletonLosses(model).ribs_followed

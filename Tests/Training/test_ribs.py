@@ -12,8 +12,9 @@ import torch
 from test_trainer import ALONE, _config
 from training_fixtures import make_store
 
+from haptoflow_paper.runs.continuing_comb import GAINS, ContinuingComb, spread_gains
 from haptoflow_training.models.label_embedding import LabelEmbedding, rib_frequencies_hz, surface_phases
-from haptoflow_training.models.rib_comb import GAINS, PARTIALS, RibComb, spread_gains
+from haptoflow_training.models.rib_comb import PARTIALS, RibComb
 from haptoflow_training.recordings.synthetic.carriers import guided_ride
 from haptoflow_training.recordings.synthetic.contact import SIMULATION_RATE_HZ
 from haptoflow_training.training.config import ModelConfig, RecipeConfig
@@ -65,7 +66,7 @@ def _comb(
     embedding = EMBEDDING(torch.tensor([label] * count))
     phases = _phases(embedding, motion, turns)
     spread = (torch.zeros(1, GAINS) if gains is None else gains)[:, spread_gains()]
-    return RibComb()(torch.flip(past, [2]), phases, spread)
+    return ContinuingComb()(torch.flip(past, [2]), phases, spread)
 
 
 @pytest.mark.parametrize("speed_mps", [0.1, 0.237, 0.9])
@@ -117,7 +118,7 @@ def test_the_energy_distance_prefers_draws_with_the_recording_s_rib_phase() -> N
 
 def test_training_does_not_change_wave_vectors_and_a_saved_run_has_them(tmp_path: Path) -> None:
     config = dataclasses.replace(
-        _config(steps=6), model=ModelConfig(network="field", width=16, previous_width=8, ribs=True), recipe=RecipeConfig(energy_steps=3)
+        _config(steps=6), model=ModelConfig(hidden=8), recipe=RecipeConfig(energy_steps=3)
     )
     Trainer(config, make_store(), tmp_path, ALONE, wave_vectors=[((0.5, 0.0),), ()]).run()
     model = load_trained(tmp_path)[2]

@@ -13,9 +13,11 @@ import scipy.signal
 import torch
 from dataset_samples import small_recording
 from test_export import PROVENANCE
+from paper_samples import field_config
 from test_trainer import ALONE, _config, ask_to_stop_after
 from training_fixtures import FakeStore, make_store, travelled_mm
 
+from haptoflow_paper.runs.trainer import EvaluatedTrainer
 from haptoflow_training.cli import main
 from haptoflow_training.closed_loop.level_calibration import TierSource
 from haptoflow_training.closed_loop.phase_track import SurfaceStatistics
@@ -131,14 +133,14 @@ def test_a_resumed_run_ends_with_the_weights_of_an_uninterrupted_one(
 def test_a_base_without_a_skeleton_is_refused_for_a_refinement_with_the_remedy(
     tmp_path: Path, store: FakeStore
 ) -> None:
-    Trainer(_config(steps=2), store, tmp_path / "field", ALONE).run()
+    EvaluatedTrainer(field_config(steps=2), store, tmp_path / "field", ALONE).run()
     with pytest.raises(InputError, match="field: has no skeleton; name a run whose model.network is 'skeleton'"):
         Trainer(_refinement(), store, tmp_path / "run", ALONE, tmp_path / "field")
 
 
 def test_tiers_with_and_without_a_skeleton_do_not_share_a_file(runs: Path, tmp_path: Path, store: FakeStore) -> None:
-    config = dataclasses.replace(_config(steps=2), tier="draft")
-    Trainer(config, store, tmp_path / "field", ALONE, wave_vectors=WAVE_VECTORS).run()
+    config = dataclasses.replace(field_config(steps=2), tier="draft")
+    EvaluatedTrainer(config, store, tmp_path / "field", ALONE, wave_vectors=WAVE_VECTORS).run()
     with pytest.raises(InputError, match="with a skeleton and tiers without do not share a file"):
         load_tiers([runs / "sketch", tmp_path / "field"])
 
@@ -197,7 +199,7 @@ def _shift_loss(monkeypatch: pytest.MonkeyPatch, store: FakeStore, *, trained: b
     torch.nn.init.normal_(model.skeleton.perceptron.layers[-1].bias[25:139], std=0.3)
     if trained:
         torch.nn.init.normal_(model.refiner.leave.weight, std=0.2)
-    losses = SkeletonLosses(model, _refinement().solver, train_level=False)
+    losses = SkeletonLosses(model, train_level=False)
     batch = SegmentBatches(store, "train", BatchConfig(), 5).draw(8)  # type: ignore[arg-type]
     found = []
     for weight in (0.0, 1.0):
@@ -267,7 +269,7 @@ def _losses_and_batch(store: FakeStore) -> tuple[SkeletonModel, SkeletonLosses, 
     model = build_model(_sketch(), WAVE_VECTORS, specimens=3)
     assert isinstance(model, SkeletonModel)
     batch = SegmentBatches(store, "train", BatchConfig(), 5).draw(16)  # type: ignore[arg-type]
-    return model, SkeletonLosses(model, _sketch().solver), batch
+    return model, SkeletonLosses(model), batch
 
 
 def _loss(losses: SkeletonLosses, batch: SegmentBatch, objective: str) -> float:
@@ -347,7 +349,7 @@ def test_a_skeleton_keeps_its_likelihood_in_the_energy_phase(monkeypatch: pytest
     torch.manual_seed(4)
     model = build_model(_sketch(), WAVE_VECTORS, specimens=3)
     assert isinstance(model, SkeletonModel)
-    losses = SkeletonLosses(model, _sketch().solver)
+    losses = SkeletonLosses(model)
     batch = SegmentBatches(store, "train", BatchConfig(), 5).draw(8)  # type: ignore[arg-type]
     filtering = slice(0, 25)
     for objective in ("likelihood", "energy"):

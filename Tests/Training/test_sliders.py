@@ -10,7 +10,7 @@ import pytest
 from training_fixtures import still_surfaces
 
 from haptoflow_benchmark.engine.engine_library import default_engine
-from haptoflow_benchmark.metrics.temporal_metrics import rib_modulation_depth
+from haptoflow_paper.metrics.temporal_metrics import rib_modulation_depth
 from haptoflow_benchmark.metrics.waveform_metrics import power_spectrum
 from haptoflow_paper.rows.engine_generator import EngineGenerator
 from haptoflow_training.cli import main

@@ -28,7 +28,7 @@ def _config(steps: int = 30) -> TrainingConfig:
         name="test",
         tier="standard",
         threads=1,
-        model=ModelConfig(network="field", width=16, previous_width=8),
+        model=ModelConfig(hidden=8),
         optimiser=OptimiserConfig(
             batch_size=8, level_steps=20, steps=steps, level_polish_steps=10, warm_up_steps=5, average_decay=0.9
         ),

@@ -1,4 +1,4 @@
-"""Materials unknown to every model: between two labels of the recorder, with tool modes and ribs of their own.
+"""Materials unknown to every model, and rides over them: between two labels of the recorder, with tool modes and ribs of their own.
 
 Drawn from a seed and used as drawn. The kinds of surface (ribs, impacts, stick-slip, a nap) alternate, so that a dozen
 materials contain each.
@@ -12,7 +12,13 @@ from dataclasses import fields, replace
 
 import numpy as np
 
+from haptoflow_training.preprocessing.pipeline import PreparedRecording, preprocess_recording
+from haptoflow_training.preprocessing.settings import PreprocessingSettings
+from haptoflow_training.recordings.material_recording import MaterialRecording
+from haptoflow_training.recordings.recording import RecordingIdentity
+from haptoflow_training.recordings.synthetic import record_hand_condition
 from haptoflow_training.recordings.synthetic.materials import Calibrated, Material
+from haptoflow_training.recordings.synthetic.specimens import TRAINING_SPECIMENS
 
 # The first of the two labels that a material lies between; the other one is drawn.
 _SORTS = (
@@ -20,6 +26,9 @@ _SORTS = (
     "cardboard", "sandpaper", "jute", "leather", "metal", "stone", "carpet", "glass",
 )  # fmt: skip
 _SHARE = (0.3, 0.7)
+# Median speed (mm/s) and force (mN) of each ride in turn, so that even few seconds hold slow and fast motion.
+_RIDES = ((35, 800), (100, 1200), (22, 1400), (70, 600), (150, 1000), (48, 900))
+RIDE_SECONDS = 5.0
 _MODE_HZ, _MODE_DB, _MODE_Q = (110.0, 850.0), (-8.0, 9.0), (1.2, 6.0)
 
 
@@ -78,4 +87,36 @@ def _between(rng: np.random.Generator, number: int, first: Material, other: Mate
         impact_strength=first.impact_strength * float(rng.uniform(0.7, 1.3)),
         impact_spacing_mm=first.impact_spacing_mm * float(rng.uniform(0.7, 1.5)),
         stick_slip_length_mm=first.stick_slip_length_mm * float(rng.uniform(0.7, 1.4)),
+    )
+
+
+def make_rides(
+    material: Material, seed: int, count: int, *, guided_share: float = 1.0
+) -> tuple[MaterialRecording, ...]:
+    """`count` rides of 5 s in the recorder's frame, alternately slow and fast, light and firm."""
+    settings = PreprocessingSettings()
+    rides = []
+    for number in range(count):
+        speed, force = _RIDES[number % len(_RIDES)]
+        ride = record_hand_condition(
+            material,
+            RecordingIdentity(material.texture_id, None, speed, force, number),
+            seed=seed,
+            duration_seconds=RIDE_SECONDS + 2.0 * settings.trim_seconds + 0.05,
+            guided_share=guided_share,
+            specimen=TRAINING_SPECIMENS[number % len(TRAINING_SPECIMENS)],
+        )
+        rides.append(_as_recording(f"ride-{number + 1}", material.label, preprocess_recording(ride, settings)))
+    return tuple(rides)
+
+
+def _as_recording(name: str, label: str, prepared: PreparedRecording) -> MaterialRecording:
+    return MaterialRecording(
+        name,
+        label,
+        prepared.waveform_mps2,
+        prepared.motion[:, :2].copy(),
+        prepared.motion[:, 2].copy(),
+        "MIT",
+        "synthetic recorder",
     )

@@ -9,8 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from haptoflow_benchmark.few_shot.few_shot_cases import RIDE_SECONDS, make_rides
-from haptoflow_benchmark.few_shot.unseen import unseen_materials
+from haptoflow_benchmark.few_shot.unseen import RIDE_SECONDS, make_rides, unseen_materials
 from haptoflow_training.preprocessing.wave_vectors import WaveVector, estimate_wave_vectors
 from haptoflow_training.recordings.synthetic import Material, load_materials
 

@@ -13,7 +13,6 @@ from haptoflow_training.waveform import SAMPLE_RATE_HZ
 _FLOOR = 1e-9
 # A vibration below this cannot be felt, whatever its spectrum.
 _UNFELT_MPS2 = 0.01
-_FREQUENCY_POINTS = 1 << 16
 _GFC_POINTS = 1024
 
 _Wave = NDArray[np.floating]
@@ -63,22 +62,3 @@ def log_spectral_distance_db(
         (power_spectrum(generated, window)[band] + floor) / (power_spectrum(recorded, window)[band] + floor)
     )
     return float(np.sqrt(np.square(difference).mean()))
-
-
-def fundamental_hz(wave: _Wave, expected_hz: float) -> float:
-    """The strongest line within 12 % of `expected_hz`, interpolated between bins by zero-padding."""
-    wave = np.asarray(wave, dtype=np.float64)
-    spectrum = np.abs(np.fft.rfft(wave * np.hanning(len(wave)), _FREQUENCY_POINTS))
-    frequency = np.fft.rfftfreq(_FREQUENCY_POINTS, 1.0 / SAMPLE_RATE_HZ)
-    near = np.flatnonzero(np.abs(frequency - expected_hz) <= 0.12 * expected_hz)
-    return float(frequency[near[np.argmax(spectrum[near])]])
-
-
-def hop_jump_ratio(wave: _Wave, hop_starts: NDArray[np.int64]) -> float:
-    """RMS of the sample differences at hop boundaries over that of all others: 1 means that seams cannot be
-    detected."""
-    differences = np.diff(np.asarray(wave, dtype=np.float64))
-    at = np.zeros(len(differences), dtype=np.bool_)
-    inside = hop_starts[(hop_starts > 0) & (hop_starts <= len(differences))]
-    at[inside - 1] = True
-    return rms(differences[at]) / (rms(differences[~at]) + _FLOOR)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import hashlib
 import datetime
 import os
 import sys
@@ -30,7 +31,7 @@ from haptoflow_paper.rows.timing_history import append_run, published_run, timin
 from haptoflow_paper.rows.workplace import Workplace
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.model_file import read_model_file
-from haptoflow_training.model_stamp import SHIPPED_MODEL, graphs_sha256, sha256_of
+from haptoflow_training.model_stamp import SHIPPED_MODEL, sha256_of
 from haptoflow_training.recordings.synthetic import load_materials
 from haptoflow_training.training.run_log import source_commit, write_json
 
@@ -69,6 +70,12 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--workers", type=int, default=os.cpu_count() or 1, help="processes that record and measure (default: cores)"
     )
+
+
+def graphs_sha256(path: Path) -> str:
+    """SHA-256 of a model file's graphs. The header is left out, because it holds figures measured with the model."""
+    graphs = read_model_file(path).graphs
+    return hashlib.sha256(b"".join(graphs[name] for name in sorted(graphs))).hexdigest()
 
 
 def run(options: argparse.Namespace) -> int:

@@ -9,8 +9,8 @@ from pathlib import Path
 
 from tqdm import tqdm
 
-from haptoflow_benchmark.few_shot.few_shot_cases import SECONDS, study_materials
-from haptoflow_benchmark.few_shot.filtered_surfaces import filtered_surfaces
+from haptoflow_paper.few_shot.few_shot_cases import SECONDS, study_materials
+from haptoflow_paper.few_shot.filtered_surfaces import filtered_surfaces
 from haptoflow_paper.few_shot.few_shot_report import (
     assembled,
     curve_table,

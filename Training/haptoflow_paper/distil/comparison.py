@@ -21,7 +21,8 @@ from haptoflow_paper.reference.reference_set import ReferencePair
 from haptoflow_paper.rows.engine_generator import EngineGenerator
 from haptoflow_paper.rows.timing import TimedSource, time_sources
 from haptoflow_training.closed_loop.render import UPDATE_RATE_HZ, run_closed_loop
-from haptoflow_training.recordings.generated_dataset import generated_path, read_generated
+from haptoflow_paper.distil.generated_files import generated_path
+from haptoflow_training.recordings.generated_dataset import read_generated
 from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 # Of the teacher's two draws; the training's seed is another.

@@ -9,7 +9,8 @@ from pathlib import Path
 
 from haptoflow_paper.distil.rendering import Rendering
 from haptoflow_training.preprocessing.wave_vectors import WaveVector, estimate_wave_vectors
-from haptoflow_training.recordings.generated_dataset import generated_path, read_generated
+from haptoflow_paper.distil.generated_files import generated_path
+from haptoflow_training.recordings.generated_dataset import read_generated
 from haptoflow_training.recordings.material_recording import MaterialRecording
 from haptoflow_training.whole_file import write_whole
 

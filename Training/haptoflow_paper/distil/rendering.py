@@ -19,7 +19,8 @@ from haptoflow_paper.distil.motions import STROKE_SECONDS, Stroke, strokes_of
 from haptoflow_paper.distil.teacher import Teacher
 from haptoflow_paper.rows.engine_generator import EngineGenerator
 from haptoflow_training.closed_loop.render import hop_positions, run_closed_loop
-from haptoflow_training.recordings.generated_dataset import GeneratedOrigin, generated_path, start_generated, write_generated
+from haptoflow_paper.distil.generated_files import generated_path, start_generated, write_generated
+from haptoflow_training.recordings.generated_dataset import GeneratedOrigin
 from haptoflow_training.stopping import end_if_stopped
 from haptoflow_training.waveform import SAMPLE_RATE_HZ, SEGMENT_SAMPLES
 

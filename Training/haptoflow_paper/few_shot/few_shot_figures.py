@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from haptoflow_benchmark.few_shot.few_shot_cases import FewShotCondition
-from haptoflow_benchmark.metrics import temporal_metrics as temporal
+from haptoflow_paper.few_shot.few_shot_cases import FewShotCondition
+from haptoflow_paper.metrics import row_metrics
+from haptoflow_paper.metrics import temporal_metrics as temporal
 from haptoflow_benchmark.metrics import waveform_metrics as metrics
 
 BAND_HZ = (20.0, 450.0)
@@ -29,7 +30,7 @@ def condition_figures(condition: FewShotCondition, wave: NDArray[np.floating]) -
     }
     for rate in condition.rib_rates_hz[:1]:
         if _LINES_HZ[0] < rate < _LINES_HZ[1]:
-            pitch = [metrics.fundamental_hz(each, rate) for each in (made, recorded)]
+            pitch = [row_metrics.fundamental_hz(each, rate) for each in (made, recorded)]
             cell["rib_fundamental_error_percent"] = 100.0 * abs(pitch[0] / pitch[1] - 1.0)
         if temporal.rib_modulation_depth(recorded, rate) >= _MINIMUM_DEPTH:
             cell["rib_modulation_error_db"] = temporal.rib_modulation_error_db(made, recorded, rate)

@@ -15,8 +15,8 @@ from typing import Any
 import numpy as np
 
 from haptoflow_benchmark.engine.engine_render import render_motion
-from haptoflow_benchmark.few_shot.few_shot_cases import SECONDS, FewShotCase, make_case, make_filtered_case
-from haptoflow_benchmark.few_shot.filtered_surfaces import FilteredSurface
+from haptoflow_paper.few_shot.few_shot_cases import SECONDS, FewShotCase, make_case, make_filtered_case
+from haptoflow_paper.few_shot.filtered_surfaces import FilteredSurface
 from haptoflow_benchmark.few_shot.wave_vector_study import CLOSE, relative_error
 from haptoflow_paper.few_shot.few_shot_figures import condition_figures
 from haptoflow_paper.few_shot.few_shot_rivals import fit_autoregressive

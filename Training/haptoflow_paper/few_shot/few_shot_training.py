@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from haptoflow_benchmark.few_shot.few_shot_cases import FewShotCase
+from haptoflow_paper.few_shot.few_shot_cases import FewShotCase
 from haptoflow_paper.few_shot.few_shot_study import StudyPlan, case_of, engine_figures
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.model_file import read_model_file

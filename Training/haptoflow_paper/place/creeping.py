@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from scipy.signal import butter, resample_poly, sosfilt
 
-from haptoflow_benchmark.metrics.temporal_metrics import kurtosis
+from haptoflow_paper.metrics.temporal_metrics import kurtosis
 from haptoflow_paper.place.passes import Doubles, Pass, Renderer, Table
 from haptoflow_training.recordings.synthetic import HELD_OUT_SPECIMEN, Material, load_materials
 from haptoflow_training.recordings.synthetic.carriers import path_from_velocity

@@ -8,21 +8,17 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from haptoflow_benchmark.few_shot.filtered_surfaces import FilteredSurface
-from haptoflow_benchmark.few_shot.unseen import unseen_materials
-from haptoflow_benchmark.metrics.temporal_metrics import rib_rates_hz
-from haptoflow_training.preprocessing.pipeline import PreparedRecording, preprocess_recording
+from haptoflow_paper.few_shot.filtered_surfaces import FilteredSurface
+from haptoflow_benchmark.few_shot.unseen import RIDE_SECONDS, make_rides, unseen_materials
+from haptoflow_paper.metrics.temporal_metrics import rib_rates_hz
+from haptoflow_training.preprocessing.pipeline import preprocess_recording
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.recordings.material_recording import MaterialRecording
-from haptoflow_training.recordings.recording import RecordingIdentity
-from haptoflow_training.recordings.synthetic import Material, load_materials, record_condition, record_hand_condition
+from haptoflow_training.recordings.synthetic import Material, load_materials, record_condition
 from haptoflow_training.recordings.synthetic.specimens import HELD_OUT_SPECIMEN, TRAINING_SPECIMENS
 from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 SECONDS = (5.0, 10.0, 20.0, 60.0)
-# Median speed (mm/s) and force (mN) of each ride in turn, so that even few seconds hold slow and fast motion.
-_RIDES = ((35, 800), (100, 1200), (22, 1400), (70, 600), (150, 1000), (48, 900))
-RIDE_SECONDS = 5.0
 _MINIMUM_RIDE_SECONDS = 1.5
 # Speeds between those of every protocol; forces and directions cover their ranges.
 _CONDITIONS = ((0.02, 0.5, 20.0), (0.034, 1.35, 110.0), (0.056, 0.9, 200.0), (0.085, 0.6, 300.0), (0.13, 1.8, 65.0),
@@ -105,26 +101,6 @@ def make_case(material: Material, seed: int, longest_seconds: float = SECONDS[-1
     )
 
 
-def make_rides(
-    material: Material, seed: int, count: int, *, guided_share: float = 1.0
-) -> tuple[MaterialRecording, ...]:
-    """`count` rides of 5 s in the recorder's frame, alternately slow and fast, light and firm."""
-    settings = PreprocessingSettings()
-    rides = []
-    for number in range(count):
-        speed, force = _RIDES[number % len(_RIDES)]
-        ride = record_hand_condition(
-            material,
-            RecordingIdentity(material.texture_id, None, speed, force, number),
-            seed=seed,
-            duration_seconds=RIDE_SECONDS + 2.0 * settings.trim_seconds + 0.05,
-            guided_share=guided_share,
-            specimen=TRAINING_SPECIMENS[number % len(TRAINING_SPECIMENS)],
-        )
-        rides.append(_as_recording(f"ride-{number + 1}", material.label, preprocess_recording(ride, settings)))
-    return tuple(rides)
-
-
 def _condition(material: Material, number: int, seed: int, settings: PreprocessingSettings) -> FewShotCondition:
     speed, force, direction = _CONDITIONS[number]
     if material.rulings:
@@ -155,18 +131,6 @@ def _condition(material: Material, number: int, seed: int, settings: Preprocessi
         pieces[0].motion,
         pieces[0].waveform_mps2,
         pieces[1].waveform_mps2,
-    )
-
-
-def _as_recording(name: str, label: str, prepared: PreparedRecording) -> MaterialRecording:
-    return MaterialRecording(
-        name,
-        label,
-        prepared.waveform_mps2,
-        prepared.motion[:, :2].copy(),
-        prepared.motion[:, 2].copy(),
-        "MIT",
-        "synthetic recorder",
     )
 
 
