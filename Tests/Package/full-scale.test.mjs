@@ -20,7 +20,7 @@ test('every language has the same default full scale as the C header', () => {
   const homes = {
     'C++': numberIn(['NativePlugin', 'src', 'dsp', 'limiter.hpp'], 'defaultFullScaleMps2 = ([\\d.]+)F;'),
     'C#': numberIn([...runtime, 'Core', 'Native', 'HapticEngine.cs'], 'DefaultFullScaleMps2 = ([\\d.]+);'),
-    Python: numberIn(['Training', 'haptoflow_benchmark', 'engine', 'engine_render.py'], '\\nFULL_SCALE_MPS2 = ([\\d.]+)'),
+    Python: numberIn(['Training', 'haptoflow_benchmark', 'engine_render.py'], '\\nFULL_SCALE_MPS2 = ([\\d.]+)'),
     'the demo': numberIn(['scripts', 'demo', 'demo.py'], '\\nFULL_SCALE_MPS2 = ([\\d.]+)'),
     "the command line's help": numberIn(['NativePlugin', 'cli', 'render_command.cpp'], '\\+-1 in the WAV is (\\d+) m/s'),
   };

@@ -14,9 +14,8 @@ from haptoflow_paper.reference.reference_conditions import Condition, conditions
 from haptoflow_paper.reference.reference_rows import REFERENCE_ROWS, reference_waves
 from haptoflow_paper.reference.reference_set import ReferencePair
 from haptoflow_paper.report.accuracy_time import table, timed_rows, with_times
-from haptoflow_paper.report.accuracy_time_chart import draw_chart
+from haptoflow_paper.report.accuracy_time_chart import draw_chart, draw_spectra
 from haptoflow_paper.report.accuracy_time_report import write_document
-from haptoflow_paper.report.label_spectra import draw_spectra
 from haptoflow_paper.rows import accuracy
 from haptoflow_paper.rows.row_plan import PlannedRow
 from haptoflow_paper.rows.row_summary import summary

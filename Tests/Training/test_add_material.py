@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from own_samples import Stroke, csv_one_axis, stroke
 
-from haptoflow_benchmark.engine.engine_render import render_motion
+from haptoflow_benchmark.engine_render import render_motion
 from haptoflow_training.cli import main
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.model_file import ModelFile, model_space, read_model_file

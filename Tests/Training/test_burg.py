@@ -7,8 +7,7 @@ import pytest
 import scipy.signal
 import torch
 
-from haptoflow_training.models.all_pole_filter import PredictedFilter, step_up
-from haptoflow_training.models.burg import burg_distance, burg_reflection
+from haptoflow_training.models.all_pole_filter import PredictedFilter, burg_distance, burg_reflection, step_up
 
 REFLECTION = torch.tensor([[-0.85, 0.7, -0.3, 0.2, 0.4]])
 

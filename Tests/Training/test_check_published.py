@@ -13,9 +13,9 @@ import numpy as np
 import pytest
 import torch
 
-from haptoflow_benchmark.engine.engine_library import EngineLibrary, default_engine
+from haptoflow_benchmark.engine_library import EngineLibrary, default_engine
 from haptoflow_paper.cli import main
-from haptoflow_paper.published.check import reference as reference_module
+from haptoflow_paper.published.check import parity as reference_module
 from haptoflow_paper.published.check.lines import FAIL, NOT_APPLICABLE, PASS, Line
 from haptoflow_paper.published.check.parity import parity_lines
 from haptoflow_paper.published.check.points import BUDGET_MS, Measured, Point, points_of, time_lines

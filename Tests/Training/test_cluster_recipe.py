@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from haptoflow_benchmark.engine.engine_render import render_motion
+from haptoflow_benchmark.engine_render import render_motion
 from haptoflow_training.cli import main
 from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.recordings.dataset_writer import TextureEntry, write_recording, write_texture_list

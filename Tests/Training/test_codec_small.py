@@ -9,12 +9,10 @@ import pytest
 import torch
 from numpy.typing import NDArray
 
-from haptoflow_paper.codec.reconstruction_loss import spectral_loss, time_loss
-from haptoflow_paper.codec.small_codec import SmallCodec, SmallCodecShape
-from haptoflow_paper.codec.small_codec_config import SmallCodecConfig, read_small_codec_config
-from haptoflow_paper.codec.trainer import SegmentSampler, train_small_codec, validate
+from haptoflow_paper.codec.trainer import SegmentSampler, spectral_loss, time_loss, train_small_codec, validate
+from haptoflow_paper.codec.small_codec import SmallCodec, SmallCodecConfig, SmallCodecShape, read_small_codec_config
 from haptoflow_training.errors import InputError
-from haptoflow_training.training.held_out import HeldOut
+from haptoflow_training.training.batches import HeldOut
 
 
 @dataclass(frozen=True)

@@ -9,9 +9,8 @@ import pytest
 from dataset_samples import small_recording
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.recordings.cluster_dataset import open_dataset
+from haptoflow_training.recordings.cluster_dataset import open_dataset, read_texture_list
 from haptoflow_training.recordings.cluster_dataset_files import DatasetFileError
-from haptoflow_training.recordings.cluster_dataset_textures import read_texture_list
 from haptoflow_training.recordings.dataset import Dataset
 from haptoflow_training.recordings.dataset_layout import published_name
 from haptoflow_training.recordings.dataset_writer import TextureEntry, write_recording, write_texture_list

@@ -12,17 +12,23 @@ import numpy as np
 import pytest
 from published_samples import PUBLISHED
 
-from haptoflow_benchmark.engine.engine_library import default_engine
+from haptoflow_benchmark.engine_library import default_engine
 from haptoflow_paper.cli import main
-from haptoflow_paper.distil.labels_file import write_labels
-from haptoflow_paper.distil.motions import MotionRange, strokes_of
-from haptoflow_paper.distil.rendering import SETTLING_SAMPLES, Rendering, render_all, rendered
-from haptoflow_paper.distil.teacher import Teacher
+from haptoflow_paper.distil.rendering import (
+    SETTLING_SAMPLES,
+    Rendering,
+    generated_path,
+    render_all,
+    rendered,
+    start_generated,
+    write_generated,
+    write_labels,
+)
+from haptoflow_paper.distil.teacher import MotionRange, Teacher, strokes_of
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.preprocessing.pipeline import preprocess_parts
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
-from haptoflow_paper.distil.generated_files import generated_path, start_generated, write_generated
 from haptoflow_training.recordings.generated_dataset import GENERATED_FILE, GeneratedOrigin, open_generated
 from haptoflow_training.recordings.labels import load_labels
 from haptoflow_training.recordings.open_recordings import open_recordings

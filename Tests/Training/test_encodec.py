@@ -6,8 +6,7 @@ from pathlib import Path
 import pytest
 import torch
 
-from haptoflow_paper.codec.causal_layers import CausalConvolution, fold_weight_norm
-from haptoflow_paper.codec.encodec import EnCodec
+from haptoflow_paper.codec.encodec import CausalConvolution, EnCodec, fold_weight_norm
 from haptoflow_training.errors import InputError
 
 # A sample of the published checkpoint's names and shapes, written out by hand.

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from haptoflow_benchmark.engine.engine_library import EngineLibrary, default_engine
+from haptoflow_benchmark.engine_library import EngineLibrary, default_engine
 from haptoflow_paper.rows.engine_generator import EngineGenerator
 from haptoflow_training.errors import InputError
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from haptoflow_benchmark.engine.engine_library import default_engine
+from haptoflow_benchmark.engine_library import default_engine
 from haptoflow_paper.rows.engine_generator import EngineGenerator
 
 ROOT = Path(__file__).parents[2]

@@ -13,16 +13,15 @@ from test_trainer import ALONE, _config
 from training_fixtures import FakeRecording, FakeStore, make_store, travelled_mm
 
 from haptoflow_paper.codec.small_codec import SmallCodec, SmallCodecShape
-from haptoflow_paper.report.annotation import annotate_model
-from haptoflow_paper.runs.seed_bank import build_seed_bank
+from haptoflow_paper.report.accuracy_time import annotate_model
+from haptoflow_paper.runs.tier import build_seed_bank
 from haptoflow_paper.runs.trainer import EvaluatedTrainer
 from haptoflow_training.export.exponents import fit_exponents
 from haptoflow_training.export.exporter import export_run
 from haptoflow_training.export.label_info import LabelInfo
 from haptoflow_training.export.model_file import ModelFile, read_model_file
-from haptoflow_training.recordings.landing import Landing, LandingMode
-from haptoflow_training.recordings.wander import RibWander, StickSlip
-from haptoflow_training.training.held_out import HeldOut
+from haptoflow_training.recordings.landing import Landing, LandingMode, RibWander, StickSlip
+from haptoflow_training.training.batches import HeldOut
 from haptoflow_training.training.recordings_source import Provenance, Source
 from haptoflow_training.training.trainer import Trainer
 

@@ -9,10 +9,8 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from haptoflow_benchmark.metrics.waveform_metrics import power_spectrum
-from haptoflow_paper.few_shot.few_shot_rivals import fit_autoregressive
-from haptoflow_paper.few_shot.level_law import LabelPrior, fit_level
-from haptoflow_paper.few_shot.recording_windows import windows_of
+from haptoflow_benchmark.waveform_metrics import power_spectrum
+from haptoflow_paper.few_shot.few_shot_rivals import LabelPrior, fit_autoregressive, fit_level, windows_of
 from haptoflow_training.export.level_table import LevelTable
 from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.recordings.material_recording import MaterialRecording

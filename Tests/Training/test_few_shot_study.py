@@ -10,23 +10,28 @@ import numpy as np
 import pytest
 from scipy.signal import freqz, welch
 
-from haptoflow_paper.few_shot.few_shot_cases import SECONDS, FewShotCase, make_case, study_materials
-from haptoflow_paper.few_shot.filtered_surfaces import conditions, filtered_surfaces
+from haptoflow_paper.few_shot.few_shot_cases import (
+    SECONDS,
+    FewShotCase,
+    conditions,
+    filtered_surfaces,
+    make_case,
+    study_materials,
+)
 from haptoflow_paper.cli import main
-from haptoflow_paper.few_shot.few_shot_figures import condition_figures
 from haptoflow_paper.few_shot.few_shot_report import (
     OTHER_DRAW,
     ROWS,
     assembled,
+    condition_figures,
     curve_table,
     page_words,
+    summarised,
     table,
     write_chart,
     write_results,
 )
-from haptoflow_paper.few_shot.few_shot_study import StudyPlan, cells_of
-from haptoflow_paper.few_shot.few_shot_summary import summarised
-from haptoflow_paper.few_shot.few_shot_training import with_trained
+from haptoflow_paper.few_shot.few_shot_study import StudyPlan, cells_of, with_trained
 from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.model_stamp import with_measured_words
 from haptoflow_training.recordings.synthetic import load_materials

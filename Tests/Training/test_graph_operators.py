@@ -11,8 +11,7 @@ import pytest
 import torch
 from paper_samples import evaluated
 
-from haptoflow_paper.codec.representation import CodecRepresentation
-from haptoflow_paper.codec.representation_base import build_representation
+from haptoflow_paper.codec.representation import CodecRepresentation, build_representation
 from haptoflow_paper.codec.small_codec import SmallCodec, SmallCodecShape
 from haptoflow_paper.rivals import ARCHITECTURES
 from haptoflow_paper.runs.tier import export_level_model, network_graph

@@ -12,12 +12,11 @@ import torch
 from numpy.typing import NDArray
 from own_samples import csv_one_axis, stroke, write_table
 
-from haptoflow_benchmark.own_model.beside_learning import verdict
-from haptoflow_benchmark.own_model.own_accuracy import LabelAccuracy
+from haptoflow_benchmark.own_accuracy import LabelAccuracy, verdict
 from haptoflow_training import cli
 from haptoflow_training.export.grown_model import without_labels
 from haptoflow_training.export.model_file import ModelFile, model_space, read_model_file
-from haptoflow_training.export.model_weights import skeleton_weights
+from haptoflow_training.export.skeleton_tensors import skeleton_weights
 from haptoflow_training.fewshot.learning import MaterialWords, learn_material
 from haptoflow_training.model_stamp import SHIPPED_MODEL
 from haptoflow_training.recordings.own_files import read_own

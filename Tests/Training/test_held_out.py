@@ -13,18 +13,16 @@ import torch
 from numpy.typing import NDArray
 from training_fixtures import FakeRecording, FakeStore, level_offsets_db, travelled_mm
 
-from haptoflow_paper.codec.small_codec_config import read_small_codec_config
+from haptoflow_paper.codec.small_codec import read_small_codec_config
 from haptoflow_paper.codec.trainer import SegmentSampler
 from haptoflow_paper.reference.reference_conditions import conditions
-from haptoflow_paper.runs.seed_bank import build_seed_bank
-from haptoflow_training.export.exponents import fit_exponents
-from haptoflow_training.export.recorded_windows import draw_windows
+from haptoflow_paper.runs.tier import build_seed_bank
+from haptoflow_training.export.exponents import draw_windows, fit_exponents
 from haptoflow_training.preprocessing.pipeline import preprocess_recording
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.recordings.synthetic import load_materials, machine_conditions, record_machine_condition
-from haptoflow_training.training.batches import SegmentBatches
+from haptoflow_training.training.batches import HeldOut, SegmentBatches, clear_spans
 from haptoflow_training.training.config import BatchConfig, load_config
-from haptoflow_training.training.held_out import HeldOut, clear_spans
 
 ROOT = Path(__file__).parents[2]
 BATCH = BatchConfig(
@@ -112,7 +110,7 @@ def test_seeds_and_exponents_use_only_windows_outside_the_bands(monkeypatch: pyt
         read.append(windows.waves)
         return windows
 
-    monkeypatch.setattr("haptoflow_paper.runs.seed_bank.draw_windows", spy)
+    monkeypatch.setattr("haptoflow_paper.runs.tier.draw_windows", spy)
     monkeypatch.setattr("haptoflow_training.export.exponents.draw_windows", spy)
     build_seed_bank(STORE, np.zeros((len(STORE.labels), 4), np.float32), seed=1, held_out=HELD_OUT, candidates=400)
     fit_exponents(STORE, 0, periodic=False, seed=1, held_out=HELD_OUT)

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.training.job_lanes import Job, run_jobs
+from haptoflow_training.training.processes import Job, run_jobs
 
 _PYTHON = (sys.executable, "-c")
 # Writes that it began, waits, writes its product; when terminated, it writes that too.

@@ -10,13 +10,15 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from haptoflow_benchmark.engine.engine_render import write_stroke
-from haptoflow_benchmark.metrics.label_classifier import LabelClassifier, concatenate, window_features
-from haptoflow_benchmark.own_model.label_discrimination import (
+from haptoflow_benchmark.engine_render import write_stroke
+from haptoflow_benchmark.label_discrimination import (
     DiscriminationReport,
+    LabelClassifier,
     StrokeOutcome,
+    concatenate,
     discriminate,
     train_classifier,
+    window_features,
     write_report,
 )
 from haptoflow_training.recordings.synthetic import load_materials

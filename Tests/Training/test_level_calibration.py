@@ -18,7 +18,7 @@ from haptoflow_training.export.level_table import MeasuredLevels
 from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.export.trained_tier import load_tiers
 from haptoflow_training.models.level_model import LevelModel, shift_level
-from haptoflow_training.training.held_out import HeldOut
+from haptoflow_training.training.batches import HeldOut
 from haptoflow_training.training.recordings_source import Source
 from haptoflow_training.training.trainer import Trainer
 

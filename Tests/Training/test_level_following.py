@@ -9,12 +9,12 @@ import pytest
 from training_fixtures import RATE_HZ, FakeRecording, FakeStore, still_surfaces, travelled_mm
 
 from haptoflow_training.closed_loop.level_calibration import ClosedLoopLevels, TierSource, closed_loop_levels
-from haptoflow_training.closed_loop.level_following import level_tables
+from haptoflow_training.closed_loop.measured_levels import level_tables
 from haptoflow_training.export.exponents import LabelExponents, fit_exponents
 from haptoflow_training.export.level_table import LevelTable, table_through
 from haptoflow_training.export.trained_tier import TrainedTier
 from haptoflow_training.training.config import ModelConfig, TrainingConfig
-from haptoflow_training.training.held_out import HeldOut
+from haptoflow_training.training.batches import HeldOut
 from haptoflow_training.training.trainer import build_model
 
 RISE_DB = 14.0

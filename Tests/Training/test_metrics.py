@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from haptoflow_benchmark.metrics import waveform_metrics as metrics
+from haptoflow_benchmark import waveform_metrics as metrics
 from haptoflow_paper.metrics import row_metrics
 
 RATE_HZ = 2000

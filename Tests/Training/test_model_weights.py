@@ -10,8 +10,7 @@ import torch
 from torch import nn
 
 from haptoflow_training.export.model_file import ModelFile, read_model_file
-from haptoflow_training.export.model_weights import skeleton_weights
-from haptoflow_training.export.skeleton_tensors import skeleton_tensors
+from haptoflow_training.export.skeleton_tensors import skeleton_tensors, skeleton_weights
 from haptoflow_training.models.level_model import LevelModel
 from haptoflow_training.models.skeleton import Skeleton
 

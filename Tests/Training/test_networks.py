@@ -7,8 +7,7 @@ import math
 import pytest
 import torch
 
-from haptoflow_paper.runs.band_limit import BandLimit
-from haptoflow_paper.runs.velocity_field import VelocityField
+from haptoflow_paper.runs.velocity_field import BandLimit, VelocityField
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE, MotionFeatures
 from haptoflow_training.models.level_model import LevelModel, level_loss
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from haptoflow_training.closed_loop.phase_track import PhaseTrack, SurfaceStatistics
+from haptoflow_training.closed_loop.render import PhaseTrack, SurfaceStatistics
 from haptoflow_training.recordings.synthetic import Material, load_materials
 from haptoflow_training.recordings.synthetic.features import rib_wander_turns, slips_of
 from haptoflow_training.recordings.synthetic.surface import TipPath

@@ -5,11 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from haptoflow_paper.place.hand_overs import hand_overs
-from haptoflow_paper.place.likeness import Profile, bumps, likeness, over_place
-from haptoflow_paper.place.passes import Pass
+from haptoflow_paper.place.creeping import hand_overs
+from haptoflow_paper.place.place_study import RULED, Pass, Profile, bumps, likeness, over_place, second_passes, summary
 from haptoflow_paper.place.place_report import page_words
-from haptoflow_paper.place.place_study import RULED, second_passes, summary
 
 
 def _surface(places_metres: np.ndarray, seed: int = 3) -> np.ndarray:

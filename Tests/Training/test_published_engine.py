@@ -12,8 +12,8 @@ import torch
 from numpy.typing import NDArray
 from scipy.io import wavfile
 
-from haptoflow_benchmark.engine.engine_library import EngineLibrary, default_engine
-from haptoflow_benchmark.engine.engine_render import render_motion
+from haptoflow_benchmark.engine_library import EngineLibrary, default_engine
+from haptoflow_benchmark.engine_render import render_motion
 from haptoflow_paper.cli import main
 from haptoflow_paper.published.checkpoint import read_checkpoint
 from haptoflow_paper.published.level_measurement import band_rms

@@ -14,8 +14,7 @@ import torch
 
 from haptoflow_paper.cli import main
 from haptoflow_paper.published.checkpoint import read_checkpoint
-from haptoflow_paper.published.embedding_rows import EmbeddingRows
-from haptoflow_paper.published.labels import published_labels
+from haptoflow_paper.published.labels import EmbeddingRows, published_labels
 from haptoflow_paper.published.level_measurement import RenderedLevels, band_rms, _motions
 from haptoflow_paper.published.meta_file import ControlStatistics
 from haptoflow_paper.published.published_file import PublishedFile, TrainedRange, tiers_of

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import torch
 
-from haptoflow_benchmark.engine.engine_library import default_engine
+from haptoflow_benchmark.engine_library import default_engine
 from haptoflow_paper.published.checkpoint import read_checkpoint
 from haptoflow_paper.published.published_file import PublishedFile
 from haptoflow_paper.rows.engine_generator import EngineGenerator

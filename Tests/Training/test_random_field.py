@@ -10,8 +10,7 @@ from haptoflow_training.preprocessing.pipeline import preprocess_recording
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.recordings.synthetic import load_materials, record_condition
 from haptoflow_training.recordings.synthetic.features import impact_acceleration
-from haptoflow_training.recordings.synthetic.random_field import RandomField
-from haptoflow_training.recordings.synthetic.surface import OCTAVE_WAVELENGTHS_MM, TipPath
+from haptoflow_training.recordings.synthetic.surface import OCTAVE_WAVELENGTHS_MM, RandomField, TipPath
 
 MATERIALS = {material.label: material for material in load_materials()}
 STROKE_MM = 30_000.0

@@ -16,7 +16,7 @@ from haptoflow_training.models.level_model import LevelModel, level_loss
 from haptoflow_training.preprocessing.pipeline import preprocess_recording
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.recordings.synthetic import load_materials, record_condition
-from haptoflow_training.training.held_out import HeldOut
+from haptoflow_training.training.batches import HeldOut
 
 LABELS = ("wood", "stone", "metal mesh", "plastic", "leather", "corduroy", "sandpaper")
 EDGE_MPS = 0.06

@@ -11,8 +11,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from haptoflow_benchmark.engine.engine_render import read_wav
-from haptoflow_benchmark.engine.recorded_strokes import onto_table, read_recorded_strokes
+from haptoflow_benchmark.engine_render import onto_table, read_recorded_strokes, read_wav
 from haptoflow_training.errors import InputError
 
 ROOT = Path(__file__).parents[2]

@@ -11,10 +11,16 @@ import pytest
 
 from haptoflow_training.cli import main
 from haptoflow_training.recordings.synthetic import TRAINING_SPECIMENS, load_materials
-from haptoflow_training.recordings.synthetic.calibration import calibrate
+from haptoflow_training.recordings.synthetic.measurement import (
+    TOLERANCE,
+    Design,
+    Deviation,
+    SpreadMeasurement,
+    calibrate,
+    measure,
+    measure_spread,
+)
 from haptoflow_training.recordings.synthetic.materials import DEFAULT_MATERIALS_PATH, Targets
-from haptoflow_training.recordings.synthetic.measurement import TOLERANCE, Design, Deviation, measure
-from haptoflow_training.recordings.synthetic.spread_measurement import SpreadMeasurement, measure_spread
 
 MATERIALS = {material.label: material for material in load_materials()}
 # From 20 mm/s like the report: at lower speeds ribs are met at less than 20 Hz, which bends a ruled label's level law.

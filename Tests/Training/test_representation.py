@@ -7,10 +7,8 @@ import onnx
 import pytest
 import torch
 
-from haptoflow_paper.codec.encodec import EnCodec
-from haptoflow_paper.codec.representation import CodecRepresentation
-from haptoflow_paper.codec.representation_base import Representation, build_representation
-from haptoflow_paper.codec.resampled_encodec import ResampledEnCodec
+from haptoflow_paper.codec.encodec import EnCodec, ResampledEnCodec
+from haptoflow_paper.codec.representation import CodecRepresentation, Representation, build_representation
 from haptoflow_paper.codec.small_codec import SmallCodec, SmallCodecShape
 from haptoflow_training.errors import InputError
 

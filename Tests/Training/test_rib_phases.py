@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE
 from haptoflow_training.models.level_model import LevelModel
 from haptoflow_training.models.skeleton import Skeleton
-from haptoflow_training.models.skeleton_model import SkeletonModel
+from haptoflow_training.models.haptoflow_model import SkeletonModel
 from haptoflow_training.models.surface_waves import FAMILIES, path_of, with_path
 from haptoflow_training.preprocessing.rib_phases import rib_phase_turns
 from haptoflow_training.training.skeleton_losses import SkeletonLosses

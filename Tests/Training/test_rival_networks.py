@@ -16,7 +16,7 @@ from torch import Tensor
 
 from haptoflow_paper.rivals import ARCHITECTURES, Rival, build_rival
 from haptoflow_paper.rivals.autoregressive import AutoregressiveRival
-from haptoflow_paper.rivals.segment_network import INPUTS, SegmentNetworkGraph
+from haptoflow_paper.rivals.rival import INPUTS, SegmentNetworkGraph
 from haptoflow_paper.rivals.spsi import SinglePassInversion, SpsiRival
 from haptoflow_training.export.onnx_graphs import trace_graph
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE

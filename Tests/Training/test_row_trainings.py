@@ -8,12 +8,11 @@ from pathlib import Path
 
 import pytest
 
-from haptoflow_paper.rows import row_training
+from haptoflow_paper.rows import workplace
 from haptoflow_paper.rows.row_plan import PlannedRow
-from haptoflow_paper.rows.row_training import train_models
-from haptoflow_paper.rows.workplace import Workplace
+from haptoflow_paper.rows.workplace import Workplace, train_models
 from haptoflow_training.training.config import DataConfig, load_config
-from haptoflow_training.training.job_lanes import Job
+from haptoflow_training.training.processes import Job
 
 _ROW = PlannedRow("row", "as-published", model="small")
 
@@ -26,8 +25,8 @@ def started(monkeypatch: pytest.MonkeyPatch) -> list[Job]:
     def remember(given: Sequence[Job], lanes: int, progress: object) -> None:
         jobs.extend(given)
 
-    monkeypatch.setattr(row_training, "run_jobs", remember)
-    monkeypatch.setattr(row_training, "open_source", lambda data, store, workers: None)
+    monkeypatch.setattr(workplace, "run_jobs", remember)
+    monkeypatch.setattr(workplace, "open_source", lambda data, store, workers: None)
     return jobs
 
 
@@ -74,7 +73,7 @@ def test_the_store_is_prepared_once_before_trainings_and_codecs_start_and_not_wh
     def prepare(data: DataConfig, store: Path, workers: int) -> None:
         prepared.append((data.labels, store, workers, len(started)))
 
-    monkeypatch.setattr(row_training, "open_source", prepare)
+    monkeypatch.setattr(workplace, "open_source", prepare)
     train_models(place, [(PlannedRow("latent", "as-published", model="latent"), 1), (_ROW, 1)], 2)
     assert prepared == [(("wood",), place.store, 2, 0)] and len(started) == 3
     _leave_as_trained(place)

@@ -10,8 +10,7 @@ import pytest
 import scipy.signal
 import torch
 
-from haptoflow_training.models.all_pole_filter import PredictedFilter
-from haptoflow_training.models.burg import burg_reflection
+from haptoflow_training.models.all_pole_filter import PredictedFilter, burg_reflection
 from haptoflow_training.models.level_model import PREVIOUS_LIMIT, LevelModel
 from haptoflow_training.models.refiner import ENTERING, Refiner
 from haptoflow_training.models.skeleton import (
@@ -23,7 +22,7 @@ from haptoflow_training.models.skeleton import (
     Skeleton,
     SkeletonGains,
 )
-from haptoflow_training.models.skeleton_model import SkeletonModel
+from haptoflow_training.models.haptoflow_model import SkeletonModel
 from haptoflow_training.models.surface_waves import FAMILIES, SurfaceWaves, advanced
 
 SKELETON = Skeleton(hidden=16).eval().requires_grad_(False)

@@ -20,17 +20,16 @@ from training_fixtures import FakeStore, make_store, travelled_mm
 from haptoflow_paper.runs.trainer import EvaluatedTrainer
 from haptoflow_training.cli import main
 from haptoflow_training.closed_loop.level_calibration import TierSource
-from haptoflow_training.closed_loop.phase_track import SurfaceStatistics
-from haptoflow_training.closed_loop.render import run_closed_loop
+from haptoflow_training.closed_loop.render import SurfaceStatistics, run_closed_loop
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.exporter import export_run
 from haptoflow_training.export.label_info import LabelInfo
 from haptoflow_training.export.model_file import ModelFile, read_model_file
 from haptoflow_training.export.trained_tier import load_tiers
-from haptoflow_training.models.skeleton_model import SkeletonModel
+from haptoflow_training.models.haptoflow_model import SkeletonModel
 from haptoflow_training.models.surface_waves import path_of
 from haptoflow_training.recordings.dataset_writer import TextureEntry, write_recording, write_texture_list
-from haptoflow_training.recordings.wander import RibWander, StickSlip
+from haptoflow_training.recordings.landing import RibWander, StickSlip
 from haptoflow_training.training import skeleton_losses
 from haptoflow_training.training.batches import SegmentBatch, SegmentBatches
 from haptoflow_training.training.config import BatchConfig, ModelConfig, RecipeConfig, TrainingConfig

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from training_fixtures import still_surfaces
 
-from haptoflow_benchmark.engine.engine_library import default_engine
+from haptoflow_benchmark.engine_library import default_engine
 from haptoflow_paper.metrics.temporal_metrics import rib_modulation_depth
-from haptoflow_benchmark.metrics.waveform_metrics import power_spectrum
+from haptoflow_benchmark.waveform_metrics import power_spectrum
 from haptoflow_paper.rows.engine_generator import EngineGenerator
 from haptoflow_training.cli import main
 from haptoflow_training.closed_loop.render import UPDATE_RATE_HZ, run_closed_loop

@@ -19,7 +19,7 @@ from haptoflow_training.recordings.synthetic import (
     record_condition,
 )
 from haptoflow_training.recordings.synthetic.measurement import band_level
-from haptoflow_training.recordings.synthetic.spread import character_of, surface_gain
+from haptoflow_training.recordings.synthetic.specimens import character_of, surface_gain
 
 MATERIALS = {material.label: material for material in load_materials()}
 SMOOTH = ("glass", "metal", "plastic", "paper")

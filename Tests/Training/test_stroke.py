@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from haptoflow_training.cli import main
-from haptoflow_training.strokes.hand_stroke import MAXIMUM_SPEED_MPS, random_planar_stroke, scripted_stroke
-from haptoflow_training.strokes.sigma_lognormal import Submovement
+from haptoflow_training.hand_stroke import MAXIMUM_SPEED_MPS, Submovement, random_planar_stroke, scripted_stroke
 
 WAYPOINTS = [[0.0, 0.05, 0.0], [0.1, 0.0, 0.0], [0.2, 0.0, 0.05], [0.3, 0.05, 0.0]]
 

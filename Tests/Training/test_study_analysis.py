@@ -13,11 +13,10 @@ from study_samples import change_field, change_lines, change_sidecar, latency_st
 from haptoflow_training.cli import main
 from haptoflow_training.errors import InputError
 from haptoflow_training.studies.figures import brackets_of
-from haptoflow_training.studies.latency_analysis import analyse_latency
-from haptoflow_training.studies.log_columns import LATENCY, SIMILARITY
+from haptoflow_training.studies.analysis import analyse_latency, analyse_similarity
+from haptoflow_training.studies.log_table import LATENCY, SIMILARITY
 from haptoflow_training.studies.rating_tests import Pair
-from haptoflow_training.studies.similarity_analysis import analyse_similarity
-from haptoflow_training.studies.simulated_participants import METHODS, RatingModel, planted
+from haptoflow_training.studies.simulation import METHODS, RatingModel, planted
 from haptoflow_training.studies.study_folder import read_faultless
 
 

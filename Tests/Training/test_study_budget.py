@@ -9,8 +9,16 @@ import pytest
 
 from haptoflow_training.cli import main
 from haptoflow_training.errors import InputError
-from haptoflow_training.studies.bench_figures import BenchFigures, Block, Spread, read_bench
-from haptoflow_training.studies.delay_budget import Budget, budgets, page_words, read_lags
+from haptoflow_training.studies.delay_budget import (
+    BenchFigures,
+    Block,
+    Budget,
+    Spread,
+    budgets,
+    page_words,
+    read_bench,
+    read_lags,
+)
 
 PUBLISHED = Path(__file__).parents[2] / "Documentation~" / "benchmarks.md"
 ROWS = [

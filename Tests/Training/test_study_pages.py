@@ -11,11 +11,9 @@ import pytest
 
 from haptoflow_training.cli import main
 from haptoflow_training.model_stamp import with_measured_words
-from haptoflow_training.studies.bench_figures import read_bench
-from haptoflow_training.studies.delay_budget import page_words as budget_words
-from haptoflow_training.studies.delay_budget import read_lags
-from haptoflow_training.studies.log_columns import COLUMNS
-from haptoflow_training.studies.sidecar_file import KEYS
+from haptoflow_training.studies.delay_budget import page_words as budget_words, read_bench, read_lags
+from haptoflow_training.studies.log_table import COLUMNS
+from haptoflow_training.studies.session_file import KEYS
 
 ROOT = Path(__file__).parents[2]
 PAGES = ROOT / "Documentation~"

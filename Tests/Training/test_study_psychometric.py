@@ -6,8 +6,14 @@ import numpy as np
 import pytest
 from scipy import optimize, special
 
-from haptoflow_training.studies.intervals import expanded_interval
-from haptoflow_training.studies.psychometric import Answers, Curve, fit, fit_curve, threshold_difference
+from haptoflow_training.studies.psychometric import (
+    Answers,
+    Curve,
+    expanded_interval,
+    fit,
+    fit_curve,
+    threshold_difference,
+)
 
 LEVELS = np.arange(50.0, 251.0, 20.0)
 

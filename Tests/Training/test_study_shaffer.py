@@ -7,7 +7,7 @@ from itertools import combinations, product
 import numpy as np
 import pytest
 
-from haptoflow_training.studies.shaffer import adjusted, factors, possible_true_counts
+from haptoflow_training.studies.rating_tests import adjusted, factors, possible_true_counts
 
 
 @pytest.mark.parametrize(

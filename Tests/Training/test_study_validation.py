@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 from haptoflow_training.cli import main
-from haptoflow_training.studies.intervals import share
+from haptoflow_training.studies.psychometric import share
 from haptoflow_training.studies.plans import CONDITIONS
 from haptoflow_training.studies.power import latency_power
 from haptoflow_training.studies.rating_tests import analysed
-from haptoflow_training.studies.simulated_participants import PAPER_CURVES, AnswerModel, RatingModel
+from haptoflow_training.studies.simulation import PAPER_CURVES, AnswerModel, RatingModel
 
 
 @pytest.mark.parametrize("between", [0.0, 0.3, 0.9])

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from haptoflow_benchmark.lag.stylus_lag import correlations, lag_strokes, mean_power, peak_ms
+from haptoflow_benchmark.stylus_lag import correlations, lag_strokes, mean_power, peak_ms
 
 ROOT = Path(__file__).parents[2]
 ENGINE = Path(os.environ.get("HAPTOFLOW_ENGINE", ROOT / "build" / "native" / "haptoflow"))

@@ -10,7 +10,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.signal import welch
 
-from haptoflow_benchmark.engine.engine_render import FULL_SCALE_MPS2, read_wav, write_scene
+from haptoflow_benchmark.engine_render import FULL_SCALE_MPS2, read_wav, write_scene
 
 ROOT = Path(__file__).parents[2]
 ENGINE = ROOT / "build" / "native" / "haptoflow"

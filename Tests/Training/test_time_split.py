@@ -12,8 +12,7 @@ from own_samples import csv_one_axis, stroke
 from haptoflow_training.errors import InputError
 from haptoflow_training.preprocessing.preparation import prepare_cut_where_needed, prepare_store
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
-from haptoflow_training.preprocessing.split import SPLITS
-from haptoflow_training.preprocessing.time_split import time_parts
+from haptoflow_training.preprocessing.split import SPLITS, time_parts
 from haptoflow_training.recordings.own_dataset import open_own_dataset
 from haptoflow_training.recordings.synthetic import (
     hand_conditions,

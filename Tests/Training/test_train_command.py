@@ -14,7 +14,7 @@ import pytest
 import torch
 
 from haptoflow_training.cli import main
-from haptoflow_training.preprocessing.store_lock import store_lock
+from haptoflow_training.preprocessing.store import store_lock
 
 TRAINING = Path(__file__).resolve().parents[2] / "Training"
 CONFIGURATION = """

@@ -10,7 +10,7 @@ import pytest
 
 from haptoflow_paper.rows.row_plan import load_plan
 from haptoflow_training.errors import InputError
-from haptoflow_training.models.skeleton_model import SkeletonModel
+from haptoflow_training.models.haptoflow_model import SkeletonModel
 from haptoflow_training.training.config import TrainingConfig, config_of_run, load_config
 from haptoflow_training.training.trainer import Trainer, build_model, planned_steps
 

@@ -14,7 +14,7 @@ from haptoflow_training.preprocessing.pipeline import PreparedRecording, preproc
 from haptoflow_training.preprocessing.preparation import prepare_store
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.recordings.synthetic import Material, load_materials, record_condition
-from haptoflow_training.recordings.wander import RibWander, StickSlip
+from haptoflow_training.recordings.landing import RibWander, StickSlip
 from haptoflow_training.training.config import DataConfig
 from haptoflow_training.training.recordings_source import synthetic_label_infos
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from haptoflow_benchmark.engine.recorded_strokes import read_recorded_strokes
+from haptoflow_benchmark.engine_render import read_recorded_strokes
 from haptoflow_paper.velocity.velocity_cases import made_motions, real_motions, sampled
 from haptoflow_paper.velocity.velocity_estimators import (
     Estimator,

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from haptoflow_paper.metrics.judged_figures import BY_KEY, spread
-from haptoflow_paper.report.verdicts import rivals, verdict
+from haptoflow_paper.report.accuracy_time import rivals, verdict
 from haptoflow_paper.rows.row_summary import special_figures, summary, with_interval
 
 _LABELS = "abcdef"

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from haptoflow_benchmark.cli import main
-from haptoflow_benchmark.few_shot import wave_vector_study
-from haptoflow_benchmark.few_shot.wave_vector_study import measured, study_surfaces
+from haptoflow_benchmark import wave_vector_study
+from haptoflow_benchmark.wave_vector_study import measured, study_surfaces
 
 ROOT = Path(__file__).parents[2]
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from haptoflow_paper.metrics import temporal_metrics as temporal
-from haptoflow_benchmark.metrics import waveform_metrics as metrics
+from haptoflow_benchmark import waveform_metrics as metrics
 from haptoflow_paper.metrics import row_metrics
 from haptoflow_paper.reference.reference_conditions import Condition, is_on_other_label
 from haptoflow_paper.reference.reference_set import ReferencePair

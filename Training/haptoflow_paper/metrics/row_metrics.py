@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from haptoflow_benchmark.metrics.waveform_metrics import power_spectrum, rms
+from haptoflow_benchmark.waveform_metrics import power_spectrum, rms
 from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 # Bark band edges (Zwicker 1961) inside the band that the system renders.

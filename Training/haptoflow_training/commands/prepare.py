@@ -11,8 +11,7 @@ from haptoflow_training.errors import InputError
 from haptoflow_training.preprocessing.preparation import prepare_cut_where_needed, prepare_store
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.preprocessing.split import SPLITS
-from haptoflow_training.preprocessing.store import SegmentStore
-from haptoflow_training.preprocessing.store_lock import store_lock
+from haptoflow_training.preprocessing.store import SegmentStore, store_lock
 from haptoflow_training.recordings.dataset import Dataset
 from haptoflow_training.recordings.labels import LabelMap, load_labels
 from haptoflow_training.recordings.open_recordings import open_with_labels

@@ -21,21 +21,22 @@ from haptoflow_training.recordings.synthetic import (
     load_materials,
     record_hand_condition,
 )
-from haptoflow_training.recordings.synthetic.calibration import calibrate
+from haptoflow_training.recordings.synthetic.measurement import (
+    TOLERANCE,
+    Design,
+    Deviation,
+    Measurement,
+    SpreadMeasurement,
+    calibrate,
+    measure,
+    measure_spread,
+)
 from haptoflow_training.recordings.synthetic.materials import (
     DEFAULT_MATERIALS_PATH,
     Material,
     select_materials,
     write_calibrated,
 )
-from haptoflow_training.recordings.synthetic.measurement import (
-    TOLERANCE,
-    Design,
-    Deviation,
-    Measurement,
-    measure,
-)
-from haptoflow_training.recordings.synthetic.spread_measurement import SpreadMeasurement, measure_spread
 
 # The report measures another specimen than the calibration used, so that a fit to one random draw would show.
 _CALIBRATION_SEED, _REPORT_SEED = 7, 2029

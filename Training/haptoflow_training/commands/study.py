@@ -15,11 +15,17 @@ from tqdm import tqdm
 
 from haptoflow_training.errors import InputError
 from haptoflow_training.model_stamp import read_measured_page, with_measured_words
-from haptoflow_training.studies.golden import golden_text
-from haptoflow_training.studies.log_columns import LATENCY, SIMILARITY, STUDIES
-from haptoflow_training.studies.session_writer import merged_csv
-from haptoflow_training.studies.simulated_participants import MATERIALS, METHODS, PLANNED_DZ, planted
-from haptoflow_training.studies.simulation import simulate_latency, simulate_similarity
+from haptoflow_training.studies.plans import golden_text
+from haptoflow_training.studies.log_table import LATENCY, SIMILARITY, STUDIES
+from haptoflow_training.studies.session_file import merged_csv
+from haptoflow_training.studies.simulation import (
+    MATERIALS,
+    METHODS,
+    PLANNED_DZ,
+    planted,
+    simulate_latency,
+    simulate_similarity,
+)
 from haptoflow_training.studies.study_folder import read_faultless, read_folder
 from haptoflow_training.whole_file import write_whole
 
@@ -143,9 +149,9 @@ The report is one file with its figures inside. Logs with a problem are refused;
 
 
 def _analyse(options: argparse.Namespace) -> int:
-    from haptoflow_training.studies.latency_analysis import analyse_latency
+    from haptoflow_training.studies.analysis import analyse_latency
     from haptoflow_training.studies.report import Analysed, report, results
-    from haptoflow_training.studies.similarity_analysis import (
+    from haptoflow_training.studies.analysis import (
         MINIMUM_PARTICIPANTS, analyse_similarity, too_few_words,
     )  # fmt: skip
 
@@ -267,7 +273,7 @@ device delay that you measured. The third writes the page anew after `npm run be
 
 
 def _budget(options: argparse.Namespace) -> int:
-    from haptoflow_training.studies.bench_figures import read_bench
+    from haptoflow_training.studies.delay_budget import read_bench
     from haptoflow_training.studies.delay_budget import page_words, read_lags, write_chart
 
     if options.device_ms is not None:

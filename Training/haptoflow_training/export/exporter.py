@@ -23,9 +23,8 @@ from haptoflow_training.models.conditioning import EMBEDDING_SIZE
 from haptoflow_training.models.level_model import shift_level
 from haptoflow_training.preprocessing.store import SegmentStore
 from haptoflow_training.recordings.landing import Landing
-from haptoflow_training.training.batches import SegmentBatches
+from haptoflow_training.training.batches import HeldOut, SegmentBatches
 from haptoflow_training.training.config import TrainingConfig
-from haptoflow_training.training.held_out import HeldOut
 from haptoflow_training.training.run_log import source_commit
 from haptoflow_training.waveform import SAMPLE_RATE_HZ, SEGMENT_SAMPLES
 

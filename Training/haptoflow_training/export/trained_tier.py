@@ -14,9 +14,8 @@ from haptoflow_training.export.model_file import ModelFile
 from haptoflow_training.export.onnx_graphs import export_refinement
 from haptoflow_training.export.skeleton_tensors import Tensors, condition_tensors, skeleton_header, skeleton_tensors
 from haptoflow_training.extensions import located
-from haptoflow_training.models.haptoflow_model import Condition, HaptoFlowModel, parameter_count
+from haptoflow_training.models.haptoflow_model import Condition, HaptoFlowModel, SkeletonModel, parameter_count
 from haptoflow_training.models.skeleton import Skeleton
-from haptoflow_training.models.skeleton_model import SkeletonModel
 from haptoflow_training.preprocessing.store import SegmentStore
 from haptoflow_training.training.config import TIER_NAMES, TrainingConfig
 from haptoflow_training.training.trainer import load_trained

@@ -15,11 +15,10 @@ from haptoflow_training.export.label_info import LabelInfo
 from haptoflow_training.preprocessing.preparation import prepare_cut_where_needed, prepare_store
 from haptoflow_training.preprocessing.rib_phases import with_rib_phases
 from haptoflow_training.preprocessing.split import SPLITS
-from haptoflow_training.preprocessing.store import SegmentStore
-from haptoflow_training.preprocessing.store_lock import store_lock
+from haptoflow_training.preprocessing.store import SegmentStore, store_lock
 from haptoflow_training.recordings.dataset import UNKNOWN, Dataset
 from haptoflow_training.recordings.labels import LabelDefinition, LabelMap, load_labels
-from haptoflow_training.recordings.landing import landing_of, landing_of_spring
+from haptoflow_training.recordings.landing import landing_of, landing_of_spring, rib_wander_of, stick_slip_of
 from haptoflow_training.recordings.open_recordings import RecordingFile, open_recordings
 from haptoflow_training.recordings.recording import Recording, RecordingIdentity
 from haptoflow_training.recordings.synthetic import (
@@ -30,7 +29,6 @@ from haptoflow_training.recordings.synthetic import (
     record_condition_of,
 )
 from haptoflow_training.recordings.synthetic.materials import select_materials
-from haptoflow_training.recordings.wander import rib_wander_of, stick_slip_of
 from haptoflow_training.training.config import DataConfig
 from haptoflow_training.training.found_wave_vectors import with_found_ribs
 from haptoflow_training.waveform import SEGMENT_SAMPLES

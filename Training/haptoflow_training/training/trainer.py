@@ -25,11 +25,10 @@ from tqdm import tqdm
 
 from haptoflow_training.errors import InputError
 from haptoflow_training.extensions import located
-from haptoflow_training.models.haptoflow_model import HaptoFlowModel
+from haptoflow_training.models.haptoflow_model import HaptoFlowModel, SkeletonModel
 from haptoflow_training.models.level_model import LevelModel
 from haptoflow_training.models.refiner import Refiner
 from haptoflow_training.models.skeleton import Skeleton
-from haptoflow_training.models.skeleton_model import SkeletonModel
 from haptoflow_training.preprocessing.store import SegmentStore
 from haptoflow_training.stopping import Stopped, end_if_stopped
 from haptoflow_training.training.batches import SegmentBatches
@@ -37,11 +36,10 @@ from haptoflow_training.training.budget import Budget
 from haptoflow_training.training.config import TrainingConfig, config_of_run
 from haptoflow_training.training.label_balance import LabelBalance
 from haptoflow_training.training.losses import Losses
-from haptoflow_training.training.moving_average import MovingAverage
+from haptoflow_training.training.starting_weights import MovingAverage, adopt_base, adopt_start, checkpoint_of
 from haptoflow_training.training.processes import Processes
 from haptoflow_training.training.run_log import MetricsLog, plot_metrics, source_commit, write_json
 from haptoflow_training.training.skeleton_losses import SkeletonLosses
-from haptoflow_training.training.starting_weights import adopt_base, adopt_start, checkpoint_of
 
 _COLUMNS = ("step", "phase", "field_loss", "level_loss", "validation_field_loss", "validation_level_loss", "seconds")
 _LOG_EVERY = 100

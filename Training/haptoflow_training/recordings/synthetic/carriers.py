@@ -13,7 +13,7 @@ from scipy.signal import sosfilt
 from haptoflow_training.recordings.synthetic import filters
 from haptoflow_training.recordings.synthetic.contact import SIMULATION_RATE_HZ
 from haptoflow_training.recordings.synthetic.surface import TipPath
-from haptoflow_training.strokes.hand_stroke import force_profile, random_planar_stroke, tremor
+from haptoflow_training.hand_stroke import force_profile, random_planar_stroke, tremor
 
 SCAN_CENTRE_MM = 45.0
 PASS_LENGTH_MM = 90.0

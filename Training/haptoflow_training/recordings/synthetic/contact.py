@@ -18,7 +18,7 @@ from haptoflow_training.recordings.synthetic.features import (
     slips_of,
 )
 from haptoflow_training.recordings.synthetic.materials import MAXIMUM_RULINGS, Material
-from haptoflow_training.recordings.synthetic.spread import character_of, surface_gain
+from haptoflow_training.recordings.synthetic.specimens import character_of, surface_gain
 from haptoflow_training.recordings.synthetic.surface import TipPath, random_height
 
 SIMULATION_RATE_HZ = 8000.0

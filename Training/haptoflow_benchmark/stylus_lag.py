@@ -13,8 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from haptoflow_benchmark.engine.engine_render import rendered_samples, write_rows, write_scene
-from haptoflow_benchmark.engine.recorded_strokes import on_table_spline
+from haptoflow_benchmark.engine_render import on_table_spline, rendered_samples, write_rows, write_scene
 from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 RATES_HZ = (72.0, 90.0, 120.0)
