@@ -3,13 +3,19 @@
 from __future__ import annotations
 
 import json
+import math
 import os
+import re
 from pathlib import Path
 
 import numpy as np
 import pytest
-from scipy.signal import freqz, welch
+from scipy.signal import freqz, lfilter, welch
 
+from haptoflow_benchmark import cli as benchmark
+from haptoflow_benchmark.waveform_metrics import power_spectrum
+from haptoflow_paper import cli as paper
+from haptoflow_paper.cli import main
 from haptoflow_paper.few_shot.few_shot_cases import (
     SECONDS,
     FewShotCase,
@@ -18,7 +24,6 @@ from haptoflow_paper.few_shot.few_shot_cases import (
     make_case,
     study_materials,
 )
-from haptoflow_paper.cli import main
 from haptoflow_paper.few_shot.few_shot_report import (
     OTHER_DRAW,
     ROWS,
@@ -31,10 +36,15 @@ from haptoflow_paper.few_shot.few_shot_report import (
     write_chart,
     write_results,
 )
+from haptoflow_paper.few_shot.few_shot_rivals import LabelPrior, fit_autoregressive, fit_level, windows_of
 from haptoflow_paper.few_shot.few_shot_study import StudyPlan, cells_of, with_trained
+from haptoflow_training import cli as training
+from haptoflow_training.export.level_table import LevelTable
 from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.model_stamp import with_measured_words
+from haptoflow_training.recordings.material_recording import MaterialRecording
 from haptoflow_training.recordings.synthetic import load_materials
+from own_samples import csv_one_axis, stroke
 
 ROOT = Path(__file__).parents[2]
 DEFAULT = ROOT / "Packages" / "com.haptoflow.runtime" / "Runtime" / "Models" / "default.haptoflow"
@@ -190,3 +200,100 @@ def test_the_published_table_is_that_of_the_published_results() -> None:
     page = PAGE.read_text(encoding="utf-8")
     assert len(results["materials"]) >= 10
     assert with_measured_words(page, page_words(results, "images/few-shot.png")) == page
+
+
+FLAT = LevelTable((0.1,), (0.0,), 1.0, 0.0, 0.0)
+
+
+@pytest.fixture(scope="module")
+def prior() -> LabelPrior:
+    return LabelPrior.of(read_model_file(DEFAULT))
+
+
+def motion_of(speed_mps: np.ndarray, force_newtons: float | np.ndarray = 1.0) -> np.ndarray:
+    force = np.broadcast_to(force_newtons, speed_mps.shape)
+    return np.stack([speed_mps, np.zeros_like(speed_mps), force], axis=1).astype(np.float32)
+
+
+def stroke(wave: np.ndarray, motion: np.ndarray) -> MaterialRecording:
+    return MaterialRecording("", "", wave.astype(np.float32), motion[:, :2], motion[:, 2], "", "")
+
+
+def swept(seconds: float, low: float = 0.02, high: float = 0.2, period: float = 2.5) -> np.ndarray:
+    time = np.arange(int(2000 * seconds)) / 2000.0
+    return np.exp(np.interp(np.sin(2.0 * np.pi * time / period), [-1.0, 1.0], np.log([low, high])))
+
+
+def levels_db(law: LevelTable, speeds: list[float], force: float = 1.0) -> np.ndarray:
+    return 20.0 / math.log(10.0) * law.log_level(speeds, force)
+
+
+def test_the_level_follows_a_step_that_breaks_any_power_law(prior: LabelPrior) -> None:
+    speed = swept(30.0, 0.03, 0.15, period=10.0)
+    wanted = lambda v: 20.0 * np.log10(v / 0.05) + 14.0 * np.clip((v - 0.06) / 0.02, 0.0, 1.0)  # noqa: E731
+    wave = np.random.default_rng(1).standard_normal(len(speed)) * 10.0 ** (wanted(speed) / 20.0)
+    law = fit_level(windows_of([stroke(wave, motion_of(speed))], 200, 100), prior)
+    speeds = [0.035, 0.05, 0.09, 0.11, 0.14]
+    assert levels_db(law, speeds) == pytest.approx([float(wanted(v)) for v in speeds], abs=2.0)
+
+
+def test_the_autoregressive_rival_recovers_an_autoregressive_spectrum() -> None:
+    rng = np.random.default_rng(12)
+    speed = swept(10.0)
+    wave = lfilter([1.0], [1.0, -1.6, 0.9], rng.standard_normal(len(speed)))
+    wave /= np.sqrt(np.mean(wave**2))
+    rival = fit_autoregressive([stroke(wave, motion_of(speed))], FLAT, 3)
+    assert len(rival.filters) == 3
+    made = rival.render(motion_of(np.full(20000, 0.06)), 1)
+    assert np.sqrt(np.mean(made**2)) == pytest.approx(1.0, abs=0.15)
+    ratio = 10.0 * np.log10(power_spectrum(made, 256)[3:100] / power_spectrum(wave, 256)[3:100])
+    assert np.sqrt(np.mean(ratio**2)) < 1.0
+
+
+HEADING = "## A new material from ten seconds, in Python"
+
+PROGRAMS = {
+    "haptoflow-benchmark": benchmark.main, "haptoflow-paper": paper.main, "haptoflow-training": training.main,
+}  # fmt: skip
+
+
+def commands() -> list[list[str]]:
+    """The words of each command on the page, its program first."""
+    section = PAGE.read_text(encoding="utf-8").split(HEADING, 1)[1].split("\n## ", 1)[0]
+    blocks = re.findall(r"^```\n(.*?)^```", section, re.DOTALL | re.MULTILINE)
+    lines = [line.split() for block in blocks for line in block.splitlines()]
+    return [words for words in lines if words[:1] and words[0] in PROGRAMS]
+
+
+def test_every_command_of_the_page_runs_and_writes_what_it_names(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    csv_one_axis(tmp_path, "doormat", "doormat", stroke(4.0))
+    (tmp_path / "default.haptoflow").symlink_to(DEFAULT)
+    work = tmp_path / "work"
+    work.mkdir()
+    made = {name: {**stored(name, False), "filtered": name == "filtered-01"} for name in ("unseen-01", "filtered-01")}
+    for name, cells in made.items():
+        (work / f"{name}.json").write_text(json.dumps(cells), encoding="utf-8")
+    trained = {name: cells["rows"]["learn 10"] for name, cells in made.items()}
+    for seconds in SECONDS:
+        (work / f"trained-{seconds:g}.json").write_text(json.dumps(trained), encoding="utf-8")
+    ran = set()
+    for program, *words in commands():
+        quick = {
+            "add-material": ["--seconds-limit", "1"],
+            "sliders": [],
+            "measure-wave-vectors": ["--every", "60"],
+            # The slow cells are stored already.
+            "few-shot": ["--materials", "1", "--work", str(work)],
+        }[words[0]]
+        assert PROGRAMS[program]([*words, *quick]) == 0, words
+        ran.add(words[0])
+        for before, named in zip(words[:-1], words[1:], strict=True):
+            if before in ("-o", "--results", "--chart"):
+                assert (tmp_path / named).stat().st_size > 0
+    assert ran == {"add-material", "sliders", "few-shot", "measure-wave-vectors"}
+    assert (tmp_path / "doormat.haptomaterial").exists()
+    assert "trained 10" in (tmp_path / "few-shot.json").read_text(encoding="utf-8")
+    assert "learn 10" in (tmp_path / "few-shot.json").read_text(encoding="utf-8")
