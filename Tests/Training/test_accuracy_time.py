@@ -96,9 +96,7 @@ def test_the_table_keeps_the_plan_s_order_and_leaves_out_unmeasured_rows(pairs: 
     assert result["not_measured"] == ["missing"] and timed_rows(result) == {"standard", "rival", "size"}
 
 
-def test_every_row_has_spreads_of_the_temporal_figures_and_a_verdict(
-    pairs: list[ReferencePair],
-) -> None:
+def test_every_row_has_spreads_of_the_temporal_figures_and_a_verdict(pairs: list[ReferencePair]) -> None:
     rows = {row["name"]: row for row in table(PLAN, _measured(pairs))["rows"]}
     for name in ("standard", "rival", "independent-draw"):
         for figure in FIGURES:

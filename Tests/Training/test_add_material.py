@@ -165,9 +165,7 @@ def test_contradictory_options_are_refused(
     assert not list(tmp_path.iterdir())
 
 
-def test_given_wave_vectors_are_used(
-    recording: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_given_wave_vectors_are_used(recording: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     out = tmp_path / "rack.haptomaterial"
     assert add("--recording", recording, "--name", "rack", "--wave-vector", "0", "0.8", "-o", out) == 0
     assert "ribs every 1.25 mm" in capsys.readouterr().out

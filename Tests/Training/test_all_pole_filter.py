@@ -10,13 +10,7 @@ import scipy.signal
 import torch
 
 from haptoflow_training.models.all_pole_filter import (
-    LOG_RESONANCE_LIMIT,
-    AllPoleFilter,
-    PredictedFilter,
-    burg_distance,
-    burg_reflection,
-    prediction_errors,
-    step_up,
+    LOG_RESONANCE_LIMIT, AllPoleFilter, PredictedFilter, burg_distance, burg_reflection, prediction_errors, step_up
 )
 
 def _filters(rows: int, order: int, seed: int) -> torch.Tensor:

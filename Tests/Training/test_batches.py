@@ -51,9 +51,7 @@ def test_the_condition_is_the_mean_motion_of_the_leading_samples() -> None:
     batch = SegmentBatches(store, "train", BatchConfig((40, 40), 0.0, 0.0), 3).draw(8)
     for row in range(8):
         start = _positions(store.waveform, batch.segment[row, 0])
-        np.testing.assert_allclose(
-            batch.motion[row].numpy(), store.motion[start : start + 40].mean(axis=0), rtol=1e-3
-        )
+        np.testing.assert_allclose(batch.motion[row].numpy(), store.motion[start : start + 40].mean(axis=0), rtol=1e-3)
 
 
 def test_emphasised_labels_are_drawn_emphasis_times_as_often() -> None:

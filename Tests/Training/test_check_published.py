@@ -28,12 +28,7 @@ from haptoflow_paper.rows.timing import Milliseconds
 from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.model_stamp import SHIPPED_MODEL
 from published_samples import (
-    PUBLISHED,
-    SOLVERS,
-    assert_within_1e_4_of_its_rms,
-    change_safetensors,
-    copied,
-    write_checkpoint_of_published_sizes,
+    PUBLISHED, SOLVERS, assert_within_1e_4_of_its_rms, change_safetensors, copied, write_checkpoint_of_published_sizes
 )
 
 ROOT = Path(__file__).parents[2]

@@ -93,9 +93,7 @@ def test_the_phase_of_even_ribs_is_the_travelled_distance_along_each_wave_vector
     motions = np.zeros((2, 4000, 3), np.float32)
     motions[:, :2000, 0], motions[:, :2000, 1] = 0.7, -0.2
     motions[:, 2000:, :2] = -motions[:, :2000, :2]
-    run = run_closed_loop(
-        probe, embeddings, motions, np.arange(2), still_surfaces(2), update_rate_hz=rate_hz, seed=1
-    )
+    run = run_closed_loop(probe, embeddings, motions, np.arange(2), still_surfaces(2), update_rate_hz=rate_hz, seed=1)
     for row, vectors in enumerate(embeddings[:, -4:].astype(float).reshape(2, 2, 2)):
         for hop in range(len(run.hop_starts)):
             travelled_mm = np.zeros(2)

@@ -262,9 +262,7 @@ def test_folding_the_weight_norm_does_not_change_the_output() -> None:
 
 
 @torch.no_grad()
-def test_a_published_checkpoint_loads_and_its_quantizer_is_ignored(
-    codec: EnCodec, published_file: Path
-) -> None:
+def test_a_published_checkpoint_loads_and_its_quantizer_is_ignored(codec: EnCodec, published_file: Path) -> None:
     loaded = _codec(2)
     waveform = torch.randn(1, 1, 2400)
     assert not torch.equal(loaded.encode(waveform), codec.encode(waveform))
@@ -320,9 +318,7 @@ class _Malicious:
         return print, ("ran code from a checkpoint",)
 
 
-def test_a_checkpoint_cannot_run_code(
-    codec: EnCodec, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_checkpoint_cannot_run_code(codec: EnCodec, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     torch.save({"encoder": _Malicious()}, tmp_path / "malicious.th")
     with pytest.raises(InputError, match="not a PyTorch checkpoint of tensors, whole"):
         codec.load_checkpoint(tmp_path / "malicious.th")

@@ -108,9 +108,7 @@ def test_a_file_half_written_is_never_seen(tmp_path: Path, monkeypatch: pytest.M
         ("accel", "\x00\x01\x02" * 40, ""),
     ],
 )
-def test_a_broken_file_is_named_with_what_was_expected(
-    file_release: Path, kind: str, text: str, found: str
-) -> None:
+def test_a_broken_file_is_named_with_what_was_expected(file_release: Path, kind: str, text: str, found: str) -> None:
     path = sensor_file(file_release, kind)
     path.write_text(text)
     problem = only_problem(open_dataset(file_release))
@@ -165,12 +163,8 @@ def test_recording_files_and_their_errors_can_be_passed_to_another_process(file_
         (["No.", "Material", "μ static friction", "μ kinetic friction"], 2),
     ],
 )
-def test_a_texture_list_is_understood_with_other_headings(
-    tmp_path: Path, headings: list[str], title_rows: int
-) -> None:
-    rows = [[None] * 4] * title_rows + [
-        headings, [38, " Granite ", 0.4, 0.3], [48, "Concrete", None, 0.5], [None] * 4
-    ]
+def test_a_texture_list_is_understood_with_other_headings(tmp_path: Path, headings: list[str], title_rows: int) -> None:
+    rows = [[None] * 4] * title_rows + [headings, [38, " Granite ", 0.4, 0.3], [48, "Concrete", None, 0.5], [None] * 4]
     pandas.DataFrame(rows).to_excel(tmp_path / "texture_list.xlsx", header=False, index=False)
     found = read_texture_list(tmp_path)
     assert found == {38: "Granite", 48: "Concrete"}
@@ -197,11 +191,7 @@ def test_labels_are_found_by_id_and_by_the_name_in_the_texture_list(tmp_path: Pa
         write_recording(tmp_path, small_recording(name, seconds=0.5))
     write_texture_list(
         tmp_path,
-        [
-            TextureEntry(0, "Nyatoh", {}),
-            TextureEntry(1, "Oak", {}),
-            TextureEntry(105, "cotton-broadcloth", {}),
-        ],
+        [TextureEntry(0, "Nyatoh", {}), TextureEntry(1, "Oak", {}), TextureEntry(105, "cotton-broadcloth", {})],
     )
     dataset = open_dataset(tmp_path, load_labels())
     assert [(entry.identity.texture_id, entry.label) for entry in dataset] == [(0, "wood"), (105, "cotton")]
@@ -225,10 +215,7 @@ GOOD_LABEL = (
         (GOOD_LABEL + "colour = 3\n", "label 1: unknown key 'colour'"),
         (GOOD_LABEL.replace('"wood"', '"Wood"', 1), "'Wood'; expected lower case, as the engine reads labels: 'wood'"),
         (GOOD_LABEL + GOOD_LABEL, "label 'wood' occurs twice"),
-        (
-            GOOD_LABEL + GOOD_LABEL.replace('name = "wood"', 'name = "oak"'),
-            "texture 0 belongs to 'wood' and to 'oak'",
-        ),
+        (GOOD_LABEL + GOOD_LABEL.replace('name = "wood"', 'name = "oak"'), "texture 0 belongs to 'wood' and to 'oak'"),
     ],
 )
 def test_a_wrong_labels_file_is_refused_by_entry_and_key(tmp_path: Path, text: str, words: str) -> None:
@@ -288,9 +275,7 @@ def test_inspect_names_missing_and_broken_files_and_still_succeeds(
     assert "0_0_20_500_1.csv: columns time,X; expected columns time,X,Y,Z" in printed
 
 
-def test_inspect_prints_json_that_holds_the_whole_report(
-    root: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_inspect_prints_json_that_holds_the_whole_report(root: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["inspect", str(root), "--json"]) == 0
     report = json.loads(capsys.readouterr().out)
     assert report["recordings"] == 5 and report["audio_files"] == 1 and report["problems"] == []
@@ -298,9 +283,7 @@ def test_inspect_prints_json_that_holds_the_whole_report(
     assert report["provenance"]["licence"] == "CC BY 4.0"
 
 
-def test_inspect_counts_by_label_where_a_labels_file_is_given(
-    root: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_inspect_counts_by_label_where_a_labels_file_is_given(root: Path, capsys: pytest.CaptureFixture[str]) -> None:
     labels = root / "labels.toml"
     labels.write_text(
         '[[label]]\nname = "timber"\ncategory = "wood"\ntextures = ["nyatoh"]\n'

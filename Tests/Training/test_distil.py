@@ -15,14 +15,7 @@ from published_samples import PUBLISHED
 from haptoflow_benchmark.engine_library import default_engine
 from haptoflow_paper.cli import main
 from haptoflow_paper.distil.rendering import (
-    SETTLING_SAMPLES,
-    Rendering,
-    generated_path,
-    render_all,
-    rendered,
-    start_generated,
-    write_generated,
-    write_labels,
+    SETTLING_SAMPLES, Rendering, generated_path, render_all, rendered, start_generated, write_generated, write_labels
 )
 from haptoflow_paper.distil.teacher import MotionRange, Teacher, strokes_of
 from haptoflow_training.errors import InputError

@@ -30,12 +30,7 @@ from haptoflow_training.export.exponents import fit_exponents
 from haptoflow_training.export.exporter import export_run
 from haptoflow_training.export.label_info import LabelInfo
 from haptoflow_training.export.model_file import (
-    VERSION,
-    ModelFile,
-    encode_model_file,
-    model_space,
-    read_model_file,
-    write_model_file,
+    VERSION, ModelFile, encode_model_file, model_space, read_model_file, write_model_file
 )
 from haptoflow_training.export.onnx_graphs import export_graph
 from haptoflow_training.export.skeleton_tensors import condition_tensors, skeleton_tensors, skeleton_weights
@@ -405,9 +400,7 @@ def test_the_tensors_alone_give_level_filter_and_the_film_with_its_factors(
 
 
 def test_a_further_label_of_a_model_with_specimens_has_the_offsets_of_the_label_itself(skeleton_file_file: ModelFile) -> None:
-    material = {
-        "name": "learnt", "space": model_space(skeleton_file_file), "category": "own", "embedding": [0.1] * 64,
-    }  # fmt: skip
+    material = {"name": "learnt", "space": model_space(skeleton_file_file), "category": "own", "embedding": [0.1] * 64}
     larger = with_label(skeleton_file_file, material)
     assert larger.tensors["embedding"].shape == (3, 64)
     assert larger.tensors["pieces"].shape == (3, make_skeleton_model.SPECIMENS, 60)

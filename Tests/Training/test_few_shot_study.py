@@ -17,12 +17,7 @@ from haptoflow_benchmark.waveform_metrics import power_spectrum
 from haptoflow_paper import cli as paper
 from haptoflow_paper.cli import main
 from haptoflow_paper.few_shot.few_shot_cases import (
-    SECONDS,
-    FewShotCase,
-    conditions,
-    filtered_surfaces,
-    make_case,
-    study_materials,
+    SECONDS, FewShotCase, conditions, filtered_surfaces, make_case, study_materials
 )
 from haptoflow_paper.few_shot.few_shot_report import (
     OTHER_DRAW,
@@ -252,9 +247,7 @@ def test_the_autoregressive_rival_recovers_an_autoregressive_spectrum() -> None:
 
 HEADING = "## A new material from ten seconds, in Python"
 
-PROGRAMS = {
-    "haptoflow-benchmark": benchmark.main, "haptoflow-paper": paper.main, "haptoflow-training": training.main,
-}  # fmt: skip
+PROGRAMS = {"haptoflow-benchmark": benchmark.main, "haptoflow-paper": paper.main, "haptoflow-training": training.main}
 
 
 def commands() -> list[list[str]]:

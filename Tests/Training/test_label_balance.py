@@ -187,11 +187,7 @@ def test_the_energy_distance_prefers_a_continued_tone_to_a_restarted_one() -> No
     tone = math.sqrt(2.0) * torch.sin(2.0 * math.pi * 0.07 * time + phase)
     past, going_on = tone[:, :200], tone[:, 200:]
     anew = going_on.roll(7, dims=0)
-    losses = [
-        _loss(going_on, past, (made, made), own=own)
-        for own in (False, True)
-        for made in (going_on, anew)
-    ]
+    losses = [_loss(going_on, past, (made, made), own=own) for own in (False, True) for made in (going_on, anew)]
     assert losses[0] < losses[1] - 0.3
     assert losses[2] < losses[3] - 0.1, "own past: by spectra alone"
 
@@ -204,9 +200,7 @@ def _blows(seed: int, rate: float) -> torch.Tensor:
 
 
 @pytest.mark.parametrize("rate", [0.01, 0.1, 0.4])
-def test_the_energy_distance_prefers_impacts_at_the_recorded_rate(
-    rate: float,
-) -> None:
+def test_the_energy_distance_prefers_impacts_at_the_recorded_rate(rate: float) -> None:
     recorded, past = _blows(1, rate), torch.zeros(256, 200)
 
     def loss(drawn_rate: float) -> float:
@@ -315,9 +309,7 @@ def test_a_layer_with_more_outputs_keeps_the_old_ones_and_initialises_the_new_on
     assert torch.equal(begun["skeleton.perceptron.layers.4.bias"][260:], built[260:])
 
 
-def test_a_further_round_refuses_runs_with_other_shapes_or_labels(
-    tmp_path: Path,
-) -> None:
+def test_a_further_round_refuses_runs_with_other_shapes_or_labels(tmp_path: Path) -> None:
     store = make_store()
     Trainer(_config(steps=5), store, tmp_path / "first", ALONE).run()
     wide = dataclasses.replace(_config(), model=ModelConfig(hidden=16))

@@ -19,13 +19,7 @@ from haptoflow_training.models.level_model import LevelModel
 from haptoflow_training.models.rib_comb import PARTIALS, RibComb
 from haptoflow_training.models.skeleton import Skeleton
 from haptoflow_training.models.surface_waves import (
-    FAMILIES,
-    RATE_FEATURES,
-    SurfaceWaves,
-    advanced,
-    path_of,
-    rate_features,
-    with_path,
+    FAMILIES, RATE_FEATURES, SurfaceWaves, advanced, path_of, rate_features, with_path
 )
 from haptoflow_training.preprocessing.rib_phases import rib_phase_turns
 from haptoflow_training.recordings.synthetic.carriers import guided_ride
@@ -83,10 +77,7 @@ def test_phases_are_the_fraction_of_the_ribs_crossed_and_the_rates_k_times_v_wit
 
 
 def test_wander_displaces_the_ribs_and_is_all_there_is_of_stick_and_slip() -> None:
-    _same(
-        _phases((1.5, 0.5), (0.3, -0.5, 0.7, 4.0, -6.0, 42.0)),
-        [0.5, 0.75, 0.7, 84.0, -106.0, 42.0],
-    )
+    _same(_phases((1.5, 0.5), (0.3, -0.5, 0.7, 4.0, -6.0, 42.0)), [0.5, 0.75, 0.7, 84.0, -106.0, 42.0])
 
 
 def _test_surface_waves_phases(turns: tuple[float, float, float], rates_hz: tuple[float, float, float]) -> torch.Tensor:
@@ -173,8 +164,7 @@ def _wave(frequencies_hz: list[float], start: int, stop: int) -> torch.Tensor:
 
 def test_a_label_s_last_four_numbers_are_its_wave_vectors_and_zero_without_ribs() -> None:
     torch.testing.assert_close(
-        EMBEDDING.weight[:, -4:],
-        torch.tensor([[0.4, 0.0, 0.0, 0.0], [0.8, 0.0, 0.0, 0.8], [0.0, 0.0, 0.0, 0.0]]),
+        EMBEDDING.weight[:, -4:], torch.tensor([[0.4, 0.0, 0.0, 0.0], [0.8, 0.0, 0.0, 0.8], [0.0, 0.0, 0.0, 0.0]])
     )
 
 
@@ -259,9 +249,7 @@ def test_the_energy_distance_prefers_draws_with_the_recording_s_rib_phase() -> N
 
 
 def test_training_does_not_change_wave_vectors_and_a_saved_run_has_them(tmp_path: Path) -> None:
-    config = dataclasses.replace(
-        _config(steps=6), model=ModelConfig(hidden=8), recipe=RecipeConfig(energy_steps=3)
-    )
+    config = dataclasses.replace(_config(steps=6), model=ModelConfig(hidden=8), recipe=RecipeConfig(energy_steps=3))
     Trainer(config, make_store(), tmp_path, ALONE, wave_vectors=[((0.5, 0.0),), ()]).run()
     model = load_trained(tmp_path)[2]
     assert model.embedding.weight[:, -4:].tolist() == [[0.5, 0.0, 0.0, 0.0], [0.0, 0.0, 0.0, 0.0]]

@@ -30,13 +30,7 @@ from synthetic_samples import record_machine
 from test_export import INFOS, PROVENANCE
 from test_trainer import ALONE, _config
 from training_fixtures import (
-    RATE_HZ,
-    FakeRecording,
-    FakeStore,
-    level_offsets_db,
-    make_store,
-    still_surfaces,
-    travelled_mm,
+    RATE_HZ, FakeRecording, FakeStore, level_offsets_db, make_store, still_surfaces, travelled_mm
 )
 
 _Floats = NDArray[np.float32]
@@ -182,9 +176,7 @@ def test_a_table_follows_a_rise_of_14_db_within_the_recorded_speeds_and_the_law_
     assert table.force_exponent == pytest.approx(0.3, abs=0.1)
 
 
-def test_a_label_that_follows_the_level_model_gets_no_table(
-    followed: tuple[dict[int, LevelTable], FakeStore],
-) -> None:
+def test_a_label_that_follows_the_level_model_gets_no_table(followed: tuple[dict[int, LevelTable], FakeStore]) -> None:
     assert set(followed[0]) == {0}
 
 

@@ -177,8 +177,7 @@ def test_every_codec_uses_only_listed_operators(tmp_path: Path) -> None:
     codec.normaliser.fit(codec.encoder(torch.randn(64, 1, 200)).detach())
     codec.save(tmp_path / "small.pt")
     for settings in (
-        {"kind": "small-codec", "checkpoint": str(tmp_path / "small.pt")},
-        {"kind": "encodec", "random_weights": True},
+        {"kind": "small-codec", "checkpoint": str(tmp_path / "small.pt")}, {"kind": "encodec", "random_weights": True}
     ):
         representation = build_representation(settings)
         assert isinstance(representation, CodecRepresentation)

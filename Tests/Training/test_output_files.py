@@ -71,10 +71,7 @@ def test_control_characters_of_a_file_are_escaped_in_messages(
 
 TRAINING = Path(__file__).parents[2] / "Training"
 # Of each package, those that it may not know.
-ABOVE = {
-    "haptoflow_training": ("haptoflow_benchmark", "haptoflow_paper"),
-    "haptoflow_benchmark": ("haptoflow_paper",),
-}
+ABOVE = {"haptoflow_training": ("haptoflow_benchmark", "haptoflow_paper"), "haptoflow_benchmark": ("haptoflow_paper",)}
 MODULES = [(package, path) for package in ABOVE for path in sorted((TRAINING / package).rglob("*.py"))]
 
 

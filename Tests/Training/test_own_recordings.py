@@ -132,9 +132,7 @@ def test_the_published_data_set_keeps_its_name_licence_and_labels(folder: Path, 
     assert source.provenance.licence == "CC BY 4.0"
 
 
-def test_a_store_is_prepared_again_only_if_recordings_or_labels_have_changed(
-    folder: Path, tmp_path: Path
-) -> None:
+def test_a_store_is_prepared_again_only_if_recordings_or_labels_have_changed(folder: Path, tmp_path: Path) -> None:
     labels = labels_file(tmp_path / "labels.toml", "denim", "felt")
     store = tmp_path / "store"
     header = store / "store.json"

@@ -15,12 +15,7 @@ from haptoflow_paper.place.place_report import page_words
 from haptoflow_paper.place.place_study import RULED, Pass, Profile, bumps, likeness, over_place, second_passes, summary
 from haptoflow_paper.velocity.velocity_cases import made_motions, real_motions, sampled
 from haptoflow_paper.velocity.velocity_estimators import (
-    Estimator,
-    adaptive_window,
-    end_of_parabola,
-    growing_parabola,
-    kalman,
-    line,
+    Estimator, adaptive_window, end_of_parabola, growing_parabola, kalman, line
 )
 from haptoflow_paper.velocity.velocity_report import page_words
 from haptoflow_paper.velocity.velocity_study import PRODUCT, PRODUCT_SETTINGS, product_velocity

@@ -20,19 +20,12 @@ from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.preprocessing.split import SPLITS, split_of, time_parts
 from haptoflow_training.preprocessing.store import SegmentStore
 from haptoflow_training.recordings.dataset_writer import (
-    TextureEntry,
-    write_provenance,
-    write_recording,
-    write_texture_list,
+    TextureEntry, write_provenance, write_recording, write_texture_list
 )
 from haptoflow_training.recordings.own_dataset import open_own_dataset
 from haptoflow_training.recordings.recording import Recording, RecordingIdentity
 from haptoflow_training.recordings.synthetic import (
-    hand_conditions,
-    load_materials,
-    machine_conditions,
-    record_hand_condition,
-    record_machine_condition,
+    hand_conditions, load_materials, machine_conditions, record_hand_condition, record_machine_condition
 )
 from haptoflow_training.training.config import DataConfig
 from haptoflow_training.training.recordings_source import open_source
@@ -62,9 +55,7 @@ def test_prepare_takes_a_published_folder_with_the_default_labels(
     store = SegmentStore.open(out)
     assert store.labels == ["wood", "metal"]
     assert [(one.name, one.label) for one in store.recordings] == [
-        ("0_0_20_500_0", "wood"),
-        ("0_90_40_1000_0", "wood"),
-        ("66_0_20_500_0", "metal"),
+        ("0_0_20_500_0", "wood"), ("0_90_40_1000_0", "wood"), ("66_0_20_500_0", "metal")
     ]
     assert store.provenance["recordings"][0]["licence"] == "CC BY 4.0"
     printed = capsys.readouterr().out
@@ -90,18 +81,14 @@ def test_prepare_skips_a_broken_file_and_says_so(tmp_path: Path, capsys: pytest.
     assert "skipped: 0_0_20_500_0" in capsys.readouterr().out
 
 
-def test_prepare_exits_3_where_no_recording_has_a_label(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_prepare_exits_3_where_no_recording_has_a_label(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     write_recording(tmp_path / "data", small_recording("5_0_20_500_0", seconds=1.2))
     write_texture_list(tmp_path / "data", [TextureEntry(0, "Nyatoh", {}), TextureEntry(5, "Oak", {})])
     assert main(["prepare", "--recordings", str(tmp_path / "data"), "--out", str(tmp_path / "store")]) == 3
     assert "no recording with a label" in capsys.readouterr().err
 
 
-def test_prepare_refuses_two_folders_with_the_same_names(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_prepare_refuses_two_folders_with_the_same_names(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     first, second = published(tmp_path / "a"), published(tmp_path / "b")
     assert main(["prepare", "--recordings", str(first), str(second), "--out", str(tmp_path / "store")]) == 3
     assert "came twice" in capsys.readouterr().err
@@ -179,9 +166,7 @@ def test_no_pass_over_a_track_of_the_surface_is_in_two_splits(store: SegmentStor
             assert track.setdefault(key, stored.split) == stored.split
 
 
-def test_a_recording_keeps_its_split_and_its_silence_when_others_are_added(
-    store: SegmentStore, tmp_path: Path
-) -> None:
+def test_a_recording_keeps_its_split_and_its_silence_when_others_are_added(store: SegmentStore, tmp_path: Path) -> None:
     more = some_recordings(directions=(0, 45, 90, 180))[::-1]
     larger = prepare_store(more, LABELS, tmp_path / "larger", SETTINGS, seed=4, progress=False)
     found = {stored.name: stored for stored in larger.recordings}
@@ -211,12 +196,8 @@ def test_a_broken_recording_is_skipped_with_its_reason_and_the_rest_is_kept(tmp_
 
 
 def test_nothing_usable_is_an_error_that_names_the_first_problem(tmp_path: Path) -> None:
-    with pytest.raises(
-        InputError, match=r"no recording could be prepared \(1 were skipped.*1_0_20_500_0.*trimming"
-    ):
-        prepare_store(
-            [small_recording("1_0_20_500_0", seconds=0.15)], LABELS, tmp_path / "s", SETTINGS, progress=False
-        )
+    with pytest.raises(InputError, match=r"no recording could be prepared \(1 were skipped.*1_0_20_500_0.*trimming"):
+        prepare_store([small_recording("1_0_20_500_0", seconds=0.15)], LABELS, tmp_path / "s", SETTINGS, progress=False)
     assert list(tmp_path.iterdir()) == []
 
 
@@ -231,9 +212,7 @@ def test_a_name_given_twice_or_an_unknown_label_is_refused(
     names: list[str], label: str, words: str, tmp_path: Path
 ) -> None:
     with pytest.raises(InputError, match=words):
-        prepare_store(
-            (OnDemand(name, label) for name in names), LABELS, tmp_path / "store", SETTINGS, progress=False
-        )
+        prepare_store((OnDemand(name, label) for name in names), LABELS, tmp_path / "store", SETTINGS, progress=False)
 
 
 def test_a_full_disk_is_an_input_error_and_leaves_the_older_store_as_it_was(
@@ -253,9 +232,7 @@ def test_a_full_disk_is_an_input_error_and_leaves_the_older_store_as_it_was(
     assert [path.name for path in tmp_path.iterdir()] == ["store"]
 
 
-def test_a_rename_that_fails_puts_the_older_store_back(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_rename_that_fails_puts_the_older_store_back(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     out = tmp_path / "store"
     prepare_store([OnDemand("1_0_20_500_0", "wood")], LABELS, out, SETTINGS, progress=False)
     rename = os.replace

@@ -60,9 +60,7 @@ class TestEachStage:
         for level, found in enumerate(model.past_features(golden.tensor(segment, "latent"))):
             assert_within_1e_4_of_its_rms(found, golden.tensor(segment, f"feature{level}"))
 
-    def test_label_and_motion_are_the_condition(
-        self, model: PublishedModel, golden: GoldenChain, segment: int
-    ) -> None:
+    def test_label_and_motion_are_the_condition(self, model: PublishedModel, golden: GoldenChain, segment: int) -> None:
         found = model.condition(_row(model, golden, segment), golden.motion(segment))
         assert_within_1e_4_of_its_rms(found, golden.tensor(segment, "cond"))
 

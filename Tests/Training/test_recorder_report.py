@@ -12,13 +12,7 @@ import pytest
 from haptoflow_training.cli import main
 from haptoflow_training.recordings.synthetic import TRAINING_SPECIMENS, load_materials
 from haptoflow_training.recordings.synthetic.measurement import (
-    TOLERANCE,
-    Design,
-    Deviation,
-    SpreadMeasurement,
-    calibrate,
-    measure,
-    measure_spread,
+    TOLERANCE, Design, Deviation, SpreadMeasurement, calibrate, measure, measure_spread
 )
 from haptoflow_training.recordings.synthetic.materials import DEFAULT_MATERIALS_PATH, Targets
 

@@ -40,9 +40,7 @@ from test_trainer import ALONE
 from training_fixtures import make_store
 
 CONFIGS = Path(__file__).parents[2] / "Training" / "haptoflow_paper" / "configs"
-GIVEN_THE_SAME = (
-    "field", "ar-ribs", "mean-flow-ribs", "reflow-ribs", "spsi-ribs", "transformer-noise", "dstn-noise",
-)  # fmt: skip
+GIVEN_THE_SAME = ("field", "ar-ribs", "mean-flow-ribs", "reflow-ribs", "spsi-ribs", "transformer-noise", "dstn-noise")
 INFOS = [LabelInfo("tone", "metal", 900.0, 0.3, 0.002, ((0.5, 0.0),)), LabelInfo("noise", "stone", 1500.0, 0.6)]
 WAVE_VECTORS = [[(0.5, 0.0)], []]
 
@@ -76,9 +74,7 @@ def test_a_rival_given_the_same_has_the_recordings_batches_and_time_of_our_recip
 
 
 @pytest.mark.parametrize("name", GIVEN_THE_SAME)
-def test_a_rival_given_the_same_trains_through_its_phases_and_becomes_a_model_file(
-    name: str, tmp_path: Path
-) -> None:
+def test_a_rival_given_the_same_trains_through_its_phases_and_becomes_a_model_file(name: str, tmp_path: Path) -> None:
     config, store = _shortened(name), make_store(seconds=6.0, recordings_per_split=4)
     EvaluatedTrainer(config, store, tmp_path / "run", ALONE, wave_vectors=WAVE_VECTORS).run()
     phases = json.loads((tmp_path / "run" / "run.json").read_text(encoding="utf-8"))["phases"]

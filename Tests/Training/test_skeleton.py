@@ -14,13 +14,7 @@ from haptoflow_training.models.all_pole_filter import PredictedFilter, burg_refl
 from haptoflow_training.models.level_model import PREVIOUS_LIMIT, LevelModel
 from haptoflow_training.models.refiner import ENTERING, Refiner
 from haptoflow_training.models.skeleton import (
-    LINE_HARMONICS,
-    ORDER,
-    OUTPUTS,
-    RUNG_GAINS,
-    SWING_HARMONICS,
-    Skeleton,
-    SkeletonGains,
+    LINE_HARMONICS, ORDER, OUTPUTS, RUNG_GAINS, SWING_HARMONICS, Skeleton, SkeletonGains
 )
 from haptoflow_training.models.haptoflow_model import SkeletonModel
 from haptoflow_training.models.surface_waves import FAMILIES, SurfaceWaves, advanced

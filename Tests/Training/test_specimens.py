@@ -35,12 +35,7 @@ from haptoflow_training.recordings.synthetic import (
 from haptoflow_training.recordings.synthetic.contact import SIMULATION_RATE_HZ
 from haptoflow_training.recordings.synthetic.features import impact_acceleration, rib_wander_turns, ruling_height
 from haptoflow_training.recordings.synthetic.materials import (
-    DEFAULT_MATERIALS_PATH,
-    Calibrated,
-    Material,
-    Ruling,
-    select_materials,
-    write_calibrated,
+    DEFAULT_MATERIALS_PATH, Calibrated, Material, Ruling, select_materials, write_calibrated
 )
 from haptoflow_training.recordings.synthetic.measurement import band_level
 from haptoflow_training.recordings.synthetic.specimens import character_of, surface_gain
@@ -287,8 +282,7 @@ def test_any_two_materials_differ_by_more_than_the_perception_threshold():
             centroid = abs(np.log(one.centroid_hz / other.centroid_hz)) / np.log(1.18)
             slope_db = abs(one.slope_db_per_octave - other.slope_db_per_octave)
             assert max(level_db / 2.2, centroid, slope_db / 2.0) > 0.7, (
-                materials[first].label,
-                materials[second].label,
+                materials[first].label, materials[second].label
             )
 
 
@@ -475,9 +469,7 @@ def test_the_parts_between_gaps_keep_the_phases_of_their_times() -> None:
     )
     time = recording.acceleration_time_seconds
     kept = (time < 1.9) | (time > 2.1)
-    gapped = replace(
-        recording, acceleration_time_seconds=time[kept], acceleration_g=recording.acceleration_g[kept]
-    )
+    gapped = replace(recording, acceleration_time_seconds=time[kept], acceleration_g=recording.acceleration_g[kept])
     first, second = preprocess_parts(gapped, SETTINGS)
     assert recording.wander is not None
     for part, begin, end in ((first, 0.0, 1.9), (second, 2.1, 4.0)):

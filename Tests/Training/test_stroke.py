@@ -22,11 +22,7 @@ def test_a_submovements_speed_integrates_to_its_distance():
 @pytest.mark.parametrize("median", [0.02, 0.2, 0.9])
 def test_a_random_stroke_has_the_median_speed_asked_for_and_stays_within_what_hands_do(median):
     stroke = random_planar_stroke(
-        np.random.default_rng(4),
-        duration_seconds=10.0,
-        rate_hz=1000.0,
-        median_speed_mps=median,
-        extent_metres=0.3,
+        np.random.default_rng(4), duration_seconds=10.0, rate_hz=1000.0, median_speed_mps=median, extent_metres=0.3
     )
     speed = stroke.speed_mps
     assert np.median(speed[speed > 0.05 * median]) == pytest.approx(median, rel=0.1)
@@ -38,11 +34,7 @@ def test_a_random_stroke_has_the_median_speed_asked_for_and_stays_within_what_ha
 
 def test_a_random_strokes_velocity_is_the_derivative_of_its_position():
     stroke = random_planar_stroke(
-        np.random.default_rng(5),
-        duration_seconds=4.0,
-        rate_hz=1000.0,
-        median_speed_mps=0.3,
-        extent_metres=0.3,
+        np.random.default_rng(5), duration_seconds=4.0, rate_hz=1000.0, median_speed_mps=0.3, extent_metres=0.3
     )
     difference = np.diff(stroke.position_metres, axis=0) * 1000.0
     assert np.allclose(difference, stroke.velocity_mps[:-1], atol=1e-9)
@@ -50,11 +42,7 @@ def test_a_random_strokes_velocity_is_the_derivative_of_its_position():
 
 def test_a_random_stroke_is_not_sinusoidal():
     stroke = random_planar_stroke(
-        np.random.default_rng(6),
-        duration_seconds=16.0,
-        rate_hz=500.0,
-        median_speed_mps=0.3,
-        extent_metres=0.3,
+        np.random.default_rng(6), duration_seconds=16.0, rate_hz=500.0, median_speed_mps=0.3, extent_metres=0.3
     )
     power = np.abs(np.fft.rfft(stroke.velocity_mps[:, 0] * np.hanning(len(stroke.velocity_mps)))) ** 2
     assert np.sort(power)[-3:].sum() < 0.5 * power.sum()
@@ -76,9 +64,7 @@ def test_smoothing_takes_the_movements_out_of_waypoints_that_draw_a_curve():
     curve = [[0.05 * np.cos(angle), 0.0, 0.05 * np.sin(angle)] for angle in angles]
 
     def swing(smoothing_seconds):
-        stroke = scripted_stroke(
-            curve, segment_seconds=0.016, tremor_metres=0.0, smoothing_seconds=smoothing_seconds
-        )
+        stroke = scripted_stroke(curve, segment_seconds=0.016, tremor_metres=0.0, smoothing_seconds=smoothing_seconds)
         speed = np.linalg.norm(np.diff(stroke.position_metres, axis=0), axis=1)[25:-25]
         return speed.std() / speed.mean()
 
@@ -100,8 +86,7 @@ def test_a_repeated_waypoint_is_a_pause_and_force_follows_its_waypoints():
 
 
 @pytest.mark.parametrize(
-    "change",
-    [{"waypoints_metres": [[0, 0, 0]]}, {"segment_seconds": 0.0}, {"rate_hz": 1.0}, {"force_newtons": [1.0]}],
+    "change", [{"waypoints_metres": [[0, 0, 0]]}, {"segment_seconds": 0.0}, {"rate_hz": 1.0}, {"force_newtons": [1.0]}]
 )
 def test_an_impossible_script_is_refused(change):
     words = {"waypoints_metres": WAYPOINTS, "segment_seconds": 0.5} | change

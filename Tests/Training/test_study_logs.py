@@ -102,9 +102,7 @@ def test_a_row_cut_off_by_a_crash_is_named_and_the_session_is_unfinished(logs: P
     found = problems(logs)
     assert found == [f"{path}: row 27: half-written, as by a crash; resume the session, which asks its trial again"]
     path.write_bytes(content[: content.rindex(b"\n", 0, -1) + 1])
-    assert problems(logs) == [
-        f"{path}: unfinished: trial 26 of 26 missing; resume the session, or take its files out"
-    ]
+    assert problems(logs) == [f"{path}: unfinished: trial 26 of 26 missing; resume the session, or take its files out"]
 
 
 @pytest.mark.parametrize("content", [b"", b"\xff\xfe\x00", b"\x00\x00\x00\n", b"\n\n\n", b'"' * 400_000 + b"\n"])

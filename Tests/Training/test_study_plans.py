@@ -14,15 +14,7 @@ from haptoflow_training.cli import main
 from haptoflow_training.errors import InputError
 from haptoflow_training.model_stamp import with_measured_words
 from haptoflow_training.studies.delay_budget import (
-    BenchFigures,
-    Block,
-    Budget,
-    Spread,
-    budgets,
-    page_words,
-    page_words as budget_words,
-    read_bench,
-    read_lags,
+    BenchFigures, Block, Budget, Spread, budgets, page_words, page_words as budget_words, read_bench, read_lags
 )
 from haptoflow_training.studies.log_table import COLUMNS
 from haptoflow_training.studies.plans import SplitMix64, latency_plan, similarity_plan, williams_design
@@ -188,10 +180,7 @@ ROOT = Path(__file__).parents[2]
 PAGES = ROOT / "Documentation~"
 LOGS, ANALYSIS, BUDGET = (PAGES / f"{name}.md" for name in ("study-logs", "study-analysis", "delay-budget"))
 # Options added to a command, so that a test does not take minutes.
-SHORTER = {
-    "power": ["--simulations", "10"],
-    "validate": ["--studies", "2", "--simulations", "2"],
-}
+SHORTER = {"power": ["--simulations", "10"], "validate": ["--studies", "2", "--simulations", "2"]}
 
 
 def commands(page: Path) -> list[list[str]]:

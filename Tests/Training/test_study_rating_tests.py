@@ -12,13 +12,7 @@ from haptoflow_training.cli import main
 from haptoflow_training.studies.plans import CONDITIONS
 from haptoflow_training.studies.power import latency_power
 from haptoflow_training.studies.psychometric import (
-    Answers,
-    Curve,
-    expanded_interval,
-    fit,
-    fit_curve,
-    share,
-    threshold_difference,
+    Answers, Curve, expanded_interval, fit, fit_curve, share, threshold_difference
 )
 from haptoflow_training.studies.rating_tests import (
     adjusted,
@@ -232,9 +226,7 @@ LEVELS = np.arange(50.0, 251.0, 20.0)
 def answers_of(yes: np.ndarray, delays: np.ndarray = LEVELS) -> Answers:
     """yes: participants by levels."""
     participants, levels = yes.shape
-    return Answers(
-        np.tile(delays, participants), yes.ravel().astype(int), np.repeat(np.arange(participants), levels)
-    )
+    return Answers(np.tile(delays, participants), yes.ravel().astype(int), np.repeat(np.arange(participants), levels))
 
 
 def drawn(seed: int, k: float = 0.0214, x0: float = 130.25, participants: int = 24) -> Answers:

@@ -197,9 +197,7 @@ def test_a_machine_pass_rests_at_both_ends_and_moves_as_its_name_says():
 def test_the_frame_s_vibration_is_present_at_rest_and_stronger_in_motion():
     recording = record_machine_condition(MATERIALS["glass"], RecordingIdentity(6, 0, 60, 500, 0), seed=5)
     time = recording.acceleration_time_seconds
-    still, moving = (
-        recording.acceleration_g[(time > low) & (time < low + 0.3)] for low in (0.0, 0.8)
-    )
+    still, moving = (recording.acceleration_g[(time > low) & (time < low + 0.3)] for low in (0.0, 0.8))
 
     def low_over_high(values):
         power = np.sum(np.abs(np.fft.rfft(values - values.mean(axis=0), axis=0)) ** 2, axis=1)
@@ -226,9 +224,7 @@ def _same(one, other):
 def test_recordings_are_the_same_bytes_again_in_any_order_and_subset():
     words = {"seed": 9, "recordings_per_label": 2, "duration_seconds": 2.0}
     materials = list(MATERIALS.values())
-    everything = {
-        each.identity: each for each in record_hand(materials, labels=["wood", "stone"], **words)
-    }
+    everything = {each.identity: each for each in record_hand(materials, labels=["wood", "stone"], **words)}
     backwards = {each.identity: each for each in record_hand(materials[::-1], labels=["stone"], **words)}
     assert len(everything) == 4 and len(backwards) == 2
     for identity, recording in backwards.items():

@@ -121,9 +121,7 @@ def _free_port() -> str:
         return str(listener.getsockname()[1])
 
 
-def test_two_torchrun_processes_end_with_equal_weights_on_a_machine_whose_name_does_not_resolve(
-    tmp_path: Path,
-) -> None:
+def test_two_torchrun_processes_end_with_equal_weights_on_a_machine_whose_name_does_not_resolve(tmp_path: Path) -> None:
     script = Path(__file__).with_name("two_process_training.py")
     environment = dict(os.environ, OMP_NUM_THREADS="1", PYTHONPATH=os.pathsep.join(sys.path))
     subprocess.run(

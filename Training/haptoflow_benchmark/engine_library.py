@@ -13,12 +13,7 @@ from numpy.typing import NDArray
 
 from haptoflow_training.errors import InputError
 from haptoflow_training.native_library import (
-    NativeError,
-    NativeLibrary,
-    built_library,
-    installed_runtime,
-    open_runtime,
-    options_of,
+    NativeError, NativeLibrary, built_library, installed_runtime, open_runtime, options_of
 )
 
 class EngineLibrary(NativeLibrary):

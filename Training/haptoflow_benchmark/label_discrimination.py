@@ -63,9 +63,7 @@ def window_features(
         spectra.append(10.0 * np.log10(energy * (frequency[1] - frequency[0]) + 1e-8))
         axial = (velocity[:, 0] + 1j * velocity[:, 1]) ** 2 / np.square(speed + 1e-6)
         mean_log_speed = np.log(speed + 0.002).mean()
-        conditions.append(
-            [1.0, mean_log_speed, mean_log_speed**2, np.log(force), axial.real.mean(), axial.imag.mean()]
-        )
+        conditions.append([1.0, mean_log_speed, mean_log_speed**2, np.log(force), axial.real.mean(), axial.imag.mean()])
     count = len(_BAND_EDGES_HZ) - 1
     return WindowFeatures(np.array(spectra).reshape(-1, count), np.array(conditions).reshape(-1, 6))
 

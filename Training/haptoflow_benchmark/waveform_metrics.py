@@ -49,9 +49,7 @@ def level_error_db(generated: _Wave, recorded: _Wave) -> float:
     return 20.0 * float(np.log10((rms(generated) + _FLOOR) / (rms(recorded) + _FLOOR)))
 
 
-def log_spectral_distance_db(
-    generated: _Wave, recorded: _Wave, band_hz: tuple[float, float] = (20.0, 1000.0)
-) -> float:
+def log_spectral_distance_db(generated: _Wave, recorded: _Wave, band_hz: tuple[float, float] = (20.0, 1000.0)) -> float:
     """RMS over band_hz of the difference of mean power spectra in dB, 128 ms windows (7.8 Hz), above the spectrum of a
     white vibration of 0.01 m/s^2: nobody feels what recordings without sensor noise have below it."""
     window = 256

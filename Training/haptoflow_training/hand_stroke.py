@@ -76,9 +76,7 @@ class Submovement:
         return self.start_seconds + math.exp(self.mu + END_DEVIATIONS * self.sigma)
 
 
-def summed_velocity(
-    submovements: Sequence[Submovement], time_seconds: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def summed_velocity(submovements: Sequence[Submovement], time_seconds: NDArray[np.float64]) -> NDArray[np.float64]:
     """Vector sum [n, 2] in m/s; `time_seconds` increases. The cost grows with the overlap, not with the stroke's
     length."""
     velocity = np.zeros((len(time_seconds), 2))
@@ -122,12 +120,7 @@ class SpatialStroke:
 
 
 def random_planar_stroke(
-    rng: np.random.Generator,
-    *,
-    duration_seconds: float,
-    rate_hz: float,
-    median_speed_mps: float,
-    extent_metres: float,
+    rng: np.random.Generator, *, duration_seconds: float, rate_hz: float, median_speed_mps: float, extent_metres: float
 ) -> PlanarStroke:
     """Free scribbling: overlapping submovements with curves, reversals, pauses, slow and fast passages.
 
@@ -220,9 +213,7 @@ def force_profile(
     return np.clip(median_force_newtons * np.exp(smooth), *_FORCE_RANGE_NEWTONS)
 
 
-def tremor(
-    rng: np.random.Generator, count: int, rate_hz: float, rms_metres: float, axes: int
-) -> NDArray[np.float64]:
+def tremor(rng: np.random.Generator, count: int, rate_hz: float, rms_metres: float, axes: int) -> NDArray[np.float64]:
     """Physiological tremor [count, axes] in metres: noise between 8 and 12 Hz with the given root mean square."""
     margin = int(rate_hz)
     noise = rng.standard_normal((count + 2 * margin, axes))

@@ -11,15 +11,7 @@ from tqdm import tqdm
 
 from haptoflow_benchmark.commands.own_parts import ENGINE, OwnParts, add_recording_options, own_parts, require_engine
 from haptoflow_benchmark.own_accuracy import (
-    LabelAccuracy,
-    RenderedPart,
-    Verdict,
-    label_accuracy,
-    lines,
-    render_learnt,
-    render_parts,
-    verdict,
-    write_own_report,
+    LabelAccuracy, RenderedPart, Verdict, label_accuracy, lines, render_learnt, render_parts, verdict, write_own_report
 )
 from haptoflow_training.errors import InputError
 from haptoflow_training.model_stamp import SHIPPED_MODEL, sha256_of
@@ -51,9 +43,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         help="also learn each label from the recordings that the model was trained on (about 7 s each), and say whether the "
         "model is worth using; the exit code is 3 if it is not",
     )  # fmt: skip
-    parser.add_argument(
-        "--out", type=Path, help="for own-accuracy.json, .md and .png (default: printed only)"
-    )
+    parser.add_argument("--out", type=Path, help="for own-accuracy.json, .md and .png (default: printed only)")
 
 
 def run(options: argparse.Namespace) -> int:

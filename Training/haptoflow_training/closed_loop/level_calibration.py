@@ -16,11 +16,7 @@ import torch
 from numpy.typing import NDArray
 
 from haptoflow_training.closed_loop.render import (
-    UPDATE_RATE_HZ,
-    SegmentSource,
-    SurfaceStatistics,
-    hop_positions,
-    run_closed_loop,
+    UPDATE_RATE_HZ, SegmentSource, SurfaceStatistics, hop_positions, run_closed_loop
 )
 from haptoflow_training.export.level_table import LevelTable
 from haptoflow_training.export.trained_tier import TrainedTier

@@ -15,12 +15,7 @@ from numpy.typing import NDArray
 from tqdm import tqdm
 
 from haptoflow_training.closed_loop.level_calibration import (
-    ClosedLoopLevels,
-    Extent,
-    TierSource,
-    closed_loop_levels,
-    hops,
-    offsets_db,
+    ClosedLoopLevels, Extent, TierSource, closed_loop_levels, hops, offsets_db
 )
 from haptoflow_training.closed_loop.render import SurfaceStatistics
 from haptoflow_training.export.exponents import LabelExponents, fit_exponents

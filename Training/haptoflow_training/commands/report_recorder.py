@@ -16,26 +16,13 @@ from tqdm import tqdm
 
 from haptoflow_training.errors import InputError
 from haptoflow_training.recordings.synthetic import (
-    TRAINING_SPECIMENS,
-    hand_conditions,
-    load_materials,
-    record_hand_condition,
+    TRAINING_SPECIMENS, hand_conditions, load_materials, record_hand_condition
 )
 from haptoflow_training.recordings.synthetic.measurement import (
-    TOLERANCE,
-    Design,
-    Deviation,
-    Measurement,
-    SpreadMeasurement,
-    calibrate,
-    measure,
-    measure_spread,
+    TOLERANCE, Design, Deviation, Measurement, SpreadMeasurement, calibrate, measure, measure_spread
 )
 from haptoflow_training.recordings.synthetic.materials import (
-    DEFAULT_MATERIALS_PATH,
-    Material,
-    select_materials,
-    write_calibrated,
+    DEFAULT_MATERIALS_PATH, Material, select_materials, write_calibrated
 )
 
 # The report measures another specimen than the calibration used, so that a fit to one random draw would show.
@@ -91,9 +78,7 @@ def run(options: argparse.Namespace) -> int:
             write_calibrated(options.materials, {each.label: each.calibrated for each in materials})
             # Report the values as stored in the file, with the digits stored there.
             materials = select_materials(load_materials(options.materials), labels)
-        measured = list(
-            tqdm(processes.map(_measure, materials), total=len(materials), unit="material", disable=None)
-        )
+        measured = list(tqdm(processes.map(_measure, materials), total=len(materials), unit="material", disable=None))
     rows = [
         Row(material, measurement, Deviation.of(measurement.targets(), material.targets), spread)
         for material, (measurement, spread) in zip(materials, measured)

@@ -19,12 +19,7 @@ from haptoflow_training.studies.plans import golden_text
 from haptoflow_training.studies.log_table import LATENCY, SIMILARITY, STUDIES
 from haptoflow_training.studies.session_file import merged_csv
 from haptoflow_training.studies.simulation import (
-    MATERIALS,
-    METHODS,
-    PLANNED_DZ,
-    planted,
-    simulate_latency,
-    simulate_similarity,
+    MATERIALS, METHODS, PLANNED_DZ, planted, simulate_latency, simulate_similarity
 )
 from haptoflow_training.studies.study_folder import read_faultless, read_folder
 from haptoflow_training.whole_file import write_whole
@@ -151,9 +146,7 @@ The report is one file with its figures inside. Logs with a problem are refused;
 def _analyse(options: argparse.Namespace) -> int:
     from haptoflow_training.studies.analysis import analyse_latency
     from haptoflow_training.studies.report import Analysed, report, results
-    from haptoflow_training.studies.analysis import (
-        MINIMUM_PARTICIPANTS, analyse_similarity, too_few_words,
-    )  # fmt: skip
+    from haptoflow_training.studies.analysis import MINIMUM_PARTICIPANTS, analyse_similarity, too_few_words
 
     _require_range("--seed", options.seed, 0)
     for out in (options.out, options.results):
@@ -263,9 +256,7 @@ The first reads the tables of Documentation~/benchmarks.md, the second those of 
 device delay that you measured. The third writes the page anew after `npm run bench -- --publish`.
 """
     parser.add_argument("--bench", type=Path, default=_PUBLISHED, help="bench.json, or the page that publishes it")
-    parser.add_argument(
-        "--lags", type=Path, default=_PUBLISHED_LAGS, help="what haptoflow-benchmark measure-lag wrote"
-    )
+    parser.add_argument("--lags", type=Path, default=_PUBLISHED_LAGS, help="what haptoflow-benchmark measure-lag wrote")
     parser.add_argument("--device-ms", type=float, help="from the audio callback to the hand, as you measured it")
     parser.add_argument("--page", type=Path, help="page whose measured part is written anew")
     parser.add_argument("--chart", type=Path, help="PNG file to write")

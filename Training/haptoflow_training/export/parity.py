@@ -24,9 +24,7 @@ def _in_double(batch: SegmentBatch) -> SegmentBatch:
 
 
 @torch.no_grad()
-def write_parity(
-    path: Path, tiers: list[TrainedTier], batch: SegmentBatch, *, model_crc32: int, seed: int
-) -> None:
+def write_parity(path: Path, tiers: list[TrainedTier], batch: SegmentBatch, *, model_crc32: int, seed: int) -> None:
     """Write one case for each row of `batch`, cycling through tiers and solvers; the previous waveforms are recorded
     ones. Computed in double precision: an all-pole filter at single precision is no reference."""
     generator = torch.Generator().manual_seed(seed)

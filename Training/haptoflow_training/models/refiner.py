@@ -93,9 +93,7 @@ class PatchUnet(nn.Module):
         self.register_buffer("newest_first", newest_first, persistent=False)
 
         self.enter = nn.Conv2d(entering, width, (1, patch), stride=(1, patch))
-        self.previous_fine = nn.Conv2d(
-            channels, previous_width, (1, 3 * patch), stride=(1, patch), padding=(0, patch)
-        )
+        self.previous_fine = nn.Conv2d(channels, previous_width, (1, 3 * patch), stride=(1, patch), padding=(0, patch))
         self.fine_down = FilmBlock(width + previous_width, width, self.patches)
         blocks = [self.fine_down]
         if levels == 2:

@@ -62,9 +62,7 @@ class TailImpulses(nn.Module):
     read: Tensor
     struck_atoms: Tensor
 
-    def __init__(
-        self, samples: int = 200, rungs: tuple[float, ...] = TAIL_RUNGS, both_tails: bool = True
-    ) -> None:
+    def __init__(self, samples: int = 200, rungs: tuple[float, ...] = TAIL_RUNGS, both_tails: bool = True) -> None:
         super().__init__()
         self.samples, self.windows = samples, samples // _WINDOW
         self.both_tails, self.kernels = both_tails, len(rungs) * (2 if both_tails else 1)

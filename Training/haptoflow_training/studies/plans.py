@@ -85,9 +85,7 @@ def latency_plan(participant: int, seed: int, levels_ms: Sequence[float]) -> lis
     half = len(rows) // 2
     step = half + half % 2
     conditions = CONDITIONS if participant % 2 == 1 else CONDITIONS[::-1]
-    order = [
-        (PRACTICE, condition, level) for condition in conditions for level in (min(levels_ms), max(levels_ms))
-    ]  # fmt: skip
+    order = [(PRACTICE, condition, level) for condition in conditions for level in (min(levels_ms), max(levels_ms))]
     for block, condition in enumerate(conditions):
         row = rows[(first_row + block * step) % len(rows)]
         order += [(MAIN, condition, levels_ms[names[entry]]) for entry in row]

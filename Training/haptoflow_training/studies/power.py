@@ -100,11 +100,7 @@ class LatencyPower:
 
 
 def latency_power(
-    participants: int,
-    *,
-    simulations: int,
-    seed: int,
-    advance: Callable[[], object] = int,
+    participants: int, *, simulations: int, seed: int, advance: Callable[[], object] = int
 ) -> LatencyPower:
     """participants: at least 5, because fewer give no interval."""
     model = AnswerModel()

@@ -186,8 +186,7 @@ def _similarity(result: SimilarityResult, is_simulated: bool) -> list[str]:
             )
         ]
         parts += [
-            table(METHOD_HEADINGS, means),
-            table(PAIR_HEADINGS, [_pair_row(result, pair) for pair in found.pairs]),
+            table(METHOD_HEADINGS, means), table(PAIR_HEADINGS, [_pair_row(result, pair) for pair in found.pairs])
         ]
     return [*parts, listing(LIMITS)]
 

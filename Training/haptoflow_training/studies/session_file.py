@@ -13,19 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from haptoflow_training.studies.log_table import (
-    COLUMNS,
-    FORMAT,
-    PLANNED,
-    STUDIES,
-    VERSION,
-    Column,
-    Problem,
-    Row,
-    Value,
-    ranges,
-    read_rows,
-    shown,
-    text_of,
+    COLUMNS, FORMAT, PLANNED, STUDIES, VERSION, Column, Problem, Row, Value, ranges, read_rows, shown, text_of
 )
 from haptoflow_training.whole_file import write_whole
 
@@ -77,9 +65,7 @@ def read_sidecar(path: Path, problems: list[Problem]) -> Mapping[str, Any] | Non
         source = sidecar["device"].get("device_delay_source")
         if source not in DELAY_SOURCES:
             expected = " or ".join(DELAY_SOURCES)
-            problems.append(
-                Problem(path, f"key 'device.device_delay_source' is {shown(source)}; expected {expected}")
-            )
+            problems.append(Problem(path, f"key 'device.device_delay_source' is {shown(source)}; expected {expected}"))
     return sidecar if len(problems) == before else None
 
 

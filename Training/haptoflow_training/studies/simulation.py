@@ -15,13 +15,7 @@ from scipy.stats import norm
 from haptoflow_training.errors import InputError
 from haptoflow_training.studies.log_table import LATENCY, SIMILARITY, STUDIES
 from haptoflow_training.studies.plans import (
-    MAIN,
-    TURN_OFF,
-    TURN_ON,
-    LatencyTrial,
-    SimilarityTrial,
-    latency_plan,
-    similarity_plan,
+    MAIN, TURN_OFF, TURN_ON, LatencyTrial, SimilarityTrial, latency_plan, similarity_plan
 )
 from haptoflow_training.studies.psychometric import Curve
 from haptoflow_training.studies.rating_tests import EQUIVALENCE_POINTS

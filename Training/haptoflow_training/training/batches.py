@@ -30,9 +30,7 @@ class HeldOut:
 
     @classmethod
     def of(cls, config: BatchConfig) -> HeldOut:
-        return cls(
-            config.held_out_speed_mps, config.held_out_force_newtons, config.held_out_direction_degrees
-        )
+        return cls(config.held_out_speed_mps, config.held_out_force_newtons, config.held_out_direction_degrees)
 
     def holds(self, motion: NDArray[np.floating]) -> NDArray[np.bool_]:
         """Which motions [..., 3] (vx, vy in m/s, force in N) lie in a band."""

@@ -233,9 +233,7 @@ def _convert(value: Any, default: Any, key: str, path: Path) -> Any:
     return tuple(value) if isinstance(default, tuple) else value
 
 
-def _read_section(
-    section: type[_Section], table: dict[str, Any], prefix: str, path: Path, *, passes: bool
-) -> _Section:
+def _read_section(section: type[_Section], table: dict[str, Any], prefix: str, path: Path, *, passes: bool) -> _Section:
     defaults = section()
     fields = dataclasses.fields(section)  # type: ignore[arg-type]
     known = {entry.name: getattr(defaults, entry.name) for entry in fields}
@@ -313,9 +311,7 @@ def _merged(below: dict[str, Any], above: dict[str, Any]) -> dict[str, Any]:
     return merged
 
 
-def config_from_dict(
-    table: dict[str, Any], path: Path, kind: type[TrainingConfig] | None = None
-) -> TrainingConfig:
+def config_from_dict(table: dict[str, Any], path: Path, kind: type[TrainingConfig] | None = None) -> TrainingConfig:
     """The configuration in `table`, checked; `path` names its origin in messages. kind: the class to read it as
     (default: that of extensions.py)."""
     return _checked(_read_section(kind or configuration_class(), table, "", path, passes=False), path)

@@ -74,12 +74,7 @@ class Losses(nn.Module):
         self._train_level = train_level
         self._balance = balance
 
-    def forward(
-        self,
-        batch: SegmentBatch,
-        objective: str,
-        generator: torch.Generator,
-    ) -> tuple[Tensor, Tensor]:
+    def forward(self, batch: SegmentBatch, objective: str, generator: torch.Generator) -> tuple[Tensor, Tensor]:
         level = self.level_loss(batch)
         if objective == "level":
             return level, torch.zeros(())
@@ -180,9 +175,7 @@ class Losses(nn.Module):
         return [recorded.detach(), *drawn], resolved
 
     @torch.no_grad()
-    def render_chain(
-        self, chain: Chain, embedding: Tensor, objective: str, generator: torch.Generator
-    ) -> Tensor:
+    def render_chain(self, chain: Chain, embedding: Tensor, objective: str, generator: torch.Generator) -> Tensor:
         """The previous waveform [B, 1, 200] in m/s^2 after the chain's hops, rendered by the network itself."""
         model, previous = self.model, chain.start
         for hop in range(chain.motion.shape[1]):

@@ -22,11 +22,7 @@ from haptoflow_training.recordings.landing import landing_of, landing_of_spring,
 from haptoflow_training.recordings.open_recordings import RecordingFile, open_recordings
 from haptoflow_training.recordings.recording import Recording, RecordingIdentity
 from haptoflow_training.recordings.synthetic import (
-    Material,
-    hand_conditions,
-    load_materials,
-    machine_conditions,
-    record_condition_of,
+    Material, hand_conditions, load_materials, machine_conditions, record_condition_of
 )
 from haptoflow_training.recordings.synthetic.materials import select_materials
 from haptoflow_training.training.config import DataConfig
@@ -121,12 +117,7 @@ def _fingerprint(data: DataConfig, further: dict[str, Any]) -> dict[str, Any]:
 
 
 def _open_or_prepare(
-    data: DataConfig,
-    out: Path,
-    recordings: Any,
-    labels: list[str],
-    workers: int,
-    further: dict[str, Any] | None = None,
+    data: DataConfig, out: Path, recordings: Any, labels: list[str], workers: int, further: dict[str, Any] | None = None
 ) -> SegmentStore:
     fingerprint = _fingerprint(data, further or {})
     if (found := _open_if_made_from(out, fingerprint)) is not None:
@@ -137,12 +128,7 @@ def _open_or_prepare(
         if (found := _open_if_made_from(out, fingerprint)) is not None:
             return found
         return prepare(
-            recordings,
-            labels,
-            out,
-            seed=data.recordings_seed,
-            provenance={"made_from": fingerprint},
-            workers=workers,
+            recordings, labels, out, seed=data.recordings_seed, provenance={"made_from": fingerprint}, workers=workers
         )
 
 
@@ -161,9 +147,7 @@ def synthetic_label_infos(data: DataConfig) -> list[LabelInfo]:
             category=material.category,
             stiffness_newtons_per_metre=material.stiffness_newtons_per_metre,
             friction_coefficient=material.friction,
-            wavelength_metres=(
-                1e-3 * material.dominant_ruling.wavelength_mm if material.dominant_ruling else None
-            ),
+            wavelength_metres=(1e-3 * material.dominant_ruling.wavelength_mm if material.dominant_ruling else None),
             wave_vectors_per_mm=material.wave_vectors_per_mm,
             landing=landing_of(material),
             stick_slip=stick_slip_of(material),
@@ -177,9 +161,7 @@ def open_source(data: DataConfig, store_folder: Path, workers: int) -> Source:
     """Prepare (or reuse) the store that `data` describes; InputError where folders hold nothing usable."""
     if data.source == "synthetic":
         infos = synthetic_label_infos(data)
-        store = _open_or_prepare(
-            data, store_folder, synthetic_recordings(data), [info.name for info in infos], workers
-        )
+        store = _open_or_prepare(data, store_folder, synthetic_recordings(data), [info.name for info in infos], workers)
         return Source(
             store,
             infos,

@@ -438,9 +438,7 @@ class Trainer:
     def validate(self, phase: Phase | None = None) -> tuple[float, float]:
         """(level loss, loss of the phase's objective) of the averaged model on fixed pairs of the validation split."""
         generator = torch.Generator().manual_seed(99)
-        losses = self.losses_of(self._config)(
-            self.averaged_model, ribs_followed=self._store.ribs_followed
-        )
+        losses = self.losses_of(self._config)(self.averaged_model, ribs_followed=self._store.ribs_followed)
         objective = (phase or self._phases[-1]).objective
         if objective == "level":
             objective = next((entry.objective for entry in self._phases if entry.name == "field"), "level")
@@ -468,11 +466,7 @@ class Trainer:
 
     def _save(self) -> None:
         # Each process has its own generators and running averages; the weights are the same everywhere.
-        own = {
-            "noise": self._noise.get_state(),
-            "batches": self._batches.state(),
-            "balance": self._balance.state(),
-        }
+        own = {"noise": self._noise.get_state(), "batches": self._batches.state(), "balance": self._balance.state()}
         path = self._folder / f"generators-{self._processes.rank}.pt"
         # A program that is killed between the two files goes on from the checkpoint before.
         now = {"step": self._step, **own}

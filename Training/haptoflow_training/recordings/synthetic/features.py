@@ -10,12 +10,7 @@ from numpy.typing import NDArray
 
 from haptoflow_training.recordings.synthetic.materials import Material, Ruling
 from haptoflow_training.recordings.synthetic.surface import (
-    RandomField,
-    TipPath,
-    field_key,
-    octave_height,
-    place_fractions,
-    upper_weight,
+    RandomField, TipPath, field_key, octave_height, place_fractions, upper_weight
 )
 
 # Numbers of the features' random fields, beyond the octaves' 0 to 13.
@@ -68,9 +63,7 @@ def ruling_height(
     return unit * ruling.relative_height * profile
 
 
-def impact_acceleration(
-    material: Material, path: TipPath, rate_hz: float, *, specimen: int
-) -> NDArray[np.float64]:
+def impact_acceleration(material: Material, path: TipPath, rate_hz: float, *, specimen: int) -> NDArray[np.float64]:
     """Impulses [n] in m/s^2, one where the tip meets the asperity of a cell of the surface that holds one.
 
     Their rate is proportional to speed; the velocity that each gives the tip grows so that the overall level follows

@@ -157,8 +157,7 @@ def slope_db_per_octave(frequency_hz: NDArray[np.float64], spectrum: NDArray[np.
     """
     edges = _SLOPE_BAND_HZ[0] * (_SLOPE_BAND_HZ[1] / _SLOPE_BAND_HZ[0]) ** np.linspace(0.0, 1.0, 10)
     means = [
-        np.mean(spectrum[(frequency_hz >= low) & (frequency_hz < high)])
-        for low, high in zip(edges[:-1], edges[1:])
+        np.mean(spectrum[(frequency_hz >= low) & (frequency_hz < high)]) for low, high in zip(edges[:-1], edges[1:])
     ]
     octaves = 0.5 * (np.log2(edges[:-1]) + np.log2(edges[1:]))
     return float(np.polyfit(octaves, 10.0 * np.log10(means), 1)[0])
