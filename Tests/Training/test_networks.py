@@ -15,11 +15,12 @@ from haptoflow_paper.codec.representation import CodecRepresentation, build_repr
 from haptoflow_paper.codec.small_codec import SmallCodec, SmallCodecShape
 from haptoflow_paper.rivals import ARCHITECTURES
 from haptoflow_paper.runs.tier import export_level_model, network_graph
-from haptoflow_paper.runs.velocity_field import BandLimit, VelocityField
+from haptoflow_paper.runs.velocity_field import IMPULSE_GAINS as GAINS
+from haptoflow_paper.runs.velocity_field import BandLimit, RungImpulses, VelocityField
 from haptoflow_training.export.trained_tier import tier_of
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE, MotionFeatures
 from haptoflow_training.models.level_model import LevelModel, level_loss
-from haptoflow_training.models.rung_impulses import ATOMS, GAINS, RUNGS, TAIL_RUNGS, TAPS, RungImpulses, TailImpulses
+from haptoflow_training.models.rung_impulses import ATOMS, RUNGS, TAIL_RUNGS, TAPS, TailImpulses
 from haptoflow_training.training.config import TrainingConfig, load_config
 from haptoflow_training.training.trainer import build_model
 from paper_samples import evaluated

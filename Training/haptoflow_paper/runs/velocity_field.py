@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import ClassVar
 
 import torch
 from scipy.signal import firwin2
@@ -20,7 +21,7 @@ from haptoflow_training.models.conditioning import EMBEDDING_SIZE, MotionFeature
 from haptoflow_training.models.haptoflow_model import HaptoFlowModel
 from haptoflow_training.models.refiner import PatchUnet
 from haptoflow_training.models.rib_comb import RibComb
-from haptoflow_training.models.rung_impulses import GAINS as IMPULSE_GAINS, RungImpulses
+from haptoflow_training.models.rung_impulses import ATOMS, RUNGS, TailImpulses
 from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 TAPS = 129
@@ -80,6 +81,7 @@ class BandLimit(nn.Module):
 
 
 _CONDITION_SIZE = 96
+IMPULSE_GAINS = len(RUNGS) * ATOMS
 
 
 class MotionEncoder(nn.Module):
@@ -125,6 +127,16 @@ def _silent(outputs: int) -> nn.Linear:
     nn.init.zeros_(layer.weight)
     nn.init.zeros_(layer.bias)
     return layer
+
+
+class RungImpulses(TailImpulses):
+    """Impulses of a network: gains [B, 52], the same kernel for both tails."""
+
+    thresholds: ClassVar[tuple[float, ...]] = RUNGS
+    tails: ClassVar[int] = 1
+
+    def _excess(self, gathered: Tensor) -> Tensor:
+        return gathered - torch.maximum(torch.minimum(gathered, self.rungs), -self.rungs)
 
 
 class VelocityField(PatchUnet):
