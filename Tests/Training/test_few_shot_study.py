@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import math
 import os
 import re
 from pathlib import Path
@@ -26,12 +25,11 @@ from haptoflow_paper.few_shot.few_shot_report import (
     condition_figures,
     curve_table,
     page_words,
-    summarised,
     table,
     write_chart,
     write_results,
 )
-from haptoflow_paper.few_shot.few_shot_rivals import LabelPrior, fit_autoregressive, fit_level, windows_of
+from haptoflow_paper.few_shot.few_shot_rivals import fit_autoregressive
 from haptoflow_paper.few_shot.few_shot_study import StudyPlan, cells_of, with_trained
 from haptoflow_training import cli as training
 from haptoflow_training.export.level_table import LevelTable
@@ -85,17 +83,6 @@ def cell(level: float, gfc: float = 0.99, lsd: float = 1.0) -> dict[str, float]:
         "level_error_db": level, "gfc": gfc, "lsd_db": lsd, "kurtosis_log_ratio": -0.2, "crest_log_ratio": 0.1,
         "modulation_error_db": 1.0,
     }  # fmt: skip
-
-
-def test_level_errors_count_by_magnitude_and_intervals_come_from_materials() -> None:
-    summary = summarised([[cell(-2.0), cell(2.0)], [cell(1.0), cell(-1.0)], [cell(3.0), cell(-3.0)]])
-    assert summary["level_error_median_db"]["value"] == 2.0
-    low, high = summary["level_error_median_db"]["interval"]
-    assert 1.0 <= low < 2.0 < high <= 3.0
-    assert summary["kurtosis_log_ratio"]["value"] == 0.2
-    assert "rib_fundamental_error_percent" not in summary
-    alike = summarised([[cell(1.0)], [cell(1.0)]])
-    assert alike["level_error_p90_db"]["interval"] == [1.0, 1.0]
 
 
 def stored(material: str, ruled: bool) -> dict[str, object]:
@@ -200,11 +187,6 @@ def test_the_published_table_is_that_of_the_published_results() -> None:
 FLAT = LevelTable((0.1,), (0.0,), 1.0, 0.0, 0.0)
 
 
-@pytest.fixture(scope="module")
-def prior() -> LabelPrior:
-    return LabelPrior.of(read_model_file(DEFAULT))
-
-
 def motion_of(speed_mps: np.ndarray, force_newtons: float | np.ndarray = 1.0) -> np.ndarray:
     force = np.broadcast_to(force_newtons, speed_mps.shape)
     return np.stack([speed_mps, np.zeros_like(speed_mps), force], axis=1).astype(np.float32)
@@ -217,19 +199,6 @@ def stroke(wave: np.ndarray, motion: np.ndarray) -> MaterialRecording:
 def swept(seconds: float, low: float = 0.02, high: float = 0.2, period: float = 2.5) -> np.ndarray:
     time = np.arange(int(2000 * seconds)) / 2000.0
     return np.exp(np.interp(np.sin(2.0 * np.pi * time / period), [-1.0, 1.0], np.log([low, high])))
-
-
-def levels_db(law: LevelTable, speeds: list[float], force: float = 1.0) -> np.ndarray:
-    return 20.0 / math.log(10.0) * law.log_level(speeds, force)
-
-
-def test_the_level_follows_a_step_that_breaks_any_power_law(prior: LabelPrior) -> None:
-    speed = swept(30.0, 0.03, 0.15, period=10.0)
-    wanted = lambda v: 20.0 * np.log10(v / 0.05) + 14.0 * np.clip((v - 0.06) / 0.02, 0.0, 1.0)  # noqa: E731
-    wave = np.random.default_rng(1).standard_normal(len(speed)) * 10.0 ** (wanted(speed) / 20.0)
-    law = fit_level(windows_of([stroke(wave, motion_of(speed))], 200, 100), prior)
-    speeds = [0.035, 0.05, 0.09, 0.11, 0.14]
-    assert levels_db(law, speeds) == pytest.approx([float(wanted(v)) for v in speeds], abs=2.0)
 
 
 def test_the_autoregressive_rival_recovers_an_autoregressive_spectrum() -> None:

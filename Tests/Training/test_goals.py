@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
 import pytest
 
 from haptoflow_paper.metrics.judged_figures import BY_KEY, spread
 from haptoflow_paper.report.accuracy_time import rivals, verdict
 from haptoflow_paper.report.goals import Goal, judge
-from haptoflow_paper.rows.row_summary import special_figures, summary, with_interval
+from haptoflow_paper.rows.row_summary import summary, with_interval
 
 _FAST = {"level_error_db": -0.5, "gfc_recording": 0.986, "lsd_db": 2.0}
 
@@ -119,22 +118,6 @@ def test_missing_rows_leave_their_goals_unjudged() -> None:
     assert judge({"rows": []}) == []
 
 
-_LABELS = "abcdef"
-
-
-def _cells(seed: int, size: float, noise: float = 0.3, **more: Any) -> list[dict[str, Any]]:
-    """Ten cells for each label, whose level errors have both signs and about this magnitude."""
-    generator = np.random.default_rng(seed)
-    return [
-        {
-            "label": label, "kind": "constant", "speed_mps": 0.1, "force_newtons": 1.0, "direction_degrees": 0.0,
-            "crossing_degrees": 0.0, "seed": number,
-            "level_error_db": float((-1) ** number * (size + noise * generator.random())), "lsd_db": 1.0, **more,
-        }
-        for label in _LABELS for number in range(10)
-    ]  # fmt: skip
-
-
 def _test_verdicts_row(name: str, rival: str, level: float, lsd: float, level_verdict: str, lsd_verdict: str) -> dict[str, Any]:
     values = {"level_error_db": level, "lsd_db": lsd}
     spreads = {key: {"median": value, "p90": value, "worst": value} for key, value in values.items()}
@@ -161,24 +144,6 @@ def test_a_spread_is_over_magnitudes_and_uses_the_low_side_of_a_share() -> None:
     assert spread(cells, BY_KEY["crest_error_db"]) == pytest.approx({"median": 2.0, "p90": 3.6, "worst": 4.0})
     assert spread(cells, BY_KEY["rib_coherence"]) == pytest.approx({"median": 0.8, "p90": 0.64, "worst": 0.6})
     assert spread(cells, BY_KEY["modulation_error_db"]) is None
-
-
-def test_parts_of_the_grid_are_judged_by_their_own_cells() -> None:
-    cells = _cells(1, 0.5)
-    cells[0] |= {"recorded_kurtosis": 9.0, "kurtosis_log_ratio": -1.0, "crest_error_db": -2.0}
-    cells[1] |= {"recorded_kurtosis": 3.0, "kurtosis_log_ratio": -5.0}
-    cells[2] |= {"kind": "varying", "recorded_kurtosis": 30.0, "kurtosis_log_ratio": 4.0}
-    cells[3] |= {"kind": "oblique", "lsd_db": 3.0}
-    cells[4] |= {"speed_mps": 0.01, "level_error_db": -3.0}
-    cells[5] |= {"kind": "nap", "level_error_db": 1.0}
-    cells[6] |= {"kind": "nap", "level_error_db": -0.5, "direction_degrees": 180.0}
-    cells[7] |= {"speed_mps": 1.5, "rib_coherence": 0.1}
-    cells[8] |= {"rib_coherence": 0.9}
-    found = special_figures(cells)
-    assert found["impact_cells"] == 1 and found["impact_kurtosis_log_ratio"]["worst"] == 1.0
-    assert found["slow_level_error_db"]["p90"] == 3.0 and found["nap_error_db"] == pytest.approx(1.5)
-    assert found["oblique_lsd_db"] == 3.0 and found["straight_lsd_db"] == 1.0
-    assert found["rib_coherence"]["worst"] == pytest.approx(0.9) and found["change_level_error_db"] is None
 
 
 def test_a_summary_takes_the_median_over_labels_and_its_interval_covers_it() -> None:

@@ -210,19 +210,6 @@ def test_the_energy_distance_prefers_impacts_at_the_recorded_rate(rate: float) -
     assert loss(rate) < loss(0.3 * rate) - 0.02
 
 
-def test_the_energy_distance_detects_a_modulation_that_the_spectrum_does_not_show() -> None:
-    time = torch.arange(400) / 2000.0
-    swing = (1.0 + torch.sin(2.0 * math.pi * 40.0 * time + 6.28 * torch.rand(256, 1))).expand(256, 400)
-
-    def swinging(seed: int) -> torch.Tensor:
-        return (swing * _test_recipes_noise(256, 400, seed))[:, 200:] / 1.5**0.5
-
-    past = (swing * _test_recipes_noise(256, 400, 9))[:, :200] / 1.5**0.5
-    even = [_test_recipes_noise(256, 200, seed) for seed in (5, 6)]
-    swung = _loss(swinging(1), past, (swinging(2), swinging(3)), own=True)
-    assert swung < _loss(swinging(1), past, (even[0], even[1]), own=True) - 0.02
-
-
 def test_rendering_a_chain_appends_each_generated_hop() -> None:
     store = make_store()
     model = build_model(_config(), [(), ()]).eval()

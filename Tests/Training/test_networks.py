@@ -236,10 +236,14 @@ def test_each_tail_rings_with_its_own_kernels(excess: float, tail: int) -> None:
     assert torch.equal(impulses(noise, gains.reshape(1, -1)), impulses(noise, other.reshape(1, -1)))
 
 
+class _SameRungs(TailImpulses):
+    thresholds = RUNGS
+
+
 def test_tails_with_equal_kernels_are_the_impulses_of_a_network() -> None:
     noise = 1.6 * torch.randn(4, 1, 200, generator=torch.Generator().manual_seed(5))
     same = torch.randn(1, GAINS, generator=torch.Generator().manual_seed(6))
     network = RungImpulses()(noise, same.expand(4, -1))
-    both = TailImpulses(rungs=RUNGS)(noise, same.repeat(4, 2))
+    both = _SameRungs()(noise, same.repeat(4, 2))
     torch.testing.assert_close(both, network, rtol=1e-4, atol=1e-4)
     assert network.square().mean() > 0.1

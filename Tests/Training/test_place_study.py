@@ -14,9 +14,7 @@ from haptoflow_paper.place.creeping import hand_overs
 from haptoflow_paper.place.place_report import page_words
 from haptoflow_paper.place.place_study import RULED, Pass, Profile, bumps, likeness, over_place, second_passes, summary
 from haptoflow_paper.velocity.velocity_cases import made_motions, real_motions, sampled
-from haptoflow_paper.velocity.velocity_estimators import (
-    Estimator, adaptive_window, end_of_parabola, growing_parabola, kalman, line
-)
+from haptoflow_paper.velocity.velocity_estimators import growing_parabola
 from haptoflow_paper.velocity.velocity_report import page_words
 from haptoflow_paper.velocity.velocity_study import PRODUCT, PRODUCT_SETTINGS, product_velocity
 from haptoflow_training.model_stamp import with_measured_words
@@ -96,18 +94,6 @@ def test_the_product_is_the_growing_parabola_with_the_settings_that_the_study_na
         assert is_known.all()
         # Before the third measurement the study's windows are one place longer than the product's history.
         assert np.abs(found - wanted[:, [0, 2]])[3:].max() < 1e-6, motion.kind
-
-
-@pytest.mark.parametrize(
-    "estimate",
-    [line(0.035), end_of_parabola(0.05), adaptive_window(1, 3.0, 2), adaptive_window(2, 3.0, 3),
-     growing_parabola(3.0, 0.01), kalman(10.0)],
-)  # fmt: skip
-def test_every_estimator_is_exact_for_steady_motion_at_uneven_times(estimate: Estimator) -> None:
-    times = np.cumsum(np.random.default_rng(1).uniform(0.008, 0.02, 200))
-    places = times[:, None] * np.array([0.3, 0.0, -0.1]) + 1000.0
-    found = estimate(times, places, np.full(len(times), 1e-5))
-    assert np.abs(found[100:] - [0.3, 0.0, -0.1]).max() < 1e-6
 
 
 def test_the_page_shows_the_committed_results() -> None:

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import dataclasses
-import math
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-from haptoflow_paper.metrics.temporal_metrics import rib_rates_hz
 from haptoflow_paper.reference import reference_set as subject
 from haptoflow_paper.reference.reference_conditions import CONSTANT_SPEEDS_MPS, Condition, conditions
 from haptoflow_paper.reference.reference_set import known_phases, record_pair
@@ -19,7 +17,6 @@ from haptoflow_training.recordings.synthetic.specimens import TRAINING_SPECIMENS
 
 MATERIALS = load_materials()
 CHOSEN = conditions(MATERIALS)
-RULED = {material.label for material in MATERIALS if material.rulings}
 
 
 def _material(label: str) -> Material:
@@ -41,17 +38,6 @@ def test_the_grid_covers_slow_to_fast_and_light_to_firm_on_every_label() -> None
         assert {entry.kind for entry in own} >= {"constant", "reversal", "stop", "varying", "change"}
         forces = [entry.force_newtons for entry in own if entry.kind == "constant"]
         assert min(forces) == 0.2 and max(forces) == 3.0
-
-
-def test_ruled_labels_are_crossed_at_five_angles_and_the_rate_of_each_family_is_k_times_v() -> None:
-    for label in RULED:
-        own = [entry for entry in CHOSEN if entry.label == label and entry.kind in ("constant", "oblique")]
-        assert {entry.crossing_degrees for entry in own} == {0.0, 15.0, 30.0, 45.0, 60.0}
-    mesh = _material("metal mesh")
-    assert rib_rates_hz(mesh, 0.03, 30.0) == pytest.approx((25.0 * math.cos(math.pi / 6), 12.5))
-    assert rib_rates_hz(mesh, 0.03, 225.0) == pytest.approx((25.0 * math.sqrt(0.5),) * 2)
-    assert rib_rates_hz(mesh, 0.03, 0.0) == pytest.approx((25.0,)), "along its ribs a family is not felt"
-    assert rib_rates_hz(mesh, 1.5, 0.0) == () and rib_rates_hz(_material("stone"), 0.1, 0.0) == ()
 
 
 def test_two_recordings_are_of_the_held_out_specimen_and_the_third_of_one_that_no_training_knows_either(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -110,15 +110,6 @@ def test_rows_of_the_same_model_share_one_training_for_each_seed(place: Workplac
     assert started[1].product == place.model_file(_ROW, 2) and "--seed 2" in " ".join(started[1].words)
 
 
-def test_a_model_trained_with_its_present_configuration_is_not_trained_again(
-    place: Workplace, started: list[Job]
-) -> None:
-    _leave_as_trained(place, seed=1)
-    _leave_as_trained(place, seed=3)
-    train_models(place, [(_ROW, 1), (_ROW, 3)], 1)
-    assert started == []
-
-
 def test_the_store_is_prepared_once_before_trainings_and_codecs_start_and_not_where_nothing_is_trained(
     place: Workplace, started: list[Job], monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -14,11 +14,10 @@ from scipy.signal import detrend
 
 from dataset_samples import small_recording
 from haptoflow_training.errors import InputError
-from haptoflow_training.preprocessing.pipeline import PreparedRecording, preprocess_parts, preprocess_recording
+from haptoflow_training.preprocessing.pipeline import PreparedRecording, preprocess_recording
 from haptoflow_training.preprocessing.preparation import prepare_store
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.recordings.landing import RibWander, StickSlip, landing_of, landing_of_spring
-from haptoflow_training.recordings.recording import RecordingIdentity
 from haptoflow_training.recordings.synthetic import (
     FURTHER_SPECIMENS,
     HELD_OUT_SPECIMEN,
@@ -28,8 +27,6 @@ from haptoflow_training.recordings.synthetic import (
     load_materials,
     machine_conditions,
     record_condition,
-    record_hand_condition,
-    record_machine_condition,
     training_specimen,
 )
 from haptoflow_training.recordings.synthetic.contact import SIMULATION_RATE_HZ
@@ -98,21 +95,6 @@ def test_the_phase_of_ribs_is_the_wave_vector_times_the_recorded_position_on_eve
         line = np.mean(normal * np.exp(-2j * np.pi * across[settled]))
         turns.append(line / np.abs(line))
     assert np.abs(np.angle(np.array(turns) / np.mean(turns))).max() < 0.3, np.angle(turns)
-
-
-def test_a_stroke_or_pass_on_a_chosen_specimen_follows_the_same_motion_over_another_surface() -> None:
-    stroke = hand_conditions(MATERIALS["wood"], seed=1, recordings=3)[1]
-    usual, chosen = (
-        record_hand_condition(MATERIALS["wood"], stroke, seed=1, duration_seconds=2.0, specimen=each)
-        for each in (None, HELD_OUT_SPECIMEN)
-    )
-    assert np.array_equal(usual.position_mm, chosen.position_mm)
-    assert not np.array_equal(usual.acceleration_g, chosen.acceleration_g)
-    passes = [
-        record_machine_condition(MATERIALS["wood"], RecordingIdentity(0, 0, 60, 500, 0), seed=1, specimen=each)
-        for each in (None, HELD_OUT_SPECIMEN)
-    ]
-    assert [each.specimen for each in passes] == [training_specimen(passes[0].identity), HELD_OUT_SPECIMEN]
 
 
 def test_every_specimen_has_guided_and_free_strokes_slow_and_fast_ones_and_every_condition_of_a_pass() -> None:
@@ -273,19 +255,6 @@ def test_targets_lie_between_the_5th_and_95th_published_percentile():
         assert -14.2 <= targets.slope_db_per_octave <= -2.4, material.label
 
 
-def test_any_two_materials_differ_by_more_than_the_perception_threshold():
-    materials = load_materials()
-    for first in range(20):
-        for second in range(first):
-            one, other = materials[first].targets, materials[second].targets
-            level_db = abs(20 * np.log10(one.k / other.k))
-            centroid = abs(np.log(one.centroid_hz / other.centroid_hz)) / np.log(1.18)
-            slope_db = abs(one.slope_db_per_octave - other.slope_db_per_octave)
-            assert max(level_db / 2.2, centroid, slope_db / 2.0) > 0.7, (
-                materials[first].label, materials[second].label
-            )
-
-
 def test_an_unknown_key_is_named(tmp_path):
     text = DEFAULT_MATERIALS_PATH.read_text().replace("anisotropy = 1.5", "anisotropi = 1.5")
     path = tmp_path / "materials.toml"
@@ -393,12 +362,6 @@ def test_a_field_has_unit_power_and_the_same_spectrum_in_every_direction_and_pla
     assert np.abs(np.array(spectra)[:, heard] / mean[heard] - 1.0).max() < 0.12
 
 
-def test_a_field_is_smooth_across_the_borders_of_its_patches() -> None:
-    values = RandomField(1000, 3, 2, 1.0).at(_line(400_000, 0.02, 3.0))
-    bend = np.abs(np.diff(values, 2))
-    assert bend.max() < 6.5 * np.sqrt(np.mean(bend**2))
-
-
 @pytest.mark.parametrize("label", ["wood", "sandpaper"])
 def test_the_fine_structure_of_two_straight_recordings_of_one_condition_is_uncorrelated(label: str) -> None:
     """A repeated surface would have the same lines, every few hertz, at any start: a correlation of 0.9 with
@@ -461,24 +424,6 @@ def test_rubber_s_slips_come_at_the_stated_phase_and_not_at_any_other_rate(speed
     assert at_phase > 3.0 * _true_phases_line(prepared, np.linspace(turns[0], turns[-1], len(turns)))
     length_mm = 1e3 * speed * len(turns) / SETTINGS.sample_rate_hz / (turns[-1] - turns[0])
     assert length_mm == pytest.approx(MATERIALS["rubber"].stick_slip_length_mm, rel=0.1)
-
-
-def test_the_parts_between_gaps_keep_the_phases_of_their_times() -> None:
-    recording = record_condition(
-        MATERIALS["rubber"], velocity_mps=(0.05, 0.0), force_newtons=1.0, duration_seconds=4.0, seed=1
-    )
-    time = recording.acceleration_time_seconds
-    kept = (time < 1.9) | (time > 2.1)
-    gapped = replace(recording, acceleration_time_seconds=time[kept], acceleration_g=recording.acceleration_g[kept])
-    first, second = preprocess_parts(gapped, SETTINGS)
-    assert recording.wander is not None
-    for part, begin, end in ((first, 0.0, 1.9), (second, 2.1, 4.0)):
-        first_turn, last_turn = np.interp(
-            [begin + SETTINGS.trim_seconds, end - SETTINGS.trim_seconds],
-            recording.wander.time_seconds, recording.wander.turns[:, 2],
-        )  # fmt: skip
-        assert part.wander_turns[0, 2] == pytest.approx(first_turn, abs=1.0)
-        assert part.wander_turns[-1, 2] == pytest.approx(last_turn, abs=1.0)
 
 
 def test_a_store_keeps_wander_specimen_and_the_fraction_of_the_slip_s_phase(tmp_path: Path) -> None:
