@@ -198,7 +198,7 @@ def commands(page: Path) -> list[list[str]]:
     ("page", "steps"),
     [
         (LOGS, ["simulate", "simulate", "check", "merge", "analyse"]),
-        (ANALYSIS, ["power", "power", "simulate", "simulate", "analyse", "validate"]),
+        (ANALYSIS, ["power", "power", "simulate", "simulate", "analyse"]),
         (BUDGET, ["budget", "budget"]),
     ],
 )
@@ -221,8 +221,6 @@ def test_every_command_of_a_page_runs_in_its_order(
         assert "SIMULATED" in (tmp_path / "report.html").read_text(encoding="utf-8")
     if "merge" in ran:
         assert sorted(path.name for path in (tmp_path / "tables").iterdir()) == ["latency.csv", "similarity.csv"]
-    if "validate" in ran:
-        assert json.loads((tmp_path / "Training" / "results" / "study-validation.json").read_text())["studies"] == 2
 
 
 def test_every_column_and_key_of_the_logs_is_explained() -> None:
