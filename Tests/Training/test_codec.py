@@ -15,9 +15,10 @@ from numpy.typing import NDArray
 from haptoflow_paper.codec.encodec import EnCodec
 from haptoflow_paper.codec.representation import CodecRepresentation, Representation, build_representation
 from haptoflow_paper.codec.small_codec import SmallCodec, SmallCodecConfig, SmallCodecShape, read_small_codec_config
-from haptoflow_paper.codec.trainer import SegmentSampler, spectral_loss, time_loss, train_small_codec, validate
+from haptoflow_paper.codec.trainer import SegmentSampler, train_small_codec, validate
 from haptoflow_training.errors import InputError
 from haptoflow_training.training.batches import HeldOut
+
 
 @dataclass(frozen=True)
 class Span:

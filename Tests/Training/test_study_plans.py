@@ -149,9 +149,7 @@ def test_a_page_without_a_measured_part_is_refused_before_anything_is_written(
     for page, said in ((plain, "the page has no `<!-- measured: begin"), (gone, "gone.md: cannot be read")):
         assert main(["study", "budget", "--bench", str(PUBLISHED), "--page", str(page)]) == 3
         assert said in capsys.readouterr().err
-        assert main(["study", "validate", "--out", str(tmp_path / "v.json"), "--page", str(page)]) == 3
-        assert said in capsys.readouterr().err
-    assert not (tmp_path / "v.json").exists() and not (tmp_path / "images").exists()
+    assert not (tmp_path / "images").exists()
 
 
 def test_the_chart_and_the_page_are_written_together(tmp_path: Path) -> None:
@@ -180,7 +178,7 @@ ROOT = Path(__file__).parents[2]
 PAGES = ROOT / "Documentation~"
 LOGS, ANALYSIS, BUDGET = (PAGES / f"{name}.md" for name in ("study-logs", "study-analysis", "delay-budget"))
 # Options added to a command, so that a test does not take minutes.
-SHORTER = {"power": ["--simulations", "10"], "validate": ["--studies", "2", "--simulations", "2"]}
+SHORTER = {"power": ["--simulations", "10"]}
 
 
 def commands(page: Path) -> list[list[str]]:
