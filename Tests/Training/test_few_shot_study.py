@@ -192,7 +192,7 @@ def motion_of(speed_mps: np.ndarray, force_newtons: float | np.ndarray = 1.0) ->
     return np.stack([speed_mps, np.zeros_like(speed_mps), force], axis=1).astype(np.float32)
 
 
-def stroke(wave: np.ndarray, motion: np.ndarray) -> MaterialRecording:
+def recorded(wave: np.ndarray, motion: np.ndarray) -> MaterialRecording:
     return MaterialRecording("", "", wave.astype(np.float32), motion[:, :2], motion[:, 2], "", "")
 
 
@@ -206,7 +206,7 @@ def test_the_autoregressive_rival_recovers_an_autoregressive_spectrum() -> None:
     speed = swept(10.0)
     wave = lfilter([1.0], [1.0, -1.6, 0.9], rng.standard_normal(len(speed)))
     wave /= np.sqrt(np.mean(wave**2))
-    rival = fit_autoregressive([stroke(wave, motion_of(speed))], FLAT, 3)
+    rival = fit_autoregressive([recorded(wave, motion_of(speed))], FLAT, 3)
     assert len(rival.filters) == 3
     made = rival.render(motion_of(np.full(20000, 0.06)), 1)
     assert np.sqrt(np.mean(made**2)) == pytest.approx(1.0, abs=0.15)

@@ -87,7 +87,7 @@ def _imported(tree: ast.AST) -> Iterator[tuple[int, str]]:
 
 def test_each_package_has_modules_to_check() -> None:
     counts = {package: sum(found == package for found, _ in MODULES) for package in ABOVE}
-    assert counts["haptoflow_training"] > 100 and counts["haptoflow_benchmark"] > 20
+    assert counts["haptoflow_training"] > 80 and counts["haptoflow_benchmark"] > 10
 
 
 @pytest.mark.parametrize(("package", "path"), MODULES, ids=lambda value: str(value).removeprefix(f"{TRAINING}/"))

@@ -11,13 +11,14 @@ import pytest
 
 from haptoflow_benchmark.engine_render import read_recorded_strokes
 from haptoflow_paper.place.creeping import hand_overs
-from haptoflow_paper.place.place_report import page_words
+from haptoflow_paper.place import place_report
 from haptoflow_paper.place.place_study import RULED, Pass, Profile, bumps, likeness, over_place, second_passes, summary
 from haptoflow_paper.velocity.velocity_cases import made_motions, real_motions, sampled
 from haptoflow_paper.velocity.velocity_estimators import growing_parabola
 from haptoflow_paper.velocity.velocity_report import page_words
 from haptoflow_paper.velocity.velocity_study import PRODUCT, PRODUCT_SETTINGS, product_velocity
 from haptoflow_training.model_stamp import with_measured_words
+
 
 def _surface(places_metres: np.ndarray, seed: int = 3) -> np.ndarray:
     """Heights that vary over half a millimetre and more."""
@@ -61,7 +62,7 @@ def test_the_page_says_met_and_missed() -> None:
     }
     assert summary(by_label, "backwards")["median"] == pytest.approx(0.62)
     creeping = {"wood": {"now": {"2": {"peak_mps2": 0.1, "kurtosis": 3.0}}, "recorder": {"2": {"peak_mps2": 0.0, "kurtosis": 0.0}}}}
-    words = page_words(
+    words = place_report.page_words(
         {"model_sha256": "ab", "likeness": {"now": by_label}, "creeping": creeping,
          "hand_overs": {"wood": [{"swing": 2.0, "chance": 0.6, "burst": 0.4, "burst_chance": 0.2}]},
          "held": [{"diameter_mm": 0.7, "peak_mps2": 0.0}, {"diameter_mm": 1.4, "peak_mps2": 0.2}]}

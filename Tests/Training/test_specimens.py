@@ -32,7 +32,7 @@ from haptoflow_training.recordings.synthetic import (
 from haptoflow_training.recordings.synthetic.contact import SIMULATION_RATE_HZ
 from haptoflow_training.recordings.synthetic.features import impact_acceleration, rib_wander_turns, ruling_height
 from haptoflow_training.recordings.synthetic.materials import (
-    DEFAULT_MATERIALS_PATH, Calibrated, Material, Ruling, select_materials, write_calibrated
+    DEFAULT_MATERIALS_PATH, Calibrated, Ruling, select_materials, write_calibrated
 )
 from haptoflow_training.recordings.synthetic.measurement import band_level
 from haptoflow_training.recordings.synthetic.specimens import character_of, surface_gain

@@ -138,7 +138,7 @@ def test_a_run_that_cannot_begin_is_refused_before_recordings_are_prepared(
 
 def test_a_lock_is_held_by_one_program_at_a_time_and_leaves_no_file(tmp_path: Path) -> None:
     holder = (
-        "import sys\nfrom pathlib import Path\nfrom haptoflow_training.preprocessing.store_lock import store_lock\n"
+        "import sys\nfrom pathlib import Path\nfrom haptoflow_training.preprocessing.store import store_lock\n"
         f"with store_lock(Path({str(tmp_path / 'store')!r})):\n"
         "    print('held', flush=True)\n    sys.stdin.readline()\n"
     )
@@ -201,7 +201,7 @@ def test_a_failing_job_is_named_with_its_log_and_the_others_are_terminated(tmp_p
 
 def test_terminating_the_parent_terminates_its_jobs(tmp_path: Path) -> None:
     parent = (
-        "import sys\nfrom pathlib import Path\nfrom haptoflow_training.training.job_lanes import Job, run_jobs\n"
+        "import sys\nfrom pathlib import Path\nfrom haptoflow_training.training.processes import Job, run_jobs\n"
         f"folder = Path({str(tmp_path)!r})\n"
         f"words = ({_CAREFUL!r}, str(folder), 'job', '60')\n"
         "run_jobs([Job('job', words, folder / 'log', folder / 'job', program=(sys.executable, '-c'))], 1)\n"

@@ -19,7 +19,7 @@ from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.preprocessing.wave_vectors import WaveVector, estimate_wave_vectors
 from haptoflow_training.recordings.material_recording import MaterialRecording
 from haptoflow_training.recordings.recording import RecordingIdentity
-from haptoflow_training.recordings.synthetic import Material, load_materials, record_hand_condition
+from haptoflow_training.recordings.synthetic import load_materials, record_hand_condition
 from haptoflow_training.recordings.synthetic.materials import Calibrated, Material
 from haptoflow_training.recordings.synthetic.specimens import TRAINING_SPECIMENS
 
